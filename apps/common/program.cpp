@@ -1,0 +1,197 @@
+#include "program.h"
+
+#include <csignal>
+#include <cstdio>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <new>
+#include <thread>
+#include <utility>
+
+#include <pent/error.h>
+#include <pent/output_file.h>
+
+#include <tbb/global_control.h>
+
+namespace pent::apps {
+
+namespace {
+
+// A signal handler can reach nothing but statics.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
+volatile std::sig_atomic_t stop_signals = 0;
+
+void on_stop_signal(int signal) {
+    stop_signals = stop_signals + 1;
+    if (stop_signals > 1) {
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);
+    }
+}
+
+std::string verdict_name(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::Finished:
+            return "finished";
+        case Verdict::Stopped:
+            return "stopped";
+        case Verdict::Refused:
+            return "refused";
+        case Verdict::Diverged:
+            return "diverged";
+    }
+    return "";
+}
+
+int exit_code(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::Finished:
+            return 0;
+        case Verdict::Refused:
+            return 1;
+        case Verdict::Stopped:
+        case Verdict::Diverged:
+            return 3;
+    }
+    return 1;
+}
+
+int default_threads() {
+    return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+std::string one_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') {
+        text.pop_back();
+    }
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+// Edit distance, to find the option that was meant.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+        row[j] = j;
+    }
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+        }
+    }
+    return row[b.size()];
+}
+
+// "; did you mean --layers?" for an unknown option that is close to a known one.
+std::string nearest_option(const CLI::App& cli) {
+    for (const std::string& unknown : cli.remaining()) {
+        std::string best;
+        std::size_t best_distance = 4;
+        for (const CLI::Option* option : cli.get_options()) {
+            const std::string name = option->get_name();
+            const std::size_t distance = edit_distance(unknown.substr(0, unknown.find('=')), name);
+            if (distance < best_distance) {
+                best = name;
+                best_distance = distance;
+            }
+        }
+        if (!best.empty()) {
+            return "; did you mean " + best + "?";
+        }
+    }
+    return "";
+}
+
+}  // namespace
+
+bool stop_requested() {
+    return stop_signals != 0;
+}
+
+Program::Program(std::string name, const std::string& description, const std::string& example)
+    : name_(std::move(name)), cli_(description, name_) {
+    common_.threads = default_threads();
+    cli_.set_version_flag("--version", name_and_version());
+    cli_.add_option("--threads", common_.threads, "Threads to use; default: the number of cores")
+        ->check(CLI::Range(1, 1024));
+    cli_.add_flag("--quiet", common_.quiet, "Print nothing but errors");
+    cli_.add_option("--json", common_.json, "Write a machine-readable report to this file")
+        ->type_name("FILE");
+    cli_.footer("Example:\n  " + example);
+}
+
+std::string Program::name_and_version() const {
+    return name_ + " " PENT_VERSION;
+}
+
+void Program::say(const std::string& line) const {
+    if (!common_.quiet) {
+        std::printf("%s\n", line.c_str());
+        std::fflush(stdout);
+    }
+}
+
+int Program::fail(const std::string& message) {
+    std::fflush(stdout);
+    std::fprintf(stderr, "%s: %s\n", name_.c_str(), one_line(message).c_str());
+    return exit_code(Verdict::Refused);
+}
+
+void Program::write_report(Verdict verdict, double seconds, const std::string& error) {
+    if (common_.json.empty()) {
+        return;
+    }
+    nlohmann::ordered_json json;
+    json["program"] = name_;
+    json["version"] = PENT_VERSION;
+    json["verdict"] = verdict_name(verdict);
+    json["seconds"] = seconds;
+    json["threads"] = common_.threads;
+    if (!error.empty()) {
+        json["error"] = error;
+    }
+    json.update(report_);
+    write_text(common_.json, json.dump(2) + "\n");
+}
+
+int Program::run(int argc, const char* const* argv, const std::function<Verdict()>& body) {
+    try {
+        cli_.parse(argc, argv);
+    } catch (const CLI::Success& success) {  // --help and --version
+        return cli_.exit(success);
+    } catch (const CLI::ParseError& error) {
+        fail(std::string(error.what()) + nearest_option(cli_) + " (see " + name_ + " --help)");
+        return 2;
+    }
+    std::signal(SIGINT, on_stop_signal);
+    std::signal(SIGTERM, on_stop_signal);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(common_.threads));
+    const auto start = std::chrono::steady_clock::now();
+    Verdict verdict = Verdict::Refused;
+    std::string error;
+    try {
+        verdict = body();
+    } catch (const std::bad_alloc&) {
+        error = "out of memory";
+    } catch (const std::exception& exception) {
+        error = one_line(exception.what());
+    }
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    try {
+        write_report(verdict, seconds.count(), error);
+    } catch (const Error& report_error) {
+        if (error.empty()) {
+            return fail(report_error.what());
+        }
+    }
+    return error.empty() ? exit_code(verdict) : fail(error);
+}
+
+}  // namespace pent::apps

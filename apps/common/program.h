@@ -1,0 +1,64 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+namespace pent::apps {
+
+/// How a program ended. Exit codes: 0 finished, 1 refused, 3 stopped or diverged (2: wrong usage).
+enum class Verdict { Finished, Stopped, Refused, Diverged };
+
+/// The options every program has.
+struct CommonOptions {
+    int threads = 0;   ///< At least 1; the number of cores unless asked.
+    bool quiet = false;  ///< Nothing on stdout.
+    std::string json;  ///< File for the machine-readable report; empty for none.
+};
+
+/// The frame of a program: common options, one line for an error, exit codes, the JSON report.
+///
+///     Program program("pent-slice", "Cuts 4D frames by hyperplanes", "pent-slice RUN/ -o OUT/");
+///     program.options().add_option("input", input, "...")->required();
+///     return program.run(argc, argv, [&] { ...; return Verdict::Finished; });
+class Program {
+public:
+    /// @param example  A command line that works, shown at the end of --help.
+    Program(std::string name, const std::string& description, const std::string& example);
+
+    /// Where a program adds its own options before run().
+    [[nodiscard]] CLI::App& options() { return cli_; }
+
+    [[nodiscard]] const CommonOptions& common() const { return common_; }
+
+    /// "pent-slice 0.1.0", for created_by.
+    [[nodiscard]] std::string name_and_version() const;
+
+    /// What goes into the --json report beside program, version, verdict and seconds.
+    [[nodiscard]] nlohmann::ordered_json& report() { return report_; }
+
+    /// One line for the user on stdout, unless --quiet.
+    void say(const std::string& line) const;
+
+    /// Parses, runs the body with oneTBB limited to --threads, reports, and returns the exit code.
+    ///
+    /// An Error (or any other exception) that leaves the body becomes one line on stderr and
+    /// exit code 1. SIGINT and SIGTERM set stop_requested() once; a second one ends the program.
+    [[nodiscard]] int run(int argc, const char* const* argv, const std::function<Verdict()>& body);
+
+private:
+    int fail(const std::string& message);
+    void write_report(Verdict verdict, double seconds, const std::string& error);
+
+    std::string name_;
+    CLI::App cli_;
+    CommonOptions common_;
+    nlohmann::ordered_json report_;
+};
+
+/// Whether the user asked the program to stop (SIGINT or SIGTERM).
+[[nodiscard]] bool stop_requested();
+
+}  // namespace pent::apps

@@ -1,0 +1,15 @@
+# The installed package: find_package(pent) gives pent::format and pent::simulator, the permissive
+# part a host program links. The mesher and the viewer are installed as programs only.
+
+include(CMakePackageConfigHelpers)
+install(TARGETS pent_format pent_simulator EXPORT pentTargets FILE_SET HEADERS)
+install(EXPORT pentTargets NAMESPACE pent:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pent)
+write_basic_package_version_file(pentConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+file(WRITE ${PROJECT_BINARY_DIR}/pentConfig.cmake
+  "include(CMakeFindDependencyMacro)\n"
+  "find_dependency(Eigen3 3.4)\n"
+  "find_dependency(Threads)\n"
+  "find_dependency(TBB)\n"
+  "include(\${CMAKE_CURRENT_LIST_DIR}/pentTargets.cmake)\n")
+install(FILES ${PROJECT_BINARY_DIR}/pentConfig.cmake ${PROJECT_BINARY_DIR}/pentConfigVersion.cmake
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pent)

@@ -1,0 +1,28 @@
+# Flags and functions shared by all our targets.
+
+add_library(pent_build_flags INTERFACE)  # our own code only; not seen by users of the package
+target_compile_options(pent_build_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  $<$<COMPILE_LANGUAGE:CXX>:-Wold-style-cast -Wnon-virtual-dtor -Wdouble-promotion>
+  -ffp-contract=off  # same digits with and without FMA hardware
+  $<$<BOOL:${PENT_WERROR}>:-Werror>)
+if(PENT_SANITIZE)
+  target_compile_options(pent_build_flags INTERFACE
+    -fsanitize=${PENT_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(pent_build_flags INTERFACE -fsanitize=${PENT_SANITIZE})
+endif()
+
+# pent_add_library(NAME HEADERS <public> SOURCES <files> DEPS <public targets>
+#                  PRIVATE_DEPS <targets>)
+# Target pent_NAME with alias pent::NAME; headers under include/.
+function(pent_add_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;DEPS;PRIVATE_DEPS")
+  add_library(pent_${name} STATIC ${arg_SOURCES})
+  add_library(pent::${name} ALIAS pent_${name})
+  target_sources(pent_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${arg_HEADERS})
+  target_compile_features(pent_${name} PUBLIC cxx_std_20)
+  set_target_properties(pent_${name} PROPERTIES EXPORT_NAME ${name} CXX_EXTENSIONS OFF
+    POSITION_INDEPENDENT_CODE ON VERIFY_INTERFACE_HEADER_SETS ON)
+  target_link_libraries(pent_${name} PUBLIC ${arg_DEPS}
+    PRIVATE $<BUILD_INTERFACE:pent_build_flags> ${arg_PRIVATE_DEPS})
+endfunction()

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <pent/simplex_mesh.h>
+
+namespace pent {
+
+/// How the facets of the cells of a mesh meet. Facet k of a cell is the one without its corner k.
+template <int Dim>
+struct FacetMatch {
+    /// Facets of one cell only, Dim x count, outward: for a positively oriented cell and a vector n
+    /// out of the cell, det[n, t1 - t0, ..., t(Dim-1) - t0] > 0. Ordered by cell, then by k.
+    Simplices<Dim> boundary;
+    std::vector<std::uint32_t> boundary_cells;  ///< The cell behind each boundary facet.
+    std::int64_t interior = 0;  ///< Facets shared by two cells that see it from opposite sides.
+    std::int64_t one_sided = 0;  ///< Facets shared by two cells that see it from the same side.
+    std::int64_t overfull = 0;   ///< Facets shared by more than two cells.
+    std::int64_t first_fault = -1;  ///< Lowest cell at a one-sided or overfull facet; -1 if none.
+
+    /// Every facet is shared by two cells from opposite sides, or is on the boundary.
+    [[nodiscard]] bool is_conforming() const { return one_sided == 0 && overfull == 0; }
+};
+
+/// Finds the boundary and checks that neighbors agree, by sorting facets into buckets: linear time.
+///
+/// @param vertices  Number of vertices; indices are below it, not checked.
+template <int Dim>
+[[nodiscard]] FacetMatch<Dim> match_facets(const Simplices<Dim + 1>& cells, Eigen::Index vertices);
+
+}  // namespace pent

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string_view>
+
+namespace pent {
+
+/// A file that appears under its name whole or not at all.
+///
+/// Bytes go to `.NAME.PID.tmp` in the same folder; commit() renames it. Without commit() the
+/// temporary file is removed. Every function throws an Error that names the path, what failed
+/// (no such folder, permission, disk full) and what to do.
+class OutputFile {
+public:
+    explicit OutputFile(std::filesystem::path path);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+    OutputFile(OutputFile&&) = delete;
+    OutputFile& operator=(OutputFile&&) = delete;
+
+    void write(const void* data, std::size_t bytes);
+    void write(std::string_view text) { write(text.data(), text.size()); }
+
+    /// Where the bytes are until commit(): for libraries that write a file by name themselves.
+    [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+
+    /// Closes the temporary file and gives it its name.
+    void commit();
+
+private:
+    void close();
+
+    std::filesystem::path path_;
+    std::filesystem::path temporary_;
+    int descriptor_ = -1;
+};
+
+/// Writes a whole text file through an OutputFile.
+void write_text(const std::filesystem::path& path, std::string_view text);
+
+/// Makes a folder and its parents. Throws an Error that names it when that fails.
+void make_folder(const std::filesystem::path& path);
+
+}  // namespace pent

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include <pent/simplex_mesh.h>
+
+namespace pent {
+
+/// `.pent` files: a fixed profile of PLY, specified in docs/pent-format.md.
+
+enum class Encoding { Binary, Ascii };
+
+struct WriteOptions {
+    Encoding encoding = Encoding::Binary;
+    std::string created_by = "pent";  ///< Program and version; one line.
+};
+
+/// What the header of a .pent file says.
+struct FileInfo {
+    int dimension = 0;  ///< 2, 3 or 4.
+    Encoding encoding = Encoding::Binary;
+    std::string created_by;
+    std::uint32_t crc32c = 0;  ///< Over every byte behind the header, as stated there.
+    std::uint64_t vertices = 0;
+    std::uint64_t cells = 0;  ///< 0 in a frame.
+    bool is_frame = false;    ///< Positions (and velocities) without cells.
+};
+
+/// Positions and velocities of a body at one moment; the cells are those of its mesh.
+template <int Dim>
+struct Frame {
+    Positions<Dim> positions;   ///< Dim x vertices, m.
+    Positions<Dim> velocities;  ///< Dim x vertices, m/s; or Dim x 0 where the file has none.
+    std::string mesh_name;      ///< File name of the mesh, without folders or spaces.
+    std::uint32_t mesh_crc = 0;  ///< crc32c of that mesh file.
+    std::uint64_t frame = 0;     ///< Number of the frame, from 0.
+    std::uint64_t step = 0;      ///< Time steps taken so far.
+    double time = 0;             ///< s.
+};
+
+template <int Dim>
+struct MeshFile {
+    SimplexMesh<Dim> mesh;
+    FileInfo info;
+};
+
+/// Reads the header alone. Throws an Error for a file that is missing or has a damaged header.
+[[nodiscard]] FileInfo read_info(const std::filesystem::path& path);
+
+/// Writes a mesh under a temporary name beside `path`, then renames it.
+///
+/// The mesh must pass validate(), which is called first. Throws an Error that names the path when
+/// the file cannot be written (no folder, no right, disk full); nothing is left behind then.
+/// @return  The checksum in the header.
+template <int Dim>
+std::uint32_t write_mesh(const std::filesystem::path& path,
+                         const SimplexMesh<Dim>& mesh,
+                         const WriteOptions& options = {});
+
+/// Reads and fully validates a mesh. Nothing is allocated from a count that the file's size does
+/// not bear out. Throws an Error with file, element, what was found and what was expected.
+template <int Dim>
+[[nodiscard]] MeshFile<Dim> read_mesh(const std::filesystem::path& path);
+
+/// Writes a frame, as write_mesh does. Throws an Error if a coordinate is not finite.
+template <int Dim>
+void write_frame(const std::filesystem::path& path,
+                 const Frame<Dim>& frame,
+                 const WriteOptions& options = {});
+
+/// Reads and validates a frame, as read_mesh does.
+template <int Dim>
+[[nodiscard]] Frame<Dim> read_frame(const std::filesystem::path& path);
+
+}  // namespace pent
