@@ -1,19 +1,18 @@
 #include "program.h"
 
-#include <csignal>
-#include <cstdio>
-
-#include <algorithm>
-#include <chrono>
-#include <exception>
-#include <new>
-#include <thread>
-#include <utility>
-
 #include <pent/error.h>
 #include <pent/output_file.h>
 
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
 #include <tbb/global_control.h>
+#include <thread>
+#include <utility>
+#include <vector>
 
 namespace pent::apps {
 
@@ -171,6 +170,7 @@ int Program::run(int argc, const char* const* argv, const std::function<Verdict(
     }
     std::signal(SIGINT, on_stop_signal);
     std::signal(SIGTERM, on_stop_signal);
+    std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size then is an error of write()
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(common_.threads));
     const auto start = std::chrono::steady_clock::now();

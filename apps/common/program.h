@@ -1,10 +1,9 @@
 #pragma once
 
-#include <functional>
-#include <string>
-
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace pent::apps {
 
@@ -13,9 +12,9 @@ enum class Verdict { Finished, Stopped, Refused, Diverged };
 
 /// The options every program has.
 struct CommonOptions {
-    int threads = 0;   ///< At least 1; the number of cores unless asked.
+    int threads = 0;     ///< At least 1; the number of cores unless asked.
     bool quiet = false;  ///< Nothing on stdout.
-    std::string json;  ///< File for the machine-readable report; empty for none.
+    std::string json;    ///< File for the machine-readable report; empty for none.
 };
 
 /// The frame of a program: common options, one line for an error, exit codes, the JSON report.

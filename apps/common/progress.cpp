@@ -1,9 +1,8 @@
 #include "progress.h"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdio>
+#include <unistd.h>
 #include <utility>
 
 namespace pent::apps {
@@ -16,16 +15,10 @@ std::string readable_time(double seconds) {
     } else if (whole < 60) {
         std::snprintf(text, sizeof text, "%d s", static_cast<int>(whole));
     } else if (whole < 3600) {
-        std::snprintf(text,
-                      sizeof text,
-                      "%d min %02d s",
-                      static_cast<int>(whole / 60),
+        std::snprintf(text, sizeof text, "%d min %02d s", static_cast<int>(whole / 60),
                       static_cast<int>(whole % 60));
     } else {
-        std::snprintf(text,
-                      sizeof text,
-                      "%d h %02d min",
-                      static_cast<int>(whole / 3600),
+        std::snprintf(text, sizeof text, "%d h %02d min", static_cast<int>(whole / 3600),
                       static_cast<int>(whole % 3600 / 60));
     }
     return text;
@@ -37,8 +30,7 @@ Progress::Progress(std::string label, std::int64_t total, bool quiet)
       quiet_(quiet),
       terminal_(::isatty(STDOUT_FILENO) == 1),
       start_(Clock::now()),
-      last_(start_) {
-}
+      last_(start_) {}
 
 Progress::~Progress() {
     finish();
@@ -58,15 +50,11 @@ void Progress::update(std::int64_t done, const std::string& note) {
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double rate = static_cast<double>(done - first_) / std::max(elapsed, 1e-9);
     const double left = static_cast<double>(total_ - done) / rate;
-    std::printf("%s%s %lld of %lld, %.3g per s, %s left%s%s%s",
-                terminal_ ? "\r" : "",
+    std::printf("%s%s %lld of %lld, %.3g per s, %s left%s%s%s", terminal_ ? "\r" : "",
                 label_.c_str(),
-                static_cast<long long>(done),  // NOLINT(google-runtime-int): printf's type
+                static_cast<long long>(done),    // NOLINT(google-runtime-int): printf's type
                 static_cast<long long>(total_),  // NOLINT(google-runtime-int)
-                rate,
-                readable_time(left).c_str(),
-                note.empty() ? "" : "; ",
-                note.c_str(),
+                rate, readable_time(left).c_str(), note.empty() ? "" : "; ", note.c_str(),
                 terminal_ ? "\x1b[K" : "\n");
     open_line_ = terminal_;
     std::fflush(stdout);

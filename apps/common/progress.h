@@ -31,7 +31,8 @@ private:
 
     std::string label_;
     std::int64_t total_;
-    std::int64_t first_ = -1;  // what was done before the first update, so that a resume has a true rate
+    std::int64_t first_ =
+        -1;  // what was done before the first update, so that a resume has a true rate
     bool quiet_;
     bool terminal_;
     bool open_line_ = false;

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <pent/simplex_mesh.h>
+
 #include <algorithm>
 #include <array>
 #include <numeric>
-
-#include <pent/simplex_mesh.h>
 
 namespace pent::test {
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <pent/simplex_mesh.h>
+
 #include <cstdint>
 #include <vector>
-
-#include <pent/simplex_mesh.h>
 
 namespace pent {
 
@@ -14,9 +14,9 @@ struct FacetMatch {
     /// out of the cell, det[n, t1 - t0, ..., t(Dim-1) - t0] > 0. Ordered by cell, then by k.
     Simplices<Dim> boundary;
     std::vector<std::uint32_t> boundary_cells;  ///< The cell behind each boundary facet.
-    std::int64_t interior = 0;  ///< Facets shared by two cells that see it from opposite sides.
-    std::int64_t one_sided = 0;  ///< Facets shared by two cells that see it from the same side.
-    std::int64_t overfull = 0;   ///< Facets shared by more than two cells.
+    std::int64_t interior = 0;      ///< Facets shared by two cells that see it from opposite sides.
+    std::int64_t one_sided = 0;     ///< Facets shared by two cells that see it from the same side.
+    std::int64_t overfull = 0;      ///< Facets shared by more than two cells.
     std::int64_t first_fault = -1;  ///< Lowest cell at a one-sided or overfull facet; -1 if none.
 
     /// Every facet is shared by two cells from opposite sides, or is on the boundary.

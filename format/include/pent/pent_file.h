@@ -1,10 +1,10 @@
 #pragma once
 
+#include <pent/simplex_mesh.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
-
-#include <pent/simplex_mesh.h>
 
 namespace pent {
 
@@ -31,9 +31,9 @@ struct FileInfo {
 /// Positions and velocities of a body at one moment; the cells are those of its mesh.
 template <int Dim>
 struct Frame {
-    Positions<Dim> positions;   ///< Dim x vertices, m.
-    Positions<Dim> velocities;  ///< Dim x vertices, m/s; or Dim x 0 where the file has none.
-    std::string mesh_name;      ///< File name of the mesh, without folders or spaces.
+    Positions<Dim> positions;    ///< Dim x vertices, m.
+    Positions<Dim> velocities;   ///< Dim x vertices, m/s; or Dim x 0 where the file has none.
+    std::string mesh_name;       ///< File name of the mesh, without folders or spaces.
     std::uint32_t mesh_crc = 0;  ///< crc32c of that mesh file.
     std::uint64_t frame = 0;     ///< Number of the frame, from 0.
     std::uint64_t step = 0;      ///< Time steps taken so far.

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cstdint>
 #include <string_view>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace pent {
 
@@ -32,7 +32,7 @@ struct SimplexMesh {
     [[nodiscard]] Eigen::Index cell_count() const { return cells.cols(); }
 };
 
-/// What a Dim-simplex is called: "triangle", "tetrahedron" or "pentachoron".
+/// What a cell is called in dimension 2, 3 or 4: "triangle", "tetrahedron" or "pentachoron".
 [[nodiscard]] std::string_view cell_name(int dim);
 
 /// The same in the plural: "triangles", "tetrahedra" or "pentachora".
@@ -57,9 +57,9 @@ template <int Dim>
 /// Throws an Error unless the mesh is one that may be written and simulated.
 ///
 /// Checked: at least one cell; coordinates finite; every index in range; no vertex twice in a cell;
-/// every cell positively oriented and not degenerate, which is volume > 1e-14 times the volume of
-/// a cube over the cell's longest edge, so that rounding cannot have decided the sign; optional arrays
-/// of the right length. Not checked: whether neighbors agree (see match_facets).
+/// every cell positively oriented and not degenerate, which is det[v1 - v0, ...] > 1e-14 times the
+/// product of the lengths of these edges, so that rounding cannot have decided the sign; optional
+/// arrays of the right length. Not checked: whether neighbors agree (see match_facets).
 ///
 /// @param name  Goes in front of the message, usually the file's path.
 template <int Dim>

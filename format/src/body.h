@@ -1,0 +1,88 @@
+#pragma once
+
+#include "header.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pent {
+
+/// One property of an element, and where its values lie in memory: the one of row i at
+/// data + i * stride.
+struct Column {
+    std::string name;
+    PlyType type = PlyType::Double;
+    char* data = nullptr;
+    std::size_t stride = 0;
+};
+
+/// Appends `rows` rows of these columns to `body`, in this order.
+void encode_rows(std::string& body,
+                 Encoding encoding,
+                 const std::vector<Column>& columns,
+                 std::uint64_t rows);
+
+/// Reads the body of a .pent file element by element. Every failure is an Error that names the
+/// file, the element and its index.
+class BodyReader {
+public:
+    /// Checks the counts against the number of bytes, and the checksum of a binary body.
+    BodyReader(const Header& header, std::string_view file, std::filesystem::path path);
+
+    /// Reads the next element. Properties without a column are skipped; columns without a property
+    /// are left as they are.
+    void read(const std::vector<Column>& columns);
+
+    /// Skips the elements that are left and checks that nothing follows; the checksum of ascii.
+    void finish();
+
+private:
+    [[noreturn]] void fail(const std::string& where, const std::string& what) const;
+    void check_counts() const;
+    void check_checksum() const;
+    void read_binary(const PlyElement& element, const std::vector<Column>& columns);
+    void read_ascii(const PlyElement& element, const std::vector<Column>& columns);
+    void skip_binary(const PlyElement& element);
+    void skip_ascii(const PlyElement& element);
+
+    const Header& header_;
+    std::string_view body_;
+    std::filesystem::path path_;
+    std::size_t next_element_ = 0;
+    std::size_t at_ = 0;
+};
+
+/// Whether an element of the file has this property; an Error if it has it with another type.
+[[nodiscard]] bool has_property(const PlyElement& element,
+                                std::string_view name,
+                                PlyType type,
+                                const std::filesystem::path& path);
+
+/// Puts header (with the body's checksum) and body into a file; returns the checksum.
+std::uint32_t write_file(const std::filesystem::path& path, Header header, const std::string& body);
+
+/// The element that these columns make.
+[[nodiscard]] PlyElement make_element(std::string_view name,
+                                      std::uint64_t count,
+                                      const std::vector<Column>& columns);
+
+/// Columns `names` of type double over the rows of a matrix of positions or velocities.
+template <int Dim>
+[[nodiscard]] std::vector<Column> vector_columns(const Positions<Dim>& values,
+                                                 std::string_view prefix) {
+    constexpr std::string_view kAxes = "xyzw";
+    std::vector<Column> columns;
+    for (int axis = 0; axis < Dim; ++axis) {
+        // Encoding only reads through the pointer; decoding is given arrays that are not const.
+        auto* data = const_cast<double*>(values.data()) + axis;
+        columns.push_back({std::string(prefix) + kAxes[axis], PlyType::Double,
+                           reinterpret_cast<char*>(data), Dim * sizeof(double)});
+    }
+    return columns;
+}
+
+}  // namespace pent

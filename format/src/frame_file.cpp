@@ -1,0 +1,132 @@
+#include "body.h"
+#include "input_file.h"
+
+#include <pent/error.h>
+#include <pent/pent_file.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace pent {
+
+namespace {
+
+template <int Dim>
+void check_finite(const Positions<Dim>& values,
+                  std::string_view prefix,
+                  const std::filesystem::path& path) {
+    constexpr std::string_view kAxes = "xyzw";
+    for (Eigen::Index vertex = 0; vertex < values.cols(); ++vertex) {
+        for (int axis = 0; axis < Dim; ++axis) {
+            if (!std::isfinite(values(axis, vertex))) {
+                throw Error(path.string() + ": vertex " + std::to_string(vertex) + ": "
+                            + std::string(prefix) + kAxes[axis] + " is "
+                            + std::to_string(values(axis, vertex)) + ", expected a finite number");
+            }
+        }
+    }
+}
+
+template <int Dim>
+std::vector<Column> frame_columns(const Frame<Dim>& frame) {
+    std::vector<Column> columns = vector_columns<Dim>(frame.positions, "");
+    if (frame.velocities.cols() > 0) {
+        const std::vector<Column> velocities = vector_columns<Dim>(frame.velocities, "v");
+        columns.insert(columns.end(), velocities.begin(), velocities.end());
+    }
+    return columns;
+}
+
+// Velocities have all their components or none.
+template <int Dim>
+bool has_velocities(const PlyElement& vertex, const std::filesystem::path& path) {
+    constexpr std::array<std::string_view, 4> kNames = {"vx", "vy", "vz", "vw"};
+    int found = 0;
+    for (int axis = 0; axis < Dim; ++axis) {
+        found += has_property(vertex, kNames[axis], PlyType::Double, path) ? 1 : 0;
+    }
+    if (found != 0 && found != Dim) {
+        throw Error(path.string() + ": header: " + std::to_string(found)
+                    + " velocity properties, expected none or all of " + std::to_string(Dim));
+    }
+    return found != 0;
+}
+
+}  // namespace
+
+template <int Dim>
+void write_frame(const std::filesystem::path& path,
+                 const Frame<Dim>& frame,
+                 const WriteOptions& options) {
+    check_finite<Dim>(frame.positions, "", path);
+    check_finite<Dim>(frame.velocities, "v", path);
+    const Eigen::Index velocities = frame.velocities.cols();
+    if (velocities != 0 && velocities != frame.positions.cols()) {
+        throw Error(path.string() + ": " + std::to_string(velocities)
+                    + " velocities, expected none or " + std::to_string(frame.positions.cols()));
+    }
+    if (frame.mesh_name.empty() || frame.mesh_name.find_first_of(" \n\r") != std::string::npos) {
+        throw Error(path.string() + ": mesh name '" + frame.mesh_name
+                    + "', expected a name without spaces");
+    }
+    const std::vector<Column> columns = frame_columns(frame);
+    const auto count = static_cast<std::uint64_t>(frame.positions.cols());
+    Header header;
+    header.info.dimension = Dim;
+    header.info.encoding = options.encoding;
+    header.info.created_by = options.created_by;
+    header.info.is_frame = true;
+    header.mesh_name = frame.mesh_name;
+    header.mesh_crc = frame.mesh_crc;
+    header.frame = frame.frame;
+    header.step = frame.step;
+    header.time = frame.time;
+    header.elements = {make_element("vertex", count, columns)};
+    std::string body;
+    encode_rows(body, options.encoding, columns, count);
+    write_file(path, std::move(header), body);
+}
+
+template <int Dim>
+Frame<Dim> read_frame(const std::filesystem::path& path) {
+    const InputFile file = read_input(path);
+    const Header header = parse_header(file.view(), path);
+    if (header.info.dimension != Dim) {
+        throw Error(path.string() + ": header: dimension " + std::to_string(header.info.dimension)
+                    + ", expected " + std::to_string(Dim));
+    }
+    if (!header.info.is_frame) {
+        throw Error(path.string()
+                    + ": header: no 'comment mesh NAME CRC', expected a frame (this is a mesh)");
+    }
+    BodyReader reader(header, file.view(), path);
+    Frame<Dim> frame;
+    const auto count = static_cast<Eigen::Index>(header.info.vertices);
+    frame.positions.resize(Dim, count);
+    if (has_velocities<Dim>(header.elements[0], path)) {
+        frame.velocities.resize(Dim, count);
+    }
+    frame.mesh_name = header.mesh_name;
+    frame.mesh_crc = header.mesh_crc;
+    frame.frame = header.frame;
+    frame.step = header.step;
+    frame.time = header.time;
+    reader.read(frame_columns(frame));
+    reader.finish();
+    check_finite<Dim>(frame.positions, "", path);
+    check_finite<Dim>(frame.velocities, "v", path);
+    return frame;
+}
+
+#define PENT_INSTANTIATE(Dim)                                                       \
+    template void write_frame<Dim>(const std::filesystem::path&, const Frame<Dim>&, \
+                                   const WriteOptions&);                            \
+    template Frame<Dim> read_frame<Dim>(const std::filesystem::path&);
+PENT_INSTANTIATE(2)
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent

@@ -1,0 +1,385 @@
+#include "header.h"
+
+#include <pent/error.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+namespace pent {
+
+namespace {
+
+struct TypeName {
+    std::string_view name;
+    std::string_view alias;
+    PlyType type;
+    std::size_t size;
+};
+
+constexpr std::array<TypeName, 8> kTypes = {{
+    {"char", "int8", PlyType::Char, 1},
+    {"uchar", "uint8", PlyType::Uchar, 1},
+    {"short", "int16", PlyType::Short, 2},
+    {"ushort", "uint16", PlyType::Ushort, 2},
+    {"int", "int32", PlyType::Int, 4},
+    {"uint", "uint32", PlyType::Uint, 4},
+    {"float", "float32", PlyType::Float, 4},
+    {"double", "float64", PlyType::Double, 8},
+}};
+
+constexpr std::uint64_t kMostVertices = 0xFFFFFFFFU;  // indices are 32 bits wide
+
+std::vector<std::string_view> split(std::string_view line) {
+    std::vector<std::string_view> words;
+    std::size_t at = 0;
+    while (at < line.size()) {
+        const std::size_t end = std::min(line.find(' ', at), line.size());
+        if (end > at) {
+            words.push_back(line.substr(at, end - at));
+        }
+        at = end + 1;
+    }
+    return words;
+}
+
+template <typename Number>
+std::optional<Number> number(std::string_view word, int base = 10) {
+    Number value{};
+    std::from_chars_result result{};
+    if constexpr (std::is_floating_point_v<Number>) {
+        result = std::from_chars(word.data(), word.data() + word.size(), value);
+    } else {
+        result = std::from_chars(word.data(), word.data() + word.size(), value, base);
+    }
+    if (result.ec != std::errc() || result.ptr != word.data() + word.size()) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+std::string quoted(std::string_view text) {
+    constexpr std::size_t kLongest = 60;
+    std::string shown;
+    for (const char c : text.substr(0, kLongest)) {
+        shown += c >= ' ' && c < '\x7f' ? c : '?';
+    }
+    return "'" + shown + (text.size() > kLongest ? "...'" : "'");
+}
+
+// Reads a header line by line; every failure names the line.
+class Parser {
+public:
+    Parser(std::string_view bytes, const std::filesystem::path& path)
+        : bytes_(bytes), path_(path.string()) {}
+
+    Header parse() {
+        parse_preamble();
+        while (true) {
+            const std::string_view line = next_line();
+            const std::vector<std::string_view> words = split(line);
+            if (line == "end_header") {
+                break;
+            }
+            if (words.size() >= 2 && words[0] == "comment") {
+                parse_comment(words, line);
+            } else if (!words.empty() && words[0] == "comment") {
+                continue;
+            } else if (words.size() == 3 && words[0] == "element") {
+                parse_element(words, line);
+            } else if (words.size() >= 3 && words[0] == "property") {
+                parse_property(words, line);
+            } else {
+                fail(line, "a comment, element, property or end_header line");
+            }
+        }
+        header_.body = at_;
+        check_elements();
+        return header_;
+    }
+
+private:
+    [[noreturn]] void fail(std::string_view found, const std::string& expected) const {
+        throw Error(path_ + ": header line " + std::to_string(line_) + ": found " + quoted(found)
+                    + ", expected " + expected);
+    }
+
+    std::string_view next_line() {
+        constexpr std::size_t kLongestLine = 4096;
+        ++line_;
+        if (at_ >= bytes_.size()) {
+            throw Error(path_ + ": header line " + std::to_string(line_)
+                        + ": the file ends here, expected more header up to end_header");
+        }
+        const std::size_t end = bytes_.find('\n', at_);
+        if (end == std::string_view::npos || end - at_ > kLongestLine) {
+            fail(bytes_.substr(at_, kLongestLine),
+                 line_ == 1 ? "'ply' (is this a .pent file?)" : "a line that ends with a newline");
+        }
+        const std::string_view line = bytes_.substr(at_, end - at_);
+        at_ = end + 1;
+        if (!line.empty() && line.back() == '\r') {
+            fail(line, "lines that end with LF alone (CR LF comes from a text-mode transfer)");
+        }
+        return line;
+    }
+
+    void parse_preamble() {
+        if (bytes_.empty()) {
+            throw Error(path_ + ": the file is empty, expected a .pent file");
+        }
+        std::string_view line = next_line();
+        if (line != "ply") {
+            fail(line, "'ply' (is this a .pent file?)");
+        }
+        line = next_line();
+        if (line == "format ascii 1.0") {
+            header_.info.encoding = Encoding::Ascii;
+        } else if (line != "format binary_little_endian 1.0") {
+            fail(line, "'format binary_little_endian 1.0' or 'format ascii 1.0'");
+        }
+        line = next_line();
+        if (line != "comment pent 1.0") {
+            fail(line, "'comment pent 1.0'");
+        }
+        line = next_line();
+        for (const int dim : {2, 3, 4}) {
+            if (line == "comment dimension " + std::to_string(dim)) {
+                header_.info.dimension = dim;
+            }
+        }
+        if (header_.info.dimension == 0) {
+            fail(line, "'comment dimension D' with D = 2, 3 or 4");
+        }
+    }
+
+    void parse_comment(const std::vector<std::string_view>& words, std::string_view line) {
+        static const std::set<std::string_view> kKnown = {
+            "pent", "dimension", "created_by", "crc32c", "mesh", "frame", "step", "time"};
+        const std::string_view key = words[1];
+        if (kKnown.count(key) == 0) {
+            return;
+        }
+        if (!header_.elements.empty()) {
+            fail(line, "the comment '" + std::string(key) + "' in front of the first element");
+        }
+        if (key == "pent" || key == "dimension" || !seen_.insert(std::string(key)).second) {
+            fail(line, "the comment '" + std::string(key) + "' only once");
+        }
+        if (key == "created_by") {
+            const std::size_t prefix = std::string_view("comment created_by ").size();
+            header_.info.created_by = line.size() > prefix ? line.substr(prefix) : "";
+        } else if (key == "crc32c") {
+            header_.info.crc32c = parse_crc(words, 2, line);
+            header_.has_checksum = true;
+        } else if (key == "mesh") {
+            header_.info.is_frame = true;
+            header_.mesh_crc = parse_crc(words, 3, line);
+            header_.mesh_name = words[2];
+        } else if (key == "frame") {
+            header_.frame = parse_value<std::uint64_t>(words, line);
+        } else if (key == "step") {
+            header_.step = parse_value<std::uint64_t>(words, line);
+        } else {
+            header_.time = parse_value<double>(words, line);
+            if (!std::isfinite(header_.time)) {
+                fail(line, "a finite time in seconds");
+            }
+        }
+    }
+
+    [[nodiscard]] std::uint32_t parse_crc(const std::vector<std::string_view>& words,
+                                          std::size_t word,
+                                          std::string_view line) const {
+        const bool has_form = words.size() == word + 1 && words[word].size() == 8;
+        const auto value = has_form ? number<std::uint32_t>(words[word], 16) : std::nullopt;
+        if (!value) {
+            fail(line, std::string("'comment ") + (word == 2 ? "crc32c" : "mesh NAME")
+                           + " XXXXXXXX' with 8 hexadecimal digits");
+        }
+        return *value;
+    }
+
+    template <typename Number>
+    [[nodiscard]] Number parse_value(const std::vector<std::string_view>& words,
+                                     std::string_view line) const {
+        const auto value = words.size() == 3 ? number<Number>(words[2]) : std::nullopt;
+        if (!value) {
+            fail(line, "'comment " + std::string(words[1]) + " NUMBER'");
+        }
+        return *value;
+    }
+
+    void parse_element(const std::vector<std::string_view>& words, std::string_view line) {
+        const auto count = number<std::uint64_t>(words[2]);
+        if (!count) {
+            fail(line, "'element NAME COUNT' with a count of 0 to 2^64 - 1");
+        }
+        for (const PlyElement& element : header_.elements) {
+            if (element.name == words[1]) {
+                fail(line, "each element only once");
+            }
+        }
+        header_.elements.push_back({std::string(words[1]), *count, {}});
+    }
+
+    [[nodiscard]] PlyType parse_type(std::string_view word, std::string_view line) const {
+        for (const TypeName& type : kTypes) {
+            if (word == type.name || word == type.alias) {
+                return type.type;
+            }
+        }
+        fail(line, "a PLY type: char uchar short ushort int uint float double");
+    }
+
+    void parse_property(const std::vector<std::string_view>& words, std::string_view line) {
+        if (header_.elements.empty()) {
+            fail(line, "an element line in front of the first property");
+        }
+        PlyProperty property;
+        if (words[1] == "list" && words.size() == 5) {
+            property.count_type = parse_type(words[2], line);
+            if (*property.count_type == PlyType::Float || *property.count_type == PlyType::Double) {
+                fail(line, "a whole-number type for the length of a list");
+            }
+            property.type = parse_type(words[3], line);
+            property.name = words[4];
+        } else if (words[1] != "list" && words.size() == 3) {
+            property.type = parse_type(words[1], line);
+            property.name = words[2];
+        } else {
+            fail(line, "'property TYPE NAME' or 'property list TYPE TYPE NAME'");
+        }
+        for (const PlyProperty& other : header_.elements.back().properties) {
+            if (other.name == property.name) {
+                fail(line, "each property only once in an element");
+            }
+        }
+        header_.elements.back().properties.push_back(std::move(property));
+    }
+
+    [[noreturn]] void fail_header(const std::string& what) const {
+        throw Error(path_ + ": header: " + what);
+    }
+
+    // The known elements must begin with their required properties, in order.
+    void check_prefix(const PlyElement& element,
+                      const std::vector<std::string>& names,
+                      PlyType type) const {
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const std::string expected = "property " + std::string(name_of(type)) + " " + names[i];
+            const std::string place =
+                "property " + std::to_string(i) + " of element " + element.name;
+            if (i >= element.properties.size()) {
+                fail_header(place + " is missing, expected '" + expected + "'");
+            }
+            const PlyProperty& found = element.properties[i];
+            if (found.name != names[i] || found.type != type || found.count_type) {
+                fail_header(place + " is '" + (found.count_type ? "list " : "")
+                            + std::string(name_of(found.type)) + " " + found.name + "', expected '"
+                            + expected + "'");
+            }
+        }
+        for (const PlyProperty& property : element.properties) {
+            if (property.count_type) {
+                fail_header("element " + element.name + " has the list property " + property.name
+                            + ", expected properties of fixed width");
+            }
+        }
+    }
+
+    void check_elements() {
+        const int dim = header_.info.dimension;
+        const std::string cells(cell_name(dim));
+        if (header_.elements.empty() || header_.elements[0].name != "vertex") {
+            fail_header("found "
+                        + (header_.elements.empty()
+                               ? std::string("no element")
+                               : "element " + header_.elements[0].name + " first")
+                        + ", expected element vertex first");
+        }
+        if (header_.elements[0].count > kMostVertices) {
+            fail_header("element vertex has " + std::to_string(header_.elements[0].count)
+                        + " vertices, expected at most " + std::to_string(kMostVertices));
+        }
+        const std::array<std::string, 4> axes = {"x", "y", "z", "w"};
+        check_prefix(header_.elements[0], {axes.begin(), axes.begin() + dim}, PlyType::Double);
+        header_.info.vertices = header_.elements[0].count;
+        if (header_.info.encoding == Encoding::Binary && !header_.has_checksum) {
+            fail_header("no 'comment crc32c', expected one in a binary file");
+        }
+        if (header_.info.is_frame) {
+            return;
+        }
+        if (header_.elements.size() < 2 || header_.elements[1].name != cells) {
+            fail_header("found "
+                        + (header_.elements.size() < 2 ? std::string("no element")
+                                                       : "element " + header_.elements[1].name)
+                        + " after element vertex, expected element " + cells + " (dimension "
+                        + std::to_string(dim) + ")");
+        }
+        std::vector<std::string> corners;
+        for (int k = 0; k <= dim; ++k) {
+            corners.push_back("v" + std::to_string(k));
+        }
+        check_prefix(header_.elements[1], corners, PlyType::Uint);
+        header_.info.cells = header_.elements[1].count;
+    }
+
+    std::string_view bytes_;
+    std::string path_;
+    std::size_t at_ = 0;
+    int line_ = 0;
+    Header header_;
+    std::set<std::string> seen_;
+};
+
+std::string hex(std::uint32_t value) {
+    std::array<char, 9> text{};
+    std::snprintf(text.data(), text.size(), "%08x", value);
+    return text.data();
+}
+
+std::string shortest(double value) {
+    std::array<char, 32> text{};
+    const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
+    return {text.data(), result.ptr};
+}
+
+}  // namespace
+
+std::size_t size_of(PlyType type) {
+    return kTypes[static_cast<std::size_t>(type)].size;
+}
+
+std::string_view name_of(PlyType type) {
+    return kTypes[static_cast<std::size_t>(type)].name;
+}
+
+Header parse_header(std::string_view bytes, const std::filesystem::path& path) {
+    return Parser(bytes, path).parse();
+}
+
+std::string format_header(const Header& header) {
+    std::string text = "ply\nformat ";
+    text += header.info.encoding == Encoding::Ascii ? "ascii" : "binary_little_endian";
+    text += " 1.0\ncomment pent 1.0\ncomment dimension " + std::to_string(header.info.dimension);
+    text += "\ncomment created_by " + header.info.created_by;
+    if (header.info.is_frame) {
+        text += "\ncomment mesh " + header.mesh_name + " " + hex(header.mesh_crc);
+        text += "\ncomment frame " + std::to_string(header.frame);
+        text += "\ncomment step " + std::to_string(header.step);
+        text += "\ncomment time " + shortest(header.time);
+    }
+    text += "\ncomment crc32c " + hex(header.info.crc32c) + "\n";
+    for (const PlyElement& element : header.elements) {
+        text += "element " + element.name + " " + std::to_string(element.count) + "\n";
+        for (const PlyProperty& property : element.properties) {
+            text += "property " + std::string(name_of(property.type)) + " " + property.name + "\n";
+        }
+    }
+    return text + "end_header\n";
+}
+
+}  // namespace pent

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <pent/pent_file.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pent {
+
+/// The scalar types of PLY.
+enum class PlyType { Char, Uchar, Short, Ushort, Int, Uint, Float, Double };
+
+[[nodiscard]] std::size_t size_of(PlyType type);  ///< In bytes.
+[[nodiscard]] std::string_view name_of(PlyType type);
+
+struct PlyProperty {
+    std::string name;
+    PlyType type = PlyType::Double;
+    std::optional<PlyType> count_type;  ///< Of a list: the type of its length.
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;
+    std::vector<PlyProperty> properties;
+};
+
+/// The header of a .pent file, as parsed; not yet compared with the body.
+struct Header {
+    FileInfo info;
+    bool has_checksum = false;
+    std::string mesh_name;       ///< Of a frame.
+    std::uint32_t mesh_crc = 0;  ///< Of a frame.
+    std::uint64_t frame = 0;
+    std::uint64_t step = 0;
+    double time = 0;
+    std::vector<PlyElement>
+        elements;          ///< vertex first, then the cells (not in a frame), then others.
+    std::size_t body = 0;  ///< Offset of the byte after end_header's newline.
+};
+
+/// Parses and checks the header at the start of `bytes`.
+///
+/// Throws an Error that names the file, the line, what was found and what was expected.
+[[nodiscard]] Header parse_header(std::string_view bytes, const std::filesystem::path& path);
+
+/// The text of a header up to and with end_header's newline.
+[[nodiscard]] std::string format_header(const Header& header);
+
+}  // namespace pent

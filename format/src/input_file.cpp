@@ -1,0 +1,68 @@
+#include "input_file.h"
+
+#include <pent/error.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace pent {
+
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, int error) {
+    throw Error(path.string() + ": cannot be read: " + std::generic_category().message(error));
+}
+
+// Closes a file descriptor at the end of a scope.
+class Descriptor {
+public:
+    explicit Descriptor(int number) : number_(number) {}
+    ~Descriptor() { ::close(number_); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    Descriptor(Descriptor&&) = delete;
+    Descriptor& operator=(Descriptor&&) = delete;
+
+private:
+    int number_;
+};
+
+}  // namespace
+
+InputFile read_input(const std::filesystem::path& path, std::size_t limit) {
+    const int number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (number < 0) {
+        fail(path, errno);
+    }
+    const Descriptor descriptor(number);
+    struct stat status = {};
+    if (::fstat(number, &status) != 0) {
+        fail(path, errno);
+    }
+    if (!S_ISREG(status.st_mode)) {
+        throw Error(path.string() + ": not a regular file, expected a .pent file");
+    }
+    InputFile file;
+    const std::size_t wanted = std::min(limit, static_cast<std::size_t>(status.st_size));
+    file.data = std::make_unique_for_overwrite<char[]>(wanted);
+    while (file.bytes < wanted) {
+        const ssize_t got = ::read(number, file.data.get() + file.bytes, wanted - file.bytes);
+        if (got < 0 && errno == EINTR) {
+            continue;
+        }
+        if (got < 0) {
+            fail(path, errno);
+        }
+        if (got == 0) {
+            break;  // the file became shorter while it was read; the header's counts will tell
+        }
+        file.bytes += static_cast<std::size_t>(got);
+    }
+    return file;
+}
+
+}  // namespace pent

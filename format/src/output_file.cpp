@@ -1,0 +1,114 @@
+#include "pent/output_file.h"
+
+#include <pent/error.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <string>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace pent {
+
+namespace {
+
+std::string advice(int error) {
+    switch (error) {
+        case ENOSPC:
+        case EDQUOT:
+            return "free some space or choose another folder";
+        case EFBIG:
+            return "a limit on file size is set; raise it (ulimit -f) or choose a smaller output";
+        case EACCES:
+        case EPERM:
+        case EROFS:
+            return "choose a folder that you may write to";
+        case ENOENT:
+        case ENOTDIR:
+            return "make its folder first or correct the path";
+        default:
+            return "choose another place";
+    }
+}
+
+[[noreturn]] void fail(const std::filesystem::path& path, int error) {
+    throw Error(path.string() + ": cannot be written: " + std::generic_category().message(error)
+                + "; " + advice(error));
+}
+
+std::filesystem::path temporary_for(const std::filesystem::path& path) {
+    const std::string name =
+        "." + path.filename().string() + "." + std::to_string(::getpid()) + ".tmp";
+    return path.parent_path() / name;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::filesystem::path path)
+    : path_(std::move(path)), temporary_(temporary_for(path_)) {
+    if (path_.filename().empty() || std::filesystem::is_directory(path_)) {
+        fail(path_, EISDIR);
+    }
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) {
+        fail(path_, errno);
+    }
+}
+
+OutputFile::~OutputFile() {
+    if (descriptor_ >= 0) {
+        ::close(descriptor_);
+    }
+    if (!temporary_.empty()) {
+        ::unlink(temporary_.c_str());
+    }
+}
+
+void OutputFile::write(const void* data, std::size_t bytes) {
+    const char* at = static_cast<const char*>(data);
+    while (bytes > 0) {
+        const ssize_t written = ::write(descriptor_, at, bytes);
+        if (written < 0) {
+            if (errno == EINTR) {
+                continue;
+            }
+            fail(path_, errno);
+        }
+        at += written;
+        bytes -= static_cast<std::size_t>(written);
+    }
+}
+
+void OutputFile::close() {
+    const int descriptor = std::exchange(descriptor_, -1);
+    if (descriptor >= 0 && ::close(descriptor) != 0) {
+        fail(path_, errno);
+    }
+}
+
+void OutputFile::commit() {
+    close();
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) {
+        fail(path_, errno);
+    }
+    temporary_.clear();
+}
+
+void write_text(const std::filesystem::path& path, std::string_view text) {
+    OutputFile file(path);
+    file.write(text);
+    file.commit();
+}
+
+void make_folder(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (error) {
+        throw Error(path.string() + ": folder cannot be made: " + error.message() + "; "
+                    + advice(error.value()));
+    }
+}
+
+}  // namespace pent
