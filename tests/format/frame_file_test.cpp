@@ -1,0 +1,86 @@
+#include "support/kuhn_box.h"
+#include "support/messages.h"
+#include "support/temp_folder.h"
+
+#include <pent/pent_file.h>
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+namespace pent {
+namespace {
+
+using test::error_of;
+using test::expect_contains;
+
+Frame<4> sample() {
+    Frame<4> frame;
+    frame.positions = Positions<4>::Random(4, 9);  // Eigen's generator has a fixed seed
+    frame.velocities = Positions<4>::Random(4, 9);
+    frame.mesh_name = "body.pent";
+    frame.mesh_crc = 0x0badcafe;
+    frame.frame = 123;
+    frame.step = 1230;
+    frame.time = 4.1;
+    return frame;
+}
+
+TEST(FrameFile, RoundTripIsBitExact) {
+    const test::TempFolder folder;
+    for (const Encoding encoding : {Encoding::Binary, Encoding::Ascii}) {
+        const Frame<4> frame = sample();
+        write_frame(folder / "f.pent", frame, {.encoding = encoding});
+        const Frame<4> read = read_frame<4>(folder / "f.pent");
+        EXPECT_EQ(std::memcmp(read.positions.data(), frame.positions.data(), 9 * 32), 0);
+        EXPECT_EQ(std::memcmp(read.velocities.data(), frame.velocities.data(), 9 * 32), 0);
+        EXPECT_EQ(read.mesh_name, frame.mesh_name);
+        EXPECT_EQ(read.mesh_crc, frame.mesh_crc);
+        EXPECT_EQ(read.frame, frame.frame);
+        EXPECT_EQ(read.step, frame.step);
+        EXPECT_EQ(read.time, frame.time);
+        EXPECT_TRUE(read_info(folder / "f.pent").is_frame);
+    }
+}
+
+TEST(FrameFile, VelocitiesMayBeLeftOut) {
+    const test::TempFolder folder;
+    Frame<4> frame = sample();
+    frame.velocities.resize(4, 0);
+    write_frame(folder / "f.pent", frame);
+    EXPECT_EQ(read_frame<4>(folder / "f.pent").velocities.cols(), 0);
+}
+
+TEST(FrameFile, IsNeverWrittenWithANumberThatIsNotFinite) {
+    const test::TempFolder folder;
+    Frame<4> frame = sample();
+    frame.velocities(2, 3) = std::numeric_limits<double>::quiet_NaN();
+    expect_contains(error_of([&] { write_frame(folder / "f.pent", frame); }),
+                    {"f.pent", "vertex 3", "vz"});
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(FrameFile, IsNotTakenForAMeshNorAMeshForAFrame) {
+    const test::TempFolder folder;
+    write_frame(folder / "f.pent", sample());
+    write_mesh(folder / "m.pent", test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1}));
+    expect_contains(error_of([&] { (void)read_mesh<4>(folder / "f.pent"); }),
+                    {"f.pent", "a frame", "expected a mesh"});
+    expect_contains(error_of([&] { (void)read_frame<4>(folder / "m.pent"); }),
+                    {"m.pent", "expected a frame"});
+}
+
+TEST(FrameFile, NamesVelocitiesThatAreNotComplete) {
+    const test::TempFolder folder;
+    std::ofstream(folder / "f.pent")
+        << "ply\nformat ascii 1.0\ncomment pent 1.0\ncomment dimension 2\n"
+           "comment mesh m.pent 00000000\nelement vertex 1\nproperty double x\n"
+           "property double y\nproperty double vx\nend_header\n0 0 0\n";
+    expect_contains(error_of([&] { (void)read_frame<2>(folder / "f.pent"); }),
+                    {"f.pent", "1 velocity properties", "none or all of 2"});
+}
+
+}  // namespace
+}  // namespace pent
