@@ -1,0 +1,135 @@
+#include "surface_readers.h"
+
+#include <pent/error.h>
+#include <pent/mesher/surface.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace pent::mesher {
+
+namespace {
+
+constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+
+bool is_before(const Positions<3>& points, std::uint32_t a, std::uint32_t b) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (points(axis, a) != points(axis, b)) {
+            return points(axis, a) < points(axis, b);
+        }
+    }
+    return a < b;
+}
+
+// For each point the first one at the same place.
+std::vector<std::uint32_t> first_at_same_place(const Positions<3>& points) {
+    std::vector<std::uint32_t> order(points.cols());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return is_before(points, a, b); });
+    std::vector<std::uint32_t> first(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const bool is_same = i > 0 && points.col(order[i]) == points.col(order[i - 1]);
+        first[order[i]] = is_same ? first[order[i - 1]] : order[i];
+    }
+    return first;
+}
+
+std::string ending(const std::filesystem::path& path) {
+    std::string text = path.extension().string();
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+TriangleSoup read_soup(const std::filesystem::path& path) {
+    if (!std::filesystem::exists(path)) {
+        throw Error(path.string() + ": no such file");
+    }
+    const std::string format = ending(path);
+    if (format == ".obj") {
+        return read_obj(path);
+    }
+    for (const char* known : {".ply", ".stl", ".off", ".gltf", ".glb"}) {
+        if (format == known) {
+            return read_with_assimp(path);
+        }
+    }
+    throw Error(path.string() + ": a name that ends in \"" + format
+                + "\"; surfaces end in .obj, .ply, .stl, .off, .gltf or .glb");
+}
+
+}  // namespace
+
+SurfaceFile weld(const Positions<3>& points, const Simplices<3>& triangles) {
+    const std::vector<std::uint32_t> first = first_at_same_place(points);
+    SurfaceFile file;
+    file.points_in_file = points.cols();
+    std::vector<std::uint32_t> name(first.size(), kUnused);
+    for (const std::uint32_t corner : triangles.reshaped()) {
+        name[first[corner]] = 0;
+    }
+    std::uint32_t kept = 0;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        if (first[i] != i) {
+            ++file.merged_points;
+        } else if (name[i] == kUnused) {
+            ++file.unused_points;
+        } else {
+            name[i] = kept++;
+        }
+    }
+    file.surface.points.resize(3, kept);
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        if (first[i] == i && name[i] != kUnused) {
+            file.surface.points.col(name[i]) = points.col(static_cast<Eigen::Index>(i));
+        }
+    }
+    file.surface.triangles =
+        triangles.unaryExpr([&](std::uint32_t corner) { return name[first[corner]]; });
+    return file;
+}
+
+SurfaceFile read_surface(const std::filesystem::path& path) {
+    const TriangleSoup soup = read_soup(path);
+    if (soup.triangles.cols() == 0) {
+        throw Error(path.string() + ": no triangle in it; expected a surface");
+    }
+    return weld(soup.points, soup.triangles);
+}
+
+double area(const Surface& surface) {
+    double twice = 0;
+    for (const auto& t : surface.triangles.colwise()) {
+        const Eigen::Vector3d a = surface.points.col(t[0]);
+        const Eigen::Vector3d b = surface.points.col(t[1]);
+        const Eigen::Vector3d c = surface.points.col(t[2]);
+        twice += (b - a).cross(c - a).norm();
+    }
+    return twice / 2;
+}
+
+double enclosed_volume(const Surface& surface) {
+    // Measured from a point of the surface: from a far origin the terms would cancel badly.
+    const Eigen::Vector3d origin = surface.points.col(0);
+    double six_volume = 0;
+    for (const auto& t : surface.triangles.colwise()) {
+        const Eigen::Vector3d a = surface.points.col(t[0]) - origin;
+        const Eigen::Vector3d b = surface.points.col(t[1]) - origin;
+        const Eigen::Vector3d c = surface.points.col(t[2]) - origin;
+        six_volume += a.cross(b).dot(c);
+    }
+    return six_volume / 6;
+}
+
+double diagonal(const Positions<3>& points) {
+    return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
+}
+
+}  // namespace pent::mesher

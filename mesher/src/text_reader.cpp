@@ -1,0 +1,126 @@
+#include "text_reader.h"
+
+#include <pent/error.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace pent::mesher {
+
+namespace {
+
+bool is_space(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+}
+
+std::string_view without_leading_space(std::string_view text) {
+    std::size_t start = 0;
+    while (start < text.size() && is_space(text[start])) {
+        ++start;
+    }
+    return text.substr(start);
+}
+
+// A long word of a binary file would fill the terminal.
+std::string quoted(std::string_view word) {
+    constexpr std::size_t kLongest = 40;
+    std::string text = "\"";
+    for (const char c : word.substr(0, kLongest)) {
+        text += c >= ' ' && c <= '~' ? c : '?';
+    }
+    return text + (word.size() > kLongest ? "...\"" : "\"");
+}
+
+}  // namespace
+
+TextReader::TextReader(const std::filesystem::path& path, char comment)
+    : name_(path.string()), comment_(comment) {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) {
+        throw Error(name_ + ": is a folder; give a file");
+    }
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        throw Error(name_ + ": cannot be opened: " + std::generic_category().message(errno));
+    }
+    text_.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    if (file.bad()) {
+        throw Error(name_ + ": cannot be read: " + std::generic_category().message(errno));
+    }
+}
+
+void TextReader::take_line() {
+    const std::size_t end = std::min(text_.find('\n', next_), text_.size());
+    line_ = std::string_view(text_).substr(next_, end - next_);
+    next_ = end + 1;
+    ++line_number_;
+    if (comment_ != '\0') {
+        line_ = line_.substr(0, line_.find(comment_));
+    }
+    line_ = without_leading_space(line_);
+}
+
+bool TextReader::next_line() {
+    while (next_ < text_.size()) {
+        take_line();
+        if (!line_.empty()) {
+            return true;
+        }
+    }
+    line_ = {};
+    return false;
+}
+
+std::string_view TextReader::word() {
+    line_ = without_leading_space(line_);
+    if (!line_.empty() && line_.front() == '\\' && without_leading_space(line_.substr(1)).empty()) {
+        return next_line() ? word() : std::string_view();
+    }
+    std::size_t end = 0;
+    while (end < line_.size() && !is_space(line_[end])) {
+        ++end;
+    }
+    const std::string_view found = line_.substr(0, end);
+    line_ = line_.substr(end);
+    return found;
+}
+
+std::string_view TextReader::next_word(std::string_view expected) {
+    std::string_view found = word();
+    while (found.empty()) {
+        if (!next_line()) {
+            fail("the file ends here; expected " + std::string(expected));
+        }
+        found = word();
+    }
+    return found;
+}
+
+double TextReader::number(std::string_view word, std::string_view expected) const {
+    double value = 0;
+    const std::string_view digits = !word.empty() && word.front() == '+' ? word.substr(1) : word;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error == std::errc::result_out_of_range || end != digits.data() + digits.size()
+        || digits.empty() || !std::isfinite(value)) {
+        fail("found " + quoted(word) + ", expected " + std::string(expected) + ", a finite number");
+    }
+    return value;
+}
+
+std::int64_t TextReader::integer(std::string_view word, std::string_view expected) const {
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size()) {
+        fail("found " + quoted(word) + ", expected " + std::string(expected) + ", a whole number");
+    }
+    return value;
+}
+
+void TextReader::fail(const std::string& message) const {
+    throw Error(name_ + ": line " + std::to_string(line_number_) + ": " + message);
+}
+
+}  // namespace pent::mesher

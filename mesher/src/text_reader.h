@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace pent::mesher {
+
+/// A text file, handed out by lines and words; every error names the file and the line.
+///
+/// Words are split at spaces and tabs. A backslash at the end of a line joins it with the next one.
+class TextReader {
+public:
+    /// Reads the whole file. Throws an Error if that fails.
+    /// @param comment  The rest of a line from this character on is skipped; '\0' for no comments.
+    explicit TextReader(const std::filesystem::path& path, char comment = '#');
+
+    /// Goes to the next line that has a word; false at the end of the file.
+    [[nodiscard]] bool next_line();
+
+    /// The next word of this line; empty at its end.
+    [[nodiscard]] std::string_view word();
+
+    /// The next word of this line or of the lines below; throws at the end of the file.
+    [[nodiscard]] std::string_view next_word(std::string_view expected);
+
+    /// A word as a finite number; throws an Error that says what was expected.
+    [[nodiscard]] double number(std::string_view word, std::string_view expected) const;
+
+    /// A word as a whole number; throws an Error that says what was expected.
+    [[nodiscard]] std::int64_t integer(std::string_view word, std::string_view expected) const;
+
+    /// Throws an Error "file: line n: message".
+    [[noreturn]] void fail(const std::string& message) const;
+
+    /// Bytes in the file: an upper bound for every count in it.
+    [[nodiscard]] std::int64_t size() const { return static_cast<std::int64_t>(text_.size()); }
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+
+private:
+    void take_line();
+
+    std::string name_;
+    std::string text_;
+    char comment_;
+    std::size_t next_ = 0;   // first character behind the current line
+    std::string_view line_;  // what is left of the current line
+    std::int64_t line_number_ = 0;
+};
+
+}  // namespace pent::mesher
