@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that Pentimento is built with, those that are missing.
+#
+#   scripts/setup.sh            what building, testing and the demo need
+#   scripts/setup.sh --check    only say what is missing; exit code 1 if anything is
+#
+# Works as root or with sudo. Safe to run again: when nothing is missing it does nothing.
+set -euo pipefail
+
+packages=(
+    g++ cmake ninja-build         # build
+    libeigen3-dev                 # linear algebra
+    libtbb-dev                    # threads
+    libtomlplusplus-dev           # scene files
+    libcli11-dev                  # command lines
+    nlohmann-json3-dev            # reports
+    libcgal-dev libgmp-dev libmpfr-dev libboost-graph-dev  # mesher
+    libassimp-dev libtet1.5-dev   # mesher: surface files, TetGen
+    libembree-dev libpng-dev      # viewer: ray tracer, pictures
+    libfreetype-dev fonts-dejavu-core  # viewer: captions
+    libxsimd-dev                  # simulator: vectorized kernels
+    libgtest-dev libbenchmark-dev # tests and benchmarks
+    ffmpeg                        # movies
+    python3 python3-numpy         # the test of the numpy reader
+)
+
+is_installed() {
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+system=unknown
+if [ -r /etc/os-release ]; then
+    system=$(. /etc/os-release && echo "${ID:-unknown} ${VERSION_ID:-}")
+fi
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    echo "setup: this system ($system) is not Debian; install the counterparts of these Debian 12 packages by hand:" >&2
+    printf '  %s\n' "${packages[@]}" >&2
+    exit 1
+fi
+if [ "$system" != "debian 12" ]; then
+    echo "setup: note: tried on Debian 12 only, this is $system"
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+    is_installed "$package" || missing+=("$package")
+done
+if [ ${#missing[@]} -eq 0 ]; then
+    echo "setup: all ${#packages[@]} packages are installed"
+    exit 0
+fi
+if [ "${1:-}" = --check ]; then
+    echo "setup: missing: ${missing[*]}"
+    exit 1
+fi
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+        echo "setup: needs root or sudo to install: ${missing[*]}" >&2
+        exit 1
+    fi
+    as_root=(sudo)
+fi
+echo "setup: installing ${#missing[@]} packages: ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+echo "setup: done"
