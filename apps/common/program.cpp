@@ -87,22 +87,24 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
     return row[b.size()];
 }
 
-// "; did you mean --layers?" for an unknown option that is close to a known one.
-std::string nearest_option(const CLI::App& cli) {
-    for (const std::string& unknown : cli.remaining()) {
+// "unknown option --layer; did you mean --layers?", or "" if every option is known.
+std::string unknown_option(const CLI::App& cli) {
+    for (const std::string& word : cli.remaining()) {
+        if (word.size() < 2 || word[0] != '-') {
+            continue;
+        }
+        const std::string unknown = word.substr(0, word.find('='));
         std::string best;
         std::size_t best_distance = 4;
         for (const CLI::Option* option : cli.get_options()) {
             const std::string name = option->get_name();
-            const std::size_t distance = edit_distance(unknown.substr(0, unknown.find('=')), name);
+            const std::size_t distance = edit_distance(unknown, name);
             if (distance < best_distance) {
                 best = name;
                 best_distance = distance;
             }
         }
-        if (!best.empty()) {
-            return "; did you mean " + best + "?";
-        }
+        return "unknown option " + unknown + (best.empty() ? "" : "; did you mean " + best + "?");
     }
     return "";
 }
@@ -165,7 +167,8 @@ int Program::run(int argc, const char* const* argv, const std::function<Verdict(
     } catch (const CLI::Success& success) {  // --help and --version
         return cli_.exit(success);
     } catch (const CLI::ParseError& error) {
-        fail(std::string(error.what()) + nearest_option(cli_) + " (see " + name_ + " --help)");
+        const std::string unknown = unknown_option(cli_);
+        fail((unknown.empty() ? error.what() : unknown) + " (see " + name_ + " --help)");
         return 2;
     }
     std::signal(SIGINT, on_stop_signal);

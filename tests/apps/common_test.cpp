@@ -1,0 +1,88 @@
+#include "run_program.h"
+#include "support/messages.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+// What every program does alike.
+
+namespace pent {
+namespace {
+
+using test::expect_contains;
+using test::expect_one_error_line;
+using test::Outcome;
+using test::run_program;
+
+std::vector<std::string> programs() {
+    std::vector<std::string> names;
+    std::istringstream list(PENT_PROGRAMS);
+    for (std::string name; std::getline(list, name, ',');) {
+        names.push_back(name);
+    }
+    return names;
+}
+
+class EveryProgram : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryProgram, ShowsHelpWithAnExampleThatItParses) {
+    const Outcome outcome = run_program(GetParam() + " --help");
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.err, "");
+    expect_contains(outcome.out, {"Example:\n  " + GetParam() + " ", "--version", "--threads",
+                                  "--quiet", "--json"});
+}
+
+TEST_P(EveryProgram, SaysItsVersion) {
+    const Outcome outcome = run_program(GetParam() + " --version");
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.out.rfind(GetParam() + " ", 0), 0U) << outcome.out;
+    EXPECT_TRUE(std::any_of(outcome.out.begin(), outcome.out.end(), [](char c) {
+        return c >= '0' && c <= '9';
+    })) << outcome.out;
+}
+
+TEST_P(EveryProgram, RefusesAnUnknownOptionAndNamesTheNearest) {
+    const Outcome outcome = run_program(GetParam() + " --thraeds 2 --quite");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    expect_one_error_line(outcome, GetParam());
+    expect_contains(outcome.err, {"unknown option --thraeds", "did you mean --threads?",
+                                  GetParam() + " --help"});
+}
+
+TEST_P(EveryProgram, RefusesThreadsOutOfRange) {
+    for (const std::string value : {"0", "-1", "many"}) {
+        const Outcome outcome = run_program(GetParam() + " in --threads " + value);
+        EXPECT_EQ(outcome.exit_code, 2);
+        expect_one_error_line(outcome, GetParam());
+        expect_contains(outcome.err, {"--threads"});
+    }
+}
+
+TEST_P(EveryProgram, NamesAMissingInput) {
+    const test::TempFolder folder;
+    const std::string input = (folder / "missing.pent").string();
+    const std::string output =
+        GetParam() == "pent-check" ? "" : " -o " + (folder / "out.png").string();
+    const Outcome outcome = run_program(GetParam() + " " + input + output);
+    EXPECT_EQ(outcome.exit_code, 1);
+    expect_one_error_line(outcome, GetParam());
+    expect_contains(outcome.err, {"missing.pent"});
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs,
+                         EveryProgram,
+                         testing::ValuesIn(programs()),
+                         [](const testing::TestParamInfo<std::string>& info) {
+                             std::string name = info.param;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace pent

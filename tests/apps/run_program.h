@@ -1,0 +1,46 @@
+#pragma once
+
+#include "support/temp_folder.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+
+namespace pent::test {
+
+struct Outcome {
+    int exit_code = -1;  ///< -1 if the program was ended by a signal.
+    std::string out;
+    std::string err;
+};
+
+inline std::string text_of(const std::filesystem::path& path) {
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+/// Runs one of our programs by the shell.
+///
+/// @param command  As typed, beginning with the program's name.
+/// @param before   Shell commands in front, as in "ulimit -f 1;".
+[[nodiscard]] inline Outcome run_program(const std::string& command,
+                                         const std::string& before = "") {
+    const TempFolder folder;
+    const std::string line = before + " " PENT_BIN "/" + command + " >" + (folder / "out").string()
+                             + " 2>" + (folder / "err").string() + " </dev/null";
+    // The shell is the point: this is what a user does.
+    const int status = std::system(line.c_str());  // NOLINT(cert-env33-c)
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / "out"),
+            text_of(folder / "err")};
+}
+
+/// Expects one line on stderr that begins with the program's name.
+inline void expect_one_error_line(const Outcome& outcome, const std::string& program) {
+    EXPECT_EQ(outcome.err.rfind(program + ": ", 0), 0U) << outcome.err;
+    EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1) << outcome.err;
+}
+
+}  // namespace pent::test
