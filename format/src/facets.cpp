@@ -2,19 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <utility>
 
 namespace pent {
 
 namespace {
-
-// A facet by its sorted corners without the lowest, which is the bucket it lies in.
-template <int Dim>
-struct SortedFacet {
-    std::array<std::uint32_t, Dim - 1> rest;
-    std::uint32_t cell;
-    std::uint8_t corner;  // which corner of the cell it lacks
-    bool is_even;         // whether sorting its outward corners was an even permutation
-};
 
 // Corners of facet k of a cell, in an outward order.
 template <int Dim>
@@ -46,100 +39,181 @@ bool sort_with_parity(std::array<std::uint32_t, Size>& values) {
     return is_even;
 }
 
-// Calls visit(cell, k) for every facet of every cell, in order.
-template <int Dim, typename Visit>
-void for_each_facet(const Simplices<Dim + 1>& cells, Visit&& visit) {
-    for (Eigen::Index cell = 0; cell < cells.cols(); ++cell) {
-        for (int k = 0; k <= Dim; ++k) {
-            visit(cell, k);
+// The two lowest corners of a cell.
+template <int Dim>
+std::pair<std::uint32_t, std::uint32_t> lowest_two(const Simplices<Dim + 1>& cells,
+                                                   Eigen::Index cell) {
+    std::uint32_t lowest = std::min(cells(0, cell), cells(1, cell));
+    std::uint32_t second = std::max(cells(0, cell), cells(1, cell));
+    for (int i = 2; i <= Dim; ++i) {
+        const std::uint32_t corner = cells(i, cell);
+        second = std::min(second, std::max(corner, lowest));
+        lowest = std::min(lowest, corner);
+    }
+    return {lowest, second};
+}
+
+// For every vertex the cells with a facet whose lowest corner it is: those where it is the lowest
+// corner, or the second lowest. Both kinds in one list, in the order of the cells.
+template <int Dim>
+struct CellsByLowestCorner {
+    std::vector<std::size_t> begin;    // vertices + 1 offsets into cells
+    std::vector<std::uint32_t> cells;  // two entries a cell
+
+    CellsByLowestCorner(const Simplices<Dim + 1>& all, Eigen::Index vertices)
+        : begin(static_cast<std::size_t>(vertices) + 1, 0),
+          cells(2 * static_cast<std::size_t>(all.cols())) {
+        for (Eigen::Index cell = 0; cell < all.cols(); ++cell) {
+            const auto [lowest, second] = lowest_two<Dim>(all, cell);
+            ++begin[lowest];
+            ++begin[second];
         }
+        std::size_t sum = 0;
+        for (std::size_t& offset : begin) {
+            sum += std::exchange(offset, sum);
+        }
+        std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+        for (Eigen::Index cell = 0; cell < all.cols(); ++cell) {
+            const auto [lowest, second] = lowest_two<Dim>(all, cell);
+            cells[next[lowest]++] = static_cast<std::uint32_t>(cell);
+            cells[next[second]++] = static_cast<std::uint32_t>(cell);
+        }
+    }
+};
+
+// The facets with one lowest corner, found by their other corners: a small hash table with open
+// addressing, emptied for each lowest corner. Its order decides nothing.
+template <int Dim>
+class FacetTable {
+public:
+    struct Entry {
+        std::array<std::uint32_t, Dim - 1> rest;  // sorted corners without the lowest
+        std::uint32_t cell;                       // the first cell that has it
+        std::uint32_t apex;                       // the corner of that cell that it lacks
+        std::uint32_t count;                      // cells that have it
+        bool is_outward;                          // its sorted order is outward there
+        bool is_one_sided;                        // the second cell saw it from the same side
+    };
+
+    void clear(std::size_t most_entries) {
+        entries_.clear();
+        slots_.assign(std::bit_ceil(2 * most_entries + 1), kEmpty);
+    }
+
+    void add(const std::array<std::uint32_t, Dim - 1>& rest,
+             std::uint32_t cell,
+             std::uint32_t apex,
+             bool is_outward) {
+        const std::size_t mask = slots_.size() - 1;
+        for (std::size_t slot = hash(rest) & mask;; slot = (slot + 1) & mask) {
+            if (slots_[slot] == kEmpty) {
+                slots_[slot] = static_cast<std::uint32_t>(entries_.size());
+                entries_.push_back({rest, cell, apex, 1, is_outward, false});
+                return;
+            }
+            Entry& entry = entries_[slots_[slot]];
+            if (entry.rest == rest) {
+                ++entry.count;
+                entry.is_one_sided = entry.is_outward == is_outward;
+                return;
+            }
+        }
+    }
+
+    [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+
+private:
+    static constexpr std::uint32_t kEmpty = 0xFFFFFFFFU;
+
+    static std::size_t hash(const std::array<std::uint32_t, Dim - 1>& rest) {
+        std::uint64_t value = 0;
+        for (const std::uint32_t corner : rest) {
+            value = (value ^ corner) * 0x9E3779B97F4A7C15U;  // 2^64 / golden ratio
+        }
+        return value >> 32;
+    }
+
+    std::vector<Entry> entries_;
+    std::vector<std::uint32_t> slots_;
+};
+
+// Adds the facets of a cell whose lowest corner is `vertex`. With the corners of a positively
+// oriented cell sorted, by a permutation of parity p, the facet without corner j, in sorted order,
+// is outward when j + p is even.
+template <int Dim>
+void add_facets(const Simplices<Dim + 1>& cells,
+                std::uint32_t cell,
+                std::uint32_t vertex,
+                FacetTable<Dim>& table) {
+    std::array<std::uint32_t, Dim + 1> corners{};
+    std::copy_n(cells.col(cell).data(), Dim + 1, corners.begin());
+    const bool is_even = sort_with_parity(corners);
+    std::array<std::uint32_t, Dim - 1> rest{};
+    if (corners[0] != vertex) {  // then it is the second lowest: the facet without the lowest
+        std::copy(corners.begin() + 2, corners.end(), rest.begin());
+        table.add(rest, cell, corners[0], is_even);
+        return;
+    }
+    for (int j = 1; j <= Dim; ++j) {
+        std::copy(corners.begin() + 1, corners.begin() + j, rest.begin());
+        std::copy(corners.begin() + j + 1, corners.end(), rest.begin() + j - 1);
+        table.add(rest, cell, corners[j], (j % 2 == 0) == is_even);
     }
 }
 
-// All facets, grouped by their lowest corner (counting sort), then sorted within each group.
+struct CellFacet {
+    std::uint32_t cell;
+    int corner;  // which corner of the cell it lacks
+};
+
 template <int Dim>
-std::vector<SortedFacet<Dim>> sorted_facets(const Simplices<Dim + 1>& cells,
-                                            Eigen::Index vertices,
-                                            std::vector<std::size_t>& bucket) {
-    bucket.assign(static_cast<std::size_t>(vertices) + 1, 0);
-    for_each_facet<Dim>(cells, [&](Eigen::Index cell, int k) {
-        const auto facet = outward_facet<Dim>(cells, cell, k);
-        ++bucket[*std::min_element(facet.begin(), facet.end()) + 1];
-    });
-    for (std::size_t i = 1; i < bucket.size(); ++i) {
-        bucket[i] += bucket[i - 1];
+void copy_boundary(const Simplices<Dim + 1>& cells,
+                   const std::vector<CellFacet>& boundary,
+                   FacetMatch<Dim>& match) {
+    match.boundary.resize(Dim, static_cast<Eigen::Index>(boundary.size()));
+    match.boundary_cells.reserve(boundary.size());
+    for (std::size_t i = 0; i < boundary.size(); ++i) {
+        const auto facet = outward_facet<Dim>(cells, boundary[i].cell, boundary[i].corner);
+        std::copy(facet.begin(), facet.end(),
+                  match.boundary.col(static_cast<Eigen::Index>(i)).data());
+        match.boundary_cells.push_back(boundary[i].cell);
     }
-    std::vector<SortedFacet<Dim>> sorted(bucket.back());
-    std::vector<std::size_t> next(bucket.begin(), bucket.end() - 1);
-    for_each_facet<Dim>(cells, [&](Eigen::Index cell, int k) {
-        auto facet = outward_facet<Dim>(cells, cell, k);
-        const bool is_even = sort_with_parity(facet);
-        SortedFacet<Dim>& entry = sorted[next[facet[0]]++];
-        std::copy(facet.begin() + 1, facet.end(), entry.rest.begin());
-        entry.cell = static_cast<std::uint32_t>(cell);
-        entry.corner = static_cast<std::uint8_t>(k);
-        entry.is_even = is_even;
-    });
-    for (std::size_t i = 0; i + 1 < bucket.size(); ++i) {
-        std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(bucket[i]),
-                  sorted.begin() + static_cast<std::ptrdiff_t>(bucket[i + 1]),
-                  [](const SortedFacet<Dim>& a, const SortedFacet<Dim>& b) {
-                      return a.rest != b.rest ? a.rest < b.rest : a.cell < b.cell;
-                  });
-    }
-    return sorted;
 }
 
 }  // namespace
 
 template <int Dim>
 FacetMatch<Dim> match_facets(const Simplices<Dim + 1>& cells, Eigen::Index vertices) {
-    struct CellFacet {
-        std::uint32_t cell;
-        std::uint8_t corner;
-    };
-    std::vector<std::size_t> bucket;
-    const std::vector<SortedFacet<Dim>> sorted = sorted_facets<Dim>(cells, vertices, bucket);
-
+    const CellsByLowestCorner<Dim> by_corner(cells, vertices);
+    FacetTable<Dim> table;
     FacetMatch<Dim> match;
     std::vector<CellFacet> boundary;
-    const auto blame = [&match](std::uint32_t cell) {
-        if (match.first_fault < 0 || cell < match.first_fault) {
-            match.first_fault = cell;
+    for (std::uint32_t vertex = 0; vertex + 1 < by_corner.begin.size(); ++vertex) {
+        const std::size_t begin = by_corner.begin[vertex];
+        const std::size_t end = by_corner.begin[vertex + 1];
+        table.clear(Dim * (end - begin));
+        for (std::size_t i = begin; i < end; ++i) {
+            add_facets<Dim>(cells, by_corner.cells[i], vertex, table);
         }
-    };
-    for (std::size_t group = 0; group + 1 < bucket.size(); ++group) {
-        for (std::size_t i = bucket[group]; i < bucket[group + 1];) {
-            std::size_t end = i + 1;
-            while (end < bucket[group + 1] && sorted[end].rest == sorted[i].rest) {
-                ++end;
-            }
-            if (end - i == 1) {
-                boundary.push_back({sorted[i].cell, sorted[i].corner});
-            } else if (end - i > 2) {
-                ++match.overfull;
-                blame(sorted[i].cell);
-            } else if (sorted[i].is_even == sorted[i + 1].is_even) {
-                ++match.one_sided;
-                blame(sorted[i].cell);
-            } else {
+        for (const auto& entry : table.entries()) {
+            if (entry.count == 1) {
+                const auto cell = cells.col(entry.cell);
+                const auto* corner = std::find(cell.data(), cell.data() + Dim + 1, entry.apex);
+                boundary.push_back({entry.cell, static_cast<int>(corner - cell.data())});
+            } else if (entry.count == 2 && !entry.is_one_sided) {
                 ++match.interior;
+            } else {
+                ++(entry.count > 2 ? match.overfull : match.one_sided);
+                if (match.first_fault < 0 || entry.cell < match.first_fault) {
+                    match.first_fault = entry.cell;
+                }
             }
-            i = end;
         }
     }
     std::sort(boundary.begin(), boundary.end(), [](const CellFacet& a, const CellFacet& b) {
         return a.cell != b.cell ? a.cell < b.cell : a.corner < b.corner;
     });
-    match.boundary.resize(Dim, static_cast<Eigen::Index>(boundary.size()));
-    match.boundary_cells.reserve(boundary.size());
-    for (std::size_t i = 0; i < boundary.size(); ++i) {
-        const auto facet = outward_facet<Dim>(cells, boundary[i].cell, boundary[i].corner);
-        for (int k = 0; k < Dim; ++k) {
-            match.boundary(k, static_cast<Eigen::Index>(i)) = facet[k];
-        }
-        match.boundary_cells.push_back(boundary[i].cell);
-    }
+    copy_boundary<Dim>(cells, boundary, match);
     return match;
 }
 
