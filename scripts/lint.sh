@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Checks form: clang-format (version 14) over all our sources, that every public header compiles alone,
+# and, with --tidy, clang-tidy (version 14; minutes) over the files that changed since a revision.
+#
+#   scripts/lint.sh [--tidy [REVISION]]      default revision: HEAD~1
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+for tool in clang-format clang-tidy; do
+    command -v "$tool" >/dev/null || { echo "lint: needs $tool: apt-get install $tool" >&2; exit 1; }
+done
+git ls-files '*.h' '*.cpp' '*.c' | xargs clang-format --dry-run --Werror
+cmake --preset dev >/dev/null
+cmake --build --preset dev --target all_verify_interface_header_sets
+if [ "${1:-}" = --tidy ]; then
+    mapfile -t files < <(git diff --name-only --diff-filter=d "${2:-HEAD~1}" -- '*.cpp')
+    [ ${#files[@]} -eq 0 ] || clang-tidy -p build/dev --quiet --warnings-as-errors='*' "${files[@]}"
+fi
+echo "lint: nothing to say"
