@@ -54,7 +54,7 @@ private:
     std::string name_;
     CLI::App cli_;
     CommonOptions common_;
-    nlohmann::ordered_json report_;
+    nlohmann::ordered_json report_ = nlohmann::ordered_json::object();
 };
 
 /// Whether the user asked the program to stop (SIGINT or SIGTERM).

@@ -138,7 +138,7 @@ Oriented orient(Surface surface) {
     result.components = parts.count;
     std::vector<bool> flip_shell(shells.size());
     for (std::size_t i = 0; i < shells.size(); ++i) {
-        const Eigen::Vector3d point = surface.points.col(shells[i].triangles(0, 0));
+        const Eigen::Vector3d point = shells[i].points.col(0);
         int depth = 0;
         for (std::size_t j = 0; j < shells.size(); ++j) {
             depth += j != i && is_inside(shells[j], boxes[j], point) ? 1 : 0;

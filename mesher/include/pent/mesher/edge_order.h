@@ -1,0 +1,63 @@
+#pragma once
+
+#include <pent/simplex_mesh.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace pent::mesher {
+
+/// Directed edges of a mesh, one a column, from row 0 to row 1.
+///
+/// A direction says how the rectangle above an edge is cut when the mesh is extruded: by the
+/// diagonal from the bottom of the first vertex to the top of the second [shi2025, Sec. 3].
+using DirectedEdges = Simplices<2>;
+
+/// Where the directions come from when the user gives none: each edge goes to the later vertex.
+enum class VertexOrder {
+    Index,    ///< As the vertices are numbered.
+    Sweep,    ///< Along the longest side of the bounding box.
+    Quality,  ///< Improved from Index so that the worst simplices of a slab are better.
+};
+
+/// The cells of a mesh, each with its corners in the order of its edges' directions.
+template <int Dim>
+struct OrderedCells {
+    Simplices<Dim + 1> cells;
+    std::vector<std::uint8_t> is_odd;  ///< Ordering the cell's corners was an odd permutation.
+};
+
+/// Every edge of the mesh once, from the lower to the higher index, sorted.
+template <int Dim>
+[[nodiscard]] DirectedEdges edges_of(const Simplices<Dim + 1>& cells);
+
+/// Every edge of the mesh once, directed from the vertex of lower rank to that of higher rank.
+///
+/// @param ranks  One a vertex, all different.
+template <int Dim>
+[[nodiscard]] DirectedEdges direct_edges(const SimplexMesh<Dim>& mesh,
+                                         const std::vector<std::uint32_t>& ranks);
+
+/// Ranks of the vertices in an order that needs no more than the mesh: Index or Sweep.
+template <int Dim>
+[[nodiscard]] std::vector<std::uint32_t> rank_vertices(const SimplexMesh<Dim>& mesh,
+                                                       VertexOrder order);
+
+/// Orders the corners of every cell by the directions of the edges.
+///
+/// If all edges together have no cycle, the order is that of a topological sort of their graph.
+/// Otherwise each cell is ordered on its own, which works if no triangle is a cycle: exactly then
+/// every prism over a cell can be cut into simplices without added points.
+/// Throws an Error if an edge of the mesh has no direction or two, if a directed edge is not one of
+/// the mesh, or if triangles are cycles; it lists the first few.
+template <int Dim>
+[[nodiscard]] OrderedCells<Dim> order_cells(const SimplexMesh<Dim>& mesh,
+                                            const DirectedEdges& edges);
+
+/// Reads directed edges: two 0-based vertices a line, `#` for comments. Throws an Error that names
+/// the line for what cannot be read or is not below `vertices`.
+[[nodiscard]] DirectedEdges read_directed_edges(const std::filesystem::path& path,
+                                                std::int64_t vertices);
+
+}  // namespace pent::mesher
