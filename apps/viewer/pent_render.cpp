@@ -1,0 +1,155 @@
+#include "view_options.h"
+
+#include <pent/error.h>
+#include <pent/viewer/movie.h>
+#include <pent/viewer/render_run.h>
+#include <pent/viewer/run_folder.h>
+
+#include <common/program.h>
+#include <common/progress.h>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace pent::apps {
+
+namespace {
+
+struct Arguments {
+    ViewArguments view;
+    std::string output;
+    std::string sheet;
+    std::string size = "1280x720";
+    std::string range;
+    bool no_floor = false;
+    bool no_caption = false;
+    viewer::RenderRunOptions render;
+};
+
+void add_options(CLI::App& cli, Arguments& arguments) {
+    add_view_options(cli, arguments.view);
+    viewer::RenderRunOptions& render = arguments.render;
+    cli.add_option("-o,--output", arguments.output,
+                   "movie.mp4 (made by ffmpeg), picture.png of one frame, or a folder of pictures")
+        ->type_name("OUT");
+    cli.add_option("--sheet", arguments.sheet,
+                   "A contact sheet, PNG: frames from left to right, slices downwards")
+        ->type_name("FILE");
+    cli.add_option("--sheet-columns", render.sheet_columns, "Frames on the sheet; default: 6")
+        ->check(CLI::Range(1, 100));
+    cli.add_option("--size", arguments.size, "Pixels of a picture; default: 1280x720")
+        ->type_name("WxH");
+    cli.add_option("--fps", render.frames_per_second, "Pictures a second of the movie; default: 30")
+        ->check(CLI::Range(0.1, 1000.0));
+    cli.add_option("--azimuth", render.view.azimuth, "Camera, degrees about y; default: 30")
+        ->check(CLI::Range(-3600.0, 3600.0));
+    cli.add_option("--elevation", render.view.elevation, "Camera, degrees up; default: 18")
+        ->check(CLI::Range(-89.0, 89.0));
+    cli.add_option("--fov", render.view.field_of_view, "Camera, degrees upright; default: 28")
+        ->check(CLI::Range(1.0, 150.0));
+    cli.add_option("--range", arguments.range, "Values of the first and last color, LOW,HIGH")
+        ->type_name("A,B");
+    cli.add_flag("--no-floor", arguments.no_floor, "Leave out the floor and its shadows");
+    cli.add_flag("--no-caption", arguments.no_caption, "Leave out time, slice and color bar");
+}
+
+void read_size(const std::string& text, viewer::RenderRunOptions& render) {
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%6dx%6d%n", &render.width, &render.height, &used) != 2
+        || static_cast<std::size_t>(used) != text.size()) {
+        throw Error("--size: found \"" + text + "\"; expected WIDTHxHEIGHT, as in 1280x720");
+    }
+}
+
+viewer::ColorRange to_color_range(const std::string& text) {
+    const std::vector<double> ends = to_numbers(text, "--range");
+    if (ends.size() != 2 || !(ends[0] < ends[1])) {
+        throw Error("--range: found \"" + text + "\"; expected LOW,HIGH with LOW below HIGH");
+    }
+    return {ends[0], ends[1]};
+}
+
+bool has_extension(const std::string& path, const std::string& extension) {
+    return std::filesystem::path(path).extension() == extension;
+}
+
+// Where the pictures go; a movie falls back to a folder of pictures where there is no ffmpeg.
+viewer::RenderTargets to_targets(const Program& program, const Arguments& arguments) {
+    viewer::RenderTargets targets;
+    targets.sheet = arguments.sheet;
+    const std::string& output = arguments.output;
+    if (output.empty() && arguments.sheet.empty()) {
+        throw Error(
+            "pictures: nothing to make; give -o movie.mp4, -o picture.png, -o FOLDER or "
+            "--sheet FILE.png");
+    }
+    if (!arguments.sheet.empty() && !has_extension(arguments.sheet, ".png")) {
+        throw Error("--sheet: found " + arguments.sheet + "; expected a name that ends in .png");
+    }
+    if (has_extension(output, ".mp4") && viewer::Movie::is_possible()) {
+        targets.movie = output;
+    } else if (has_extension(output, ".mp4")) {
+        targets.folder = output.substr(0, output.size() - 4) + "_pictures";
+        program.say("no ffmpeg to make " + output + ": pictures go to " + targets.folder.string()
+                    + " instead (install ffmpeg for a movie)");
+    } else if (has_extension(output, ".png")) {
+        targets.picture = output;
+    } else {
+        targets.folder = output;
+    }
+    return targets;
+}
+
+Verdict render(Program& program, Arguments& arguments) {
+    const viewer::RunFolder run = viewer::open_run(arguments.view.input);
+    viewer::RenderRunOptions& options = arguments.render;
+    options.sections = to_sections(arguments.view);
+    const viewer::RenderTargets targets = to_targets(program, arguments);
+    const bool is_one_picture = !targets.picture.empty() && targets.sheet.empty();
+    options.frames = viewer::select_frames(
+        run.frames,
+        is_one_picture && arguments.view.frames.empty() ? "last" : arguments.view.frames);
+    options.color = arguments.view.color;
+    options.has_floor = !arguments.no_floor;
+    options.has_caption = !arguments.no_caption;
+    read_size(arguments.size, options);
+    if (!arguments.range.empty()) {
+        options.range = to_color_range(arguments.range);
+    }
+
+    std::unique_ptr<Progress> progress;
+    const viewer::RenderRunReport report =
+        viewer::render_run(run, targets, options, [&](std::int64_t done, std::int64_t total) {
+            if (!progress) {
+                progress = std::make_unique<Progress>("steps", total, program.common().quiet);
+            }
+            progress->update(done);
+            return !stop_requested();
+        });
+    progress.reset();
+
+    program.report()["frames"] = options.frames.size();
+    program.report()["pictures"] = report.pictures;
+    program.report()["files"] = report.files;
+    std::string line = std::string(report.is_complete ? "finished" : "stopped") + ": "
+                       + std::to_string(report.pictures) + " pictures";
+    for (const std::string& file : report.files) {
+        line += (&file == &report.files.front() ? " in " : ", ") + file;
+    }
+    program.say(line + (report.is_empty ? " (the hyperplane misses the bodies)" : ""));
+    return report.is_complete ? Verdict::Finished : Verdict::Stopped;
+}
+
+}  // namespace
+
+}  // namespace pent::apps
+
+int main(int argc, char** argv) {
+    pent::apps::Program program(
+        "pent-render", "Renders pictures and movies of slices of four-dimensional bodies",
+        "pent-render RUN/ -o movie.mp4 --sheet sheet.png --w -0.1,0,0.1 --color strain");
+    pent::apps::Arguments arguments;
+    add_options(program.options(), arguments);
+    return program.run(argc, argv, [&] { return render(program, arguments); });
+}

@@ -1,0 +1,83 @@
+#include "view_options.h"
+
+#include <pent/viewer/run_folder.h>
+#include <pent/viewer/slice_run.h>
+
+#include <common/program.h>
+#include <common/progress.h>
+#include <map>
+#include <string>
+
+namespace pent::apps {
+
+namespace {
+
+struct Arguments {
+    ViewArguments view;
+    std::string output;
+    viewer::SurfaceFormat format = viewer::SurfaceFormat::Ply;
+    bool keep_degenerate = false;
+};
+
+void add_options(CLI::App& cli, Arguments& arguments) {
+    using viewer::SurfaceFormat;
+    add_view_options(cli, arguments.view);
+    cli.add_option("-o,--output", arguments.output, "Folder for the slices; made if need be")
+        ->required()
+        ->type_name("OUT");
+    const std::map<std::string, SurfaceFormat> formats = {
+        {"ply", SurfaceFormat::Ply}, {"obj", SurfaceFormat::Obj}, {"vtu", SurfaceFormat::Vtu}};
+    cli.add_option("--format", arguments.format, "ply, obj or vtu; default: ply")
+        ->transform(CLI::CheckedTransformer(formats).description(""))
+        ->type_name("KIND");
+    cli.add_flag("--keep-degenerate", arguments.keep_degenerate,
+                 "Keep the triangles of zero area that a slice through vertices has");
+}
+
+Verdict slice(Program& program, const Arguments& arguments) {
+    const viewer::RunFolder run = viewer::open_run(arguments.view.input);
+    viewer::SliceRunOptions options;
+    options.sections = to_sections(arguments.view);
+    options.frames = viewer::select_frames(run.frames, arguments.view.frames);
+    options.format = arguments.format;
+    options.color = arguments.view.color;
+    options.keep_degenerate = arguments.keep_degenerate;
+    options.created_by = program.name_and_version();
+
+    Progress progress("frames", static_cast<std::int64_t>(options.frames.size()),
+                      program.common().quiet);
+    const viewer::SliceRunReport report = viewer::slice_run(
+        run, arguments.output, options, [&](std::int64_t done, std::int64_t /*total*/) {
+            progress.update(done);
+            return !stop_requested();
+        });
+    progress.finish();
+
+    std::int64_t triangles = 0;
+    for (const viewer::SliceRecord& slice : report.slices) {
+        triangles += slice.triangles;
+    }
+    program.report()["frames"] = options.frames.size();
+    program.report()["slices"] = report.slices.size();
+    program.report()["triangles"] = triangles;
+    program.report()["output"] = arguments.output;
+    program.say(std::string(report.is_complete ? "finished" : "stopped") + ": "
+                + std::to_string(report.slices.size()) + " slices, " + std::to_string(triangles)
+                + " triangles in " + arguments.output
+                + (triangles == 0 ? " (the hyperplane misses the bodies)" : "")
+                + "; volumes in slices.csv");
+    return report.is_complete ? Verdict::Finished : Verdict::Stopped;
+}
+
+}  // namespace
+
+}  // namespace pent::apps
+
+int main(int argc, char** argv) {
+    pent::apps::Program program(
+        "pent-slice", "Slices four-dimensional bodies by hyperplanes into closed surfaces",
+        "pent-slice RUN/ -o OUT/ --w -0.1,0,0.1 --color strain");
+    pent::apps::Arguments arguments;
+    add_options(program.options(), arguments);
+    return program.run(argc, argv, [&] { return slice(program, arguments); });
+}

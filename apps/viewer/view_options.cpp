@@ -1,0 +1,145 @@
+#include "view_options.h"
+
+#include <pent/error.h>
+
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <sstream>
+
+namespace pent::apps {
+
+namespace {
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text + separator);
+    for (std::string part; std::getline(stream, part, separator);) {
+        parts.push_back(part);
+    }
+    return parts;
+}
+
+double to_number(const std::string& text, const std::string& what) {
+    double number = 0;
+    const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(begin, end, number);
+    if (error != std::errc() || stop != end || !std::isfinite(number)) {
+        throw Error(what + ": found \"" + text + "\"; expected a number");
+    }
+    return number;
+}
+
+// "0.25", or "A:B:N" for N numbers evenly from A to B.
+std::vector<double> to_range(const std::string& text, const std::string& what) {
+    const std::vector<std::string> parts = split(text, ':');
+    if (parts.size() == 1) {
+        return {to_number(text, what)};
+    }
+    const double count = parts.size() == 3 ? to_number(parts[2], what) : 0;
+    if (!(count >= 2) || count > 10000 || count != std::floor(count)) {
+        throw Error(what + ": found \"" + text
+                    + "\"; expected a number, or A:B:N for N from A to B, N at least 2");
+    }
+    const double from = to_number(parts[0], what);
+    const double to = to_number(parts[1], what);
+    std::vector<double> numbers;
+    for (int i = 0; i < static_cast<int>(count); ++i) {
+        numbers.push_back(from + (to - from) * i / (count - 1));
+    }
+    return numbers;
+}
+
+std::vector<double> to_offsets(const std::vector<std::string>& texts, const std::string& what) {
+    std::vector<double> offsets;
+    for (const std::string& text : texts) {
+        for (const std::string& part : split(text, ',')) {
+            const std::vector<double> range = to_range(part, what);
+            offsets.insert(offsets.end(), range.begin(), range.end());
+        }
+    }
+    return offsets;
+}
+
+viewer::PlaneRotation to_rotation(const std::string& text) {
+    const std::string axes = "xyzw";
+    const std::vector<std::string> parts = split(text, ':');
+    const bool is_plane = parts.size() == 2 && parts[0].size() == 2 && parts[0][0] != parts[0][1]
+                          && parts[0].find_first_not_of(axes) == std::string::npos;
+    if (!is_plane) {
+        throw Error("--rotate: found \"" + text
+                    + "\"; expected a plane and degrees, as in xw:30, the plane of two of x y z w");
+    }
+    const double degrees = to_number(parts[1], "--rotate " + text);
+    return {static_cast<int>(axes.find(parts[0][0])), static_cast<int>(axes.find(parts[0][1])),
+            degrees * std::numbers::pi / 180};
+}
+
+}  // namespace
+
+std::vector<double> to_numbers(const std::string& text, const std::string& what) {
+    std::vector<double> numbers;
+    for (const std::string& part : split(text, ',')) {
+        numbers.push_back(to_number(part, what));
+    }
+    return numbers;
+}
+
+void add_view_options(CLI::App& cli, ViewArguments& arguments) {
+    using viewer::ColorBy;
+    cli.add_option("input", arguments.input, "Run folder of pent-sim, or a .pent mesh")
+        ->required()
+        ->type_name("RUN");
+    cli.add_option("--frames", arguments.frames,
+                   "Which frames: a number, A:B or A:B:STEP with B included, last, or several with "
+                   "commas; default: all")
+        ->type_name("LIST");
+    cli.add_option("--w", arguments.w,
+                   "Slice at w = C, m; several, or A:B:N for N from A to B; default: one through "
+                   "the middle of the bodies")
+        ->type_name("C");
+    cli.add_option("--rotate", arguments.rotations,
+                   "Turn the bodies about the origin before slicing, PLANE:DEGREES as in xw:30; "
+                   "several apply in the order written")
+        ->type_name("TURN");
+    cli.add_option("--normal", arguments.normal,
+                   "Slice across this direction instead, X,Y,Z,W (made unit)")
+        ->type_name("N");
+    cli.add_option("--offset", arguments.offsets,
+                   "Distance of the slice from the origin along --normal, m; as --w")
+        ->type_name("D");
+    const std::map<std::string, ColorBy> colors = {{"body", ColorBy::Body},
+                                                   {"w", ColorBy::W},
+                                                   {"speed", ColorBy::Speed},
+                                                   {"strain", ColorBy::Strain}};
+    cli.add_option("--color", arguments.color, "Color by body, w, speed or strain; default: body")
+        ->transform(CLI::CheckedTransformer(colors).description(""))
+        ->type_name("WHAT");
+}
+
+viewer::SectionOptions to_sections(const ViewArguments& arguments) {
+    viewer::SectionOptions sections;
+    if (arguments.normal.empty() ? !arguments.offsets.empty() : !arguments.w.empty()) {
+        throw Error("slices: --offset goes with --normal, and --w does not; give one pair");
+    }
+    if (!arguments.normal.empty()) {
+        const std::vector<double> n = to_numbers(arguments.normal, "--normal");
+        if (n.size() != 4) {
+            throw Error("--normal: found " + std::to_string(n.size())
+                        + " numbers; expected four, as in 0,0,1,1");
+        }
+        sections.normal = Eigen::Vector4d(n[0], n[1], n[2], n[3]);
+    }
+    sections.offsets = to_offsets(arguments.normal.empty() ? arguments.w : arguments.offsets,
+                                  arguments.normal.empty() ? "--w" : "--offset");
+    for (const std::string& text : arguments.rotations) {
+        for (const std::string& turn : split(text, ',')) {
+            sections.rotations.push_back(to_rotation(turn));
+        }
+    }
+    return sections;
+}
+
+}  // namespace pent::apps

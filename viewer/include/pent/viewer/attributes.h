@@ -1,0 +1,43 @@
+#pragma once
+
+#include <pent/pent_file.h>
+#include <pent/simplex_mesh.h>
+#include <pent/viewer/boundary.h>
+#include <pent/viewer/surface.h>
+
+#include <Eigen/Core>
+
+namespace pent::viewer {
+
+/// Length of the velocity of each vertex, m/s; zero where the frame has no velocities.
+template <int Dim>
+[[nodiscard]] Eigen::VectorXd vertex_speed(const Frame<Dim>& frame);
+
+/// How much each vertex's surroundings are strained, dimensionless: the mean over the cells at the vertex,
+/// weighted by their rest volumes, of |E|, the Frobenius norm of the Green strain
+/// E = (F^T F - I) / 2. Zero at every rigid motion of the mesh.
+template <int Dim>
+[[nodiscard]] Eigen::VectorXd vertex_strain(const SimplexMesh<Dim>& rest,
+                                            const Positions<Dim>& positions);
+
+/// The w coordinate of each vertex, m; zero in three dimensions.
+template <int Dim>
+[[nodiscard]] Eigen::VectorXd vertex_w(const Positions<Dim>& positions);
+
+/// Outward normals for smooth shading, one per corner of each triangle of a surface: 3 x 3 triangles.
+///
+/// They come from the boundary of the body in R^Dim, averaged over the facets around each vertex that
+/// are within `crease` of the facet, and are then projected into the picture. So they do not
+/// suffer from slivers and zero-area triangles of a slice. A corner whose projected normal vanishes
+/// gets that of its triangle; in a triangle of zero area it may be zero. Unit length otherwise.
+///
+/// @param axes    3 x Dim: the picture's axes, the upper rows of the hyperplane's frame.
+/// @param crease  Radians; facets that meet at a sharper angle keep a visible edge.
+template <int Dim>
+[[nodiscard]] Positions<3> corner_normals(const Surface& surface,
+                                          const Boundary<Dim>& boundary,
+                                          const Positions<Dim>& positions,
+                                          const Eigen::Matrix<double, 3, Dim>& axes,
+                                          double crease);
+
+}  // namespace pent::viewer

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <pent/viewer/color.h>
+#include <pent/viewer/coloring.h>
+#include <pent/viewer/image.h>
+#include <pent/viewer/text.h>
+
+#include <string_view>
+
+namespace pent::viewer {
+
+/// Height of the letters that suits a picture, in pixels.
+[[nodiscard]] int caption_pixels(int picture_height);
+
+/// Writes a line into the lower left corner.
+void draw_caption(Image& image, const Font& font, std::string_view line);
+
+/// Draws a bar of the colors with its ends' values and a title into the lower right corner.
+void draw_color_bar(
+    Image& image, const Font& font, ColorMap map, const ColorRange& range, std::string_view title);
+
+}  // namespace pent::viewer

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <pent/simplex_mesh.h>
+#include <pent/viewer/camera.h>
+#include <pent/viewer/color.h>
+#include <pent/viewer/image.h>
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace pent::viewer {
+
+/// A triangle surface as it is to be seen.
+struct RenderObject {
+    Positions<3> positions;   ///< 3 x vertices, m.
+    Simplices<3> triangles;   ///< 3 x triangles, counter-clockwise from outside.
+    Positions<3> normals;     ///< 3 x 3 triangles: unit, one per corner of each triangle.
+    Eigen::Matrix3Xf colors;  ///< 3 x vertices, linear light: the share it reflects.
+    float opacity = 1;        ///< Below 1 it is a ghost: thin glass that casts no shadow.
+};
+
+struct RenderOptions {
+    int width = 1280;  ///< Pixels, at least 1.
+    int height = 720;  ///< Pixels, at least 1.
+    std::optional<double>
+        floor;              ///< Height y of a floor that takes the shadows, m; none: no floor.
+    double scene_size = 1;  ///< Diagonal of what is looked at, m: how far shade reaches. Over 0.
+    Eigen::Vector3d scene_center = Eigen::Vector3d::Zero();  ///< The middle of it.
+};
+
+/// A ray tracer: one soft key light, light from the sky with ambient occlusion, smooth edges.
+///
+/// The light stands to the left above the camera. The inside of a surface, which nobody should ever
+/// see, is a glaring magenta.
+class Renderer {
+public:
+    /// Throws an Error if the ray tracing library does not start.
+    Renderer();
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+
+    /// Pixels are independent of the number of threads.
+    [[nodiscard]] Image render(std::span<const RenderObject> objects,
+                               const Camera& camera,
+                               const RenderOptions& options) const;
+
+private:
+    struct Device;
+    std::unique_ptr<Device> device_;
+};
+
+}  // namespace pent::viewer

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <pent/viewer/camera.h>
+#include <pent/viewer/coloring.h>
+#include <pent/viewer/run_folder.h>
+#include <pent/viewer/section.h>
+#include <pent/viewer/slice_run.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pent::viewer {
+
+struct RenderRunOptions {
+    SectionOptions sections;  ///< Several are shown side by side.
+    std::vector<int> frames;  ///< Out of run.frames; at least one.
+    int width = 1280;         ///< Of a whole picture, pixels, 16..16384.
+    int height = 720;         ///< The same.
+    ColorBy color = ColorBy::Body;
+    std::optional<ColorRange> range;  ///< Of the color bar; none: that of the frames.
+    ViewOptions view;
+    bool has_floor = true;    ///< A floor under the lowest point, for the shadows.
+    bool has_caption = true;  ///< Time, hyperplane and color bar.
+    double frames_per_second = 30;
+    int sheet_columns = 6;  ///< Frames on a contact sheet, at most.
+};
+
+/// Where pictures go; any of them may be empty.
+struct RenderTargets {
+    std::filesystem::path movie;    ///< .mp4
+    std::filesystem::path picture;  ///< .png of the only frame
+    std::filesystem::path folder;   ///< 000123.png for every frame
+    std::filesystem::path sheet;    ///< .png: frames from left to right, hyperplanes downwards
+};
+
+struct RenderRunReport {
+    std::int64_t pictures = 0;  ///< Rendered.
+    bool is_complete = false;   ///< False if on_progress ended it; then no movie is left.
+    bool is_empty = false;      ///< No hyperplane meets a body in any frame.
+    ColorRange range;           ///< Of the color bar.
+    std::vector<std::string> files;
+};
+
+/// Renders frames of a run: slices in light and shade, one camera that sees all of every frame.
+///
+/// Throws an Error as reading and writing do, for a size that is out of range or, for a movie, odd,
+/// and for several frames in one picture.
+[[nodiscard]] RenderRunReport render_run(const RunFolder& run,
+                                         const RenderTargets& targets,
+                                         const RenderRunOptions& options,
+                                         const OnProgress& on_progress);
+
+}  // namespace pent::viewer

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <pent/pent_file.h>
+#include <pent/viewer/hyperplane.h>
+#include <pent/viewer/run_folder.h>
+#include <pent/viewer/surface.h>
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pent::viewer {
+
+/// Which hyperplanes to look at. Three-dimensional bodies are seen whole and take none of this.
+struct SectionOptions {
+    std::vector<double> offsets;            ///< m; empty: one through the middle of the bodies.
+    std::optional<Eigen::Vector4d> normal;  ///< Not with rotations.
+    std::vector<PlaneRotation> rotations;   ///< Applied to the bodies, in this order.
+
+    [[nodiscard]] bool is_default() const {
+        return offsets.empty() && !normal.has_value() && rotations.empty();
+    }
+};
+
+/// A hyperplane with the words to tell it by.
+struct Section {
+    Hyperplane plane;
+    std::string label;  ///< As "w = 0.25"; empty in three dimensions.
+};
+
+/// The hyperplanes asked for; at least one.
+///
+/// @param frames  Of all bodies at one moment, to find the middle.
+/// Throws an Error for a normal without direction or together with rotations, an offset that is not finite,
+/// and for any option in three dimensions.
+template <int Dim>
+[[nodiscard]] std::vector<Section> make_sections(const SectionOptions& options,
+                                                 std::span<const Frame<Dim>> frames);
+
+/// What is seen of a body: its slice, or in three dimensions all of its surface.
+template <int Dim>
+[[nodiscard]] Surface take_section(const Body<Dim>& body,
+                                   const Positions<Dim>& positions,
+                                   const Section& section);
+
+/// A number in few digits, as in captions: "0.25", "-3", "1.2e-05".
+[[nodiscard]] std::string short_number(double value);
+
+}  // namespace pent::viewer

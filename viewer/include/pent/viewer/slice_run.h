@@ -1,0 +1,58 @@
+#pragma once
+
+#include <pent/viewer/coloring.h>
+#include <pent/viewer/run_folder.h>
+#include <pent/viewer/section.h>
+#include <pent/viewer/surface_file.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace pent::viewer {
+
+/// Called after each piece of work with how much is done; ends the work early by returning false.
+using OnProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
+
+struct SliceRunOptions {
+    SectionOptions sections;
+    std::vector<int> frames;  ///< Out of run.frames; at least one.
+    SurfaceFormat format = SurfaceFormat::Ply;
+    ColorBy color = ColorBy::Body;  ///< Written as vertex colors, and as a scalar but for Body.
+    bool keep_degenerate = false;   ///< Keep triangles of zero area, as slice() makes them.
+    std::string created_by = "pent-slice";
+};
+
+/// One file that was written.
+struct SliceRecord {
+    std::string file;  ///< Name in the output folder.
+    int frame = 0;
+    double time = 0;  ///< s.
+    std::string section;
+    double offset = 0;  ///< m.
+    std::string body;
+    std::int64_t vertices = 0;
+    std::int64_t triangles = 0;
+    double volume = 0;  ///< m^3.
+    double area = 0;    ///< m^2.
+};
+
+struct SliceRunReport {
+    std::vector<SliceRecord> slices;
+    bool is_complete = false;  ///< False if on_progress ended it.
+};
+
+/// Slices frames of a run and writes one surface file per body, frame and hyperplane into a folder,
+/// which is made if need be: BODY_000123.ply, or BODY_s01_000123.ply when there are several
+/// hyperplanes. Beside them slices.csv lists all of them with volumes and areas; for VTU,
+/// BODY.pvd puts them in time for ParaView.
+///
+/// The color range is that of the frames chosen. Throws an Error as reading and writing do.
+[[nodiscard]] SliceRunReport slice_run(const RunFolder& run,
+                                       const std::filesystem::path& folder,
+                                       const SliceRunOptions& options,
+                                       const OnProgress& on_progress);
+
+}  // namespace pent::viewer

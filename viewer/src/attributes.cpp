@@ -1,0 +1,173 @@
+#include "parallel.h"
+
+#include <pent/viewer/attributes.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <cmath>
+
+namespace pent::viewer {
+
+namespace {
+
+template <int Dim>
+using Vector = Eigen::Matrix<double, Dim, 1>;
+
+template <int Dim>
+using Square = Eigen::Matrix<double, Dim, Dim>;
+
+template <int Dim>
+Square<Dim> edge_matrix(const Positions<Dim>& positions,
+                        const Eigen::Matrix<std::uint32_t, Dim + 1, 1>& cell) {
+    Square<Dim> edges;
+    for (int k = 0; k < Dim; ++k) {
+        edges.col(k) = positions.col(cell[k + 1]) - positions.col(cell[0]);
+    }
+    return edges;
+}
+
+// The vector n with n . v = det[v, t1 - t0, ...]: outward, as long as (Dim - 1)! times the facet.
+template <int Dim>
+Vector<Dim> facet_normal(const Positions<Dim>& positions,
+                         const Eigen::Matrix<std::uint32_t, Dim, 1>& facet) {
+    if constexpr (Dim == 3) {
+        const Eigen::Vector3d a = positions.col(facet[1]) - positions.col(facet[0]);
+        const Eigen::Vector3d b = positions.col(facet[2]) - positions.col(facet[0]);
+        return a.cross(b);
+    } else {
+        Eigen::Matrix<double, 4, 3> edges;
+        for (int k = 0; k < 3; ++k) {
+            edges.col(k) = positions.col(facet[k + 1]) - positions.col(facet[0]);
+        }
+        Eigen::Vector4d normal;
+        for (int axis = 0; axis < 4; ++axis) {  // cofactors of the first column
+            Eigen::Matrix3d minor;
+            for (int row = 0, kept = 0; row < 4; ++row) {
+                if (row != axis) {
+                    minor.row(kept++) = edges.row(row);
+                }
+            }
+            normal[axis] = (axis % 2 == 0 ? 1 : -1) * minor.determinant();
+        }
+        return normal;
+    }
+}
+
+// Sum of the normals around a vertex of those facets that are within the crease angle of `facet`.
+template <int Dim>
+Vector<Dim> smooth_normal(const Boundary<Dim>& boundary,
+                          const Eigen::Matrix<double, Dim, Eigen::Dynamic>& normals,
+                          std::uint32_t facet,
+                          std::uint32_t vertex,
+                          double crease_cosine) {
+    const double length = normals.col(facet).norm();
+    Vector<Dim> sum = Vector<Dim>::Zero();
+    for (std::uint32_t i = boundary.vertex_begin[vertex]; i < boundary.vertex_begin[vertex + 1];
+         ++i) {
+        const auto other = normals.col(boundary.vertex_facets[i]);
+        if (other.dot(normals.col(facet)) >= crease_cosine * length * other.norm()) {
+            sum += other;
+        }
+    }
+    return sum;
+}
+
+}  // namespace
+
+template <int Dim>
+Eigen::VectorXd vertex_speed(const Frame<Dim>& frame) {
+    if (frame.velocities.cols() == 0) {
+        return Eigen::VectorXd::Zero(frame.positions.cols());
+    }
+    return frame.velocities.colwise().norm().transpose();
+}
+
+template <int Dim>
+Eigen::VectorXd vertex_strain(const SimplexMesh<Dim>& rest, const Positions<Dim>& positions) {
+    Eigen::VectorXd volumes(rest.cell_count());
+    Eigen::VectorXd strains(rest.cell_count());
+    parallel_for_each(rest.cell_count(), [&](Eigen::Index c) {
+        const Square<Dim> at_rest = edge_matrix<Dim>(rest.positions, rest.cells.col(c));
+        const Square<Dim> inverse = at_rest.inverse();
+        const Square<Dim> F = edge_matrix<Dim>(positions, rest.cells.col(c)) * inverse;
+        volumes[c] = std::abs(at_rest.determinant());
+        strains[c] = (F.transpose() * F - Square<Dim>::Identity()).norm() / 2;
+    });
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(rest.vertex_count());
+    Eigen::VectorXd weight = Eigen::VectorXd::Zero(rest.vertex_count());
+    for (Eigen::Index c = 0; c < rest.cell_count(); ++c) {
+        for (int k = 0; k <= Dim; ++k) {
+            sum[rest.cells(k, c)] += volumes[c] * strains[c];
+            weight[rest.cells(k, c)] += volumes[c];
+        }
+    }
+    return (weight.array() > 0).select(sum.array() / weight.array(), 0);
+}
+
+template <int Dim>
+Eigen::VectorXd vertex_w(const Positions<Dim>& positions) {
+    if constexpr (Dim == 4) {
+        return positions.row(3).transpose();
+    } else {
+        return Eigen::VectorXd::Zero(positions.cols());
+    }
+}
+
+template <int Dim>
+Positions<3> corner_normals(const Surface& surface,
+                            const Boundary<Dim>& boundary,
+                            const Positions<Dim>& positions,
+                            const Eigen::Matrix<double, 3, Dim>& axes,
+                            double crease) {
+    Eigen::Matrix<double, Dim, Eigen::Dynamic> normals(Dim, boundary.facets.cols());
+    parallel_for_each(boundary.facets.cols(), [&](Eigen::Index f) {
+        normals.col(f) = facet_normal<Dim>(positions, boundary.facets.col(f));
+    });
+    const double crease_cosine = std::cos(crease);
+    Positions<3> result(3, 3 * surface.triangle_count());
+    parallel_for_each(surface.triangle_count(), [&](Eigen::Index t) {
+        const std::uint32_t facet = surface.facets[t];
+        const Eigen::Vector3<std::uint32_t> triangle = surface.triangles.col(t);
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t v = triangle[k];
+            const Vector<Dim> a =
+                smooth_normal<Dim>(boundary, normals, facet, surface.ends(0, v), crease_cosine);
+            const Vector<Dim> b =
+                smooth_normal<Dim>(boundary, normals, facet, surface.ends(1, v), crease_cosine);
+            const double s = surface.weights[v];
+            const Eigen::Vector3d seen =
+                axes * ((1.0 - s) * a.stableNormalized() + s * b.stableNormalized());
+            result.col(3 * t + k) = seen.stableNormalized();
+        }
+        const Eigen::Vector3d p = surface.positions.col(triangle[0]);
+        const Eigen::Vector3d flat = (surface.positions.col(triangle[1]) - p)
+                                         .cross(surface.positions.col(triangle[2]) - p)
+                                         .stableNormalized();
+        for (int k = 0; k < 3; ++k) {
+            if (result.col(3 * t + k).dot(flat) <= 0) {  // vanished, or turned away by a deep fold
+                result.col(3 * t + k) = flat;
+            }
+        }
+    });
+    return result;
+}
+
+template Eigen::VectorXd vertex_speed<3>(const Frame<3>& frame);
+template Eigen::VectorXd vertex_speed<4>(const Frame<4>& frame);
+template Eigen::VectorXd vertex_strain<3>(const SimplexMesh<3>&, const Positions<3>&);
+template Eigen::VectorXd vertex_strain<4>(const SimplexMesh<4>&, const Positions<4>&);
+template Eigen::VectorXd vertex_w<3>(const Positions<3>& positions);
+template Eigen::VectorXd vertex_w<4>(const Positions<4>& positions);
+template Positions<3> corner_normals<3>(const Surface&,
+                                        const Boundary<3>&,
+                                        const Positions<3>&,
+                                        const Eigen::Matrix<double, 3, 3>&,
+                                        double);
+template Positions<3> corner_normals<4>(const Surface&,
+                                        const Boundary<4>&,
+                                        const Positions<4>&,
+                                        const Eigen::Matrix<double, 3, 4>&,
+                                        double);
+
+}  // namespace pent::viewer

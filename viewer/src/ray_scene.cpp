@@ -1,0 +1,107 @@
+#include "ray_scene.h"
+
+#include <pent/error.h>
+
+namespace pent::viewer {
+
+RayScene::RayScene(RTCDevice device,
+                   std::span<const RenderObject> objects,
+                   bool ghosts,
+                   const Eigen::Vector3d& origin)
+    : objects_(objects), vertices_(objects.size()), scene_(rtcNewScene(device)) {
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const RenderObject& object = objects[i];
+        if ((object.opacity < 1) != ghosts || object.triangles.cols() == 0) {
+            continue;
+        }
+        is_empty_ = false;
+        vertices_[i].resize(4, object.positions.cols());
+        vertices_[i].topRows<3>() = (object.positions.colwise() - origin).cast<float>();
+        vertices_[i].row(3).setZero();
+        const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                   vertices_[i].data(), 0, 4 * sizeof(float),
+                                   static_cast<std::size_t>(object.positions.cols()));
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                   object.triangles.data(), 0, 3 * sizeof(std::uint32_t),
+                                   static_cast<std::size_t>(object.triangles.cols()));
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene_.get(), geometry, static_cast<unsigned>(i));
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(scene_.get());
+    if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
+        throw Error("picture: the ray tracer could not take the surfaces; is memory short?");
+    }
+}
+
+namespace {
+
+RTCRay make_ray(const Vec& from, const Vec& direction, float nearest, float farthest) {
+    RTCRay ray = {};
+    ray.org_x = from.x();
+    ray.org_y = from.y();
+    ray.org_z = from.z();
+    ray.dir_x = direction.x();
+    ray.dir_y = direction.y();
+    ray.dir_z = direction.z();
+    ray.tnear = nearest;
+    ray.tfar = farthest;
+    ray.mask = ~0U;
+    return ray;
+}
+
+}  // namespace
+
+RayHit RayScene::first_hit(const Vec& from, const Vec& direction, float nearest) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query = {};
+    query.ray = make_ray(from, direction, nearest, std::numeric_limits<float>::infinity());
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_.get(), &context, &query);
+    RayHit hit;
+    if (query.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
+        hit.distance = query.ray.tfar;
+        hit.object = query.hit.geomID;
+        hit.triangle = query.hit.primID;
+        hit.u = query.hit.u;
+        hit.v = query.hit.v;
+        hit.normal = Vec(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z).stableNormalized();
+    }
+    return hit;
+}
+
+bool RayScene::is_blocked(const Vec& from, const Vec& direction, float farthest) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray = make_ray(from, direction, 0, farthest);
+    rtcOccluded1(scene_.get(), &context, &ray);
+    return ray.tfar < 0;
+}
+
+Vec RayScene::corner(const RayHit& hit, int k) const {
+    const std::uint32_t vertex = objects_[hit.object].triangles(k, hit.triangle);
+    return vertices_[hit.object].col(vertex).head<3>();
+}
+
+Vec RayScene::corner_normal(const RayHit& hit, int k) const {
+    const Eigen::Index column = 3 * static_cast<Eigen::Index>(hit.triangle) + k;
+    return objects_[hit.object].normals.col(column).cast<float>();
+}
+
+Vec RayScene::smooth_normal(const RayHit& hit) const {
+    const Vec mixed = (1 - hit.u - hit.v) * corner_normal(hit, 0) + hit.u * corner_normal(hit, 1)
+                      + hit.v * corner_normal(hit, 2);
+    const float length = mixed.norm();
+    return length > 0 ? Vec(mixed / length) : hit.normal;
+}
+
+Color RayScene::color(const RayHit& hit) const {
+    const RenderObject& object = objects_[hit.object];
+    const auto at = [&](int k) { return object.colors.col(object.triangles(k, hit.triangle)); };
+    return (1 - hit.u - hit.v) * at(0) + hit.u * at(1) + hit.v * at(2);
+}
+
+}  // namespace pent::viewer

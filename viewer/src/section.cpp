@@ -1,0 +1,109 @@
+#include <pent/error.h>
+#include <pent/viewer/section.h>
+#include <pent/viewer/slice.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+
+namespace pent::viewer {
+
+namespace {
+
+void check(const SectionOptions& options) {
+    for (const double offset : options.offsets) {
+        if (!std::isfinite(offset)) {
+            throw Error("slices: found an offset that is not finite; expected a length in meters");
+        }
+    }
+    if (options.normal && !options.rotations.empty()) {
+        throw Error("slices: found both a normal and rotations; give one of them");
+    }
+}
+
+Hyperplane make_plane(const SectionOptions& options, double offset) {
+    return options.normal ? hyperplane_across(*options.normal, offset)
+                          : hyperplane_at(offset, options.rotations);
+}
+
+std::string label_of(const SectionOptions& options, const Hyperplane& plane) {
+    constexpr char kAxes[] = "xyzw";
+    if (options.normal) {
+        std::string label = "(";
+        for (int axis = 0; axis < 4; ++axis) {
+            label += short_number(plane.frame(3, axis)) + (axis < 3 ? ", " : "");
+        }
+        return label + ") . p = " + short_number(plane.offset);
+    }
+    std::string label = "w = " + short_number(plane.offset);
+    for (const PlaneRotation& rotation : options.rotations) {
+        label += std::string(", ") + kAxes[rotation.from] + kAxes[rotation.to] + " "
+                 + short_number(rotation.radians * 180 / std::numbers::pi);
+    }
+    return label;
+}
+
+// The offset halfway between the lowest and the highest vertex along the normal.
+double middle_offset(const SectionOptions& options, std::span<const Frame<4>> frames) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const Frame<4>& frame : frames) {
+        const Eigen::VectorXd heights = distances(frame.positions, make_plane(options, 0));
+        low = std::min(low, heights.minCoeff());
+        high = std::max(high, heights.maxCoeff());
+    }
+    return (low + high) / 2;
+}
+
+}  // namespace
+
+std::string short_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value == 0 ? 0.0 : value);  // no "-0"
+    return text;
+}
+
+template <>
+std::vector<Section> make_sections<4>(const SectionOptions& options,
+                                      std::span<const Frame<4>> frames) {
+    check(options);
+    std::vector<double> offsets = options.offsets;
+    if (offsets.empty()) {
+        offsets.push_back(middle_offset(options, frames));
+    }
+    std::vector<Section> sections;
+    for (const double offset : offsets) {
+        const Hyperplane plane = make_plane(options, offset);
+        sections.push_back({plane, label_of(options, plane)});
+    }
+    return sections;
+}
+
+template <>
+std::vector<Section> make_sections<3>(const SectionOptions& options,
+                                      std::span<const Frame<3>> /*frames*/) {
+    if (!options.is_default()) {
+        throw Error(
+            "slices: the bodies have dimension 3 and are shown whole; leave out the "
+            "hyperplane");
+    }
+    return {Section()};
+}
+
+template <>
+Surface take_section<4>(const Body<4>& body,
+                        const Positions<4>& positions,
+                        const Section& section) {
+    return slice(body.boundary, positions, section.plane);
+}
+
+template <>
+Surface take_section<3>(const Body<3>& body,
+                        const Positions<3>& positions,
+                        const Section& /*section*/) {
+    return skin(body.boundary, positions);
+}
+
+}  // namespace pent::viewer

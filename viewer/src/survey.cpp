@@ -1,0 +1,70 @@
+#include "survey.h"
+
+namespace pent::viewer {
+
+template <int Dim>
+Survey survey(const RunFolder& run,
+              const std::vector<Body<Dim>>& bodies,
+              const std::vector<Section>& sections,
+              const std::vector<int>& frames,
+              ColorBy color,
+              const std::function<bool(std::size_t)>& go_on) {
+    Survey result;
+    bool is_first = true;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        for (const Body<Dim>& body : bodies) {
+            const Frame<Dim> frame = load_frame<Dim>(run, body, frames[i]);
+            const Eigen::VectorXd values = vertex_values<Dim>(body, frame, color);
+            for (const Section& section : sections) {
+                const Surface surface = take_section<Dim>(body, frame.positions, section);
+                if (surface.vertex_count() == 0) {
+                    continue;
+                }
+                result.box.extend(bounding_box(surface));
+                const ColorRange range = suitable_range(interpolate(surface, values), color);
+                result.range = is_first ? range : joined(result.range, range);
+                is_first = false;
+            }
+        }
+        if (go_on && !go_on(i + 1) && i + 1 < frames.size()) {
+            result.is_complete = false;
+            break;
+        }
+    }
+    return result;
+}
+
+template <int Dim>
+std::vector<Section> sections_at_start(const RunFolder& run,
+                                       const std::vector<Body<Dim>>& bodies,
+                                       const SectionOptions& options,
+                                       const std::vector<int>& frames) {
+    std::vector<Frame<Dim>> start;
+    for (const Body<Dim>& body : bodies) {
+        start.push_back(load_frame<Dim>(run, body, frames.front()));
+    }
+    return make_sections<Dim>(options, start);
+}
+
+template Survey survey<3>(const RunFolder&,
+                          const std::vector<Body<3>>&,
+                          const std::vector<Section>&,
+                          const std::vector<int>&,
+                          ColorBy,
+                          const std::function<bool(std::size_t)>&);
+template Survey survey<4>(const RunFolder&,
+                          const std::vector<Body<4>>&,
+                          const std::vector<Section>&,
+                          const std::vector<int>&,
+                          ColorBy,
+                          const std::function<bool(std::size_t)>&);
+template std::vector<Section> sections_at_start<3>(const RunFolder&,
+                                                   const std::vector<Body<3>>&,
+                                                   const SectionOptions&,
+                                                   const std::vector<int>&);
+template std::vector<Section> sections_at_start<4>(const RunFolder&,
+                                                   const std::vector<Body<4>>&,
+                                                   const SectionOptions&,
+                                                   const std::vector<int>&);
+
+}  // namespace pent::viewer

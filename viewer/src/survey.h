@@ -1,0 +1,39 @@
+#pragma once
+
+#include <pent/viewer/coloring.h>
+#include <pent/viewer/run_folder.h>
+#include <pent/viewer/section.h>
+
+#include <Eigen/Geometry>
+
+#include <functional>
+#include <vector>
+
+namespace pent::viewer {
+
+/// What holds for all the chosen frames together, so that a movie has one camera and one color bar.
+struct Survey {
+    Eigen::AlignedBox3d box;  ///< Around all slices; empty if no hyperplane meets a body.
+    ColorRange range;
+    bool is_complete = true;  ///< False if it was ended early.
+};
+
+/// Slices every chosen frame once to see how far things reach.
+///
+/// @param go_on  Called after each frame with how many are done; false ends it. May be empty.
+template <int Dim>
+[[nodiscard]] Survey survey(const RunFolder& run,
+                            const std::vector<Body<Dim>>& bodies,
+                            const std::vector<Section>& sections,
+                            const std::vector<int>& frames,
+                            ColorBy color,
+                            const std::function<bool(std::size_t)>& go_on);
+
+/// The sections asked for; the middle is that of the first chosen frame.
+template <int Dim>
+[[nodiscard]] std::vector<Section> sections_at_start(const RunFolder& run,
+                                                     const std::vector<Body<Dim>>& bodies,
+                                                     const SectionOptions& options,
+                                                     const std::vector<int>& frames);
+
+}  // namespace pent::viewer
