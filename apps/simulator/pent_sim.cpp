@@ -1,0 +1,122 @@
+#include "common/program.h"
+#include "common/progress.h"
+
+#include <pent/simulator/run.h>
+#include <pent/simulator/scene_file.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+namespace {
+
+using pent::apps::Program;
+using pent::apps::Verdict;
+using pent::simulator::FrameReport;
+using pent::simulator::RunReport;
+using pent::simulator::RunVerdict;
+using pent::simulator::StepReport;
+
+struct Arguments {
+    std::string scene;
+    std::string output;
+    std::string isa;
+    bool force = false;
+    bool resume = false;
+};
+
+Verdict verdict_of(RunVerdict verdict) {
+    switch (verdict) {
+        case RunVerdict::Finished:
+            return Verdict::Finished;
+        case RunVerdict::Stopped:
+            return Verdict::Stopped;
+        case RunVerdict::Diverged:
+            return Verdict::Diverged;
+    }
+    return Verdict::Diverged;
+}
+
+std::string percent(double fraction) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f%%", 100 * fraction);
+    return text;
+}
+
+void summarize(Program& program, const RunReport& report, const std::string& folder) {
+    nlohmann::ordered_json bodies = nlohmann::ordered_json::array();
+    for (std::size_t body = 0; body < report.bodies.size(); ++body) {
+        double most = 0;
+        for (const FrameReport& frame : report.frames) {
+            most = std::max(most, frame.non_rigid[body]);
+        }
+        program.say(report.bodies[body] + ": differs from a rigid motion by up to " + percent(most)
+                    + " of its size");
+        bodies.push_back({{"name", report.bodies[body]}, {"non_rigid_max", most}});
+    }
+    std::int64_t iterations = 0;
+    std::int64_t refused = 0;
+    for (const StepReport& step : report.steps) {
+        iterations += step.iterations;
+        refused += step.refused;
+    }
+    program.report()["frames"] = report.frames.size();
+    program.report()["steps"] = report.steps.size();
+    program.report()["iterations"] = iterations;
+    program.report()["refused"] = refused;
+    program.report()["vertices"] = report.size.vertices;
+    program.report()["cells"] = report.size.cells;
+    program.report()["bodies"] = bodies;
+    program.say(std::string(verdict_name(report.verdict)) + ": "
+                + std::to_string(report.frames.size()) + " frames in " + folder + ", "
+                + std::to_string(report.steps.size()) + " steps, "
+                + pent::apps::readable_time(report.seconds));
+}
+
+Verdict simulate(Program& program, const Arguments& arguments) {
+    const pent::simulator::Scene scene = pent::simulator::read_scene(arguments.scene);
+    pent::apps::Progress progress("frame", scene.frames, program.common().quiet);
+    pent::simulator::RunCallbacks callbacks;
+    callbacks.should_stop = pent::apps::stop_requested;
+    callbacks.on_frame = [&](const FrameReport& frame, const StepReport& step) {
+        if (frame.frame > 0) {
+            progress.update(frame.frame, std::to_string(step.iterations) + " iterations");
+        }
+    };
+    const RunReport report = run(scene,
+                                 {.folder = arguments.output,
+                                  .force = arguments.force,
+                                  .resume = arguments.resume,
+                                  .threads = program.common().threads,
+                                  .isa = arguments.isa,
+                                  .created_by = program.name_and_version()},
+                                 callbacks);
+    progress.finish();
+    summarize(program, report, arguments.output);
+    if (!report.message.empty()) {
+        std::fprintf(stderr, "pent-sim: diverged at %s\n", report.message.c_str());
+        program.report()["message"] = report.message;
+    }
+    return verdict_of(report.verdict);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Program program("pent-sim",
+                    "Simulates the deformable bodies of a scene, in four dimensions or three.",
+                    "pent-sim octopus.toml -o run/");
+    Arguments arguments;
+    CLI::App& options = program.options();
+    options.add_option("scene", arguments.scene, "Scene file (TOML)")->required();
+    options.add_option("-o,--output", arguments.output, "Folder for the run")->required();
+    CLI::Option* force =
+        options.add_flag("--force", arguments.force, "Replace a run that is in the folder");
+    options
+        .add_flag("--resume", arguments.resume,
+                  "Go on with the run in the folder behind its last whole frame")
+        ->excludes(force);
+    options.add_option("--isa", arguments.isa,
+                       "Instruction set: scalar, baseline, avx2 or avx512; default: the widest");
+    return program.run(argc, argv, [&] { return simulate(program, arguments); });
+}

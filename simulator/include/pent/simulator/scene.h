@@ -1,0 +1,152 @@
+#pragma once
+
+#include <pent/simulator/material.h>
+#include <pent/simulator/solver_options.h>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace pent::simulator {
+
+/// What to simulate, as plain data. Every vector has `Scene::dimension` entries, axes x y z w.
+///
+/// read_scene() fills a Scene from a file and checks it; a host program may as well fill one itself.
+
+/// A plane of rotation: by a positive angle, axis `from` turns towards axis `to`.
+struct Plane {
+    int from = 0;
+    int to = 1;
+};
+
+/// One rotation of a placement.
+struct Turn {
+    Plane plane;
+    double degrees = 0;
+};
+
+/// One rotation of a motion; turns at a constant rate.
+struct Spin {
+    Plane plane;
+    double degrees_per_s = 0;
+};
+
+/// Where a mesh goes: scaled, then turned about the mesh's origin in the order given, then moved.
+struct Placement {
+    double scale = 1;  ///< > 0.
+    std::vector<Turn> rotate;
+    Eigen::VectorXd translate;  ///< m.
+};
+
+struct Body {
+    std::string name;  ///< Letters, digits, '-' and '_': part of file names.
+    std::string mesh;  ///< Path of a .pent file.
+    Placement place;
+    Material material;
+};
+
+/// Points at most `radius` from `center`.
+struct BallSelection {
+    Eigen::VectorXd center;  ///< m.
+    double radius = 0;       ///< m, > 0.
+};
+
+/// Points between two corners, borders included.
+struct BoxSelection {
+    Eigen::VectorXd low;   ///< m.
+    Eigen::VectorXd high;  ///< m; not below `low` along any axis.
+};
+
+/// Points p with normal . p <= offset.
+struct HalfSpaceSelection {
+    Eigen::VectorXd normal;  ///< Unit length.
+    double offset = 0;       ///< m.
+};
+
+/// Vertices of the extrusion layers first..last of a mesh that knows its layers.
+struct LayerSelection {
+    std::uint32_t first = 0;
+    std::uint32_t last = 0;
+};
+
+/// Vertices of the cells with one region label.
+struct RegionSelection {
+    std::uint16_t region = 0;
+};
+
+/// Every vertex of the body, which makes it fully kinematic.
+struct EverythingSelection {};
+
+using Selection = std::variant<BallSelection,
+                               BoxSelection,
+                               HalfSpaceSelection,
+                               LayerSelection,
+                               RegionSelection,
+                               EverythingSelection>;
+
+/// How selected vertices move: turned about `about` while it is carried along.
+///
+/// With s = the time within [from, to], less `from`, a vertex at X at t = 0 is at
+/// about + s translate + R(s) (X - about), R(s) being the spins applied in the order given. No
+/// translation and no spin holds the vertices where they are.
+struct Motion {
+    Eigen::VectorXd translate;  ///< m/s.
+    std::vector<Spin> rotate;
+    std::optional<Eigen::VectorXd> about;  ///< m; the mean of the selected vertices if absent.
+    double from = 0;                       ///< s, >= 0.
+    double to = std::numeric_limits<double>::infinity();  ///< s, > from.
+};
+
+/// Prescribes the motion of some vertices of a body, selected on placed positions at t = 0.
+struct Constraint {
+    std::string body;
+    std::vector<Selection> select;  ///< A union.
+    Motion motion;
+};
+
+/// A half-space no body may enter: {p : normal . p < offset} pushes out along `normal`.
+///
+/// Every vertex nearer than `distance` to the half-space, or inside it, has the energy
+/// stiffness (distance - l)^2, l being the signed distance: a force that grows linearly with depth.
+struct Obstacle {
+    Eigen::VectorXd normal;   ///< Unit length.
+    double offset = 0;        ///< m.
+    double distance = 0.02;   ///< m, >= 0.
+    double stiffness = 1000;  ///< N/m for each vertex, > 0.
+};
+
+/// Rayleigh damping: C = mass M + stiffness K, K being the tangent at the start of a step.
+struct Damping {
+    double mass = 0;       ///< 1/s, >= 0.
+    double stiffness = 0;  ///< s, >= 0.
+};
+
+struct Scene {
+    int dimension = 4;        ///< 3 or 4.
+    Eigen::VectorXd gravity;  ///< m/s^2.
+    int frames = 100;         ///< After frame 0, which is the start; > 0.
+    double frames_per_second = 30;
+    int steps_per_frame = 1;
+    std::vector<Body> bodies;
+    std::vector<Constraint> constraints;
+    std::vector<Obstacle> obstacles;
+    std::optional<Damping> damping;  ///< Absent: not modeled.
+    SolverOptions solver;
+
+    /// Length of a time step, s.
+    [[nodiscard]] double dt() const { return 1.0 / (frames_per_second * steps_per_frame); }
+};
+
+/// "xw" for {0, 3}.
+[[nodiscard]] std::string plane_name(const Plane& plane);
+
+/// Throws an Error that names the entry unless every number is in its range, vectors have the
+/// scene's dimension, names are unique and valid, and constraints name bodies of the scene.
+void check(const Scene& scene);
+
+}  // namespace pent::simulator

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <pent/simplex_mesh.h>
+#include <pent/simulator/scene.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pent::simulator {
+
+struct SimulationOptions {
+    int threads = 1;  ///< At least 1. Results do not depend on it.
+    std::string isa;  ///< "scalar", "baseline", "avx2" or "avx512"; empty for the best there is.
+};
+
+/// How big a simulation is.
+struct SimulationSize {
+    std::int64_t vertices = 0;
+    std::int64_t cells = 0;
+    std::int64_t free_vertices = 0;  ///< Those with unknowns: Dim each.
+    std::int64_t elements = 0;       ///< Cells with a free vertex; others cost nothing.
+    std::int64_t matrix_blocks = 0;  ///< Dim x Dim blocks stored, upper triangle.
+    std::int64_t bytes = 0;          ///< Of what grows with the mesh, in memory.
+};
+
+/// Energies of a state, J. A part of the model that is absent has 0.
+struct Energies {
+    double kinetic = 0;
+    double elastic = 0;  ///< Of cells with a free vertex.
+    double gravity = 0;  ///< -sum of m g . x.
+    double obstacle = 0;
+
+    [[nodiscard]] double total() const { return kinetic + elastic + gravity + obstacle; }
+};
+
+/// What one step did.
+struct StepReport {
+    std::uint64_t step = 0;  ///< Steps taken so far, this one included.
+    double time = 0;         ///< At its end, s.
+    bool is_accepted =
+        false;  ///< If not, the state is that before the step, and `failure` says why.
+    std::string failure;
+    int substeps = 0;           ///< 1, or more where the step had to be cut.
+    int refused = 0;            ///< Attempts that were thrown away.
+    int iterations = 0;         ///< Of the linear solver, in all.
+    double residual = 0;        ///< Largest |b - A x| / |b|, computed from x.
+    std::int64_t inverted = 0;  ///< Elements with J <= 0 at the end.
+    Energies energies;          ///< At the end.
+    double assembly_seconds = 0;
+    double solve_seconds = 0;
+    double seconds = 0;  ///< All of the step.
+};
+
+/// A scene in motion, which a host program steps.
+///
+/// State is kept in double. Bodies are in the order of the scene; vertices in the order of their
+/// mesh. Views hold until the next step() or set_state(); then take them anew.
+template <int Dim>
+class Simulation {
+public:
+    using View = Eigen::Map<const Positions<Dim>>;
+
+    /// @param meshes  One for each body, as loaded: placement is done here.
+    ///
+    /// Throws an Error if the scene does not pass check(), its dimension is not Dim, a mesh does
+    /// not pass validate(), a constraint selects nothing, or two select the same vertex.
+    Simulation(const Scene& scene,
+               std::vector<SimplexMesh<Dim>> meshes,
+               const SimulationOptions& options = {});
+    ~Simulation();
+    Simulation(Simulation&&) noexcept;
+    Simulation& operator=(Simulation&&) noexcept;
+    Simulation(const Simulation&) = delete;
+    Simulation& operator=(const Simulation&) = delete;
+
+    /// One time step of Scene::dt().
+    ///
+    /// An attempt fails when the linear solver does not reach its tolerance or the state stops being
+    /// finite; it is then thrown away and the step cut in two, up to SolverOptions::max_halvings
+    /// times. If that does not help, the report says so and the state stays as it was.
+    [[nodiscard]] StepReport step();
+
+    [[nodiscard]] int body_count() const;
+    [[nodiscard]] const SimplexMesh<Dim>& mesh(int body) const;  ///< As placed.
+    [[nodiscard]] View positions(int body) const;                ///< m.
+    [[nodiscard]] View velocities(int body) const;               ///< m/s.
+    [[nodiscard]] View forces(int body) const;  ///< Elastic, gravity and obstacles, N.
+    [[nodiscard]] Eigen::Map<const Eigen::VectorXd> masses(int body) const;  ///< Lumped, kg.
+
+    [[nodiscard]] double time() const;  ///< s.
+    [[nodiscard]] std::uint64_t step_count() const;
+    [[nodiscard]] Energies energies() const;
+    [[nodiscard]] SimulationSize size() const;
+    [[nodiscard]] std::string isa() const;  ///< Name of the instruction set in use.
+
+    /// Puts a body where it was, for a resumed run or a host's own start. Held vertices follow their
+    /// motion from the next step on, whatever is said here. Throws an Error unless both arrays are
+    /// finite and Dim x vertices.
+    void set_state(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
+
+    /// Sets how many steps have been taken, and so the time.
+    void set_step_count(std::uint64_t steps);
+
+private:
+    class State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace pent::simulator

@@ -1,0 +1,91 @@
+#pragma once
+
+#include "block_pattern.h"
+#include "kernels.h"
+#include "parallel.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace pent::simulator {
+
+/// Vectors of the unknowns, one block a column: Dim x rows.
+template <int Dim>
+using BlockVector = Positions<Dim>;
+
+/// Symmetric matrix of Dim x Dim blocks on a fixed pattern, upper triangle stored.
+template <int Dim, typename Scalar>
+class BlockMatrix {
+public:
+    using Block = Eigen::Matrix<Scalar, Dim, Dim>;
+    static constexpr std::int64_t kEntries = Dim * Dim;
+
+    explicit BlockMatrix(const BlockPattern& pattern)
+        : pattern_(&pattern), values_(static_cast<std::size_t>(pattern.blocks() * kEntries), 0) {}
+
+    [[nodiscard]] const BlockPattern& pattern() const { return *pattern_; }
+    [[nodiscard]] Scalar* values() { return values_.data(); }
+    [[nodiscard]] const Scalar* values() const { return values_.data(); }
+    [[nodiscard]] std::int64_t rows() const { return pattern_->rows(); }
+
+    [[nodiscard]] Eigen::Map<Block> block(std::int64_t index) {
+        return Eigen::Map<Block>(values_.data() + index * kEntries);
+    }
+    [[nodiscard]] Eigen::Map<const Block> block(std::int64_t index) const {
+        return Eigen::Map<const Block>(values_.data() + index * kEntries);
+    }
+    [[nodiscard]] Eigen::Map<const Block> diagonal(std::int64_t row) const {
+        return block(pattern_->row_start[static_cast<std::size_t>(row)]);
+    }
+    [[nodiscard]] Eigen::Map<Block> diagonal(std::int64_t row) {
+        return block(pattern_->row_start[static_cast<std::size_t>(row)]);
+    }
+
+    void set_zero(const Workers& workers) {
+        for_each_row_chunk(workers, [&](std::int64_t begin, std::int64_t end) {
+            const auto& start = pattern_->row_start;
+            std::fill(values_.begin() + start[static_cast<std::size_t>(begin)] * kEntries,
+                      values_.begin() + start[static_cast<std::size_t>(end)] * kEntries, Scalar(0));
+        });
+    }
+
+    /// result = A x.
+    void multiply(const Workers& workers,
+                  const Kernels<Dim>& kernels,
+                  const BlockVector<Dim>& x,
+                  BlockVector<Dim>& result) const {
+        for_each_row_chunk(workers, [&](std::int64_t begin, std::int64_t end) {
+            result.middleCols(begin, end - begin).setZero();
+        });
+        for (const std::vector<int>& chunks : pattern_->coloring.colors) {
+            workers.for_each(static_cast<int>(chunks.size()), [&](int i) {
+                const std::int64_t begin =
+                    chunks[static_cast<std::size_t>(i)] * BlockPattern::kChunkRows;
+                const BlockRows<Scalar> rows{
+                    values_.data(), pattern_->row_start.data(), pattern_->columns.data(), begin,
+                    std::min(begin + BlockPattern::kChunkRows, this->rows())};
+                if constexpr (sizeof(Scalar) == sizeof(float)) {
+                    kernels.multiply_float(rows, x.data(), result.data());
+                } else {
+                    kernels.multiply_double(rows, x.data(), result.data());
+                }
+            });
+        }
+    }
+
+    /// Calls work(begin, end) for chunks of rows, at the same time.
+    template <typename Work>
+    void for_each_row_chunk(const Workers& workers, const Work& work) const {
+        workers.for_each(pattern_->chunks, [&](int chunk) {
+            const std::int64_t begin = chunk * BlockPattern::kChunkRows;
+            work(begin, std::min(begin + BlockPattern::kChunkRows, rows()));
+        });
+    }
+
+private:
+    const BlockPattern* pattern_;
+    std::vector<Scalar> values_;
+};
+
+}  // namespace pent::simulator

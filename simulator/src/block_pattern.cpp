@@ -1,0 +1,67 @@
+#include "block_pattern.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace pent::simulator {
+
+std::int64_t BlockPattern::find(std::uint32_t row, std::uint32_t column) const {
+    const auto first = columns.begin() + row_start[row];
+    const auto last = columns.begin() + row_start[row + 1];
+    return std::lower_bound(first, last, column) - columns.begin();
+}
+
+template <int Dim>
+BlockPattern make_pattern(const Simplices<Dim + 1>& cells, const Numbering& numbering) {
+    const std::uint32_t free_count = numbering.free_count();
+    const auto for_each_pair = [&](const auto& visit) {
+        for (Eigen::Index cell = 0; cell < cells.cols(); ++cell) {
+            for (int a = 0; a <= Dim; ++a) {
+                const std::uint32_t row = numbering.unknown_of_vertex[cells(a, cell)];
+                for (int b = 0; b <= Dim; ++b) {
+                    const std::uint32_t column = numbering.unknown_of_vertex[cells(b, cell)];
+                    if (row < column && column < free_count) {
+                        visit(row, column);
+                    }
+                }
+            }
+        }
+    };
+    std::vector<std::int64_t> start(free_count + 1, 0);
+    for_each_pair([&](std::uint32_t row, std::uint32_t /*column*/) { ++start[row + 1]; });
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<std::uint32_t> found(static_cast<std::size_t>(start.back()));
+    std::vector<std::int64_t> next(start.begin(), start.end() - 1);
+    for_each_pair([&](std::uint32_t row, std::uint32_t column) {
+        found[static_cast<std::size_t>(next[row]++)] = column;
+    });
+    BlockPattern pattern;
+    pattern.row_start.push_back(0);
+    for (std::uint32_t row = 0; row < free_count; ++row) {
+        const auto first = found.begin() + start[row];
+        const auto last = found.begin() + start[row + 1];
+        std::sort(first, last);
+        pattern.columns.push_back(row);
+        pattern.columns.insert(pattern.columns.end(), first, std::unique(first, last));
+        pattern.row_start.push_back(static_cast<std::int64_t>(pattern.columns.size()));
+    }
+    pattern.columns.shrink_to_fit();
+    pattern.chunks =
+        static_cast<int>((free_count + BlockPattern::kChunkRows - 1) / BlockPattern::kChunkRows);
+    pattern.coloring = color_chunks(pattern.chunks, free_count, [&](int chunk, const auto& touch) {
+        const std::int64_t begin = chunk * BlockPattern::kChunkRows;
+        const std::int64_t end = std::min(begin + BlockPattern::kChunkRows, pattern.rows());
+        const auto row_start = [&](std::int64_t row) {
+            return pattern.row_start[static_cast<std::size_t>(row)];
+        };
+        for (std::int64_t k = row_start(begin); k < row_start(end); ++k) {
+            touch(pattern.columns[static_cast<std::size_t>(k)]);
+        }
+    });
+    return pattern;
+}
+
+template BlockPattern make_pattern<3>(const Simplices<4>&, const Numbering&);
+template BlockPattern make_pattern<4>(const Simplices<5>&, const Numbering&);
+
+}  // namespace pent::simulator

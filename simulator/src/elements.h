@@ -1,0 +1,81 @@
+#pragma once
+
+#include "block_matrix.h"
+#include "kernels.h"
+#include "parallel.h"
+
+#include <pent/simplex_mesh.h>
+#include <pent/simulator/scene.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pent::simulator {
+
+/// The cells of one body within the cells of all.
+struct CellRange {
+    Eigen::Index begin = 0;
+    Eigen::Index end = 0;
+    Material material;
+};
+
+/// The elastic elements of all bodies: cells with at least one free vertex, laid out for kernels.
+template <int Dim>
+class Elements {
+public:
+    /// @param rest     Rest positions of all vertices, Dim x n.
+    /// @param cells    All cells, positively oriented.
+    /// @param ranges   One a body; they cover all cells.
+    /// @param pattern  Of the matrix that hessian() fills.
+    Elements(const Positions<Dim>& rest,
+             const Simplices<Dim + 1>& cells,
+             const std::vector<CellRange>& ranges,
+             const Numbering& numbering,
+             const BlockPattern& pattern);
+
+    /// Adds elastic forces to `forces` (Dim x vertices); returns the energy.
+    RunEnergy add_forces(const Workers& workers,
+                         const Kernels<Dim>& kernels,
+                         const Positions<Dim>& positions,
+                         Positions<Dim>& forces) const;
+
+    /// Adds `scale` times the filtered Hessian to the matrix, and takes scale * K_fh held_shift off
+    /// `right`, the part of the held vertices.
+    template <typename Scalar>
+    void add_hessian(const Workers& workers,
+                     const Kernels<Dim>& kernels,
+                     const Positions<Dim>& positions,
+                     double scale,
+                     Filter filter,
+                     const Positions<Dim>& held_shift,
+                     BlockMatrix<Dim, Scalar>& matrix,
+                     BlockVector<Dim>& right) const;
+
+    [[nodiscard]] std::int64_t count() const { return count_; }
+    [[nodiscard]] std::int64_t bytes() const;
+
+private:
+    void append(const Positions<Dim>& rest,
+                const Simplices<Dim + 1>& cells,
+                const std::vector<Eigen::Index>& chosen,
+                const Numbering& numbering,
+                const BlockPattern& pattern);
+    [[nodiscard]] ElementRun run(int chunk) const;
+
+    struct Chunk {
+        std::int64_t first_group = 0;
+        int elements = 0;
+        Material material;
+    };
+
+    std::vector<double> rest_;
+    std::vector<std::uint32_t> vertices_;
+    std::vector<std::uint32_t> unknowns_;
+    std::vector<std::int32_t> blocks_;
+    std::vector<Chunk> chunks_;
+    Coloring coloring_;
+    std::uint32_t free_unknowns_ = 0;
+    std::int64_t count_ = 0;
+};
+
+}  // namespace pent::simulator

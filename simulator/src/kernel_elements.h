@@ -1,0 +1,367 @@
+#pragma once
+
+#include "kernel_laws.h"
+#include "kernels.h"
+
+// Forces and Hessians of element groups, in lanes.
+
+namespace pent::simulator {
+namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
+
+// One group as the kernels read it: [row][lane].
+template <int Dim>
+struct Group {
+    const double* rest;
+    const double* volume;
+    const std::uint32_t* vertices;
+    const std::uint32_t* unknowns;
+    const std::int32_t* blocks;
+    int elements;  // lanes in use
+};
+
+template <int Dim>
+Group<Dim> group_at(const ElementRun& run, int group) {
+    const double* rest = run.rest + static_cast<std::int64_t>(group) * (Dim * Dim + 1) * kGroup;
+    const int left = run.elements - group * kGroup;
+    return {rest,
+            rest + Dim * Dim * kGroup,
+            run.vertices + static_cast<std::int64_t>(group) * (Dim + 1) * kGroup,
+            run.unknowns + static_cast<std::int64_t>(group) * (Dim + 1) * kGroup,
+            run.blocks + static_cast<std::int64_t>(group) * kPairs<Dim> * kGroup,
+            left < kGroup ? left : kGroup};
+}
+
+// Edges x_a - x_0 of every element of a group: [axis][a - 1][lane], subtracted in double.
+template <int Dim>
+struct Edges {
+    alignas(64) double at[Dim][Dim][kGroup];
+};
+
+template <int Dim>
+void gather_edges(const Group<Dim>& group, const double* positions, Edges<Dim>& edges) {
+    for (int lane = 0; lane < kGroup; ++lane) {
+        const double* origin = positions + std::int64_t{Dim} * group.vertices[lane];
+        for (int a = 0; a < Dim; ++a) {
+            const double* corner =
+                positions + std::int64_t{Dim} * group.vertices[(a + 1) * kGroup + lane];
+            for (int axis = 0; axis < Dim; ++axis) {
+                edges.at[axis][a][lane] = corner[axis] - origin[axis];
+            }
+        }
+    }
+}
+
+template <typename Real, int Dim>
+Tensor<Real, Dim> load_rest(const Group<Dim>& group, int lane) {
+    Tensor<Real, Dim> rest;
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) {
+            rest[i][j] = Lanes<Real>::load(group.rest + (i * Dim + j) * kGroup + lane);
+        }
+    }
+    return rest;
+}
+
+// F = Ds Dm^-1.
+template <typename Real, int Dim>
+Tensor<Real, Dim> deformation(const Edges<Dim>& edges, const Tensor<Real, Dim>& rest, int lane) {
+    Tensor<Real, Dim> F;
+    for (int i = 0; i < Dim; ++i) {
+        Real edge[Dim];
+        for (int a = 0; a < Dim; ++a) {
+            edge[a] = Lanes<Real>::load(edges.at[i][a] + lane);
+        }
+        for (int j = 0; j < Dim; ++j) {
+            Real sum = edge[0] * rest[0][j];
+            for (int a = 1; a < Dim; ++a) {
+                sum += edge[a] * rest[a][j];
+            }
+            F[i][j] = sum;
+        }
+    }
+    return F;
+}
+
+template <int Dim, typename Real>
+RunEnergy add_forces(const ElementRun& run, const double* positions, double* forces) {
+    constexpr int kWidth = Lanes<Real>::kCount;
+    const Moduli moduli = moduli_of(run);
+    const int groups = (run.elements + kGroup - 1) / kGroup;
+    RunEnergy total;
+    Edges<Dim> edges;
+    alignas(64) double force[Dim + 1][Dim][kGroup];
+    alignas(64) double energy[kGroup];
+    alignas(64) double det[kGroup];
+    for (int g = 0; g < groups; ++g) {
+        const Group<Dim> group = group_at<Dim>(run, g);
+        gather_edges(group, positions, edges);
+        for (int lane = 0; lane < kGroup; lane += kWidth) {
+            const Tensor<Real, Dim> rest = load_rest<Real>(group, lane);
+            const Real volume = Lanes<Real>::load(group.volume + lane);
+            const Stress<Real, Dim> stress = stress_of(deformation(edges, rest, lane), moduli);
+            for (int i = 0; i < Dim; ++i) {
+                Real rest_of_corners = Real(0.0);
+                for (int a = 0; a < Dim; ++a) {
+                    Real sum = stress.P[i][0] * rest[a][0];
+                    for (int j = 1; j < Dim; ++j) {
+                        sum += stress.P[i][j] * rest[a][j];
+                    }
+                    const Real pull = volume * sum;
+                    rest_of_corners += pull;
+                    Lanes<Real>::store(-pull, force[a + 1][i] + lane);
+                }
+                Lanes<Real>::store(rest_of_corners, force[0][i] + lane);
+            }
+            Lanes<Real>::store(volume * stress.energy, energy + lane);
+            Lanes<Real>::store(stress.det, det + lane);
+        }
+        for (int lane = 0; lane < group.elements; ++lane) {
+            total.energy += energy[lane];
+            total.inverted += det[lane] > 0 ? 0 : 1;
+            for (int a = 0; a <= Dim; ++a) {
+                double* sum = forces + std::int64_t{Dim} * group.vertices[a * kGroup + lane];
+                for (int i = 0; i < Dim; ++i) {
+                    sum[i] += force[a][i][lane];
+                }
+            }
+        }
+    }
+    return total;
+}
+
+// The blocks of one pack of elements: [pair][column * Dim + row][lane].
+template <typename Real, int Dim>
+struct BlockPack {
+    alignas(64) typename Lanes<Real>::Number at[kPairs<Dim>][Dim * Dim][Lanes<Real>::kCount];
+};
+
+// Place of the pair (a, b), a <= b, in the order (0,0) (0,1) .. (0,Dim) (1,1) ..
+template <int Dim>
+constexpr int pair_index(int a, int b) {
+    return a * (Dim + 1) - a * (a - 1) / 2 + b - a;
+}
+
+// With beta_a = V^T b_a (b_a: rest gradient of corner a), block (a, b) is U K U^T, where
+//   K_ik = stretch_ik beta_ai beta_bk + swap_ik beta_ak beta_bi                 (i != k)
+//   K_ii = stretch_ii beta_ai beta_bi + sum over j != i of keep_ij beta_aj beta_bj
+// and keep, swap = (twist + flip) / 2, (flip - twist) / 2.
+template <typename Real, int Dim>
+struct RotatedHessian {
+    Tensor<Real, Dim> U;
+    Tensor<Real, Dim> stretch;
+    Tensor<Real, Dim> keep;
+    Tensor<Real, Dim> swap;
+    Tensor<Real, Dim> beta;  // row a - 1: beta of corner a
+};
+
+template <typename Real, int Dim>
+RotatedHessian<Real, Dim> rotated_hessian(const Tensor<Real, Dim>& F,
+                                          const Tensor<Real, Dim>& rest,
+                                          const Moduli& moduli,
+                                          Filter filter) {
+    using Number = typename Lanes<Real>::Number;
+    SignedSvd<Real, Dim> svd;
+    if (moduli.model == Model::Linear) {  // does not depend on F: any frame will do
+        svd.U = identity<Real, Dim>();
+        svd.rest_V = rest;
+        for (int i = 0; i < Dim; ++i) {
+            svd.sigma[i] = Real(Number(1));
+        }
+    } else {
+        svd = signed_svd(F, rest);
+    }
+    const Spectrum<Real, Dim> spectrum = spectrum_of(svd.sigma, moduli);
+    RotatedHessian<Real, Dim> hessian;
+    hessian.U = svd.U;
+    hessian.beta = svd.rest_V;
+    hessian.stretch = filtered(spectrum.stretch, filter);
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = i + 1; j < Dim; ++j) {
+            const Real flip = filtered(spectrum.flip[i][j], filter);
+            const Real twist = filtered(spectrum.twist[i][j], filter);
+            hessian.keep[i][j] = Real(Number(0.5)) * (twist + flip);
+            hessian.keep[j][i] = hessian.keep[i][j];
+            hessian.swap[i][j] = Real(Number(0.5)) * (flip - twist);
+            hessian.swap[j][i] = hessian.swap[i][j];
+        }
+    }
+    return hessian;
+}
+
+template <typename Real, int Dim>
+Tensor<Real, Dim> hessian_block(const RotatedHessian<Real, Dim>& hessian,
+                                const Real (&beta_a)[Dim],
+                                const Real (&beta_b)[Dim]) {
+    Tensor<Real, Dim> K;
+    for (int i = 0; i < Dim; ++i) {
+        Real sum = hessian.stretch[i][i] * (beta_a[i] * beta_b[i]);
+        for (int j = 0; j < Dim; ++j) {
+            if (j != i) {
+                sum += hessian.keep[i][j] * (beta_a[j] * beta_b[j]);
+                K[i][j] = hessian.stretch[i][j] * (beta_a[i] * beta_b[j])
+                          + hessian.swap[i][j] * (beta_a[j] * beta_b[i]);
+            }
+        }
+        K[i][i] = sum;
+    }
+    Tensor<Real, Dim> left;  // U K
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) {
+            Real sum = hessian.U[i][0] * K[0][j];
+            for (int k = 1; k < Dim; ++k) {
+                sum += hessian.U[i][k] * K[k][j];
+            }
+            left[i][j] = sum;
+        }
+    }
+    Tensor<Real, Dim> block;  // U K U^T
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) {
+            Real sum = left[i][0] * hessian.U[j][0];
+            for (int k = 1; k < Dim; ++k) {
+                sum += left[i][k] * hessian.U[j][k];
+            }
+            block[i][j] = sum;
+        }
+    }
+    return block;
+}
+
+// All pairs of corners. Rest gradients add up to zero, so the blocks of corner 0 follow from the
+// others: K_0b = - sum over a >= 1 of K_ab.
+template <typename Real, int Dim>
+void hessian_blocks(const RotatedHessian<Real, Dim>& hessian,
+                    const Real& scale,
+                    BlockPack<Real, Dim>& pack) {
+    using Number = typename Lanes<Real>::Number;
+    const Real zero = Real(Number(0));
+    Tensor<Real, Dim> first[Dim + 1];
+    for (Tensor<Real, Dim>& block : first) {
+        for (int i = 0; i < Dim; ++i) {
+            for (int j = 0; j < Dim; ++j) {
+                block[i][j] = zero;
+            }
+        }
+    }
+    for (int a = 1; a <= Dim; ++a) {
+        Real beta_a[Dim];
+        for (int i = 0; i < Dim; ++i) {
+            beta_a[i] = scale * hessian.beta[a - 1][i];
+        }
+        for (int b = a; b <= Dim; ++b) {
+            const Tensor<Real, Dim> block = hessian_block(hessian, beta_a, hessian.beta.at[b - 1]);
+            auto& stored = pack.at[pair_index<Dim>(a, b)];
+            for (int i = 0; i < Dim; ++i) {
+                for (int j = 0; j < Dim; ++j) {
+                    Lanes<Real>::store(block[i][j], stored[j * Dim + i]);
+                    first[b][i][j] -= block[i][j];
+                    if (b != a) {
+                        first[a][i][j] -= block[j][i];
+                    }
+                }
+            }
+        }
+    }
+    for (int b = 1; b <= Dim; ++b) {
+        auto& stored = pack.at[pair_index<Dim>(0, b)];
+        for (int i = 0; i < Dim; ++i) {
+            for (int j = 0; j < Dim; ++j) {
+                Lanes<Real>::store(first[b][i][j], stored[j * Dim + i]);
+                first[0][i][j] -= first[b][i][j];
+            }
+        }
+    }
+    auto& stored = pack.at[0];
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = i; j < Dim; ++j) {
+            const Real mean = Real(Number(0.5)) * (first[0][i][j] + first[0][j][i]);
+            Lanes<Real>::store(mean, stored[j * Dim + i]);
+            Lanes<Real>::store(mean, stored[i * Dim + j]);
+        }
+    }
+}
+
+template <int Dim, typename Real, typename Scalar>
+void scatter_blocks(const BlockPack<Real, Dim>& pack,
+                    const Group<Dim>& group,
+                    int first_lane,
+                    Scalar* values) {
+    constexpr int kEntries = Dim * Dim;
+    for (int l = 0; l < Lanes<Real>::kCount && first_lane + l < group.elements; ++l) {
+        for (int pair = 0; pair < kPairs<Dim>; ++pair) {
+            const std::int32_t block = group.blocks[pair * kGroup + first_lane + l];
+            if (block >= 0) {
+                Scalar* target = values + std::int64_t{block} * kEntries;
+                for (int entry = 0; entry < kEntries; ++entry) {
+                    target[entry] += pack.at[pair][entry][l];
+                }
+            }
+        }
+    }
+}
+
+// Moves the columns of held corners, whose displacement is known, to the right side.
+template <int Dim, typename Real, typename Scalar>
+void scatter_held(const BlockPack<Real, Dim>& pack,
+                  const Group<Dim>& group,
+                  int first_lane,
+                  std::uint32_t free_unknowns,
+                  const HessianTarget<Scalar>& target) {
+    for (int l = 0; l < Lanes<Real>::kCount && first_lane + l < group.elements; ++l) {
+        const int lane = first_lane + l;
+        for (int b = 1; b <= Dim; ++b) {
+            if (group.unknowns[b * kGroup + lane] < free_unknowns) {
+                continue;
+            }
+            const double* shift =
+                target.held_shift + std::int64_t{Dim} * group.vertices[b * kGroup + lane];
+            for (int a = 0; a < b; ++a) {
+                const std::uint32_t row = group.unknowns[a * kGroup + lane];
+                if (row >= free_unknowns) {
+                    continue;
+                }
+                const auto& block = pack.at[pair_index<Dim>(a, b)];
+                double* right = target.right + std::int64_t{Dim} * row;
+                for (int i = 0; i < Dim; ++i) {
+                    for (int j = 0; j < Dim; ++j) {
+                        right[i] -= static_cast<double>(block[j * Dim + i][l]) * shift[j];
+                    }
+                }
+            }
+        }
+    }
+}
+
+template <int Dim, typename Real, typename Scalar>
+void add_hessian(const ElementRun& run,
+                 const double* positions,
+                 const HessianTarget<Scalar>& target) {
+    using Number = typename Lanes<Real>::Number;
+    constexpr int kWidth = Lanes<Real>::kCount;
+    const Moduli moduli = moduli_of(run);
+    const int groups = (run.elements + kGroup - 1) / kGroup;
+    const Real scale = Real(static_cast<Number>(target.scale));
+    Edges<Dim> edges;
+    BlockPack<Real, Dim> pack;
+    for (int g = 0; g < groups; ++g) {
+        const Group<Dim> group = group_at<Dim>(run, g);
+        gather_edges(group, positions, edges);
+        bool has_held = false;
+        for (int lane = 0; lane < group.elements; ++lane) {  // the last corner is held if any is
+            has_held = has_held || group.unknowns[Dim * kGroup + lane] >= run.free_unknowns;
+        }
+        for (int lane = 0; lane < group.elements; lane += kWidth) {
+            const Tensor<Real, Dim> rest = load_rest<Real>(group, lane);
+            const Real volume = Lanes<Real>::load(group.volume + lane);
+            const Tensor<Real, Dim> F = deformation(edges, rest, lane);
+            hessian_blocks(rotated_hessian(F, rest, moduli, target.filter), scale * volume, pack);
+            scatter_blocks(pack, group, lane, target.values);
+            if (has_held && target.held_shift != nullptr) {
+                scatter_held(pack, group, lane, run.free_unknowns, target);
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace pent::simulator

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <pent/simulator/material.h>
+#include <pent/simulator/solver_options.h>
+
+#include <cstdint>
+#include <string_view>
+
+namespace pent::simulator {
+
+/// The inner loops, compiled once for each instruction set and chosen at run time.
+///
+/// This header, and what the kernels are made of, use plain pointers and no inline function of a
+/// library: a function the linker shares between files must not hold instructions a machine lacks.
+
+/// Elements are stored in groups of this many, one element a lane, whatever the vector width.
+inline constexpr int kGroup = 16;
+
+/// Blocks of the upper triangle of an element matrix: pairs a <= b of its Dim + 1 corners.
+template <int Dim>
+inline constexpr int kPairs = (Dim + 1) * (Dim + 2) / 2;
+
+/// A run of element groups of one material. Arrays are [group][row][lane].
+///
+/// The corners of an element are in increasing order of their unknown, held ones last. Lanes behind
+/// the last element of a run repeat a real element with volume 0 and are not scattered.
+struct ElementRun {
+    Model model = Model::StableNeoHookean;
+    double mu = 0;                 ///< Pa, of linear elasticity.
+    double lambda = 0;             ///< Pa, of linear elasticity.
+    int elements = 0;              ///< Elements in the run; groups = ceil(elements / kGroup).
+    const double* rest = nullptr;  ///< Dim * Dim + 1 rows: inverse of Dm (row by row), rest volume.
+    const std::uint32_t* vertices = nullptr;  ///< Dim + 1 rows.
+    const std::uint32_t* unknowns = nullptr;  ///< Dim + 1 rows; >= free_unknowns where held.
+    const std::int32_t* blocks = nullptr;  ///< kPairs rows: index of the matrix block, -1 for none.
+    std::uint32_t free_unknowns = 0;
+};
+
+struct RunEnergy {
+    double energy = 0;          ///< J, of all elements of the run.
+    std::int64_t inverted = 0;  ///< Elements with J <= 0.
+};
+
+/// Where Hessian blocks go.
+template <typename Scalar>
+struct HessianTarget {
+    Scalar* values = nullptr;  ///< Dim x Dim blocks, column-major; added to.
+    double scale = 1;          ///< Factor on every block.
+    Filter filter = Filter::Clamp;
+    const double* held_shift = nullptr;  ///< Dim x vertices: how far held vertices move, m.
+    double* right = nullptr;  ///< Dim x unknowns: less block * held_shift for held columns.
+};
+
+/// Rows [begin, end) of a symmetric block matrix stored by the upper triangle.
+template <typename Scalar>
+struct BlockRows {
+    const Scalar* values = nullptr;  ///< Dim x Dim blocks, column-major.
+    const std::int64_t* row_start =
+        nullptr;                             ///< Blocks of row i: [row_start[i], row_start[i + 1]).
+    const std::uint32_t* columns = nullptr;  ///< The diagonal block comes first in its row.
+    std::int64_t begin = 0;
+    std::int64_t end = 0;
+};
+
+template <int Dim>
+struct Kernels {
+    /// Adds -dPsi/dx of every element to `forces` (Dim x vertices) and returns the energy.
+    RunEnergy (*forces)(const ElementRun& run, const double* positions, double* forces);
+
+    void (*hessian_float)(const ElementRun& run,
+                          const double* positions,
+                          const HessianTarget<float>& target);
+    void (*hessian_double)(const ElementRun& run,
+                           const double* positions,
+                           const HessianTarget<double>& target);
+
+    /// y += A x for the blocks of the rows, in both triangles.
+    void (*multiply_float)(const BlockRows<float>& rows, const double* x, double* y);
+    void (*multiply_double)(const BlockRows<double>& rows, const double* x, double* y);
+};
+
+/// Instruction sets there are kernels for. Scalar is the plain one that others are tested against.
+enum class Isa { Scalar, Baseline, Avx2, Avx512 };
+
+[[nodiscard]] std::string_view isa_name(Isa isa);
+
+/// Whether this build has kernels for it and this machine runs them.
+[[nodiscard]] bool is_supported(Isa isa);
+
+/// The widest supported one.
+[[nodiscard]] Isa best_isa();
+
+/// Kernels for a supported instruction set.
+template <int Dim>
+[[nodiscard]] const Kernels<Dim>& kernels(Isa isa);
+
+}  // namespace pent::simulator

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <pent/simplex_mesh.h>
+#include <pent/simulator/scene.h>
+
+#include <vector>
+
+namespace pent::simulator {
+
+template <int Dim>
+using Vector = Eigen::Matrix<double, Dim, 1>;
+template <int Dim>
+using Matrix = Eigen::Matrix<double, Dim, Dim>;
+
+/// Rotation in a plane by an angle in radians: takes axis `from` towards axis `to`.
+template <int Dim>
+[[nodiscard]] Matrix<Dim> plane_rotation(const Plane& plane, double angle);
+
+/// The mesh scaled, turned about its origin and moved; cells and labels stay as they are.
+///
+/// Throws an Error that names the body if the placed mesh no longer passes validate().
+template <int Dim>
+[[nodiscard]] SimplexMesh<Dim> place(SimplexMesh<Dim> mesh, const Body& body);
+
+/// Where a motion takes the points it moves at one moment: X goes to
+/// `rotation` (X - about) + about + `shift`, with velocity `rate` (X - about) + `velocity`.
+template <int Dim>
+struct Pose {
+    Matrix<Dim> rotation;
+    Vector<Dim> shift;     ///< m.
+    Matrix<Dim> rate;      ///< d rotation / dt, 1/s.
+    Vector<Dim> velocity;  ///< m/s.
+};
+
+/// Pose of a motion at a time in s, in closed form; at rest outside [from, to].
+template <int Dim>
+[[nodiscard]] Pose<Dim> pose_at(const Motion& motion, double time);
+
+}  // namespace pent::simulator

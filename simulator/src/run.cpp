@@ -1,0 +1,291 @@
+#include "rigid_fit.h"
+#include "run_report.h"
+
+#include <pent/error.h>
+#include <pent/output_file.h>
+#include <pent/pent_file.h>
+#include <pent/simulator/run.h>
+#include <pent/simulator/scene_file.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+namespace pent::simulator {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// Between two writings of report.json while a run goes on.
+constexpr double kReportSeconds = 10;
+
+std::string read_text(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// The scene as written in the run folder: mesh paths relative to that folder.
+Scene relocated(const Scene& scene, const fs::path& folder) {
+    Scene moved = scene;
+    for (Body& body : moved.bodies) {
+        body.mesh = fs::proximate(fs::absolute(body.mesh), fs::absolute(folder)).string();
+    }
+    return moved;
+}
+
+template <int Dim>
+class Run {
+public:
+    Run(const Scene& scene, const RunOptions& options, const RunCallbacks& callbacks)
+        : scene_(scene),
+          options_(options),
+          callbacks_(callbacks),
+          scene_text_(scene_text(relocated(scene, options.folder))),
+          simulation_(scene, read_meshes(), {.threads = options.threads, .isa = options.isa}) {
+        report_.size = simulation_.size();
+        report_.isa = simulation_.isa();
+        for (const Body& body : scene.bodies) {
+            report_.bodies.push_back(body.name);
+        }
+    }
+
+    RunReport operator()();
+
+private:
+    [[nodiscard]] std::vector<SimplexMesh<Dim>> read_meshes() const;
+    [[nodiscard]] fs::path mesh_path(const std::string& body) const {
+        return options_.folder / "meshes" / (body + ".pent");
+    }
+    [[nodiscard]] fs::path frame_path(const std::string& body, int frame) const;
+    void start_folder();
+    void write_meshes();
+    int resume_folder();
+    [[nodiscard]] std::optional<std::vector<Frame<Dim>>> read_frames(int frame) const;
+    void write_frame_files(int frame);
+    [[nodiscard]] FrameReport measure(int frame) const;
+    bool step_to_frame(int frame);
+    void write_report(std::string_view verdict);
+
+    const Scene& scene_;
+    const RunOptions& options_;
+    const RunCallbacks& callbacks_;
+    std::string scene_text_;
+    Simulation<Dim> simulation_;
+    std::vector<std::uint32_t> mesh_crcs_;
+    RunReport report_;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point last_report_ = start_;
+};
+
+template <int Dim>
+std::vector<SimplexMesh<Dim>> Run<Dim>::read_meshes() const {
+    std::vector<SimplexMesh<Dim>> meshes;
+    for (const Body& body : scene_.bodies) {
+        meshes.push_back(read_mesh<Dim>(body.mesh).mesh);
+    }
+    return meshes;
+}
+
+template <int Dim>
+fs::path Run<Dim>::frame_path(const std::string& body, int frame) const {
+    char number[16];
+    std::snprintf(number, sizeof number, "_%06d.pent", frame);
+    return options_.folder / "frames" / (body + number);
+}
+
+template <int Dim>
+void Run<Dim>::start_folder() {
+    const fs::path& folder = options_.folder;
+    std::error_code ignored;
+    if (fs::exists(folder, ignored) && !fs::is_empty(folder, ignored)) {
+        if (!options_.force) {
+            throw Error(folder.string()
+                        + ": is not empty; use another folder, --resume to go on with the run in"
+                          " it, or --force to replace it");
+        }
+        for (const char* part : {"frames", "meshes", "checkpoint", "report.json", "scene.toml"}) {
+            fs::remove_all(folder / part, ignored);
+        }
+    }
+    make_folder(folder / "frames");
+    make_folder(folder / "meshes");
+    write_text(folder / "scene.toml", scene_text_);
+}
+
+template <int Dim>
+void Run<Dim>::write_meshes() {
+    for (int body = 0; body < simulation_.body_count(); ++body) {
+        const std::string& name = report_.bodies[static_cast<std::size_t>(body)];
+        mesh_crcs_.push_back(write_mesh(mesh_path(name), simulation_.mesh(body),
+                                        {.created_by = options_.created_by}));
+    }
+}
+
+// All bodies at one frame, if every file is there and whole.
+template <int Dim>
+std::optional<std::vector<Frame<Dim>>> Run<Dim>::read_frames(int frame) const {
+    std::vector<Frame<Dim>> frames;
+    for (const std::string& name : report_.bodies) {
+        if (!fs::exists(frame_path(name, frame))) {
+            return std::nullopt;
+        }
+        frames.push_back(read_frame<Dim>(frame_path(name, frame)));
+    }
+    return frames;
+}
+
+// Puts the simulation at the last whole frame of the folder, and gives its number.
+template <int Dim>
+int Run<Dim>::resume_folder() {
+    const fs::path scene_path = options_.folder / "scene.toml";
+    if (!fs::exists(scene_path)) {
+        throw Error(options_.folder.string() + ": holds no run to resume (no scene.toml)");
+    }
+    if (read_text(scene_path) != scene_text_) {
+        throw Error(scene_path.string()
+                    + ": is another scene than the one given; resume with the same scene, or use"
+                      " --force to start again");
+    }
+    int frame = scene_.frames;
+    std::optional<std::vector<Frame<Dim>>> frames = read_frames(frame);
+    while (!frames && frame > 0) {
+        frames = read_frames(--frame);
+    }
+    if (!frames) {
+        throw Error(options_.folder.string()
+                    + ": holds no whole frame to resume from; use --force to start again");
+    }
+    for (int body = 0; body < simulation_.body_count(); ++body) {
+        const Frame<Dim>& state = (*frames)[static_cast<std::size_t>(body)];
+        simulation_.set_state(body, state.positions, state.velocities);
+    }
+    const std::uint64_t step = frames->front().step;
+    simulation_.set_step_count(step);
+    const fs::path report_path = options_.folder / "report.json";
+    if (fs::exists(report_path)) {
+        ReportHistory history = parse_history(read_text(report_path), report_path.string(),
+                                              report_.bodies, frame, step);
+        report_.frames = std::move(history.frames);
+        report_.steps = std::move(history.steps);
+    }
+    return frame;
+}
+
+template <int Dim>
+FrameReport Run<Dim>::measure(int frame) const {
+    FrameReport report;
+    report.frame = frame;
+    report.step = simulation_.step_count();
+    report.time = simulation_.time();
+    for (int body = 0; body < simulation_.body_count(); ++body) {
+        report.non_rigid.push_back(non_rigid<Dim>(simulation_.mesh(body).positions,
+                                                  simulation_.positions(body),
+                                                  simulation_.masses(body)));
+    }
+    return report;
+}
+
+template <int Dim>
+void Run<Dim>::write_frame_files(int frame) {
+    for (int body = 0; body < simulation_.body_count(); ++body) {
+        const std::string& name = report_.bodies[static_cast<std::size_t>(body)];
+        Frame<Dim> file;
+        file.positions = simulation_.positions(body);
+        file.velocities = simulation_.velocities(body);
+        file.mesh_name = name + ".pent";
+        file.mesh_crc = mesh_crcs_[static_cast<std::size_t>(body)];
+        file.frame = static_cast<std::uint64_t>(frame);
+        file.step = simulation_.step_count();
+        file.time = simulation_.time();
+        write_frame(frame_path(name, frame), file, {.created_by = options_.created_by});
+    }
+    report_.frames.push_back(measure(frame));
+    if (callbacks_.on_frame) {
+        callbacks_.on_frame(report_.frames.back(),
+                            report_.steps.empty() ? StepReport{} : report_.steps.back());
+    }
+}
+
+// Takes the steps of one frame; false if the run ends within.
+template <int Dim>
+bool Run<Dim>::step_to_frame(int frame) {
+    const auto target =
+        static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(scene_.steps_per_frame);
+    while (simulation_.step_count() < target) {
+        if (callbacks_.should_stop && callbacks_.should_stop()) {
+            report_.verdict = RunVerdict::Stopped;
+            return false;
+        }
+        const StepReport step = simulation_.step();
+        if (!step.is_accepted) {
+            report_.verdict = RunVerdict::Diverged;
+            report_.message = "step " + std::to_string(simulation_.step_count() + 1) + ": "
+                              + step.failure + ", also in steps cut "
+                              + std::to_string(scene_.solver.max_halvings)
+                              + " times; try more steps_per_frame, stiffer or slower motion, or"
+                                " solver.max_iterations";
+            return false;
+        }
+        report_.steps.push_back(step);
+    }
+    return true;
+}
+
+template <int Dim>
+void Run<Dim>::write_report(std::string_view verdict) {
+    last_report_ = Clock::now();
+    report_.seconds = std::chrono::duration<double>(last_report_ - start_).count();
+    write_text(options_.folder / "report.json",
+               report_text(report_, verdict, options_.created_by, options_.threads));
+}
+
+template <int Dim>
+RunReport Run<Dim>::operator()() {
+    int frame = 0;
+    if (options_.resume) {
+        frame = resume_folder();
+        write_meshes();
+    } else {
+        start_folder();
+        write_meshes();
+        write_frame_files(0);
+    }
+    write_report("running");
+    while (frame < scene_.frames && step_to_frame(frame + 1)) {
+        write_frame_files(++frame);
+        if (std::chrono::duration<double>(Clock::now() - last_report_).count() > kReportSeconds) {
+            write_report("running");
+        }
+    }
+    write_report(verdict_name(report_.verdict));
+    return std::move(report_);
+}
+
+}  // namespace
+
+RunReport run(const Scene& scene, const RunOptions& options, const RunCallbacks& callbacks) {
+    check(scene);
+    if (scene.dimension == 3) {
+        return Run<3>(scene, options, callbacks)();
+    }
+    return Run<4>(scene, options, callbacks)();
+}
+
+std::string_view verdict_name(RunVerdict verdict) {
+    switch (verdict) {
+        case RunVerdict::Finished:
+            return "finished";
+        case RunVerdict::Stopped:
+            return "stopped";
+        case RunVerdict::Diverged:
+            return "diverged";
+    }
+    return "";
+}
+
+}  // namespace pent::simulator

@@ -1,0 +1,137 @@
+#include "run_report.h"
+
+#include <pent/error.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace pent::simulator {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json step_json(const StepReport& step) {
+    return {{"step", step.step},
+            {"time", step.time},
+            {"substeps", step.substeps},
+            {"refused", step.refused},
+            {"iterations", step.iterations},
+            {"residual", step.residual},
+            {"inverted", step.inverted},
+            {"kinetic", step.energies.kinetic},
+            {"elastic", step.energies.elastic},
+            {"gravity", step.energies.gravity},
+            {"obstacle", step.energies.obstacle},
+            {"assembly_seconds", step.assembly_seconds},
+            {"solve_seconds", step.solve_seconds},
+            {"seconds", step.seconds}};
+}
+
+StepReport parse_step(const Json& json) {
+    StepReport step;
+    step.is_accepted = true;
+    json.at("step").get_to(step.step);
+    json.at("time").get_to(step.time);
+    json.at("substeps").get_to(step.substeps);
+    json.at("refused").get_to(step.refused);
+    json.at("iterations").get_to(step.iterations);
+    json.at("residual").get_to(step.residual);
+    json.at("inverted").get_to(step.inverted);
+    json.at("kinetic").get_to(step.energies.kinetic);
+    json.at("elastic").get_to(step.energies.elastic);
+    json.at("gravity").get_to(step.energies.gravity);
+    json.at("obstacle").get_to(step.energies.obstacle);
+    json.at("assembly_seconds").get_to(step.assembly_seconds);
+    json.at("solve_seconds").get_to(step.solve_seconds);
+    json.at("seconds").get_to(step.seconds);
+    return step;
+}
+
+Json frame_json(const FrameReport& frame, const std::vector<std::string>& bodies) {
+    Json non_rigid = Json::object();
+    for (std::size_t body = 0; body < bodies.size(); ++body) {
+        non_rigid[bodies[body]] = frame.non_rigid[body];
+    }
+    return {{"frame", frame.frame},
+            {"step", frame.step},
+            {"time", frame.time},
+            {"non_rigid", non_rigid}};
+}
+
+Json body_json(const RunReport& report, std::size_t body) {
+    double most = 0;
+    for (const FrameReport& frame : report.frames) {
+        most = std::max(most, frame.non_rigid[body]);
+    }
+    return {{"name", report.bodies[body]}, {"non_rigid_max", most}};
+}
+
+}  // namespace
+
+std::string report_text(const RunReport& report,
+                        std::string_view verdict,
+                        const std::string& created_by,
+                        int threads) {
+    Json json;
+    json["created_by"] = created_by;
+    json["verdict"] = verdict;
+    if (!report.message.empty()) {
+        json["message"] = report.message;
+    }
+    json["seconds"] = report.seconds;
+    json["threads"] = threads;
+    json["isa"] = report.isa;
+    json["size"] = {
+        {"vertices", report.size.vertices},           {"cells", report.size.cells},
+        {"free_vertices", report.size.free_vertices}, {"elements", report.size.elements},
+        {"matrix_blocks", report.size.matrix_blocks}, {"bytes", report.size.bytes}};
+    json["bodies"] = Json::array();
+    for (std::size_t body = 0; body < report.bodies.size(); ++body) {
+        json["bodies"].push_back(body_json(report, body));
+    }
+    json["frames"] = Json::array();
+    for (const FrameReport& frame : report.frames) {
+        json["frames"].push_back(frame_json(frame, report.bodies));
+    }
+    json["steps"] = Json::array();
+    for (const StepReport& step : report.steps) {
+        json["steps"].push_back(step_json(step));
+    }
+    return json.dump(1) + "\n";
+}
+
+ReportHistory parse_history(const std::string& text,
+                            const std::string& name,
+                            const std::vector<std::string>& bodies,
+                            int last_frame,
+                            std::uint64_t last_step) {
+    ReportHistory history;
+    try {
+        const Json json = Json::parse(text);
+        for (const Json& entry : json.at("frames")) {
+            FrameReport frame;
+            entry.at("frame").get_to(frame.frame);
+            entry.at("step").get_to(frame.step);
+            entry.at("time").get_to(frame.time);
+            for (const std::string& body : bodies) {
+                frame.non_rigid.push_back(entry.at("non_rigid").at(body).get<double>());
+            }
+            if (frame.frame <= last_frame) {
+                history.frames.push_back(std::move(frame));
+            }
+        }
+        for (const Json& entry : json.at("steps")) {
+            StepReport step = parse_step(entry);
+            if (step.step <= last_step) {
+                history.steps.push_back(step);
+            }
+        }
+    } catch (const nlohmann::json::exception& error) {
+        throw Error(name + ": not the report of a run (" + error.what()
+                    + "); remove it or start again with --force");
+    }
+    return history;
+}
+
+}  // namespace pent::simulator

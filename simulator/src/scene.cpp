@@ -1,0 +1,148 @@
+#include <pent/error.h>
+#include <pent/simulator/scene.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pent::simulator {
+
+namespace {
+
+void require(bool holds, const std::string& message) {
+    if (!holds) {
+        throw Error(message);
+    }
+}
+
+void check_vector(const Eigen::VectorXd& vector, int dimension, const std::string& what) {
+    require(vector.size() == dimension && vector.allFinite(),
+            what + " must be " + std::to_string(dimension) + " finite numbers");
+}
+
+void check_unit(const Eigen::VectorXd& normal, int dimension, const std::string& what) {
+    check_vector(normal, dimension, what);
+    require(std::abs(normal.norm() - 1) < 1e-9, what + " must have length 1");
+}
+
+void check_plane(const Plane& plane, int dimension, const std::string& what) {
+    const auto is_axis = [&](int axis) { return axis >= 0 && axis < dimension; };
+    require(is_axis(plane.from) && is_axis(plane.to) && plane.from != plane.to,
+            what + ": a plane needs two different axes of the scene");
+}
+
+bool is_name(const std::string& name) {
+    return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')
+               || c == '-' || c == '_';
+    });
+}
+
+void check_body(const Body& body, int dimension) {
+    require(is_name(body.name),
+            "the body name \"" + body.name + "\" may have letters, digits, - and _ only");
+    const std::string what = "body \"" + body.name + "\"";
+    require(body.place.scale > 0 && std::isfinite(body.place.scale),
+            what + ": the scale must be above 0");
+    check_vector(body.place.translate, dimension, what + ": place.translate");
+    for (const Turn& turn : body.place.rotate) {
+        check_plane(turn.plane, dimension, what);
+        require(std::isfinite(turn.degrees), what + ": the angle must be finite");
+    }
+    try {
+        check(body.material, dimension);
+    } catch (const Error& error) {
+        throw Error(what + ": " + error.what());
+    }
+}
+
+struct SelectionChecker {
+    int dimension;
+    std::string what;
+
+    void operator()(const BallSelection& ball) const {
+        check_vector(ball.center, dimension, what + ": center");
+        require(ball.radius > 0 && std::isfinite(ball.radius), what + ": radius must be above 0");
+    }
+    void operator()(const BoxSelection& box) const {
+        check_vector(box.low, dimension, what + ": low");
+        check_vector(box.high, dimension, what + ": high");
+        require((box.low.array() <= box.high.array()).all(), what + ": low must be below high");
+    }
+    void operator()(const HalfSpaceSelection& half_space) const {
+        check_unit(half_space.normal, dimension, what + ": normal");
+        require(std::isfinite(half_space.offset), what + ": offset must be finite");
+    }
+    void operator()(const LayerSelection& layer) const {
+        require(layer.first <= layer.last, what + ": the first layer is behind the last");
+    }
+    void operator()(const RegionSelection& /*region*/) const {}
+    void operator()(const EverythingSelection& /*everything*/) const {}
+};
+
+void check_constraint(const Constraint& constraint, const Scene& scene) {
+    const std::string what = "constraint on \"" + constraint.body + "\"";
+    require(std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                        [&](const Body& body) { return body.name == constraint.body; }),
+            what + ": no body has this name");
+    require(!constraint.select.empty(), what + ": nothing is selected");
+    for (const Selection& selection : constraint.select) {
+        std::visit(SelectionChecker{scene.dimension, what}, selection);
+    }
+    const Motion& motion = constraint.motion;
+    check_vector(motion.translate, scene.dimension, what + ": motion.translate");
+    for (const Spin& spin : motion.rotate) {
+        check_plane(spin.plane, scene.dimension, what);
+        require(std::isfinite(spin.degrees_per_s), what + ": degrees_per_s must be finite");
+    }
+    if (motion.about) {
+        check_vector(*motion.about, scene.dimension, what + ": motion.about");
+    }
+    require(motion.from >= 0 && motion.to > motion.from, what + ": expected 0 <= from < to");
+}
+
+void check_solver(const SolverOptions& solver) {
+    require(solver.tolerance > 0 && solver.tolerance < 1, "solver: expected 0 < tolerance < 1");
+    require(solver.max_iterations > 0, "solver: max_iterations must be above 0");
+    require(solver.max_halvings >= 0 && solver.max_halvings <= 20,
+            "solver: max_halvings must be from 0 to 20");
+}
+
+}  // namespace
+
+std::string plane_name(const Plane& plane) {
+    constexpr std::string_view kAxes = "xyzw";
+    return {kAxes[static_cast<std::size_t>(plane.from)], kAxes[static_cast<std::size_t>(plane.to)]};
+}
+
+void check(const Scene& scene) {
+    require(scene.dimension == 3 || scene.dimension == 4, "the dimension must be 3 or 4");
+    check_vector(scene.gravity, scene.dimension, "gravity");
+    require(scene.frames > 0 && scene.steps_per_frame > 0,
+            "frames and steps_per_frame must be above 0");
+    require(scene.frames_per_second > 0 && std::isfinite(scene.frames_per_second),
+            "frames_per_second must be above 0");
+    require(!scene.bodies.empty(), "the scene has no body");
+    for (const Body& body : scene.bodies) {
+        check_body(body, scene.dimension);
+        require(std::count_if(scene.bodies.begin(), scene.bodies.end(),
+                              [&](const Body& other) { return other.name == body.name; })
+                    == 1,
+                "two bodies have the name \"" + body.name + "\"");
+    }
+    for (const Constraint& constraint : scene.constraints) {
+        check_constraint(constraint, scene);
+    }
+    for (const Obstacle& obstacle : scene.obstacles) {
+        check_unit(obstacle.normal, scene.dimension, "obstacle: normal");
+        require(std::isfinite(obstacle.offset) && obstacle.distance >= 0 && obstacle.stiffness > 0
+                    && std::isfinite(obstacle.distance) && std::isfinite(obstacle.stiffness),
+                "obstacle: expected a finite offset, distance >= 0 and stiffness > 0");
+    }
+    if (scene.damping) {
+        require(scene.damping->mass >= 0 && scene.damping->stiffness >= 0,
+                "damping: mass and stiffness must not be negative");
+    }
+    check_solver(scene.solver);
+}
+
+}  // namespace pent::simulator

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <pent/simulator/scene.h>
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+namespace pent::simulator {
+
+/// The words of scene files for the values of enumerations; the reader and the writer share them.
+template <typename Value>
+struct Name {
+    Value value;
+    std::string_view word;
+};
+
+inline constexpr std::array kModels = {
+    Name<Model>{Model::StableNeoHookean, "stable-neo-hookean"},
+    Name<Model>{Model::Arap, "arap"},
+    Name<Model>{Model::StVenantKirchhoff, "st-venant-kirchhoff"},
+    Name<Model>{Model::Linear, "linear"},
+};
+inline constexpr std::array kIntegrators = {
+    Name<Integrator>{Integrator::LinearEuler, "linear_euler"},
+};
+inline constexpr std::array kFilters = {
+    Name<Filter>{Filter::Clamp, "clamp"},
+    Name<Filter>{Filter::Absolute, "absolute"},
+    Name<Filter>{Filter::None, "none"},
+};
+inline constexpr std::array kPreconditioners = {
+    Name<PreconditionerKind>{PreconditionerKind::BlockJacobi, "block-jacobi"},
+};
+inline constexpr std::array kPrecisions = {
+    Name<Precision>{Precision::Float, "float"},
+    Name<Precision>{Precision::Double, "double"},
+};
+
+enum class Preset { Fast, Balanced, Accurate };
+
+inline constexpr std::array kPresets = {
+    Name<Preset>{Preset::Fast, "fast"},
+    Name<Preset>{Preset::Balanced, "balanced"},
+    Name<Preset>{Preset::Accurate, "accurate"},
+};
+
+/// The settings a preset stands for.
+[[nodiscard]] inline SolverOptions preset(Preset choice) {
+    SolverOptions solver;
+    switch (choice) {
+        case Preset::Fast:
+            solver.tolerance = 1e-3;
+            break;
+        case Preset::Balanced:
+            break;
+        case Preset::Accurate:
+            solver.tolerance = 1e-9;
+            solver.max_iterations = 20'000;
+            solver.precision = Precision::Double;
+            break;
+    }
+    return solver;
+}
+
+/// The words of a table, in its order.
+template <typename Table>
+[[nodiscard]] std::vector<std::string_view> names_of(const Table& table) {
+    std::vector<std::string_view> words;
+    for (const auto& name : table) {
+        words.push_back(name.word);
+    }
+    return words;
+}
+
+/// The word for a value.
+template <typename Table, typename Value>
+[[nodiscard]] std::string_view word_of(const Table& table, Value value) {
+    for (const auto& name : table) {
+        if (name.value == value) {
+            return name.word;
+        }
+    }
+    return "";
+}
+
+}  // namespace pent::simulator

@@ -1,0 +1,181 @@
+#include "scene_names.h"
+
+#include <pent/simulator/scene_file.h>
+
+#include <charconv>
+#include <cmath>
+#include <string>
+
+namespace pent::simulator {
+
+namespace {
+
+// Shortest text that reads back as the same double; TOML wants a digit on both sides of the point.
+std::string number(double value) {
+    if (std::isinf(value)) {
+        return value > 0 ? "inf" : "-inf";
+    }
+    char digits[32];
+    const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
+    std::string text(digits, end);
+    if (text.find_first_of(".e") == std::string::npos) {
+        text += ".0";
+    }
+    return text;
+}
+
+std::string vector(const Eigen::VectorXd& values) {
+    std::string text = "[";
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+        text += (i > 0 ? ", " : "") + number(values[i]);
+    }
+    return text + "]";
+}
+
+std::string in_quotes(std::string_view value) {
+    constexpr std::string_view kHex = "0123456789abcdef";
+    std::string text = "\"";
+    for (const char c : value) {
+        const auto code = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\') {
+            text += '\\';
+            text += c;
+        } else if (code < 0x20 || code == 0x7f) {
+            text += "\\u00";
+            text += kHex[code / 16];
+            text += kHex[code % 16];
+        } else {
+            text += c;
+        }
+    }
+    return text + "\"";
+}
+
+std::string line(std::string_view key, const std::string& value) {
+    return std::string(key) + " = " + value + "\n";
+}
+
+template <typename List, typename Write>
+std::string list(const List& entries, const Write& write) {
+    std::string text = "[";
+    for (const auto& entry : entries) {
+        text += (text.size() > 1 ? ", " : "") + write(entry);
+    }
+    return text + "]";
+}
+
+std::string placement(const Placement& place) {
+    const std::string turns = list(place.rotate, [](const Turn& turn) {
+        return "{ plane = " + in_quotes(plane_name(turn.plane))
+               + ", degrees = " + number(turn.degrees) + " }";
+    });
+    return "{ scale = " + number(place.scale) + ", rotate = " + turns
+           + ", translate = " + vector(place.translate) + " }";
+}
+
+std::string material(const Material& material) {
+    return "{ model = " + in_quotes(word_of(kModels, material.model))
+           + ", mu = " + number(material.lame.mu) + ", lambda = " + number(material.lame.lambda)
+           + ", density = " + number(material.density) + " }";
+}
+
+struct SelectionWriter {
+    std::string operator()(const BallSelection& ball) const {
+        return "{ ball = { center = " + vector(ball.center) + ", radius = " + number(ball.radius)
+               + " } }";
+    }
+    std::string operator()(const BoxSelection& box) const {
+        return "{ box = { low = " + vector(box.low) + ", high = " + vector(box.high) + " } }";
+    }
+    std::string operator()(const HalfSpaceSelection& half_space) const {
+        return "{ half_space = { normal = " + vector(half_space.normal)
+               + ", offset = " + number(half_space.offset) + " } }";
+    }
+    std::string operator()(const LayerSelection& layers) const {
+        return "{ layers = { first = " + std::to_string(layers.first)
+               + ", last = " + std::to_string(layers.last) + " } }";
+    }
+    std::string operator()(const RegionSelection& region) const {
+        return "{ region = " + std::to_string(region.region) + " }";
+    }
+    std::string operator()(const EverythingSelection& /*everything*/) const {
+        return in_quotes("everything");
+    }
+};
+
+std::string selections(const std::vector<Selection>& select) {
+    for (const Selection& selection : select) {
+        if (std::holds_alternative<EverythingSelection>(selection)) {
+            return in_quotes("everything");
+        }
+    }
+    return list(select, [](const Selection& selection) {
+        return std::visit(SelectionWriter{}, selection);
+    });
+}
+
+std::string motion(const Motion& motion) {
+    const std::string spins = list(motion.rotate, [](const Spin& spin) {
+        return "{ plane = " + in_quotes(plane_name(spin.plane))
+               + ", degrees_per_s = " + number(spin.degrees_per_s) + " }";
+    });
+    return "{ translate = " + vector(motion.translate) + ", rotate = " + spins
+           + (motion.about ? ", about = " + vector(*motion.about) : "")
+           + ", from = " + number(motion.from)
+           + (std::isfinite(motion.to) ? ", to = " + number(motion.to) : "") + " }";
+}
+
+std::string body_text(const Body& body, int dimension) {
+    const YoungPoisson young = young_from_lame(dimension, body.material.lame);
+    return "\n[[body]]\n" + line("name", in_quotes(body.name)) + line("mesh", in_quotes(body.mesh))
+           + line("place", placement(body.place)) + "# young = " + number(young.young)
+           + ", poisson = " + number(young.poisson) + "\n"
+           + line("material", material(body.material));
+}
+
+std::string obstacle_text(const Obstacle& obstacle) {
+    return "\n[[obstacle]]\n"
+           + line("half_space", "{ normal = " + vector(obstacle.normal)
+                                    + ", offset = " + number(obstacle.offset) + " }")
+           + line("distance", number(obstacle.distance))
+           + line("stiffness", number(obstacle.stiffness));
+}
+
+std::string solver_text(const SolverOptions& solver) {
+    return "\n[solver]\n" + line("integrator", in_quotes(word_of(kIntegrators, solver.integrator)))
+           + line("filter", in_quotes(word_of(kFilters, solver.filter)))
+           + line("preconditioner", in_quotes(word_of(kPreconditioners, solver.preconditioner)))
+           + line("precision", in_quotes(word_of(kPrecisions, solver.precision)))
+           + line("tolerance", number(solver.tolerance))
+           + line("max_iterations", std::to_string(solver.max_iterations))
+           + line("max_halvings", std::to_string(solver.max_halvings));
+}
+
+}  // namespace
+
+std::string scene_text(const Scene& scene) {
+    std::string text = "[scene]\n";
+    text += line("dimension", std::to_string(scene.dimension));
+    text += line("gravity", vector(scene.gravity));
+    text += line("frames", std::to_string(scene.frames));
+    text += line("frames_per_second", number(scene.frames_per_second));
+    text += line("steps_per_frame", std::to_string(scene.steps_per_frame));
+    for (const Body& body : scene.bodies) {
+        text += body_text(body, scene.dimension);
+    }
+    for (const Constraint& constraint : scene.constraints) {
+        text += "\n[[constraint]]\n" + line("body", in_quotes(constraint.body))
+                + line("select", selections(constraint.select))
+                + line("motion", motion(constraint.motion));
+    }
+    for (const Obstacle& obstacle : scene.obstacles) {
+        text += obstacle_text(obstacle);
+    }
+    if (scene.damping) {
+        text += "\n[damping]\n" + line("mass", number(scene.damping->mass))
+                + line("stiffness", number(scene.damping->stiffness));
+    }
+    return text + solver_text(scene.solver);
+}
+
+}  // namespace pent::simulator

@@ -1,0 +1,286 @@
+#include "toml_table.h"
+
+#include <pent/error.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace pent::simulator {
+
+namespace {
+
+std::string at(const std::string& file, const toml::source_position& position) {
+    return file + ":" + std::to_string(position.line) + ":" + std::to_string(position.column)
+           + ": ";
+}
+
+std::string readable(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
+std::string readable(const Range& range) {
+    const bool has_low = std::isfinite(range.low);
+    const bool has_high = std::isfinite(range.high);
+    std::string text = "a number";
+    if (has_low) {
+        text += (range.low_included ? " of at least " : " above ") + readable(range.low);
+    }
+    if (has_high) {
+        text += has_low ? " and" : "";
+        text += (range.high_included ? " at most " : " below ") + readable(range.high);
+    }
+    return text;
+}
+
+bool is_within(const Range& range, double value) {
+    const bool above = range.low_included ? value >= range.low : value > range.low;
+    const bool below = range.high_included ? value <= range.high : value < range.high;
+    return above && below && std::isfinite(value);
+}
+
+std::string type_of(const toml::node& node) {
+    switch (node.type()) {
+        case toml::node_type::table:
+            return "a table";
+        case toml::node_type::array:
+            return "an array";
+        case toml::node_type::string:
+            return "the text \"" + node.as_string()->get() + "\"";
+        case toml::node_type::integer:
+            return std::to_string(node.as_integer()->get());
+        case toml::node_type::floating_point:
+            return readable(node.as_floating_point()->get());
+        case toml::node_type::boolean:
+            return node.as_boolean()->get() ? "true" : "false";
+        default:
+            return "a date or time";
+    }
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+        row[j] = j;
+    }
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+        }
+    }
+    return row[b.size()];
+}
+
+std::string quoted(std::string_view word) {
+    return "\"" + std::string(word) + "\"";
+}
+
+}  // namespace
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+    std::string best;
+    std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2) + 1;
+    for (const std::string& candidate : candidates) {
+        const std::size_t distance = edit_distance(word, candidate);
+        if (distance < best_distance) {
+            best = candidate;
+            best_distance = distance;
+        }
+    }
+    return best.empty() ? "" : "; did you mean " + quoted(best) + "?";
+}
+
+toml::table parse_toml(std::string_view text, const std::string& file) {
+    try {
+        return toml::parse(text);
+    } catch (const toml::parse_error& error) {
+        throw Error(at(file, error.source().begin) + std::string(error.description()));
+    }
+}
+
+TableReader::TableReader(const toml::table& table, std::string name, std::string file)
+    : table_(&table), name_(std::move(name)), file_(std::move(file)) {}
+
+const toml::node* TableReader::find(std::string_view key) {
+    if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
+        known_.emplace_back(key);
+    }
+    return table_->get(key);
+}
+
+bool TableReader::has(std::string_view key) {
+    return find(key) != nullptr;
+}
+
+void TableReader::fail(std::string_view key, const std::string& message) const {
+    const toml::node* node = table_->get(key);
+    const toml::source_position position =
+        node != nullptr ? node->source().begin : table_->source().begin;
+    throw Error(at(file_, position) + message);
+}
+
+void TableReader::fail_missing(std::string_view key, std::string_view type) const {
+    std::vector<std::string> unknown;
+    for (const auto& [present, node] : *table_) {
+        if (std::find(known_.begin(), known_.end(), present.str()) == known_.end()) {
+            unknown.emplace_back(present.str());
+        }
+    }
+    fail("", name_ + " needs " + quoted(key) + " (" + std::string(type) + ")"
+                 + (unknown.empty() ? "" : "; found the unknown key " + quoted(unknown.front())));
+}
+
+double TableReader::number(std::string_view key,
+                           std::optional<double> fallback,
+                           const Range& range) {
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        if (!fallback) {
+            fail_missing(key, readable(range));
+        }
+        return *fallback;
+    }
+    const std::optional<double> value = node->value<double>();
+    if (!node->is_number() || !value || !is_within(range, *value)) {
+        fail(key, quoted(key) + " is " + type_of(*node) + "; expected " + readable(range));
+    }
+    return *value;
+}
+
+std::int64_t TableReader::integer(std::string_view key,
+                                  std::optional<std::int64_t> fallback,
+                                  std::int64_t low,
+                                  std::int64_t high) {
+    const std::string expected =
+        "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        if (!fallback) {
+            fail_missing(key, expected);
+        }
+        return *fallback;
+    }
+    if (!node->is_integer() || node->as_integer()->get() < low
+        || node->as_integer()->get() > high) {
+        fail(key, quoted(key) + " is " + type_of(*node) + "; expected " + expected);
+    }
+    return node->as_integer()->get();
+}
+
+std::string TableReader::text(std::string_view key) {
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        fail_missing(key, "text");
+    }
+    if (!node->is_string()) {
+        fail(key, quoted(key) + " is " + type_of(*node) + "; expected text in quotes");
+    }
+    return node->as_string()->get();
+}
+
+Eigen::VectorXd TableReader::vector(std::string_view key,
+                                    int length,
+                                    const std::optional<Eigen::VectorXd>& fallback) {
+    const std::string expected = std::to_string(length) + " numbers in brackets";
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        if (!fallback) {
+            fail_missing(key, expected);
+        }
+        return *fallback;
+    }
+    const toml::array* array = node->as_array();
+    if (array == nullptr) {
+        fail(key, quoted(key) + " is " + type_of(*node) + "; expected " + expected);
+    }
+    if (array->size() != static_cast<std::size_t>(length)) {
+        fail(key, quoted(key) + " has " + std::to_string(array->size()) + " entries; expected "
+                      + expected + " (the scene's dimension is " + std::to_string(length) + ")");
+    }
+    Eigen::VectorXd vector(length);
+    for (int axis = 0; axis < length; ++axis) {
+        const toml::node& entry = *array->get(static_cast<std::size_t>(axis));
+        const std::optional<double> value = entry.value<double>();
+        if (!entry.is_number() || !value || !std::isfinite(*value)) {
+            fail(key, quoted(key) + " has the entry " + type_of(entry) + "; expected " + expected);
+        }
+        vector[axis] = *value;
+    }
+    return vector;
+}
+
+std::size_t TableReader::choice(std::string_view key,
+                                const std::vector<std::string_view>& names,
+                                std::size_t fallback) {
+    if (!has(key)) {
+        return fallback;
+    }
+    const std::string value = text(key);
+    const auto found = std::find(names.begin(), names.end(), value);
+    if (found == names.end()) {
+        std::string list;
+        for (const std::string_view name : names) {
+            list += (list.empty() ? "" : ", ") + quoted(name);
+        }
+        fail(key, quoted(key) + " is " + quoted(value) + "; expected "
+                      + (names.size() > 1 ? "one of " : "") + list
+                      + did_you_mean(value, {names.begin(), names.end()}));
+    }
+    return static_cast<std::size_t>(found - names.begin());
+}
+
+TableReader TableReader::table(std::string_view key) {
+    const toml::node* node = find(key);
+    if (!node->is_table()) {
+        fail(key, quoted(key) + " is " + type_of(*node) + "; expected a table");
+    }
+    return {*node->as_table(), quoted(key), file_};
+}
+
+std::vector<TableReader> TableReader::tables(std::string_view key) {
+    std::vector<TableReader> readers;
+    if (!has(key)) {
+        return readers;
+    }
+    if (find(key)->is_table()) {
+        readers.push_back(table(key));
+        return readers;
+    }
+    const toml::array* array = find(key)->as_array();
+    if (array == nullptr) {
+        fail(key, quoted(key) + " is " + type_of(*find(key)) + "; expected a list of tables");
+    }
+    for (const toml::node& entry : *array) {
+        if (!entry.is_table()) {
+            fail(key, quoted(key) + " has the entry " + type_of(entry) + "; expected a table");
+        }
+        readers.emplace_back(*entry.as_table(), quoted(key), file_);
+    }
+    return readers;
+}
+
+bool TableReader::is_text(std::string_view key) {
+    return has(key) && find(key)->is_string();
+}
+
+void TableReader::refuse(std::string_view key, std::string_view reason) {
+    if (has(key)) {
+        fail(key, quoted(key) + " " + std::string(reason));
+    }
+}
+
+void TableReader::finish() const {
+    for (const auto& [key, node] : *table_) {
+        if (std::find(known_.begin(), known_.end(), key.str()) == known_.end()) {
+            throw Error(at(file_, key.source().begin) + "unknown key " + quoted(key.str()) + " in "
+                        + name_ + did_you_mean(key.str(), known_));
+        }
+    }
+}
+
+}  // namespace pent::simulator

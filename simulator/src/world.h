@@ -1,0 +1,51 @@
+#pragma once
+
+#include "elements.h"
+#include "numbering.h"
+
+#include <pent/simplex_mesh.h>
+#include <pent/simulator/scene.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pent::simulator {
+
+/// Vertices that a constraint moves.
+template <int Dim>
+struct HeldSet {
+    std::vector<std::uint32_t> vertices;  ///< Of all bodies counted through, increasing.
+    Motion motion;
+    Eigen::Matrix<double, Dim, 1> about;  ///< What the motion turns about, m.
+};
+
+/// All bodies of a scene as one mesh: vertices and cells of the bodies one after the other.
+template <int Dim>
+struct World {
+    std::vector<SimplexMesh<Dim>> meshes;    ///< As placed.
+    std::vector<Eigen::Index> first_vertex;  ///< Bodies + 1 entries.
+    Positions<Dim> rest;                     ///< Dim x vertices, m.
+    Simplices<Dim + 1> cells;
+    std::vector<CellRange> ranges;   ///< One a body.
+    Eigen::VectorXd masses;          ///< One a vertex, kg.
+    std::vector<HeldSet<Dim>> held;  ///< One a constraint.
+    Numbering numbering;
+
+    [[nodiscard]] Eigen::Index vertex_count() const { return rest.cols(); }
+};
+
+/// Places the meshes, selects held vertices, lumps masses and numbers unknowns.
+///
+/// Lumped mass: every cell gives each of its Dim + 1 corners the same share. Throws an Error as the
+/// constructor of Simulation says.
+template <int Dim>
+[[nodiscard]] World<Dim> make_world(const Scene& scene, std::vector<SimplexMesh<Dim>> meshes);
+
+/// Puts held vertices where they are at a time; their velocities too unless that is null.
+template <int Dim>
+void place_held(const World<Dim>& world,
+                double time,
+                Positions<Dim>& positions,
+                Positions<Dim>* velocities);
+
+}  // namespace pent::simulator
