@@ -6,10 +6,13 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <limits>
 #include <numeric>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace pent::mesher {
@@ -53,16 +56,21 @@ TriangleSoup read_soup(const std::filesystem::path& path) {
         throw Error(path.string() + ": no such file");
     }
     const std::string format = ending(path);
-    if (format == ".obj") {
-        return read_obj(path);
-    }
-    for (const char* known : {".ply", ".stl", ".off", ".gltf", ".glb"}) {
+    constexpr std::array<
+        std::pair<std::string_view, TriangleSoup (*)(const std::filesystem::path&)>, 6>
+        kReaders = {{{".obj", read_obj},
+                     {".off", read_off},
+                     {".ply", read_ply},
+                     {".stl", read_stl},
+                     {".gltf", read_gltf},
+                     {".glb", read_gltf}}};
+    for (const auto& [known, read] : kReaders) {
         if (format == known) {
-            return read_with_assimp(path);
+            return read(path);
         }
     }
     throw Error(path.string() + ": a name that ends in \"" + format
-                + "\"; surfaces end in .obj, .ply, .stl, .off, .gltf or .glb");
+                + "\"; surfaces end in .obj, .off, .ply, .stl, .gltf or .glb");
 }
 
 }  // namespace

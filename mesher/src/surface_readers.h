@@ -1,21 +1,28 @@
 #pragma once
 
-#include <pent/simplex_mesh.h>
+#include "soup.h"
 
 #include <filesystem>
 
 namespace pent::mesher {
 
-/// Points and triangles as a file lists them, polygons already cut.
-struct TriangleSoup {
-    Positions<3> points;     ///< 3 x n, finite.
-    Simplices<3> triangles;  ///< Indices in range.
-};
+/// Readers of one format each, in double precision where the format has it. Every one throws an
+/// Error that names file and line (or offset) for what is damaged, and allocates no more than the
+/// size of the file bears out.
 
-/// Reads `v` and `f` lines of a Wavefront OBJ file in double precision; all else is skipped.
+/// `v` and `f` lines of a Wavefront OBJ file; all else is skipped.
 [[nodiscard]] TriangleSoup read_obj(const std::filesystem::path& path);
 
-/// Reads every triangle of a file through assimp, in float, with the placements of its scene.
-[[nodiscard]] TriangleSoup read_with_assimp(const std::filesystem::path& path);
+/// OFF as text, also COFF, NOFF and the like: what follows coordinates and corners is skipped.
+[[nodiscard]] TriangleSoup read_off(const std::filesystem::path& path);
+
+/// STL, as text or binary.
+[[nodiscard]] TriangleSoup read_stl(const std::filesystem::path& path);
+
+/// PLY, as text or binary: x, y, z of `vertex`, vertex_indices (or vertex_index) of `face`.
+[[nodiscard]] TriangleSoup read_ply(const std::filesystem::path& path);
+
+/// glTF, as text or binary, in float, with the placements of its scene, through assimp.
+[[nodiscard]] TriangleSoup read_gltf(const std::filesystem::path& path);
 
 }  // namespace pent::mesher

@@ -16,14 +16,6 @@ bool is_space(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
 }
 
-std::string_view without_leading_space(std::string_view text) {
-    std::size_t start = 0;
-    while (start < text.size() && is_space(text[start])) {
-        ++start;
-    }
-    return text.substr(start);
-}
-
 // A long word of a binary file would fill the terminal.
 std::string quoted(std::string_view word) {
     constexpr std::size_t kLongest = 40;
@@ -54,37 +46,44 @@ TextReader::TextReader(const std::filesystem::path& path, char comment)
 
 void TextReader::take_line() {
     const std::size_t end = std::min(text_.find('\n', next_), text_.size());
-    line_ = std::string_view(text_).substr(next_, end - next_);
+    const std::string_view line = std::string_view(text_).substr(next_, end - next_);
+    at_ = next_;
+    end_ = at_ + (comment_ == '\0' ? line.size() : std::min(line.find(comment_), line.size()));
     next_ = end + 1;
     ++line_number_;
-    if (comment_ != '\0') {
-        line_ = line_.substr(0, line_.find(comment_));
+    skip_space();
+}
+
+void TextReader::skip_space() {
+    while (at_ < end_ && is_space(text_[at_])) {
+        ++at_;
     }
-    line_ = without_leading_space(line_);
 }
 
 bool TextReader::next_line() {
     while (next_ < text_.size()) {
         take_line();
-        if (!line_.empty()) {
+        if (at_ < end_) {
             return true;
         }
     }
-    line_ = {};
+    at_ = end_;
     return false;
 }
 
 std::string_view TextReader::word() {
-    line_ = without_leading_space(line_);
-    if (!line_.empty() && line_.front() == '\\' && without_leading_space(line_.substr(1)).empty()) {
-        return next_line() ? word() : std::string_view();
+    skip_space();
+    const std::size_t start = at_;
+    while (at_ < end_ && !is_space(text_[at_])) {
+        ++at_;
     }
-    std::size_t end = 0;
-    while (end < line_.size() && !is_space(line_[end])) {
-        ++end;
+    const std::string_view found = std::string_view(text_).substr(start, at_ - start);
+    if (found == "\\") {
+        skip_space();
+        if (at_ == end_) {
+            return next_line() ? word() : std::string_view();
+        }
     }
-    const std::string_view found = line_.substr(0, end);
-    line_ = line_.substr(end);
     return found;
 }
 
@@ -117,6 +116,35 @@ std::int64_t TextReader::integer(std::string_view word, std::string_view expecte
         fail("found " + quoted(word) + ", expected " + std::string(expected) + ", a whole number");
     }
     return value;
+}
+
+Eigen::Vector3d TextReader::point() {
+    Eigen::Vector3d point;
+    for (double& coordinate : point) {
+        coordinate = number(word(), "a coordinate");
+    }
+    return point;
+}
+
+std::uint32_t TextReader::index(std::string_view word, std::int64_t end) const {
+    const std::int64_t value = integer(word, "an index");
+    if (value < 0 || value >= end) {
+        fail("index " + std::to_string(value) + " of " + std::to_string(end));
+    }
+    return static_cast<std::uint32_t>(value);
+}
+
+std::int64_t TextReader::count(std::string_view word, std::string_view expected) const {
+    const std::int64_t value = integer(word, expected);
+    if (value < 0 || value > size()) {
+        fail(std::to_string(value) + " as " + std::string(expected) + " in a file of "
+             + std::to_string(size()) + " bytes");
+    }
+    return value;
+}
+
+std::string_view TextReader::rest() const {
+    return std::string_view(text_).substr(std::min(next_, text_.size()));
 }
 
 void TextReader::fail(const std::string& message) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -31,6 +33,18 @@ public:
     /// A word as a whole number; throws an Error that says what was expected.
     [[nodiscard]] std::int64_t integer(std::string_view word, std::string_view expected) const;
 
+    /// The next three words of this line as a point.
+    [[nodiscard]] Eigen::Vector3d point();
+
+    /// A word as an index below `end`; throws an Error that gives both.
+    [[nodiscard]] std::uint32_t index(std::string_view word, std::int64_t end) const;
+
+    /// A word as a number of things in the file, each of a byte or more: at most its size.
+    [[nodiscard]] std::int64_t count(std::string_view word, std::string_view expected) const;
+
+    /// What follows the current line.
+    [[nodiscard]] std::string_view rest() const;
+
     /// Throws an Error "file: line n: message".
     [[noreturn]] void fail(const std::string& message) const;
 
@@ -41,12 +55,14 @@ public:
 
 private:
     void take_line();
+    void skip_space();
 
     std::string name_;
     std::string text_;
     char comment_;
-    std::size_t next_ = 0;   // first character behind the current line
-    std::string_view line_;  // what is left of the current line
+    std::size_t next_ = 0;  // first character behind the current line
+    std::size_t at_ = 0;    // first character of what is left of the current line
+    std::size_t end_ = 0;   // behind the current line's last one
     std::int64_t line_number_ = 0;
 };
 

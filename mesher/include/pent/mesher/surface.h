@@ -23,7 +23,7 @@ struct SurfaceFile {
     std::int64_t unused_points = 0;  ///< Points without a triangle, left out.
 };
 
-/// Reads a surface: OBJ in double precision; PLY, STL, OFF and glTF in float, as assimp has them.
+/// Reads a surface from an OBJ, OFF, PLY, STL or glTF file, in double precision where the file has it.
 ///
 /// The ending of the name tells the format. Polygons are cut into triangles, points at the same
 /// place become one, unused ones go. Nothing is checked beyond that: see check_surface().

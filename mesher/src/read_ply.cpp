@@ -1,0 +1,268 @@
+#include "surface_readers.h"
+#include "text_reader.h"
+
+#include <pent/error.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace pent::mesher {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+enum class Type { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
+
+struct TypeName {
+    std::string_view name;
+    std::string_view other_name;
+    Type type;
+    std::size_t bytes;
+};
+
+constexpr std::array<TypeName, 8> kTypes = {{{"char", "int8", Type::Int8, 1},
+                                             {"uchar", "uint8", Type::Uint8, 1},
+                                             {"short", "int16", Type::Int16, 2},
+                                             {"ushort", "uint16", Type::Uint16, 2},
+                                             {"int", "int32", Type::Int32, 4},
+                                             {"uint", "uint32", Type::Uint32, 4},
+                                             {"float", "float32", Type::Float32, 4},
+                                             {"double", "float64", Type::Float64, 8}}};
+
+struct Property {
+    std::string name;
+    bool is_list = false;
+    Type count_type = Type::Uint8;  // of a list
+    Type type = Type::Float32;
+};
+
+struct Element {
+    std::string name;
+    std::int64_t count = 0;
+    std::vector<Property> properties;
+};
+
+enum class Encoding { Text, LittleEndian, BigEndian };
+
+struct Header {
+    Encoding encoding = Encoding::Text;
+    std::vector<Element> elements;
+};
+
+Type read_type(TextReader& text) {
+    const std::string_view word = text.word();
+    for (const TypeName& known : kTypes) {
+        if (word == known.name || word == known.other_name) {
+            return known.type;
+        }
+    }
+    text.fail("type \"" + std::string(word) + "\"; expected one of PLY's, as in float or uchar");
+}
+
+Encoding read_encoding(TextReader& text) {
+    const std::string_view word = text.word();
+    if (word == "ascii") {
+        return Encoding::Text;
+    }
+    if (word == "binary_little_endian") {
+        return Encoding::LittleEndian;
+    }
+    if (word == "binary_big_endian") {
+        return Encoding::BigEndian;
+    }
+    text.fail("format \"" + std::string(word)
+              + "\"; expected ascii, binary_little_endian or binary_big_endian");
+}
+
+Property read_property(TextReader& text) {
+    Property property;
+    TextReader ahead = text;  // the first word is either "list" or a type
+    property.is_list = ahead.word() == "list";
+    if (property.is_list) {
+        static_cast<void>(text.word());
+        property.count_type = read_type(text);
+    }
+    property.type = read_type(text);
+    property.name = text.word();
+    return property;
+}
+
+Header read_header(TextReader& text) {
+    Header header;
+    if (!text.next_line() || text.word() != "ply") {
+        text.fail("no \"ply\" at the start; expected a PLY file");
+    }
+    while (text.next_line()) {
+        const std::string_view keyword = text.word();
+        if (keyword == "format") {
+            header.encoding = read_encoding(text);
+        } else if (keyword == "element") {
+            Element element;
+            element.name = text.word();
+            element.count = text.count(text.word(), "the number of elements");
+            header.elements.push_back(element);
+        } else if (keyword == "property") {
+            if (header.elements.empty()) {
+                text.fail("a property before the first element");
+            }
+            header.elements.back().properties.push_back(read_property(text));
+        } else if (keyword == "end_header") {
+            return header;
+        } else if (keyword != "comment" && keyword != "obj_info") {
+            text.fail("\"" + std::string(keyword) + "\"; expected element, property or end_header");
+        }
+    }
+    text.fail("the file ends within the header");
+}
+
+// Values one after the other, from text or bytes.
+class Values {
+public:
+    Values(TextReader& text, Encoding encoding)
+        : text_(text), encoding_(encoding), bytes_(text.rest()) {}
+
+    double next(Type type) {
+        if (encoding_ == Encoding::Text) {
+            return text_.number(text_.next_word("a value"), "a value");
+        }
+        switch (type) {
+            case Type::Int8:
+                return take<std::int8_t>();
+            case Type::Uint8:
+                return take<std::uint8_t>();
+            case Type::Int16:
+                return take<std::int16_t>();
+            case Type::Uint16:
+                return take<std::uint16_t>();
+            case Type::Int32:
+                return take<std::int32_t>();
+            case Type::Uint32:
+                return take<std::uint32_t>();
+            case Type::Float32:
+                return double{take<float>()};
+            case Type::Float64:
+                return take<double>();
+        }
+        return 0;
+    }
+
+    // A whole number from 0 up to and without `end`.
+    std::int64_t next_below(Type type, std::int64_t end, const std::string& what) {
+        const double value = next(type);
+        if (!(value >= 0) || value >= static_cast<double>(end) || value != std::floor(value)) {
+            fail(what + " " + std::to_string(value) + "; expected a whole number below "
+                 + std::to_string(end));
+        }
+        return static_cast<std::int64_t>(value);
+    }
+
+    [[noreturn]] void fail(const std::string& message) const {
+        if (encoding_ == Encoding::Text) {
+            text_.fail(message);
+        }
+        throw Error(text_.name() + ": " + std::to_string(at_)
+                    + " bytes behind the header: " + message);
+    }
+
+private:
+    template <typename T>
+    T take() {
+        if (bytes_.size() - at_ < sizeof(T)) {
+            fail("the file ends here; expected a value");
+        }
+        std::array<char, sizeof(T)> raw{};
+        std::memcpy(raw.data(), bytes_.data() + at_, sizeof(T));
+        if (encoding_ == Encoding::BigEndian) {
+            std::reverse(raw.begin(), raw.end());
+        }
+        at_ += sizeof(T);
+        return std::bit_cast<T>(raw);
+    }
+
+    TextReader& text_;
+    Encoding encoding_;
+    std::string_view bytes_;
+    std::size_t at_ = 0;
+};
+
+void read_vertex(const Element& element, Values& values, SoupBuilder& builder) {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    for (const Property& property : element.properties) {
+        if (property.is_list) {
+            values.fail("a list among the properties of vertex; expected single values");
+        }
+        const double value = values.next(property.type);
+        if (property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z') {
+            point[property.name[0] - 'x'] = value;
+        }
+    }
+    if (!point.allFinite()) {
+        values.fail("vertex " + std::to_string(builder.point_count())
+                    + ": a coordinate is not finite");
+    }
+    builder.add_point(point);
+}
+
+// Reads one row; its polygon is left in `polygon` if it has one.
+void read_row(const Element& element,
+              Values& values,
+              std::int64_t points,
+              std::int64_t longest,
+              std::vector<std::uint32_t>& polygon) {
+    polygon.clear();
+    for (const Property& property : element.properties) {
+        if (!property.is_list) {
+            static_cast<void>(values.next(property.type));
+            continue;
+        }
+        const bool is_polygon =
+            element.name == "face"
+            && (property.name == "vertex_indices" || property.name == "vertex_index");
+        const std::int64_t count =
+            values.next_below(property.count_type, longest, "a list of length");
+        for (std::int64_t i = 0; i < count; ++i) {
+            if (is_polygon) {
+                polygon.push_back(static_cast<std::uint32_t>(
+                    values.next_below(property.type, points, "a corner")));
+            } else {
+                static_cast<void>(values.next(property.type));
+            }
+        }
+    }
+}
+
+}  // namespace
+
+TriangleSoup read_ply(const std::filesystem::path& path) {
+    TextReader text(path, '\0');
+    const Header header = read_header(text);
+    Values values(text, header.encoding);
+    SoupBuilder builder;
+    std::vector<std::uint32_t> polygon;
+    for (const Element& element : header.elements) {
+        if (element.properties.empty()) {
+            continue;  // rows without a byte: nothing to read, whatever their number
+        }
+        for (std::int64_t row = 0; row < element.count; ++row) {
+            if (element.name == "vertex") {
+                read_vertex(element, values, builder);
+                continue;
+            }
+            read_row(element, values, builder.point_count(), text.size(), polygon);
+            if (polygon.size() >= 3) {
+                builder.add_polygon(polygon);
+            } else if (!polygon.empty()) {
+                values.fail("a face with " + std::to_string(polygon.size())
+                            + " corners; expected 3 or more");
+            }
+        }
+    }
+    return builder.soup();
+}
+
+}  // namespace pent::mesher

@@ -1,0 +1,86 @@
+#include "surface_readers.h"
+#include "text_reader.h"
+
+#include <pent/error.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+namespace pent::mesher {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "binary STL is little-endian");
+
+constexpr std::size_t kHeader = 84;    // 80 bytes of text and the number of triangles
+constexpr std::size_t kTriangle = 50;  // a normal, three points, two bytes of attributes
+
+// Binary files may start with "solid" as well: their length tells.
+bool is_binary(std::string_view bytes) {
+    if (bytes.size() < kHeader) {
+        return false;
+    }
+    std::uint32_t triangles = 0;
+    std::memcpy(&triangles, bytes.data() + kHeader - sizeof triangles, sizeof triangles);
+    return bytes.size() == kHeader + kTriangle * triangles;
+}
+
+void add_last_triangle(SoupBuilder& builder) {
+    const auto last = static_cast<std::uint32_t>(builder.point_count());
+    builder.add_polygon(std::array{last - 3, last - 2, last - 1});
+}
+
+TriangleSoup read_binary(std::string_view bytes, const std::string& name) {
+    SoupBuilder builder;
+    for (std::size_t at = kHeader; at < bytes.size(); at += kTriangle) {
+        std::array<float, 12> values{};
+        std::memcpy(values.data(), bytes.data() + at, sizeof values);
+        for (std::size_t i = 3; i < 12; i += 3) {
+            const Eigen::Vector3d point(values[i], values[i + 1], values[i + 2]);
+            if (!point.allFinite()) {
+                throw Error(name + ": triangle " + std::to_string((at - kHeader) / kTriangle)
+                            + ": a coordinate is not finite");
+            }
+            builder.add_point(point);
+        }
+        add_last_triangle(builder);
+    }
+    return builder.soup();
+}
+
+TriangleSoup read_text(TextReader& text) {
+    if (!text.next_line() || text.word() != "solid") {
+        text.fail("no \"solid\" at the start, and not the length of a binary STL file");
+    }
+    SoupBuilder builder;
+    std::int64_t corners = 0;  // of the loop that is open
+    while (text.next_line()) {
+        const std::string_view keyword = text.word();
+        if (keyword == "vertex") {
+            builder.add_point(text.point());
+            ++corners;
+        } else if (keyword == "endloop") {
+            if (corners != 3) {
+                text.fail("a loop of " + std::to_string(corners) + " vertices; expected 3");
+            }
+            add_last_triangle(builder);
+            corners = 0;
+        }
+    }
+    if (corners != 0) {
+        text.fail("the file ends within a loop");
+    }
+    return builder.soup();
+}
+
+}  // namespace
+
+TriangleSoup read_stl(const std::filesystem::path& path) {
+    TextReader text(path, '\0');
+    return is_binary(text.rest()) ? read_binary(text.rest(), text.name()) : read_text(text);
+}
+
+}  // namespace pent::mesher

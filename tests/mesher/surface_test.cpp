@@ -1,0 +1,139 @@
+#include "shapes.h"
+#include "support/messages.h"
+#include "support/temp_folder.h"
+
+#include <pent/error.h>
+#include <pent/mesher/surface.h>
+
+#include <gtest/gtest.h>
+
+namespace pent::mesher {
+namespace {
+
+using test::write_file;
+
+// What read_surface says about a file with this text.
+std::string message_for(const std::string& name, const std::string& text) {
+    const test::TempFolder folder;
+    write_file(folder / name, text);
+    return test::error_of([&] { static_cast<void>(read_surface(folder / name)); });
+}
+
+SurfaceFile read_text(const std::string& name, const std::string& text) {
+    const test::TempFolder folder;
+    write_file(folder / name, text);
+    return read_surface(folder / name);
+}
+
+TEST(ReadObj, KeepsEveryBitOfADouble) {
+    const SurfaceFile file =
+        read_text("a.obj", "v 0.1 1e-300 -1.7976931348623157e308\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_EQ(file.surface.points(0, 0), 0.1);
+    EXPECT_EQ(file.surface.points(1, 0), 1e-300);
+    EXPECT_EQ(file.surface.points(2, 0), -1.7976931348623157e308);
+}
+
+TEST(ReadObj, TakesEveryFormOfACorner) {
+    const char* points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (const char* face : {"f 1 2 3", "f 1/7 2/8 3/9", "f 1//7 2//8 3//9", "f 1/1/1 2/2/2 3/3/3",
+                             "f -3 -2 -1", "f -3/-1 -2/-1 -1/-1", "f 1 2 \\\n 3"}) {
+        const SurfaceFile file = read_text("a.obj", std::string(points) + face + "\n");
+        EXPECT_EQ(file.surface.triangles, (Simplices<3>(3, 1) << 0, 1, 2).finished()) << face;
+    }
+}
+
+TEST(ReadObj, SkipsCommentsOtherLinesAndCarriageReturns) {
+    const SurfaceFile file = read_text(
+        "a.obj",
+        "# made by hand\r\nmtllib x.mtl\r\no thing\r\n\r\n  v 0 0 0 # origin\r\nv\t1 0 0\r\n"
+        "v 0 +1 0 0.5 0.5 0.5\r\nvn 0 0 1\r\nvt 0 0\r\ns off\r\nusemtl m\r\nl 1 2\r\nf 1 2 3");
+    EXPECT_EQ(file.surface.triangle_count(), 1);
+    EXPECT_EQ(file.surface.points(1, 2), 1.0);
+}
+
+TEST(ReadObj, CutsAConcavePolygonWithoutTurningTrianglesOver) {
+    // A dart: the fan from its first corner would reach over the notch. Its area is 1.
+    const SurfaceFile file =
+        read_text("a.obj", "v -1 -1 0\nv 1 0 0\nv -1 1 0\nv 0 0 0\nf 1 2 3 4\n");
+    ASSERT_EQ(file.surface.triangle_count(), 2);
+    EXPECT_DOUBLE_EQ(area(file.surface), 1.0);
+}
+
+TEST(ReadObj, NamesFileAndLineOfWhatIsWrong) {
+    test::expect_contains(message_for("a.obj", "v 0 0 0\nv 1 0\n"), {"a.obj: line 2"});
+    test::expect_contains(message_for("a.obj", "v 0 0 nan\n"), {"\"nan\""});
+    test::expect_contains(message_for("a.obj", "v 0 0 1e999\n"), {"finite"});
+    test::expect_contains(message_for("a.obj", "v 0 0 1x\n"), {"\"1x\""});
+    test::expect_contains(message_for("a.obj", "v 0 0 0\n\nf 1 1 2\n"), {"line 3: corner 2"});
+    test::expect_contains(message_for("a.obj", "v 0 0 0\nf 1 1 0\n"), {"corner 0"});
+    test::expect_contains(message_for("a.obj", "v 0 0 0\nf 1 1 -2\n"), {"corner -2"});
+    test::expect_contains(message_for("a.obj", "v 0 0 0\nf 1 1\n"), {"2 corners"});
+    test::expect_contains(message_for("a.obj", "v 0 0 0\nf a b c\n"), {"\"a\""});
+    test::expect_contains(message_for("a.obj", "v 0 0 0\n"), {"no triangle"});
+    test::expect_contains(message_for("a.obj", ""), {"no triangle"});
+    test::expect_contains(message_for("a.xyz", ""), {".obj, .off"});
+    EXPECT_THROW(static_cast<void>(read_surface("/no/such.obj")), Error);
+    EXPECT_THROW(static_cast<void>(read_surface("/")), Error);
+}
+
+TEST(ReadSurface, ReadsOffPlyAndStl) {
+    const SurfaceFile off = read_surface(std::string(PENT_MODELS) + "/dirty/d_cube.off");
+    EXPECT_EQ(off.surface.points, test::box_surface({0, 0, 0}, {1, 1, 1}).points);
+    EXPECT_DOUBLE_EQ(enclosed_volume(off.surface), 1.0);
+
+    const SurfaceFile ply = read_text("a.ply",
+                                      "ply\nformat ascii 1.0\nelement vertex 4\n"
+                                      "property float x\nproperty float y\nproperty float z\n"
+                                      "element face 2\nproperty list uchar int vertex_indices\n"
+                                      "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+                                      "3 0 1 2\n3 0 2 3\n");
+    EXPECT_EQ(ply.surface.point_count(), 4);
+    EXPECT_DOUBLE_EQ(area(ply.surface), 1.0);
+
+    const SurfaceFile stl = read_text(
+        "a.stl",
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\n"
+        "endloop\nendfacet\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 1 0\n"
+        "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n");
+    EXPECT_EQ(stl.surface.point_count(), 4);
+    EXPECT_EQ(stl.surface.triangle_count(), 2);
+    EXPECT_DOUBLE_EQ(area(stl.surface), 1.0);
+}
+
+TEST(ReadSurface, RefusesWhatOnlyLooksLikeAFile) {
+    for (const char* name : {"a.ply", "a.stl", "a.off", "a.gltf", "a.glb"}) {
+        test::expect_contains(message_for(name, "nonsense\n1 2 3\n"), {name});
+        EXPECT_NE(message_for(name, ""), "") << name;
+    }
+    EXPECT_NE(message_for("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"), "");
+    EXPECT_NE(message_for("a.off", "OFF\n99999999 1 0\n0 0 0\n"), "");
+}
+
+TEST(Weld, MergesPointsAtOnePlaceAndKeepsTheOrder) {
+    Positions<3> points(3, 6);
+    points << 5, 0, 1, 0, 0, 9,  //
+        5, 0, 0, 0, 1, 9,        //
+        5, 0, 0, -0.0, 0, 9;
+    Simplices<3> triangles(3, 2);
+    triangles << 1, 3, 2, 4, 4, 2;
+    const SurfaceFile file = weld(points, triangles);
+    EXPECT_EQ(file.points_in_file, 6);
+    EXPECT_EQ(file.merged_points, 1);
+    EXPECT_EQ(file.unused_points, 2);
+    EXPECT_EQ(file.surface.points, (Positions<3>(3, 3) << 0, 1, 0, 0, 0, 1, 0, 0, 0).finished());
+    EXPECT_EQ(file.surface.triangles, (Simplices<3>(3, 2) << 0, 0, 1, 2, 2, 1).finished());
+}
+
+TEST(EnclosedVolume, DoesNotDependOnThePlace) {
+    const Surface box = test::box_surface({0, 0, 0}, {1, 2, 3});
+    EXPECT_DOUBLE_EQ(enclosed_volume(box), 6.0);
+    EXPECT_DOUBLE_EQ(area(box), 22.0);
+    EXPECT_DOUBLE_EQ(diagonal(box.points), std::sqrt(14.0));
+    // Coordinates up to 2^40 with unit steps are exact.
+    const double far = 1099511627776.0;
+    EXPECT_DOUBLE_EQ(
+        enclosed_volume(test::box_surface({far, far, far}, {far + 1, far + 2, far + 3})), 6.0);
+}
+
+}  // namespace
+}  // namespace pent::mesher
