@@ -1,0 +1,231 @@
+#pragma once
+
+#include <pent/contact/closest_points.h>
+
+#include <Eigen/QR>
+
+#include <bit>
+#include <utility>
+
+// The search behind closest_points(), in a header so that the narrow phase can inline it.
+
+namespace pent::contact {
+
+/// Closest points of two simplices among those nearer than a limit.
+///
+/// Faces are bit masks of corners known at compile time: every face pair has its own straight code.
+template <int Dim, int K, int L>
+class ClosestPointSearch {
+public:
+    /// @param limit_squared  Nothing at this squared distance or beyond is found.
+    ClosestPointSearch(const Corners<Dim, K>& first,
+                       const Corners<Dim, L>& second,
+                       double limit_squared)
+        : first_(first), second_(second) {
+        best_.distance_squared = limit_squared;
+    }
+
+    /// Whether there is a pair below the limit; best() is it.
+    bool run() {
+        visit<(1U << K) - 1, (1U << L) - 1>();
+        return best_.first_face != 0;
+    }
+
+    [[nodiscard]] const ClosestPoints<Dim, K, L>& best() const { return best_; }
+
+private:
+    template <unsigned A, unsigned B>
+    static constexpr int kUnknowns = std::popcount(A) + std::popcount(B) - 2;
+
+    template <int N>
+    using Edges = Eigen::Matrix<double, Dim, N>;
+    template <int N>
+    using Parameters = Eigen::Matrix<double, N, 1>;
+
+    // Sine squared of the angle between edges below which the normal equations are not trusted.
+    static constexpr double kDependent = 1e-4;
+
+    static constexpr int corner(unsigned mask, int i) {
+        for (; i > 0; --i) {
+            mask &= mask - 1;
+        }
+        return std::countr_zero(mask);
+    }
+
+    // The best pair of points on face A of the first and face B of the second simplex.
+    template <unsigned A, unsigned B>
+    void visit() {
+        constexpr int kN = kUnknowns<A, B>;
+        Vector<Dim> offset = first_.col(corner(A, 0)) - second_.col(corner(B, 0));
+        if constexpr (kN == 0) {
+            record<A, B>(Parameters<0>(), offset);
+        } else {
+            const Edges<kN> edges = edges_of<A, B>(std::make_integer_sequence<int, kN>());
+            Parameters<kN> t = Parameters<kN>::Zero();
+            if (!solve_normal_equations<kN>(edges, offset, t)) {
+                visit_dependent<A, B>(edges, offset);
+                return;
+            }
+            offset += edges * t;
+            if (offset.squaredNorm() < best_.distance_squared
+                && record_if_inside<A, B>(t, offset)) {
+                return;
+            }
+            if (offset.squaredNorm() < best_.distance_squared) {
+                visit_facets<A, B>(t, false);
+            }
+        }
+    }
+
+    // x - y = offset + edges t: edges of A from its first corner, then those of B, reversed.
+    template <unsigned A, unsigned B, int... I>
+    [[nodiscard]] Edges<kUnknowns<A, B>> edges_of(
+        std::integer_sequence<int, I...> /*which*/) const {
+        Edges<kUnknowns<A, B>> edges;
+        ((edges.col(I) = edge<A, B, I>()), ...);
+        return edges;
+    }
+
+    template <unsigned A, unsigned B, int I>
+    [[nodiscard]] Vector<Dim> edge() const {
+        constexpr int kInFirst = std::popcount(A) - 1;
+        if constexpr (I < kInFirst) {
+            return first_.col(corner(A, I + 1)) - first_.col(corner(A, 0));
+        } else {
+            return second_.col(corner(B, 0)) - second_.col(corner(B, I - kInFirst + 1));
+        }
+    }
+
+    // Minimizes |offset + edges t| by LDL^T; false where the edges are nearly dependent.
+    template <int N>
+    [[nodiscard]] static bool solve_normal_equations(const Edges<N>& edges,
+                                                     const Vector<Dim>& offset,
+                                                     Parameters<N>& t) {
+        Eigen::Matrix<double, N, N> lower = Eigen::Matrix<double, N, N>::Zero();
+        Parameters<N> inverse_pivot = Parameters<N>::Zero();
+        for (int i = 0; i < N; ++i) {
+            const double gram = edges.col(i).dot(edges.col(i));
+            double pivot = gram;
+            double right = -edges.col(i).dot(offset);
+            for (int j = 0; j < i; ++j) {
+                double entry = edges.col(i).dot(edges.col(j));  // times the pivot of j, below
+                for (int k = 0; k < j; ++k) {
+                    entry -= lower(i, k) * lower(j, k) * inverse_pivot[k];
+                }
+                lower(i, j) = entry;
+                pivot -= entry * entry * inverse_pivot[j];
+                right -= entry * t[j] * inverse_pivot[j];
+            }
+            if (!(pivot > kDependent * gram)) {
+                return false;
+            }
+            inverse_pivot[i] = 1 / pivot;
+            t[i] = right;
+        }
+        for (int i = N - 1; i >= 0; --i) {
+            for (int j = i + 1; j < N; ++j) {
+                t[i] -= lower(j, i) * t[j];
+            }
+            t[i] *= inverse_pivot[i];
+        }
+        return true;
+    }
+
+    // Weight of corner i of a face from the parameters of its edges, i = 0 being the first corner.
+    template <int N>
+    static double weight(const Parameters<N>& t, int begin, int count, int i) {
+        if (i > 0) {
+            return t[begin + i - 1];
+        }
+        double sum = 1;
+        for (int j = 0; j < count - 1; ++j) {
+            sum -= t[begin + j];
+        }
+        return sum;
+    }
+
+    template <unsigned A, unsigned B>
+    bool record_if_inside(const Parameters<kUnknowns<A, B>>& t, const Vector<Dim>& difference) {
+        constexpr int kFirst = std::popcount(A);
+        constexpr int kSecond = std::popcount(B);
+        bool is_inside = true;
+        for (int i = 0; i < kFirst; ++i) {
+            is_inside &= weight(t, 0, kFirst, i) >= 0;
+        }
+        for (int j = 0; j < kSecond; ++j) {
+            is_inside &= weight(t, kFirst - 1, kSecond, j) >= 0;
+        }
+        if (is_inside) {
+            record<A, B>(t, difference);
+        }
+        return is_inside;
+    }
+
+    template <unsigned A, unsigned B>
+    void record(const Parameters<kUnknowns<A, B>>& t, const Vector<Dim>& difference) {
+        const double squared = difference.squaredNorm();
+        if (!(squared < best_.distance_squared)) {
+            return;
+        }
+        constexpr int kFirst = std::popcount(A);
+        constexpr int kSecond = std::popcount(B);
+        best_.beta.setZero();
+        for (int i = 0; i < kFirst; ++i) {
+            best_.beta[corner(A, i)] = weight(t, 0, kFirst, i);
+        }
+        best_.alpha.setZero();
+        for (int j = 0; j < kSecond; ++j) {
+            best_.alpha[corner(B, j)] = weight(t, kFirst - 1, kSecond, j);
+        }
+        best_.difference = difference;
+        best_.distance_squared = squared;
+        best_.first_face = A;
+        best_.second_face = B;
+    }
+
+    // The minimum of a convex function over a polytope lies on a facet that its free minimum is
+    // beyond: a facet is the lack of one corner, and beyond it the weight of that corner is negative.
+    template <unsigned A, unsigned B>
+    void visit_facets(const Parameters<kUnknowns<A, B>>& t, bool all) {
+        constexpr int kFirst = std::popcount(A);
+        constexpr int kSecond = std::popcount(B);
+        if constexpr (kFirst > 1) {
+            [&]<int... I>(std::integer_sequence<int, I...>) {
+                ((all || weight(t, 0, kFirst, I) < 0 ? visit<A & ~(1U << corner(A, I)), B>()
+                                                     : void()),
+                 ...);
+            }
+            (std::make_integer_sequence<int, kFirst>());
+        }
+        if constexpr (kSecond > 1) {
+            [&]<int... J>(std::integer_sequence<int, J...>) {
+                ((all || weight(t, kFirst - 1, kSecond, J) < 0
+                      ? visit<A, B & ~(1U << corner(B, J))>()
+                      : void()),
+                 ...);
+            }
+            (std::make_integer_sequence<int, kSecond>());
+        }
+    }
+
+    // Edges that are dependent, or nearly so: a stable solution where there is one, and all facets.
+    template <unsigned A, unsigned B>
+    [[gnu::noinline]] void visit_dependent(const Edges<kUnknowns<A, B>>& edges,
+                                           const Vector<Dim>& offset) {
+        constexpr int kN = kUnknowns<A, B>;
+        Eigen::ColPivHouseholderQR<Edges<kN>> factors(edges);
+        factors.setThreshold(1e-14);
+        Parameters<kN> t = Parameters<kN>::Zero();
+        if (factors.rank() == kN) {
+            t = factors.solve(-offset);
+            record_if_inside<A, B>(t, offset + edges * t);
+        }
+        visit_facets<A, B>(t, true);
+    }
+
+    const Corners<Dim, K>& first_;
+    const Corners<Dim, L>& second_;
+    ClosestPoints<Dim, K, L> best_;
+};
+
+}  // namespace pent::contact
