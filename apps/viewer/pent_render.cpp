@@ -33,10 +33,11 @@ void add_options(CLI::App& cli, Arguments& arguments) {
     cli.add_option("-o,--output", arguments.output,
                    "movie.mp4 (made by ffmpeg), picture.png of one frame, or a folder of pictures")
         ->type_name("OUT");
-    cli.add_option("--sheet", arguments.sheet,
-                   "A contact sheet, PNG: frames from left to right, slices downwards")
+    cli.add_option(
+           "--sheet", arguments.sheet,
+           "A contact sheet, PNG: several frames, a row for each slice if there are several")
         ->type_name("FILE");
-    cli.add_option("--sheet-columns", render.sheet_columns, "Frames on the sheet; default: 6")
+    cli.add_option("--sheet-frames", render.sheet_frames, "Frames on the sheet; default: 6")
         ->check(CLI::Range(1, 100));
     cli.add_option("--size", arguments.size, "Pixels of a picture; default: 1280x720")
         ->type_name("WxH");
@@ -133,7 +134,8 @@ Verdict render(Program& program, Arguments& arguments) {
     program.report()["pictures"] = report.pictures;
     program.report()["files"] = report.files;
     std::string line = std::string(report.is_complete ? "finished" : "stopped") + ": "
-                       + std::to_string(report.pictures) + " pictures";
+                       + std::to_string(report.pictures)
+                       + (report.pictures == 1 ? " picture" : " pictures");
     for (const std::string& file : report.files) {
         line += (&file == &report.files.front() ? " in " : ", ") + file;
     }

@@ -1,7 +1,10 @@
 #include <pent/viewer/camera.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace pent::viewer {
@@ -22,32 +25,54 @@ Eigen::Matrix3d camera_frame(const Camera& camera) {
     return frame;
 }
 
-Camera fit_camera(const Eigen::AlignedBox3d& box, double aspect, const ViewOptions& view) {
-    const Eigen::AlignedBox3d seen =
-        box.isEmpty()
-            ? Eigen::AlignedBox3d(Eigen::Vector3d::Constant(-0.5), Eigen::Vector3d::Constant(0.5))
-            : box;
+// A point p, in the frame of the camera, is left of the right edge of the picture of an eye e if
+//     (p - e).x + slope (p - e).z <= 0,
+// and so for the other edges. So all that is needed of the points is the highest value of
+// p.x + slope p.z, and the three like it.
+CameraFit::CameraFit(double aspect, const ViewOptions& view)
+    : field_of_view_(radians(view.field_of_view)),
+      supports_(Eigen::Vector4d::Constant(-std::numeric_limits<double>::infinity())),
+      depth_(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()) {
     const double azimuth = radians(view.azimuth);
     const double elevation = radians(view.elevation);
-    const Eigen::Vector3d back(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
-                               std::cos(azimuth) * std::cos(elevation));
     Camera camera;
-    camera.field_of_view = radians(view.field_of_view);
-    camera.target = seen.center();
-    camera.position = camera.target + back;
-    const Eigen::Matrix3d frame = camera_frame(camera);
-    const double up_slope = std::tan(camera.field_of_view / 2) * (1.0 - 2.0 * view.margin);
-    const double right_slope = up_slope * aspect;
-    // A corner at q is in the picture if |q right| <= (distance - q back) slope, and so upwards.
-    double distance = 1e-6;
-    for (int i = 0; i < 8; ++i) {
-        const Eigen::Vector3d corner =
-            seen.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)) - camera.target;
-        const Eigen::Vector3d q = frame.transpose() * corner;
-        distance = std::max(
-            {distance, q.z() + std::abs(q.x()) / right_slope, q.z() + std::abs(q.y()) / up_slope});
+    camera.target.setZero();
+    camera.position << std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+        std::cos(azimuth) * std::cos(elevation);
+    frame_ = camera_frame(camera);
+    const double upward = std::tan(field_of_view_ / 2) * (1.0 - 2.0 * view.margin);
+    slopes_ << upward * aspect, upward;
+}
+
+void CameraFit::add(const Positions<3>& points) {
+    for (const auto& point : points.colwise()) {
+        const Eigen::Vector3d p = frame_.transpose() * point;
+        const Eigen::Vector4d reach(p.x() + slopes_.x() * p.z(), -p.x() + slopes_.x() * p.z(),
+                                    p.y() + slopes_.y() * p.z(), -p.y() + slopes_.y() * p.z());
+        supports_ = supports_.cwiseMax(reach);
+        depth_ << std::min(depth_[0], p.z()), std::max(depth_[1], p.z());
     }
-    camera.position = camera.target + distance * back;
+}
+
+Camera CameraFit::camera() const {
+    Camera camera;
+    camera.field_of_view = field_of_view_;
+    if (!(depth_[0] <= depth_[1])) {
+        camera.target.setZero();
+        camera.position = 3.0 * frame_.col(2);
+        return camera;
+    }
+    const Eigen::Vector4d& s = supports_;
+    Eigen::Vector3d eye(
+        (s[0] - s[1]) / 2, (s[2] - s[3]) / 2,
+        std::max((s[0] + s[1]) / (2 * slopes_.x()), (s[2] + s[3]) / (2 * slopes_.y())));
+    const double middle = (depth_[0] + depth_[1]) / 2;
+    const double nearest = 1e-9 * std::max(1.0, std::abs(middle));
+    if (eye.z() - middle < nearest) {  // a single point
+        eye.z() = middle + 1;
+    }
+    camera.position = frame_ * eye;
+    camera.target = frame_ * Eigen::Vector3d(eye.x(), eye.y(), middle);
     return camera;
 }
 

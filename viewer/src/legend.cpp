@@ -13,7 +13,7 @@ const Color kInk(0.035F, 0.04F, 0.05F);
 }  // namespace
 
 int caption_pixels(int picture_height) {
-    return std::clamp(picture_height / 32, 11, 48);
+    return std::clamp(picture_height / 30, 13, 48);
 }
 
 void draw_caption(Image& image, const Font& font, std::string_view line) {

@@ -67,11 +67,21 @@ public:
         : run_(run),
           options_(options),
           bodies_(load_bodies<Dim>(run)),
-          sections_(sections_at_start<Dim>(run, bodies_, options.sections, options.frames)) {}
+          sections_(sections_at_start<Dim>(run, bodies_, options.sections)) {}
 
     // Looks at all frames first; false if ended early.
-    [[nodiscard]] bool prepare(const std::function<bool(std::size_t)>& go_on) {
-        survey_ = survey<Dim>(run_, bodies_, sections_, options_.frames, options_.color, go_on);
+    [[nodiscard]] bool prepare(const std::function<bool()>& go_on) {
+        CameraFit tile(aspect(tile_width(0), options_.height), options_.view);
+        CameraFit whole(aspect(options_.width, options_.height), options_.view);
+        survey_ = survey<Dim>(
+            run_, bodies_, sections_, options_.frames, options_.color,
+            [&](const Surface& surface) {
+                tile.add(surface.positions);
+                whole.add(surface.positions);
+            },
+            go_on);
+        tile_camera_ = tile.camera();
+        sheet_camera_ = whole.camera();
         if (options_.range) {
             survey_.range = *options_.range;
         }
@@ -86,10 +96,11 @@ public:
         const auto count = static_cast<int>(sections_.size());
         Image image(options_.width, options_.height);
         const std::vector<Frame<Dim>> moment = load(frame);
+        int left = 0;
         for (int s = 0; s < count; ++s) {
-            const int left = options_.width * s / count;
-            const int right = options_.width * (s + 1) / count;
-            paste(image, tile(moment, sections_[s], right - left, options_.height), left, 0);
+            const int width = tile_width(s);
+            paste(image, tile(moment, sections_[s], tile_camera_, width, options_.height), left, 0);
+            left += width;
         }
         if (options_.has_caption && options_.color != ColorBy::Body) {
             draw_color_bar(image, Font(caption_pixels(options_.height)),
@@ -100,7 +111,8 @@ public:
 
     // One section of one frame for a contact sheet.
     [[nodiscard]] Image sheet_tile(int frame, std::size_t section) const {
-        return tile(load(frame), sections_[section], options_.width / 2, options_.height / 2);
+        return tile(load(frame), sections_[section], sheet_camera_, options_.width * 3 / 8,
+                    options_.height * 3 / 8);
     }
 
 private:
@@ -129,6 +141,7 @@ private:
 
     [[nodiscard]] Image tile(const std::vector<Frame<Dim>>& moment,
                              const Section& section,
+                             const Camera& camera,
                              int width,
                              int height) const {
         std::vector<RenderObject> objects;
@@ -145,8 +158,6 @@ private:
                 render.floor = survey_.box.min().y() - 2e-3 * render.scene_size;
             }
         }
-        const Camera camera =
-            fit_camera(survey_.box, static_cast<double>(width) / height, options_.view);
         Image image = renderer_.render(objects, camera, render);
         if (options_.has_caption) {
             std::string line = "t = " + seconds(moment.front().time) + " s";
@@ -154,6 +165,16 @@ private:
             draw_caption(image, Font(caption_pixels(height)), line);
         }
         return image;
+    }
+
+    [[nodiscard]] static double aspect(int width, int height) {
+        return static_cast<double>(width) / height;
+    }
+
+    // Sections share the width of a picture, to the pixel.
+    [[nodiscard]] int tile_width(int section) const {
+        const auto count = static_cast<int>(sections_.size());
+        return options_.width * (section + 1) / count - options_.width * section / count;
     }
 
     [[nodiscard]] static std::string seconds(double time) {
@@ -167,6 +188,8 @@ private:
     std::vector<Body<Dim>> bodies_;
     std::vector<Section> sections_;
     Survey survey_;
+    Camera tile_camera_;
+    Camera sheet_camera_;
     Renderer renderer_;
 };
 
@@ -228,7 +251,7 @@ bool render_sheet(const Studio<Dim>& studio,
                   const RenderRunOptions& options,
                   Count& count,
                   RenderRunReport& report) {
-    const std::vector<int> frames = spread(options.frames, options.sheet_columns);
+    const std::vector<int> frames = spread(options.frames, options.sheet_frames);
     std::vector<Image> tiles;
     for (std::size_t section = 0; section < studio.section_count(); ++section) {
         for (const int frame : frames) {
@@ -239,7 +262,10 @@ bool render_sheet(const Studio<Dim>& studio,
             }
         }
     }
-    const auto columns = static_cast<int>(frames.size());
+    const auto count_of_frames = static_cast<int>(frames.size());
+    const int columns = studio.section_count() > 1
+                            ? count_of_frames
+                            : static_cast<int>(std::ceil(std::sqrt(count_of_frames)));
     write_png(targets.sheet, contact_sheet(tiles, columns, kSheetGap, kSheetPaper));
     report.files.push_back(targets.sheet.string());
     return true;
@@ -258,11 +284,11 @@ RenderRunReport render_run_in(const RunFolder& run,
         !targets.movie.empty() || !targets.picture.empty() || !targets.folder.empty();
     const bool has_sheet = !targets.sheet.empty();
     const std::size_t tiles =
-        spread(options.frames, options.sheet_columns).size() * studio.section_count();
+        spread(options.frames, options.sheet_frames).size() * studio.section_count();
     Count count(on_progress,
                 options.frames.size() * (has_frames ? 2 : 1) + (has_sheet ? tiles : 0));
     RenderRunReport report;
-    if (!studio.prepare([&](std::size_t) { return count.add_one(); })) {
+    if (!studio.prepare([&] { return count.add_one(); })) {
         return report;
     }
     report.is_empty = studio.seen().box.isEmpty();

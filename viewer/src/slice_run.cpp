@@ -49,9 +49,10 @@ public:
           folder_(folder),
           options_(options),
           bodies_(load_bodies<Dim>(run)),
-          sections_(sections_at_start<Dim>(run, bodies_, options.sections, options.frames)) {
+          sections_(sections_at_start<Dim>(run, bodies_, options.sections)) {
         if (options.color != ColorBy::Body) {
-            range_ = survey<Dim>(run, bodies_, sections_, options.frames, options.color, {}).range;
+            range_ =
+                survey<Dim>(run, bodies_, sections_, options.frames, options.color, {}, {}).range;
         }
     }
 

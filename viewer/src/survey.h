@@ -20,20 +20,21 @@ struct Survey {
 
 /// Slices every chosen frame once to see how far things reach.
 ///
-/// @param go_on  Called after each frame with how many are done; false ends it. May be empty.
+/// @param on_surface  Called with every slice; may be empty.
+/// @param go_on       Called after each frame; false ends it. May be empty.
 template <int Dim>
 [[nodiscard]] Survey survey(const RunFolder& run,
                             const std::vector<Body<Dim>>& bodies,
                             const std::vector<Section>& sections,
                             const std::vector<int>& frames,
                             ColorBy color,
-                            const std::function<bool(std::size_t)>& go_on);
+                            const std::function<void(const Surface&)>& on_surface,
+                            const std::function<bool()>& go_on);
 
-/// The sections asked for; the middle is that of the first chosen frame.
+/// The sections asked for; the middle is that of the first frame of the run.
 template <int Dim>
 [[nodiscard]] std::vector<Section> sections_at_start(const RunFolder& run,
                                                      const std::vector<Body<Dim>>& bodies,
-                                                     const SectionOptions& options,
-                                                     const std::vector<int>& frames);
+                                                     const SectionOptions& options);
 
 }  // namespace pent::viewer

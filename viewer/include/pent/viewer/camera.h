@@ -1,7 +1,8 @@
 #pragma once
 
+#include <pent/simplex_mesh.h>
+
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 namespace pent::viewer {
 
@@ -24,12 +25,25 @@ struct ViewOptions {
     double margin = 0.08;       ///< Share of the picture left free at the sides, 0..0.5.
 };
 
-/// The nearest camera in the wanted direction that sees the whole box.
-///
-/// @param box     Empty, or a point, counts as a unit cube about the origin.
-/// @param aspect  Width over height.
-[[nodiscard]] Camera fit_camera(const Eigen::AlignedBox3d& box,
-                                double aspect,
-                                const ViewOptions& view = {});
+/// Finds the nearest camera in a wanted direction that sees all of a number of points, which need not be
+/// there at once.
+class CameraFit {
+public:
+    /// @param aspect  Width over height.
+    CameraFit(double aspect, const ViewOptions& view);
+
+    /// @param points  3 x n, m.
+    void add(const Positions<3>& points);
+
+    /// The camera; for no point, or a single one, one that looks at it from a meter or so.
+    [[nodiscard]] Camera camera() const;
+
+private:
+    Eigen::Matrix3d frame_;     // right, up, back
+    double field_of_view_;      // radians
+    Eigen::Vector2d slopes_;    // of the used part of the picture: sideways, upwards
+    Eigen::Vector4d supports_;  // how far points reach across: right, left, top, bottom
+    Eigen::Vector2d depth_;     // lowest and highest coordinate along back
+};
 
 }  // namespace pent::viewer

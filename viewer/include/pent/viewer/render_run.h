@@ -24,15 +24,15 @@ struct RenderRunOptions {
     bool has_floor = true;    ///< A floor under the lowest point, for the shadows.
     bool has_caption = true;  ///< Time, hyperplane and color bar.
     double frames_per_second = 30;
-    int sheet_columns = 6;  ///< Frames on a contact sheet, at most.
+    int sheet_frames = 6;  ///< On a contact sheet, evenly spread, at most; at least 1.
 };
 
 /// Where pictures go; any of them may be empty.
 struct RenderTargets {
-    std::filesystem::path movie;    ///< .mp4
-    std::filesystem::path picture;  ///< .png of the only frame
-    std::filesystem::path folder;   ///< 000123.png for every frame
-    std::filesystem::path sheet;    ///< .png: frames from left to right, hyperplanes downwards
+    std::filesystem::path movie{};    ///< .mp4
+    std::filesystem::path picture{};  ///< .png of the only frame
+    std::filesystem::path folder{};   ///< 000123.png for every frame
+    std::filesystem::path sheet{};  ///< .png: several frames; each hyperplane has a row of its own
 };
 
 struct RenderRunReport {

@@ -1,0 +1,127 @@
+#include "meshes.h"
+
+#include <pent/viewer/attributes.h>
+#include <pent/viewer/coloring.h>
+#include <pent/viewer/slice.h>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace pent::viewer {
+namespace {
+
+using pent::test::kuhn_box;
+
+TEST(VertexStrain, IsZeroAtEveryRigidMotion) {
+    const SimplexMesh<4> mesh = test::jittered_box({2, 2, 2, 2}, 1);
+    const PlaneRotation turns[] = {{0, 3, 1.1}, {1, 2, -2.0}, {2, 3, 0.4}};
+    Positions<4> moved = rotation_matrix(turns) * mesh.positions;
+    moved.colwise() += Eigen::Vector4d(3, -1, 2, 5);
+    // Inverses of matrices with entries near 2 lose a digit or two.
+    EXPECT_LT(vertex_strain<4>(mesh, moved).maxCoeff(), 1e-13);
+}
+
+TEST(VertexStrain, OfAUniformStretchIsThatOfItsMatrix) {
+    // F = diag(1.2, 1, 1, 1): E has the one entry (1.44 - 1) / 2 = 0.22.
+    const SimplexMesh<4> mesh = test::jittered_box({2, 1, 1, 2}, 2);
+    Positions<4> moved = mesh.positions;
+    moved.row(0) *= 1.2;
+    const Eigen::VectorXd strain = vertex_strain<4>(mesh, moved);
+    EXPECT_NEAR(strain.minCoeff(), 0.22, 1e-13);
+    EXPECT_NEAR(strain.maxCoeff(), 0.22, 1e-13);
+}
+
+TEST(VertexSpeed, IsTheLengthOfTheVelocityOrZeroWithoutOne) {
+    Frame<4> frame;
+    frame.positions.setZero(4, 2);
+    frame.velocities.resize(4, 0);
+    EXPECT_EQ(vertex_speed<4>(frame), Eigen::VectorXd::Zero(2));
+    frame.velocities.resize(4, 2);
+    frame.velocities << 1, 0, 1, 0, 1, 3, 1, 4;
+    EXPECT_EQ(vertex_speed<4>(frame), Eigen::Vector2d(2, 5));
+}
+
+TEST(CornerNormals, OfABoxAreItsSidesInSpiteOfSliversAndZeroAreas) {
+    const SimplexMesh<4> mesh = kuhn_box<4>({2, 2, 2, 2}, {1, 1, 1, 1});
+    const Boundary<4> boundary = make_boundary(mesh, "box");
+    for (const double w : {0.3, 0.5, 0.5 + 1e-15, 1.0}) {
+        const Hyperplane plane = hyperplane_at(w);
+        const Surface surface = slice(boundary, mesh.positions, plane);
+        const Positions<3> normals =
+            corner_normals<4>(surface, boundary, mesh.positions, plane.frame.topRows<3>(), 1.0);
+        for (Eigen::Index t = 0; t < surface.triangle_count(); ++t) {
+            const auto corners = surface.positions(Eigen::all, surface.triangles.col(t));
+            const Eigen::Vector3d a = corners.col(1) - corners.col(0);
+            const Eigen::Vector3d b = corners.col(2) - corners.col(0);
+            const Eigen::Vector3d flat = a.cross(b);
+            if (flat.norm() < 1e-10) {
+                continue;
+            }
+            for (int k = 0; k < 3; ++k) {
+                // Sides meet at right angles, beyond the crease, so nothing is mixed in.
+                EXPECT_NEAR(normals.col(3 * t + k).dot(flat.normalized()), 1, 1e-12);
+            }
+        }
+    }
+}
+
+TEST(CornerNormals, OfAFineBallPointAwayFromItsCenter) {
+    // A box pressed onto a sphere: each vertex moves along its ray from the center.
+    SimplexMesh<4> mesh = kuhn_box<4>({8, 8, 8, 8}, {2, 2, 2, 2});
+    mesh.positions.array() -= 1;
+    for (auto point : mesh.positions.colwise()) {
+        const double largest = point.cwiseAbs().maxCoeff();
+        point *= largest > 0 ? largest / point.norm() : 0;
+    }
+    const Boundary<4> boundary = make_boundary(mesh, "ball");
+    const Hyperplane plane = hyperplane_across({0.2, 0.3, -0.1, 1}, 0.2);
+    const Surface surface = slice(boundary, mesh.positions, plane);
+    const Positions<3> normals =
+        corner_normals<4>(surface, boundary, mesh.positions, plane.frame.topRows<3>(), 1.0);
+    double worst = 1;
+    for (Eigen::Index t = 0; t < surface.triangle_count(); ++t) {
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::Vector3d out = surface.positions.col(surface.triangles(k, t)).normalized();
+            worst = std::min(worst, normals.col(3 * t + k).dot(out));
+        }
+    }
+    // The surface has facets about 0.25 across on a ball of radius 1: their normals lean by up to half of
+    // that, an eighth of a radian, and averages over uneven neighborhoods no more.
+    EXPECT_GT(worst, std::cos(0.2));
+}
+
+TEST(SuitableRange, LeavesOutTheUpmostHundredth) {
+    Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(1001, 0, 1);
+    values[1000] = 1e6;
+    const ColorRange range = suitable_range(values, ColorBy::Strain);
+    EXPECT_EQ(range.low, 0);
+    EXPECT_NEAR(range.high, 0.99, 1e-12);
+}
+
+TEST(ColorRange, PlacesEverythingInTheMiddleWhereAllIsEqual) {
+    EXPECT_EQ((ColorRange{3, 3}.place(3)), 0.5);
+    EXPECT_EQ((ColorRange{2, 4}.place(3.5)), 0.75);
+}
+
+TEST(Color, SrgbReturnsToItself) {
+    for (int i = 0; i < 256; ++i) {
+        const float s = static_cast<float>(i) / 255.0F;
+        EXPECT_EQ(to_srgb(from_srgb(s, s, s))[1], i);
+    }
+    EXPECT_EQ(to_srgb(Color(-1, 2, 0.5F)), (std::array<std::uint8_t, 3>{0, 255, 188}));
+}
+
+TEST(Color, OklchWithoutChromaIsGray) {
+    for (const float lightness : {0.0F, 0.3F, 1.0F}) {
+        const Color gray = from_oklch(lightness, 0, 123);
+        // Oklab's lightness of a gray is the cube root of its light; its matrix has ten digits.
+        EXPECT_NEAR(gray.minCoeff(), std::pow(lightness, 3.0F), 1e-5F);
+        EXPECT_NEAR(gray.maxCoeff(), std::pow(lightness, 3.0F), 1e-5F);
+    }
+}
+
+}  // namespace
+}  // namespace pent::viewer

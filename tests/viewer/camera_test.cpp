@@ -1,0 +1,59 @@
+#include <pent/viewer/camera.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace pent::viewer {
+namespace {
+
+// Where a point is in the picture: -1..1 from left to right and from bottom to top.
+Eigen::Vector2d place_in_picture(const Camera& camera,
+                                 double aspect,
+                                 const Eigen::Vector3d& point) {
+    const Eigen::Vector3d q = camera_frame(camera).transpose() * (point - camera.position);
+    const double slope = std::tan(camera.field_of_view / 2);
+    return {q.x() / (-q.z() * slope * aspect), q.y() / (-q.z() * slope)};
+}
+
+TEST(CameraFit, SeesAllPointsAndTouchesTheMargin) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    const ViewOptions view;
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        CameraFit fit(16.0 / 9, view);
+        Positions<3> points(3, 40);
+        for (double& x : points.reshaped()) {
+            x = 100 + coordinate(random);
+        }
+        points.row(repeat % 3) *= 1.1;
+        fit.add(points);
+        const Camera camera = fit.camera();
+        double reach = 0;
+        for (const auto& point : points.colwise()) {
+            reach =
+                std::max(reach, place_in_picture(camera, 16.0 / 9, point).cwiseAbs().maxCoeff());
+        }
+        EXPECT_NEAR(reach, 1 - 2 * view.margin, 1e-9);
+    }
+}
+
+TEST(CameraFit, LooksFromTheDirectionAskedFor) {
+    CameraFit fit(1, {.azimuth = 90, .elevation = 0});
+    fit.add(Positions<3>::Identity(3, 3));
+    const Camera camera = fit.camera();
+    const Eigen::Vector3d back = (camera.position - camera.target).normalized();
+    EXPECT_NEAR((back - Eigen::Vector3d::UnitX()).norm(), 0, 1e-12);
+}
+
+TEST(CameraFit, WorksForNoPointAndForOne) {
+    CameraFit fit(1, {});
+    EXPECT_GT((fit.camera().position - fit.camera().target).norm(), 0.1);
+    fit.add(Eigen::Vector3d(5, 6, 7));
+    EXPECT_NEAR((fit.camera().position - Eigen::Vector3d(5, 6, 7)).norm(), 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace pent::viewer

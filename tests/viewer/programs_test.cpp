@@ -1,0 +1,109 @@
+#include "runs.h"
+
+#include <gtest/gtest.h>
+
+#include <apps/run_program.h>
+#include <support/temp_folder.h>
+
+namespace pent::viewer {
+namespace {
+
+using pent::test::expect_one_error_line;
+using pent::test::Outcome;
+using pent::test::run_program;
+using pent::test::TempFolder;
+
+class ViewerPrograms : public testing::Test {
+protected:
+    ViewerPrograms() { test::write_run(folder_ / "run", "a", {0, 1, 2}); }
+
+    [[nodiscard]] std::string at(const std::string& name) const {
+        return (folder_ / name).string();
+    }
+
+    // Expects exit code 1 with one line on stderr that has `part` in it.
+    void expect_refused(const std::string& program,
+                        const std::string& arguments,
+                        const std::string& part,
+                        const std::string& before = "") const {
+        const Outcome outcome = run_program(program + " " + arguments, before);
+        EXPECT_EQ(outcome.exit_code, 1) << arguments;
+        expect_one_error_line(outcome, program);
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    }
+
+    TempFolder folder_;
+};
+
+TEST_F(ViewerPrograms, SliceARunInTheWaysShownInTheHelp) {
+    const std::string run = at("run") + " -o " + at("out");
+    for (const std::string options :
+         {" --w -0.1,0.2 --color strain", " --w=-0.1 --w 0.3 --frames 1:2",
+          " --w -0.1:0.4:3 --format vtu", " --normal 0,1,0,1 --offset -0.1,0.5 --format obj",
+          " --rotate xw:30 --rotate yz:-45 --color w", " --keep-degenerate --frames last"}) {
+        const Outcome outcome = run_program("pent-slice " + run + options);
+        EXPECT_EQ(outcome.exit_code, 0) << options << outcome.err;
+        EXPECT_NE(outcome.out.find("finished: "), std::string::npos) << outcome.out;
+    }
+}
+
+TEST_F(ViewerPrograms, RenderAPictureOfTheLastFrame) {
+    const Outcome outcome =
+        run_program("pent-render " + at("run") + " --size 64x48 -o " + at("a.png"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "a.png"));
+}
+
+TEST_F(ViewerPrograms, FallBackToPicturesWithoutFfmpeg) {
+    const Outcome outcome = run_program(
+        "pent-render " + at("run") + " --size 64x48 -o " + at("a.mp4"), "PATH=/nonexistent");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("no ffmpeg"), std::string::npos) << outcome.out;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "a_pictures/000002.png"));
+}
+
+TEST_F(ViewerPrograms, RefuseBadInputInOneLine) {
+    const std::string out = " -o " + at("out");
+    expect_refused("pent-slice", at("none") + out, "no such file");
+    expect_refused("pent-slice", at("run") + out + " --frames 9", "no frame 9");
+    expect_refused("pent-slice", at("run") + out + " --w 1,x", "expected a number");
+    expect_refused("pent-slice", at("run") + out + " --w 0:1:1", "N at least 2");
+    expect_refused("pent-slice", at("run") + out + " --rotate xx:3", "--rotate");
+    expect_refused("pent-slice", at("run") + out + " --normal 0,0,0,0", "normal");
+    expect_refused("pent-slice", at("run") + out + " --normal 1,2", "expected four");
+    expect_refused("pent-slice", at("run") + out + " --offset 1", "--normal");
+    expect_refused("pent-render", at("run"), "nothing to make");
+    expect_refused("pent-render", at("run") + " -o " + at("a.png") + " --size 3", "--size");
+    expect_refused("pent-render", at("run") + " --sheet " + at("a.jpg"), ".png");
+    expect_refused("pent-render", at("run") + " -o " + at("a.png") + " --range 2,1", "--range");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
+TEST_F(ViewerPrograms, RefuseUnknownColorsAndFormatsAsWrongUsage) {
+    EXPECT_EQ(run_program("pent-slice " + at("run") + " -o x --color pink").exit_code, 2);
+    EXPECT_EQ(run_program("pent-slice " + at("run") + " -o x --format stl").exit_code, 2);
+    EXPECT_EQ(run_program("pent-slice " + at("run")).exit_code, 2);
+}
+
+TEST_F(ViewerPrograms, LeaveNothingBehindOnAFullDisk) {
+    // Files of over 1 KiB cannot be written; SIGXFSZ is ignored as by anyone who wants an error.
+    const std::string full = "trap '' XFSZ; ulimit -f 1;";
+    expect_refused("pent-slice", at("run") + " -o " + at("out"), "cannot be written", full);
+    expect_refused("pent-render", at("run") + " -o " + at("b.png"), "cannot be written", full);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "b.png"));
+    EXPECT_TRUE(std::filesystem::is_empty(folder_ / "out"));
+}
+
+TEST_F(ViewerPrograms, LeaveNoMovieOnAFullDisk) {
+    if (std::system("command -v ffmpeg >/dev/null 2>&1") != 0) {  // NOLINT(cert-env33-c)
+        GTEST_SKIP() << "no ffmpeg";
+    }
+    const Outcome outcome = run_program("pent-render " + at("run") + " -o " + at("a.mp4"),
+                                        "trap '' XFSZ; ulimit -f 4;");
+    EXPECT_EQ(outcome.exit_code, 1);
+    expect_one_error_line(outcome, "pent-render");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "a.mp4"));
+}
+
+}  // namespace
+}  // namespace pent::viewer

@@ -1,0 +1,178 @@
+#include "meshes.h"
+
+#include <pent/error.h>
+#include <pent/viewer/attributes.h>
+#include <pent/viewer/legend.h>
+#include <pent/viewer/render.h>
+#include <pent/viewer/slice.h>
+#include <pent/viewer/text.h>
+
+#include <gtest/gtest.h>
+
+#include <tbb/global_control.h>
+
+namespace pent::viewer {
+namespace {
+
+// A gray box of the given size about the origin, seen from the front.
+RenderObject gray_box(double size) {
+    SimplexMesh<3> mesh = pent::test::kuhn_box<3>({1, 1, 1}, {size, size, size});
+    mesh.positions.array() -= size / 2;
+    const Boundary<3> boundary = make_boundary(mesh, "box");
+    const Surface surface = skin(boundary, mesh.positions);
+    RenderObject object;
+    object.positions = surface.positions;
+    object.triangles = surface.triangles;
+    object.normals =
+        corner_normals<3>(surface, boundary, mesh.positions, Eigen::Matrix3d::Identity(), 1.0);
+    object.colors.setConstant(3, surface.vertex_count(), 0.5F);
+    return object;
+}
+
+RenderOptions small_picture() {
+    RenderOptions options;
+    options.width = 64;
+    options.height = 48;
+    options.scene_size = 2;
+    return options;
+}
+
+Image render(const RenderObject& object, const RenderOptions& options = small_picture()) {
+    return Renderer().render({&object, 1}, {.position = {1, 1, 5}}, options);
+}
+
+bool is_magenta(const std::uint8_t* pixel) {
+    return pixel[0] > 2 * pixel[1] && pixel[2] > 2 * pixel[1];
+}
+
+int count_magenta(const Image& image) {
+    int count = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+        count += is_magenta(&image.rgb[i]) ? 1 : 0;
+    }
+    return count;
+}
+
+int difference(const Image& image, int x, int y, const Image& other, int ox, int oy) {
+    int sum = 0;
+    for (int channel = 0; channel < 3; ++channel) {
+        sum += std::abs(image.pixel(x, y)[channel] - other.pixel(ox, oy)[channel]);
+    }
+    return sum;
+}
+
+TEST(Render, ShowsABodyInTheMiddleAndBackgroundAround) {
+    const Image image = render(gray_box(1));
+    const Image empty = Renderer().render({}, {.position = {1, 1, 5}}, small_picture());
+    EXPECT_GT(difference(image, 32, 24, empty, 32, 24), 30);
+    EXPECT_EQ(difference(image, 0, 0, empty, 0, 0), 0);
+    EXPECT_EQ(difference(image, 63, 47, empty, 63, 47), 0);
+}
+
+TEST(Render, ShowsTheInsideOfASurfaceInMagentaAndTheOutsideNot) {
+    RenderObject object = gray_box(1);
+    EXPECT_EQ(count_magenta(render(object)), 0);
+    object.triangles.row(0).swap(object.triangles.row(1));
+    EXPECT_GT(count_magenta(render(object)), 100);
+}
+
+TEST(Render, DarkensTheFloorUnderABody) {
+    RenderOptions options = small_picture();
+    options.floor = -0.5;
+    const Image image = render(gray_box(1), options);
+    const Image empty = Renderer().render({}, {.position = {1, 1, 5}}, options);
+    int darker = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+        darker += image.rgb[i] + 40 < empty.rgb[i] ? 1 : 0;
+    }
+    EXPECT_GT(darker, 30);
+}
+
+TEST(Render, IsTheSameForOneAndTwoThreads) {
+    const RenderObject object = gray_box(1);
+    const Image reference = render(object);
+    for (const std::size_t threads : {1, 2}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        EXPECT_EQ(render(object).rgb, reference.rgb);
+    }
+}
+
+TEST(Render, LosesNothingFarFromTheOrigin) {
+    RenderObject object = gray_box(1);
+    const Image near = render(object);
+    const Eigen::Vector3d far(1e7, -2e7, 3e7);
+    object.positions.colwise() += far;
+    RenderOptions options = small_picture();
+    options.scene_center = far;
+    const Image image = Renderer().render(
+        {&object, 1}, {.position = far + Eigen::Vector3d(1, 1, 5), .target = far}, options);
+    // At 3e7 doubles are 4e-9 apart: a few edge samples at most may fall on the other side.
+    int different = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+        different += std::abs(image.rgb[i] - near.rgb[i]) > 8 ? 1 : 0;
+    }
+    EXPECT_LE(different, 6);
+}
+
+TEST(Render, SeesThroughGhosts) {
+    RenderObject ghost = gray_box(1.2);
+    ghost.opacity = 0.1F;
+    const RenderObject body = gray_box(0.5);
+    const RenderObject both[] = {body, ghost};
+    const Camera camera{.position = {1, 1, 5}};
+    const Image alone = Renderer().render({&body, 1}, camera, small_picture());
+    const Image behind = Renderer().render(both, camera, small_picture());
+    const Image empty = Renderer().render({}, camera, small_picture());
+    EXPECT_LT(difference(behind, 32, 24, alone, 32, 24), 60);
+    EXPECT_GT(difference(behind, 32, 24, alone, 32, 24), 0);
+    EXPECT_GT(difference(behind, 32, 24, empty, 32, 24), 60);
+}
+
+TEST(Legend, WritesInTheCorners) {
+    Image image(320, 180);
+    for (std::uint8_t& byte : image.rgb) {
+        byte = 255;
+    }
+    const Font font(caption_pixels(180));
+    draw_caption(image, font, "t = 1");
+    draw_color_bar(image, font, ColorMap::Heat, {0, 2}, "speed");
+    const auto darkest = [&](int x0, int x1, int y0, int y1) {
+        int least = 255;
+        for (int y = y0; y < y1; ++y) {
+            for (int x = x0; x < x1; ++x) {
+                least = std::min<int>(least, image.pixel(x, y)[1]);
+            }
+        }
+        return least;
+    };
+    EXPECT_LT(darkest(0, 100, 140, 180), 100);
+    EXPECT_LT(darkest(220, 320, 120, 180), 150);
+    EXPECT_EQ(darkest(0, 320, 0, 100), 255);
+}
+
+TEST(Font, IsWiderForLongerLinesAndDrawsNothingOutside) {
+    const Font font(20);
+    EXPECT_EQ(font.width(""), 0);
+    EXPECT_GT(font.width("mm"), font.width("m"));
+    Image image(10, 10);
+    font.draw(image, -100, 500, "outside", Color::Ones());
+    font.draw(image, 5, 5, "over the edge", Color::Ones());
+    EXPECT_EQ(image.rgb.size(), 300U);
+}
+
+TEST(ContactSheet, LaysPicturesOutInRows) {
+    Image dot(2, 2);
+    dot.rgb.assign(12, 200);
+    const Image sheet = contact_sheet({dot, dot, dot}, 2, 1, Color::Zero());
+    ASSERT_EQ(sheet.width, 7);
+    ASSERT_EQ(sheet.height, 7);
+    const auto red = [&](int x, int y) { return int{sheet.pixel(x, y)[0]}; };
+    EXPECT_EQ(red(0, 0), 0);
+    EXPECT_EQ(red(1, 1), 200);
+    EXPECT_EQ(red(4, 1), 200);
+    EXPECT_EQ(red(1, 4), 200);
+    EXPECT_EQ(red(4, 4), 0);  // no fourth picture
+}
+
+}  // namespace
+}  // namespace pent::viewer

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "meshes.h"
+
+#include <pent/output_file.h>
+#include <pent/pent_file.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pent::viewer::test {
+
+/// Writes a run folder of one body as pent-sim does: a box that twists further with each frame, 0.1 s
+/// apart, and moves along x at 2 m/s.
+inline void write_run(const std::filesystem::path& run,
+                      const std::string& body,
+                      const std::vector<int>& frames) {
+    const SimplexMesh<4> mesh = jittered_box({2, 2, 2, 2}, 23);
+    make_folder(run / "meshes");
+    make_folder(run / "frames");
+    const std::uint32_t crc = write_mesh<4>(run / "meshes" / (body + ".pent"), mesh);
+    for (const int number : frames) {
+        Frame<4> frame;
+        frame.positions = twisted(mesh.positions, 0.1 * number);
+        frame.positions.row(0).array() += 0.2 * number;
+        frame.velocities = Positions<4>::Zero(4, mesh.vertex_count());
+        frame.velocities.row(0).setConstant(2.0);
+        frame.mesh_name = body + ".pent";
+        frame.mesh_crc = crc;
+        frame.frame = static_cast<std::uint64_t>(number);
+        frame.step = frame.frame;
+        frame.time = 0.1 * number;
+        char name[32];
+        std::snprintf(name, sizeof name, "_%06d.pent", number);
+        write_frame<4>(run / "frames" / (body + name), frame);
+    }
+}
+
+}  // namespace pent::viewer::test

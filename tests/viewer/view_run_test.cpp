@@ -1,0 +1,190 @@
+#include "runs.h"
+
+#include <pent/error.h>
+#include <pent/viewer/movie.h>
+#include <pent/viewer/render_run.h>
+#include <pent/viewer/slice.h>
+#include <pent/viewer/slice_run.h>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <support/temp_folder.h>
+
+namespace pent::viewer {
+namespace {
+
+using pent::test::TempFolder;
+using test::write_run;
+
+bool go_on(std::int64_t /*done*/, std::int64_t /*total*/) {
+    return true;
+}
+
+std::size_t count_files(const std::filesystem::path& folder) {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+RenderRunOptions small_pictures(const RunFolder& run) {
+    RenderRunOptions options;
+    options.frames = run.frames;
+    options.width = 96;
+    options.height = 64;
+    return options;
+}
+
+TEST(MakeSections, GoesThroughTheMiddleUnlessTold) {
+    const SimplexMesh<4> mesh = pent::test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 3});
+    Frame<4> frame;
+    frame.positions = mesh.positions;
+    const std::vector<Section> sections = make_sections<4>({}, std::span(&frame, 1));
+    ASSERT_EQ(sections.size(), 1U);
+    EXPECT_EQ(sections[0].plane.offset, 1.5);
+    EXPECT_EQ(sections[0].label, "w = 1.5");
+}
+
+TEST(MakeSections, RefusesWhatContradictsItself) {
+    const Frame<4> frame;
+    SectionOptions both;
+    both.normal = Eigen::Vector4d(1, 0, 0, 0);
+    both.rotations = {{0, 3, 1}};
+    EXPECT_THROW((void)make_sections<4>(both, std::span(&frame, 1)), Error);
+    const Frame<3> flat;
+    SectionOptions offset;
+    offset.offsets = {0.5};
+    EXPECT_THROW((void)make_sections<3>(offset, std::span(&flat, 1)), Error);
+}
+
+TEST(SliceRun, WritesEveryFrameBodyAndSectionWithTheirVolumes) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0, 1});
+    write_run(folder / "run", "b", {0, 1});
+    const RunFolder run = open_run(folder / "run");
+    SliceRunOptions options;
+    options.frames = run.frames;
+    options.sections.offsets = {0.3, 0.6};
+    const SliceRunReport report = slice_run(run, folder / "out", options, go_on);
+    EXPECT_TRUE(report.is_complete);
+    ASSERT_EQ(report.slices.size(), 8U);
+    EXPECT_EQ(count_files(folder / "out"), 9U);  // and slices.csv
+
+    const std::vector<Body<4>> bodies = load_bodies<4>(run);
+    const Frame<4> frame = load_frame<4>(run, bodies[1], 1);
+    const Surface expected = slice(bodies[1].boundary, frame.positions, hyperplane_at(0.6));
+    const SliceRecord& record = report.slices.back();
+    EXPECT_EQ(record.file, "b_s01_000001.ply");
+    EXPECT_EQ(record.time, 0.1);
+    EXPECT_NEAR(record.volume, enclosed_volume(expected), 1e-13);
+}
+
+TEST(SliceRun, StopsBetweenFramesAndListsWhatItWrote) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0, 1, 2});
+    const RunFolder run = open_run(folder / "run");
+    SliceRunOptions options;
+    options.frames = run.frames;
+    const SliceRunReport report = slice_run(
+        run, folder / "out", options, [](std::int64_t done, std::int64_t) { return done < 2; });
+    EXPECT_FALSE(report.is_complete);
+    EXPECT_EQ(report.slices.size(), 2U);
+    EXPECT_EQ(count_files(folder / "out"), 3U);
+}
+
+TEST(SliceRun, KeepsOtherFilesInAUsedFolder) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0});
+    const RunFolder run = open_run(folder / "run");
+    SliceRunOptions options;
+    options.frames = run.frames;
+    make_folder(folder / "out");
+    write_text(folder / "out/mine.txt", "keep");
+    for (int repeat = 0; repeat < 2; ++repeat) {
+        (void)slice_run(run, folder / "out", options, go_on);
+    }
+    EXPECT_EQ(count_files(folder / "out"), 3U);
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/mine.txt"));
+}
+
+TEST(SliceRun, PutsVtuFilesInTime) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0, 1});
+    const RunFolder run = open_run(folder / "run");
+    SliceRunOptions options;
+    options.frames = run.frames;
+    options.format = SurfaceFormat::Vtu;
+    options.color = ColorBy::Speed;
+    (void)slice_run(run, folder / "out", options, go_on);
+    std::ostringstream collection;
+    collection << std::ifstream(folder / "out/a.pvd").rdbuf();
+    EXPECT_NE(collection.str().find("timestep=\"0.10000000000000001\" part=\"0\" "
+                                    "file=\"a_000001.vtu\""),
+              std::string::npos);
+}
+
+TEST(RenderRun, MakesPicturesSheetAndFolder) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0, 1, 2});
+    const RunFolder run = open_run(folder / "run");
+    RenderRunOptions options = small_pictures(run);
+    options.sections.offsets = {0.3, 0.6};
+    options.color = ColorBy::Strain;
+    options.sheet_frames = 2;
+    const RenderRunReport report =
+        render_run(run, {.folder = folder / "out", .sheet = folder / "sheet.png"}, options, go_on);
+    EXPECT_TRUE(report.is_complete);
+    EXPECT_EQ(report.pictures, 3 + 2 * 2);
+    EXPECT_EQ(count_files(folder / "out"), 3U);
+    EXPECT_TRUE(std::filesystem::exists(folder / "sheet.png"));
+    EXPECT_GT(report.range.high, 0);
+}
+
+TEST(RenderRun, MakesAMovieWhereFfmpegIs) {
+    if (!Movie::is_possible()) {
+        GTEST_SKIP() << "no ffmpeg";
+    }
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0, 1, 2});
+    const RunFolder run = open_run(folder / "run");
+    (void)render_run(run, {.movie = folder / "a.mp4"}, small_pictures(run), go_on);
+    EXPECT_GT(std::filesystem::file_size(folder / "a.mp4"), 500U);
+    EXPECT_EQ(count_files(folder.path()), 2U);
+}
+
+TEST(RenderRun, LeavesNoMovieWhenStopped) {
+    if (!Movie::is_possible()) {
+        GTEST_SKIP() << "no ffmpeg";
+    }
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0, 1, 2});
+    const RunFolder run = open_run(folder / "run");
+    const RenderRunReport report =
+        render_run(run, {.movie = folder / "a.mp4"}, small_pictures(run),
+                   [](std::int64_t done, std::int64_t) { return done < 5; });
+    EXPECT_FALSE(report.is_complete);
+    EXPECT_EQ(count_files(folder.path()), 1U);
+}
+
+TEST(RenderRun, SaysWhenNothingIsSeen) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0});
+    const RunFolder run = open_run(folder / "run");
+    RenderRunOptions options = small_pictures(run);
+    options.sections.offsets = {100};
+    EXPECT_TRUE(render_run(run, {.picture = folder / "a.png"}, options, go_on).is_empty);
+}
+
+TEST(RenderRun, RefusesSizesAndFramesThatCannotBe) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0, 1});
+    const RunFolder run = open_run(folder / "run");
+    RenderRunOptions options = small_pictures(run);
+    EXPECT_THROW((void)render_run(run, {.picture = folder / "a.png"}, options, go_on), Error);
+    options.width = 97;
+    EXPECT_THROW((void)render_run(run, {.movie = folder / "a.mp4"}, options, go_on), Error);
+    options.width = 1;
+    EXPECT_THROW((void)render_run(run, {.folder = folder / "out"}, options, go_on), Error);
+}
+
+}  // namespace
+}  // namespace pent::viewer
