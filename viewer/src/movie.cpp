@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <fstream>
 #include <spawn.h>
 #include <sstream>
 #include <string>
@@ -65,6 +67,38 @@ pid_t start(const std::vector<std::string>& words, int input, int errors) {
     return process;
 }
 
+// Whether the boxes an MP4 file is made of fill it exactly, pictures and index among them. ffmpeg says
+// nothing but success when the disk is full.
+bool is_whole_mp4(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    const auto size = static_cast<std::uint64_t>(std::filesystem::file_size(path));
+    std::uint64_t at = 0;
+    bool has_pictures = false;
+    bool has_index = false;
+    while (at + 8 <= size) {
+        std::array<unsigned char, 16> head{};
+        file.seekg(static_cast<std::streamoff>(at));
+        file.read(reinterpret_cast<char*>(head.data()), head.size());
+        const auto big_endian = [&](std::size_t first, std::size_t count) {
+            std::uint64_t value = 0;
+            for (std::size_t i = first; i < first + count; ++i) {
+                value = 256 * value + head[i];
+            }
+            return value;
+        };
+        const std::uint64_t length = big_endian(0, 4) == 1 ? big_endian(8, 8) : big_endian(0, 4);
+        const std::string type(reinterpret_cast<const char*>(&head[4]), 4);
+        has_pictures = has_pictures || (type == "mdat" && length > 8);
+        has_index = has_index || type == "moov";
+        if (length < 8 || length > size - at) {
+            return false;
+        }
+        at += length;
+        file.clear();
+    }
+    return at == size && has_pictures && has_index;
+}
+
 struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
@@ -109,7 +143,7 @@ struct Movie::Encoder {
         close_input();
         wait();
         std::rewind(messages.get());
-        std::string last = "no message";
+        std::string last = "it wrote only a part; is the disk full?";
         std::array<char, 512> line{};
         while (std::fgets(line.data(), static_cast<int>(line.size()), messages.get()) != nullptr) {
             last = line.data();
@@ -198,7 +232,7 @@ void Movie::add(const Image& picture) {
 
 void Movie::finish() {
     encoder_->close_input();
-    if (encoder_->wait() != 0) {
+    if (encoder_->wait() != 0 || !is_whole_mp4(encoder_->file.temporary())) {
         encoder_->give_up();
     }
     encoder_->file.commit();
