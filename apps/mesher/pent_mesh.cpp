@@ -3,12 +3,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "common/program.h"
-#include "common/progress.h"
+#include "mesh_text.h"
 
 #include <pent/mesher/make_body.h>
 #include <pent/pent_file.h>
 
-#include <cstdio>
+#include <cmath>
+#include <map>
 
 namespace {
 
@@ -27,14 +28,7 @@ struct Arguments {
     bool show_quality = false;
 };
 
-// printf into a string.
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-    char buffer[512];
-    std::snprintf(buffer, sizeof buffer, format, values...);
-    return buffer;
-}
-
+using pent::apps::text;
 using Long = long long;  // NOLINT(google-runtime-int): printf's type
 
 void add_options(CLI::App& cli, Arguments& arguments) {
@@ -138,9 +132,7 @@ void say_summary(const pent::apps::Program& program,
              static_cast<Long>(report.proof.boundary_facets),
              std::abs(report.proof.volume - report.proof.expected_volume)
                  / report.proof.expected_volume));
-    program.say(text("quality    mean ratio min %.3f mean %.3f, condition of Dm mean %.3g max %.3g",
-                     report.quality.mean_ratio.min, report.quality.mean_ratio.mean,
-                     report.quality.condition.mean, report.quality.condition.max));
+    program.say("quality    " + pent::apps::quality_line(report.quality));
     if (arguments.show_quality) {
         program.say(pent::mesher::quality_text(report.quality));
     }
@@ -149,13 +141,6 @@ void say_summary(const pent::apps::Program& program,
         stages += text(" %s %.3f s", stage.name.c_str(), stage.seconds);
     }
     program.say(stages);
-}
-
-nlohmann::ordered_json to_json(const pent::mesher::Spread& spread) {
-    return {{"min", spread.min},           {"p1", spread.percentile_1},
-            {"p5", spread.percentile_5},   {"median", spread.median},
-            {"mean", spread.mean},         {"p95", spread.percentile_95},
-            {"p99", spread.percentile_99}, {"max", spread.max}};
 }
 
 nlohmann::ordered_json to_json(const BodyReport& report, std::int64_t vertices) {
@@ -183,12 +168,7 @@ nlohmann::ordered_json to_json(const BodyReport& report, std::int64_t vertices) 
                     {"expected_volume", report.proof.expected_volume},
                     {"boundary_volume", report.proof.boundary_volume},
                     {"volume_tolerance", report.proof.tolerance}};
-    json["quality"] = {{"mean_ratio", to_json(report.quality.mean_ratio)},
-                       {"condition", to_json(report.quality.condition)},
-                       {"smallest_angle_degrees", to_json(report.quality.smallest_angle)},
-                       {"largest_angle_degrees", to_json(report.quality.largest_angle)},
-                       {"histogram", report.quality.histogram},
-                       {"worst_cells", report.quality.worst_cells}};
+    json["quality"] = pent::apps::to_json(report.quality);
     for (const pent::mesher::Stage& stage : report.stages) {
         json["stage_seconds"][stage.name] = stage.seconds;
     }

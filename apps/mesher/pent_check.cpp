@@ -1,0 +1,157 @@
+// pent-check: proves the decomposition tables, or validates a .pent file.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "common/program.h"
+#include "mesh_text.h"
+
+#include <pent/error.h>
+#include <pent/mesher/decomposition.h>
+#include <pent/mesher/links.h>
+#include <pent/mesher/prove.h>
+#include <pent/pent_file.h>
+
+#include <filesystem>
+
+namespace {
+
+using pent::apps::Program;
+using pent::apps::text;
+using Long = long long;  // NOLINT(google-runtime-int): printf's type
+
+std::string searched(const pent::mesher::DecompositionProof& proof, std::int64_t count) {
+    return proof.is_searched ? std::to_string(count) : "-";
+}
+
+void prove_tables(Program& program) {
+    program.say(
+        "Cutting the prism over a simplex into simplices without added points, by enumeration\n"
+        "in integers. Edges of the base are directed; a direction names the diagonal above it.\n");
+    program.say(
+        "  base      directions      without cycles        with cycles         neighbors\n"
+        "  vertices         all     all  filled unique     all  impossible  3-cycle   agree");
+    for (int n = 2; n <= 6; ++n) {
+        const pent::mesher::DecompositionProof proof = pent::mesher::prove_decompositions(n);
+        const std::int64_t cyclic = proof.orientations - proof.acyclic;
+        program.say(text("  %8d  %10lld  %6lld  %6lld %6s  %6lld  %10s  %7lld  %lld of %lld", n,
+                         static_cast<Long>(proof.orientations), static_cast<Long>(proof.acyclic),
+                         static_cast<Long>(proof.filled), searched(proof, proof.unique).c_str(),
+                         static_cast<Long>(cyclic), searched(proof, proof.impossible).c_str(),
+                         static_cast<Long>(proof.with_triangle), static_cast<Long>(proof.agreeing),
+                         static_cast<Long>(proof.neighbors)));
+        nlohmann::ordered_json row = {{"base_vertices", n},
+                                      {"orientations", proof.orientations},
+                                      {"acyclic", proof.acyclic},
+                                      {"filled", proof.filled},
+                                      {"cyclic", cyclic},
+                                      {"cyclic_with_3_cycle", proof.with_triangle},
+                                      {"neighbor_orders", proof.neighbors},
+                                      {"neighbor_orders_agreeing", proof.agreeing},
+                                      {"holds", proof.holds()}};
+        if (proof.is_searched) {
+            row["unique"] = proof.unique;
+            row["impossible"] = proof.impossible;
+        }
+        program.report()["decompositions"].push_back(row);
+        if (!proof.holds()) {
+            throw pent::Error("the decomposition of prisms over " + std::to_string(n)
+                              + " vertices does not hold; see the table");
+        }
+    }
+    program.say(
+        "\n  filled      the path decomposition fills the prism and has exactly the cuts asked "
+        "for\n"
+        "  unique      no other set of simplices does (every subset tried)\n"
+        "  impossible  no set of simplices does (every subset tried)\n"
+        "  3-cycle     contain a directed 3-cycle: the prism over it is a face and impossible\n"
+        "  agree       two base simplices with a common facet cut the prism over it alike,\n"
+        "              for every order of all their vertices\n\nfinished: all proved");
+}
+
+template <int Dim>
+void check_mesh(Program& program, const std::filesystem::path& path) {
+    const pent::MeshFile<Dim> file = pent::read_mesh<Dim>(path);
+    const pent::mesher::Proof proof = pent::mesher::prove(file.mesh);
+    if (!proof.holds()) {
+        throw pent::Error(path.string() + ": " + pent::mesher::describe_faults(proof, Dim));
+    }
+    const pent::mesher::LinkReport links = pent::mesher::check_links(file.mesh);
+    const pent::mesher::QualityReport quality = pent::mesher::measure_quality(file.mesh);
+    program.say(text("file       dimension %d, %s, by %s, crc32c %08x", Dim,
+                     file.info.encoding == pent::Encoding::Ascii ? "ascii" : "binary",
+                     file.info.created_by.c_str(), file.info.crc32c));
+    program.say(text("mesh       %lld vertices, %lld %s, %.10g m^%d",
+                     static_cast<Long>(file.mesh.vertex_count()), static_cast<Long>(proof.cells),
+                     pent::cell_name_plural(Dim).data(), proof.volume, Dim));
+    program.say(text("facets     %lld inner ones match, boundary of %lld is closed and oriented",
+                     static_cast<Long>(proof.interior_facets),
+                     static_cast<Long>(proof.boundary_facets)));
+    program.say(text("links      of %lld boundary vertices are spheres, %lld are not",
+                     static_cast<Long>(links.boundary_vertices - links.faulty),
+                     static_cast<Long>(links.faulty)));
+    program.say("quality    " + pent::apps::quality_line(quality));
+    program.report()["mesh"] = {{"dimension", Dim},
+                                {"vertices", file.mesh.vertex_count()},
+                                {"cells", proof.cells},
+                                {"interior_facets", proof.interior_facets},
+                                {"boundary_facets", proof.boundary_facets},
+                                {"volume", proof.volume},
+                                {"boundary_volume", proof.boundary_volume},
+                                {"boundary_vertices", links.boundary_vertices},
+                                {"faulty_links", links.faulty},
+                                {"unused_vertices", links.unused_vertices}};
+    program.report()["quality"] = pent::apps::to_json(quality);
+    if (links.faulty + links.unused_vertices > 0) {
+        throw pent::Error(
+            text("%s: %lld vertices without a cell, and the boundary is not a manifold "
+                 "at %lld vertices (first: %lld); parts that touch in a point or an "
+                 "edge must be joined or moved apart",
+                 path.c_str(), static_cast<Long>(links.unused_vertices),
+                 static_cast<Long>(links.faulty), static_cast<Long>(links.first_faulty)));
+    }
+    program.say("finished: " + path.string() + " is sound");
+}
+
+template <int Dim>
+void check_frame(Program& program, const std::filesystem::path& path) {
+    const pent::Frame<Dim> frame = pent::read_frame<Dim>(path);
+    program.say(text("frame      %lld of %s, step %lld, %.6g s, %lld vertices",
+                     static_cast<Long>(frame.frame), frame.mesh_name.c_str(),
+                     static_cast<Long>(frame.step), frame.time,
+                     static_cast<Long>(frame.positions.cols())));
+    program.report()["frame"] = {{"dimension", Dim},     {"mesh", frame.mesh_name},
+                                 {"frame", frame.frame}, {"step", frame.step},
+                                 {"time", frame.time},   {"vertices", frame.positions.cols()}};
+    program.say("finished: " + path.string() + " is sound");
+}
+
+template <int Dim>
+void check_file(Program& program, const std::filesystem::path& path, bool is_frame) {
+    is_frame ? check_frame<Dim>(program, path) : check_mesh<Dim>(program, path);
+}
+
+void check_file(Program& program, const std::filesystem::path& path) {
+    const pent::FileInfo info = pent::read_info(path);
+    switch (info.dimension) {
+        case 2:
+            return check_file<2>(program, path, info.is_frame);
+        case 3:
+            return check_file<3>(program, path, info.is_frame);
+        default:
+            return check_file<4>(program, path, info.is_frame);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Program program("pent-check",
+                    "Validates a .pent file; without one, proves that prisms are cut correctly.",
+                    "pent-check octopus.pent");
+    std::filesystem::path path;
+    program.options().add_option("file", path, "A mesh or frame to validate")->type_name("FILE");
+    return program.run(argc, argv, [&] {
+        path.empty() ? prove_tables(program) : check_file(program, path);
+        return pent::apps::Verdict::Finished;
+    });
+}
