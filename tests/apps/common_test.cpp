@@ -75,14 +75,13 @@ TEST_P(EveryProgram, NamesAMissingInput) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Programs,
-                         EveryProgram,
-                         testing::ValuesIn(programs()),
-                         [](const testing::TestParamInfo<std::string>& info) {
-                             std::string name = info.param;
-                             std::replace(name.begin(), name.end(), '-', '_');
-                             return name;
-                         });
+std::string test_name(const testing::TestParamInfo<std::string>& program) {
+    std::string name = program.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, EveryProgram, testing::ValuesIn(programs()), test_name);
 
 }  // namespace
 }  // namespace pent
