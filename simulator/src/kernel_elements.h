@@ -227,6 +227,17 @@ Tensor<Real, Dim> hessian_block(const RotatedHessian<Real, Dim>& hessian,
     return block;
 }
 
+// Column-major entries of a block; symmetric ones to the bit, from the upper triangle.
+template <typename Real, int Dim, typename Stored>
+void store_block(const Tensor<Real, Dim>& block, bool is_symmetric, Stored& stored) {
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) {
+            const bool is_mirrored = is_symmetric && i > j;
+            Lanes<Real>::store(is_mirrored ? block[j][i] : block[i][j], stored[j * Dim + i]);
+        }
+    }
+}
+
 // All pairs of corners. Rest gradients add up to zero, so the blocks of corner 0 follow from the
 // others: K_0b = - sum over a >= 1 of K_ab.
 template <typename Real, int Dim>
@@ -250,10 +261,9 @@ void hessian_blocks(const RotatedHessian<Real, Dim>& hessian,
         }
         for (int b = a; b <= Dim; ++b) {
             const Tensor<Real, Dim> block = hessian_block(hessian, beta_a, hessian.beta.at[b - 1]);
-            auto& stored = pack.at[pair_index<Dim>(a, b)];
+            store_block(block, b == a, pack.at[pair_index<Dim>(a, b)]);
             for (int i = 0; i < Dim; ++i) {
                 for (int j = 0; j < Dim; ++j) {
-                    Lanes<Real>::store(block[i][j], stored[j * Dim + i]);
                     first[b][i][j] -= block[i][j];
                     if (b != a) {
                         first[a][i][j] -= block[j][i];
@@ -263,22 +273,14 @@ void hessian_blocks(const RotatedHessian<Real, Dim>& hessian,
         }
     }
     for (int b = 1; b <= Dim; ++b) {
-        auto& stored = pack.at[pair_index<Dim>(0, b)];
+        store_block(first[b], false, pack.at[pair_index<Dim>(0, b)]);
         for (int i = 0; i < Dim; ++i) {
             for (int j = 0; j < Dim; ++j) {
-                Lanes<Real>::store(first[b][i][j], stored[j * Dim + i]);
                 first[0][i][j] -= first[b][i][j];
             }
         }
     }
-    auto& stored = pack.at[0];
-    for (int i = 0; i < Dim; ++i) {
-        for (int j = i; j < Dim; ++j) {
-            const Real mean = Real(Number(0.5)) * (first[0][i][j] + first[0][j][i]);
-            Lanes<Real>::store(mean, stored[j * Dim + i]);
-            Lanes<Real>::store(mean, stored[i * Dim + j]);
-        }
-    }
+    store_block(first[0], true, pack.at[0]);
 }
 
 template <int Dim, typename Real, typename Scalar>

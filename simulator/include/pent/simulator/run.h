@@ -18,11 +18,11 @@ namespace pent::simulator {
 ///     RUN/report.json               verdict and statistics of every step and frame
 
 struct RunOptions {
-    std::filesystem::path folder;
+    std::filesystem::path folder = {};
     bool force = false;                   ///< Replace a run that is in the folder.
     bool resume = false;                  ///< Go on behind the last whole frame in the folder.
     int threads = 1;                      ///< At least 1.
-    std::string isa;                      ///< As in SimulationOptions.
+    std::string isa = {};                      ///< As in SimulationOptions.
     std::string created_by = "pent-sim";  ///< Goes into the files.
 };
 

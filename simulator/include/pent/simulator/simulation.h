@@ -12,7 +12,7 @@ namespace pent::simulator {
 
 struct SimulationOptions {
     int threads = 1;  ///< At least 1. Results do not depend on it.
-    std::string isa;  ///< "scalar", "baseline", "avx2" or "avx512"; empty for the best there is.
+    std::string isa = {};  ///< "scalar", "baseline", "avx2" or "avx512"; empty for the best there is.
 };
 
 /// How big a simulation is.

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <pent/simulator/material.h>
+#include <pent/simulator/solver_options.h>
+
+#include <Eigen/Core>
+
+namespace pent::simulator {
+
+/// The theory of the elastic energies, in any dimension n >= 2 (that of F, n x n).
+///
+/// This is the reference: plain, in double, from formulas. The simulation runs vectorized kernels
+/// of its own, which are tested against it. F = U diag(sigma) V^T with rotations U and V, so the
+/// smallest sigma is negative where det F is. Nothing here divides by a singular value.
+
+/// Invariants of F: I1 = tr S with F = R S, R a rotation; I2 = |F|^2; I3 = det F.
+enum class Invariant { I1, I2, I3 };
+
+[[nodiscard]] double invariant(Invariant which, const Eigen::MatrixXd& F);
+
+/// dI / dF: R, 2 F, or the cofactor matrix. [shi2025] Eq. 9 and sections 4.3.4, 4.4.
+///
+/// Where R is not unique (two smallest singular values that add up to 0) it is one of the choices.
+[[nodiscard]] Eigen::MatrixXd invariant_gradient(Invariant which, const Eigen::MatrixXd& F);
+
+/// Energy per rest volume, J/m^n. Zero at F = I; finite for every finite F.
+///
+///     stable neo-Hookean      mu/2 (I2 - n) - mu (J - 1) + (lambda + mu)/2 (J - 1)^2,  J = I3
+///     arap                    mu |F - R|^2
+///     St. Venant-Kirchhoff    mu |E|^2 + lambda/2 (tr E)^2,   E = (F^T F - I)/2
+///     linear                  mu |e|^2 + lambda/2 (tr e)^2,   e = (F + F^T)/2 - I
+///
+/// mu and lambda are those of the material: at small strain each energy is linear elasticity with
+/// them (arap with lambda = 0). The first is [smith2018] and [shi2025] Eq. 4 up to a constant; taken
+/// literally Eq. 4 linearizes to (mu, lambda - mu), hence the lambda + mu.
+[[nodiscard]] double energy_density(const Material& material, const Eigen::MatrixXd& F);
+
+/// First Piola-Kirchhoff stress dPsi/dF, Pa.
+[[nodiscard]] Eigen::MatrixXd stress(const Material& material, const Eigen::MatrixXd& F);
+
+/// Second derivative of an isotropic function of F, in the frame of its singular vectors.
+///
+/// With dF = U D V^T the result is U (H : D) V^T, where H couples the diagonal of D with itself
+/// through `stretch`, and each pair D_ij, D_ji only with itself: D_ij + D_ji is scaled by `flip`, and
+/// D_ij - D_ji by `twist`.
+struct HessianFrame {
+    Eigen::MatrixXd U;        ///< n x n rotation.
+    Eigen::MatrixXd V;        ///< n x n rotation.
+    Eigen::MatrixXd stretch;  ///< n x n, symmetric.
+    Eigen::MatrixXd flip;     ///< n x n, symmetric; diagonal unused and 0.
+    Eigen::MatrixXd twist;    ///< n x n, symmetric; diagonal unused and 0.
+};
+
+/// Second derivative of an invariant. [shi2025] Eqs. 10, 12-20; Eq. 18 with products for quotients.
+///
+/// For I1 the twist value 2 / (sigma_i + sigma_j) is undefined where the sum is 0; it is then 0.
+[[nodiscard]] HessianFrame invariant_hessian(Invariant which, const Eigen::MatrixXd& F);
+
+/// Second derivative of the energy density. [shi2025] Eqs. 21, 22 for the stable neo-Hookean one.
+///
+/// For arap the twist value 2 mu (1 - 2 / (sigma_i + sigma_j)) is undefined where the sum is 0, and
+/// without lower bound near it; where undefined it is 0.
+[[nodiscard]] HessianFrame hessian(const Material& material, const Eigen::MatrixXd& F);
+
+/// The Hessian with its eigenvalues filtered.
+[[nodiscard]] HessianFrame filtered(const HessianFrame& frame, Filter filter);
+
+/// H : dF, n x n.
+[[nodiscard]] Eigen::MatrixXd apply(const HessianFrame& frame, const Eigen::MatrixXd& dF);
+
+/// H as an n^2 x n^2 matrix on vec(F), columns of F one after the other.
+[[nodiscard]] Eigen::MatrixXd dense(const HessianFrame& frame);
+
+/// Eigenvalues and eigenmatrices of a Hessian: n stretch modes, then flip and twist of each pair.
+class Eigensystem {
+public:
+    explicit Eigensystem(const HessianFrame& frame);
+
+    /// n^2 of them: stretch (increasing), then for i < j: flip, twist.
+    [[nodiscard]] const Eigen::VectorXd& values() const { return values_; }
+
+    /// Eigenmatrix of values()[k], n x n, of norm 1; they are orthogonal to one another.
+    [[nodiscard]] Eigen::MatrixXd mode(Eigen::Index k) const;
+
+private:
+    Eigen::MatrixXd U_;
+    Eigen::MatrixXd V_;
+    Eigen::MatrixXd stretch_modes_;
+    Eigen::VectorXd values_;
+};
+
+}  // namespace pent::simulator

@@ -1,0 +1,113 @@
+#include "conjugate_gradients.h"
+
+#include "elastic_box.h"
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace pent::simulator {
+namespace {
+
+using test::ElasticBox;
+
+// Stiffness of a scrambled box plus a mass: symmetric positive definite.
+template <typename Scalar>
+BlockMatrix<4, Scalar> definite_matrix(const ElasticBox<4>& box, double mass) {
+    BlockMatrix<4, Scalar> matrix(box.pattern);
+    const Positions<4> still = Positions<4>::Zero(4, box.mesh.vertex_count());
+    BlockVector<4> right = BlockVector<4>::Zero(4, box.pattern.rows());
+    box.elements->add_hessian(Workers(1), kernels<4>(best_isa()), box.positions, 1, Filter::Clamp,
+                              still, matrix, right);
+    for (std::int64_t row = 0; row < matrix.rows(); ++row) {
+        matrix.diagonal(row).diagonal().array() += static_cast<Scalar>(mass);
+    }
+    return matrix;
+}
+
+struct Problem {
+    ElasticBox<4> box{{.lame = {.lambda = 2, .mu = 1}}};
+    BlockVector<4> b;
+    BlockVector<4> x;
+    LinearSolveSpace<4> space;
+
+    Problem() {
+        box.scramble(0.1, 1);
+        std::mt19937 random(2);
+        std::normal_distribution<double> normal;
+        b = BlockVector<4>::NullaryExpr(4, box.pattern.rows(), [&]() { return normal(random); });
+        x.setZero(4, box.pattern.rows());
+    }
+};
+
+TEST(ConjugateGradients, FindTheSolutionOfTheDenseFactorization) {
+    Problem problem;
+    const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
+    const Workers workers(1);
+    const auto preconditioner = block_jacobi(workers, A);
+    const LinearSolveReport report =
+        solve(workers, kernels<4>(best_isa()), A, *preconditioner, problem.b, {.tolerance = 1e-12},
+              problem.space, problem.x);
+    EXPECT_TRUE(report.has_converged);
+    EXPECT_LE(report.residual, 1e-12);
+    const Eigen::VectorXd expected =
+        ElasticBox<4>::dense(A).ldlt().solve(problem.b.reshaped()).eval();
+    // Condition about 1e4 times the residual.
+    EXPECT_LT((problem.x.reshaped() - expected).norm(), 1e-8 * expected.norm());
+}
+
+TEST(ConjugateGradients, ReachOneMillionthWithAFloatMatrix) {
+    Problem problem;
+    const BlockMatrix<4, float> A = definite_matrix<float>(problem.box, 0.01);
+    const Workers workers(1);
+    const LinearSolveReport report =
+        solve(workers, kernels<4>(best_isa()), A, *block_jacobi(workers, A), problem.b,
+              {.tolerance = 1e-6}, problem.space, problem.x);
+    EXPECT_TRUE(report.has_converged);
+    const Eigen::VectorXd gap =
+        problem.b.reshaped() - ElasticBox<4>::dense(A) * problem.x.reshaped();
+    EXPECT_NEAR(gap.norm() / problem.b.norm(), report.residual, 1e-12);
+}
+
+TEST(ConjugateGradients, ReportAMatrixThatIsNotPositiveDefinite) {
+    Problem problem;
+    BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
+    A.diagonal(3).setZero();
+    A.diagonal(3).diagonal().setConstant(-1);
+    const Workers workers(1);
+    const LinearSolveReport report =
+        solve(workers, kernels<4>(best_isa()), A, *block_jacobi(workers, A), problem.b,
+              {.tolerance = 1e-8}, problem.space, problem.x);
+    EXPECT_TRUE(report.has_broken_down);
+    EXPECT_FALSE(report.has_converged);
+}
+
+TEST(ConjugateGradients, SayWhenIterationsRunOut) {
+    Problem problem;
+    const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
+    const Workers workers(1);
+    const LinearSolveReport report =
+        solve(workers, kernels<4>(best_isa()), A, *block_jacobi(workers, A), problem.b,
+              {.tolerance = 1e-12, .max_iterations = 3}, problem.space, problem.x);
+    EXPECT_FALSE(report.has_converged);
+    EXPECT_EQ(report.iterations, 3);
+    EXPECT_GT(report.residual, 1e-12);
+}
+
+TEST(ConjugateGradients, GiveZeroForZeroWithoutIterating) {
+    Problem problem;
+    const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 1);
+    problem.b.setZero();
+    problem.x.setOnes();
+    const Workers workers(1);
+    const LinearSolveReport report =
+        solve(workers, kernels<4>(best_isa()), A, *block_jacobi(workers, A), problem.b, {},
+              problem.space, problem.x);
+    EXPECT_TRUE(report.has_converged);
+    EXPECT_EQ(report.iterations, 0);
+    EXPECT_EQ(problem.x.norm(), 0);
+}
+
+}  // namespace
+}  // namespace pent::simulator

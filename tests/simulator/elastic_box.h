@@ -1,0 +1,110 @@
+#pragma once
+
+#include "block_matrix.h"
+#include "elements.h"
+#include "numbering.h"
+#include "support/kuhn_box.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <random>
+#include <vector>
+
+namespace pent::simulator::test {
+
+/// A small box of one material with everything the kernels need, positions scrambled at will.
+template <int Dim>
+struct ElasticBox {
+    SimplexMesh<Dim> mesh;
+    Numbering numbering;
+    BlockPattern pattern;
+    std::unique_ptr<Elements<Dim>> elements;
+    Positions<Dim> positions;
+
+    explicit ElasticBox(const Material& material, const std::vector<std::uint32_t>& held = {})
+        : mesh(pent::test::kuhn_box<Dim>(counts(), sizes())) {
+        std::vector<bool> is_held(static_cast<std::size_t>(mesh.vertex_count()), false);
+        for (const std::uint32_t vertex : held) {
+            is_held[vertex] = true;
+        }
+        std::vector<std::uint32_t> columns;
+        for (std::uint32_t v = 0; v < is_held.size(); ++v) {
+            columns.push_back(v);
+        }
+        numbering = number_unknowns<Dim>(mesh.cells, is_held, columns, columns);
+        pattern = make_pattern<Dim>(mesh.cells, numbering);
+        const std::vector<CellRange> ranges = {{0, mesh.cell_count(), material}};
+        elements =
+            std::make_unique<Elements<Dim>>(mesh.positions, mesh.cells, ranges, numbering, pattern);
+        positions = mesh.positions;
+    }
+
+    /// Moves every vertex by a normal deviate of the given size, m.
+    void scramble(double size, unsigned seed) {
+        std::mt19937 random(seed);
+        std::normal_distribution<double> normal(0, size);
+        positions = mesh.positions.unaryExpr([&](double x) { return x + normal(random); });
+    }
+
+    /// Elastic energy and forces at positions p.
+    RunEnergy forces(Isa isa, const Positions<Dim>& p, Positions<Dim>& out) const {
+        out.setZero(Dim, p.cols());
+        return elements->add_forces(Workers(1), kernels<Dim>(isa), p, out);
+    }
+
+    /// Filtered stiffness matrix of the free vertices, dense, unknowns in their own order.
+    template <typename Scalar>
+    Eigen::MatrixXd stiffness(Isa isa, Filter filter) const {
+        BlockMatrix<Dim, Scalar> matrix(pattern);
+        const Positions<Dim> still = Positions<Dim>::Zero(Dim, positions.cols());
+        BlockVector<Dim> right = BlockVector<Dim>::Zero(Dim, pattern.rows());
+        elements->add_hessian(Workers(1), kernels<Dim>(isa), positions, 1, filter, still, matrix,
+                              right);
+        return dense(matrix);
+    }
+
+    template <typename Scalar>
+    static Eigen::MatrixXd dense(const BlockMatrix<Dim, Scalar>& matrix) {
+        const BlockPattern& pattern = matrix.pattern();
+        Eigen::MatrixXd full = Eigen::MatrixXd::Zero(Dim * pattern.rows(), Dim * pattern.rows());
+        for (std::int64_t row = 0; row < pattern.rows(); ++row) {
+            const auto r = static_cast<std::size_t>(row);
+            for (std::int64_t k = pattern.row_start[r]; k < pattern.row_start[r + 1]; ++k) {
+                const Eigen::Index column = pattern.columns[static_cast<std::size_t>(k)];
+                const Eigen::Matrix<double, Dim, Dim> block =
+                    matrix.block(k).template cast<double>();
+                full.template block<Dim, Dim>(Dim * row, Dim * column) = block;
+                full.template block<Dim, Dim>(Dim * column, Dim * row) = block.transpose();
+            }
+        }
+        return full;
+    }
+
+    static std::array<int, Dim> counts() {
+        std::array<int, Dim> count{};
+        count.fill(1);
+        count[0] = 2;
+        return count;
+    }
+    static std::array<double, Dim> sizes() {
+        std::array<double, Dim> size{};
+        for (int axis = 0; axis < Dim; ++axis) {
+            size[static_cast<std::size_t>(axis)] = 1.0 + 0.2 * axis;
+        }
+        return size;
+    }
+};
+
+/// Instruction sets this machine can run.
+inline std::vector<Isa> supported_isas() {
+    std::vector<Isa> isas;
+    for (const Isa isa : {Isa::Scalar, Isa::Baseline, Isa::Avx2, Isa::Avx512}) {
+        if (is_supported(isa)) {
+            isas.push_back(isa);
+        }
+    }
+    return isas;
+}
+
+}  // namespace pent::simulator::test

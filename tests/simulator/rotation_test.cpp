@@ -1,0 +1,108 @@
+#include "rotation.h"
+
+#include "support/kuhn_box.h"
+
+#include <pent/error.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace pent::simulator {
+namespace {
+
+constexpr double kQuarter = std::numbers::pi / 2;
+
+TEST(PlaneRotation, TakesTheFirstAxisTowardsTheSecondInEveryPlane) {
+    for (int from = 0; from < 4; ++from) {
+        for (int to = 0; to < 4; ++to) {
+            if (from == to) {
+                continue;
+            }
+            const Matrix<4> R = plane_rotation<4>({from, to}, kQuarter);
+            EXPECT_LT((R * Vector<4>::Unit(from) - Vector<4>::Unit(to)).norm(), 1e-15);
+            EXPECT_LT((R * R.transpose() - Matrix<4>::Identity()).norm(), 1e-15);
+            const Matrix<4> back = plane_rotation<4>({to, from}, kQuarter);
+            EXPECT_LT((R * back - Matrix<4>::Identity()).norm(), 1e-15);  // "wx" undoes "xw"
+        }
+    }
+}
+
+Body placed(double scale, const std::vector<Turn>& turns, const Vector<4>& shift) {
+    Body body;
+    body.name = "box";
+    body.mesh = "box.pent";
+    body.place = {.scale = scale, .rotate = turns, .translate = shift};
+    return body;
+}
+
+TEST(Place, ScalesThenTurnsInTheOrderWrittenThenMoves) {
+    SimplexMesh<4> mesh = pent::test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1});
+    // Corner (1,0,0,0): scaled to 2 x; x towards w: 2 w; w towards y: 2 y; moved.
+    const Body body = placed(2, {{{0, 3}, 90}, {{3, 1}, 90}}, Vector<4>(10, 0, 0, 0));
+    const SimplexMesh<4> result = place(mesh, body);
+    EXPECT_LT((result.positions.col(1) - Vector<4>(10, 2, 0, 0)).norm(), 1e-14);
+    EXPECT_NEAR(total_volume(result), 16, 1e-12);
+}
+
+TEST(Place, LeavesAMeshWithoutPlacementAsItIs) {
+    const SimplexMesh<4> mesh = pent::test::kuhn_box<4>({2, 1, 1, 1}, {0.3, 1, 1, 1});
+    const SimplexMesh<4> result = place(mesh, placed(1, {}, Vector<4>::Zero()));
+    EXPECT_EQ(result.positions, mesh.positions);
+}
+
+TEST(Place, RefusesAScaleThatOverflows) {
+    const SimplexMesh<4> mesh = pent::test::kuhn_box<4>({1, 1, 1, 1}, {1e300, 1, 1, 1});
+    EXPECT_THROW(static_cast<void>(place(mesh, placed(1e300, {}, Vector<4>::Zero()))), Error);
+}
+
+Motion double_rotation() {
+    Motion motion;
+    motion.translate = Vector<4>(0.1, 0, 0, -0.2);
+    motion.rotate = {{{1, 2}, 90}, {{3, 0}, 60}};
+    motion.from = 0.5;
+    motion.to = 2.5;
+    return motion;
+}
+
+TEST(PoseAt, IsTheExactRotationOfTheTimeElapsed) {
+    const Pose<4> pose = pose_at<4>(double_rotation(), 1.5);  // one second in
+    EXPECT_LT((pose.rotation * Vector<4>::Unit(1) - Vector<4>::Unit(2)).norm(), 1e-15);
+    const Vector<4> w_turned(std::sin(std::numbers::pi / 3), 0, 0, 0.5);
+    EXPECT_LT((pose.rotation * Vector<4>::Unit(3) - w_turned).norm(), 1e-15);
+    EXPECT_LT((pose.shift - Vector<4>(0.1, 0, 0, -0.2)).norm(), 1e-15);
+    EXPECT_LT((pose.rotation * pose.rotation.transpose() - Matrix<4>::Identity()).norm(), 1e-14);
+}
+
+TEST(PoseAt, RestsBeforeFromAndHoldsAfterTo) {
+    EXPECT_EQ(pose_at<4>(double_rotation(), 0.2).rotation, Matrix<4>::Identity());
+    EXPECT_EQ(pose_at<4>(double_rotation(), 0.2).velocity, Vector<4>::Zero());
+    const Pose<4> end = pose_at<4>(double_rotation(), 2.5);
+    const Pose<4> later = pose_at<4>(double_rotation(), 9);
+    EXPECT_EQ(later.rotation, end.rotation);
+    EXPECT_EQ(later.shift, end.shift);
+    EXPECT_EQ(later.rate, Matrix<4>::Zero());
+}
+
+TEST(PoseAt, HasRatesEqualToTheDifferenceInTime) {
+    const double h = 1e-5;
+    const Pose<4> pose = pose_at<4>(double_rotation(), 1.2);
+    const Pose<4> before = pose_at<4>(double_rotation(), 1.2 - h);
+    const Pose<4> after = pose_at<4>(double_rotation(), 1.2 + h);
+    // Central differences: h^2 and 1e-16 / h, both about 1e-10.
+    EXPECT_LT(((after.rotation - before.rotation) / (2 * h) - pose.rate).norm(), 1e-9);
+    EXPECT_LT(((after.shift - before.shift) / (2 * h) - pose.velocity).norm(), 1e-9);
+}
+
+// Two turns in planes that share an axis do not commute: the first one written comes first.
+TEST(PoseAt, AppliesSpinsInTheOrderWritten) {
+    Motion motion;
+    motion.translate = Vector<4>::Zero();
+    motion.rotate = {{{0, 1}, 90}, {{1, 2}, 90}};
+    const Pose<4> pose = pose_at<4>(motion, 1);
+    EXPECT_LT((pose.rotation * Vector<4>::Unit(0) - Vector<4>::Unit(2)).norm(), 1e-15);
+}
+
+}  // namespace
+}  // namespace pent::simulator

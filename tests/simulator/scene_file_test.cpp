@@ -1,0 +1,207 @@
+#include <pent/error.h>
+#include <pent/simulator/scene_file.h>
+
+#include <gtest/gtest.h>
+
+namespace pent::simulator {
+namespace {
+
+constexpr std::string_view kFull = R"([scene]
+gravity = [0, -9.8, 0, 0]
+frames = 300
+frames_per_second = 60
+steps_per_frame = 2
+
+[[body]]
+name = "bunny"
+mesh = "meshes/bunny.pent"
+place = { scale = 2, translate = [0, 1, 0, 0], rotate = [{ plane = "xw", degrees = 30 }] }
+material = { model = "stable-neo-hookean", young = 1e5, poisson = 0.28, density = 1100 }
+
+[[body]]
+name = "core"
+mesh = "core.pent"
+material = { model = "arap", mu = 2e4, lambda = 1e4 }
+
+[[constraint]]
+body = "bunny"
+select = [{ ball = { center = [0, 0, 0, 0.2], radius = 0.3 } },
+          { box = { low = [0, 0, 0, 0], high = [1, 1, 1, 1] } },
+          { half_space = { normal = [0, 2, 0, 0], offset = 0.1 } },
+          { layers = { first = 0, last = 2 } },
+          { region = 3 }]
+motion = { rotate = [{ plane = "yz", degrees_per_s = 90 }, { plane = "wx", degrees_per_s = 60 }], translate = [0.1, 0, 0, 0], about = [0, 1, 0, 0], from = 0.5, to = 2 }
+
+[[constraint]]
+body = "core"
+select = "everything"
+motion = "fixed"
+
+[[obstacle]]
+half_space = { normal = [0, 1, 0, 0], offset = -1 }
+distance = 0.01
+stiffness = 500
+
+[damping]
+mass = 0.1
+stiffness = 0.001
+
+[solver]
+preset = "accurate"
+filter = "absolute"
+max_halvings = 3
+)";
+
+Scene parse(std::string_view text) {
+    return parse_scene(text, "scene.toml", "/data");
+}
+
+std::string error_of(std::string_view text) {
+    try {
+        static_cast<void>(parse(text));
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+// A whole scene around one line or block that is under test; the block starts in line 5.
+std::string with(const std::string& block) {
+    return "[[body]]\nname = \"a\"\nmesh = \"a.pent\"\n\n" + block;
+}
+
+TEST(ParseScene, ReadsEveryKey) {
+    const Scene scene = parse(kFull);
+    EXPECT_EQ(scene.dimension, 4);
+    EXPECT_EQ(scene.gravity, Eigen::Vector4d(0, -9.8, 0, 0));
+    EXPECT_DOUBLE_EQ(scene.dt(), 1.0 / 120);
+    ASSERT_EQ(scene.bodies.size(), 2U);
+    EXPECT_EQ(scene.bodies[0].mesh, "/data/meshes/bunny.pent");
+    EXPECT_EQ(scene.bodies[0].place.scale, 2);
+    EXPECT_EQ(plane_name(scene.bodies[0].place.rotate[0].plane), "xw");
+    EXPECT_EQ(scene.bodies[0].material.density, 1100);
+    EXPECT_EQ(scene.bodies[1].material.model, Model::Arap);
+    EXPECT_EQ(scene.bodies[1].material.lame.lambda, 1e4);
+    ASSERT_EQ(scene.constraints.size(), 2U);
+    EXPECT_EQ(scene.constraints[0].select.size(), 5U);
+    const auto& half_space = std::get<HalfSpaceSelection>(scene.constraints[0].select[2]);
+    EXPECT_EQ(half_space.normal, Eigen::Vector4d(0, 1, 0, 0));
+    EXPECT_EQ(scene.constraints[0].motion.rotate[1].plane.from, 3);
+    EXPECT_EQ(scene.constraints[0].motion.to, 2);
+    EXPECT_EQ(scene.obstacles.at(0).stiffness, 500);
+    EXPECT_EQ(scene.damping->stiffness, 0.001);
+    EXPECT_EQ(scene.solver.precision, Precision::Double);
+    EXPECT_EQ(scene.solver.filter, Filter::Absolute);
+    EXPECT_EQ(scene.solver.max_halvings, 3);
+}
+
+TEST(ParseScene, FillsInDefaults) {
+    const Scene scene = parse(with(""));
+    EXPECT_EQ(scene.gravity, Eigen::Vector4d::Zero());
+    EXPECT_EQ(scene.frames, 100);
+    EXPECT_FALSE(scene.damping.has_value());
+    EXPECT_EQ(scene.bodies[0].place.scale, 1);
+    EXPECT_NEAR(young_from_lame(4, scene.bodies[0].material.lame).poisson, 0.28, 1e-14);
+}
+
+TEST(ParseScene, TakesThreeDimensions) {
+    const Scene scene = parse(
+        "[scene]\ndimension = 3\ngravity = [0, -9.8, 0]\n"
+        "[[body]]\nname = 'a'\nmesh = 'a.pent'\n"
+        "material = { poisson = 0.45 }\n");
+    EXPECT_EQ(scene.gravity.size(), 3);
+}
+
+// What is written is read back as the same scene, to the last bit of every number.
+TEST(SceneText, IsReadBackAsTheSameScene) {
+    for (const std::string& text : {std::string(kFull), with("")}) {
+        const Scene scene = parse(text);
+        const std::string written = scene_text(scene);
+        EXPECT_EQ(scene_text(parse_scene(written, "again", "")), written);
+    }
+}
+
+TEST(ParseSceneErrors, NameTheNearestKeyAtItsPlace) {
+    EXPECT_EQ(error_of("[scene]\ngraviti = [0, 0, 0, 0]\n[[body]]\nname='a'\nmesh='a.pent'\n"),
+              "scene.toml:2:1: unknown key \"graviti\" in \"scene\"; did you mean \"gravity\"?");
+    EXPECT_EQ(error_of(with("[solvr]\n")),
+              "scene.toml:5:2: unknown key \"solvr\" in the scene; did you mean \"solver\"?");
+}
+
+struct Bad {
+    std::string text;
+    std::string expected;  // part of the message
+};
+
+class BadScenes : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadScenes, AreRefusedWithPlaceAndReason) {
+    const std::string message = error_of(GetParam().text);
+    EXPECT_EQ(message.rfind("scene.toml:", 0), 0U) << message;
+    EXPECT_NE(message.find(GetParam().expected), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All,
+    BadScenes,
+    testing::Values(
+        Bad{"", "no [[body]]"},
+        Bad{"[scene\n", "scene.toml:1:"},
+        Bad{"[scene]\nframes = 0\n", "expected a whole number from 1"},
+        Bad{"[scene]\nframes = 2.5\n", "\"frames\" is 2.5"},
+        Bad{"[scene]\nframes = \"ten\"\n", "the text \"ten\""},
+        Bad{"[scene]\nframes_per_second = 0\n", "a number above 0"},
+        Bad{"[scene]\nframes_per_second = nan\n", "a number above 0"},
+        Bad{"[scene]\ngravity = [0, -9.8, 0]\n", "3 entries; expected 4 numbers"},
+        Bad{"[scene]\ngravity = [0, -9.8, 0, \"x\"]\n", "the entry the text \"x\""},
+        Bad{"[scene]\ngravity = [0, -9.8, 0, inf]\n", "4 numbers"},
+        Bad{"[scene]\ndimension = 5\n", "from 3 to 4"},
+        Bad{"scene = 3\n", "expected a table"},
+        Bad{"[[body]]\nname = \"a\"\n", "needs \"mesh\""},
+        Bad{"[[body]]\nname = \"a\"\nmash = \"a.pent\"\n", "found the unknown key \"mash\""},
+        Bad{"[[body]]\nname = \"a b\"\nmesh = \"a.pent\"\n", "letters, digits"},
+        Bad{"[[body]]\nname = \"../a\"\nmesh = \"a.pent\"\n", "letters, digits"},
+        Bad{with("[[body]]\nname = \"a\"\nmesh = \"b.pent\"\n"), "two bodies"},
+        Bad{with("material = { poisson = 0.4 }\n"), "below 1/3"},
+        Bad{with("material = { young = -1 }\n"), "above 0"},
+        Bad{with("material = { model = \"neo\" }\n"), "expected one of \"stable-neo-hookean\""},
+        Bad{with("material = { mu = 1, lambda = 1, young = 3 }\n"), "one pair or the other"},
+        Bad{with("material = { mu = 1, lambda = -0.6 }\n"), "above -0.5"},
+        Bad{with("place = { rotate = [{ plane = \"xx\", degrees = 3 }] }\n"), "different axes"},
+        Bad{with("place = { rotate = [{ plane = \"xv\", degrees = 3 }] }\n"), "xyzw"},
+        Bad{with("place = { scale = 0 }\n"), "above 0"},
+        Bad{with("[[constraint]]\nbody = \"b\"\nselect = \"everything\"\n"), "no body is called"},
+        Bad{with("[[constraint]]\nbody = \"a\"\n"), "needs \"select\""},
+        Bad{with("[[constraint]]\nbody = \"a\"\nselect = \"all\"\n"), "\"everything\""},
+        Bad{with("[[constraint]]\nbody = \"a\"\nselect = { bal = 3 }\n"), "\"ball\"?"},
+        Bad{with("[[constraint]]\nbody = \"a\"\nselect = {}\n"), "has 0 of ball"},
+        Bad{with("[[constraint]]\nbody = \"a\"\nselect = { region = 1, layers = { first = 1 } }\n"),
+            "has 2 of ball"},
+        Bad{with("[[constraint]]\nbody = \"a\"\n"
+                 "select = { ball = { center = [0,0,0,0], radius = 0 } }\n"),
+            "above 0"},
+        Bad{with("[[constraint]]\nbody = \"a\"\n"
+                 "select = { half_space = { normal = [0,0,0,0] } }\n"),
+            "expected a direction"},
+        Bad{with("[[constraint]]\nbody = \"a\"\nselect = \"everything\"\n"
+                 "motion = { from = 2, to = 1 }\n"),
+            "above 2"},
+        Bad{with("[[obstacle]]\ndistance = 1\n"), "needs \"half_space\""},
+        Bad{with("[[obstacle]]\nbowl = {}\n"), "not supported by this version"},
+        Bad{with("[contact]\nmodel = \"penalty\"\n"), "not supported by this version"},
+        Bad{with("[solver]\nintegrator = \"rk4\"\n"), "\"linear_euler\""},
+        Bad{with("[solver]\ntolerance = 1\n"), "below 1"},
+        Bad{with("[damping]\nmass = -1\n"), "at least 0"}));
+
+TEST(ReadScene, NamesAFileThatIsNotThere) {
+    try {
+        static_cast<void>(read_scene("/no/such/scene.toml"));
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("/no/such/scene.toml"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace pent::simulator

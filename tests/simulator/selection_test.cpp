@@ -1,0 +1,70 @@
+#include "selection.h"
+
+#include "rotation.h"
+#include "support/kuhn_box.h"
+
+#include <pent/error.h>
+
+#include <gtest/gtest.h>
+
+namespace pent::simulator {
+namespace {
+
+SimplexMesh<4> unit_box() {
+    return pent::test::kuhn_box<4>({2, 2, 2, 2}, {1, 1, 1, 1});  // 81 vertices at 0, 0.5, 1
+}
+
+Constraint select(std::vector<Selection> selections) {
+    return {.body = "box", .select = std::move(selections), .motion = {}};
+}
+
+TEST(SelectVertices, TakesTheBallWithItsBorder) {
+    const BallSelection ball{.center = Vector<4>::Constant(0.5), .radius = 0.5};
+    EXPECT_EQ(select_vertices(unit_box(), select({ball})).size(), 9U);  // center and 8 at 0.5
+}
+
+TEST(SelectVertices, TakesTheBoxWithItsBorder) {
+    const BoxSelection box{.low = Vector<4>::Zero(), .high = Vector<4>(1, 1, 1, 0)};
+    EXPECT_EQ(select_vertices(unit_box(), select({box})).size(), 27U);
+}
+
+TEST(SelectVertices, TakesTheHalfSpaceBelowTheOffset) {
+    const HalfSpaceSelection half_space{.normal = Vector<4>(0, 0, 0, -1), .offset = -1};
+    EXPECT_EQ(select_vertices(unit_box(), select({half_space})).size(), 27U);  // w >= 1
+}
+
+TEST(SelectVertices, TakesTheUnionOfAListWithoutDoubles) {
+    const HalfSpaceSelection x{.normal = Vector<4>(1, 0, 0, 0), .offset = 0};
+    const HalfSpaceSelection y{.normal = Vector<4>(0, 1, 0, 0), .offset = 0};
+    EXPECT_EQ(select_vertices(unit_box(), select({x, y})).size(), 27U + 27U - 9U);
+}
+
+TEST(SelectVertices, TakesLayersAndRegions) {
+    SimplexMesh<4> mesh = unit_box();
+    for (std::uint32_t v = 0; v < 81; ++v) {
+        mesh.layers.push_back(v / 27);
+    }
+    mesh.regions.assign(static_cast<std::size_t>(mesh.cell_count()), 0);
+    mesh.regions[0] = 7;
+    EXPECT_EQ(select_vertices(mesh, select({LayerSelection{.first = 1, .last = 2}})).size(), 54U);
+    EXPECT_EQ(select_vertices(mesh, select({RegionSelection{.region = 7}})).size(), 5U);
+    EXPECT_EQ(select_vertices(mesh, select({EverythingSelection{}})).size(), 81U);
+}
+
+TEST(SelectVertices, RefusesToSelectNothingAndSaysWhereTheBodyIs) {
+    const BallSelection ball{.center = Vector<4>::Constant(9), .radius = 0.5};
+    try {
+        static_cast<void>(select_vertices(unit_box(), select({ball})));
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("[0, 0, 0, 0] to [1, 1, 1, 1]"), std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(SelectVertices, RefusesLayersOfAMeshThatHasNone) {
+    EXPECT_THROW(static_cast<void>(select_vertices(unit_box(), select({LayerSelection{}}))), Error);
+}
+
+}  // namespace
+}  // namespace pent::simulator

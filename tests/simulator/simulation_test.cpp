@@ -1,0 +1,299 @@
+#include "scenes.h"
+
+#include <pent/error.h>
+#include <pent/simulator/simulation.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tbb/global_control.h>
+
+namespace pent::simulator {
+namespace {
+
+using test::bar;
+using test::box_scene;
+using test::hold;
+using test::still;
+
+const HalfSpaceSelection kLeftEnd{.normal = Eigen::Vector4d(1, 0, 0, 0), .offset = 1e-6};
+
+// Implicit Euler under constant g: v_n = n h g, x_n = h^2 g n (n + 1) / 2, whatever the body.
+template <int Dim>
+void expect_free_fall(Precision precision) {
+    Scene scene = box_scene<Dim>();
+    scene.gravity[1] = -9.8;
+    scene.solver.precision = precision;
+    scene.solver.tolerance = precision == Precision::Double ? 1e-13 : 1e-6;
+    std::array<int, Dim> count{};
+    count.fill(2);
+    std::array<double, Dim> size{};
+    size.fill(1);
+    Simulation<Dim> simulation(scene, {pent::test::kuhn_box<Dim>(count, size)});
+    const int steps = 10;
+    for (int i = 0; i < steps; ++i) {
+        ASSERT_TRUE(simulation.step().is_accepted);
+    }
+    const double h = scene.dt();
+    const double fall = -9.8 * h * h * steps * (steps + 1) / 2;
+    const Positions<Dim> moved = simulation.positions(0) - simulation.mesh(0).positions;
+    Eigen::VectorXd expected = Eigen::VectorXd::Zero(Dim);
+    expected[1] = fall;
+    const double error = (moved.colwise() - expected.head<Dim>()).colwise().norm().maxCoeff();
+    // A constant field is in the null space of K, so that only rounding and, in each step, the
+    // solver's tolerance are left.
+    EXPECT_LT(error, 100 * scene.solver.tolerance * std::abs(fall));
+    EXPECT_NEAR(simulation.velocities(0)(1, 3), -9.8 * h * steps, 1e-4);
+}
+
+TEST(FreeFall, IsExactForTheIntegrator) {
+    expect_free_fall<3>(Precision::Double);
+    expect_free_fall<4>(Precision::Double);
+    expect_free_fall<4>(Precision::Float);
+}
+
+TEST(BodyAtRest, StaysExactlyAtRest) {
+    Simulation<4> simulation(box_scene<4>(), {bar(3)});
+    ASSERT_TRUE(simulation.step().is_accepted);
+    // Forces at rest are rounding of 1e5 Pa times areas; h^2 / m times that is far below 1e-12 m.
+    EXPECT_LT((simulation.positions(0) - simulation.mesh(0).positions).cwiseAbs().maxCoeff(),
+              1e-12);
+}
+
+TEST(HeldVertices, FollowTheirMotionExactly) {
+    Scene scene = box_scene<4>();
+    Motion motion = still(4);
+    motion.rotate = {{{1, 2}, 90}, {{3, 0}, 60}};
+    motion.about = Eigen::Vector4d(0, 0.25, 0.25, 0.25);
+    scene.constraints = {hold(kLeftEnd, motion)};
+    Simulation<4> simulation(scene, {bar()});
+    for (int i = 0; i < 30; ++i) {
+        ASSERT_TRUE(simulation.step().is_accepted);
+    }
+    // After one second: y has turned onto z, w by 60 degrees onto x.
+    for (Eigen::Index v = 0; v < simulation.mesh(0).vertex_count(); ++v) {
+        const Eigen::Vector4d rest = simulation.mesh(0).positions.col(v);
+        if (rest[0] > 1e-6) {
+            continue;
+        }
+        const Eigen::Vector4d arm = rest - *motion.about;
+        const double c = 0.5;
+        const double s = std::sqrt(0.75);
+        const Eigen::Vector4d turned(c * arm[0] + s * arm[3], -arm[2], arm[1],
+                                     c * arm[3] - s * arm[0]);
+        EXPECT_LT((simulation.positions(0).col(v) - *motion.about - turned).norm(), 1e-14);
+    }
+    EXPECT_GT((simulation.positions(0) - simulation.mesh(0).positions).norm(), 1);
+}
+
+TEST(FullyKinematicBody, HasNoUnknownsAndMovesRigidly) {
+    Scene scene = box_scene<4>();
+    Motion motion = still(4);
+    motion.translate = Eigen::Vector4d(0, 0, 0, 1.5);
+    scene.constraints = {hold(EverythingSelection{}, motion)};
+    Simulation<4> simulation(scene, {bar(2)});
+    EXPECT_EQ(simulation.size().free_vertices, 0);
+    EXPECT_EQ(simulation.size().elements, 0);
+    const StepReport report = simulation.step();
+    EXPECT_TRUE(report.is_accepted);
+    EXPECT_EQ(report.iterations, 0);
+    EXPECT_NEAR(simulation.positions(0)(3, 0), 1.5 * scene.dt(), 1e-15);
+    EXPECT_EQ(simulation.velocities(0)(3, 0), 1.5);
+}
+
+TEST(Constraints, ThatSelectTheSameVertexAreRefused) {
+    Scene scene = box_scene<4>();
+    scene.constraints = {hold(kLeftEnd, still(4)), hold(EverythingSelection{}, still(4))};
+    EXPECT_THROW(Simulation<4>(scene, {bar(2)}), Error);
+}
+
+TEST(Simulation, RefusesAVertexWithoutCell) {
+    SimplexMesh<4> mesh = bar(2);
+    mesh.positions.conservativeResize(4, mesh.vertex_count() + 1);
+    mesh.positions.rightCols<1>().setZero();
+    mesh.columns.push_back(0);
+    mesh.layers.push_back(9);
+    EXPECT_THROW(Simulation<4>(box_scene<4>(), {mesh}), Error);
+}
+
+TEST(Simulation, RefusesASceneOfAnotherDimension) {
+    EXPECT_THROW(Simulation<4>(box_scene<3>(), {bar(2)}), Error);
+}
+
+Scene swinging_bar() {
+    Scene scene = box_scene<4>();
+    scene.gravity[1] = -9.8;
+    Motion motion = still(4);
+    motion.rotate = {{{3, 0}, 60}};
+    scene.constraints = {hold(kLeftEnd, motion)};
+    scene.damping = Damping{.mass = 0.1, .stiffness = 0.002};
+    return scene;
+}
+
+// All bits of positions and velocities after some steps.
+std::vector<double> state_after(int steps, int threads, const Scene& scene, int length) {
+    Simulation<4> simulation(scene, {bar(length)}, {.threads = threads, .isa = ""});
+    for (int i = 0; i < steps; ++i) {
+        EXPECT_TRUE(simulation.step().is_accepted);
+    }
+    const auto positions = simulation.positions(0).reshaped();
+    const auto velocities = simulation.velocities(0).reshaped();
+    std::vector<double> state(positions.begin(), positions.end());
+    state.insert(state.end(), velocities.begin(), velocities.end());
+    return state;
+}
+
+TEST(Simulation, IsTheSameToTheBitForAnyNumberOfThreads) {
+    // More threads than cores, so that 8 means 8.
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
+    const std::vector<double> one = state_after(3, 1, swinging_bar(), 80);  // 30,720 cells
+    for (const int threads : {2, 3, 8}) {
+        EXPECT_EQ(state_after(3, threads, swinging_bar(), 80), one) << threads << " threads";
+    }
+}
+
+TEST(Simulation, AgreesBetweenInstructionSetsToTheSolversTolerance) {
+    Scene scene = swinging_bar();
+    scene.solver.precision = Precision::Double;
+    scene.solver.tolerance = 1e-12;
+    std::vector<Positions<4>> ends;
+    for (const char* isa : {"scalar", "baseline", ""}) {
+        Simulation<4> simulation(scene, {bar()}, {.threads = 1, .isa = isa});
+        for (int i = 0; i < 5; ++i) {
+            ASSERT_TRUE(simulation.step().is_accepted);
+        }
+        ends.push_back(simulation.positions(0));
+    }
+    // Condition number about 1e3 times the tolerance.
+    EXPECT_LT((ends[0] - ends[1]).norm(), 1e-8 * ends[0].norm());
+    EXPECT_LT((ends[0] - ends[2]).norm(), 1e-8 * ends[0].norm());
+}
+
+TEST(Simulation, RefusesAnUnknownInstructionSet) {
+    EXPECT_THROW(Simulation<4>(box_scene<4>(), {bar(2)}, {.threads = 1, .isa = "mmx"}), Error);
+}
+
+TEST(FreeBody, KeepsItsLinearMomentumToTheSolversTolerance) {
+    Scene scene = box_scene<4>();
+    scene.solver.precision = Precision::Double;
+    scene.solver.tolerance = 1e-11;
+    Simulation<4> simulation(scene, {bar(3)});
+    Positions<4> velocities = Positions<4>::Zero(4, simulation.mesh(0).vertex_count());
+    velocities.row(3) = simulation.mesh(0).positions.row(0);  // shears along w
+    simulation.set_state(0, simulation.mesh(0).positions, velocities);
+    const Eigen::VectorXd masses = simulation.masses(0);
+    const Eigen::Vector4d before = velocities * masses;
+    for (int i = 0; i < 20; ++i) {
+        ASSERT_TRUE(simulation.step().is_accepted);
+    }
+    const Eigen::Vector4d after = simulation.velocities(0) * masses;
+    EXPECT_LT((after - before).norm(), 1e-8 * before.norm());
+}
+
+TEST(LinearEnergy, NeverGainsTotalEnergyUnderImplicitEuler) {
+    Scene scene = box_scene<4>();
+    scene.gravity[1] = -9.8;
+    scene.bodies[0].material.model = Model::Linear;
+    scene.constraints = {hold(kLeftEnd, still(4))};
+    scene.solver.precision = Precision::Double;
+    scene.solver.tolerance = 1e-10;
+    Simulation<4> simulation(scene, {bar()});
+    double before = simulation.energies().total();
+    const double scale = std::abs(before);
+    for (int i = 0; i < 40; ++i) {
+        const StepReport report = simulation.step();
+        EXPECT_LE(report.energies.total(), before + 1e-7 * scale) << i;
+        before = report.energies.total();
+    }
+}
+
+TEST(Damping, SlowsAFreeBodyByTheMassTermExactly) {
+    Scene scene = box_scene<4>();
+    scene.damping = Damping{.mass = 3, .stiffness = 0.1};
+    scene.solver.precision = Precision::Double;
+    scene.solver.tolerance = 1e-12;
+    Simulation<4> simulation(scene, {bar(2)});
+    Positions<4> velocities = Positions<4>::Zero(4, simulation.mesh(0).vertex_count());
+    velocities.row(2).setConstant(1);
+    simulation.set_state(0, simulation.mesh(0).positions, velocities);
+    for (int i = 0; i < 5; ++i) {
+        ASSERT_TRUE(simulation.step().is_accepted);
+    }
+    // Rigid motion feels no stiffness damping; each step divides the velocity by 1 + h a.
+    EXPECT_NEAR(simulation.velocities(0)(2, 7), std::pow(1 + 3 * scene.dt(), -5), 1e-8);
+}
+
+// At rest on the floor the floor carries the weight: sum over vertices of 2 k gap = m g.
+TEST(Floor, CarriesTheWeightOfABodyAtRest) {
+    Scene scene = box_scene<4>();
+    scene.gravity[1] = -9.8;
+    scene.bodies[0].place.translate[1] = 0.02;
+    scene.obstacles = {
+        {.normal = Eigen::Vector4d(0, 1, 0, 0), .offset = 0, .distance = 0.02, .stiffness = 2e4}};
+    scene.damping = Damping{.mass = 5, .stiffness = 0.01};
+    Simulation<4> simulation(scene, {bar(2)});
+    for (int i = 0; i < 150; ++i) {
+        ASSERT_TRUE(simulation.step().is_accepted);
+    }
+    double carried = 0;
+    for (Eigen::Index v = 0; v < simulation.mesh(0).vertex_count(); ++v) {
+        carried += 2 * 2e4 * std::max(0.0, 0.02 - simulation.positions(0)(1, v));
+    }
+    const double weight = simulation.masses(0).sum() * 9.8;
+    EXPECT_NEAR(carried, weight, 1e-2 * weight);
+    EXPECT_LT(simulation.velocities(0).cwiseAbs().maxCoeff(), 1e-3);
+    EXPECT_GT(simulation.positions(0).row(1).minCoeff(), 0);
+}
+
+TEST(FailedStep, IsCutAndRetriedAndThenReportedWithTheStateAsItWas) {
+    Scene scene = swinging_bar();
+    scene.solver.max_iterations = 2;
+    scene.solver.max_halvings = 2;
+    Simulation<4> simulation(scene, {bar()});
+    const Positions<4> before = simulation.positions(0);
+    const StepReport report = simulation.step();
+    EXPECT_FALSE(report.is_accepted);
+    EXPECT_NE(report.failure.find("tolerance"), std::string::npos);
+    EXPECT_EQ(report.refused, 3);
+    EXPECT_EQ(simulation.positions(0), before);
+    EXPECT_EQ(simulation.step_count(), 0U);
+}
+
+TEST(FailedStep, SucceedsInHalvesWhereThoseAreEasier) {
+    Scene scene = swinging_bar();
+    scene.damping.reset();
+    Simulation<4> whole(scene, {bar()});
+    scene.solver.max_iterations = whole.step().iterations * 3 / 4;
+    Simulation<4> halved(scene, {bar()});
+    const StepReport report = halved.step();
+    EXPECT_TRUE(report.is_accepted);
+    EXPECT_GE(report.substeps, 2);
+    EXPECT_DOUBLE_EQ(halved.time(), scene.dt());
+}
+
+TEST(SetState, RefusesWhatIsNotFinite) {
+    Simulation<4> simulation(box_scene<4>(), {bar(2)});
+    Positions<4> positions = simulation.positions(0);
+    const Positions<4> velocities = simulation.velocities(0);
+    positions(2, 1) = std::nan("");
+    EXPECT_THROW(simulation.set_state(0, positions, velocities), Error);
+}
+
+TEST(Simulation, ContinuesToTheBitFromASavedState) {
+    const Scene scene = swinging_bar();
+    Simulation<4> first(scene, {bar()});
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_TRUE(first.step().is_accepted);
+    }
+    Simulation<4> second(scene, {bar()});
+    second.set_state(0, first.positions(0), first.velocities(0));
+    second.set_step_count(first.step_count());
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_TRUE(first.step().is_accepted);
+        ASSERT_TRUE(second.step().is_accepted);
+    }
+    EXPECT_EQ(Positions<4>(first.positions(0)), Positions<4>(second.positions(0)));
+}
+
+}  // namespace
+}  // namespace pent::simulator
