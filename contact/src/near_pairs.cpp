@@ -1,0 +1,196 @@
+#include "pent/contact/near_pairs.h"
+
+#include "closest_point_search.h"
+#include "gather.h"
+
+#include <algorithm>
+#include <limits>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/partitioner.h>
+
+namespace pent::contact {
+
+namespace {
+
+// Pieces of work of a query: enough for any number of threads, few enough to cost nothing.
+constexpr std::size_t kPieces = 512;
+
+template <int K, int L>
+bool share_a_vertex(const Simplices<K>& first,
+                    Eigen::Index i,
+                    const Simplices<L>& second,
+                    Eigen::Index j) {
+    bool is_shared = false;
+    for (int a = 0; a < K; ++a) {
+        for (int b = 0; b < L; ++b) {
+            is_shared |= first(a, i) == second(b, j);
+        }
+    }
+    return is_shared;
+}
+
+bool is_before(const NearPair& a, const NearPair& b) {
+    return a.first != b.first ? a.first < b.first : a.second < b.second;
+}
+
+// Collects what the pieces of work found, in one order.
+NearPairs merge(std::vector<NearPairs>& pieces) {
+    NearPairs all;
+    std::size_t count = 0;
+    for (const NearPairs& piece : pieces) {
+        count += piece.pairs.size();
+        all.candidates += piece.candidates;
+    }
+    all.pairs.reserve(count);
+    for (const NearPairs& piece : pieces) {
+        all.pairs.insert(all.pairs.end(), piece.pairs.begin(), piece.pairs.end());
+    }
+    std::sort(all.pairs.begin(), all.pairs.end(), is_before);
+    return all;
+}
+
+template <int Dim>
+class InsideSearch {
+public:
+    InsideSearch(const Surface<Dim>& surface,
+                 const BoxTree& vertices,
+                 const Surface<Dim>& around,
+                 const BoxTree& facets,
+                 const PositionsView<Dim>& positions)
+        : surface_(surface),
+          vertices_(vertices),
+          around_(around),
+          facets_(facets),
+          positions_(positions),
+          is_inside_(vertices.size(), 0) {}
+
+    std::vector<std::uint8_t> run() {
+        if (!vertices_.is_empty()) {
+            visit(vertices_.root(), vertices_.root_box());
+        }
+        return std::move(is_inside_);
+    }
+
+private:
+    static constexpr std::uint32_t kSerial = 256;
+
+    void visit(const BoxTree::Range& range, const Box& box) {
+        if (facets_.is_empty() || !overlap(box, facets_.root_box())) {
+            return;
+        }
+        if (range.is_leaf() || !facets_.has_overlap(box)) {
+            decide(range);
+            return;
+        }
+        const auto [left, right] = vertices_.child_boxes(range);
+        if (range.count < kSerial) {
+            visit(range.left(), left);
+            visit(range.right(), right);
+        } else {
+            tbb::parallel_invoke([&, &half = left] { visit(range.left(), half); },
+                                 [&, &half = right] { visit(range.right(), half); });
+        }
+    }
+
+    void decide(const BoxTree::Range& range) {
+        const std::uint32_t vertex = surface_.vertices(0, vertices_.leaf(range.begin));
+        const bool is_inside =
+            winding_number<Dim>(around_, facets_, positions_, positions_.col(vertex)) > 0;
+        for (std::uint32_t i = range.begin; i < range.begin + range.count; ++i) {
+            is_inside_[vertices_.leaf(i)] = is_inside ? 1 : 0;
+        }
+    }
+
+    const Surface<Dim>& surface_;
+    const BoxTree& vertices_;
+    const Surface<Dim>& around_;
+    const BoxTree& facets_;
+    const PositionsView<Dim>& positions_;
+    std::vector<std::uint8_t> is_inside_;
+};
+
+}  // namespace
+
+template <int Dim, int K, int L>
+NearPairs near_pairs(const SearchSet<K>& first,
+                     const SearchSet<L>& second,
+                     const PositionsView<Dim>& positions,
+                     double distance) {
+    const double limit = distance * distance;
+    const bool is_same_list = &first.tree == &second.tree;
+    const std::vector<BoxTree::Work> work = BoxTree::split(first.tree, second.tree, kPieces);
+    std::vector<NearPairs> found(work.size());
+    tbb::parallel_for(
+        std::size_t{0}, work.size(),
+        [&](std::size_t piece) {
+            NearPairs& here = found[piece];
+            BoxTree::for_each_overlap(
+                first.tree, second.tree, work[piece], [&](std::uint32_t i, std::uint32_t j) {
+                    ++here.candidates;
+                    if (share_a_vertex<K, L>(first.simplices, i, second.simplices, j)) {
+                        return;
+                    }
+                    if (is_same_list && j < i) {
+                        std::swap(i, j);
+                    }
+                    const Corners<Dim, K> a = gather<Dim, K>(first.simplices, i, positions);
+                    const Corners<Dim, L> b = gather<Dim, L>(second.simplices, j, positions);
+                    ClosestPointSearch<Dim, K, L> search(a, b, limit);
+                    if (search.run()) {
+                        here.pairs.push_back({i, j, search.best().distance_squared});
+                    }
+                });
+        },
+        tbb::simple_partitioner());
+    return merge(found);
+}
+
+template <int Dim>
+std::vector<std::uint8_t> vertices_inside(const Surface<Dim>& surface,
+                                          const BoxTree& vertices,
+                                          const Surface<Dim>& around,
+                                          const BoxTree& facets,
+                                          const PositionsView<Dim>& positions) {
+    return InsideSearch<Dim>(surface, vertices, around, facets, positions).run();
+}
+
+template <int Dim>
+NearPair nearest_facet(const Surface<Dim>& surface,
+                       const BoxTree& facets,
+                       const PositionsView<Dim>& positions,
+                       const Vector<Dim>& point) {
+    NearPair best;
+    best.distance_squared = std::numeric_limits<double>::infinity();
+    const Corners<Dim, 1> corner = point;
+    facets.for_each_near<Dim>(point, best.distance_squared, [&](std::uint32_t f) {
+        const Corners<Dim, Dim> corners = gather<Dim, Dim>(surface.facets, f, positions);
+        // Without a limit, so that the distance is the same whatever was met before.
+        ClosestPointSearch<Dim, 1, Dim> search(corner, corners,
+                                               std::numeric_limits<double>::infinity());
+        search.run();
+        const double squared = search.best().distance_squared;
+        if (squared < best.distance_squared
+            || (squared == best.distance_squared && f < best.second)) {
+            best = {0, f, squared};
+        }
+        return best.distance_squared;
+    });
+    return best;
+}
+
+#define PENT_INSTANTIATE(Dim, L)                                                                 \
+    template NearPairs near_pairs<Dim, 1, Dim>(const SearchSet<1>&, const SearchSet<Dim>&,       \
+                                               const PositionsView<Dim>&, double);               \
+    template NearPairs near_pairs<Dim, 2, L>(const SearchSet<2>&, const SearchSet<L>&,           \
+                                             const PositionsView<Dim>&, double);                 \
+    template std::vector<std::uint8_t> vertices_inside<Dim>(const Surface<Dim>&, const BoxTree&, \
+                                                            const Surface<Dim>&, const BoxTree&, \
+                                                            const PositionsView<Dim>&);          \
+    template NearPair nearest_facet<Dim>(const Surface<Dim>&, const BoxTree&,                    \
+                                         const PositionsView<Dim>&, const Vector<Dim>&);
+PENT_INSTANTIATE(3, 2)
+PENT_INSTANTIATE(4, 3)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent::contact
