@@ -3,6 +3,7 @@
 
 #include <pent/pent_file.h>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -183,7 +184,7 @@ TEST_F(WholeWay, SlicesAndPicturesComeOut) {
     make_mesh();
     make_run();
     const Outcome slices =
-        run_program("pent-slice " + path("run") + " -o " + path("slices") + " --w -0.1 0 0.1");
+        run_program("pent-slice " + path("run") + " -o " + path("slices") + " --w -0.1,0,0.1");
     EXPECT_EQ(slices.exit_code, 0) << slices.err;
     int surfaces = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / "slices")) {
