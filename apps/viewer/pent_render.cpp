@@ -1,3 +1,4 @@
+#include "common/program.h"
 #include "view_options.h"
 
 #include <pent/error.h>
@@ -5,11 +6,9 @@
 #include <pent/viewer/render_run.h>
 #include <pent/viewer/run_folder.h>
 
-#include <common/program.h>
-#include <common/progress.h>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
+#include <functional>
 #include <string>
 
 namespace pent::apps {
@@ -49,6 +48,8 @@ void add_options(CLI::App& cli, Arguments& arguments) {
         ->check(CLI::Range(-89.0, 89.0));
     cli.add_option("--fov", render.view.field_of_view, "Camera, degrees upright; default: 28")
         ->check(CLI::Range(1.0, 150.0));
+    cli.add_flag("--onion", render.is_onion,
+                 "Show several slices in one picture, all but the middle one as ghosts");
     cli.add_option("--range", arguments.range, "Values of the first and last color, LOW,HIGH")
         ->type_name("A,B");
     cli.add_flag("--no-floor", arguments.no_floor, "Leave out the floor and its shadows");
@@ -112,6 +113,7 @@ Verdict render(Program& program, Arguments& arguments) {
         run.frames,
         is_one_picture && arguments.view.frames.empty() ? "last" : arguments.view.frames);
     options.color = arguments.view.color;
+    options.projection = to_projection(arguments.view);
     options.has_floor = !arguments.no_floor;
     options.has_caption = !arguments.no_caption;
     read_size(arguments.size, options);
@@ -119,16 +121,10 @@ Verdict render(Program& program, Arguments& arguments) {
         options.range = to_color_range(arguments.range);
     }
 
-    std::unique_ptr<Progress> progress;
+    WorkProgress progress(program.common().quiet);
     const viewer::RenderRunReport report =
-        viewer::render_run(run, targets, options, [&](std::int64_t done, std::int64_t total) {
-            if (!progress) {
-                progress = std::make_unique<Progress>("steps", total, program.common().quiet);
-            }
-            progress->update(done);
-            return !stop_requested();
-        });
-    progress.reset();
+        viewer::render_run(run, targets, options, std::ref(progress));
+    progress.finish();
 
     program.report()["frames"] = options.frames.size();
     program.report()["pictures"] = report.pictures;

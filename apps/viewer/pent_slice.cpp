@@ -1,10 +1,10 @@
+#include "common/program.h"
 #include "view_options.h"
 
 #include <pent/viewer/run_folder.h>
 #include <pent/viewer/slice_run.h>
 
-#include <common/program.h>
-#include <common/progress.h>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -17,6 +17,7 @@ struct Arguments {
     std::string output;
     viewer::SurfaceFormat format = viewer::SurfaceFormat::Ply;
     bool keep_degenerate = false;
+    bool has_boundary = false;
 };
 
 void add_options(CLI::App& cli, Arguments& arguments) {
@@ -32,6 +33,9 @@ void add_options(CLI::App& cli, Arguments& arguments) {
         ->type_name("KIND");
     cli.add_flag("--keep-degenerate", arguments.keep_degenerate,
                  "Keep the triangles of zero area that a slice through vertices has");
+    cli.add_flag("--boundary", arguments.has_boundary,
+                 "Add the whole boundary as tetrahedra with w, speed and strain, VTU, for ParaView "
+                 "to slice");
 }
 
 Verdict slice(Program& program, const Arguments& arguments) {
@@ -42,15 +46,13 @@ Verdict slice(Program& program, const Arguments& arguments) {
     options.format = arguments.format;
     options.color = arguments.view.color;
     options.keep_degenerate = arguments.keep_degenerate;
+    options.projection = to_projection(arguments.view);
+    options.has_boundary = arguments.has_boundary;
     options.created_by = program.name_and_version();
 
-    Progress progress("frames", static_cast<std::int64_t>(options.frames.size()),
-                      program.common().quiet);
-    const viewer::SliceRunReport report = viewer::slice_run(
-        run, arguments.output, options, [&](std::int64_t done, std::int64_t /*total*/) {
-            progress.update(done);
-            return !stop_requested();
-        });
+    WorkProgress progress(program.common().quiet);
+    const viewer::SliceRunReport report =
+        viewer::slice_run(run, arguments.output, options, std::ref(progress));
     progress.finish();
 
     std::int64_t triangles = 0;

@@ -1,5 +1,7 @@
 #include "view_options.h"
 
+#include "common/program.h"
+
 #include <pent/error.h>
 
 #include <charconv>
@@ -110,6 +112,15 @@ void add_view_options(CLI::App& cli, ViewArguments& arguments) {
     cli.add_option("--offset", arguments.offsets,
                    "Distance of the slice from the origin along --normal, m; as --w")
         ->type_name("D");
+    cli.add_option("--project", arguments.projection,
+                   "Add the outline of the whole bodies, projected from 4D: orthographic or "
+                   "perspective")
+        ->check(CLI::IsMember({"orthographic", "perspective"}).description(""))
+        ->type_name("KIND");
+    cli.add_option("--eye", arguments.eye,
+                   "Distance of the eye of a perspective from the slice, m; default: three times "
+                   "the reach of the bodies")
+        ->type_name("D");
     const std::map<std::string, ColorBy> colors = {{"body", ColorBy::Body},
                                                    {"w", ColorBy::W},
                                                    {"speed", ColorBy::Speed},
@@ -117,6 +128,32 @@ void add_view_options(CLI::App& cli, ViewArguments& arguments) {
     cli.add_option("--color", arguments.color, "Color by body, w, speed or strain; default: body")
         ->transform(CLI::CheckedTransformer(colors).description(""))
         ->type_name("WHAT");
+}
+
+std::optional<viewer::ProjectionOptions> to_projection(const ViewArguments& arguments) {
+    if (!arguments.eye.empty() && arguments.projection != "perspective") {
+        throw Error("--eye: found without --project perspective; give both or none");
+    }
+    if (arguments.projection.empty()) {
+        return std::nullopt;
+    }
+    viewer::ProjectionOptions projection;
+    projection.is_perspective = arguments.projection == "perspective";
+    if (!arguments.eye.empty()) {
+        projection.eye_distance = to_number(arguments.eye, "--eye");
+    }
+    return projection;
+}
+
+bool WorkProgress::operator()(std::string_view what, std::int64_t done, std::int64_t total) {
+    if (!line_ || what != what_) {
+        what_ = what;
+        line_ = std::make_unique<Progress>(what_, total, quiet_);
+    }
+    if (done > 0) {
+        line_->update(done);
+    }
+    return !stop_requested();
 }
 
 viewer::SectionOptions to_sections(const ViewArguments& arguments) {

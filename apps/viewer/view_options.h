@@ -1,10 +1,17 @@
 #pragma once
 
+#include "common/progress.h"
+
 #include <pent/viewer/coloring.h>
+#include <pent/viewer/project.h>
 #include <pent/viewer/section.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pent::apps {
@@ -17,6 +24,8 @@ struct ViewArguments {
     std::vector<std::string> offsets;
     std::vector<std::string> rotations;
     std::string frames;
+    std::string projection;
+    std::string eye;
     viewer::ColorBy color = viewer::ColorBy::Body;
 };
 
@@ -24,6 +33,27 @@ void add_view_options(CLI::App& cli, ViewArguments& arguments);
 
 /// The hyperplanes meant. Throws an Error that says what was found and what was expected.
 [[nodiscard]] viewer::SectionOptions to_sections(const ViewArguments& arguments);
+
+/// The projection meant, if any. Throws an Error as to_sections does.
+[[nodiscard]] std::optional<viewer::ProjectionOptions> to_projection(
+    const ViewArguments& arguments);
+
+/// Shows the progress of slicing and rendering, a line for each kind of work.
+class WorkProgress {
+public:
+    explicit WorkProgress(bool quiet) : quiet_(quiet) {}
+
+    /// As viewer::OnProgress; false once the user asked to stop.
+    [[nodiscard]] bool operator()(std::string_view what, std::int64_t done, std::int64_t total);
+
+    /// Ends the line.
+    void finish() { line_.reset(); }
+
+private:
+    bool quiet_;
+    std::string what_;
+    std::unique_ptr<Progress> line_;
+};
 
 /// Numbers with commas between. Throws an Error that begins with `what`.
 [[nodiscard]] std::vector<double> to_numbers(const std::string& text, const std::string& what);

@@ -1,6 +1,7 @@
+#include "pent/viewer/attributes.h"
+
 #include "meshes.h"
 
-#include <pent/viewer/attributes.h>
 #include <pent/viewer/coloring.h>
 #include <pent/viewer/slice.h>
 

@@ -1,5 +1,6 @@
+#include "pent/viewer/hyperplane.h"
+
 #include <pent/error.h>
-#include <pent/viewer/hyperplane.h>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>

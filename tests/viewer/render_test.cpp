@@ -1,9 +1,10 @@
+#include "pent/viewer/render.h"
+
 #include "meshes.h"
 
 #include <pent/error.h>
 #include <pent/viewer/attributes.h>
 #include <pent/viewer/legend.h>
-#include <pent/viewer/render.h>
 #include <pent/viewer/slice.h>
 #include <pent/viewer/text.h>
 

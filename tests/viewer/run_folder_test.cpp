@@ -1,7 +1,8 @@
+#include "pent/viewer/run_folder.h"
+
 #include "runs.h"
 
 #include <pent/error.h>
-#include <pent/viewer/run_folder.h>
 
 #include <gtest/gtest.h>
 

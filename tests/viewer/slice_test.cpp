@@ -1,7 +1,7 @@
+#include "pent/viewer/slice.h"
+
 #include "meshes.h"
 #include "surfaces.h"
-
-#include <pent/viewer/slice.h>
 
 #include <gtest/gtest.h>
 

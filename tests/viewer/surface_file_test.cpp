@@ -1,9 +1,10 @@
+#include "pent/viewer/surface_file.h"
+
 #include "meshes.h"
 
 #include <pent/error.h>
 #include <pent/viewer/image.h>
 #include <pent/viewer/slice.h>
-#include <pent/viewer/surface_file.h>
 
 #include <gtest/gtest.h>
 

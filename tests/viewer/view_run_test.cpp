@@ -18,7 +18,7 @@ namespace {
 using pent::test::TempFolder;
 using test::write_run;
 
-bool go_on(std::int64_t /*done*/, std::int64_t /*total*/) {
+bool go_on(std::string_view /*what*/, std::int64_t /*done*/, std::int64_t /*total*/) {
     return true;
 }
 
@@ -84,8 +84,9 @@ TEST(SliceRun, StopsBetweenFramesAndListsWhatItWrote) {
     const RunFolder run = open_run(folder / "run");
     SliceRunOptions options;
     options.frames = run.frames;
-    const SliceRunReport report = slice_run(
-        run, folder / "out", options, [](std::int64_t done, std::int64_t) { return done < 2; });
+    const SliceRunReport report =
+        slice_run(run, folder / "out", options,
+                  [](std::string_view, std::int64_t done, std::int64_t) { return done < 2; });
     EXPECT_FALSE(report.is_complete);
     EXPECT_EQ(report.slices.size(), 2U);
     EXPECT_EQ(count_files(folder / "out"), 3U);
@@ -158,9 +159,9 @@ TEST(RenderRun, LeavesNoMovieWhenStopped) {
     const TempFolder folder;
     write_run(folder / "run", "a", {0, 1, 2});
     const RunFolder run = open_run(folder / "run");
-    const RenderRunReport report =
-        render_run(run, {.movie = folder / "a.mp4"}, small_pictures(run),
-                   [](std::int64_t done, std::int64_t) { return done < 5; });
+    const RenderRunReport report = render_run(
+        run, {.movie = folder / "a.mp4"}, small_pictures(run),
+        [](std::string_view what, std::int64_t, std::int64_t) { return what != "picture"; });
     EXPECT_FALSE(report.is_complete);
     EXPECT_EQ(count_files(folder.path()), 1U);
 }

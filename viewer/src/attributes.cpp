@@ -1,11 +1,12 @@
-#include "parallel.h"
+#include "pent/viewer/attributes.h"
 
-#include <pent/viewer/attributes.h>
+#include "parallel.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <cmath>
+#include <numeric>
 
 namespace pent::viewer {
 
@@ -151,6 +152,17 @@ Positions<3> corner_normals(const Surface& surface,
         }
     });
     return result;
+}
+
+Positions<3> corner_normals(const Surface& surface, double crease) {
+    Surface own = surface;
+    for (Eigen::Index v = 0; v < own.vertex_count(); ++v) {
+        own.ends.col(v).setConstant(static_cast<std::uint32_t>(v));
+    }
+    own.weights.setZero();
+    std::iota(own.facets.begin(), own.facets.end(), 0U);
+    return corner_normals<3>(own, index_boundary<3>(own.triangles, own.vertex_count()),
+                             own.positions, Eigen::Matrix3d::Identity(), crease);
 }
 
 template Eigen::VectorXd vertex_speed<3>(const Frame<3>& frame);

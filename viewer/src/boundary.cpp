@@ -1,6 +1,7 @@
+#include "pent/viewer/boundary.h"
+
 #include <pent/error.h>
 #include <pent/facets.h>
-#include <pent/viewer/boundary.h>
 
 #include <algorithm>
 #include <string>
@@ -101,14 +102,21 @@ Boundary<Dim> make_boundary(const SimplexMesh<Dim>& mesh, std::string_view name)
             + std::to_string(match.overfull)
             + " shared by more than two cells); expected a conforming mesh, see pent-check");
     }
+    return index_boundary<Dim>(std::move(match.boundary), mesh.vertex_count());
+}
+
+template <int Dim>
+Boundary<Dim> index_boundary(Simplices<Dim> facets, Eigen::Index vertices) {
     Boundary<Dim> boundary;
-    boundary.facets = std::move(match.boundary);
-    index_vertices<Dim>(boundary, mesh.vertex_count());
-    index_edges<Dim>(boundary, mesh.vertex_count());
+    boundary.facets = std::move(facets);
+    index_vertices<Dim>(boundary, vertices);
+    index_edges<Dim>(boundary, vertices);
     return boundary;
 }
 
 template Boundary<3> make_boundary<3>(const SimplexMesh<3>& mesh, std::string_view name);
 template Boundary<4> make_boundary<4>(const SimplexMesh<4>& mesh, std::string_view name);
+template Boundary<3> index_boundary<3>(Simplices<3> facets, Eigen::Index vertices);
+template Boundary<4> index_boundary<4>(Simplices<4> facets, Eigen::Index vertices);
 
 }  // namespace pent::viewer

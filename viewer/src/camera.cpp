@@ -1,4 +1,4 @@
-#include <pent/viewer/camera.h>
+#include "pent/viewer/camera.h"
 
 #include <Eigen/Geometry>
 

@@ -1,4 +1,4 @@
-#include <pent/viewer/color.h>
+#include "pent/viewer/color.h"
 
 #include <algorithm>
 #include <cmath>

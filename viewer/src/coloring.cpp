@@ -1,5 +1,6 @@
+#include "pent/viewer/coloring.h"
+
 #include <pent/viewer/attributes.h>
-#include <pent/viewer/coloring.h>
 
 #include <algorithm>
 #include <vector>

@@ -1,6 +1,7 @@
+#include "pent/viewer/image.h"
+
 #include <pent/error.h>
 #include <pent/output_file.h>
-#include <pent/viewer/image.h>
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,5 @@
-#include <pent/viewer/legend.h>
+#include "pent/viewer/legend.h"
+
 #include <pent/viewer/section.h>
 
 #include <algorithm>

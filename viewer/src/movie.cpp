@@ -1,6 +1,7 @@
+#include "pent/viewer/movie.h"
+
 #include <pent/error.h>
 #include <pent/output_file.h>
-#include <pent/viewer/movie.h>
 
 #include <array>
 #include <cerrno>

@@ -1,8 +1,9 @@
+#include "pent/viewer/render.h"
+
 #include "lighting.h"
 #include "ray_scene.h"
 
 #include <pent/error.h>
-#include <pent/viewer/render.h>
 
 #include <algorithm>
 #include <cmath>
@@ -290,11 +291,12 @@ private:
             if (!(hit.distance < sample.distance)) {
                 break;
             }
-            const float facing = std::abs(hit.normal.dot(ray));
+            const Vec smooth = ghosts_.smooth_normal(hit);
+            const float facing = std::abs(smooth.dot(ray));
             const float slant = (1 - facing) * (1 - facing);
             const float opacity = ghosts_.opacity(hit);
             const float cover = opacity + (1 - opacity) * 0.6F * slant * slant;
-            const Vec normal = hit.normal.dot(ray) > 0 ? Vec(-hit.normal) : hit.normal;
+            const Vec normal = smooth.dot(ray) > 0 ? Vec(-smooth) : smooth;
             const Color tint = shade(lighting_, ghosts_.color(hit), normal, -ray, {1, 0.6F});
             color += through * cover * tint;
             through *= 1 - cover;

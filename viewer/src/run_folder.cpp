@@ -1,5 +1,6 @@
+#include "pent/viewer/run_folder.h"
+
 #include <pent/error.h>
-#include <pent/viewer/run_folder.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,5 +1,6 @@
+#include "pent/viewer/section.h"
+
 #include <pent/error.h>
-#include <pent/viewer/section.h>
 #include <pent/viewer/slice.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-#include "parallel.h"
+#include "pent/viewer/slice.h"
 
-#include <pent/viewer/slice.h>
+#include "parallel.h"
 
 #include <array>
 #include <cstdint>

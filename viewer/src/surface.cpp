@@ -1,6 +1,6 @@
-#include "parallel.h"
+#include "pent/viewer/surface.h"
 
-#include <pent/viewer/surface.h>
+#include "parallel.h"
 
 #include <algorithm>
 #include <limits>

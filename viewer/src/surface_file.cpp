@@ -1,7 +1,8 @@
+#include "pent/viewer/surface_file.h"
+
 #include "vtu.h"
 
 #include <pent/output_file.h>
-#include <pent/viewer/surface_file.h>
 
 #include <array>
 #include <cstdint>

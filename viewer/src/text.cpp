@@ -1,4 +1,4 @@
-#include <pent/viewer/text.h>
+#include "pent/viewer/text.h"
 
 #include <ft2build.h>
 #include FT_FREETYPE_H

@@ -40,4 +40,7 @@ template <int Dim>
                                           const Eigen::Matrix<double, 3, Dim>& axes,
                                           double crease);
 
+/// The same from the triangles of the surface alone, for surfaces without slivers.
+[[nodiscard]] Positions<3> corner_normals(const Surface& surface, double crease);
+
 }  // namespace pent::viewer

@@ -34,4 +34,10 @@ struct Boundary {
 template <int Dim>
 [[nodiscard]] Boundary<Dim> make_boundary(const SimplexMesh<Dim>& mesh, std::string_view name);
 
+/// The same for facets found elsewhere.
+///
+/// @param vertices  Number of vertices; indices are below it, not checked.
+template <int Dim>
+[[nodiscard]] Boundary<Dim> index_boundary(Simplices<Dim> facets, Eigen::Index vertices);
+
 }  // namespace pent::viewer

@@ -25,10 +25,12 @@ struct RenderObject {
 struct RenderOptions {
     int width = 1280;  ///< Pixels, at least 1.
     int height = 720;  ///< Pixels, at least 1.
-    std::optional<double>
-        floor;              ///< Height y of a floor that takes the shadows, m; none: no floor.
-    double scene_size = 1;  ///< Diagonal of what is looked at, m: how far shade reaches. Over 0.
-    Eigen::Vector3d scene_center = Eigen::Vector3d::Zero();  ///< The middle of it.
+    /// Height y of a floor that takes the shadows, m; none: no floor.
+    std::optional<double> floor;
+    /// Diagonal of what is looked at, m, over 0: how far things shade each other goes by it.
+    double scene_size = 1;
+    /// The middle of it.
+    Eigen::Vector3d scene_center = Eigen::Vector3d::Zero();
 };
 
 /// A ray tracer: one soft key light, light from the sky with ambient occlusion, smooth edges.

@@ -2,6 +2,7 @@
 
 #include <pent/viewer/camera.h>
 #include <pent/viewer/coloring.h>
+#include <pent/viewer/project.h>
 #include <pent/viewer/run_folder.h>
 #include <pent/viewer/section.h>
 #include <pent/viewer/slice_run.h>
@@ -14,12 +15,15 @@
 namespace pent::viewer {
 
 struct RenderRunOptions {
-    SectionOptions sections;  ///< Several are shown side by side.
+    SectionOptions sections;  ///< Several are shown side by side, or as onion skin.
     std::vector<int> frames;  ///< Out of run.frames; at least one.
     int width = 1280;         ///< Of a whole picture, pixels, 16..16384.
     int height = 720;         ///< The same.
     ColorBy color = ColorBy::Body;
     std::optional<ColorRange> range;  ///< Of the color bar; none: that of the frames.
+    /// Show the outlines of the whole bodies as ghosts around the slices.
+    std::optional<ProjectionOptions> projection;
+    bool is_onion = false;  ///< All hyperplanes in one picture, all but the middle one as ghosts.
     ViewOptions view;
     bool has_floor = true;    ///< A floor under the lowest point, for the shadows.
     bool has_caption = true;  ///< Time, hyperplane and color bar.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <pent/viewer/coloring.h>
+#include <pent/viewer/project.h>
 #include <pent/viewer/run_folder.h>
 #include <pent/viewer/section.h>
 #include <pent/viewer/surface_file.h>
@@ -8,13 +9,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pent::viewer {
 
-/// Called after each piece of work with how much is done; ends the work early by returning false.
-using OnProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
+/// Called before and after each piece of work with what it is ("sliced frame") and how many of these are
+/// done, from 0 to total; ends the work early by returning false.
+using OnProgress =
+    std::function<bool(std::string_view what, std::int64_t done, std::int64_t total)>;
 
 struct SliceRunOptions {
     SectionOptions sections;
@@ -22,6 +27,10 @@ struct SliceRunOptions {
     SurfaceFormat format = SurfaceFormat::Ply;
     ColorBy color = ColorBy::Body;  ///< Written as vertex colors, and as a scalar but for Body.
     bool keep_degenerate = false;   ///< Keep triangles of zero area, as slice() makes them.
+    /// Write the outlines of the whole bodies as well: BODY_outline_000123.ply.
+    std::optional<ProjectionOptions> projection;
+    /// Write the whole boundaries as well: BODY_boundary_000123.vtu.
+    bool has_boundary = false;
     std::string created_by = "pent-slice";
 };
 
@@ -47,7 +56,8 @@ struct SliceRunReport {
 /// Slices frames of a run and writes one surface file per body, frame and hyperplane into a folder,
 /// which is made if need be: BODY_000123.ply, or BODY_s01_000123.ply when there are several
 /// hyperplanes. Beside them slices.csv lists all of them with volumes and areas; for VTU,
-/// BODY.pvd puts them in time for ParaView.
+/// BODY.pvd puts them in time for ParaView. The boundary is tetrahedra at x, y, z with w, speed and
+/// strain as point data: a contour of w is a slice.
 ///
 /// The color range is that of the frames chosen. Throws an Error as reading and writing do.
 [[nodiscard]] SliceRunReport slice_run(const RunFolder& run,
