@@ -35,7 +35,7 @@ Eigen::Vector2f disk_point(const Eigen::Vector2f& square) {
 template <int Rays>
 using DiskPoints = std::array<Eigen::Vector2f, static_cast<std::size_t>(Rays) * kPatterns>;
 
-// Entry pattern + 16 k is ray k of a pattern; the sequence is dealt out to the patterns in turn.
+// Entry pattern + kPatterns k is ray k of a pattern; the sequence is dealt out to the patterns in turn.
 template <int Rays>
 DiskPoints<Rays> make_disk_points() {
     DiskPoints<Rays> points;

@@ -28,15 +28,16 @@ struct Lighting {
 /// @param camera_frame  Right, up and back as columns.
 [[nodiscard]] Lighting make_lighting(const Eigen::Matrix3d& camera_frame, double scene_size);
 
-/// Rays spent on visibility at one point, and how many differ from pixel to pixel in a 4 x 4 pattern.
+/// Rays spent on visibility at one point, and how many sets of them there are, one for
+/// each of 8 x 8 pixels.
 inline constexpr int kSkyRays = 4;
 inline constexpr int kKeyRays = 2;
-inline constexpr int kPatterns = 16;
+inline constexpr int kPatterns = 64;
 
 /// The part of light that reaches a point, estimated by a few rays.
 ///
 /// @param normal   Unit, on the side that is seen.
-/// @param pattern  0..15: which rays; together the 16 patterns cover sky and lamp evenly.
+/// @param pattern  0..63: which rays; together all the patterns cover sky and lamp evenly.
 [[nodiscard]] Visibility trace_visibility(const RayScene& scene,
                                           const Lighting& lighting,
                                           const Vec& point,

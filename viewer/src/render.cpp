@@ -6,6 +6,7 @@
 #include <pent/error.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <tbb/blocked_range.h>
@@ -50,8 +51,8 @@ Vec lift(const RayScene& scene, const RayHit& hit, const Vec& point) {
 }
 
 // Renders in passes over the whole picture: what each pixel sees; how much light arrives there, by a
-// few rays in a pattern that differs in each of 4 x 4 pixels; the mean of that over each such block,
-// without crossing edges, which makes 16 times the rays of it; colors, with more samples at edges.
+// few rays in a pattern that differs in each of 8 x 8 pixels; the mean of that over each such block,
+// without crossing edges, which makes 64 times the rays of it; colors, with more samples at edges.
 class Painter {
 public:
     Painter(RTCDevice device,
@@ -80,7 +81,13 @@ public:
                 rough_[index(x, y)] = trace(sample, pattern(x, y));
             }
         });
-        for_each_pixel([&](int x, int y) { smooth_[index(x, y)] = filtered(x, y); });
+        for_each_pixel([&](int x, int y) {
+            smooth_[index(x, y)] = filtered(rough_, x, y, 1, {1, 2, 2, 2, 1});
+        });
+        for_each_pixel([&](int x, int y) {
+            rough_[index(x, y)] = filtered(smooth_, x, y, 4, {0, 1, 2, 1, 0});
+        });
+        std::swap(rough_, smooth_);
         Image image(options_.width, options_.height);
         for_each_pixel([&](int x, int y) {
             const Color color =
@@ -112,9 +119,13 @@ private:
 
     [[nodiscard]] static float middle(int i) { return static_cast<float>(i) + 0.5F; }
 
+    // Neighbors get patterns far apart: the bits of x and y, interleaved from the lowest on.
     [[nodiscard]] static int pattern(int x, int y) {
-        constexpr int kOrder[16] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
-        return kOrder[4 * (y & 3) + (x & 3)];
+        int number = 0;
+        for (int bit = 0; bit < 3; ++bit) {
+            number = 4 * number + 2 * ((x ^ y) >> bit & 1) + (y >> bit & 1);
+        }
+        return number;
     }
 
     [[nodiscard]] Vec direction(float x, float y) const {
@@ -187,33 +198,42 @@ private:
         return a.normal.dot(b.normal) > 0.9F && off_plane < 3 * footprint(a.distance);
     }
 
-    // Weights 1 2 2 2 1 across and down: each of the 4 x 4 patterns counts alike.
-    [[nodiscard]] Visibility filtered(int x, int y) const {
+    // A weighted mean over 5 x 5 pixels `stride` apart, of those like the middle one. With 1 2 2 2 1 at
+    // stride 1 each of 4 x 4 neighbors counts alike, and with 1 2 1 at stride 4 after that each of 8 x 8.
+    [[nodiscard]] Visibility filtered(const std::vector<Visibility>& from,
+                                      int x,
+                                      int y,
+                                      int stride,
+                                      const std::array<float, 5>& weights) const {
         const Sample& here = samples_[index(x, y)];
         if (here.seen == Seen::Nothing) {
             return {};
         }
         Visibility sum{0, 0};
-        float weights = 0;
-        for (int j = std::max(0, y - 2); j <= std::min(options_.height - 1, y + 2); ++j) {
-            for (int i = std::max(0, x - 2); i <= std::min(options_.width - 1, x + 2); ++i) {
-                if (is_alike(here, samples_[index(i, j)])) {
-                    const float weight =
-                        (std::abs(i - x) == 2 ? 1.0F : 2.0F) * (std::abs(j - y) == 2 ? 1.0F : 2.0F);
-                    const Visibility& there = rough_[index(i, j)];
-                    sum.sky += weight * there.sky;
-                    sum.key += weight * there.key;
-                    weights += weight;
+        float total = 0;
+        for (int row = 0; row < 5; ++row) {
+            const int j = y + stride * (row - 2);
+            for (int column = 0; column < 5; ++column) {
+                const int i = x + stride * (column - 2);
+                const float weight = weights[row] * weights[column];
+                if (weight > 0 && is_in_picture(i, j) && is_alike(here, samples_[index(i, j)])) {
+                    sum.sky += weight * from[index(i, j)].sky;
+                    sum.key += weight * from[index(i, j)].key;
+                    total += weight;
                 }
             }
         }
-        return {sum.sky / weights, sum.key / weights};
+        return {sum.sky / total, sum.key / total};
+    }
+
+    [[nodiscard]] bool is_in_picture(int x, int y) const {
+        return x >= 0 && y >= 0 && x < options_.width && y < options_.height;
     }
 
     [[nodiscard]] bool is_at_edge(int x, int y) const {
         const Sample& here = samples_[index(x, y)];
         const auto differs = [&](int i, int j) {
-            if (i < 0 || j < 0 || i >= options_.width || j >= options_.height) {
+            if (!is_in_picture(i, j)) {
                 return false;
             }
             const Sample& there = samples_[index(i, j)];
