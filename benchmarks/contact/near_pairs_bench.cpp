@@ -54,13 +54,16 @@ void box(benchmark::State& state, const Simplices<Count>& simplices) {
 }
 
 template <int K, int L>
-void query(benchmark::State& state, const Simplices<K>& first, const Simplices<L>& second) {
+void query(benchmark::State& state,
+           const Simplices<K>& first,
+           const Simplices<L>& second,
+           Closest closest) {
     const BoxTree first_tree(boxes_of<K>(first));
     const BoxTree second_tree(boxes_of<L>(second));
     NearPairs found;
     for (auto _ : state) {
-        found =
-            near_pairs<4, K, L>({first, first_tree}, {second, second_tree}, hug().positions, kEps);
+        found = near_pairs<4, K, L>({first, first_tree}, {second, second_tree}, hug().positions,
+                                    kEps, closest);
     }
     state.counters["candidates"] = static_cast<double>(found.candidates);
     state.counters["pairs"] = static_cast<double>(found.pairs.size());
@@ -104,16 +107,19 @@ void BM_EdgeTriangleBroad(benchmark::State& state) {
     broad<2, 3>(state, hug().surfaces[0].edges, hug().surfaces[1].ridges);
 }
 void BM_EdgeTriangle(benchmark::State& state) {
-    query<2, 3>(state, hug().surfaces[0].edges, hug().surfaces[1].ridges);
+    query<2, 3>(state, hug().surfaces[0].edges, hug().surfaces[1].ridges, Closest::Anywhere);
+}
+void BM_EdgeTriangleInterior(benchmark::State& state) {
+    query<2, 3>(state, hug().surfaces[0].edges, hug().surfaces[1].ridges, Closest::Interior);
 }
 void BM_PointTetrahedron(benchmark::State& state) {
-    query<1, 4>(state, hug().surfaces[0].vertices, hug().surfaces[1].facets);
+    query<1, 4>(state, hug().surfaces[0].vertices, hug().surfaces[1].facets, Closest::Anywhere);
 }
 void BM_EdgeTriangleSelf(benchmark::State& state) {
-    query<2, 3>(state, hug().surfaces[0].edges, hug().surfaces[0].ridges);
+    query<2, 3>(state, hug().surfaces[0].edges, hug().surfaces[0].ridges, Closest::Interior);
 }
 void BM_PointTetrahedronSelf(benchmark::State& state) {
-    query<1, 4>(state, hug().surfaces[0].vertices, hug().surfaces[0].facets);
+    query<1, 4>(state, hug().surfaces[0].vertices, hug().surfaces[0].facets, Closest::Anywhere);
 }
 
 BENCHMARK(BM_BuildEdges)->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -122,6 +128,7 @@ BENCHMARK(BM_RefitEdges)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(BM_RefitTriangles)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(BM_BoxTriangles)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(BM_EdgeTriangleBroad)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(BM_EdgeTriangleInterior)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(BM_EdgeTriangle)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(BM_PointTetrahedron)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(BM_EdgeTriangleSelf)->Unit(benchmark::kMillisecond)->UseRealTime();

@@ -31,6 +31,22 @@ public:
         return best_.first_face != 0;
     }
 
+    /// Whether the closest points are below the limit and inside both simplices (their weights are
+    /// all positive); best() is the pair then. Tries no face, so costs a fraction of run().
+    bool run_interior() {
+        constexpr unsigned kA = (1U << K) - 1;
+        constexpr unsigned kB = (1U << L) - 1;
+        constexpr int kN = kUnknowns<kA, kB>;
+        Vector<Dim> offset = first_.col(0) - second_.col(0);
+        const Edges<kN> edges = edges_of<kA, kB>(std::make_integer_sequence<int, kN>());
+        Parameters<kN> t = Parameters<kN>::Zero();
+        if (!solve_normal_equations<kN>(edges, offset, t) && !solve_stably<kN>(edges, offset, t)) {
+            return false;
+        }
+        offset += edges * t;
+        return offset.squaredNorm() < best_.distance_squared && record_if_inside<kA, kB>(t, offset);
+    }
+
     [[nodiscard]] const ClosestPoints<Dim, K, L>& best() const { return best_; }
 
 private:
@@ -208,16 +224,27 @@ private:
         }
     }
 
+    // The same by a QR factorization; false where the edges are dependent to rounding.
+    template <int N>
+    [[nodiscard, gnu::noinline]] static bool solve_stably(const Edges<N>& edges,
+                                                          const Vector<Dim>& offset,
+                                                          Parameters<N>& t) {
+        Eigen::ColPivHouseholderQR<Edges<N>> factors(edges);
+        factors.setThreshold(1e-14);
+        if (factors.rank() < N) {
+            return false;
+        }
+        t = factors.solve(-offset);
+        return true;
+    }
+
     // Edges that are dependent, or nearly so: a stable solution where there is one, and all facets.
     template <unsigned A, unsigned B>
     [[gnu::noinline]] void visit_dependent(const Edges<kUnknowns<A, B>>& edges,
                                            const Vector<Dim>& offset) {
         constexpr int kN = kUnknowns<A, B>;
-        Eigen::ColPivHouseholderQR<Edges<kN>> factors(edges);
-        factors.setThreshold(1e-14);
         Parameters<kN> t = Parameters<kN>::Zero();
-        if (factors.rank() == kN) {
-            t = factors.solve(-offset);
+        if (solve_stably<kN>(edges, offset, t)) {
             record_if_inside<A, B>(t, offset + edges * t);
         }
         visit_facets<A, B>(t, true);

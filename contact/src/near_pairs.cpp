@@ -50,6 +50,24 @@ NearPairs merge(std::vector<NearPairs>& pieces) {
     return all;
 }
 
+// Adds a pair if it is nearer than the limit.
+template <int Dim, int K, int L>
+void add_if_near(const Simplices<K>& first,
+                 std::uint32_t i,
+                 const Simplices<L>& second,
+                 std::uint32_t j,
+                 const PositionsView<Dim>& positions,
+                 double limit_squared,
+                 Closest closest,
+                 NearPairs& pairs) {
+    const Corners<Dim, K> a = gather<Dim, K>(first, i, positions);
+    const Corners<Dim, L> b = gather<Dim, L>(second, j, positions);
+    ClosestPointSearch<Dim, K, L> search(a, b, limit_squared);
+    if (closest == Closest::Interior ? search.run_interior() : search.run()) {
+        pairs.pairs.push_back({i, j, search.best().distance_squared});
+    }
+}
+
 template <int Dim>
 class InsideSearch {
 public:
@@ -116,7 +134,8 @@ template <int Dim, int K, int L>
 NearPairs near_pairs(const SearchSet<K>& first,
                      const SearchSet<L>& second,
                      const PositionsView<Dim>& positions,
-                     double distance) {
+                     double distance,
+                     Closest closest) {
     const double limit = distance * distance;
     const bool is_same_list = &first.tree == &second.tree;
     const std::vector<BoxTree::Work> work = BoxTree::split(first.tree, second.tree, kPieces);
@@ -134,15 +153,31 @@ NearPairs near_pairs(const SearchSet<K>& first,
                     if (is_same_list && j < i) {
                         std::swap(i, j);
                     }
-                    const Corners<Dim, K> a = gather<Dim, K>(first.simplices, i, positions);
-                    const Corners<Dim, L> b = gather<Dim, L>(second.simplices, j, positions);
-                    ClosestPointSearch<Dim, K, L> search(a, b, limit);
-                    if (search.run()) {
-                        here.pairs.push_back({i, j, search.best().distance_squared});
-                    }
+                    add_if_near<Dim, K, L>(first.simplices, i, second.simplices, j, positions,
+                                           limit, closest, here);
                 });
         },
         tbb::simple_partitioner());
+    return merge(found);
+}
+
+template <int Dim, int K, int L>
+NearPairs still_near_pairs(const NearPairs& before,
+                           const Simplices<K>& first,
+                           const Simplices<L>& second,
+                           const PositionsView<Dim>& positions,
+                           double distance,
+                           Closest closest) {
+    constexpr std::size_t kChunk = 1024;
+    std::vector<NearPairs> found((before.pairs.size() + kChunk - 1) / kChunk);
+    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t chunk) {
+        const std::size_t end = std::min((chunk + 1) * kChunk, before.pairs.size());
+        for (std::size_t k = chunk * kChunk; k < end; ++k) {
+            add_if_near<Dim, K, L>(first, before.pairs[k].first, second, before.pairs[k].second,
+                                   positions, distance * distance, closest, found[chunk]);
+            ++found[chunk].candidates;
+        }
+    });
     return merge(found);
 }
 
@@ -179,15 +214,21 @@ NearPair nearest_facet(const Surface<Dim>& surface,
     return best;
 }
 
-#define PENT_INSTANTIATE(Dim, L)                                                                 \
-    template NearPairs near_pairs<Dim, 1, Dim>(const SearchSet<1>&, const SearchSet<Dim>&,       \
-                                               const PositionsView<Dim>&, double);               \
-    template NearPairs near_pairs<Dim, 2, L>(const SearchSet<2>&, const SearchSet<L>&,           \
-                                             const PositionsView<Dim>&, double);                 \
-    template std::vector<std::uint8_t> vertices_inside<Dim>(const Surface<Dim>&, const BoxTree&, \
-                                                            const Surface<Dim>&, const BoxTree&, \
-                                                            const PositionsView<Dim>&);          \
-    template NearPair nearest_facet<Dim>(const Surface<Dim>&, const BoxTree&,                    \
+#define PENT_INSTANTIATE(Dim, L)                                                                   \
+    template NearPairs near_pairs<Dim, 1, Dim>(const SearchSet<1>&, const SearchSet<Dim>&,         \
+                                               const PositionsView<Dim>&, double, Closest);        \
+    template NearPairs near_pairs<Dim, 2, L>(const SearchSet<2>&, const SearchSet<L>&,             \
+                                             const PositionsView<Dim>&, double, Closest);          \
+    template NearPairs still_near_pairs<Dim, 1, Dim>(const NearPairs&, const Simplices<1>&,        \
+                                                     const Simplices<Dim>&,                        \
+                                                     const PositionsView<Dim>&, double, Closest);  \
+    template NearPairs still_near_pairs<Dim, 2, L>(const NearPairs&, const Simplices<2>&,          \
+                                                   const Simplices<L>&, const PositionsView<Dim>&, \
+                                                   double, Closest);                               \
+    template std::vector<std::uint8_t> vertices_inside<Dim>(const Surface<Dim>&, const BoxTree&,   \
+                                                            const Surface<Dim>&, const BoxTree&,   \
+                                                            const PositionsView<Dim>&);            \
+    template NearPair nearest_facet<Dim>(const Surface<Dim>&, const BoxTree&,                      \
                                          const PositionsView<Dim>&, const Vector<Dim>&);
 PENT_INSTANTIATE(3, 2)
 PENT_INSTANTIATE(4, 3)

@@ -71,7 +71,9 @@ Vector<2> cross(const Eigen::Matrix<double, 2, 1>& edges) {
 }
 
 Vector<3> cross(const Eigen::Matrix<double, 3, 2>& edges) {
-    return edges.col(0).cross(edges.col(1));
+    return {edges(1, 0) * edges(2, 1) - edges(2, 0) * edges(1, 1),
+            edges(2, 0) * edges(0, 1) - edges(0, 0) * edges(2, 1),
+            edges(0, 0) * edges(1, 1) - edges(1, 0) * edges(0, 1)};
 }
 
 Vector<4> cross(const Eigen::Matrix<double, 4, 3>& edges) {

@@ -21,6 +21,12 @@ struct SearchSet {
     const BoxTree& tree;
 };
 
+/// Which pairs a query is for.
+enum class Closest : std::uint8_t {
+    Anywhere,  ///< All.
+    Interior,  ///< Those whose closest points are inside both simplices; several times faster.
+};
+
 struct NearPairs {
     std::vector<NearPair> pairs;  ///< Ascending by first, then second.
     std::int64_t candidates = 0;  ///< Pairs whose boxes overlap: the work of the narrow phase.
@@ -34,11 +40,23 @@ struct NearPairs {
 ///
 /// @param first, second  Their boxes have a margin of at least distance / 2; not checked.
 /// @param distance       m, > 0.
+/// @param closest        Where closest points have to be for a pair to count.
 template <int Dim, int K, int L>
 [[nodiscard]] NearPairs near_pairs(const SearchSet<K>& first,
                                    const SearchSet<L>& second,
                                    const PositionsView<Dim>& positions,
-                                   double distance);
+                                   double distance,
+                                   Closest closest = Closest::Anywhere);
+
+/// Of pairs found before, those that are nearer than `distance` now: what near_pairs() finds now, if
+/// no other pair can have come nearer. Parallel.
+template <int Dim, int K, int L>
+[[nodiscard]] NearPairs still_near_pairs(const NearPairs& before,
+                                         const Simplices<K>& first,
+                                         const Simplices<L>& second,
+                                         const PositionsView<Dim>& positions,
+                                         double distance,
+                                         Closest closest = Closest::Anywhere);
 
 /// Which vertices of one surface are inside another: an entry of 1 for each of surface.vertices.
 ///

@@ -1,0 +1,83 @@
+#include "pent/contact/contacts.h"
+
+#include <pent/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tbb/parallel_for.h>
+
+namespace pent::contact {
+
+namespace {
+
+constexpr std::size_t kChunk = 1024;
+
+void require(
+    bool is_right, const char* name, const char* field, double value, const char* expected) {
+    if (!is_right) {
+        throw Error(std::string(name) + ": " + field + " is " + std::to_string(value)
+                    + ", expected " + expected);
+    }
+}
+
+}  // namespace
+
+void check(const ContactOptions& options, const char* name) {
+    require(std::isfinite(options.distance) && options.distance > 0, name, "distance",
+            options.distance, "a length above 0 m");
+    require(std::isfinite(options.stiffness) && options.stiffness > 0, name, "stiffness",
+            options.stiffness, "a number above 0 N/m");
+    require(std::isfinite(options.margin) && options.margin >= 0, name, "margin", options.margin,
+            "a length of 0 m or more");
+}
+
+template <int Dim>
+void add_forces(const std::vector<Contact<Dim>>& contacts, Positions<Dim>& forces) {
+    for (const Contact<Dim>& contact : contacts) {
+        for (int i = 0; i <= Dim; ++i) {
+            forces.col(contact.vertices[i]) -= contact.weights[i] * contact.response.gradient;
+        }
+    }
+}
+
+template <int Dim>
+std::vector<ObstacleContact<Dim>> find_obstacle_contacts(
+    const std::vector<PenaltyObstacle<Dim>>& obstacles,
+    const std::vector<std::uint32_t>& vertices,
+    const PositionsView<Dim>& positions,
+    Filter filter) {
+    const std::size_t chunks = (vertices.size() + kChunk - 1) / kChunk;
+    std::vector<std::vector<ObstacleContact<Dim>>> found(chunks * obstacles.size());
+    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t piece) {
+        const std::size_t which = piece / chunks;
+        const PenaltyObstacle<Dim>& obstacle = obstacles[which];
+        const std::size_t begin = piece % chunks * kChunk;
+        const std::size_t end = std::min(begin + kChunk, vertices.size());
+        for (std::size_t i = begin; i < end; ++i) {
+            const Vector<Dim> point = positions.col(vertices[i]);
+            const double distance = signed_distance<Dim>(obstacle.shape, point);
+            if (distance < obstacle.penalty.distance) {
+                found[piece].push_back(
+                    {vertices[i], static_cast<std::int32_t>(which), distance,
+                     obstacle_response<Dim>(obstacle.shape, point, obstacle.penalty, filter)});
+            }
+        }
+    });
+    std::vector<ObstacleContact<Dim>> contacts;
+    for (const auto& part : found) {
+        contacts.insert(contacts.end(), part.begin(), part.end());
+    }
+    return contacts;
+}
+
+#define PENT_INSTANTIATE(Dim)                                                         \
+    template void add_forces<Dim>(const std::vector<Contact<Dim>>&, Positions<Dim>&); \
+    template std::vector<ObstacleContact<Dim>> find_obstacle_contacts<Dim>(           \
+        const std::vector<PenaltyObstacle<Dim>>&, const std::vector<std::uint32_t>&,  \
+        const PositionsView<Dim>&, Filter);
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent::contact

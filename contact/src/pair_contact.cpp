@@ -1,0 +1,170 @@
+#include "pair_contact.h"
+
+#include "closest_point_search.h"
+#include "gather.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pent::contact {
+
+namespace {
+
+// Below this part of the distance of contact, closest points touch: the direction between them is
+// rounding, and that of the normals is taken.
+constexpr double kTouching = 1e-6;
+
+// A mixed pair fades where its closest points come this near to a border, in barycentric weight:
+// there a neighboring pair, or a vertex and a facet, takes over.
+constexpr double kBorder = 0.1;
+
+// What looks crossed within one body, but is this many distances of contact apart at rest or
+// nearer, is taken for the two sides of something thin.
+constexpr double kThin = 3;
+
+// On which sides two simplices see each other.
+template <int Dim>
+struct View {
+    double side = 0;        // 1 apart, -1 crossed, 0 no contact
+    double weight = 0;      // goes to 0 where one turns its back
+    Vector<Dim> direction;  // from the second to the first, unit length; out of both if crossed
+};
+
+template <int Dim, int K, int L>
+View<Dim> view(const ClosestPoints<Dim, K, L>& points,
+               const Vector<Dim>& first_normal,
+               const Vector<Dim>& second_normal,
+               double touching) {
+    const double l = std::sqrt(points.distance_squared);
+    Vector<Dim> from_second = points.difference / l;
+    if (!(l > touching)) {
+        from_second = (second_normal - first_normal).stableNormalized();
+    }
+    const double second_faces = from_second.dot(second_normal);
+    const double first_faces = -from_second.dot(first_normal);
+    View<Dim> result;
+    if (second_faces * first_faces > 0) {
+        result.side = second_faces > 0 ? 1 : -1;
+        result.weight = std::min(1.0, 2 * std::min(std::abs(first_faces), std::abs(second_faces)));
+        result.direction = result.side * from_second;
+    }
+    return result;
+}
+
+// Unit normal at a point of a simplex between those at its corners.
+template <int Dim, int Count>
+Vector<Dim> normal_at(const Positions<Dim>& normals,
+                      const Simplices<Count>& simplices,
+                      Eigen::Index which,
+                      const Eigen::Matrix<double, Count, 1>& weights) {
+    return (gather<Dim, Count>(simplices, which, normals) * weights).stableNormalized();
+}
+
+template <int Dim, int K, int L>
+bool is_culled(const PairSetting<Dim>& setting,
+               const Simplices<K>& first,
+               std::uint32_t i,
+               const Simplices<L>& second,
+               std::uint32_t j,
+               double side) {
+    const double least = (side < 0 ? kThin : 1) * setting.options.distance;
+    const Corners<Dim, K> a = gather<Dim, K>(first, i, setting.rest);
+    const Corners<Dim, L> b = gather<Dim, L>(second, j, setting.rest);
+    return ClosestPointSearch<Dim, K, L>(a, b, least * least).run();
+}
+
+template <int Dim, int K, int L>
+Contact<Dim> make_contact(const PairSetting<Dim>& setting,
+                          const ClosestPoints<Dim, K, L>& points,
+                          const std::uint32_t* first,
+                          const std::uint32_t* second) {
+    Contact<Dim> contact;
+    std::copy_n(first, K, contact.vertices.begin());
+    std::copy_n(second, L, contact.vertices.begin() + K);
+    contact.weights << points.beta, -points.alpha;
+    contact.kind = K == 1 ? ContactKind::PointFacet : ContactKind::Mixed;
+    contact.first_body = setting.first_body;
+    contact.second_body = setting.second_body;
+    return contact;
+}
+
+}  // namespace
+
+template <int Dim>
+std::optional<Contact<Dim>> solid_contact(const PairSetting<Dim>& setting,
+                                          std::uint32_t vertex,
+                                          const Simplices<Dim>& facets,
+                                          std::uint32_t facet,
+                                          bool is_inside) {
+    const double eps = setting.options.distance;
+    const Corners<Dim, 1> point = setting.positions.col(vertex);
+    const Corners<Dim, Dim> corners = gather<Dim, Dim>(facets, facet, setting.positions);
+    ClosestPointSearch<Dim, 1, Dim> search(point, corners, std::numeric_limits<double>::infinity());
+    search.run();
+    const double l = std::sqrt(search.best().distance_squared);
+    if (!is_inside && l >= eps) {
+        return {};
+    }
+    const double side = is_inside ? -1 : 1;
+    Vector<Dim> direction = side * search.best().difference / l;
+    if (!(l > kTouching * eps)) {
+        direction = facet_normal<Dim>(corners).stableNormalized();
+        if (direction.isZero()) {
+            return {};  // on a facet that has collapsed: its neighbors have a direction
+        }
+    }
+    Contact<Dim> contact =
+        make_contact<Dim, 1, Dim>(setting, search.best(), &vertex, facets.col(facet).data());
+    contact.distance = side * l;
+    contact.response = pair_response<Dim>(contact.distance, direction,
+                                          {eps, setting.options.stiffness, Reach::AnyDepth}, 1,
+                                          setting.options.filter);
+    return contact;
+}
+
+template <int Dim, int K, int L>
+std::optional<Contact<Dim>> local_contact(const PairSetting<Dim>& setting,
+                                          const Simplices<K>& first,
+                                          std::uint32_t i,
+                                          const Simplices<L>& second,
+                                          std::uint32_t j) {
+    const double eps = setting.options.distance;
+    const Corners<Dim, K> a = gather<Dim, K>(first, i, setting.positions);
+    const Corners<Dim, L> b = gather<Dim, L>(second, j, setting.positions);
+    ClosestPointSearch<Dim, K, L> search(a, b, eps * eps);
+    if (!(K == 1 ? search.run() : search.run_interior())) {
+        return {};
+    }
+    const ClosestPoints<Dim, K, L>& points = search.best();
+    const View<Dim> seen = view<Dim, K, L>(
+        points, normal_at<Dim, K>(setting.normals, first, i, points.beta),
+        normal_at<Dim, L>(setting.normals, second, j, points.alpha), kTouching * eps);
+    const double border = std::min(points.beta.minCoeff(), points.alpha.minCoeff());
+    const double weight = seen.weight * (K == 1 ? 1 : std::min(1.0, border / kBorder));
+    if (weight == 0
+        || (setting.is_self() && is_culled<Dim, K, L>(setting, first, i, second, j, seen.side))) {
+        return {};
+    }
+    Contact<Dim> contact =
+        make_contact<Dim, K, L>(setting, points, first.col(i).data(), second.col(j).data());
+    contact.distance = seen.side * std::sqrt(points.distance_squared);
+    contact.response = pair_response<Dim>(contact.distance, seen.direction,
+                                          {eps, setting.options.stiffness, Reach::Fading}, weight,
+                                          setting.options.filter);
+    return contact;
+}
+
+#define PENT_INSTANTIATE(Dim, L)                                                             \
+    template std::optional<Contact<Dim>> solid_contact<Dim>(                                 \
+        const PairSetting<Dim>&, std::uint32_t, const Simplices<Dim>&, std::uint32_t, bool); \
+    template std::optional<Contact<Dim>> local_contact<Dim, 1, Dim>(                         \
+        const PairSetting<Dim>&, const Simplices<1>&, std::uint32_t, const Simplices<Dim>&,  \
+        std::uint32_t);                                                                      \
+    template std::optional<Contact<Dim>> local_contact<Dim, 2, L>(                           \
+        const PairSetting<Dim>&, const Simplices<2>&, std::uint32_t, const Simplices<L>&,    \
+        std::uint32_t);
+PENT_INSTANTIATE(3, 2)
+PENT_INSTANTIATE(4, 3)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent::contact

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <pent/contact/contacts.h>
+
+#include <optional>
+
+namespace pent::contact {
+
+/// What is needed to judge one pair.
+template <int Dim>
+struct PairSetting {
+    const PositionsView<Dim>& positions;
+    const Positions<Dim>& rest;     ///< Read for pairs within a body.
+    const Positions<Dim>& normals;  ///< Unit outward normals at boundary vertices; read for local
+                                    ///< contacts.
+    const ContactOptions& options;
+    std::int32_t first_body = 0;
+    std::int32_t second_body = 0;
+
+    [[nodiscard]] bool is_self() const { return first_body == second_body; }
+};
+
+/// Contact of a vertex with another body at its nearest facet; none if it is outside and too far.
+template <int Dim>
+[[nodiscard]] std::optional<Contact<Dim>> solid_contact(const PairSetting<Dim>& setting,
+                                                        std::uint32_t vertex,
+                                                        const Simplices<Dim>& facets,
+                                                        std::uint32_t facet,
+                                                        bool is_inside);
+
+/// Contact of two simplices, whether they are crossed being told by the normals beside them.
+template <int Dim, int K, int L>
+[[nodiscard]] std::optional<Contact<Dim>> local_contact(const PairSetting<Dim>& setting,
+                                                        const Simplices<K>& first,
+                                                        std::uint32_t i,
+                                                        const Simplices<L>& second,
+                                                        std::uint32_t j);
+
+}  // namespace pent::contact
