@@ -46,7 +46,8 @@ std::string label_of(const SectionOptions& options, const Hyperplane& plane) {
     return label;
 }
 
-// The offset halfway between the lowest and the highest vertex along the normal.
+// The offset halfway between the lowest and the highest vertex along the normal, rounded to about a
+// thousandth of what is between, to be readable.
 double middle_offset(const SectionOptions& options, std::span<const Frame<4>> frames) {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
@@ -55,7 +56,12 @@ double middle_offset(const SectionOptions& options, std::span<const Frame<4>> fr
         low = std::min(low, heights.minCoeff());
         high = std::max(high, heights.maxCoeff());
     }
-    return (low + high) / 2;
+    const double middle = (low + high) / 2;
+    if (!(high > low)) {
+        return middle;
+    }
+    const double digit = std::pow(10.0, std::floor(std::log10(high - low)) - 3);
+    return std::round(middle / digit) * digit;
 }
 
 }  // namespace

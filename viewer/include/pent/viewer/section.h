@@ -16,7 +16,7 @@ namespace pent::viewer {
 
 /// Which hyperplanes to look at. Three-dimensional bodies are seen whole and take none of this.
 struct SectionOptions {
-    std::vector<double> offsets;            ///< m; empty: one through the middle of the bodies.
+    std::vector<double> offsets;  ///< m; empty: one about through the middle of the bodies.
     std::optional<Eigen::Vector4d> normal;  ///< Not with rotations.
     std::vector<PlaneRotation> rotations;   ///< Applied to the bodies, in this order.
 
