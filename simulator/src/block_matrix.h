@@ -50,6 +50,20 @@ public:
         });
     }
 
+    /// A += factor other, on the same pattern.
+    template <typename Other>
+    void add_scaled(const Workers& workers, double factor, const BlockMatrix<Dim, Other>& other) {
+        for_each_row_chunk(workers, [&](std::int64_t begin, std::int64_t end) {
+            const auto& start = pattern_->row_start;
+            const std::int64_t last = start[static_cast<std::size_t>(end)] * kEntries;
+            for (std::int64_t k = start[static_cast<std::size_t>(begin)] * kEntries; k < last;
+                 ++k) {
+                values_[static_cast<std::size_t>(k)] +=
+                    static_cast<Scalar>(factor * static_cast<double>(other.values()[k]));
+            }
+        });
+    }
+
     /// result = A x.
     void multiply(const Workers& workers,
                   const Kernels<Dim>& kernels,

@@ -1,9 +1,12 @@
 #pragma once
 
+#include "aggregates.h"
 #include "block_matrix.h"
+#include "numbering.h"
+
+#include <pent/simulator/solver_options.h>
 
 #include <memory>
-#include <vector>
 
 namespace pent::simulator {
 
@@ -11,15 +14,44 @@ namespace pent::simulator {
 template <int Dim>
 class Preconditioner {
 public:
+    Preconditioner() = default;
     virtual ~Preconditioner() = default;
+    Preconditioner(const Preconditioner&) = delete;
+    Preconditioner& operator=(const Preconditioner&) = delete;
+    Preconditioner(Preconditioner&&) = delete;
+    Preconditioner& operator=(Preconditioner&&) = delete;
+
     virtual void apply(const Workers& workers,
                        const BlockVector<Dim>& r,
                        BlockVector<Dim>& z) const = 0;
 };
 
-/// Inverses of the diagonal blocks.
+/// Block Jacobi along the columns of an extruded mesh: the unknowns of all layers above one base
+/// vertex are solved for together, by block-tridiagonal factorization.
+///
+/// Thin layers couple the vertices of a column far more strongly than its neighbors, which is what
+/// makes point-wise Jacobi slow there. Columns of single vertices are plain block Jacobi.
+///
+/// @param numbering  With column_start; pass single-vertex columns for block Jacobi.
 template <int Dim, typename Scalar>
-[[nodiscard]] std::unique_ptr<Preconditioner<Dim>> block_jacobi(
-    const Workers& workers, const BlockMatrix<Dim, Scalar>& matrix);
+[[nodiscard]] std::unique_ptr<Preconditioner<Dim>> column_jacobi(
+    const Workers& workers,
+    const BlockMatrix<Dim, Scalar>& matrix,
+    const std::vector<std::uint32_t>& column_start);
+
+/// Adds a coarse space to a smoother: z = S r + P (P^T A P)^-1 P^T r.
+///
+/// The columns of P are the rigid motions of each aggregate (Dim translations and a rotation in
+/// each of the Dim (Dim - 1) / 2 planes), which are what a smoother removes slowest.
+/// Gives the smoother alone if P^T A P cannot be factored.
+///
+/// @param positions  Dim x unknowns, where the vertices are now, m.
+template <int Dim, typename Scalar>
+[[nodiscard]] std::unique_ptr<Preconditioner<Dim>> with_rigid_modes(
+    const Workers& workers,
+    const BlockMatrix<Dim, Scalar>& matrix,
+    const Aggregates& aggregates,
+    const BlockVector<Dim>& positions,
+    std::unique_ptr<Preconditioner<Dim>> smoother);
 
 }  // namespace pent::simulator

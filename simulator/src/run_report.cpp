@@ -16,6 +16,7 @@ Json step_json(const StepReport& step) {
             {"time", step.time},
             {"substeps", step.substeps},
             {"refused", step.refused},
+            {"newton_iterations", step.newton_iterations},
             {"iterations", step.iterations},
             {"residual", step.residual},
             {"inverted", step.inverted},
@@ -35,6 +36,7 @@ StepReport parse_step(const Json& json) {
     json.at("time").get_to(step.time);
     json.at("substeps").get_to(step.substeps);
     json.at("refused").get_to(step.refused);
+    json.at("newton_iterations").get_to(step.newton_iterations);
     json.at("iterations").get_to(step.iterations);
     json.at("residual").get_to(step.residual);
     json.at("inverted").get_to(step.inverted);

@@ -102,6 +102,8 @@ void check_constraint(const Constraint& constraint, const Scene& scene) {
 
 void check_solver(const SolverOptions& solver) {
     require(solver.tolerance > 0 && solver.tolerance < 1, "solver: expected 0 < tolerance < 1");
+    require(solver.newton_tolerance > 0 && solver.newton_tolerance < 1,
+            "solver: expected 0 < newton_tolerance < 1");
     require(solver.max_iterations > 0, "solver: max_iterations must be above 0");
     require(solver.max_halvings >= 0 && solver.max_halvings <= 20,
             "solver: max_halvings must be from 0 to 20");
@@ -143,6 +145,13 @@ void check(const Scene& scene) {
                 "damping: mass and stiffness must not be negative");
     }
     check_solver(scene.solver);
+    for (const Body& body : scene.bodies) {
+        const bool is_held = std::any_of(scene.constraints.begin(), scene.constraints.end(),
+                                         [&](const Constraint& c) { return c.body == body.name; });
+        require(is_held || scene.solver.integrator != Integrator::Quasistatic,
+                "body \"" + body.name
+                    + "\" has no constraint: the quasistatic integrator needs every body held");
+    }
 }
 
 }  // namespace pent::simulator

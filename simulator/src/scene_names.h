@@ -23,6 +23,9 @@ inline constexpr std::array kModels = {
 };
 inline constexpr std::array kIntegrators = {
     Name<Integrator>{Integrator::LinearEuler, "linear_euler"},
+    Name<Integrator>{Integrator::NewtonEuler, "newton_euler"},
+    Name<Integrator>{Integrator::Bdf2, "bdf2"},
+    Name<Integrator>{Integrator::Quasistatic, "quasistatic"},
 };
 inline constexpr std::array kFilters = {
     Name<Filter>{Filter::Clamp, "clamp"},
@@ -31,6 +34,8 @@ inline constexpr std::array kFilters = {
 };
 inline constexpr std::array kPreconditioners = {
     Name<PreconditionerKind>{PreconditionerKind::BlockJacobi, "block-jacobi"},
+    Name<PreconditionerKind>{PreconditionerKind::ColumnJacobi, "column-jacobi"},
+    Name<PreconditionerKind>{PreconditionerKind::RigidModes, "rigid-modes"},
 };
 inline constexpr std::array kPrecisions = {
     Name<Precision>{Precision::Float, "float"},
@@ -55,7 +60,9 @@ inline constexpr std::array kPresets = {
         case Preset::Balanced:
             break;
         case Preset::Accurate:
+            solver.integrator = Integrator::Bdf2;
             solver.tolerance = 1e-9;
+            solver.newton_tolerance = 1e-7;
             solver.max_iterations = 20'000;
             solver.precision = Precision::Double;
             break;

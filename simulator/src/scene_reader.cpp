@@ -259,6 +259,7 @@ SolverOptions read_solver(TableReader reader) {
                            .value;
     constexpr Range kFraction{.low = 0, .low_included = false, .high = 1, .high_included = false};
     solver.tolerance = reader.number("tolerance", solver.tolerance, kFraction);
+    solver.newton_tolerance = reader.number("newton_tolerance", solver.newton_tolerance, kFraction);
     solver.max_iterations =
         static_cast<int>(reader.integer("max_iterations", solver.max_iterations, 1, 1'000'000));
     solver.max_halvings =

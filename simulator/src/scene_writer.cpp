@@ -147,6 +147,7 @@ std::string solver_text(const SolverOptions& solver) {
            + line("preconditioner", in_quotes(word_of(kPreconditioners, solver.preconditioner)))
            + line("precision", in_quotes(word_of(kPrecisions, solver.precision)))
            + line("tolerance", number(solver.tolerance))
+           + line("newton_tolerance", number(solver.newton_tolerance))
            + line("max_iterations", std::to_string(solver.max_iterations))
            + line("max_halvings", std::to_string(solver.max_halvings));
 }

@@ -1,3 +1,4 @@
+#include "step_problem.h"
 #include "system.h"
 #include "world.h"
 
@@ -37,6 +38,9 @@ public:
         }
         return current_;
     }
+    [[nodiscard]] bool has_history() const { return has_history_; }
+    [[nodiscard]] History<Dim>& history() { return history_; }
+    void set_has_history() { has_history_ = true; }
     [[nodiscard]] std::uint64_t steps() const { return steps_; }
     void set_steps(std::uint64_t steps) { steps_ = steps; }
     void set_stale() { is_stale_ = true; }
@@ -44,8 +48,9 @@ public:
 private:
     bool advance(double time, double h, int depth, StepReport& report);
     bool attempt(double time, double h, StepReport& report);
-    [[nodiscard]] LinearStep<Dim> linear_euler(double time, double h) const;
-    bool take_over(double time, double h, const BlockVector<Dim>& dx, StepReport& report);
+    [[nodiscard]] StepProblem<Dim> make_problem(double time, double h) const;
+    void set_velocities(const StepProblem<Dim>& problem, double time);
+    [[nodiscard]] bool is_sane() const;
 
     Scene scene_;
     World<Dim> world_;
@@ -53,81 +58,72 @@ private:
     double extent_;  // diagonal of the box around all bodies at rest, m
     BodyState<Dim> current_;
     BodyState<Dim> next_;
+    History<Dim> history_;  // the state one step of full length ago, for BDF2
+    bool has_history_ = false;
     std::uint64_t steps_ = 0;
     bool is_stale_ = false;  // forces and energies do not belong to positions and velocities
 };
 
-// Eq. 3 of [shi2025] ([baraff1998]) in the displacement, with C = a M + b K:
-//   ((1 + h a) M + (h^2 + h b) K) dx = h^2 f + h M v.
-// The damping terms on its right side cancel against the damping force within f.
 template <int Dim>
-LinearStep<Dim> Simulation<Dim>::State::linear_euler(double time, double h) const {
-    const Damping damping = scene_.damping.value_or(Damping{});
-    LinearStep<Dim> step;
-    step.mass_factor = 1 + h * damping.mass;
-    step.stiffness_factor = h * h + h * damping.stiffness;
-    step.held_shift.setZero(Dim, world_.vertex_count());
-    Positions<Dim> target = current_.positions;
-    place_held<Dim>(world_, time + h, target, nullptr);
-    for (const HeldSet<Dim>& held : world_.held) {
-        for (const std::uint32_t vertex : held.vertices) {
-            step.held_shift.col(vertex) = target.col(vertex) - current_.positions.col(vertex);
+StepProblem<Dim> Simulation<Dim>::State::make_problem(double time, double h) const {
+    const auto choose = [&] {
+        switch (scene_.solver.integrator) {
+            case Integrator::Quasistatic:
+                return static_problem(current_, h);
+            case Integrator::Bdf2:
+                if (has_history_ && h == scene_.dt()) {
+                    return bdf2_problem(current_, history_, h);
+                }
+                break;  // the first step, and steps cut in two, which have no even past
+            case Integrator::LinearEuler:
+            case Integrator::NewtonEuler:
+                break;
         }
-    }
-    const Numbering& numbering = world_.numbering;
-    step.right.resize(Dim, numbering.free_count());
-    for (std::uint32_t unknown = 0; unknown < numbering.free_count(); ++unknown) {
-        const std::uint32_t vertex = numbering.vertex_of_unknown[unknown];
-        step.right.col(unknown) = h * h * current_.forces.col(vertex)
-                                  + h * world_.masses[vertex] * current_.velocities.col(vertex);
-    }
-    return step;
+        return euler_problem(current_, h);
+    };
+    StepProblem<Dim> problem = choose();
+    problem.held = current_.positions;
+    place_held<Dim>(world_, time + h, problem.held, nullptr);
+    return problem;
 }
 
-// Moves to the end of a step unless it is out of all bounds.
 template <int Dim>
-bool Simulation<Dim>::State::take_over(double time,
-                                       double h,
-                                       const BlockVector<Dim>& dx,
-                                       StepReport& report) {
-    // No step that makes sense moves a vertex by many times the size of the scene.
+void Simulation<Dim>::State::set_velocities(const StepProblem<Dim>& problem, double time) {
+    next_.velocities = problem.rate * (next_.positions - problem.origin);
+    place_held(world_, time, next_.positions, &next_.velocities);
+}
+
+// Whether the new state is finite and within bounds that only a failed step leaves.
+template <int Dim>
+bool Simulation<Dim>::State::is_sane() const {
     constexpr double kMostExtents = 1e3;
-    next_.positions = current_.positions;
-    next_.velocities = current_.velocities;
-    const Numbering& numbering = world_.numbering;
-    for (std::uint32_t unknown = 0; unknown < numbering.free_count(); ++unknown) {
-        const std::uint32_t vertex = numbering.vertex_of_unknown[unknown];
-        next_.positions.col(vertex) += dx.col(unknown);
-        next_.velocities.col(vertex) = dx.col(unknown) / h;
-    }
-    place_held(world_, time + h, next_.positions, &next_.velocities);
-    system_.evaluate(next_);
-    if (!next_.is_finite()
-        || !(dx.size() == 0 || dx.cwiseAbs().maxCoeff() < kMostExtents * extent_)) {
-        report.failure = "the motion grew beyond all bounds";
-        return false;
-    }
-    std::swap(current_, next_);
-    return true;
+    return next_.is_finite()
+           && (next_.positions - current_.positions).cwiseAbs().maxCoeff() < kMostExtents * extent_;
 }
 
 template <int Dim>
 bool Simulation<Dim>::State::attempt(double time, double h, StepReport& report) {
-    LinearStep<Dim> step = linear_euler(time, h);
-    BlockVector<Dim> dx(Dim, world_.numbering.free_count());
-    for (std::uint32_t unknown = 0; unknown < world_.numbering.free_count(); ++unknown) {
-        dx.col(unknown) = h * current_.velocities.col(world_.numbering.vertex_of_unknown[unknown]);
+    const StepProblem<Dim> problem = make_problem(time, h);
+    const bool is_linear =
+        scene_.solver.integrator == Integrator::LinearEuler || world_.numbering.free_count() == 0;
+    const bool is_solved =
+        is_linear ? take_linear_step(system_, world_, problem, current_, next_.positions, report)
+                  : minimize(system_, world_, problem, current_, extent_, next_, report);
+    if (!is_solved) {
+        return false;
     }
-    if (dx.cols() > 0) {
-        const LinearSolveReport solved = system_.solve_step(current_.positions, step, dx, report);
-        if (!solved.has_converged) {
-            report.failure = solved.has_broken_down
-                                 ? "the matrix was not positive definite"
-                                 : "the linear solver did not reach its tolerance";
-            return false;
-        }
+    set_velocities(problem, time + h);
+    system_.evaluate(next_);
+    if (!is_sane()) {
+        report.failure = "the motion grew beyond all bounds";
+        return false;
     }
-    return take_over(time, h, dx, report);
+    if (scene_.solver.integrator == Integrator::Bdf2) {
+        history_ = {current_.positions, current_.velocities};
+        has_history_ = h == scene_.dt();
+    }
+    std::swap(current_, next_);
+    return true;
 }
 
 template <int Dim>
@@ -145,6 +141,8 @@ template <int Dim>
 StepReport Simulation<Dim>::State::step() {
     const auto start = std::chrono::steady_clock::now();
     const BodyState<Dim> before = current();
+    const History<Dim> history_before = history_;
+    const bool had_history = has_history_;
     StepReport report;
     report.is_accepted =
         system_.workers().run([&] { return advance(time(), scene_.dt(), 0, report); });
@@ -153,6 +151,8 @@ StepReport Simulation<Dim>::State::step() {
         report.failure.clear();
     } else {
         current_ = before;
+        history_ = history_before;
+        has_history_ = had_history;
     }
     report.step = steps_;
     report.time = time();
@@ -200,6 +200,17 @@ Eigen::Map<const Positions<Dim>> view(const World<Dim>& world,
     const Eigen::Index first = world.first_vertex[static_cast<std::size_t>(body)];
     const Eigen::Index last = world.first_vertex[static_cast<std::size_t>(body) + 1];
     return {all.data() + Dim * first, Dim, last - first};
+}
+
+template <int Dim>
+void check_state(const Positions<Dim>& positions,
+                 const Positions<Dim>& velocities,
+                 Eigen::Index count) {
+    if (positions.cols() != count || velocities.cols() != count || !positions.allFinite()
+        || !velocities.allFinite()) {
+        throw Error("the state of a body must be finite positions and velocities of its "
+                    + std::to_string(count) + " vertices");
+    }
 }
 
 }  // namespace
@@ -259,15 +270,42 @@ void Simulation<Dim>::set_state(int body,
     const World<Dim>& world = state_->world();
     const Eigen::Index first = world.first_vertex[static_cast<std::size_t>(body)];
     const Eigen::Index count = world.first_vertex[static_cast<std::size_t>(body) + 1] - first;
-    if (positions.cols() != count || velocities.cols() != count || !positions.allFinite()
-        || !velocities.allFinite()) {
-        throw Error("the state of a body must be finite positions and velocities of its "
-                    + std::to_string(count) + " vertices");
-    }
+    check_state(positions, velocities, count);
     BodyState<Dim>& current = state_->current();
     current.positions.middleCols(first, count) = positions;
     current.velocities.middleCols(first, count) = velocities;
     state_->set_stale();
+}
+
+template <int Dim>
+bool Simulation<Dim>::has_history() const {
+    return state_->has_history();
+}
+
+template <int Dim>
+typename Simulation<Dim>::View Simulation<Dim>::previous_positions(int body) const {
+    return view(state_->world(), state_->history().positions, body);
+}
+
+template <int Dim>
+typename Simulation<Dim>::View Simulation<Dim>::previous_velocities(int body) const {
+    return view(state_->world(), state_->history().velocities, body);
+}
+
+template <int Dim>
+void Simulation<Dim>::set_history(int body,
+                                  const Positions<Dim>& positions,
+                                  const Positions<Dim>& velocities) {
+    const World<Dim>& world = state_->world();
+    const Eigen::Index first = world.first_vertex[static_cast<std::size_t>(body)];
+    const Eigen::Index count = world.first_vertex[static_cast<std::size_t>(body) + 1] - first;
+    check_state(positions, velocities, count);
+    History<Dim>& history = state_->history();
+    history.positions.conservativeResize(Dim, world.vertex_count());
+    history.velocities.conservativeResize(Dim, world.vertex_count());
+    history.positions.middleCols(first, count) = positions;
+    history.velocities.middleCols(first, count) = velocities;
+    state_->set_has_history();
 }
 
 template <int Dim>

@@ -4,7 +4,9 @@
 
 #include <pent/error.h>
 
+#include <algorithm>
 #include <chrono>
+#include <numeric>
 
 namespace pent::simulator {
 
@@ -39,6 +41,16 @@ Isa choose_isa(const std::string& name) {
                 + "\" is not known; expected scalar, baseline, avx2 or avx512");
 }
 
+// The columns of the free vertices, in the order of their unknowns.
+template <int Dim>
+BlockVector<Dim> at_unknowns(const Numbering& numbering, const Positions<Dim>& vertices) {
+    BlockVector<Dim> unknowns(Dim, numbering.free_count());
+    for (std::uint32_t unknown = 0; unknown < numbering.free_count(); ++unknown) {
+        unknowns.col(unknown) = vertices.col(numbering.vertex_of_unknown[unknown]);
+    }
+    return unknowns;
+}
+
 struct PointEnergies {
     double kinetic = 0;
     double gravity = 0;
@@ -60,11 +72,29 @@ System<Dim>::System(const Scene& scene, const World<Dim>& world, const Simulatio
       options_(scene.solver),
       gravity_(scene.gravity),
       obstacles_(scene.obstacles),
+      damping_(scene.damping.value_or(Damping{})),
       workers_(options.threads),
       isa_(choose_isa(options.isa)),
       kernels_(&kernels<Dim>(isa_)),
       pattern_(make_pattern<Dim>(world.cells, world.numbering)),
       elements_(world.rest, world.cells, world.ranges, world.numbering, pattern_) {
+    const std::uint32_t unknowns = world.numbering.free_count();
+    if (options_.preconditioner == PreconditionerKind::BlockJacobi) {
+        column_start_.resize(unknowns + 1);
+        std::iota(column_start_.begin(), column_start_.end(), 0U);
+    } else {
+        column_start_ = world.numbering.column_start;
+    }
+    if (options_.preconditioner == PreconditionerKind::RigidModes) {
+        std::vector<std::uint32_t> bodies(unknowns);
+        for (std::uint32_t unknown = 0; unknown < unknowns; ++unknown) {
+            const auto after =
+                std::upper_bound(world.first_vertex.begin(), world.first_vertex.end(),
+                                 world.numbering.vertex_of_unknown[unknown]);
+            bodies[unknown] = static_cast<std::uint32_t>(after - world.first_vertex.begin());
+        }
+        aggregates_ = make_aggregates<Dim>(at_unknowns(world.numbering, world.rest), bodies);
+    }
     if (options_.precision == Precision::Float) {
         float_matrix_ = std::make_unique<BlockMatrix<Dim, float>>(pattern_);
     } else {
@@ -130,22 +160,39 @@ void System<Dim>::add_diagonal(BlockMatrix<Dim, Scalar>& matrix,
 
 template <int Dim>
 template <typename Scalar>
+std::unique_ptr<Preconditioner<Dim>> System<Dim>::precondition(
+    const BlockMatrix<Dim, Scalar>& matrix, const Positions<Dim>& positions) const {
+    std::unique_ptr<Preconditioner<Dim>> smoother = column_jacobi(workers_, matrix, column_start_);
+    if (options_.preconditioner != PreconditionerKind::RigidModes) {
+        return smoother;
+    }
+    return with_rigid_modes(workers_, matrix, aggregates_,
+                            at_unknowns(world_->numbering, positions), std::move(smoother));
+}
+
+template <int Dim>
+template <typename Scalar>
 LinearSolveReport System<Dim>::solve_with(BlockMatrix<Dim, Scalar>& matrix,
                                           const Positions<Dim>& positions,
-                                          LinearStep<Dim>& step,
+                                          Filter filter,
+                                          LinearStep<Dim> step,
                                           BlockVector<Dim>& dx,
                                           StepReport& report) {
     const Stopwatch assembly;
     matrix.set_zero(workers_);
-    elements_.add_hessian(workers_, *kernels_, positions, step.stiffness_factor, options_.filter,
+    elements_.add_hessian(workers_, *kernels_, positions, step.stiffness_factor, filter,
                           step.held_shift, matrix, step.right);
     add_diagonal(matrix, positions, step);
+    if (step.damping_factor > 0) {
+        matrix.add_scaled(workers_, step.damping_factor, *damping_tangent_);
+    }
     report.assembly_seconds += assembly.seconds();
     const Stopwatch solution;
-    const std::unique_ptr<Preconditioner<Dim>> preconditioner = block_jacobi(workers_, matrix);
-    const LinearSolveReport solved = solve(
+    const std::unique_ptr<Preconditioner<Dim>> preconditioner = precondition(matrix, positions);
+    const double tolerance = std::max(step.tolerance, options_.tolerance);
+    const LinearSolveReport solved = pent::simulator::solve(
         workers_, *kernels_, matrix, *preconditioner, step.right,
-        {.tolerance = options_.tolerance, .max_iterations = options_.max_iterations}, space_, dx);
+        {.tolerance = tolerance, .max_iterations = options_.max_iterations}, space_, dx);
     report.solve_seconds += solution.seconds();
     report.iterations += solved.iterations;
     report.residual = std::max(report.residual, solved.residual);
@@ -153,12 +200,41 @@ LinearSolveReport System<Dim>::solve_with(BlockMatrix<Dim, Scalar>& matrix,
 }
 
 template <int Dim>
-LinearSolveReport System<Dim>::solve_step(const Positions<Dim>& positions,
-                                          LinearStep<Dim>& step,
-                                          BlockVector<Dim>& dx,
-                                          StepReport& report) {
-    return float_matrix_ ? solve_with(*float_matrix_, positions, step, dx, report)
-                         : solve_with(*double_matrix_, positions, step, dx, report);
+LinearSolveReport System<Dim>::solve(const Positions<Dim>& positions,
+                                     LinearStep<Dim>& step,
+                                     BlockVector<Dim>& dx,
+                                     StepReport& report) {
+    const auto solve_filtered = [&](Filter filter) {
+        return float_matrix_ ? solve_with(*float_matrix_, positions, filter, step, dx, report)
+                             : solve_with(*double_matrix_, positions, filter, step, dx, report);
+    };
+    const BlockVector<Dim> guess = dx;
+    LinearSolveReport solved = solve_filtered(options_.filter);
+    if (solved.has_broken_down && options_.filter != Filter::Clamp) {
+        dx = guess;
+        solved = solve_filtered(Filter::Clamp);
+    }
+    return solved;
+}
+
+template <int Dim>
+void System<Dim>::set_damping_tangent(const Positions<Dim>& positions,
+                                      const Positions<Dim>& held_travel) {
+    if (!damping_tangent_) {
+        damping_tangent_ = std::make_unique<BlockMatrix<Dim, double>>(pattern_);
+    }
+    damping_tangent_->set_zero(workers_);
+    held_damping_.setZero(Dim, pattern_.rows());
+    elements_.add_hessian(workers_, *kernels_, positions, 1, options_.filter, held_travel,
+                          *damping_tangent_, held_damping_);
+    held_damping_ = -held_damping_;
+}
+
+template <int Dim>
+BlockVector<Dim> System<Dim>::damping_product(const BlockVector<Dim>& travel) const {
+    BlockVector<Dim> product(Dim, travel.cols());
+    damping_tangent_->multiply(workers_, *kernels_, travel, product);
+    return product;
 }
 
 template <int Dim>

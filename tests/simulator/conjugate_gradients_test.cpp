@@ -45,7 +45,7 @@ TEST(ConjugateGradients, FindTheSolutionOfTheDenseFactorization) {
     Problem problem;
     const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
     const Workers workers(1);
-    const auto preconditioner = block_jacobi(workers, A);
+    const auto preconditioner = column_jacobi(workers, A, problem.box.numbering.column_start);
     const LinearSolveReport report =
         solve(workers, kernels<4>(best_isa()), A, *preconditioner, problem.b, {.tolerance = 1e-12},
               problem.space, problem.x);
@@ -62,7 +62,7 @@ TEST(ConjugateGradients, ReachOneMillionthWithAFloatMatrix) {
     const BlockMatrix<4, float> A = definite_matrix<float>(problem.box, 0.01);
     const Workers workers(1);
     const LinearSolveReport report =
-        solve(workers, kernels<4>(best_isa()), A, *block_jacobi(workers, A), problem.b,
+        solve(workers, kernels<4>(best_isa()), A, *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b,
               {.tolerance = 1e-6}, problem.space, problem.x);
     EXPECT_TRUE(report.has_converged);
     const Eigen::VectorXd gap =
@@ -77,7 +77,7 @@ TEST(ConjugateGradients, ReportAMatrixThatIsNotPositiveDefinite) {
     A.diagonal(3).diagonal().setConstant(-1);
     const Workers workers(1);
     const LinearSolveReport report =
-        solve(workers, kernels<4>(best_isa()), A, *block_jacobi(workers, A), problem.b,
+        solve(workers, kernels<4>(best_isa()), A, *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b,
               {.tolerance = 1e-8}, problem.space, problem.x);
     EXPECT_TRUE(report.has_broken_down);
     EXPECT_FALSE(report.has_converged);
@@ -88,7 +88,7 @@ TEST(ConjugateGradients, SayWhenIterationsRunOut) {
     const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
     const Workers workers(1);
     const LinearSolveReport report =
-        solve(workers, kernels<4>(best_isa()), A, *block_jacobi(workers, A), problem.b,
+        solve(workers, kernels<4>(best_isa()), A, *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b,
               {.tolerance = 1e-12, .max_iterations = 3}, problem.space, problem.x);
     EXPECT_FALSE(report.has_converged);
     EXPECT_EQ(report.iterations, 3);
@@ -102,7 +102,7 @@ TEST(ConjugateGradients, GiveZeroForZeroWithoutIterating) {
     problem.x.setOnes();
     const Workers workers(1);
     const LinearSolveReport report =
-        solve(workers, kernels<4>(best_isa()), A, *block_jacobi(workers, A), problem.b, {},
+        solve(workers, kernels<4>(best_isa()), A, *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b, {},
               problem.space, problem.x);
     EXPECT_TRUE(report.has_converged);
     EXPECT_EQ(report.iterations, 0);

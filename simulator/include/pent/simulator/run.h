@@ -22,7 +22,7 @@ struct RunOptions {
     bool force = false;                   ///< Replace a run that is in the folder.
     bool resume = false;                  ///< Go on behind the last whole frame in the folder.
     int threads = 1;                      ///< At least 1.
-    std::string isa = {};                      ///< As in SimulationOptions.
+    std::string isa = {};                 ///< As in SimulationOptions.
     std::string created_by = "pent-sim";  ///< Goes into the files.
 };
 

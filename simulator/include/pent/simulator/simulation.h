@@ -12,7 +12,8 @@ namespace pent::simulator {
 
 struct SimulationOptions {
     int threads = 1;  ///< At least 1. Results do not depend on it.
-    std::string isa = {};  ///< "scalar", "baseline", "avx2" or "avx512"; empty for the best there is.
+    std::string isa =
+        {};  ///< "scalar", "baseline", "avx2" or "avx512"; empty for the best there is.
 };
 
 /// How big a simulation is.
@@ -44,7 +45,8 @@ struct StepReport {
     std::string failure;
     int substeps = 0;           ///< 1, or more where the step had to be cut.
     int refused = 0;            ///< Attempts that were thrown away.
-    int iterations = 0;         ///< Of the linear solver, in all.
+    int newton_iterations = 0;   ///< After the first, linear step; 0 for LinearEuler.
+    int iterations = 0;          ///< Of the linear solver, in all.
     double residual = 0;        ///< Largest |b - A x| / |b|, computed from x.
     std::int64_t inverted = 0;  ///< Elements with J <= 0 at the end.
     Energies energies;          ///< At the end.
@@ -99,6 +101,15 @@ public:
     /// motion from the next step on, whatever is said here. Throws an Error unless both arrays are
     /// finite and Dim x vertices.
     void set_state(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
+
+    /// What BDF2 looks back to: the state one step ago. False after a step that was cut in two, and
+    /// for the other integrators.
+    [[nodiscard]] bool has_history() const;
+    [[nodiscard]] View previous_positions(int body) const;   ///< m; has_history() must hold.
+    [[nodiscard]] View previous_velocities(int body) const;  ///< m/s; has_history() must hold.
+
+    /// Gives back the history of a body, for a resumed run; call it for all bodies, after set_state().
+    void set_history(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
 
     /// Sets how many steps have been taken, and so the time.
     void set_step_count(std::uint64_t steps);

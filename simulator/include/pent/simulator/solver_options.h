@@ -2,12 +2,19 @@
 
 namespace pent::simulator {
 
-enum class Integrator { LinearEuler };
+/// How a time step is taken; docs/simulator.md compares them.
+enum class Integrator {
+    LinearEuler,  ///< One linear solve a step: fast, first order.
+    NewtonEuler,  ///< Backward Euler to a tolerance, with line search: robust, first order.
+    Bdf2,         ///< Two-step backward differences to a tolerance: second order.
+    Quasistatic,  ///< Equilibrium at every step, no inertia; every body must be held.
+};
 
 /// What becomes of the negative eigenvalues of element Hessians.
 enum class Filter { Clamp, Absolute, None };
 
-enum class PreconditionerKind { BlockJacobi };
+/// Block Jacobi; Jacobi by whole extrusion columns; the latter with a coarse space of rigid modes.
+enum class PreconditionerKind { BlockJacobi, ColumnJacobi, RigidModes };
 
 /// Scalar of the matrix blocks; vectors are always double.
 enum class Precision { Float, Double };
@@ -15,9 +22,12 @@ enum class Precision { Float, Double };
 struct SolverOptions {
     Integrator integrator = Integrator::LinearEuler;
     Filter filter = Filter::Clamp;
-    PreconditionerKind preconditioner = PreconditionerKind::BlockJacobi;
+    PreconditionerKind preconditioner = PreconditionerKind::RigidModes;
     Precision precision = Precision::Float;
-    double tolerance = 1e-4;    ///< |b - A x| / |b| at which the linear solve stops, in (0, 1).
+    double tolerance = 1e-4;  ///< |b - A x| / |b| at which the linear solve stops, in (0, 1).
+    double newton_tolerance =
+        1e-4;                   ///< Unbalanced force at the end of a step over that at its start,
+                                ///< in (0, 1); not for LinearEuler.
     int max_iterations = 3000;  ///< Of one linear solve, > 0.
     int max_halvings = 6;       ///< How often a failed step may be cut in two, 0..20.
 };
