@@ -62,7 +62,8 @@ TEST(ConjugateGradients, ReachOneMillionthWithAFloatMatrix) {
     const BlockMatrix<4, float> A = definite_matrix<float>(problem.box, 0.01);
     const Workers workers(1);
     const LinearSolveReport report =
-        solve(workers, kernels<4>(best_isa()), A, *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b,
+        solve(workers, kernels<4>(best_isa()), A,
+              *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b,
               {.tolerance = 1e-6}, problem.space, problem.x);
     EXPECT_TRUE(report.has_converged);
     const Eigen::VectorXd gap =
@@ -77,7 +78,8 @@ TEST(ConjugateGradients, ReportAMatrixThatIsNotPositiveDefinite) {
     A.diagonal(3).diagonal().setConstant(-1);
     const Workers workers(1);
     const LinearSolveReport report =
-        solve(workers, kernels<4>(best_isa()), A, *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b,
+        solve(workers, kernels<4>(best_isa()), A,
+              *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b,
               {.tolerance = 1e-8}, problem.space, problem.x);
     EXPECT_TRUE(report.has_broken_down);
     EXPECT_FALSE(report.has_converged);
@@ -88,7 +90,8 @@ TEST(ConjugateGradients, SayWhenIterationsRunOut) {
     const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
     const Workers workers(1);
     const LinearSolveReport report =
-        solve(workers, kernels<4>(best_isa()), A, *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b,
+        solve(workers, kernels<4>(best_isa()), A,
+              *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b,
               {.tolerance = 1e-12, .max_iterations = 3}, problem.space, problem.x);
     EXPECT_FALSE(report.has_converged);
     EXPECT_EQ(report.iterations, 3);
@@ -102,7 +105,8 @@ TEST(ConjugateGradients, GiveZeroForZeroWithoutIterating) {
     problem.x.setOnes();
     const Workers workers(1);
     const LinearSolveReport report =
-        solve(workers, kernels<4>(best_isa()), A, *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b, {},
+        solve(workers, kernels<4>(best_isa()), A,
+              *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b, {},
               problem.space, problem.x);
     EXPECT_TRUE(report.has_converged);
     EXPECT_EQ(report.iterations, 0);

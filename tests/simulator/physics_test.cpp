@@ -1,0 +1,384 @@
+#include "elastic_box.h"
+#include "rigid_fit.h"
+#include "scenes.h"
+
+#include <pent/simulator/energy.h>
+#include <pent/simulator/simulation.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pent::simulator {
+namespace {
+
+using test::box_scene;
+using test::ElasticBox;
+using test::hold;
+using test::still;
+
+const HalfSpaceSelection kLeftEnd{.normal = Eigen::Vector4d(1, 0, 0, 0), .offset = 1e-6};
+
+// A box whose inner vertices lie irregularly, with its boundary held: how a patch test wants it.
+struct Patch {
+    SimplexMesh<4> mesh = pent::test::kuhn_box<4>({3, 3, 3, 3}, {1, 1, 1, 1});
+    std::vector<bool> is_boundary;
+    Numbering numbering;
+
+    Patch() {
+        std::mt19937 random(1);
+        std::uniform_real_distribution<double> shake(-0.05, 0.05);
+        std::vector<std::uint32_t> own;
+        for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+            auto x = mesh.positions.col(v);
+            is_boundary.push_back(x.minCoeff() < 1e-9 || x.maxCoeff() > 1 - 1e-9);
+            own.push_back(static_cast<std::uint32_t>(v));
+            if (!is_boundary.back()) {
+                x = x.unaryExpr([&](double c) { return c + shake(random); }).eval();
+            }
+        }
+        validate(mesh, "patch");
+        numbering = number_unknowns<4>(mesh.cells, is_boundary, own, own);
+    }
+};
+
+// With its boundary moved linearly, a body of linear material ends in the linear field, exactly.
+TEST(PatchTest, LinearFieldsAreExact) {
+    const Patch patch;
+    const BlockPattern pattern = make_pattern<4>(patch.mesh.cells, patch.numbering);
+    const Material material{.model = Model::Linear, .lame = {.lambda = 1.5, .mu = 1}};
+    const std::vector<CellRange> ranges = {{0, patch.mesh.cell_count(), material}};
+    const Elements<4> elements(patch.mesh.positions, patch.mesh.cells, ranges, patch.numbering,
+                               pattern);
+    Eigen::Matrix4d gradient = Eigen::Matrix4d::Identity();
+    gradient(0, 3) = 0.3;
+    gradient(1, 1) = 1.2;
+    gradient(2, 0) = -0.1;
+    const Positions<4> linear = gradient * patch.mesh.positions;
+    Positions<4> held_shift = Positions<4>::Zero(4, patch.mesh.vertex_count());
+    for (Eigen::Index v = 0; v < patch.mesh.vertex_count(); ++v) {
+        if (patch.is_boundary[static_cast<std::size_t>(v)]) {
+            held_shift.col(v) = linear.col(v) - patch.mesh.positions.col(v);
+        }
+    }
+    BlockMatrix<4, double> K(pattern);
+    BlockVector<4> right = BlockVector<4>::Zero(4, pattern.rows());
+    elements.add_hessian(Workers(1), kernels<4>(best_isa()), patch.mesh.positions, 1, Filter::None,
+                         held_shift, K, right);
+    const Eigen::VectorXd moved = ElasticBox<4>::dense(K).ldlt().solve(right.reshaped());
+    for (std::uint32_t u = 0; u < patch.numbering.free_count(); ++u) {
+        const std::uint32_t vertex = patch.numbering.vertex_of_unknown[u];
+        const Eigen::Vector4d expected = linear.col(vertex) - patch.mesh.positions.col(vertex);
+        EXPECT_LT((moved.segment<4>(4 * u) - expected).norm(), 1e-12);
+    }
+}
+
+// Stretched by e along x with free sides, the material narrows by nu e in all other directions and
+// pulls with E e. Sides are found by Newton's method on their stress.
+TEST(UniaxialStress, GivesYoungAndPoissonInAllDirections) {
+    for (const int dim : {2, 3, 4}) {
+        const double poisson = 0.28;
+        const Material material{.model = Model::StableNeoHookean,
+                                .lame = lame_from_young(dim, 1e5, poisson)};
+        const double e = 1e-6;
+        double side = 0;
+        Eigen::MatrixXd P;
+        for (int iteration = 0; iteration < 5; ++iteration) {
+            const auto stress_at = [&](double s) {
+                Eigen::VectorXd stretch = Eigen::VectorXd::Constant(dim, 1 + s);
+                stretch[0] = 1 + e;
+                return Eigen::MatrixXd(stress(material, stretch.asDiagonal()));
+            };
+            P = stress_at(side);
+            const double h = 1e-4;
+            const double slope = (stress_at(side + h)(1, 1) - stress_at(side - h)(1, 1)) / (2 * h);
+            side -= P(1, 1) / slope;
+        }
+        // Terms of order e^2 are left out of Hooke's law.
+        EXPECT_NEAR(side / e, -poisson, 1e-5);
+        EXPECT_NEAR(P(0, 0) / e, 1e5, 1);
+    }
+}
+
+// A square beam of side b and length 4 b under its own weight at nu = 0, where nothing depends on z
+// and w: one cell there is enough. Timoshenko with the second moment of a 4D beam, b^5 / 12, and
+// shear coefficient 5/6 (of the rectangle at nu = 0).
+double tip_deflection(int cells) {
+    const double b = 0.5;
+    const double length = 4 * b;
+    Scene scene = box_scene<4>();
+    scene.bodies[0].material = {
+        .model = Model::Linear, .lame = lame_from_young(4, 1e6, 0), .density = 10};
+    scene.gravity[1] = -1;
+    scene.constraints = {hold(kLeftEnd, still(4))};
+    scene.solver = {.integrator = Integrator::Quasistatic,
+                    .precision = Precision::Double,
+                    .tolerance = 1e-9,
+                    .newton_tolerance = 1e-7};
+    Simulation<4> simulation(
+        scene, {pent::test::kuhn_box<4>({4 * cells, cells, 1, 1}, {length, b, b, b})});
+    EXPECT_TRUE(simulation.step().is_accepted);
+    double sum = 0;
+    int count = 0;
+    for (Eigen::Index v = 0; v < simulation.mesh(0).vertex_count(); ++v) {
+        if (simulation.mesh(0).positions(0, v) > length - 1e-9) {
+            sum += simulation.mesh(0).positions(1, v) - simulation.positions(0)(1, v);
+            ++count;
+        }
+    }
+    return sum / count;
+}
+
+TEST(BendingBeam, MeetsTimoshenkoTheoryByExtrapolationWithin3Percent) {
+    const double b = 0.5;
+    const double L = 4 * b;
+    const double load = 10 * 1 * b * b * b;  // N per m of length
+    const double bending = load * std::pow(L, 4) / (8 * 1e6 * std::pow(b, 5) / 12);
+    const double shear = load * L * L / (2 * 5.0 / 6 * 0.5e6 * b * b * b);
+    const double coarse = tip_deflection(2);
+    const double middle = tip_deflection(4);
+    const double fine = tip_deflection(8);
+    EXPECT_LT(coarse, middle);  // linear simplices lock: too stiff, less so when finer
+    EXPECT_LT(middle, fine);
+    // Aitken: the error shrinks by the same factor at each halving.
+    const double limit = fine - (fine - middle) * (fine - middle) / (fine - 2 * middle + coarse);
+    EXPECT_NEAR(limit, bending + shear, 0.03 * (bending + shear));
+}
+
+Scene soft_bar(Integrator integrator, int steps_per_frame) {
+    Scene scene = box_scene<4>();
+    scene.bodies[0].material.lame = lame_from_young(4, 2e4, 0.28);
+    scene.steps_per_frame = steps_per_frame;
+    scene.solver = {.integrator = integrator,
+                    .precision = Precision::Double,
+                    .tolerance = 1e-11,
+                    .newton_tolerance = 1e-9};
+    return scene;
+}
+
+Positions<4> swing(Integrator integrator, int steps_per_frame) {
+    Scene scene = soft_bar(integrator, steps_per_frame);
+    scene.gravity[1] = -9.8;
+    scene.constraints = {hold(kLeftEnd, still(4))};
+    Simulation<4> simulation(scene, {pent::test::kuhn_box<4>({3, 1, 1, 1}, {0.9, 0.3, 0.3, 0.3})});
+    for (int i = 0; i < 3 * steps_per_frame; ++i) {
+        EXPECT_TRUE(simulation.step().is_accepted);
+    }
+    return simulation.positions(0);
+}
+
+// Observed order from three step sizes, each half the one before.
+double observed_order(Integrator integrator) {
+    const Positions<4> coarse = swing(integrator, 16);
+    const Positions<4> middle = swing(integrator, 32);
+    const Positions<4> fine = swing(integrator, 64);
+    return std::log2((coarse - middle).norm() / (middle - fine).norm());
+}
+
+TEST(TimeStepping, IsFirstOrderWithEulerAndSecondWithBdf2) {
+    // Leading terms dominate to about a tenth of an order at these steps.
+    EXPECT_NEAR(observed_order(Integrator::LinearEuler), 1, 0.15);
+    EXPECT_NEAR(observed_order(Integrator::NewtonEuler), 1, 0.15);
+    EXPECT_NEAR(observed_order(Integrator::Bdf2), 2, 0.3);
+}
+
+Eigen::Matrix4d angular_momentum(const Simulation<4>& simulation) {
+    const Eigen::Matrix4d moment = simulation.positions(0) * simulation.masses(0).asDiagonal()
+                                   * simulation.velocities(0).transpose();
+    return moment - moment.transpose();
+}
+
+// Largest relative loss over all planes in half a second of a body that spins in yz and wx.
+double lost_angular_momentum(Integrator integrator, int steps_per_frame) {
+    const Scene scene = soft_bar(integrator, steps_per_frame);
+    Simulation<4> simulation(scene, {pent::test::kuhn_box<4>({2, 1, 1, 1}, {0.6, 0.3, 0.3, 0.3})});
+    Eigen::Matrix4d spin = Eigen::Matrix4d::Zero();
+    spin(2, 1) = 2;
+    spin(1, 2) = -2;
+    spin(0, 3) = 1.5;
+    spin(3, 0) = -1.5;
+    const Positions<4> start = simulation.mesh(0).positions;
+    const Eigen::Vector4d center = start * simulation.masses(0) / simulation.masses(0).sum();
+    simulation.set_state(0, start, spin * (start.colwise() - center));
+    const Eigen::Matrix4d before = angular_momentum(simulation);
+    for (int i = 0; i < 15 * steps_per_frame; ++i) {
+        EXPECT_TRUE(simulation.step().is_accepted);
+    }
+    return (angular_momentum(simulation) - before).cwiseAbs().maxCoeff()
+           / before.cwiseAbs().maxCoeff();
+}
+
+TEST(AngularMomentum, DriftsAtFirstOrderWithEulerAndLessWithBdf2) {
+    const double coarse = lost_angular_momentum(Integrator::NewtonEuler, 4);
+    const double fine = lost_angular_momentum(Integrator::NewtonEuler, 8);
+    EXPECT_NEAR(coarse / fine, 2, 0.3);
+    EXPECT_LT(lost_angular_momentum(Integrator::Bdf2, 4), coarse / 5);
+}
+
+TEST(FlattenedBody, ReturnsToRest) {
+    Scene scene = box_scene<4>();
+    scene.solver.integrator = Integrator::NewtonEuler;
+    scene.damping = Damping{.mass = 5, .stiffness = 0};
+    Simulation<4> simulation(scene, {pent::test::kuhn_box<4>({2, 2, 2, 1}, {1, 1, 1, 0.5})});
+    Positions<4> flat = simulation.mesh(0).positions;
+    flat.row(3).setZero();
+    simulation.set_state(0, flat, Positions<4>::Zero(4, flat.cols()));
+    for (int i = 0; i < 90; ++i) {
+        ASSERT_TRUE(simulation.step().is_accepted);
+    }
+    EXPECT_LT(
+        non_rigid<4>(simulation.mesh(0).positions, simulation.positions(0), simulation.masses(0)),
+        1e-3);
+}
+
+// A base of tetrahedra extruded by two layers, as the mesher does it: {b0..bk, tk..t3}.
+SimplexMesh<4> extruded(const SimplexMesh<3>& base, const std::vector<double>& heights) {
+    const Eigen::Index n = base.vertex_count();
+    SimplexMesh<4> mesh;
+    mesh.positions.resize(4, n * static_cast<Eigen::Index>(heights.size()));
+    for (std::size_t layer = 0; layer < heights.size(); ++layer) {
+        const auto at = static_cast<Eigen::Index>(layer) * n;
+        mesh.positions.block(0, at, 3, n) = base.positions;
+        mesh.positions.row(3).segment(at, n).setConstant(heights[layer]);
+    }
+    const auto slabs = static_cast<Eigen::Index>(heights.size()) - 1;
+    mesh.cells.resize(5, base.cell_count() * slabs * 4);
+    Eigen::Index next = 0;
+    for (Eigen::Index slab = 0; slab < slabs; ++slab) {
+        for (Eigen::Index cell = 0; cell < base.cell_count(); ++cell) {
+            Eigen::Matrix<std::uint32_t, 4, 1> corners = base.cells.col(cell);
+            std::sort(corners.begin(), corners.end());
+            const auto low = static_cast<std::uint32_t>(slab * n);
+            for (int k = 0; k < 4; ++k, ++next) {
+                for (int c = 0; c <= k; ++c) {
+                    mesh.cells(c, next) = corners[c] + low;
+                }
+                for (int c = k; c < 4; ++c) {
+                    mesh.cells(c + 1, next) = corners[c] + low + static_cast<std::uint32_t>(n);
+                }
+                if (cell_volume<4>(mesh.positions, mesh.cells, next) < 0) {
+                    std::swap(mesh.cells(3, next), mesh.cells(4, next));
+                }
+            }
+        }
+    }
+    return mesh;
+}
+
+template <int Dim>
+struct Assembled {
+    Positions<Dim> forces;
+    Eigen::MatrixXd stiffness;
+
+    Assembled(const SimplexMesh<Dim>& mesh, const Positions<Dim>& x, const Material& material) {
+        std::vector<std::uint32_t> own(static_cast<std::size_t>(mesh.vertex_count()));
+        std::iota(own.begin(), own.end(), 0U);
+        const Numbering numbering =
+            number_unknowns<Dim>(mesh.cells, std::vector<bool>(own.size(), false), own, own);
+        const BlockPattern pattern = make_pattern<Dim>(mesh.cells, numbering);
+        const std::vector<CellRange> ranges = {{0, mesh.cell_count(), material}};
+        const Elements<Dim> elements(mesh.positions, mesh.cells, ranges, numbering, pattern);
+        forces.setZero(Dim, mesh.vertex_count());
+        static_cast<void>(elements.add_forces(Workers(1), kernels<Dim>(Isa::Baseline), x, forces));
+        BlockMatrix<Dim, double> K(pattern);
+        const Positions<Dim> still = Positions<Dim>::Zero(Dim, mesh.vertex_count());
+        BlockVector<Dim> right = BlockVector<Dim>::Zero(Dim, pattern.rows());
+        elements.add_hessian(Workers(1), kernels<Dim>(Isa::Baseline), x, 1, Filter::None, still, K,
+                             right);
+        const Eigen::MatrixXd by_unknown = ElasticBox<Dim>::dense(K);
+        stiffness.resizeLike(by_unknown);
+        for (Eigen::Index a = 0; a < mesh.vertex_count(); ++a) {
+            for (Eigen::Index b = 0; b < mesh.vertex_count(); ++b) {
+                stiffness.template block<Dim, Dim>(Dim * a, Dim * b) =
+                    by_unknown.template block<Dim, Dim>(
+                        Dim * numbering.unknown_of_vertex[static_cast<std::size_t>(a)],
+                        Dim * numbering.unknown_of_vertex[static_cast<std::size_t>(b)]);
+            }
+        }
+    }
+};
+
+// E copies a 3D state to every layer: E^T f4(E x) = H f3(x), E^T K4 E = H K3, H the thickness.
+TEST(ExtrudedBody, ReducedByColumnsIsTheBodyInThreeDimensions) {
+    const SimplexMesh<3> base = pent::test::kuhn_box<3>({2, 1, 1}, {1, 0.5, 0.7});
+    const SimplexMesh<4> mesh = extruded(base, {-0.2, 0.1, 0.7});
+    const double thickness = 0.9;
+    const Eigen::Index n = base.vertex_count();
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal(0, 0.1);
+    const Positions<3> x3 = base.positions.unaryExpr([&](double x) { return x + normal(random); });
+    Positions<4> x4 = mesh.positions;
+    for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+        x4.col(v).head<3>() = x3.col(v % n);
+    }
+    for (const Model model : {Model::StableNeoHookean, Model::StVenantKirchhoff, Model::Linear}) {
+        const Material material{.model = model, .lame = {.lambda = 1.3, .mu = 0.7}};
+        const Assembled<3> three(base, x3, material);
+        const Assembled<4> four(mesh, x4, material);
+        Positions<3> forces = Positions<3>::Zero(3, n);
+        Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+        for (Eigen::Index a = 0; a < mesh.vertex_count(); ++a) {
+            forces.col(a % n) += four.forces.col(a).head<3>();
+            for (Eigen::Index b = 0; b < mesh.vertex_count(); ++b) {
+                stiffness.block<3, 3>(3 * (a % n), 3 * (b % n)) +=
+                    four.stiffness.block<3, 3>(4 * a, 4 * b);
+            }
+        }
+        EXPECT_LT((forces - thickness * three.forces).norm(), 1e-12 * three.forces.norm());
+        EXPECT_LT((stiffness - thickness * three.stiffness).norm(), 1e-12 * three.stiffness.norm());
+    }
+}
+
+TEST(ExtrudedBody, HasColumnMassesOfTheBodyInThreeDimensions) {
+    const SimplexMesh<3> base = pent::test::kuhn_box<3>({2, 1, 1}, {1, 0.5, 0.7});
+    const SimplexMesh<4> mesh = extruded(base, {-0.2, 0.1, 0.7});
+    const Simulation<3> three(box_scene<3>(), {base});
+    const Simulation<4> four(box_scene<4>(), {mesh});
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(base.vertex_count());
+    for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+        sums[v % base.vertex_count()] += four.masses(0)[v];
+    }
+    EXPECT_LT((sums - 0.9 * three.masses(0)).norm(), 1e-12 * sums.norm());
+}
+
+// Where the linear energy is exact, Newton's first step is, and all integrators share equilibria.
+TEST(Quasistatic, EndsWhereADampedMotionComesToRest) {
+    Scene scene = soft_bar(Integrator::Quasistatic, 1);
+    scene.gravity[1] = -2;
+    scene.constraints = {hold(kLeftEnd, still(4))};
+    const SimplexMesh<4> mesh = pent::test::kuhn_box<4>({3, 1, 1, 1}, {0.9, 0.3, 0.3, 0.3});
+    Simulation<4> at_once(scene, {mesh});
+    ASSERT_TRUE(at_once.step().is_accepted);
+    scene.solver.integrator = Integrator::NewtonEuler;
+    // The slowest mode has 1.7 rad/s: nearly critical damping takes it down by exp(-20) in 400 steps.
+    scene.damping = Damping{.mass = 3, .stiffness = 0};
+    Simulation<4> slowly(scene, {mesh});
+    for (int i = 0; i < 400; ++i) {
+        ASSERT_TRUE(slowly.step().is_accepted);
+    }
+    const double moved = (at_once.positions(0) - mesh.positions).norm();
+    EXPECT_LT((at_once.positions(0) - slowly.positions(0)).norm(), 1e-5 * moved);
+    EXPECT_LT(at_once.forces(0).col(3).norm(), 1e-6);  // a free vertex in equilibrium
+}
+
+TEST(NewtonEuler, EqualsLinearEulerForTheLinearEnergy) {
+    Scene scene = soft_bar(Integrator::NewtonEuler, 1);
+    scene.gravity[1] = -9.8;
+    scene.bodies[0].material.model = Model::Linear;
+    scene.constraints = {hold(kLeftEnd, still(4))};
+    scene.damping = Damping{.mass = 0.3, .stiffness = 0.02};
+    const SimplexMesh<4> mesh = pent::test::kuhn_box<4>({3, 1, 1, 1}, {0.9, 0.3, 0.3, 0.3});
+    Simulation<4> newton(scene, {mesh});
+    scene.solver.integrator = Integrator::LinearEuler;
+    Simulation<4> linear(scene, {mesh});
+    for (int i = 0; i < 10; ++i) {
+        ASSERT_TRUE(newton.step().is_accepted);
+        ASSERT_TRUE(linear.step().is_accepted);
+    }
+    EXPECT_LT((newton.positions(0) - linear.positions(0)).norm(), 1e-7);
+}
+
+}  // namespace
+}  // namespace pent::simulator
