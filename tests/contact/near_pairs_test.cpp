@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 #include <vector>
 
@@ -126,6 +127,8 @@ TYPED_TEST(NearPairsTest, AreTheSameForAnyNumberOfThreads) {
     const auto& a = this->scene_.surfaces[0];
     const auto& b = this->scene_.surfaces[1];
     std::vector<NearPair> expected;
+    // More threads than this machine may have cores.
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
     for (const int threads : {1, 2, 3, 8}) {
         tbb::task_arena arena(threads);
         arena.execute([&] {
