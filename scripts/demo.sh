@@ -28,7 +28,7 @@ is_current() {
     done
 }
 
-# make NAME TARGET "SOURCES" COMMAND...: runs the command unless the target is current
+# make_target TARGET "SOURCES" COMMAND...: runs the command unless the target is current
 make_target() {
     local target=$1 sources=$2
     shift 2
@@ -42,9 +42,9 @@ make_target() {
     touch "$target"
 }
 
-# demo NAME SURFACE "MESHING OPTIONS"
+# demo NAME SURFACE "MESHING OPTIONS" "PICTURE OPTIONS"
 demo() {
-    local name=$1 surface=data/models/$2 options=$3
+    local name=$1 surface=data/models/$2 options=$3 look=$4
     local mesh=$out/$name.pent scene=$out/$name.toml run=$out/$name
     # shellcheck disable=SC2086  # several options
     make_target "$mesh" "$surface $bin/pent-mesh" \
@@ -52,16 +52,18 @@ demo() {
     make_target "$scene" "data/scenes/$name.toml" cp "data/scenes/$name.toml" "$scene"
     make_target "$run/report.json" "$mesh $scene $bin/pent-sim" \
         "$bin/pent-sim" "$scene" -o "$run" --force
-    make_target "$out/$name-slices/.done" "$run/report.json $bin/pent-slice" \
+    make_target "$out/$name-slices/slices.csv" "$run/report.json $bin/pent-slice" \
         "$bin/pent-slice" "$run" -o "$out/$name-slices" --frames ::15
+    # shellcheck disable=SC2086
     make_target "$out/$name.png" "$run/report.json $bin/pent-render" \
-        "$bin/pent-render" "$run" --sheet "$out/$name.png"
+        "$bin/pent-render" "$run" --sheet "$out/$name.png" $look
+    # shellcheck disable=SC2086
     make_target "$out/$name.mp4" "$run/report.json $bin/pent-render" \
-        "$bin/pent-render" "$run" -o "$out/$name.mp4"
+        "$bin/pent-render" "$run" -o "$out/$name.mp4" $look
 }
 
-demo octopus octopus_5246f.obj "--thickness 1 --layers 4"
-demo alien alien_4006f.obj "--thickness 1 --layers 4"
+demo octopus octopus_5246f.obj "--thickness 1 --layers 4" ""
+demo alien alien_4006f.obj "--thickness 1 --layers 4" "--color strain --range 0,1.5"
 
 cat <<END
 
