@@ -60,21 +60,44 @@ void measure_angles(const Matrix<Dim>& inverse_edges, CellQuality& quality) {
 }
 
 template <int Dim>
-CellQuality measure(const Eigen::Matrix<double, Dim, Dim + 1>& corners,
-                    const Reference<Dim>& reference) {
-    Matrix<Dim> Dm;
-    double squared_edges = 0;
-    for (int i = 0; i < Dim; ++i) {
-        Dm.col(i) = corners.col(i + 1) - corners.col(0);
+Matrix<Dim> edges_at_first(const Eigen::Matrix<double, Dim, Dim + 1>& corners) {
+    return corners.template rightCols<Dim>().colwise() - corners.col(0);
+}
+
+template <int Dim>
+double mean_squared_edge(const Eigen::Matrix<double, Dim, Dim + 1>& corners) {
+    double sum = 0;
+    for (int i = 0; i <= Dim; ++i) {
         for (int j = i + 1; j <= Dim; ++j) {
-            squared_edges += (corners.col(j) - corners.col(i)).squaredNorm();
+            sum += (corners.col(j) - corners.col(i)).squaredNorm();
         }
     }
-    const double mean_squared_edge = squared_edges / (Dim * (Dim + 1) / 2);
+    return sum / (Dim * (Dim + 1) / 2);
+}
+
+// det(Dm)^(2/Dim): a square root or two where that will do, since pow() would take half the time.
+template <int Dim>
+double squared_size(double determinant) {
+    const double positive = std::max(determinant, 0.0);
+    if constexpr (Dim == 2) {
+        return positive;
+    } else if constexpr (Dim == 3) {
+        const double root = std::cbrt(positive);
+        return root * root;
+    } else {
+        static_assert(Dim == 4);
+        return std::sqrt(positive);
+    }
+}
+
+template <int Dim>
+CellQuality measure(const Eigen::Matrix<double, Dim, Dim + 1>& corners,
+                    const Reference<Dim>& reference) {
+    const Matrix<Dim> Dm = edges_at_first<Dim>(corners);
     const Matrix<Dim> inverse_Dm = Dm.inverse();
     CellQuality quality;
-    quality.mean_ratio = std::pow(std::max(Dm.determinant(), 0.0), 2.0 / Dim)
-                         * reference.mean_ratio_scale / mean_squared_edge;
+    quality.mean_ratio = squared_size<Dim>(Dm.determinant()) * reference.mean_ratio_scale
+                         / mean_squared_edge<Dim>(corners);
     quality.condition =
         (Dm * reference.inverse).norm() * (reference.edges * inverse_Dm).norm() / Dim;
     measure_angles<Dim>(inverse_Dm, quality);
@@ -135,6 +158,13 @@ CellQuality measure_cell(const Eigen::Matrix<double, Dim, Dim + 1>& corners) {
 }
 
 template <int Dim>
+double mean_ratio(const Eigen::Matrix<double, Dim, Dim + 1>& corners) {
+    static const double scale = Reference<Dim>().mean_ratio_scale;
+    return squared_size<Dim>(edges_at_first<Dim>(corners).determinant()) * scale
+           / mean_squared_edge<Dim>(corners);
+}
+
+template <int Dim>
 QualityReport measure_quality(const SimplexMesh<Dim>& mesh) {
     const Reference<Dim> reference;
     std::vector<CellQuality> cells(mesh.cell_count());
@@ -192,6 +222,9 @@ std::string quality_text(const QualityReport& report) {
 template CellQuality measure_cell<2>(const Eigen::Matrix<double, 2, 3>&);
 template CellQuality measure_cell<3>(const Eigen::Matrix<double, 3, 4>&);
 template CellQuality measure_cell<4>(const Eigen::Matrix<double, 4, 5>&);
+template double mean_ratio<2>(const Eigen::Matrix<double, 2, 3>&);
+template double mean_ratio<3>(const Eigen::Matrix<double, 3, 4>&);
+template double mean_ratio<4>(const Eigen::Matrix<double, 4, 5>&);
 template QualityReport measure_quality<2>(const SimplexMesh<2>&);
 template QualityReport measure_quality<3>(const SimplexMesh<3>&);
 template QualityReport measure_quality<4>(const SimplexMesh<4>&);

@@ -1,218 +1,102 @@
-#include "../tetgen_worker/protocol.h"
-#include "worker_process.h"
+#include "generators.h"
 
 #include <pent/error.h>
-#include <pent/mesher/orient.h>
+#include <pent/mesher/links.h>
+#include <pent/mesher/prove.h>
+#include <pent/mesher/quality.h>
 #include <pent/mesher/tetrahedralize.h>
 
-#include <cassert>
 #include <cmath>
 #include <cstdio>
-#include <map>
-#include <signal.h>
+#include <string>
 #include <vector>
 
 namespace pent::mesher {
 
 namespace {
 
-struct Answer {
-    Positions<3> points;
-    Simplices<4> tets;
-    std::vector<double> regions;  // one a tet
-};
-
-std::string short_number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
-}
-
-// p: a surface; A: number the regions; Q: quiet; see TetGen's manual.
-std::string switches(const TetrahedraOptions& options) {
-    std::string text = "pq" + short_number(options.radius_edge_ratio);
-    if (options.keep_surface) {
-        text += "Y";
-    }
-    if (options.edge_length > 0) {
-        text += "a" + short_number(std::pow(options.edge_length, 3) / (6 * std::sqrt(2.0)));
-    }
-    return text;
-}
-
-std::string explain(const ProcessResult& result, const TetrahedraOptions& options) {
-    using namespace pent::tetgen;
-    if (result.signal == SIGXCPU || result.signal == SIGKILL) {
-        return "was ended after " + std::to_string(options.cpu_seconds)
-               + " s of CPU time; ask for fewer or larger tetrahedra";
-    }
-    if (result.signal != 0) {
-        return "crashed (signal " + std::to_string(result.signal) + ")";
-    }
-    switch (result.exit_code) {
-        case kOutOfMemory:
-        case kTetgenThrew + 1:
-            return "needs more than " + std::to_string(options.memory_mib)
-                   + " MiB of memory; ask for fewer or larger tetrahedra";
-        case kTetgenThrew + 2:
-            return "met an internal error of TetGen";
-        case kTetgenThrew + 3:
-            return "found that the surface intersects itself";
-        case kTetgenThrew + 4:
-            return "found a feature too small for double precision";
-        case kTetgenThrew + 5:
-            return "found two facets too close to each other";
-        case kTetgenThrew + 10:
-            return "refused the surface";
-        case kCannotWrite:
-            return "cannot write its answer; make room in the folder for temporary files";
-        default:
-            return "failed with code " + std::to_string(result.exit_code);
-    }
-}
-
-template <typename T>
-bool write_block(std::FILE* file, const T* data, Eigen::Index count) {
-    return std::fwrite(data, sizeof(T), static_cast<std::size_t>(count), file)
-           == static_cast<std::size_t>(count);
-}
-
-template <typename T>
-bool read_block(std::FILE* file, T* data, Eigen::Index count) {
-    return std::fread(data, sizeof(T), static_cast<std::size_t>(count), file)
-           == static_cast<std::size_t>(count);
-}
-
-void write_request(std::FILE* file, const Surface& surface) {
-    const tetgen::Header header{tetgen::kRequestTag,
-                                static_cast<std::uint32_t>(surface.point_count()),
-                                static_cast<std::uint32_t>(surface.triangle_count())};
-    if (!write_block(file, &header, 1)
-        || !write_block(file, surface.points.data(), surface.points.size())
-        || !write_block(file, surface.triangles.data(), surface.triangles.size())
-        || std::fflush(file) != 0) {
-        throw Error("cannot write a temporary file; make room in the folder for temporary files");
-    }
-    std::rewind(file);
-}
-
-Answer read_answer(std::FILE* file) {
-    std::rewind(file);
-    tetgen::Header header;
-    Answer answer;
-    bool is_whole = read_block(file, &header, 1) && header.tag == tetgen::kAnswerTag;
-    if (is_whole) {
-        answer.points.resize(3, header.points);
-        answer.tets.resize(4, header.cells);
-        answer.regions.resize(header.cells);
-        is_whole = read_block(file, answer.points.data(), answer.points.size())
-                   && read_block(file, answer.tets.data(), answer.tets.size())
-                   && read_block(file, answer.regions.data(), header.cells);
-    }
-    if (!is_whole) {
-        throw Error("pent-tetgen: its answer cannot be read; is it of this version?");
-    }
-    return answer;
-}
-
-double volume(const Answer& answer, Eigen::Index tet) {
-    return cell_volume<3>(answer.points, answer.tets, tet);
-}
-
-// TetGen fills cavities too, as regions of their own. The largest tet of each region tells whether
-// the region is in the body.
-std::map<double, bool> regions_inside(const Answer& answer, const Surface& surface) {
-    std::map<double, Eigen::Index> largest;
-    for (Eigen::Index t = 0; t < answer.tets.cols(); ++t) {
-        const auto [place, is_new] = largest.try_emplace(answer.regions[t], t);
-        if (!is_new && std::abs(volume(answer, t)) > std::abs(volume(answer, place->second))) {
-            place->second = t;
-        }
-    }
-    std::map<double, bool> inside;
-    for (const auto& [region, tet] : largest) {
-        Eigen::Vector3d center = Eigen::Vector3d::Zero();
-        for (int i = 0; i < 4; ++i) {
-            center += answer.points.col(answer.tets(i, tet)) / 4;
-        }
-        inside[region] = winding_number(surface, center) > 0.5;
-    }
-    return inside;
-}
-
-// The tets in the body, positively oriented; points only cavities use are left out.
-SimplexMesh<3> body(const Answer& answer, const Surface& surface) {
-    const std::map<double, bool> inside = regions_inside(answer, surface);
-    std::vector<Eigen::Index> kept;
-    std::vector<std::uint32_t> name(answer.points.cols(), 0);
-    for (Eigen::Index t = 0; t < answer.tets.cols(); ++t) {
-        if (inside.at(answer.regions[t])) {
-            kept.push_back(t);
-            for (int i = 0; i < 4; ++i) {
-                name[answer.tets(i, t)] = 1;
-            }
-        }
-    }
-    SimplexMesh<3> mesh;
-    std::uint32_t points = 0;
-    for (std::uint32_t& entry : name) {
-        points += entry;
-        entry = points - entry;  // how many kept ones come before
-    }
-    mesh.positions.resize(3, points);
-    mesh.cells.resize(4, static_cast<Eigen::Index>(kept.size()));
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-        for (int corner = 0; corner < 4; ++corner) {
-            const std::uint32_t old = answer.tets(corner, kept[i]);
-            mesh.cells(corner, static_cast<Eigen::Index>(i)) = name[old];
-            mesh.positions.col(name[old]) = answer.points.col(old);
-        }
-        if (volume(answer, kept[i]) < 0) {
-            std::swap(mesh.cells(2, static_cast<Eigen::Index>(i)),
-                      mesh.cells(3, static_cast<Eigen::Index>(i)));
-        }
-    }
-    return mesh;
-}
+constexpr double kFlattest = 1e-4;  // mean ratio
 
 void check(const TetrahedraOptions& options) {
-    if (!(options.radius_edge_ratio > 1) || !(options.edge_length >= 0)) {
-        throw Error("a radius-edge ratio of " + short_number(options.radius_edge_ratio)
-                    + " and an edge length of " + short_number(options.edge_length)
-                    + "; expected above 1, and 0 or more");
+    if (!(options.radius_edge_ratio > 1)) {
+        throw Error("a radius-edge ratio of " + std::to_string(options.radius_edge_ratio)
+                    + "; expected above 1");
     }
+    if (!(options.edge_length >= 0) || !std::isfinite(options.edge_length)) {
+        throw Error("an edge length of " + std::to_string(options.edge_length)
+                    + " m; expected 0 or more");
+    }
+}
+
+void accept(Tetrahedra& tetrahedra, double expected, double largest_error) {
+    const SimplexMesh<3>& mesh = tetrahedra.mesh;
+    const double found = mesh.cell_count() > 0 ? total_volume(mesh) : 0;
+    tetrahedra.volume_error = std::abs(found - expected) / std::abs(expected);
+    char text[160];
+    if (!(tetrahedra.volume_error < largest_error)) {
+        std::snprintf(text, sizeof text, " filled %.6g m^3 of %.6g m^3 that the surface encloses",
+                      found, expected);
+        throw Error(tetrahedra.generator + text);
+    }
+    validate(mesh, tetrahedra.generator);
+    const Proof proof = prove(mesh);
+    if (!proof.holds()) {
+        throw Error(tetrahedra.generator + " is not sound: " + describe_faults(proof, 3));
+    }
+    if (const LinkReport links = check_links(mesh); links.faulty > 0) {
+        throw Error(tetrahedra.generator + " touches itself at " + std::to_string(links.faulty)
+                    + " points");
+    }
+    const double flattest = measure_quality(mesh).mean_ratio.min;
+    if (flattest < kFlattest) {
+        std::snprintf(text, sizeof text, " left a tetrahedron of mean ratio %.1e", flattest);
+        throw Error(tetrahedra.generator + text);
+    }
+}
+
+Tetrahedra fill(const Surface& surface, const TetrahedraOptions& options, double expected) {
+    const bool is_mesh3 = options.generator == Generator::Mesh3;
+    Tetrahedra tetrahedra =
+        is_mesh3 ? fill_with_mesh3(surface, options) : fill_with_tetgen(surface, options);
+    // TetGen keeps the surface, Mesh_3 approximates it.
+    accept(tetrahedra, expected, is_mesh3 ? 0.05 : 1e-6);
+    return tetrahedra;
+}
+
+std::vector<TetrahedraOptions> attempts(const TetrahedraOptions& options) {
+    if (options.generator != Generator::Auto) {
+        return {options};
+    }
+    TetrahedraOptions kept = options;
+    kept.generator = Generator::TetGen;
+    TetrahedraOptions subdivided = kept;
+    subdivided.keep_surface = false;
+    TetrahedraOptions approximated = options;
+    approximated.generator = Generator::Mesh3;
+    return options.keep_surface ? std::vector{kept, subdivided, approximated}
+                                : std::vector{subdivided, approximated};
 }
 
 }  // namespace
 
 Tetrahedra tetrahedralize(const Surface& surface, const TetrahedraOptions& options) {
     check(options);
-    const std::filesystem::path worker =
-        options.worker.empty() ? find_helper("pent-tetgen") : options.worker;
-    const File request = temporary_file();
-    const File reply = temporary_file();
-    write_request(request.get(), surface);
-    const std::string wanted = switches(options);
-    const ProcessResult result =
-        run_process(worker,
-                    {wanted + "AQS" + std::to_string(options.max_added_points),
-                     std::to_string(options.memory_mib), std::to_string(options.cpu_seconds)},
-                    request.get(), reply.get());
-    if (result.signal != 0 || result.exit_code != tetgen::kDone) {
-        throw Error("pent-tetgen (switches " + wanted + ") " + explain(result, options));
-    }
-    Tetrahedra tetrahedra;
-    tetrahedra.mesh = body(read_answer(reply.get()), surface);
-    tetrahedra.generator = "TetGen " + wanted;
     const double expected = enclosed_volume(surface);
-    const double found = total_volume(tetrahedra.mesh);
-    tetrahedra.volume_error = std::abs(found - expected) / std::abs(expected);
-    if (tetrahedra.mesh.cell_count() == 0 || !(tetrahedra.volume_error < 1e-6)) {
-        throw Error("pent-tetgen (switches " + wanted + ") filled " + short_number(found)
-                    + " m^3 of a surface that encloses " + short_number(expected)
-                    + " m^3; expected equality to 1e-6");
+    std::string failures;
+    if (!(expected > 0)) {
+        throw Error("the surface encloses " + std::to_string(expected)
+                    + " m^3; expected a closed one, oriented outward");
     }
-    return tetrahedra;
+    for (const TetrahedraOptions& attempt : attempts(options)) {
+        try {
+            Tetrahedra tetrahedra = fill(surface, attempt, expected);
+            tetrahedra.failures = failures;
+            return tetrahedra;
+        } catch (const Error& error) {
+            failures += (failures.empty() ? "" : "; ") + std::string(error.what());
+        }
+    }
+    throw Error(failures);
 }
 
 }  // namespace pent::mesher

@@ -127,7 +127,10 @@ Eigen::Vector3d TextReader::point() {
 }
 
 std::uint32_t TextReader::index(std::string_view word, std::int64_t end) const {
-    const std::int64_t value = integer(word, "an index");
+    return index(integer(word, "an index"), end);
+}
+
+std::uint32_t TextReader::index(std::int64_t value, std::int64_t end) const {
     if (value < 0 || value >= end) {
         fail("index " + std::to_string(value) + " of " + std::to_string(end));
     }
@@ -141,6 +144,10 @@ std::int64_t TextReader::count(std::string_view word, std::string_view expected)
              + std::to_string(size()) + " bytes");
     }
     return value;
+}
+
+bool TextReader::starts_with(std::string_view text) const {
+    return std::string_view(text_).substr(at_, end_ - at_).starts_with(text);
 }
 
 std::string_view TextReader::rest() const {

@@ -42,6 +42,14 @@ public:
     /// A word as a number of things in the file, each of a byte or more: at most its size.
     [[nodiscard]] std::int64_t count(std::string_view word, std::string_view expected) const;
 
+    [[nodiscard]] std::uint32_t index(std::int64_t value, std::int64_t end) const;
+
+    /// Leaves out what is left of this line.
+    void skip_line() { at_ = end_; }
+
+    /// Whether what is left of this line starts with a text.
+    [[nodiscard]] bool starts_with(std::string_view text) const;
+
     /// What follows the current line.
     [[nodiscard]] std::string_view rest() const;
 

@@ -119,6 +119,30 @@ TEST(RankVertices, SweepsAlongTheLongestSide) {
     }
 }
 
+TEST(ImproveRanks, MakesTheWorstSimplicesBetter) {
+    SimplexMesh<3> base = test::kuhn_box<3>({3, 3, 3}, {1, 1, 1});
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> jitter(-0.06, 0.06);
+    base.positions = base.positions.unaryExpr([&](double x) { return x + jitter(random); }).eval();
+    validate(base, "base");
+    std::vector<std::uint32_t> ranks(base.vertex_count());
+    std::iota(ranks.begin(), ranks.end(), 0U);
+    std::shuffle(ranks.begin(), ranks.end(), random);
+    const Eigen::Vector4d slab(0, 0, 0, 0.3);
+    const auto worst = [&](const std::vector<std::uint32_t>& order) {
+        const auto ordered = order_cells<3>(base, direct_edges<3>(base, order));
+        const auto mesh = extrude<4>(base, ordered, straight_layers<4>(slab, 1));
+        return measure_quality(mesh).mean_ratio.min;
+    };
+    const std::vector<std::uint32_t> improved = improve_ranks<3>(base, ranks, slab);
+    EXPECT_GT(worst(improved), worst(ranks));
+    std::vector<std::uint32_t> sorted = improved;
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<std::uint32_t> all(sorted.size());
+    std::iota(all.begin(), all.end(), 0U);
+    EXPECT_EQ(sorted, all);
+}
+
 TEST(ReadDirectedEdges, ReadsPairsAndNamesTheLineOfWhatIsWrong) {
     const test::TempFolder folder;
     const auto path = folder / "edges.txt";

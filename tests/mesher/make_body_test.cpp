@@ -82,6 +82,93 @@ TEST(MakeBody, RefusesWhatCannotBeExtruded) {
     test::expect_contains(message_for(request), {"along w"});
 }
 
+TEST(MakeBody, MeetsATargetWithinTwoPercent) {
+    for (const std::int64_t target : {20000, 150000}) {
+        BodyRequest request = request_for("octopus_5246f.obj");
+        request.target_cells = target;
+        const Body<4> body = make_body(request);
+        EXPECT_NEAR(static_cast<double>(body.mesh.cell_count()), static_cast<double>(target),
+                    0.02 * static_cast<double>(target));
+        EXPECT_GE(body.report.fillings, 1);
+    }
+}
+
+TEST(MakeBody, AimsAtAnEdgeLength) {
+    BodyRequest request = request_for("octopus_5246f.obj");
+    request.edge_length = 0.2;
+    // Constrained by the shape, TetGen's edges come out up to a third longer or shorter.
+    EXPECT_NEAR(make_body(request).report.base_edge, 0.2, 0.07);
+}
+
+TEST(MakeBody, ExtrudesTetrahedraAsTheyAre) {
+    const test::TempFolder folder;
+    test::write_file(folder / "a.tobj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 1 0 2 3\n");
+    BodyRequest request;
+    request.input = folder / "a.tobj";
+    request.extrusion.thickness = 6;
+    request.extrusion.layers = 2;
+    const Body<4> body = make_body(request);
+    EXPECT_EQ(body.mesh.cell_count(), 8);
+    EXPECT_NEAR(body.report.proof.volume, 1, 1e-15);
+    // Two that overlap do not fit together.
+    test::write_file(folder / "a.tobj",
+                     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 2\nt 0 1 2 3\nt 0 1 2 4\n");
+    test::expect_contains(message_for(request), {"a.tobj", "do not fit together"});
+}
+
+TEST(MakeBody, FollowsEdgeDirectionsFromAFile) {
+    const test::TempFolder folder;
+    test::write_file(folder / "a.tobj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2 3\n");
+    test::write_file(folder / "down.txt", "3 2\n3 1\n3 0\n2 1\n2 0\n1 0\n");
+    test::write_file(folder / "around.txt", "0 1\n1 2\n2 0\n0 3\n1 3\n2 3\n");
+    BodyRequest request;
+    request.input = folder / "a.tobj";
+    request.extrusion.layers = 1;
+    request.extrusion.edge_directions = folder / "down.txt";
+    const Body<4> body = make_body(request);
+    // The first simplex has the bottom of vertex 3 alone, and all tops.
+    EXPECT_EQ(body.mesh.columns[body.mesh.cells(0, 0)], 3U);
+    EXPECT_EQ(body.mesh.layers[body.mesh.cells(0, 0)], 0U);
+    request.extrusion.edge_directions = folder / "around.txt";
+    test::expect_contains(message_for(request), {"1 triangle is a directed cycle: 0 -> 1 -> 2"});
+}
+
+TEST(MakeBody, MakesShapesWithoutAFile) {
+    BodyRequest request;
+    request.tetrahedra.worker = PENT_TETGEN_WORKER;
+    request.input = BallShape{4, 1};
+    request.extrusion.thickness = 20;
+    request.extrusion.layers = 40;
+    const Body<4> noodle = make_body(request);
+    EXPECT_EQ(noodle.mesh.vertex_count(), 6683);
+    EXPECT_EQ(noodle.mesh.cell_count(), 51200);
+
+    request.input = SphereShape{4, 2};
+    request.extrusion = {.round = true};
+    const Body<4> hyperball = make_body(request);
+    EXPECT_TRUE(hyperball.report.proof.holds());
+    EXPECT_EQ(hyperball.mesh.positions.row(3).maxCoeff(), 2);
+
+    request.input = BoxShape{{4, 1, 1, 1}, {4, 1, 1, 1}, CubeCut::Corners};
+    request.subdivide = 2;
+    const Body<4> box = make_body(request);
+    EXPECT_EQ(box.mesh.cell_count(), 4 * 16 * 16);
+    EXPECT_EQ(box.mesh.positions.row(0).minCoeff(), -2);
+    EXPECT_DOUBLE_EQ(box.report.proof.volume, 4);
+}
+
+TEST(MakeBody, MendsOrRefusesEveryDirtyModel) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(PENT_MODELS) + "/dirty")) {
+        const BodyRequest request = request_for("dirty/" + entry.path().filename().string());
+        if (entry.path().filename() == "d_coplanar.off") {
+            test::expect_contains(message_for(request), {"d_coplanar.off", "in a plane"});
+        } else {
+            EXPECT_TRUE(make_body(request).report.proof.holds()) << entry.path();
+        }
+    }
+}
+
 TEST(MakeBodyFromPlane, ExtrudesAFlatMeshAlongZ) {
     const test::TempFolder folder;
     test::write_file(folder / "flat.obj", "v 0 0 5\nv 1 0 5\nv 1 1 5\nv 0 1 5\nf 1 2 3\nf 1 4 3\n");

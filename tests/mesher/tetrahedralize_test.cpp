@@ -13,6 +13,7 @@ namespace {
 
 TetrahedraOptions options() {
     TetrahedraOptions result;
+    result.generator = Generator::TetGen;
     result.worker = PENT_TETGEN_WORKER;
     return result;
 }
@@ -105,6 +106,27 @@ TEST(Tetrahedralize, RefusesOptionsOutOfRange) {
     wrong = options();
     wrong.edge_length = -1;
     test::expect_contains(message_for(box, wrong), {"edge length"});
+}
+
+TEST(TetrahedralizeByMesh3, FillsEveryBodyAndLeavesCavitiesEmpty) {
+    TetrahedraOptions mesh3;
+    mesh3.generator = Generator::Mesh3;
+    mesh3.edge_length = 0.5;
+    const Surface hollow = test::join(test::box_surface({0, 0, 0}, {3, 3, 3}),
+                                      test::box_surface({1, 1, 1}, {2, 2, 2}));
+    const Surface both = test::join(hollow, test::box_surface({4, 0, 0}, {4.3, 0.3, 0.3}));
+    const Tetrahedra tetrahedra = tetrahedralize(orient(both).surface, mesh3);
+    // Sharp edges are kept, so that boxes come out to rounding of their flat sides.
+    EXPECT_NEAR(total_volume(tetrahedra.mesh), 26.027, 1e-6);
+    EXPECT_EQ(tetrahedra.generator, "CGAL Mesh_3");
+}
+
+TEST(TetrahedralizeAuto, FallsBackToMesh3AndSaysWhy) {
+    TetrahedraOptions broken;
+    broken.worker = "/bin/false";
+    const Tetrahedra tetrahedra = tetrahedralize(test::box_surface({0, 0, 0}, {1, 1, 1}), broken);
+    EXPECT_EQ(tetrahedra.generator, "CGAL Mesh_3");
+    test::expect_contains(tetrahedra.failures, {"TetGen", "code 1"});
 }
 
 }  // namespace

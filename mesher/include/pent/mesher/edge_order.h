@@ -39,10 +39,26 @@ template <int Dim>
 [[nodiscard]] DirectedEdges direct_edges(const SimplexMesh<Dim>& mesh,
                                          const std::vector<std::uint32_t>& ranks);
 
-/// Ranks of the vertices in an order that needs no more than the mesh: Index or Sweep.
+/// Ranks of the vertices by number, or along the longest side; Quality starts from Index, see
+/// improve_ranks().
 template <int Dim>
 [[nodiscard]] std::vector<std::uint32_t> rank_vertices(const SimplexMesh<Dim>& mesh,
                                                        VertexOrder order);
+
+/// Moves vertices in the order so that the worst simplices around them become better.
+///
+/// Vertices are taken in turn, those around the worst simplices first, and each gets the rank among
+/// its neighbors' that is best for the prisms around it. The worst mean ratio of a slab never falls.
+/// Takes some 10 us a vertex and sweep.
+/// @param ranks   One a vertex, all different.
+/// @param slab    From a base vertex to its copy, m.
+/// @param sweeps  At most.
+template <int Dim>
+[[nodiscard]] std::vector<std::uint32_t> improve_ranks(
+    const SimplexMesh<Dim>& mesh,
+    std::vector<std::uint32_t> ranks,
+    const Eigen::Matrix<double, Dim + 1, 1>& slab,
+    int sweeps = 4);
 
 /// Orders the corners of every cell by the directions of the edges.
 ///

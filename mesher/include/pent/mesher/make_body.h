@@ -4,16 +4,35 @@
 #include <pent/mesher/extrude.h>
 #include <pent/mesher/prove.h>
 #include <pent/mesher/quality.h>
+#include <pent/mesher/repair.h>
+#include <pent/mesher/shapes.h>
 #include <pent/mesher/surface_check.h>
 #include <pent/mesher/tetrahedralize.h>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace pent::mesher {
+
+/// Shapes that need no file. Spheres and balls are bases to extrude, boxes are bodies already.
+struct SphereShape {
+    int frequency = 4;  ///< See sphere(); filled as any surface is.
+    double radius = 1;  ///< m.
+};
+struct BallShape {
+    int frequency = 4;  ///< See ball().
+    double radius = 1;  ///< m.
+};
+struct BoxShape {
+    std::array<int, 4> count = {1, 1, 1, 1};    ///< Tesseracts along x y z w.
+    std::array<double, 4> size = {1, 1, 1, 1};  ///< m; centered at the origin.
+    CubeCut cut = CubeCut::Paths;
+};
 
 /// How a base mesh becomes a body of one dimension more.
 struct ExtrusionRequest {
@@ -24,6 +43,9 @@ struct ExtrusionRequest {
     std::optional<Eigen::VectorXd> direction;
     int layers = 0;  ///< Slabs of simplices, 1 to 1e6; 0: see automatic_slabs().
     Anchor anchor = Anchor::Middle;
+    std::filesystem::path profile;  ///< File of layers (see read_profile), instead of all above.
+    bool round = false;  ///< Instead: to a point at both ends, see round_layers(); thickness is the
+                         ///< whole height, and by default the largest side.
     bool alternate = true;
     VertexOrder order = VertexOrder::Index;
     std::filesystem::path edge_directions;  ///< File of directed edges, instead of an order.
@@ -31,10 +53,15 @@ struct ExtrusionRequest {
 
 /// What pent-mesh is asked for.
 struct BodyRequest {
-    std::filesystem::path input;
+    /// A file with a surface or a tet mesh (see read_surface, read_tetrahedra), or a shape.
+    std::variant<std::filesystem::path, SphereShape, BallShape, BoxShape> input;
+    RepairOptions repair;
     std::int64_t surface_triangles = 0;  ///< To refine or coarsen the surface to; 0: as it is.
-    TetrahedraOptions tetrahedra;
+    double edge_length = 0;         ///< To aim at, on the surface and inside, m; 0: as it comes.
+    std::int64_t target_cells = 0;  ///< To aim at in the body, within 2%; 0: as it comes.
+    TetrahedraOptions tetrahedra;   ///< Its edge_length is for the inside alone.
     ExtrusionRequest extrusion;
+    int subdivide = 1;  ///< Every edge of the body is cut in this many parts, see subdivide().
 };
 
 /// What a stage of the work took.
@@ -49,17 +76,22 @@ struct BodyReport {
     std::int64_t flipped_triangles = 0;
     std::int64_t components = 0;
     std::int64_t cavities = 0;
-    SurfaceReport surface;    ///< Of the surface that was filled.
-    double surface_area = 0;  ///< m^2.
+    Repair repair = Repair::None;  ///< How the surface was mended, if it had to be.
+    double repair_distance = 0;    ///< From the mended surface to the one read, m.
+    SurfaceReport surface_read;    ///< Before.
+    SurfaceReport surface;         ///< Of the surface that was filled.
+    double surface_area = 0;       ///< m^2.
 
     std::string generator;  ///< What made the base cells, as in "TetGen pq1.414Y".
+    std::string failures;   ///< Of the generators tried before; empty if there were none.
+    int fillings = 0;       ///< How often the surface was filled to meet target_cells.
     std::int64_t base_vertices = 0;
     std::int64_t base_cells = 0;
     double base_volume = 0;  ///< m^(Dim - 1).
     double base_edge = 0;    ///< Mean length, m.
 
-    Eigen::VectorXd direction;  ///< The whole extrusion, m.
-    int layers = 0;             ///< Slabs of simplices.
+    Eigen::VectorXd direction;  ///< From the first layer to the last, m.
+    int layers = 0;             ///< Slabs of simplices; 0: not extruded.
 
     Proof proof;
     QualityReport quality;
@@ -72,10 +104,12 @@ struct Body {
     BodyReport report;
 };
 
-/// Makes a pentachoral body from a closed surface: read, check, resample, fill, extrude, prove.
+/// Makes a pentachoral body from a surface (read, mend, resample, fill, extrude, prove) or from a
+/// tet mesh (read, extrude, prove).
 ///
-/// Throws an Error if the surface is not clean, with what, how many and where; if a stage fails; or
-/// if the result does not pass prove().
+/// If a surface that was clean or lightly mended cannot be filled, and a wrap is allowed, its wrap
+/// is. An edge length beyond that of the surface coarsens it. Throws an Error if the surface cannot be made clean, with what, how many and where; if a stage
+/// fails; or if the result does not pass prove().
 [[nodiscard]] Body<4> make_body(const BodyRequest& request);
 
 /// Makes a tetrahedral body from a flat triangle mesh: all z are equal, and become the base of the

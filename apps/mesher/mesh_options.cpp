@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "mesh_options.h"
+
+#include <utility>
+
+namespace pent::apps {
+
+namespace {
+
+using mesher::CubeCut;
+using mesher::Generator;
+using mesher::Repair;
+using mesher::VertexOrder;
+
+// Makes an option take one word of a few; the first one is what it is by default.
+template <typename Value>
+CLI::Option* choose(CLI::Option* option,
+                    const std::vector<std::pair<std::string, Value>>& choices) {
+    std::string text;
+    for (const auto& [word, value] : choices) {
+        text += (text.empty() ? "" : "|") + word;
+    }
+    return option->transform(CLI::CheckedTransformer(choices, CLI::ignore_case))
+        ->option_text(text + " [" + choices.front().first + "]");
+}
+
+void add_input(CLI::App& cli, MeshArguments& arguments) {
+    CLI::Option_group* input = cli.add_option_group("Input", "One of these");
+    input
+        ->add_option("input", arguments.input,
+                     "A surface (.obj .off .ply .stl .gltf .glb) or tetrahedra (.node/.ele .mesh "
+                     ".msh .vtk .tobj)")
+        ->type_name("FILE");
+    input->add_option("--sphere", arguments.sphere, "A surface of 20 N^2 triangles")
+        ->check(CLI::Range(1, 1000))
+        ->type_name("N");
+    input->add_option("--ball", arguments.ball, "20 N^2 tetrahedra around the center of a sphere")
+        ->check(CLI::Range(1, 1000))
+        ->type_name("N");
+    input->add_option("--box", arguments.box, "Tesseracts along x,y,z,w; this is not extruded")
+        ->delimiter(',')
+        ->expected(4)
+        ->type_name("X,Y,Z,W");
+    input->require_option(1);
+    cli.add_option("--size", arguments.size,
+                   "Radius of a sphere or ball, edge or edges x,y,z,w of a box (m)")
+        ->delimiter(',')
+        ->expected(1, 4)
+        ->check(CLI::PositiveNumber)
+        ->default_str("1");
+    choose<CubeCut>(cli.add_option("--cut", arguments.cut,
+                                   "Tesseracts into 24 pentachora (paths) or into 16 (corners)"),
+                    {{"paths", CubeCut::Paths}, {"corners", CubeCut::Corners}});
+}
+
+void add_surface(CLI::App& cli, mesher::BodyRequest& request) {
+    choose<Repair>(
+        cli.add_option(
+            "--repair", request.repair.repair,
+            "How far a surface that is not clean may be mended: auto, light (stitch, fill "
+            "holes, cut out self-intersections), wrap (a new surface around it) or none"),
+        {{"auto", Repair::Auto},
+         {"light", Repair::Light},
+         {"wrap", Repair::Wrap},
+         {"none", Repair::None}})
+        ->group("Surface");
+    cli.add_option("--wrap-distance", request.repair.wrap_distance,
+                   "Largest distance of a wrap from the surface, over its diagonal")
+        ->check(CLI::Range(1e-4, 1.0))
+        ->capture_default_str()
+        ->group("Surface");
+}
+
+void add_resolution(CLI::App& cli, MeshArguments& arguments) {
+    mesher::BodyRequest& request = arguments.request;
+    const auto group = "Resolution";
+    CLI::Option* triangles = cli.add_option("--surface-triangles", request.surface_triangles,
+                                            "Refine or coarsen the surface to this many triangles")
+                                 ->check(CLI::Range(std::int64_t{4}, std::int64_t{1} << 31))
+                                 ->group(group);
+    CLI::Option* edge = cli.add_option("--edge-length", request.edge_length,
+                                       "Aim at edges of this length (m), on the surface and inside")
+                            ->check(CLI::PositiveNumber)
+                            ->excludes(triangles)
+                            ->group(group);
+    cli.add_option("--target-pentachora", request.target_cells,
+                   "Aim at this many pentachora, within 2%")
+        ->check(CLI::Range(std::int64_t{100}, std::int64_t{1} << 31))
+        ->excludes(edge)
+        ->group(group);
+    choose<Generator>(
+        cli.add_option("--generator", request.tetrahedra.generator,
+                       "What fills the surface: auto (TetGen, else Mesh_3), tetgen or mesh3"),
+        {{"auto", Generator::Auto}, {"tetgen", Generator::TetGen}, {"mesh3", Generator::Mesh3}})
+        ->group(group);
+    cli.add_option("--radius-edge-ratio", request.tetrahedra.radius_edge_ratio,
+                   "TetGen: bound for circumradius over shortest edge; lower gives more cells")
+        ->check(CLI::Range(1.05, 10.0))
+        ->capture_default_str()
+        ->group(group);
+    cli.add_flag("--subdivide-surface", arguments.subdivide_surface,
+                 "TetGen: cut the surface's triangles where that makes better cells")
+        ->group(group);
+    cli.add_option("--subdivide", request.subdivide,
+                   "Cut every edge of the body in K parts: K^4 times the pentachora")
+        ->check(CLI::Range(1, 64))
+        ->type_name("K")
+        ->group(group);
+}
+
+void add_extrusion(CLI::App& cli, MeshArguments& arguments) {
+    mesher::ExtrusionRequest& extrusion = arguments.request.extrusion;
+    const auto group = "Extrusion";
+    CLI::Option* thickness =
+        cli.add_option("--thickness", arguments.thickness,
+                       "Along w (m), negative for -w; default: 0.2 of the largest side")
+            ->group(group);
+    CLI::Option* direction =
+        cli.add_option("--extrude", arguments.direction, "The whole extrusion as x,y,z,w (m)")
+            ->delimiter(',')
+            ->expected(3, 4)
+            ->type_name("X,Y,Z,W")
+            ->excludes(thickness)
+            ->group(group);
+    CLI::Option* layers =
+        cli.add_option("--layers", extrusion.layers,
+                       "Layers of pentachora; default: as many as give the best shapes")
+            ->check(CLI::Range(1, 1'000'000))
+            ->group(group);
+    CLI::Option* round = cli.add_flag("--round", extrusion.round,
+                                      "Shrink to a point at both ends: a ball becomes a hyperball")
+                             ->excludes(direction)
+                             ->group(group);
+    cli.add_option("--profile", extrusion.profile,
+                   "File of layers, `w scale [x y z [xy xz xw yz yw zw]]` a line (m, degrees)")
+        ->type_name("FILE")
+        ->excludes(thickness)
+        ->excludes(direction)
+        ->excludes(layers)
+        ->excludes(round)
+        ->group(group);
+    cli.add_flag("--one-sided", arguments.one_sided,
+                 "Extrude from w = 0 instead of to both sides of it")
+        ->group(group);
+    CLI::Option* order =
+        choose<VertexOrder>(
+            cli.add_option("--order", extrusion.order, "Vertex order: index, sweep or quality"),
+            {{"index", VertexOrder::Index},
+             {"sweep", VertexOrder::Sweep},
+             {"quality", VertexOrder::Quality}})
+            ->group(group);
+    cli.add_option("--edge-directions", extrusion.edge_directions,
+                   "Instead of an order: a file with a directed edge `from to` of the base a line")
+        ->type_name("FILE")
+        ->excludes(order)
+        ->group(group);
+    cli.add_flag("--lean", arguments.lean, "The same order in all layers, instead of alternating")
+        ->group(group);
+}
+
+decltype(mesher::BodyRequest::input) input_of(const MeshArguments& arguments) {
+    if (arguments.sphere > 0) {
+        return mesher::SphereShape{arguments.sphere, arguments.size[0]};
+    }
+    if (arguments.ball > 0) {
+        return mesher::BallShape{arguments.ball, arguments.size[0]};
+    }
+    if (arguments.box.empty()) {
+        return arguments.input;
+    }
+    mesher::BoxShape box;
+    box.cut = arguments.cut;
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+        box.count[axis] = arguments.box[axis];
+        box.size[axis] = arguments.size[std::min(axis, arguments.size.size() - 1)];
+    }
+    return box;
+}
+
+}  // namespace
+
+void add_options(CLI::App& cli, MeshArguments& arguments) {
+    add_input(cli, arguments);
+    cli.add_option("-o,--output", arguments.output, "Where the mesh goes, a .pent file")
+        ->required()
+        ->type_name("FILE");
+    cli.add_option("--dim", arguments.dim,
+                   "Dimension of the mesh: 4, or 3 to extrude a flat triangle mesh along z")
+        ->check(CLI::IsMember({3, 4}))
+        ->capture_default_str();
+    cli.add_flag("--ascii", arguments.ascii, "Write text instead of binary");
+    cli.add_flag("--quality", arguments.show_quality, "Print percentiles and a histogram");
+    add_surface(cli, arguments.request);
+    add_resolution(cli, arguments);
+    add_extrusion(cli, arguments);
+}
+
+void complete(const CLI::App& cli, MeshArguments& arguments) {
+    mesher::BodyRequest& request = arguments.request;
+    request.input = input_of(arguments);
+    request.tetrahedra.keep_surface = !arguments.subdivide_surface;
+    if (cli.count("--thickness") > 0) {
+        request.extrusion.thickness = arguments.thickness;
+    }
+    if (!arguments.direction.empty()) {
+        request.extrusion.direction = Eigen::Map<const Eigen::VectorXd>(
+            arguments.direction.data(), static_cast<Eigen::Index>(arguments.direction.size()));
+    }
+    request.extrusion.anchor = arguments.one_sided ? mesher::Anchor::Start : mesher::Anchor::Middle;
+    request.extrusion.alternate = !arguments.lean;
+}
+
+}  // namespace pent::apps

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <pent/mesher/make_body.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+namespace pent::apps {
+
+/// What the command line of pent-mesh says; what is not a field of the request yet becomes one in
+/// complete().
+struct MeshArguments {
+    mesher::BodyRequest request;
+    std::filesystem::path output;
+    int dim = 4;
+    bool ascii = false;
+    bool show_quality = false;
+
+    std::filesystem::path input;
+    int sphere = 0;
+    int ball = 0;
+    std::vector<int> box;
+    std::vector<double> size = {1};
+    mesher::CubeCut cut = mesher::CubeCut::Paths;
+    std::vector<double> direction;
+    double thickness = 0;
+    bool one_sided = false;
+    bool lean = false;
+    bool subdivide_surface = false;
+};
+
+/// Adds every option of pent-mesh but the common ones.
+void add_options(CLI::App& cli, MeshArguments& arguments);
+
+/// Fills the request from the other fields, after parsing.
+void complete(const CLI::App& cli, MeshArguments& arguments);
+
+}  // namespace pent::apps

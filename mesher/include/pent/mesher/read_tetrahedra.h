@@ -1,0 +1,26 @@
+#pragma once
+
+#include <pent/simplex_mesh.h>
+
+#include <filesystem>
+
+namespace pent::mesher {
+
+/// Whether the name ends like that of a file with tetrahedra.
+[[nodiscard]] bool is_tetrahedra_file(const std::filesystem::path& path);
+
+/// A tet mesh as a file has it, and what was done to read it.
+struct TetrahedraFile {
+    SimplexMesh<3> mesh;             ///< Positively oriented; regions where the file has labels.
+    std::int64_t turned_cells = 0;   ///< Cells that were negative in the file.
+    std::int64_t unused_points = 0;  ///< Points without a tetrahedron, left out.
+};
+
+/// Reads a tet mesh: TetGen .node or .ele (either name; both files), Medit .mesh, Gmsh .msh 2.2 and
+/// 4.1, legacy VTK .vtk, HOBAK .tobj; all as text. Cells of other kinds are skipped.
+///
+/// Throws an Error that names file and line for what is damaged, and one for a mesh that does not
+/// pass validate(). Allocates no more than the size of the file bears out.
+[[nodiscard]] TetrahedraFile read_tetrahedra(const std::filesystem::path& path);
+
+}  // namespace pent::mesher

@@ -1,0 +1,89 @@
+#include "text_reader.h"
+
+#include <pent/error.h>
+#include <pent/mesher/profile.h>
+
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace pent::mesher {
+
+namespace {
+
+constexpr std::array<std::array<int, 2>, 6> kPlanes = {
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+// Turns axis `from` towards axis `to`.
+Eigen::Matrix4d rotation(int from, int to, double degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    Eigen::Matrix4d R = Eigen::Matrix4d::Identity();
+    R(from, from) = std::cos(angle);
+    R(to, to) = std::cos(angle);
+    R(from, to) = -std::sin(angle);
+    R(to, from) = std::sin(angle);
+    return R;
+}
+
+Layer<4> read_layer(TextReader& text) {
+    std::array<double, 11> values{};  // w, scale, x y z, six angles
+    std::size_t count = 0;
+    for (std::string_view word = text.word(); !word.empty(); word = text.word()) {
+        if (count == values.size()) {
+            text.fail("more than 11 numbers; expected w scale [x y z [xy xz xw yz yw zw]]");
+        }
+        values[count++] = text.number(word, "a number of a layer");
+    }
+    if (count != 2 && count != 5 && count != 11) {
+        text.fail(std::to_string(count) + " numbers; expected w scale [x y z [xy xz xw yz yw zw]]");
+    }
+    if (values[1] < 0) {
+        text.fail("scale " + std::to_string(values[1]) + "; expected 0 or more");
+    }
+    Eigen::Matrix4d R = Eigen::Matrix4d::Identity();
+    for (std::size_t plane = 0; plane < kPlanes.size(); ++plane) {
+        R = rotation(kPlanes[plane][0], kPlanes[plane][1], values[5 + plane]) * R;
+    }
+    Layer<4> layer;
+    layer.linear = values[1] * R.leftCols<3>();
+    layer.offset << values[2], values[3], values[4], values[0];
+    return layer;
+}
+
+}  // namespace
+
+std::vector<Layer<4>> read_profile(const std::filesystem::path& path) {
+    TextReader text(path);
+    std::vector<Layer<4>> layers;
+    while (text.next_line()) {
+        if (layers.size() > 1 && layers.back().is_point()) {
+            text.fail("a layer behind a point; only the first and the last may have scale 0");
+        }
+        layers.push_back(read_layer(text));
+    }
+    if (layers.size() < 2) {
+        text.fail(std::to_string(layers.size()) + " layers; expected 2 or more");
+    }
+    if (layers.size() == 2 && layers[0].is_point() && layers[1].is_point()) {
+        text.fail("two points and nothing between them");
+    }
+    return layers;
+}
+
+std::vector<Layer<4>> round_layers(double radius, int slabs) {
+    assert(slabs >= 2);
+    std::vector<Layer<4>> layers(slabs + 1);
+    for (int l = 0; l <= slabs; ++l) {
+        const double angle = std::numbers::pi * (2 * l - slabs) / (2.0 * slabs);
+        const bool is_end = l == 0 || l == slabs;
+        layers[l].linear.setZero();
+        layers[l].linear.topRows<3>().setIdentity();
+        layers[l].linear *= is_end ? 0 : std::cos(angle);
+        layers[l].offset << 0, 0, 0, radius * std::sin(angle);
+    }
+    return layers;
+}
+
+}  // namespace pent::mesher

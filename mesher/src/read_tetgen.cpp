@@ -1,0 +1,83 @@
+#include "tet_readers.h"
+#include "text_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace pent::mesher {
+
+namespace {
+
+void next_line(TextReader& text, const char* expected) {
+    if (!text.next_line()) {
+        text.fail(std::string("the file ends here; expected ") + expected);
+    }
+}
+
+// Points are numbered from 0 or 1: by the number of the first one.
+std::int64_t read_nodes(TextReader& text, TetSoup& soup) {
+    next_line(text, "the number of points");
+    const std::int64_t points = text.count(text.word(), "the number of points");
+    const std::int64_t dimension = text.integer(text.word(), "the dimension");
+    if (dimension != 3) {
+        text.fail("dimension " + std::to_string(dimension) + "; expected 3");
+    }
+    std::int64_t first = 0;
+    for (std::int64_t i = 0; i < points; ++i) {
+        next_line(text, "a point");
+        const std::int64_t number = text.integer(text.word(), "the number of a point");
+        if (i == 0) {
+            first = number;
+        }
+        if (number != first + i || first < 0 || first > 1) {
+            text.fail("point number " + std::to_string(number) + "; expected "
+                      + std::to_string(i == 0 ? 0 : first + i) + (i == 0 ? " or 1" : ""));
+        }
+        soup.points.push_back(text.point());
+    }
+    return first;
+}
+
+void read_elements(TextReader& text, std::int64_t first, TetSoup& soup) {
+    next_line(text, "the number of tetrahedra");
+    const std::int64_t tets = text.count(text.word(), "the number of tetrahedra");
+    const std::int64_t corners = text.integer(text.word(), "the number of corners");
+    const std::string_view word = text.word();
+    const std::int64_t attributes =
+        word.empty() ? 0 : text.integer(word, "the number of attributes");
+    if (corners != 4 && corners != 10) {
+        text.fail(std::to_string(corners) + " corners; expected 4 or 10");
+    }
+    const auto points = static_cast<std::int64_t>(soup.points.size());
+    for (std::int64_t i = 0; i < tets; ++i) {
+        next_line(text, "a tetrahedron");
+        static_cast<void>(text.integer(text.word(), "the number of a tetrahedron"));
+        std::array<std::uint32_t, 4> tet{};
+        for (std::uint32_t& corner : tet) {
+            const std::int64_t number = text.integer(text.word(), "a corner");
+            corner = text.index(number - first, points);
+        }
+        soup.tets.push_back(tet);
+        for (std::int64_t extra = 4; extra < corners; ++extra) {
+            static_cast<void>(text.word());  // middles of edges
+        }
+        if (attributes > 0) {
+            const double label = text.number(text.word(), "an attribute");
+            soup.labels.push_back(std::llround(std::clamp(label, -1.0, 1e9)));
+        }
+    }
+}
+
+}  // namespace
+
+TetSoup read_tetgen(const std::filesystem::path& path) {
+    TetSoup soup;
+    TextReader nodes(std::filesystem::path(path).replace_extension(".node"));
+    const std::int64_t first = read_nodes(nodes, soup);
+    TextReader elements(std::filesystem::path(path).replace_extension(".ele"));
+    read_elements(elements, first, soup);
+    return soup;
+}
+
+}  // namespace pent::mesher

@@ -1,0 +1,96 @@
+#include "tet_readers.h"
+
+#include <pent/error.h>
+#include <pent/mesher/read_tetrahedra.h>
+
+#include <array>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace pent::mesher {
+
+namespace {
+
+using Reader = TetSoup (*)(const std::filesystem::path&);
+
+constexpr std::array<std::pair<std::string_view, Reader>, 6> kReaders = {{{".node", read_tetgen},
+                                                                          {".ele", read_tetgen},
+                                                                          {".mesh", read_medit},
+                                                                          {".msh", read_gmsh},
+                                                                          {".vtk", read_vtk},
+                                                                          {".tobj", read_tobj}}};
+
+Reader reader_for(const std::filesystem::path& path) {
+    const std::string ending = path.extension().string();
+    for (const auto& [known, reader] : kReaders) {
+        if (ending == known) {
+            return reader;
+        }
+    }
+    return nullptr;
+}
+
+std::uint16_t region_of(std::int64_t label, const std::string& name) {
+    if (label < 0 || label > std::numeric_limits<std::uint16_t>::max()) {
+        throw Error(name + ": label " + std::to_string(label)
+                    + " of a tetrahedron; expected 0 to 65535");
+    }
+    return static_cast<std::uint16_t>(label);
+}
+
+}  // namespace
+
+bool is_tetrahedra_file(const std::filesystem::path& path) {
+    return reader_for(path) != nullptr;
+}
+
+TetrahedraFile read_tetrahedra(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    if (!std::filesystem::exists(path)) {
+        throw Error(name + ": no such file");
+    }
+    const Reader reader = reader_for(path);
+    if (reader == nullptr) {
+        throw Error(name + ": tetrahedra are in .node and .ele, .mesh, .msh, .vtk or .tobj files");
+    }
+    const TetSoup soup = reader(path);
+    if (soup.tets.empty()) {
+        throw Error(name + ": no tetrahedron in it");
+    }
+    TetrahedraFile file;
+    std::vector<std::uint32_t> names(soup.points.size(), 0);
+    for (const auto& tet : soup.tets) {
+        for (const std::uint32_t corner : tet) {
+            names[corner] = 1;
+        }
+    }
+    std::uint32_t used = 0;
+    for (std::uint32_t& entry : names) {
+        used += entry;
+        entry = used - entry;
+    }
+    file.unused_points = static_cast<std::int64_t>(soup.points.size()) - used;
+    file.mesh.positions.resize(3, used);
+    file.mesh.cells.resize(4, static_cast<Eigen::Index>(soup.tets.size()));
+    for (std::size_t t = 0; t < soup.tets.size(); ++t) {
+        const auto cell = static_cast<Eigen::Index>(t);
+        for (int i = 0; i < 4; ++i) {
+            const std::uint32_t point = soup.tets[t][i];
+            file.mesh.cells(i, cell) = names[point];
+            file.mesh.positions.col(names[point]) = soup.points[point];
+        }
+        if (cell_volume<3>(file.mesh.positions, file.mesh.cells, cell) < 0) {
+            std::swap(file.mesh.cells(2, cell), file.mesh.cells(3, cell));
+            ++file.turned_cells;
+        }
+    }
+    for (const std::int64_t label : soup.labels) {
+        file.mesh.regions.push_back(region_of(label, name));
+    }
+    validate(file.mesh, name);
+    return file;
+}
+
+}  // namespace pent::mesher

@@ -1,0 +1,27 @@
+#include "tet_readers.h"
+#include "text_reader.h"
+
+namespace pent::mesher {
+
+// HOBAK: "v x y z" and "t a b c d" lines, 0-based.
+TetSoup read_tobj(const std::filesystem::path& path) {
+    TextReader text(path);
+    TetSoup soup;
+    while (text.next_line()) {
+        const std::string_view keyword = text.word();
+        if (keyword == "v") {
+            soup.points.push_back(text.point());
+        } else if (keyword == "t") {
+            std::array<std::uint32_t, 4> tet{};
+            for (std::uint32_t& corner : tet) {
+                corner = text.index(text.word(), static_cast<std::int64_t>(soup.points.size()));
+            }
+            soup.tets.push_back(tet);
+        } else {
+            text.fail("\"" + std::string(keyword) + "\"; expected a line of v or t");
+        }
+    }
+    return soup;
+}
+
+}  // namespace pent::mesher

@@ -1,0 +1,114 @@
+#include "cgal_mesh.h"
+#include "repair_steps.h"
+#include "self_intersections.h"
+
+#include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/stitch_borders.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <map>
+#include <vector>
+
+namespace pent::mesher {
+
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+
+// Corners sorted, and whether sorting them was an even permutation.
+struct Key {
+    std::array<std::uint32_t, 3> corners{};
+    bool is_even = true;
+};
+
+Key key_of(const Simplices<3>& triangles, Eigen::Index t) {
+    Key key{{triangles(0, t), triangles(1, t), triangles(2, t)}};
+    for (const int i : {0, 1, 0}) {
+        if (key.corners[i] > key.corners[i + 1]) {
+            std::swap(key.corners[i], key.corners[i + 1]);
+            key.is_even = !key.is_even;
+        }
+    }
+    return key;
+}
+
+// Turns triangles to agree where they can, and parts them where they cannot.
+CgalMesh manifold_of(const Surface& surface) {
+    std::vector<Kernel::Point_3> points;
+    std::vector<std::vector<std::size_t>> polygons;
+    for (const auto& p : surface.points.colwise()) {
+        points.emplace_back(p[0], p[1], p[2]);
+    }
+    for (const auto& t : surface.triangles.colwise()) {
+        polygons.push_back({t[0], t[1], t[2]});
+    }
+    pmp::orient_polygon_soup(points, polygons);
+    CgalMesh mesh;
+    pmp::polygon_soup_to_polygon_mesh(points, polygons, mesh);
+    pmp::stitch_borders(mesh);
+    return mesh;
+}
+
+void fill_holes(CgalMesh& mesh) {
+    std::vector<CgalMesh::Halfedge_index> cycles;
+    pmp::extract_boundary_cycles(mesh, std::back_inserter(cycles));
+    for (const CgalMesh::Halfedge_index cycle : cycles) {
+        std::vector<CgalMesh::Face_index> patch;
+        pmp::triangulate_hole(mesh, cycle, std::back_inserter(patch));
+    }
+}
+
+// Asks the removal to stop when time is up.
+struct Deadline : pmp::experimental::Remove_self_intersection_default_visitor<CgalMesh> {
+    explicit Deadline(double seconds)
+        : end(std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds)) {}
+    [[nodiscard]] bool stop() const { return std::chrono::steady_clock::now() > end; }
+
+    std::chrono::time_point<std::chrono::steady_clock, std::chrono::duration<double>> end;
+};
+
+}  // namespace
+
+Surface drop_useless_triangles(const Surface& surface) {
+    // Even minus odd copies of each triangle that is not flat.
+    std::map<std::array<std::uint32_t, 3>, int> balance;
+    for (Eigen::Index t = 0; t < surface.triangle_count(); ++t) {
+        if (!is_degenerate(surface, t)) {
+            const Key key = key_of(surface.triangles, t);
+            balance[key.corners] += key.is_even ? 1 : -1;
+        }
+    }
+    std::vector<std::uint32_t> corners;
+    for (Eigen::Index t = 0; t < surface.triangle_count(); ++t) {
+        const Key key = key_of(surface.triangles, t);
+        const auto place = balance.find(key.corners);
+        if (place != balance.end() && (key.is_even ? place->second > 0 : place->second < 0)) {
+            for (int i = 0; i < 3; ++i) {
+                corners.push_back(surface.triangles(i, t));
+            }
+            balance.erase(place);
+        }
+    }
+    const Eigen::Map<const Simplices<3>> kept(corners.data(), 3,
+                                              static_cast<Eigen::Index>(corners.size() / 3));
+    return weld(surface.points, kept).surface;
+}
+
+Surface mend_lightly(const Surface& surface, double seconds) {
+    CgalMesh mesh = manifold_of(surface);
+    fill_holes(mesh);
+    if (CGAL::is_closed(mesh)) {
+        pmp::experimental::remove_self_intersections(
+            mesh, CGAL::parameters::preserve_genus(false).visitor(Deadline(seconds)));
+        fill_holes(mesh);
+    }
+    const Surface mended = from_cgal(mesh);
+    return weld(mended.points, mended.triangles).surface;
+}
+
+}  // namespace pent::mesher

@@ -1,0 +1,247 @@
+#include <pent/error.h>
+#include <pent/mesher/subdivide.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace pent::mesher {
+
+namespace {
+
+// The subdivision of one simplex v0..vDim, the same for all: its points are the whole numbers
+// k >= x1 >= ... >= xDim >= 0, and its cells those of the grid of unit cubes cut along paths. The
+// weight of vi in a point is x(i) - x(i+1), with x0 = k.
+template <int Dim>
+struct Pattern {
+    std::vector<std::array<int, Dim + 1>> weights;  // of each point, adding to k
+    std::vector<std::array<int, Dim + 1>> cells;    // points of each cell
+    std::vector<bool> is_odd;                       // cell turned over
+};
+
+template <int Dim>
+using Steps = std::array<int, Dim>;
+
+template <int Dim>
+bool is_inside(const Steps<Dim>& x, int k) {
+    int above = k;
+    for (const int value : x) {
+        if (value > above) {
+            return false;
+        }
+        above = value;
+    }
+    return x[Dim - 1] >= 0;
+}
+
+// Points in lexicographic order, so that they can be found again.
+template <int Dim>
+std::vector<Steps<Dim>> points_of(int k) {
+    std::vector<Steps<Dim>> points;
+    Steps<Dim> x{};
+    while (true) {
+        if (is_inside<Dim>(x, k)) {
+            points.push_back(x);
+        }
+        int axis = Dim - 1;
+        while (axis >= 0 && x[axis] == k) {
+            x[axis--] = 0;
+        }
+        if (axis < 0) {
+            return points;
+        }
+        ++x[axis];
+    }
+}
+
+template <std::size_t Size>
+bool is_odd_permutation(const std::array<int, Size>& permutation) {
+    bool is_odd = false;
+    for (std::size_t i = 0; i < Size; ++i) {
+        for (std::size_t j = i + 1; j < Size; ++j) {
+            is_odd = is_odd != (permutation[i] > permutation[j]);
+        }
+    }
+    return is_odd;
+}
+
+template <int Dim>
+Pattern<Dim> pattern_for(int k) {
+    const std::vector<Steps<Dim>> points = points_of<Dim>(k);
+    Pattern<Dim> pattern;
+    for (const Steps<Dim>& x : points) {
+        std::array<int, Dim + 1> weights{};
+        for (int i = 0; i <= Dim; ++i) {
+            weights[i] = (i == 0 ? k : x[i - 1]) - (i == Dim ? 0 : x[i]);
+        }
+        pattern.weights.push_back(weights);
+    }
+    std::array<int, Dim> axes{};
+    std::iota(axes.begin(), axes.end(), 0);
+    for (const Steps<Dim>& start : points) {
+        std::sort(axes.begin(), axes.end());
+        do {
+            std::array<int, Dim + 1> cell{};
+            Steps<Dim> x = start;
+            bool is_whole = true;
+            for (int i = 0; i <= Dim && is_whole; ++i) {
+                is_whole = is_inside<Dim>(x, k);
+                cell[i] = static_cast<int>(std::lower_bound(points.begin(), points.end(), x)
+                                           - points.begin());
+                if (i < Dim) {
+                    ++x[axes[i]];
+                }
+            }
+            if (is_whole) {
+                pattern.cells.push_back(cell);
+                pattern.is_odd.push_back(is_odd_permutation(axes));
+            }
+        } while (std::next_permutation(axes.begin(), axes.end()));
+    }
+    return pattern;
+}
+
+// A point of the finer mesh by its name: vertices with weights above 0, in the order of numbers.
+template <int Dim>
+struct NamedPoint {
+    std::array<std::uint64_t, Dim + 1> name{};  // vertex and weight; 0 behind the last
+    std::uint64_t place = 0;                    // in the list of all points of all cells
+
+    [[nodiscard]] bool is_same(const NamedPoint& other) const { return name == other.name; }
+    [[nodiscard]] bool operator<(const NamedPoint& other) const {
+        return name != other.name ? name < other.name : place < other.place;
+    }
+};
+
+template <int Dim>
+std::array<std::uint32_t, Dim + 1> sorted_corners(const SimplexMesh<Dim>& mesh,
+                                                  Eigen::Index cell,
+                                                  bool& is_odd) {
+    std::array<std::uint32_t, Dim + 1> corners{};
+    std::copy_n(mesh.cells.col(cell).data(), Dim + 1, corners.begin());
+    is_odd = false;
+    for (int i = 1; i <= Dim; ++i) {
+        for (int j = i; j > 0 && corners[j] < corners[j - 1]; --j) {
+            std::swap(corners[j], corners[j - 1]);
+            is_odd = !is_odd;
+        }
+    }
+    return corners;
+}
+
+template <int Dim>
+std::vector<NamedPoint<Dim>> name_points(const SimplexMesh<Dim>& mesh,
+                                         const Pattern<Dim>& pattern) {
+    std::vector<NamedPoint<Dim>> points;
+    points.reserve(mesh.cell_count() * pattern.weights.size());
+    for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+        bool is_odd = false;
+        const auto corners = sorted_corners(mesh, cell, is_odd);
+        for (const auto& weights : pattern.weights) {
+            NamedPoint<Dim> point;
+            point.place = points.size();
+            int parts = 0;
+            for (int i = 0; i <= Dim; ++i) {
+                if (weights[i] > 0) {
+                    point.name[parts++] =
+                        (std::uint64_t{corners[i]} << 32U) | static_cast<std::uint32_t>(weights[i]);
+                }
+            }
+            points.push_back(point);
+        }
+    }
+    return points;
+}
+
+constexpr std::uint32_t kUnnamed = std::numeric_limits<std::uint32_t>::max();
+
+// The number of each point of each cell: old vertices keep theirs, others by first appearance.
+template <int Dim>
+std::vector<std::uint32_t> number_points(const SimplexMesh<Dim>& mesh,
+                                         std::vector<NamedPoint<Dim>> points,
+                                         std::vector<std::uint64_t>& first_places) {
+    std::sort(points.begin(), points.end());
+    std::vector<std::uint64_t> first(points.size());  // the place where a point appears first
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const bool is_new = i == 0 || !points[i].is_same(points[i - 1]);
+        first[points[i].place] = is_new ? points[i].place : first[points[i - 1].place];
+    }
+    std::vector<std::uint32_t> numbers(points.size(), kUnnamed);
+    for (const NamedPoint<Dim>& point : points) {
+        if (point.name[1] == 0) {
+            numbers[point.place] = static_cast<std::uint32_t>(point.name[0] >> 32U);
+        }
+    }
+    auto next = static_cast<std::uint64_t>(mesh.vertex_count());
+    for (std::size_t place = 0; place < first.size(); ++place) {
+        if (numbers[place] != kUnnamed) {
+            continue;
+        }
+        if (first[place] == place) {
+            first_places.push_back(place);
+            if (next >= kUnnamed) {
+                throw Error("a subdivision to more than 4294967295 vertices; use a smaller factor");
+            }
+            numbers[place] = static_cast<std::uint32_t>(next++);
+        } else {
+            numbers[place] = numbers[first[place]];
+        }
+    }
+    return numbers;
+}
+
+}  // namespace
+
+template <int Dim>
+SimplexMesh<Dim> subdivide(const SimplexMesh<Dim>& mesh, int k) {
+    assert(k >= 1);
+    const Pattern<Dim> pattern = pattern_for<Dim>(k);
+    const auto per_cell = static_cast<Eigen::Index>(pattern.weights.size());
+    std::vector<std::uint64_t> first_places;
+    const std::vector<std::uint32_t> numbers =
+        number_points<Dim>(mesh, name_points(mesh, pattern), first_places);
+    SimplexMesh<Dim> fine;
+    fine.positions.resize(Dim,
+                          mesh.vertex_count() + static_cast<Eigen::Index>(first_places.size()));
+    fine.positions.leftCols(mesh.vertex_count()) = mesh.positions;
+    for (std::size_t i = 0; i < first_places.size(); ++i) {
+        const auto cell = static_cast<Eigen::Index>(first_places[i]) / per_cell;
+        const auto& weights = pattern.weights[first_places[i] % pattern.weights.size()];
+        bool is_odd = false;
+        const auto corners = sorted_corners(mesh, cell, is_odd);
+        Eigen::Matrix<double, Dim, 1> sum = Eigen::Matrix<double, Dim, 1>::Zero();
+        for (int c = 0; c <= Dim; ++c) {
+            sum += weights[c] * mesh.positions.col(corners[c]);
+        }
+        fine.positions.col(mesh.vertex_count() + static_cast<Eigen::Index>(i)) = sum / k;
+    }
+    const auto children = static_cast<Eigen::Index>(pattern.cells.size());
+    fine.cells.resize(Dim + 1, mesh.cell_count() * children);
+    for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+        bool is_odd = false;
+        static_cast<void>(sorted_corners(mesh, cell, is_odd));
+        for (Eigen::Index child = 0; child < children; ++child) {
+            auto column = fine.cells.col(cell * children + child);
+            for (int i = 0; i <= Dim; ++i) {
+                column[i] = numbers[cell * per_cell + pattern.cells[child][i]];
+            }
+            if (is_odd != pattern.is_odd[child]) {
+                std::swap(column[Dim - 1], column[Dim]);
+            }
+        }
+    }
+    for (const std::uint16_t region : mesh.regions) {
+        fine.regions.insert(fine.regions.end(), children, region);
+    }
+    return fine;
+}
+
+template SimplexMesh<2> subdivide<2>(const SimplexMesh<2>&, int);
+template SimplexMesh<3> subdivide<3>(const SimplexMesh<3>&, int);
+template SimplexMesh<4> subdivide<4>(const SimplexMesh<4>&, int);
+
+}  // namespace pent::mesher

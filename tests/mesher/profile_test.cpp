@@ -1,0 +1,103 @@
+#include "shapes.h"
+#include "support/kuhn_box.h"
+#include "support/messages.h"
+#include "support/temp_folder.h"
+
+#include <pent/mesher/profile.h>
+#include <pent/mesher/prove.h>
+#include <pent/mesher/shapes.h>
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace pent::mesher {
+namespace {
+
+std::vector<Layer<4>> read_text(const std::string& text) {
+    const test::TempFolder folder;
+    test::write_file(folder / "profile.txt", text);
+    return read_profile(folder / "profile.txt");
+}
+
+SimplexMesh<4> extruded(const SimplexMesh<3>& base, const std::vector<Layer<4>>& layers) {
+    const auto ranks = rank_vertices(base, VertexOrder::Index);
+    const SimplexMesh<4> mesh =
+        extrude<4>(base, order_cells<3>(base, direct_edges<3>(base, ranks)), layers);
+    validate(mesh, "profile");
+    return mesh;
+}
+
+TEST(ReadProfile, ScalesTurnsAndMoves) {
+    const auto layers = read_text("# two layers\n0 1\n2 3 4 5 6  90 0 0 0 0 0\n");
+    ASSERT_EQ(layers.size(), 2U);
+    const Eigen::Vector3d x(1, 0.5, 0.25);
+    EXPECT_EQ(layers[0].linear * x + layers[0].offset, Eigen::Vector4d(1, 0.5, 0.25, 0));
+    // xy turns x towards y: (1, 0.5) goes to (-0.5, 1); then times 3 and moved.
+    const Eigen::Vector4d moved = layers[1].linear * x + layers[1].offset;
+    EXPECT_LT((moved - Eigen::Vector4d(4 - 1.5, 5 + 3, 6 + 0.75, 2)).norm(), 1e-14);
+}
+
+TEST(ReadProfile, TurnsXTowardsWInThePlaneXw) {
+    const auto layers = read_text("0 1\n1 1 0 0 0 0 0 90 0 0 0\n");
+    const Eigen::Vector4d moved = layers[1].linear * Eigen::Vector3d(2, 0, 0) + layers[1].offset;
+    EXPECT_LT((moved - Eigen::Vector4d(0, 0, 0, 3)).norm(), 1e-15);
+}
+
+TEST(ReadProfile, NamesTheLineOfWhatIsWrong) {
+    const auto message = [](const std::string& text) {
+        return test::error_of([&] { static_cast<void>(read_text(text)); });
+    };
+    test::expect_contains(message(""), {"profile.txt", "0 layers"});
+    test::expect_contains(message("0 1\n"), {"1 layers"});
+    test::expect_contains(message("0 1\n1\n"), {"line 2", "1 numbers"});
+    test::expect_contains(message("0 1\n1 1 2\n"), {"3 numbers"});
+    test::expect_contains(message("0 1\n1 -1\n"), {"scale -1"});
+    test::expect_contains(message("0 1\n1 x\n"), {"\"x\""});
+    test::expect_contains(message("0 1\n1 0\n2 1\n"), {"line 3", "behind a point"});
+    test::expect_contains(message("0 0\n1 0\n"), {"two points"});
+    test::expect_contains(message("0 1 2 3 4 5 6 7 8 9 10 11\n"), {"more than 11"});
+}
+
+TEST(ReadProfile, MakesTaperedBentAndClosedBodies) {
+    SimplexMesh<3> base = test::kuhn_box<3>({2, 2, 2}, {1, 1, 1});
+    base.positions.array() -= 0.5;
+    // A frustum over a unit cube: the integral of (1 - t/2)^3 over t from 0 to 1 is 15/32, met from
+    // above at second order by straight pieces between layers.
+    std::string frustum;
+    for (int l = 0; l <= 32; ++l) {
+        frustum += std::to_string(l / 32.0) + " " + std::to_string(1 - l / 64.0) + "\n";
+    }
+    const SimplexMesh<4> tapered = extruded(base, read_text(frustum));
+    EXPECT_TRUE(prove(tapered).holds());
+    EXPECT_NEAR(total_volume(tapered), 15.0 / 32, 1e-3);
+    // Turned by a quarter around the plane x = -2, w = 0: a ring by Pappus.
+    std::string bent;
+    for (int l = 0; l <= 48; ++l) {
+        const double angle = std::numbers::pi / 2 * l / 48;
+        char line[160];
+        std::snprintf(line, sizeof line, "%.17g 1 %.17g 0 0 0 0 %.17g 0 0 0\n", 2 * std::sin(angle),
+                      2 * std::cos(angle), angle * 180 / std::numbers::pi);
+        bent += line;
+    }
+    const SimplexMesh<4> ring = extruded(base, read_text(bent));
+    EXPECT_TRUE(prove(ring).holds());
+    EXPECT_NEAR(total_volume(ring), std::numbers::pi / 2 * 2, 2e-3);
+    // A pyramid has a quarter of its prism.
+    const SimplexMesh<4> pyramid = extruded(base, read_text("0 1\n2 0\n"));
+    EXPECT_TRUE(prove(pyramid).holds());
+    EXPECT_NEAR(total_volume(pyramid), 0.5, 1e-15);
+}
+
+TEST(RoundLayers, MakeAHyperballOfABall) {
+    // Volume pi^2 / 2, from within at second order in both resolutions at once.
+    const double whole = std::numbers::pi * std::numbers::pi / 2;
+    const double coarse = whole - total_volume(extruded(ball(4), round_layers(1, 10)));
+    const double fine = whole - total_volume(extruded(ball(8), round_layers(1, 20)));
+    EXPECT_GT(fine, 0);
+    EXPECT_NEAR(coarse / fine, 4, 0.3);
+    EXPECT_TRUE(prove(extruded(ball(4), round_layers(-1, 10))).holds());
+}
+
+}  // namespace
+}  // namespace pent::mesher

@@ -1,0 +1,161 @@
+#include "shapes.h"
+#include "support/messages.h"
+#include "support/temp_folder.h"
+
+#include <pent/mesher/read_tetrahedra.h>
+
+#include <gtest/gtest.h>
+
+namespace pent::mesher {
+namespace {
+
+using test::write_file;
+
+TetrahedraFile read_text(const std::string& name, const std::string& text) {
+    const test::TempFolder folder;
+    write_file(folder / name, text);
+    return read_tetrahedra(folder / name);
+}
+
+std::string message_for(const std::string& name, const std::string& text) {
+    return test::error_of([&] { static_cast<void>(read_text(name, text)); });
+}
+
+// Every sample below is the corner of the unit cube and its mirror image behind x = 0.
+void expect_two_corners(const TetrahedraFile& file) {
+    ASSERT_EQ(file.mesh.cell_count(), 2);
+    EXPECT_EQ(file.mesh.vertex_count(), 5);
+    EXPECT_EQ(file.turned_cells, 1);
+    EXPECT_DOUBLE_EQ(total_volume(file.mesh), 1.0 / 3);
+    EXPECT_EQ(file.mesh.positions.col(1), Eigen::Vector3d(1, 0, 0));
+}
+
+const char* const kTobj =
+    "# made by hand\nv\t0 0 0\nv\t1 0 0\nv\t0 1 0\nv\t0 0 1\nv\t-1 0 0\nt\t0 1 2 3\nt\t0 4 2 3\n";
+
+const char* const kMedit =
+    "MeshVersionFormatted 2\nDimension\n3\n\nVertices\n5\n0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1\n"
+    "-1 0 0 1\nTriangles\n1\n1 2 3 7\nTetrahedra 2\n1 2 3 4 5\n1 5 3 4 6\nEnd\n";
+
+const char* const kGmsh2 =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 5 \"body\"\n$EndPhysicalNames\n"
+    "$Nodes\n5\n10 0 0 0\n20 1 0 0\n30 0 1 0\n40 0 0 1\n50 -1 0 0\n$EndNodes\n"
+    "$Elements\n3\n1 2 2 1 1 10 20 30\n2 4 2 5 1 10 20 30 40\n3 4 2 6 1 10 50 30 40\n"
+    "$EndElements\n";
+
+const char* const kGmsh4 =
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 0\n$EndEntities\n"
+    "$Nodes\n2 5 10 50\n2 1 0 2\n10\n20\n0 0 0\n1 0 0\n3 1 1 3\n30\n40\n50\n"
+    "0 1 0 0 0 0\n0 0 1 0 0 0\n-1 0 0 0 0 0\n$EndNodes\n"
+    "$Elements\n3 3 1 3\n2 1 2 1\n1 10 20 30\n3 5 4 1\n2 10 20 30 40\n3 6 4 1\n3 10 50 30 40\n"
+    "$EndElements\n";
+
+const char* const kVtk =
+    "# vtk DataFile Version 3.0\nDATASET of two corners\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+    "POINTS 5 double\n0 0 0 1 0 0 0 1 0\n0 0 1 -1 0 0\n\nCELLS 3 14\n3 0 1 2\n4 0 1 2 3\n"
+    "4 0 4 2 3\n\nCELL_TYPES 3\n5\n10\n10\nCELL_DATA 3\n";
+
+const char* const kVtk5 =
+    "# vtk DataFile Version 5.1\nvtk output\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n"
+    "0 0 0 1 0 0 0 1 0 0 0 1 -1 0 0\nCELLS 3 8\nOFFSETS vtktypeint64\n0 4 8\n"
+    "CONNECTIVITY vtktypeint64\n0 1 2 3 0 4 2 3\nCELL_TYPES 2\n10\n10\n";
+
+const char* const kNode =
+    "# points\n5 3 1 1\n1 0 0 0 0.5 1\n2 1 0 0 0.5 1\n3 0 1 0 0.5 1\n4 0 0 1 0.5 1\n"
+    "5 -1 0 0 0.5 1\n";
+const char* const kEle = "2 4 1\n1 1 2 3 4 5\n2 1 5 3 4 6\n";
+
+TEST(ReadTetrahedra, ReadsEveryFormat) {
+    expect_two_corners(read_text("a.tobj", kTobj));
+    expect_two_corners(read_text("a.mesh", kMedit));
+    expect_two_corners(read_text("a.msh", kGmsh2));
+    expect_two_corners(read_text("a.msh", kGmsh4));
+    expect_two_corners(read_text("a.vtk", kVtk));
+    expect_two_corners(read_text("a.vtk", kVtk5));
+}
+
+TEST(ReadTetrahedra, ReadsNodeAndEleByEitherName) {
+    const test::TempFolder folder;
+    write_file(folder / "a.node", kNode);
+    write_file(folder / "a.ele", kEle);
+    expect_two_corners(read_tetrahedra(folder / "a.node"));
+    expect_two_corners(read_tetrahedra(folder / "a.ele"));
+    EXPECT_EQ(read_tetrahedra(folder / "a.ele").mesh.regions, (std::vector<std::uint16_t>{5, 6}));
+}
+
+TEST(ReadTetrahedra, ReadsCarriageReturnsAndCountsFromZero) {
+    const test::TempFolder folder;
+    write_file(folder / "a.node",
+               "5 3 0 0\r\n0 0 0 0\r\n1 1 0 0\r\n2 0 1 0\r\n3 0 0 1\r\n4 -1 0 0\r\n");
+    write_file(folder / "a.ele", "2 4 0\r\n0 0 1 2 3\r\n1 0 4 2 3\r\n");
+    expect_two_corners(read_tetrahedra(folder / "a.node"));
+}
+
+TEST(ReadTetrahedra, KeepsLabelsAsRegions) {
+    for (const auto& [name, text] :
+         {std::pair("a.mesh", kMedit), {"a.msh", kGmsh2}, {"a.msh", kGmsh4}}) {
+        EXPECT_EQ(read_text(name, text).mesh.regions, (std::vector<std::uint16_t>{5, 6})) << name;
+    }
+    test::expect_contains(
+        message_for("a.mesh",
+                    "MeshVersionFormatted 1\nDimension 3\nVertices 4\n0 0 0 0\n1 0 0 0\n"
+                    "0 1 0 0\n0 0 1 0\nTetrahedra 1\n1 2 3 4 70000\n"),
+        {"label 70000", "65535"});
+}
+
+TEST(ReadTetrahedra, LeavesOutUnusedPoints) {
+    const TetrahedraFile file =
+        read_text("a.tobj", "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 1 2 3 4\n");
+    EXPECT_EQ(file.unused_points, 1);
+    EXPECT_EQ(file.mesh.vertex_count(), 4);
+}
+
+TEST(ReadTetrahedra, RefusesDamageWithFileAndLine) {
+    test::expect_contains(message_for("a.tobj", "v 0 0\n"), {"a.tobj: line 1"});
+    test::expect_contains(message_for("a.tobj", "v 0 0 0\nt 0 0 0 1\n"), {"index 1 of 1"});
+    test::expect_contains(message_for("a.tobj", "f 1 2 3\n"), {"\"f\"", "v or t"});
+    test::expect_contains(message_for("a.tobj", "v 0 0 0\n"), {"no tetrahedron"});
+    test::expect_contains(message_for("a.tobj", ""), {"no tetrahedron"});
+    test::expect_contains(message_for("a.tobj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nt 0 1 2 3\n"),
+                          {"degenerate"});
+    test::expect_contains(message_for("a.mesh", "nonsense"), {"Medit"});
+    test::expect_contains(message_for("a.mesh", "MeshVersionFormatted 1\nDimension 2\n"),
+                          {"expected 3"});
+    test::expect_contains(
+        message_for("a.mesh", "MeshVersionFormatted 1\nDimension 3\nVertices 999999999\n"),
+        {"999999999"});
+    test::expect_contains(message_for("a.mesh", "MeshVersionFormatted 1\nDimension 3\nPoodles 1\n"),
+                          {"Poodles"});
+    test::expect_contains(message_for("a.msh", "$Nodes\n"), {"$MeshFormat"});
+    test::expect_contains(message_for("a.msh", "$MeshFormat\n4.1 1 8\n"), {"binary"});
+    test::expect_contains(message_for("a.msh", "$MeshFormat\n3.0 0 8\n"), {"2.2 or 4.1"});
+    test::expect_contains(message_for("a.msh",
+                                      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n2\n1 0 0 0\n"
+                                      "1 0 0 1\n$EndNodes\n"),
+                          {"node 1 is there twice"});
+    test::expect_contains(message_for("a.vtk", "nonsense"), {"VTK"});
+    test::expect_contains(message_for("a.vtk", "# vtk DataFile Version 3.0\nt\nBINARY\n"),
+                          {"expected ASCII"});
+    test::expect_contains(
+        message_for("a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"),
+        {"POLYDATA"});
+    test::expect_contains(message_for("a.xyz", ""), {".tobj"});
+}
+
+TEST(ReadTetrahedra, RefusesAFileCutOffAnywhere) {
+    for (const auto& [name, whole] : {std::pair<std::string, std::string>("a.mesh", kMedit),
+                                      {"a.msh", kGmsh2},
+                                      {"a.msh", kGmsh4},
+                                      {"a.vtk", kVtk},
+                                      {"a.vtk", kVtk5}}) {
+        // Behind the last corner only closing words follow.
+        const std::size_t last = std::min(
+            {whole.rfind("End\n"), whole.find("$EndElements"), whole.rfind("\n10"), whole.size()});
+        for (std::size_t length = 0; length + 2 < last; ++length) {
+            EXPECT_NE(message_for(name, whole.substr(0, length)), "") << name << " at " << length;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace pent::mesher

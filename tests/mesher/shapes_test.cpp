@@ -1,0 +1,119 @@
+#include "support/messages.h"
+
+#include <pent/facets.h>
+#include <pent/mesher/edge_order.h>
+#include <pent/mesher/links.h>
+#include <pent/mesher/prove.h>
+#include <pent/mesher/shapes.h>
+#include <pent/mesher/subdivide.h>
+#include <pent/mesher/surface_check.h>
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace pent::mesher {
+namespace {
+
+TEST(Box, IsFilledByEitherCut) {
+    for (const CubeCut cut : {CubeCut::Paths, CubeCut::Corners}) {
+        const auto plane = box<2>({3, 2}, {3, 4}, cut);
+        const auto space = box<3>({3, 2, 2}, {3, 4, 5}, cut);
+        const auto body = box<4>({3, 2, 1, 2}, {3, 4, 5, 6}, cut);
+        EXPECT_TRUE(prove(plane, 12).holds());
+        EXPECT_TRUE(prove(space, 60).holds());
+        EXPECT_TRUE(prove(body, 360).holds());
+        EXPECT_EQ(check_links(body).faulty, 0);
+        EXPECT_EQ(plane.cell_count(), 6 * 2);
+        EXPECT_EQ(space.cell_count(), 12 * (cut == CubeCut::Paths ? 6 : 5));
+        EXPECT_EQ(body.cell_count(), 12 * (cut == CubeCut::Paths ? 24 : 16));
+    }
+}
+
+TEST(Box, RefusesEmptyAndEndlessOnes) {
+    const auto message = [](std::array<int, 2> count, std::array<double, 2> size) {
+        return test::error_of([&] { static_cast<void>(box<2>(count, size)); });
+    };
+    test::expect_contains(message({0, 1}, {1, 1}), {"0 cubes along x"});
+    test::expect_contains(message({1, 1}, {1, -1}), {"along y"});
+    test::expect_contains(message({1, 1}, {1, std::nan("")}), {"along y"});
+    test::expect_contains(message({2000000000, 2000000000}, {1, 1}), {"4294967295"});
+}
+
+TEST(Sphere, IsACleanSurfaceOfUnitPoints) {
+    for (const int frequency : {1, 2, 3, 4, 7}) {
+        const Surface surface = sphere(frequency);
+        EXPECT_EQ(surface.triangle_count(), 20 * frequency * frequency);
+        EXPECT_EQ(surface.point_count(), 10 * frequency * frequency + 2);
+        const SurfaceReport report = check_surface(surface);
+        EXPECT_TRUE(report.is_clean()) << describe(report);
+        EXPECT_EQ(report.misoriented_edges.count, 0);
+        EXPECT_NEAR((surface.points.colwise().norm().array() - 1).abs().maxCoeff(), 0, 1e-15);
+    }
+    // An icosahedron in the unit sphere; then the ball, from within, at second order.
+    EXPECT_NEAR(enclosed_volume(sphere(1)), 2.536150710, 1e-9);
+    const double whole = 4 * std::numbers::pi / 3;
+    const double coarse = whole - enclosed_volume(sphere(8));
+    const double fine = whole - enclosed_volume(sphere(16));
+    EXPECT_NEAR(coarse / fine, 4, 0.1);
+}
+
+TEST(Ball, HasTheCountsOfTheNoodles) {
+    const SimplexMesh<3> mesh = ball(4);
+    EXPECT_EQ(mesh.vertex_count(), 163);
+    EXPECT_EQ(mesh.cell_count(), 320);
+    validate(mesh, "ball");
+    const Proof proof = prove(mesh, enclosed_volume(sphere(4)));
+    EXPECT_TRUE(proof.holds());
+    EXPECT_EQ(proof.boundary_facets, 320);
+}
+
+template <typename Dimension>
+class SubdivideInDimension : public testing::Test {};
+template <int Dim>
+using Constant = std::integral_constant<int, Dim>;
+using Dimensions = testing::Types<Constant<2>, Constant<3>, Constant<4>>;
+TYPED_TEST_SUITE(SubdivideInDimension, Dimensions);
+
+TYPED_TEST(SubdivideInDimension, MakesEqualConformingChildren) {
+    constexpr int kDim = TypeParam::value;
+    std::array<int, kDim> count{};
+    std::array<double, kDim> size{};
+    count.fill(2);
+    size.fill(1);
+    for (const CubeCut cut : {CubeCut::Paths, CubeCut::Corners}) {
+        SimplexMesh<kDim> coarse = box<kDim>(count, size, cut);
+        coarse.regions.assign(coarse.cell_count(), 3);
+        coarse.regions.back() = 4;
+        for (const int k : {1, 2, 3}) {
+            const SimplexMesh<kDim> fine = subdivide<kDim>(coarse, k);
+            validate(fine, "finer");
+            EXPECT_TRUE(prove(fine, 1).holds());
+            const auto children = static_cast<Eigen::Index>(std::lround(std::pow(k, kDim)));
+            ASSERT_EQ(fine.cell_count(), coarse.cell_count() * children);
+            for (Eigen::Index cell = 0; cell < fine.cell_count(); ++cell) {
+                EXPECT_NEAR(cell_volume<kDim>(fine.positions, fine.cells, cell) * children,
+                            cell_volume<kDim>(coarse.positions, coarse.cells, cell / children),
+                            1e-15);
+            }
+            EXPECT_EQ(fine.positions.leftCols(coarse.vertex_count()), coarse.positions);
+            EXPECT_EQ(fine.regions.front(), 3);
+            EXPECT_EQ(fine.regions.back(), 4);
+        }
+    }
+}
+
+TEST(Subdivide, MakesTheCantileverOfThePaper) {
+    // [shi2025] Table 1: 4 tesseracts in a row, each of 16 pentachora, every edge in 8 parts.
+    const SimplexMesh<4> mesh = subdivide(box<4>({4, 1, 1, 1}, {4, 1, 1, 1}, CubeCut::Corners), 8);
+    EXPECT_EQ(mesh.vertex_count(), 17589);
+    EXPECT_EQ(mesh.cell_count(), 262144);
+    const Proof proof = prove(mesh, 4);
+    EXPECT_TRUE(proof.holds());
+    EXPECT_EQ(proof.boundary_facets, 66560);
+    const auto boundary = match_facets<4>(mesh.cells, mesh.vertex_count()).boundary;
+    EXPECT_EQ(edges_of<3>(boundary).cols(), 77800);
+}
+
+}  // namespace
+}  // namespace pent::mesher
