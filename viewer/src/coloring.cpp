@@ -3,6 +3,7 @@
 #include <pent/viewer/attributes.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace pent::viewer {
@@ -71,7 +72,7 @@ Eigen::Matrix3Xf surface_colors(const Eigen::VectorXd& values,
     }
     for (Eigen::Index v = 0; v < values.size(); ++v) {
         const double place = std::clamp(range.place(values[v]), 0.0, 1.0);
-        colors.col(v) = table.col(static_cast<Eigen::Index>(place * kSteps + 0.5));
+        colors.col(v) = table.col(std::lround(place * kSteps));
     }
     return colors;
 }

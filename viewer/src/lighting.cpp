@@ -35,7 +35,11 @@ Eigen::Vector2f disk_point(const Eigen::Vector2f& square) {
 template <int Rays>
 using DiskPoints = std::array<Eigen::Vector2f, static_cast<std::size_t>(Rays) * kPatterns>;
 
-// Entry pattern + kPatterns k is ray k of a pattern; the sequence is dealt out to the patterns in turn.
+// The sequence is dealt out to the patterns in turn: where ray k of a pattern is.
+std::size_t ray_index(int pattern, int k) {
+    return static_cast<std::size_t>(pattern) + static_cast<std::size_t>(kPatterns) * k;
+}
+
 template <int Rays>
 DiskPoints<Rays> make_disk_points() {
     DiskPoints<Rays> points;
@@ -86,7 +90,7 @@ Visibility trace_visibility(const RayScene& scene,
     const Across tangent = across(normal);
     int open = 0;
     for (int k = 0; k < kSkyRays; ++k) {
-        const Eigen::Vector2f& d = sky_points[static_cast<std::size_t>(pattern + kPatterns * k)];
+        const Eigen::Vector2f& d = sky_points[ray_index(pattern, k)];
         const float height = std::sqrt(std::max(0.0F, 1 - d.squaredNorm()));
         const Vec direction = d.x() * tangent.a + d.y() * tangent.b + height * normal;
         open += scene.is_blocked(from, direction, lighting.reach) ? 0 : 1;
@@ -99,8 +103,7 @@ Visibility trace_visibility(const RayScene& scene,
     const Across lamp = across(lighting.to_key);
     int lit = 0;
     for (int k = 0; k < kKeyRays; ++k) {
-        const Eigen::Vector2f d =
-            kKeyRadius * key_points[static_cast<std::size_t>(pattern + kPatterns * k)];
+        const Eigen::Vector2f d = kKeyRadius * key_points[ray_index(pattern, k)];
         const Vec direction = (lighting.to_key + d.x() * lamp.a + d.y() * lamp.b).normalized();
         const bool is_lit =
             normal.dot(direction) > 0

@@ -55,7 +55,7 @@ RTCRay make_ray(const Vec& from, const Vec& direction, float nearest, float fart
 }  // namespace
 
 RayHit RayScene::first_hit(const Vec& from, const Vec& direction, float nearest) const {
-    RTCIntersectContext context;
+    RTCIntersectContext context{};
     rtcInitIntersectContext(&context);
     RTCRayHit query = {};
     query.ray = make_ray(from, direction, nearest, std::numeric_limits<float>::infinity());
@@ -74,7 +74,7 @@ RayHit RayScene::first_hit(const Vec& from, const Vec& direction, float nearest)
 }
 
 bool RayScene::is_blocked(const Vec& from, const Vec& direction, float farthest) const {
-    RTCIntersectContext context;
+    RTCIntersectContext context{};
     rtcInitIntersectContext(&context);
     RTCRay ray = make_ray(from, direction, 0, farthest);
     rtcOccluded1(scene_.get(), &context, &ray);

@@ -100,8 +100,8 @@ std::vector<int> common_frames(const RunFolder& run) {
     for (const std::string& body : run.bodies) {
         const auto found = by_body.find(body);
         if (found == by_body.end()) {
-            throw Error((run.path / "frames").string() + ": no frame of body " + body
-                        + "; expected " + body + "_000000.pent and so on; did pent-sim run?");
+            throw Error(frame_path(run, body, 0).string()
+                        + ": no such frame nor a later one of this body; did pent-sim run?");
         }
         std::vector<int> kept;
         if (&body == &run.bodies.front()) {

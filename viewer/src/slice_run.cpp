@@ -180,7 +180,7 @@ private:
         }
         extras.colors = surface_colors(seen, options_.color, range_, body);
         extras.comment = options_.created_by + ": body " + bodies_[body].name + remark;
-        const std::string file = file_name(series, number, extension(options_.format));
+        std::string file = file_name(series, number, extension(options_.format));
         write_surface(folder_ / file, surface, options_.format, extras);
         if (options_.format == SurfaceFormat::Vtu) {
             collections_[series].push_back({moment.frames[body].time, file});
