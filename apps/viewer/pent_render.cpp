@@ -50,6 +50,8 @@ void add_options(CLI::App& cli, Arguments& arguments) {
         ->check(CLI::Range(1.0, 150.0));
     cli.add_flag("--onion", render.is_onion,
                  "Show several slices in one picture, all but the middle one as ghosts");
+    cli.add_flag("--sweep", render.is_sweep,
+                 "Show several slices one after the other, at every frame: a mesh from end to end");
     cli.add_option("--range", arguments.range, "Values of the first and last color, LOW,HIGH")
         ->type_name("A,B");
     cli.add_flag("--no-floor", arguments.no_floor, "Leave out the floor and its shadows");

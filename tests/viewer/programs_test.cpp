@@ -47,6 +47,19 @@ TEST_F(ViewerPrograms, SliceARunInTheWaysShownInTheHelp) {
     }
 }
 
+TEST_F(ViewerPrograms, WriteTheSameBytesForAnyNumberOfThreads) {
+    const std::string rest = " --w 0.1,0.5 --color strain --project perspective -o ";
+    for (const std::string threads : {"1", "3"}) {
+        const Outcome outcome = run_program("pent-slice " + at("run") + " --threads " + threads
+                                            + rest + at("out" + threads));
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "out1")) {
+        const std::filesystem::path other = folder_ / "out3" / entry.path().filename();
+        EXPECT_EQ(pent::test::text_of(entry.path()), pent::test::text_of(other)) << other;
+    }
+}
+
 TEST_F(ViewerPrograms, RenderAPictureOfTheLastFrame) {
     const Outcome outcome =
         run_program("pent-render " + at("run") + " --size 64x48 -o " + at("a.png"));

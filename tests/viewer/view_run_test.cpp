@@ -166,6 +166,43 @@ TEST(RenderRun, LeavesNoMovieWhenStopped) {
     EXPECT_EQ(count_files(folder.path()), 1U);
 }
 
+TEST(RenderRun, SweepsTheHyperplaneAtEveryFrame) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0, 1});
+    const RunFolder run = open_run(folder / "run");
+    RenderRunOptions options = small_pictures(run);
+    options.sections.offsets = {0.2, 0.4, 0.6};
+    options.is_sweep = true;
+    EXPECT_EQ(render_run(run, {.folder = folder / "out"}, options, go_on).pictures, 6);
+    EXPECT_EQ(count_files(folder / "out"), 6U);
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/000001_s02.png"));
+    options.is_onion = true;
+    EXPECT_THROW((void)render_run(run, {.folder = folder / "out"}, options, go_on), Error);
+}
+
+TEST(ThreeDimensions, AreShownWholeAndTakeNoHyperplane) {
+    const TempFolder folder;
+    const SimplexMesh<3> mesh = pent::test::kuhn_box<3>({2, 2, 2}, {1, 2, 3});
+    write_mesh<3>(folder / "box.pent", mesh);
+    const RunFolder run = open_run(folder / "box.pent");
+    SliceRunOptions slices;
+    slices.frames = run.frames;
+    slices.color = ColorBy::Strain;
+    const SliceRunReport report = slice_run(run, folder / "out", slices, go_on);
+    ASSERT_EQ(report.slices.size(), 1U);
+    EXPECT_NEAR(report.slices[0].volume, 6, 6 * 1e-14);
+    RenderRunOptions pictures = small_pictures(run);
+    EXPECT_FALSE(render_run(run, {.picture = folder / "a.png"}, pictures, go_on).is_empty);
+
+    slices.has_boundary = true;
+    EXPECT_THROW((void)slice_run(run, folder / "out", slices, go_on), Error);
+    pictures.projection = ProjectionOptions();
+    EXPECT_THROW((void)render_run(run, {.picture = folder / "a.png"}, pictures, go_on), Error);
+    pictures.projection.reset();
+    pictures.sections.offsets = {0.5};
+    EXPECT_THROW((void)render_run(run, {.picture = folder / "a.png"}, pictures, go_on), Error);
+}
+
 TEST(RenderRun, SaysWhenNothingIsSeen) {
     const TempFolder folder;
     write_run(folder / "run", "a", {0});

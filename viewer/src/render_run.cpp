@@ -23,11 +23,18 @@ const Color kSheetPaper(0.9F, 0.9F, 0.9F);
 void check(const RenderTargets& targets, const RenderRunOptions& options) {
     const std::string size = std::to_string(options.width) + "x" + std::to_string(options.height);
     if (std::min(options.width, options.height) < 16
-        || std::max(options.width, options.height) > 16384) {
-        throw Error("pictures: found size " + size + "; expected 16 to 16384 each way");
+        || std::max(options.width, options.height) > 8192) {
+        throw Error("pictures: found size " + size + "; expected 16 to 8192 each way");
     }
     if (!targets.movie.empty() && (options.width % 2 != 0 || options.height % 2 != 0)) {
         throw Error("pictures: found size " + size + "; a movie needs even numbers");
+    }
+    if (options.is_onion && options.is_sweep) {
+        throw Error("pictures: found both onion skin and sweep; give one of them");
+    }
+    if (!targets.picture.empty() && options.is_sweep) {
+        throw Error(targets.picture.string()
+                    + ": one picture cannot hold a sweep; choose a folder, a movie or a sheet");
     }
     if (!targets.picture.empty() && options.frames.size() != 1) {
         throw Error(targets.picture.string() + ": one picture cannot hold "
@@ -49,6 +56,12 @@ std::vector<int> spread(const std::vector<int>& frames, int count) {
 std::string picture_name(int frame) {
     char text[32];
     std::snprintf(text, sizeof text, "%06d.png", frame);
+    return text;
+}
+
+std::string sweep_picture_name(int frame, std::size_t section) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%06d_s%02u.png", frame, static_cast<unsigned>(section));
     return text;
 }
 
@@ -80,23 +93,30 @@ bool render_frames(const Studio<Dim>& studio,
         movie = std::make_unique<Movie>(targets.movie, options.width, options.height,
                                         options.frames_per_second);
     }
-    const auto total = static_cast<std::int64_t>(options.frames.size());
+    const std::size_t shots = options.is_sweep ? studio.tile_count() : 1;
+    const auto total = static_cast<std::int64_t>(options.frames.size() * shots);
     std::int64_t done = 0;
     for (const int frame : options.frames) {
-        if (!on_progress("picture", done++, total)) {
-            return false;
-        }
-        const Image image = studio.picture(frame);
-        ++report.pictures;
-        if (movie) {
-            movie->add(image);
-        }
-        if (!targets.picture.empty()) {
-            write_png(targets.picture, image);
-            report.files.push_back(targets.picture.string());
-        }
-        if (!targets.folder.empty()) {
-            write_png(targets.folder / picture_name(frame), image);
+        for (std::size_t shot = 0; shot < shots; ++shot) {
+            if (!on_progress("picture", done++, total)) {
+                return false;
+            }
+            const Image image =
+                options.is_sweep ? studio.tile_picture(frame, shot) : studio.picture(frame);
+            ++report.pictures;
+            if (movie) {
+                movie->add(image);
+            }
+            if (!targets.picture.empty()) {
+                write_png(targets.picture, image);
+                report.files.push_back(targets.picture.string());
+            }
+            if (!targets.folder.empty()) {
+                write_png(targets.folder
+                              / (options.is_sweep ? sweep_picture_name(frame, shot)
+                                                  : picture_name(frame)),
+                          image);
+            }
         }
     }
     (void)on_progress("picture", done, total);

@@ -106,6 +106,14 @@ Image Studio<Dim>::picture(int frame) const {
 }
 
 template <int Dim>
+Image Studio<Dim>::tile_picture(int frame, std::size_t tile) const {
+    const Moment<Dim> moment = load_moment<Dim>(run_, bodies_, frame, options_.color);
+    Image image = paint(moment, tiles_[tile], sheet_camera_, options_.width, options_.height);
+    add_color_bar(image);
+    return image;
+}
+
+template <int Dim>
 Image Studio<Dim>::small_tile(int frame, std::size_t tile) const {
     const Moment<Dim> moment = load_moment<Dim>(run_, bodies_, frame, options_.color);
     return paint(moment, tiles_[tile], sheet_camera_, options_.width * 3 / 8,

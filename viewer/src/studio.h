@@ -49,6 +49,9 @@ public:
     /// One frame, all tiles side by side.
     [[nodiscard]] Image picture(int frame) const;
 
+    /// One frame, a single tile as large as the picture.
+    [[nodiscard]] Image tile_picture(int frame, std::size_t tile) const;
+
     /// One tile of one frame for a contact sheet, smaller than a picture.
     [[nodiscard]] Image small_tile(int frame, std::size_t tile) const;
 

@@ -15,15 +15,16 @@
 namespace pent::viewer {
 
 struct RenderRunOptions {
-    SectionOptions sections;  ///< Several are shown side by side, or as onion skin.
+    SectionOptions sections;  ///< Several are shown side by side unless a flag below says more.
     std::vector<int> frames;  ///< Out of run.frames; at least one.
-    int width = 1280;         ///< Of a whole picture, pixels, 16..16384.
+    int width = 1280;         ///< Of a whole picture, pixels, 16..8192.
     int height = 720;         ///< The same.
     ColorBy color = ColorBy::Body;
     std::optional<ColorRange> range;  ///< Of the color bar; none: that of the frames.
     /// Show the outlines of the whole bodies as ghosts around the slices.
     std::optional<ProjectionOptions> projection;
     bool is_onion = false;  ///< All hyperplanes in one picture, all but the middle one as ghosts.
+    bool is_sweep = false;  ///< One picture after the other for each hyperplane, at every frame.
     ViewOptions view;
     bool has_floor = true;    ///< A floor under the lowest point, for the shadows.
     bool has_caption = true;  ///< Time, hyperplane and color bar.
@@ -35,7 +36,7 @@ struct RenderRunOptions {
 struct RenderTargets {
     std::filesystem::path movie{};    ///< .mp4
     std::filesystem::path picture{};  ///< .png of the only frame
-    std::filesystem::path folder{};   ///< 000123.png for every frame
+    std::filesystem::path folder{};   ///< 000123.png for every frame; 000123_s01.png in a sweep
     std::filesystem::path sheet{};  ///< .png: several frames; each hyperplane has a row of its own
 };
 
