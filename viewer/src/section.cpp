@@ -47,7 +47,7 @@ std::string label_of(const SectionOptions& options, const Hyperplane& plane) {
 }
 
 // The offset halfway between the lowest and the highest vertex along the normal, rounded to about a
-// thousandth of what is between, to be readable.
+// hundredth of what is between, to be readable.
 double middle_offset(const SectionOptions& options, std::span<const Frame<4>> frames) {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
@@ -60,7 +60,7 @@ double middle_offset(const SectionOptions& options, std::span<const Frame<4>> fr
     if (!(high > low)) {
         return middle;
     }
-    const double digit = std::pow(10.0, std::floor(std::log10(high - low)) - 3);
+    const double digit = std::pow(10.0, std::floor(std::log10(high - low)) - 2);
     return std::round(middle / digit) * digit;
 }
 
