@@ -37,31 +37,47 @@ Repaired mended(const Surface& surface, Surface result, Repair used, SurfaceRepo
     return repaired;
 }
 
-// CGAL throws on some surfaces that break its assumptions; that is one more way not to succeed.
-Repaired try_light(const Surface& surface,
-                   const RepairOptions& options,
-                   const SurfaceReport& report) {
+// CGAL throws on some surfaces that break its assumptions; that is one more way not to succeed, and
+// leaves the surface as it was.
+template <typename Step>
+Surface attempt(const Surface& surface, Step step) {
     const SilentCgal silent;
     try {
-        return mended(surface, mend_lightly(drop_useless_triangles(surface), options.seconds),
-                      Repair::Light, report);
+        return step(surface);
     } catch (const std::exception&) {
-        Repaired failed;
-        failed.before = report;
-        return failed;
+        return surface;
     }
 }
 
-// Finer and finer, until the wrap is close enough.
-Repaired try_wrap(const Surface& surface,
+Surface without_holes(const Surface& surface) {
+    return attempt(surface,
+                   [](const Surface& open) { return close_holes(drop_useless_triangles(open)); });
+}
+
+Repaired try_light(const Surface& surface,
+                   const Surface& closed,
+                   const RepairOptions& options,
+                   const SurfaceReport& report) {
+    if (is_usable(check_surface(closed))) {
+        return mended(surface, closed, Repair::Light, report);
+    }
+    Surface cut = attempt(closed, [&](const Surface& crossing) {
+        return cut_self_intersections(crossing, options.seconds);
+    });
+    return mended(surface, std::move(cut), Repair::Light, report);
+}
+
+// Finer and finer, until the wrap is close enough to the surface without its holes: through a hole
+// that is left open a fine wrap would creep inside, and make a hollow shell of the body.
+Repaired try_wrap(const Surface& closed,
                   const RepairOptions& options,
                   const SurfaceReport& report) {
-    const double size = diagonal(surface.points);
+    const double size = diagonal(closed.points);
     constexpr double kCoarsest = 1.0 / 25;
     constexpr double kFinest = 1.0 / 400;
     for (double alpha = kCoarsest; alpha >= kFinest; alpha /= 2) {
         Repaired repaired =
-            mended(surface, wrap(surface, alpha * size, alpha * size / 20), Repair::Wrap, report);
+            mended(closed, wrap(closed, alpha * size, alpha * size / 20), Repair::Wrap, report);
         if (is_usable(repaired.after) && repaired.distance <= options.wrap_distance * size) {
             return repaired;
         }
@@ -87,8 +103,9 @@ Repaired repair(const Surface& surface, const RepairOptions& options) {
     if (options.repair == Repair::None) {
         throw Error("not the boundary of a body: " + describe(report) + "; let it be mended");
     }
+    const Surface closed = without_holes(surface);
     if (options.repair != Repair::Wrap) {
-        Repaired light = try_light(surface, options, report);
+        Repaired light = try_light(surface, closed, options, report);
         if (is_usable(light.after)) {
             return light;
         }
@@ -97,7 +114,7 @@ Repaired repair(const Surface& surface, const RepairOptions& options) {
                         + "; before: " + describe(report) + "; allow a wrap");
         }
     }
-    return try_wrap(surface, options, report);
+    return try_wrap(closed, options, report);
 }
 
 std::string name_of(Repair repair) {

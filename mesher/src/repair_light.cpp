@@ -99,9 +99,15 @@ Surface drop_useless_triangles(const Surface& surface) {
     return weld(surface.points, kept).surface;
 }
 
-Surface mend_lightly(const Surface& surface, double seconds) {
+Surface close_holes(const Surface& surface) {
     CgalMesh mesh = manifold_of(surface);
     fill_holes(mesh);
+    const Surface closed = from_cgal(mesh);
+    return weld(closed.points, closed.triangles).surface;
+}
+
+Surface cut_self_intersections(const Surface& surface, double seconds) {
+    CgalMesh mesh = manifold_of(surface);
     if (CGAL::is_closed(mesh)) {
         pmp::experimental::remove_self_intersections(
             mesh, CGAL::parameters::preserve_genus(false).visitor(Deadline(seconds)));

@@ -8,9 +8,13 @@ namespace pent::mesher {
 /// walls within a body, go both.
 [[nodiscard]] Surface drop_useless_triangles(const Surface& surface);
 
-/// Stitches borders, fills holes and cuts out self-intersections, as far as it can.
-/// @param seconds  Limit for the last step, checked now and then.
-[[nodiscard]] Surface mend_lightly(const Surface& surface, double seconds);
+/// Parts a surface into manifold pieces, stitches their borders and fills all holes. What it gives
+/// may intersect itself.
+[[nodiscard]] Surface close_holes(const Surface& surface);
+
+/// Cuts out self-intersections of a closed surface, as far as that can be done.
+/// @param seconds  Limit, checked now and then.
+[[nodiscard]] Surface cut_self_intersections(const Surface& surface, double seconds);
 
 /// A closed manifold around a surface: holes up to `alpha` wide are bridged.
 /// @param offset  How far outside it lies, m.

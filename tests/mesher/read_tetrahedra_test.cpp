@@ -151,7 +151,7 @@ TEST(ReadTetrahedra, RefusesAFileCutOffAnywhere) {
         // Behind the last corner only closing words follow.
         const std::size_t last = std::min(
             {whole.rfind("End\n"), whole.find("$EndElements"), whole.rfind("\n10"), whole.size()});
-        for (std::size_t length = 0; length + 2 < last; ++length) {
+        for (std::size_t length = 0; length + 2 < last; length += 5) {
             EXPECT_NE(message_for(name, whole.substr(0, length)), "") << name << " at " << length;
         }
     }

@@ -92,7 +92,7 @@ TYPED_TEST(SubdivideInDimension, MakesEqualConformingChildren) {
             const auto children = static_cast<Eigen::Index>(std::lround(std::pow(k, kDim)));
             ASSERT_EQ(fine.cell_count(), coarse.cell_count() * children);
             for (Eigen::Index cell = 0; cell < fine.cell_count(); ++cell) {
-                EXPECT_NEAR(cell_volume<kDim>(fine.positions, fine.cells, cell) * children,
+                EXPECT_NEAR(cell_volume<kDim>(fine.positions, fine.cells, cell) * std::pow(k, kDim),
                             cell_volume<kDim>(coarse.positions, coarse.cells, cell / children),
                             1e-15);
             }

@@ -29,7 +29,7 @@ struct Repaired {
     SurfaceReport before;
     SurfaceReport after;  ///< Clean.
     /// From points of the new surface to the old one, m; sampled at the new one's points, edges and
-    /// centers of triangles.
+    /// centers of triangles. For a wrap, the old one has its holes filled.
     double distance = 0;
 };
 
