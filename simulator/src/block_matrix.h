@@ -6,9 +6,31 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <new>
 #include <vector>
 
 namespace pent::simulator {
+
+/// Starts arrays at cache lines, so that no 4 x 4 block of floats lies across two.
+template <typename Value>
+struct LineAllocator {
+    using value_type = Value;
+    static constexpr std::align_val_t kLine{64};
+
+    LineAllocator() = default;
+    template <typename Other>
+    explicit LineAllocator(const LineAllocator<Other>& /*other*/) {}
+
+    [[nodiscard]] Value* allocate(std::size_t count) {
+        return static_cast<Value*>(::operator new(count * sizeof(Value), kLine));
+    }
+    void deallocate(Value* memory, std::size_t /*count*/) { ::operator delete(memory, kLine); }
+    template <typename Other>
+    bool operator==(const LineAllocator<Other>& /*other*/) const {
+        return true;
+    }
+};
 
 /// Vectors of the unknowns, one block a column: Dim x rows.
 template <int Dim>
@@ -99,7 +121,7 @@ public:
 
 private:
     const BlockPattern* pattern_;
-    std::vector<Scalar> values_;
+    std::vector<Scalar, LineAllocator<Scalar>> values_;
 };
 
 }  // namespace pent::simulator

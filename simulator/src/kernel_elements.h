@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel_laws.h"
+#include "kernel_transpose.h"
 #include "kernels.h"
 
 // Forces and Hessians of element groups, in lanes.
@@ -283,20 +284,25 @@ void hessian_blocks(const RotatedHessian<Real, Dim>& hessian,
     store_block(first[0], true, pack.at[0]);
 }
 
+// Element after element, all blocks of one before the next: neighbors in a pack share blocks, and
+// adding to the same one again at once would wait for the addition before.
 template <int Dim, typename Real, typename Scalar>
 void scatter_blocks(const BlockPack<Real, Dim>& pack,
                     const Group<Dim>& group,
                     int first_lane,
                     Scalar* values) {
     constexpr int kEntries = Dim * Dim;
-    for (int l = 0; l < Lanes<Real>::kCount && first_lane + l < group.elements; ++l) {
+    constexpr int kWidth = Lanes<Real>::kCount;
+    const int lanes = group.elements - first_lane < kWidth ? group.elements - first_lane : kWidth;
+    alignas(64) Scalar entries[kPairs<Dim>][kWidth][kEntries];
+    for (int pair = 0; pair < kPairs<Dim>; ++pair) {
+        transpose<kEntries, kWidth>(pack.at[pair], entries[pair]);
+    }
+    for (int l = 0; l < lanes; ++l) {
         for (int pair = 0; pair < kPairs<Dim>; ++pair) {
             const std::int32_t block = group.blocks[pair * kGroup + first_lane + l];
             if (block >= 0) {
-                Scalar* target = values + std::int64_t{block} * kEntries;
-                for (int entry = 0; entry < kEntries; ++entry) {
-                    target[entry] += pack.at[pair][entry][l];
-                }
+                add_to<kEntries, kWidth>(entries[pair][l], values + std::int64_t{block} * kEntries);
             }
         }
     }
@@ -334,6 +340,16 @@ void scatter_held(const BlockPack<Real, Dim>& pack,
     }
 }
 
+// Brings the blocks of a group near while its Hessian is computed: a matrix does not fit in the
+// caches close by.
+template <int Dim, typename Scalar>
+void prefetch_blocks(const Group<Dim>& group, const Scalar* values) {
+    for (int i = 0; i < kPairs<Dim> * kGroup; ++i) {
+        const std::int64_t block = group.blocks[i] < 0 ? 0 : group.blocks[i];
+        __builtin_prefetch(values + block * Dim * Dim, 1);
+    }
+}
+
 template <int Dim, typename Real, typename Scalar>
 void add_hessian(const ElementRun& run,
                  const double* positions,
@@ -347,6 +363,7 @@ void add_hessian(const ElementRun& run,
     BlockPack<Real, Dim> pack;
     for (int g = 0; g < groups; ++g) {
         const Group<Dim> group = group_at<Dim>(run, g);
+        prefetch_blocks(group, target.values);
         gather_edges(group, positions, edges);
         bool has_held = false;
         for (int lane = 0; lane < group.elements; ++lane) {  // the last corner is held if any is
