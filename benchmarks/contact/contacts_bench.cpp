@@ -24,7 +24,7 @@ ContactFinder<4> finder_of(const bench::Hug& hug, bool self, double margin) {
 void find(benchmark::State& state, double gap, double scale, bool self, double margin) {
     const bench::Hug hug = bench::make_hug(gap, scale);
     ContactFinder<4> finder = finder_of(hug, self, margin);
-    ContactReport report;
+    ContactReport report = finder.find(hug.positions).report;  // builds the trees
     double seconds = 0;
     double tree_seconds = 0;
     double search_seconds = 0;

@@ -43,8 +43,15 @@ public:
         if (!solve_normal_equations<kN>(edges, offset, t) && !solve_stably<kN>(edges, offset, t)) {
             return false;
         }
+        if (!is_inside<kA, kB>(t)) {
+            return false;
+        }
         offset += edges * t;
-        return offset.squaredNorm() < best_.distance_squared && record_if_inside<kA, kB>(t, offset);
+        if (!(offset.squaredNorm() < best_.distance_squared)) {
+            return false;
+        }
+        record<kA, kB>(t, offset);
+        return true;
     }
 
     [[nodiscard]] const ClosestPoints<Dim, K, L>& best() const { return best_; }
@@ -83,11 +90,12 @@ private:
                 return;
             }
             offset += edges * t;
-            if (offset.squaredNorm() < best_.distance_squared
-                && record_if_inside<A, B>(t, offset)) {
-                return;
+            if (!(offset.squaredNorm() < best_.distance_squared)) {
+                return;  // nor is any point of the faces of these
             }
-            if (offset.squaredNorm() < best_.distance_squared) {
+            if (is_inside<A, B>(t)) {
+                record<A, B>(t, offset);
+            } else {
                 visit_facets<A, B>(t, false);
             }
         }
@@ -114,9 +122,9 @@ private:
 
     // Minimizes |offset + edges t| by LDL^T; false where the edges are nearly dependent.
     template <int N>
-    [[nodiscard]] static bool solve_normal_equations(const Edges<N>& edges,
-                                                     const Vector<Dim>& offset,
-                                                     Parameters<N>& t) {
+    [[nodiscard, gnu::always_inline]] static bool solve_normal_equations(const Edges<N>& edges,
+                                                                         const Vector<Dim>& offset,
+                                                                         Parameters<N>& t) {
         Eigen::Matrix<double, N, N> lower = Eigen::Matrix<double, N, N>::Zero();
         Parameters<N> inverse_pivot = Parameters<N>::Zero();
         for (int i = 0; i < N; ++i) {
@@ -161,7 +169,7 @@ private:
     }
 
     template <unsigned A, unsigned B>
-    bool record_if_inside(const Parameters<kUnknowns<A, B>>& t, const Vector<Dim>& difference) {
+    [[nodiscard]] static bool is_inside(const Parameters<kUnknowns<A, B>>& t) {
         constexpr int kFirst = std::popcount(A);
         constexpr int kSecond = std::popcount(B);
         bool is_inside = true;
@@ -170,9 +178,6 @@ private:
         }
         for (int j = 0; j < kSecond; ++j) {
             is_inside &= weight(t, kFirst - 1, kSecond, j) >= 0;
-        }
-        if (is_inside) {
-            record<A, B>(t, difference);
         }
         return is_inside;
     }
@@ -244,8 +249,8 @@ private:
                                            const Vector<Dim>& offset) {
         constexpr int kN = kUnknowns<A, B>;
         Parameters<kN> t = Parameters<kN>::Zero();
-        if (solve_stably<kN>(edges, offset, t)) {
-            record_if_inside<A, B>(t, offset + edges * t);
+        if (solve_stably<kN>(edges, offset, t) && is_inside<A, B>(t)) {
+            record<A, B>(t, offset + edges * t);
         }
         visit_facets<A, B>(t, true);
     }

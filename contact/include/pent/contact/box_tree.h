@@ -24,7 +24,7 @@ using FourFloats = std::experimental::simd<float, std::experimental::simd_abi::d
 }
 
 /// Whether two boxes have a point in common. Never true for a box with a NaN.
-[[nodiscard]] inline bool overlap(const Box& a, const Box& b) {
+[[nodiscard, gnu::always_inline]] inline bool overlap(const Box& a, const Box& b) {
     using detail::FourFloats;
     const std::experimental::overaligned_tag<16> aligned;
     const FourFloats a_low(a.low, aligned);
@@ -148,8 +148,11 @@ private:
                     const Visit& visit) const;
     template <typename Visit>
     static void visit_pairs(const BoxTree& first,
+                            const Range& a,
+                            const Box& a_box,
                             const BoxTree& second,
-                            const Work& work,
+                            const Range& b,
+                            const Box& b_box,
                             const Visit& visit);
     template <typename Visit>
     static void visit_self(const BoxTree& tree, const Range& range, const Visit& visit);
@@ -233,41 +236,41 @@ void BoxTree::for_each_overlap(const BoxTree& first,
     if (is_self) {
         visit_self(first, work.first, visit);
     } else {
-        visit_pairs(first, second, work, visit);
+        visit_pairs(first, work.first, work.first_box, second, work.second, work.second_box, visit);
     }
 }
 
 template <typename Visit>
 void BoxTree::visit_pairs(const BoxTree& first,
+                          const Range& a,
+                          const Box& a_box,
                           const BoxTree& second,
-                          const Work& work,
+                          const Range& b,
+                          const Box& b_box,
                           const Visit& visit) {
-    if (work.first.is_leaf()) {
-        const std::uint32_t i = first.leaves_[work.first.begin];
-        second.visit_box(work.second, work.first_box, [&](std::uint32_t j) { visit(i, j); });
+    if (a.is_leaf()) {
+        const std::uint32_t i = first.leaves_[a.begin];
+        second.visit_box(b, a_box, [&](std::uint32_t j) { visit(i, j); });
         return;
     }
-    if (work.second.is_leaf()) {
-        const std::uint32_t j = second.leaves_[work.second.begin];
-        first.visit_box(work.first, work.second_box, [&](std::uint32_t i) { visit(i, j); });
+    if (b.is_leaf()) {
+        const std::uint32_t j = second.leaves_[b.begin];
+        first.visit_box(a, b_box, [&](std::uint32_t i) { visit(i, j); });
         return;
     }
-    const Node& a = first.nodes_[work.first.node];
-    const Node& b = second.nodes_[work.second.node];
-    if (overlap(a.left, b.left)) {
-        visit_pairs(first, second, {work.first.left(), work.second.left(), a.left, b.left}, visit);
+    const Node& m = first.nodes_[a.node];
+    const Node& n = second.nodes_[b.node];
+    if (overlap(m.left, n.left)) {
+        visit_pairs(first, a.left(), m.left, second, b.left(), n.left, visit);
     }
-    if (overlap(a.left, b.right)) {
-        visit_pairs(first, second, {work.first.left(), work.second.right(), a.left, b.right},
-                    visit);
+    if (overlap(m.left, n.right)) {
+        visit_pairs(first, a.left(), m.left, second, b.right(), n.right, visit);
     }
-    if (overlap(a.right, b.left)) {
-        visit_pairs(first, second, {work.first.right(), work.second.left(), a.right, b.left},
-                    visit);
+    if (overlap(m.right, n.left)) {
+        visit_pairs(first, a.right(), m.right, second, b.left(), n.left, visit);
     }
-    if (overlap(a.right, b.right)) {
-        visit_pairs(first, second, {work.first.right(), work.second.right(), a.right, b.right},
-                    visit);
+    if (overlap(m.right, n.right)) {
+        visit_pairs(first, a.right(), m.right, second, b.right(), n.right, visit);
     }
 }
 
@@ -280,7 +283,7 @@ void BoxTree::visit_self(const BoxTree& tree, const Range& range, const Visit& v
     visit_self(tree, range.right(), visit);
     const Node& node = tree.nodes_[range.node];
     if (overlap(node.left, node.right)) {
-        visit_pairs(tree, tree, {range.left(), range.right(), node.left, node.right}, visit);
+        visit_pairs(tree, range.left(), node.left, tree, range.right(), node.right, visit);
     }
 }
 
