@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <sstream>
+#include <utility>
 
 namespace pent::apps {
 
@@ -65,18 +66,30 @@ std::vector<double> to_offsets(const std::vector<std::string>& texts, const std:
     return offsets;
 }
 
-viewer::PlaneRotation to_rotation(const std::string& text) {
+// "xw:30", or "xw:A:B:N" for N angles evenly from A to B; appends the rotation, and the angles if there are
+// several.
+void add_rotation(const std::string& text, viewer::SectionOptions& sections) {
     const std::string axes = "xyzw";
-    const std::vector<std::string> parts = split(text, ':');
-    const bool is_plane = parts.size() == 2 && parts[0].size() == 2 && parts[0][0] != parts[0][1]
-                          && parts[0].find_first_not_of(axes) == std::string::npos;
+    const std::string plane = text.substr(0, 2);
+    const bool is_plane = text.size() > 3 && text[2] == ':' && plane[0] != plane[1]
+                          && plane.find_first_not_of(axes) == std::string::npos;
     if (!is_plane) {
         throw Error("--rotate: found \"" + text
                     + "\"; expected a plane and degrees, as in xw:30, the plane of two of x y z w");
     }
-    const double degrees = to_number(parts[1], "--rotate " + text);
-    return {static_cast<int>(axes.find(parts[0][0])), static_cast<int>(axes.find(parts[0][1])),
-            degrees * std::numbers::pi / 180};
+    if (!sections.last_angles.empty()) {
+        throw Error("--rotate: found \"" + text
+                    + "\" after a rotation by several angles; only the last may have several");
+    }
+    std::vector<double> radians = to_range(text.substr(3), "--rotate " + text);
+    for (double& angle : radians) {
+        angle *= std::numbers::pi / 180;
+    }
+    sections.rotations.push_back({static_cast<int>(axes.find(plane[0])),
+                                  static_cast<int>(axes.find(plane[1])), radians.front()});
+    if (radians.size() > 1) {
+        sections.last_angles = std::move(radians);
+    }
 }
 
 }  // namespace
@@ -104,7 +117,7 @@ void add_view_options(CLI::App& cli, ViewArguments& arguments) {
         ->type_name("C");
     cli.add_option("--rotate", arguments.rotations,
                    "Turn the bodies about the origin before slicing, PLANE:DEGREES as in xw:30; "
-                   "several apply in the order written")
+                   "several apply in the order written; the last may be PLANE:A:B:N for N slices")
         ->type_name("TURN");
     cli.add_option("--normal", arguments.normal,
                    "Slice across this direction instead, X,Y,Z,W (made unit)")
@@ -173,7 +186,7 @@ viewer::SectionOptions to_sections(const ViewArguments& arguments) {
                                   arguments.normal.empty() ? "--w" : "--offset");
     for (const std::string& text : arguments.rotations) {
         for (const std::string& turn : split(text, ',')) {
-            sections.rotations.push_back(to_rotation(turn));
+            add_rotation(turn, sections);
         }
     }
     return sections;

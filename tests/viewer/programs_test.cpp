@@ -40,7 +40,8 @@ TEST_F(ViewerPrograms, SliceARunInTheWaysShownInTheHelp) {
     for (const std::string options :
          {" --w -0.1,0.2 --color strain", " --w=-0.1 --w 0.3 --frames 1:2",
           " --w -0.1:0.4:3 --format vtu", " --normal 0,1,0,1 --offset -0.1,0.5 --format obj",
-          " --rotate xw:30 --rotate yz:-45 --color w", " --keep-degenerate --frames last"}) {
+          " --rotate xw:30 --rotate yz:-45 --color w",
+          " --rotate yz:10 --rotate xw:0:40:3 --boundary", " --keep-degenerate --frames last"}) {
         const Outcome outcome = run_program("pent-slice " + run + options);
         EXPECT_EQ(outcome.exit_code, 0) << options << outcome.err;
         EXPECT_NE(outcome.out.find("finished: "), std::string::npos) << outcome.out;
@@ -82,6 +83,7 @@ TEST_F(ViewerPrograms, RefuseBadInputInOneLine) {
     expect_refused("pent-slice", at("run") + out + " --w 1,x", "expected a number");
     expect_refused("pent-slice", at("run") + out + " --w 0:1:1", "N at least 2");
     expect_refused("pent-slice", at("run") + out + " --rotate xx:3", "--rotate");
+    expect_refused("pent-slice", at("run") + out + " --rotate xw:0:9:3,xy:1", "only the last");
     expect_refused("pent-slice", at("run") + out + " --normal 0,0,0,0", "normal");
     expect_refused("pent-slice", at("run") + out + " --normal 1,2", "expected four");
     expect_refused("pent-slice", at("run") + out + " --offset 1", "--normal");

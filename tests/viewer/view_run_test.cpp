@@ -44,6 +44,20 @@ TEST(MakeSections, GoesThroughTheMiddleUnlessTold) {
     EXPECT_EQ(sections[0].label, "w = 1.5");
 }
 
+TEST(MakeSections, LetsTheLastRotationTakeSeveralAngles) {
+    Frame<4> frame;
+    frame.positions = Positions<4>::Identity(4, 4);
+    SectionOptions options;
+    options.offsets = {0.1, 0.2};
+    options.rotations = {{1, 2, 0.3}, {0, 3, 0}};
+    options.last_angles = {0.4, 0.5};
+    const std::vector<Section> sections = make_sections<4>(options, std::span(&frame, 1));
+    ASSERT_EQ(sections.size(), 4U);
+    const PlaneRotation turns[] = {{1, 2, 0.3}, {0, 3, 0.5}};
+    EXPECT_EQ(sections[3].plane.frame, rotation_matrix(turns));
+    EXPECT_EQ(sections[3].plane.offset, 0.2);
+}
+
 TEST(MakeSections, RefusesWhatContradictsItself) {
     const Frame<4> frame;
     SectionOptions both;

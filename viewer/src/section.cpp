@@ -22,6 +22,9 @@ void check(const SectionOptions& options) {
     if (options.normal && !options.rotations.empty()) {
         throw Error("slices: found both a normal and rotations; give one of them");
     }
+    if (!options.last_angles.empty() && options.rotations.empty()) {
+        throw Error("slices: found angles without a rotation that takes them");
+    }
 }
 
 Hyperplane make_plane(const SectionOptions& options, double offset) {
@@ -76,14 +79,21 @@ template <>
 std::vector<Section> make_sections<4>(const SectionOptions& options,
                                       std::span<const Frame<4>> frames) {
     check(options);
+    std::vector<SectionOptions> poses(std::max<std::size_t>(1, options.last_angles.size()),
+                                      options);
+    for (std::size_t i = 0; i < options.last_angles.size(); ++i) {
+        poses[i].rotations.back().radians = options.last_angles[i];
+    }
     std::vector<double> offsets = options.offsets;
     if (offsets.empty()) {
-        offsets.push_back(middle_offset(options, frames));
+        offsets.push_back(middle_offset(poses.front(), frames));
     }
     std::vector<Section> sections;
-    for (const double offset : offsets) {
-        const Hyperplane plane = make_plane(options, offset);
-        sections.push_back({plane, label_of(options, plane)});
+    for (const SectionOptions& pose : poses) {
+        for (const double offset : offsets) {
+            const Hyperplane plane = make_plane(pose, offset);
+            sections.push_back({plane, label_of(pose, plane)});
+        }
     }
     return sections;
 }

@@ -16,9 +16,14 @@ namespace pent::viewer {
 
 /// Which hyperplanes to look at. Three-dimensional bodies are seen whole and take none of this.
 struct SectionOptions {
-    std::vector<double> offsets;  ///< m; empty: one about through the middle of the bodies.
-    std::optional<Eigen::Vector4d> normal;  ///< Not with rotations.
-    std::vector<PlaneRotation> rotations;   ///< Applied to the bodies, in this order.
+    /// m; empty: one about through the middle of the bodies.
+    std::vector<double> offsets;
+    /// Not with rotations.
+    std::optional<Eigen::Vector4d> normal;
+    /// Applied to the bodies about the origin, in this order.
+    std::vector<PlaneRotation> rotations;
+    /// Angles the last rotation takes one after the other, radians; empty: its own.
+    std::vector<double> last_angles;
 
     [[nodiscard]] bool is_default() const {
         return offsets.empty() && !normal.has_value() && rotations.empty();
