@@ -130,7 +130,7 @@ bool render_frames(const Studio<Dim>& studio,
     return true;
 }
 
-// A row for each tile of a picture; a single tile's frames fill a square.
+// A row for each tile of a picture; a single tile's frames, and a single frame's tiles, fill a square.
 template <int Dim>
 bool render_sheet(const Studio<Dim>& studio,
                   const RenderTargets& targets,
@@ -151,9 +151,9 @@ bool render_sheet(const Studio<Dim>& studio,
     }
     (void)on_progress("sheet picture", total, total);
     studio.add_color_bar(tiles.back());
-    const auto frame_count = static_cast<int>(frames.size());
-    const int columns =
-        studio.tile_count() > 1 ? frame_count : static_cast<int>(std::ceil(std::sqrt(frame_count)));
+    const bool is_table = frames.size() > 1 && studio.tile_count() > 1;
+    const auto columns = static_cast<int>(
+        is_table ? frames.size() : static_cast<std::size_t>(std::ceil(std::sqrt(tiles.size()))));
     write_png(targets.sheet, contact_sheet(tiles, columns, kSheetGap, kSheetPaper));
     report.files.push_back(targets.sheet.string());
     return true;

@@ -37,7 +37,8 @@ struct RenderTargets {
     std::filesystem::path movie{};    ///< .mp4
     std::filesystem::path picture{};  ///< .png of the only frame
     std::filesystem::path folder{};   ///< 000123.png for every frame; 000123_s01.png in a sweep
-    std::filesystem::path sheet{};  ///< .png: several frames; each hyperplane has a row of its own
+    std::filesystem::path
+        sheet{};  ///< .png: several frames, with several hyperplanes a row for each
 };
 
 struct RenderRunReport {
