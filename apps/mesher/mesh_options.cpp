@@ -191,6 +191,12 @@ void add_options(CLI::App& cli, MeshArguments& arguments) {
         ->capture_default_str();
     cli.add_flag("--ascii", arguments.ascii, "Write text instead of binary");
     cli.add_flag("--quality", arguments.show_quality, "Print percentiles and a histogram");
+    cli.add_option("--time-limit", arguments.time_limit, "Give up after this long (s)")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    cli.add_option("--memory-limit", arguments.memory_limit,
+                   "Use no more memory than this (MiB); default: the machine's")
+        ->check(CLI::PositiveNumber);
     add_surface(cli, arguments.request);
     add_resolution(cli, arguments);
     add_extrusion(cli, arguments);

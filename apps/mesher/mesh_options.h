@@ -15,6 +15,8 @@ struct MeshArguments {
     int dim = 4;
     bool ascii = false;
     bool show_quality = false;
+    double time_limit = 900;  ///< s.
+    double memory_limit = 0;  ///< MiB; 0: the machine's.
 
     std::filesystem::path input;
     int sphere = 0;

@@ -5,6 +5,7 @@
 #include "common/program.h"
 #include "mesh_options.h"
 #include "mesh_text.h"
+#include "watchdog.h"
 
 #include <pent/mesher/make_body.h>
 #include <pent/pent_file.h>
@@ -111,15 +112,25 @@ nlohmann::ordered_json to_json(const BodyReport& report, std::int64_t vertices) 
                     {"volume_tolerance", report.proof.tolerance}};
     json["quality"] = pent::apps::to_json(report.quality);
     for (const pent::mesher::Stage& stage : report.stages) {
-        json["stage_seconds"][stage.name] = stage.seconds;
+        nlohmann::ordered_json& seconds = json["stage_seconds"][stage.name];
+        seconds = (seconds.is_null() ? 0.0 : seconds.get<double>()) + stage.seconds;
     }
     return json;
 }
 
 template <int Dim>
-void write_body(Program& program,
-                const pent::mesher::Body<Dim>& body,
-                const MeshArguments& arguments) {
+pent::mesher::Body<Dim> make(const MeshArguments& arguments) {
+    const pent::apps::Watchdog watchdog(arguments.time_limit);
+    if constexpr (Dim == 4) {
+        return pent::mesher::make_body(arguments.request);
+    } else {
+        return pent::mesher::make_body_from_plane(arguments.request);
+    }
+}
+
+template <int Dim>
+void make_and_write(Program& program, const MeshArguments& arguments) {
+    const pent::mesher::Body<Dim> body = make<Dim>(arguments);
     const auto encoding = arguments.ascii ? pent::Encoding::Ascii : pent::Encoding::Binary;
     pent::write_mesh(arguments.output, body.mesh,
                      {.encoding = encoding, .created_by = program.name_and_version()});
@@ -146,12 +157,9 @@ int main(int argc, char** argv) {
     pent::apps::add_options(program.options(), arguments);
     return program.run(argc, argv, [&] {
         pent::apps::complete(program.options(), arguments);
-        if (arguments.dim == 4) {
-            write_body<4>(program, pent::mesher::make_body(arguments.request), arguments);
-        } else {
-            write_body<3>(program, pent::mesher::make_body_from_plane(arguments.request),
-                          arguments);
-        }
+        pent::apps::limit_memory(arguments.memory_limit);
+        arguments.dim == 4 ? make_and_write<4>(program, arguments)
+                           : make_and_write<3>(program, arguments);
         return pent::apps::Verdict::Finished;
     });
 }

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "watchdog.h"
+
+#include "common/program.h"
+
+#include <chrono>
+#include <cstdio>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace pent::apps {
+
+Watchdog::Watchdog(double seconds) : thread_([this, seconds] { watch(seconds); }) {}
+
+Watchdog::~Watchdog() {
+    {
+        const std::lock_guard lock(mutex_);
+        is_released_ = true;
+    }
+    released_.notify_one();
+    thread_.join();
+}
+
+void Watchdog::watch(double seconds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    std::unique_lock lock(mutex_);
+    while (!released_.wait_for(lock, std::chrono::milliseconds(100),
+                               [this] { return is_released_; })) {
+        if (stop_requested()) {
+            std::fprintf(stderr, "pent-mesh: stopped as asked; nothing was written\n");
+            ::_exit(3);
+        }
+        if (std::chrono::steady_clock::now() > end) {
+            std::fprintf(stderr,
+                         "pent-mesh: not done after %g s; ask for fewer cells or a coarser "
+                         "surface, or raise --time-limit\n",
+                         seconds);
+            ::_exit(1);
+        }
+    }
+}
+
+void limit_memory(double mebibytes) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes
+    const double all = static_cast<double>(::sysconf(_SC_PHYS_PAGES))
+                       * static_cast<double>(::sysconf(_SC_PAGESIZE));
+    const auto bytes = static_cast<rlim_t>(mebibytes > 0 ? mebibytes * 1024 * 1024 : all);
+    const rlimit limit{bytes, RLIM_INFINITY};
+    ::setrlimit(RLIMIT_AS, &limit);
+#else
+    static_cast<void>(mebibytes);
+#endif
+}
+
+}  // namespace pent::apps
