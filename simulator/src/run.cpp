@@ -61,12 +61,22 @@ private:
     [[nodiscard]] fs::path mesh_path(const std::string& body) const {
         return options_.folder / "meshes" / (body + ".pent");
     }
-    [[nodiscard]] fs::path frame_path(const std::string& body, int frame) const;
+    [[nodiscard]] fs::path frame_path(const std::string& body, int frame) const {
+        return numbered("frames", body, frame);
+    }
+    [[nodiscard]] fs::path checkpoint_path(const std::string& body, int frame) const {
+        return numbered("checkpoint", body, frame);
+    }
+    [[nodiscard]] fs::path numbered(const char* part, const std::string& body, int frame) const;
     void start_folder();
     void write_meshes();
     int resume_folder();
     [[nodiscard]] std::optional<std::vector<Frame<Dim>>> read_frames(int frame) const;
     void write_frame_files(int frame);
+    void write_checkpoint(int frame);
+    void remove_checkpoint(int frame);
+    void resume_history(int frame);
+    [[nodiscard]] Frame<Dim> frame_file(int body, int frame) const;
     [[nodiscard]] FrameReport measure(int frame) const;
     bool step_to_frame(int frame);
     void write_report(std::string_view verdict);
@@ -92,10 +102,10 @@ std::vector<SimplexMesh<Dim>> Run<Dim>::read_meshes() const {
 }
 
 template <int Dim>
-fs::path Run<Dim>::frame_path(const std::string& body, int frame) const {
+fs::path Run<Dim>::numbered(const char* part, const std::string& body, int frame) const {
     char number[16];
     std::snprintf(number, sizeof number, "_%06d.pent", frame);
-    return options_.folder / "frames" / (body + number);
+    return options_.folder / part / (body + number);
 }
 
 template <int Dim>
@@ -166,6 +176,7 @@ int Run<Dim>::resume_folder() {
     }
     const std::uint64_t step = frames->front().step;
     simulation_.set_step_count(step);
+    resume_history(frame);
     const fs::path report_path = options_.folder / "report.json";
     if (fs::exists(report_path)) {
         ReportHistory history = parse_history(read_text(report_path), report_path.string(),
@@ -191,19 +202,66 @@ FrameReport Run<Dim>::measure(int frame) const {
 }
 
 template <int Dim>
-void Run<Dim>::write_frame_files(int frame) {
+Frame<Dim> Run<Dim>::frame_file(int body, int frame) const {
+    Frame<Dim> file;
+    file.mesh_name = report_.bodies[static_cast<std::size_t>(body)] + ".pent";
+    file.mesh_crc = mesh_crcs_[static_cast<std::size_t>(body)];
+    file.frame = static_cast<std::uint64_t>(frame);
+    file.step = simulation_.step_count();
+    file.time = simulation_.time();
+    return file;
+}
+
+// What a frame does not hold but BDF2 needs to go on from it: the state one step before.
+template <int Dim>
+void Run<Dim>::write_checkpoint(int frame) {
+    if (!simulation_.has_history()) {
+        return;
+    }
+    make_folder(options_.folder / "checkpoint");
     for (int body = 0; body < simulation_.body_count(); ++body) {
-        const std::string& name = report_.bodies[static_cast<std::size_t>(body)];
-        Frame<Dim> file;
+        Frame<Dim> file = frame_file(body, frame);
+        file.positions = simulation_.previous_positions(body);
+        file.velocities = simulation_.previous_velocities(body);
+        write_frame(checkpoint_path(report_.bodies[static_cast<std::size_t>(body)], frame), file,
+                    {.created_by = options_.created_by});
+    }
+}
+
+template <int Dim>
+void Run<Dim>::remove_checkpoint(int frame) {
+    for (const std::string& body : report_.bodies) {
+        std::error_code ignored;
+        fs::remove(checkpoint_path(body, frame), ignored);
+    }
+}
+
+template <int Dim>
+void Run<Dim>::resume_history(int frame) {
+    for (int body = 0; body < simulation_.body_count(); ++body) {
+        const fs::path path =
+            checkpoint_path(report_.bodies[static_cast<std::size_t>(body)], frame);
+        if (!fs::exists(path)) {
+            return;  // there was none: the step before was the first, or cut in two
+        }
+        const Frame<Dim> before = read_frame<Dim>(path);
+        simulation_.set_history(body, before.positions, before.velocities);
+    }
+}
+
+// The checkpoint of the frame before goes only when the new frame is whole: there is always one to
+// resume from.
+template <int Dim>
+void Run<Dim>::write_frame_files(int frame) {
+    write_checkpoint(frame);
+    for (int body = 0; body < simulation_.body_count(); ++body) {
+        Frame<Dim> file = frame_file(body, frame);
         file.positions = simulation_.positions(body);
         file.velocities = simulation_.velocities(body);
-        file.mesh_name = name + ".pent";
-        file.mesh_crc = mesh_crcs_[static_cast<std::size_t>(body)];
-        file.frame = static_cast<std::uint64_t>(frame);
-        file.step = simulation_.step_count();
-        file.time = simulation_.time();
-        write_frame(frame_path(name, frame), file, {.created_by = options_.created_by});
+        write_frame(frame_path(report_.bodies[static_cast<std::size_t>(body)], frame), file,
+                    {.created_by = options_.created_by});
     }
+    remove_checkpoint(frame - 1);
     report_.frames.push_back(measure(frame));
     if (callbacks_.on_frame) {
         callbacks_.on_frame(report_.frames.back(),

@@ -79,9 +79,17 @@ TEST(Run, RefusesAFolderInUseUnlessForced) {
     EXPECT_FALSE(fs::exists(folder / "run/frames/box_000002.pent"));
 }
 
-TEST(Run, StopsWhenAskedAndResumesToTheSameBytes) {
+class Integrators : public testing::TestWithParam<Integrator> {};
+INSTANTIATE_TEST_SUITE_P(All,
+                         Integrators,
+                         testing::Values(Integrator::LinearEuler,
+                                         Integrator::NewtonEuler,
+                                         Integrator::Bdf2));
+
+TEST_P(Integrators, StopWhenAskedAndResumeToTheSameBytes) {
     const TempFolder folder;
-    const Scene scene = falling_bar(folder, 4);
+    Scene scene = falling_bar(folder, 4);
+    scene.solver.integrator = GetParam();
     static_cast<void>(run(scene, {.folder = folder / "whole"}));
     int asked = 0;
     const RunReport stopped =

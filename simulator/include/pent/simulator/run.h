@@ -15,6 +15,7 @@ namespace pent::simulator {
 ///     RUN/scene.toml                the scene as run, defaults filled in
 ///     RUN/meshes/BODY.pent          the mesh as placed
 ///     RUN/frames/BODY_000123.pent   positions and velocities; frame 0 is the start
+///     RUN/checkpoint/               what bdf2 needs beside the last frame to go on
 ///     RUN/report.json               verdict and statistics of every step and frame
 
 struct RunOptions {
