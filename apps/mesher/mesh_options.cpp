@@ -191,6 +191,8 @@ void add_options(CLI::App& cli, MeshArguments& arguments) {
         ->capture_default_str();
     cli.add_flag("--ascii", arguments.ascii, "Write text instead of binary");
     cli.add_flag("--quality", arguments.show_quality, "Print percentiles and a histogram");
+    cli.add_option("--histogram", arguments.histogram, "Draw the histogram into this SVG file")
+        ->type_name("FILE");
     cli.add_option("--time-limit", arguments.time_limit, "Give up after this long (s)")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();

@@ -15,6 +15,7 @@ struct MeshArguments {
     int dim = 4;
     bool ascii = false;
     bool show_quality = false;
+    std::filesystem::path histogram;  ///< An SVG file; empty for none.
     double time_limit = 900;  ///< s.
     double memory_limit = 0;  ///< MiB; 0: the machine's.
 

@@ -8,6 +8,7 @@
 #include "watchdog.h"
 
 #include <pent/mesher/make_body.h>
+#include <pent/output_file.h>
 #include <pent/pent_file.h>
 
 #include <cmath>
@@ -134,6 +135,11 @@ void make_and_write(Program& program, const MeshArguments& arguments) {
     const auto encoding = arguments.ascii ? pent::Encoding::Ascii : pent::Encoding::Binary;
     pent::write_mesh(arguments.output, body.mesh,
                      {.encoding = encoding, .created_by = program.name_and_version()});
+    if (!arguments.histogram.empty()) {
+        pent::write_text(
+            arguments.histogram,
+            pent::mesher::quality_svg(body.report.quality, arguments.output.filename().string()));
+    }
     say_surface(program, body.report);
     say_base(program, body.report, Dim);
     say_body(program, body.report, body.mesh.vertex_count(), Dim);

@@ -123,5 +123,17 @@ TEST(MeasureQuality, SumsUpWhatMeasureCellSays) {
     EXPECT_NE(quality_text(report).find("worst cells: "), std::string::npos);
 }
 
+TEST(QualitySvg, DrawsABarForEachBinAndEscapesTheTitle) {
+    const std::string svg =
+        quality_svg(measure_quality(test::kuhn_box<3>({1, 1, 1}, {1, 1, 1})), "a<b&c");
+    EXPECT_NE(svg.find("a&lt;b&amp;c"), std::string::npos);
+    std::size_t bars = 0;
+    for (std::size_t at = svg.find("#3b6ea5"); at != std::string::npos;
+         at = svg.find("#3b6ea5", at + 1)) {
+        ++bars;
+    }
+    EXPECT_EQ(bars, static_cast<std::size_t>(kHistogramBins));
+}
+
 }  // namespace
 }  // namespace pent::mesher

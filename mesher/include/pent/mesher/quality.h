@@ -62,4 +62,7 @@ template <int Dim>
 /// The histogram of mean ratios as text, one line a bin, and the percentiles of all measures.
 [[nodiscard]] std::string quality_text(const QualityReport& report);
 
+/// The histogram of mean ratios as an SVG picture, with a title and labeled axes.
+[[nodiscard]] std::string quality_svg(const QualityReport& report, const std::string& title);
+
 }  // namespace pent::mesher
