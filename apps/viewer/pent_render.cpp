@@ -91,6 +91,13 @@ viewer::RenderTargets to_targets(const Program& program, const Arguments& argume
     if (!arguments.sheet.empty() && !has_extension(arguments.sheet, ".png")) {
         throw Error("--sheet: found " + arguments.sheet + "; expected a name that ends in .png");
     }
+    const bool is_folder = output.empty() || output.back() == '/'
+                           || !std::filesystem::path(output).has_extension()
+                           || std::filesystem::is_directory(output);
+    if (!is_folder && !has_extension(output, ".mp4") && !has_extension(output, ".png")) {
+        throw Error("--output: found " + output + "; expected a name that ends in .mp4 or .png, or a "
+                    "folder (with / at its end if there is a dot in its name)");
+    }
     if (has_extension(output, ".mp4") && viewer::Movie::is_possible()) {
         targets.movie = output;
     } else if (has_extension(output, ".mp4")) {
@@ -114,7 +121,7 @@ Verdict render(Program& program, Arguments& arguments) {
     options.frames = viewer::select_frames(
         run.frames,
         is_one_picture && arguments.view.frames.empty() ? "last" : arguments.view.frames);
-    options.color = arguments.view.color;
+    options.color = to_color(arguments.view);
     options.projection = to_projection(arguments.view);
     options.has_floor = !arguments.no_floor;
     options.has_caption = !arguments.no_caption;

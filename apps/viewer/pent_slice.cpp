@@ -5,7 +5,6 @@
 #include <pent/viewer/slice_run.h>
 
 #include <functional>
-#include <map>
 #include <string>
 
 namespace pent::apps {
@@ -15,21 +14,18 @@ namespace {
 struct Arguments {
     ViewArguments view;
     std::string output;
-    viewer::SurfaceFormat format = viewer::SurfaceFormat::Ply;
+    std::string format = "ply";
     bool keep_degenerate = false;
     bool has_boundary = false;
 };
 
 void add_options(CLI::App& cli, Arguments& arguments) {
-    using viewer::SurfaceFormat;
     add_view_options(cli, arguments.view);
     cli.add_option("-o,--output", arguments.output, "Folder for the slices; made if need be")
         ->required()
         ->type_name("OUT");
-    const std::map<std::string, SurfaceFormat> formats = {
-        {"ply", SurfaceFormat::Ply}, {"obj", SurfaceFormat::Obj}, {"vtu", SurfaceFormat::Vtu}};
     cli.add_option("--format", arguments.format, "ply, obj or vtu; default: ply")
-        ->transform(CLI::CheckedTransformer(formats).description(""))
+        ->check(CLI::IsMember({"ply", "obj", "vtu"}).description(""))
         ->type_name("KIND");
     cli.add_flag("--keep-degenerate", arguments.keep_degenerate,
                  "Keep the triangles of zero area that a slice through vertices has");
@@ -38,13 +34,20 @@ void add_options(CLI::App& cli, Arguments& arguments) {
                  "to slice");
 }
 
+viewer::SurfaceFormat to_format(const std::string& name) {
+    if (name == "obj") {
+        return viewer::SurfaceFormat::Obj;
+    }
+    return name == "vtu" ? viewer::SurfaceFormat::Vtu : viewer::SurfaceFormat::Ply;
+}
+
 Verdict slice(Program& program, const Arguments& arguments) {
     const viewer::RunFolder run = viewer::open_run(arguments.view.input);
     viewer::SliceRunOptions options;
     options.sections = to_sections(arguments.view);
     options.frames = viewer::select_frames(run.frames, arguments.view.frames);
-    options.format = arguments.format;
-    options.color = arguments.view.color;
+    options.format = to_format(arguments.format);
+    options.color = to_color(arguments.view);
     options.keep_degenerate = arguments.keep_degenerate;
     options.projection = to_projection(arguments.view);
     options.has_boundary = arguments.has_boundary;

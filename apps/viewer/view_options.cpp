@@ -6,7 +6,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <sstream>
 #include <utility>
@@ -103,7 +102,6 @@ std::vector<double> to_numbers(const std::string& text, const std::string& what)
 }
 
 void add_view_options(CLI::App& cli, ViewArguments& arguments) {
-    using viewer::ColorBy;
     cli.add_option("input", arguments.input, "Run folder of pent-sim, or a .pent mesh")
         ->required()
         ->type_name("RUN");
@@ -134,13 +132,19 @@ void add_view_options(CLI::App& cli, ViewArguments& arguments) {
                    "Distance of the eye of a perspective from the slice, m; default: three times "
                    "the reach of the bodies")
         ->type_name("D");
-    const std::map<std::string, ColorBy> colors = {{"body", ColorBy::Body},
-                                                   {"w", ColorBy::W},
-                                                   {"speed", ColorBy::Speed},
-                                                   {"strain", ColorBy::Strain}};
     cli.add_option("--color", arguments.color, "Color by body, w, speed or strain; default: body")
-        ->transform(CLI::CheckedTransformer(colors).description(""))
+        ->check(CLI::IsMember({"body", "w", "speed", "strain"}).description(""))
         ->type_name("WHAT");
+}
+
+viewer::ColorBy to_color(const ViewArguments& arguments) {
+    using viewer::ColorBy;
+    for (const ColorBy by : {ColorBy::W, ColorBy::Speed, ColorBy::Strain}) {
+        if (arguments.color == viewer::name_of(by)) {
+            return by;
+        }
+    }
+    return ColorBy::Body;
 }
 
 std::optional<viewer::ProjectionOptions> to_projection(const ViewArguments& arguments) {

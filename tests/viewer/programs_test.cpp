@@ -88,6 +88,7 @@ TEST_F(ViewerPrograms, RefuseBadInputInOneLine) {
     expect_refused("pent-slice", at("run") + out + " --normal 1,2", "expected four");
     expect_refused("pent-slice", at("run") + out + " --offset 1", "--normal");
     expect_refused("pent-render", at("run"), "nothing to make");
+    expect_refused("pent-render", at("run") + " -o " + at("a.avi"), ".mp4 or .png");
     expect_refused("pent-render", at("run") + " -o " + at("a.png") + " --size 3", "--size");
     expect_refused("pent-render", at("run") + " --sheet " + at("a.jpg"), ".png");
     expect_refused("pent-render", at("run") + " -o " + at("a.png") + " --range 2,1", "--range");

@@ -65,6 +65,15 @@ std::string sweep_picture_name(int frame, std::size_t section) {
     return text;
 }
 
+// Finds out before all the work whether the files can be made at all.
+void try_outputs(const RenderTargets& targets) {
+    for (const std::filesystem::path& path : {targets.movie, targets.picture, targets.sheet}) {
+        if (!path.empty()) {
+            const OutputFile attempt(path);
+        }
+    }
+}
+
 template <int Dim>
 bool look_at_frames(Studio<Dim>& studio,
                     const RenderRunOptions& options,
@@ -193,6 +202,7 @@ RenderRunReport render_run(const RunFolder& run,
                            const RenderRunOptions& options,
                            const OnProgress& on_progress) {
     check(targets, options);
+    try_outputs(targets);
     return run.dimension == 4 ? render_run_in<4>(run, targets, options, on_progress)
                               : render_run_in<3>(run, targets, options, on_progress);
 }
