@@ -40,7 +40,8 @@ void add_options(CLI::App& cli, Arguments& arguments) {
         ->check(CLI::Range(1, 100));
     cli.add_option("--size", arguments.size, "Pixels of a picture; default: 1280x720")
         ->type_name("WxH");
-    cli.add_option("--fps", render.frames_per_second, "Pictures a second of the movie; default: 30")
+    cli.add_option("--fps", render.frames_per_second,
+                   "Pictures a second of the movie; default: as in the simulation")
         ->check(CLI::Range(0.1, 1000.0));
     cli.add_option("--azimuth", render.view.azimuth, "Camera, degrees about y; default: 30")
         ->check(CLI::Range(-3600.0, 3600.0));

@@ -161,7 +161,9 @@ TEST(RenderRun, MakesAMovieWhereFfmpegIs) {
     const TempFolder folder;
     write_run(folder / "run", "a", {0, 1, 2});
     const RunFolder run = open_run(folder / "run");
-    (void)render_run(run, {.movie = folder / "a.mp4"}, small_pictures(run), go_on);
+    const RenderRunReport report =
+        render_run(run, {.movie = folder / "a.mp4"}, small_pictures(run), go_on);
+    EXPECT_NEAR(report.frames_per_second, 10, 1e-12);  // frames are 0.1 s apart
     EXPECT_GT(std::filesystem::file_size(folder / "a.mp4"), 500U);
     EXPECT_EQ(count_files(folder.path()), 2U);
 }

@@ -100,7 +100,7 @@ bool render_frames(const Studio<Dim>& studio,
     std::unique_ptr<Movie> movie;
     if (!targets.movie.empty()) {
         movie = std::make_unique<Movie>(targets.movie, options.width, options.height,
-                                        options.frames_per_second);
+                                        report.frames_per_second);
     }
     const std::size_t shots = options.is_sweep ? studio.tile_count() : 1;
     const auto total = static_cast<std::int64_t>(options.frames.size() * shots);
@@ -189,6 +189,7 @@ RenderRunReport render_run_in(const RunFolder& run,
     }
     report.is_empty = studio.survey().box.isEmpty();
     report.range = studio.range();
+    report.frames_per_second = options.frames_per_second.value_or(studio.true_rate());
     report.is_complete =
         (!has_sheet || render_sheet(studio, targets, options, on_progress, report))
         && (!has_frames || render_frames(studio, targets, options, on_progress, report));

@@ -92,6 +92,16 @@ void Studio<Dim>::settle() {
 }
 
 template <int Dim>
+double Studio<Dim>::true_rate() const {
+    constexpr double kUsual = 30;
+    const std::vector<int>& frames = options_.frames;
+    const double first = load_frame<Dim>(run_, bodies_.front(), frames.front()).time;
+    const double last = load_frame<Dim>(run_, bodies_.front(), frames.back()).time;
+    const double rate = static_cast<double>(frames.size() - 1) / (last - first);
+    return last > first && !options_.is_sweep ? std::clamp(rate, 0.1, 1000.0) : kUsual;
+}
+
+template <int Dim>
 Image Studio<Dim>::picture(int frame) const {
     const Moment<Dim> moment = load_moment<Dim>(run_, bodies_, frame, options_.color);
     Image image(options_.width, options_.height);

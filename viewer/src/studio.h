@@ -40,6 +40,9 @@ public:
     /// Settles camera and colors; to be called between look_at() and the pictures.
     void settle();
 
+    /// Pictures a second at which the chosen frames play at their true speed; 30 for one moment.
+    [[nodiscard]] double true_rate() const;
+
     [[nodiscard]] const Survey& survey() const { return survey_; }
     [[nodiscard]] ColorRange range() const { return range_; }
 

@@ -28,7 +28,8 @@ struct RenderRunOptions {
     ViewOptions view;
     bool has_floor = true;    ///< A floor under the lowest point, for the shadows.
     bool has_caption = true;  ///< Time, hyperplane and color bar.
-    double frames_per_second = 30;
+    /// Of the movie, over 0; none: as in the simulation, so that it plays at its true speed.
+    std::optional<double> frames_per_second;
     int sheet_frames = 6;  ///< On a contact sheet, evenly spread, at most; at least 1.
 };
 
@@ -42,10 +43,11 @@ struct RenderTargets {
 };
 
 struct RenderRunReport {
-    std::int64_t pictures = 0;  ///< Rendered.
-    bool is_complete = false;   ///< False if on_progress ended it; then no movie is left.
-    bool is_empty = false;      ///< No hyperplane meets a body in any frame.
-    ColorRange range;           ///< Of the color bar.
+    std::int64_t pictures = 0;     ///< Rendered.
+    bool is_complete = false;      ///< False if on_progress ended it; then no movie is left.
+    bool is_empty = false;         ///< No hyperplane meets a body in any frame.
+    ColorRange range;              ///< Of the color bar.
+    double frames_per_second = 0;  ///< Of the movie.
     std::vector<std::string> files;
 };
 
