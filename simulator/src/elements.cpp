@@ -73,8 +73,8 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
         count_ += static_cast<std::int64_t>(chosen.size());
         for (std::size_t first = 0; first < chosen.size(); first += kChunkElements) {
             const std::size_t last = std::min(first + kChunkElements, chosen.size());
-            const auto group = static_cast<std::int64_t>(
-                rest_.size() / static_cast<std::size_t>((Dim * Dim + 1) * kGroup));
+            const auto group =
+                static_cast<std::int64_t>(rest_.size() / (std::size_t{Dim * Dim + 1} * kGroup));
             chunks_.push_back({group, static_cast<int>(last - first), range.material});
             append(rest, cells,
                    {chosen.begin() + static_cast<std::ptrdiff_t>(first),
@@ -100,7 +100,7 @@ void Elements<Dim>::append(const Positions<Dim>& rest,
                            const std::vector<Eigen::Index>& chosen,
                            const Numbering& numbering,
                            const BlockPattern& pattern) {
-    constexpr int kRestRows = Dim * Dim + 1;
+    constexpr std::size_t kRestRows = Dim * Dim + 1;
     const std::size_t groups = (chosen.size() + kGroup - 1) / kGroup;
     for (std::size_t group = 0; group < groups; ++group) {
         const std::size_t rest_at = rest_.size();
@@ -125,7 +125,7 @@ void Elements<Dim>::append(const Positions<Dim>& rest,
                 rest_[rest_at + static_cast<std::size_t>(i) * kGroup + lane] =
                     inverse(i / Dim, i % Dim);
             }
-            rest_[rest_at + Dim * Dim * kGroup + lane] =
+            rest_[rest_at + std::size_t{Dim * Dim} * kGroup + lane] =
                 is_padding ? 0 : cell_volume<Dim>(rest, cells, cell);
             std::size_t pair = 0;
             for (std::size_t a = 0; a <= Dim; ++a) {

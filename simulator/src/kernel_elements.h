@@ -6,6 +6,10 @@
 
 // Forces and Hessians of element groups, in lanes.
 
+// Tensors of lanes are filled entry by entry right after they are declared; zeroing them first would
+// cost as much as using them.
+// NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
+
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
@@ -25,7 +29,7 @@ Group<Dim> group_at(const ElementRun& run, int group) {
     const double* rest = run.rest + static_cast<std::int64_t>(group) * (Dim * Dim + 1) * kGroup;
     const int left = run.elements - group * kGroup;
     return {rest,
-            rest + Dim * Dim * kGroup,
+            rest + std::int64_t{Dim} * Dim * kGroup,
             run.vertices + static_cast<std::int64_t>(group) * (Dim + 1) * kGroup,
             run.unknowns + static_cast<std::int64_t>(group) * (Dim + 1) * kGroup,
             run.blocks + static_cast<std::int64_t>(group) * kPairs<Dim> * kGroup,
@@ -57,7 +61,7 @@ Tensor<Real, Dim> load_rest(const Group<Dim>& group, int lane) {
     Tensor<Real, Dim> rest;
     for (int i = 0; i < Dim; ++i) {
         for (int j = 0; j < Dim; ++j) {
-            rest[i][j] = Lanes<Real>::load(group.rest + (i * Dim + j) * kGroup + lane);
+            rest[i][j] = Lanes<Real>::load(group.rest + std::int64_t{i * Dim + j} * kGroup + lane);
         }
     }
     return rest;
@@ -164,7 +168,7 @@ RotatedHessian<Real, Dim> rotated_hessian(const Tensor<Real, Dim>& F,
     SignedSvd<Real, Dim> svd;
     if (moduli.model == Model::Linear) {  // does not depend on F: any frame will do
         svd.U = identity<Real, Dim>();
-        svd.rest_V = rest;
+        svd.turned_rest = rest;
         for (int i = 0; i < Dim; ++i) {
             svd.sigma[i] = Real(Number(1));
         }
@@ -174,7 +178,7 @@ RotatedHessian<Real, Dim> rotated_hessian(const Tensor<Real, Dim>& F,
     const Spectrum<Real, Dim> spectrum = spectrum_of(svd.sigma, moduli);
     RotatedHessian<Real, Dim> hessian;
     hessian.U = svd.U;
-    hessian.beta = svd.rest_V;
+    hessian.beta = svd.turned_rest;
     hessian.stretch = filtered(spectrum.stretch, filter);
     for (int i = 0; i < Dim; ++i) {
         for (int j = i + 1; j < Dim; ++j) {
@@ -346,7 +350,7 @@ template <int Dim, typename Scalar>
 void prefetch_blocks(const Group<Dim>& group, const Scalar* values) {
     for (int i = 0; i < kPairs<Dim> * kGroup; ++i) {
         const std::int64_t block = group.blocks[i] < 0 ? 0 : group.blocks[i];
-        __builtin_prefetch(values + block * Dim * Dim, 1);
+        __builtin_prefetch(values + block * std::int64_t{Dim * Dim}, 1);
     }
 }
 
@@ -384,3 +388,5 @@ void add_hessian(const ElementRun& run,
 
 }  // namespace
 }  // namespace pent::simulator
+
+// NOLINTEND(cppcoreguidelines-pro-type-member-init)

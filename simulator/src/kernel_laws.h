@@ -5,6 +5,10 @@
 
 // The elastic energies in lanes; energy.h has their formulas and is what they are tested against.
 
+// Tensors of lanes are filled entry by entry right after they are declared; zeroing them first would
+// cost as much as using them.
+// NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
+
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
@@ -75,9 +79,9 @@ Stress<Real, Dim> arap_stress(const Tensor<Real, Dim>& F, const Moduli& moduli) 
     Tensor<Real, Dim> gap;  // F - R
     for (int i = 0; i < Dim; ++i) {
         for (int j = 0; j < Dim; ++j) {
-            Real R = svd.U[i][0] * svd.rest_V[j][0];
+            Real R = svd.U[i][0] * svd.turned_rest[j][0];
             for (int k = 1; k < Dim; ++k) {
-                R += svd.U[i][k] * svd.rest_V[j][k];
+                R += svd.U[i][k] * svd.turned_rest[j][k];
             }
             gap[i][j] = F[i][j] - R;
             stress.P[i][j] = Real(2 * moduli.mu) * gap[i][j];
@@ -285,3 +289,5 @@ Spectrum<Real, Dim> spectrum_of(const Real (&sigma)[Dim], const Moduli& moduli) 
 
 }  // namespace
 }  // namespace pent::simulator
+
+// NOLINTEND(cppcoreguidelines-pro-type-member-init)

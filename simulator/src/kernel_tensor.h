@@ -6,6 +6,10 @@
 
 // Small dense algebra in lanes: cofactor matrix, singular values, filtered symmetric matrices.
 
+// Tensors of lanes are filled entry by entry right after they are declared; zeroing them first would
+// cost as much as using them.
+// NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
+
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
@@ -107,7 +111,7 @@ template <typename Real, int Dim>
 struct SignedSvd {
     Tensor<Real, Dim> U;
     Real sigma[Dim];
-    Tensor<Real, Dim> rest_V;  // the matrix `rest` passed in, times V
+    Tensor<Real, Dim> turned_rest;  // the matrix `rest` passed in, times V
 };
 
 // Turns columns i and j of A by the plane rotation (c, s).
@@ -226,7 +230,7 @@ SignedSvd<Real, Dim> signed_svd(Tensor<Real, Dim> F, Tensor<Real, Dim> rest) {
         }
     }
     SignedSvd<Real, Dim> svd;
-    svd.rest_V = rest;
+    svd.turned_rest = rest;
     Real largest = Real(Number(0));
     Real smallest = Real(Number(0));
     for (int j = 0; j < Dim; ++j) {
@@ -365,3 +369,5 @@ Tensor<Real, Dim> filtered(const Tensor<Real, Dim>& matrix, Filter filter) {
 
 }  // namespace
 }  // namespace pent::simulator
+
+// NOLINTEND(cppcoreguidelines-pro-type-member-init)

@@ -25,7 +25,7 @@ public:
 
     /// Runs `work` with the threads at its disposal; for_each within it then costs least.
     template <typename Work>
-    auto run(const Work& work) const {
+    [[nodiscard]] auto run(const Work& work) const {
         return threads_ == 1 ? work() : arena_->execute(work);
     }
 

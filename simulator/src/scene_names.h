@@ -74,6 +74,7 @@ inline constexpr std::array kPresets = {
 template <typename Table>
 [[nodiscard]] std::vector<std::string_view> names_of(const Table& table) {
     std::vector<std::string_view> words;
+    words.reserve(table.size());
     for (const auto& name : table) {
         words.push_back(name.word);
     }
