@@ -57,7 +57,7 @@ public:
 private:
     struct Half {
         BoxTree::Range range;
-        Box box;
+        Box box{};
     };
     struct Halves {
         std::array<Half, 2> half;
@@ -99,7 +99,7 @@ private:
 }  // namespace
 
 Box hull(const Box& a, const Box& b) {
-    Box box;
+    Box box{};
     for (int axis = 0; axis < 4; ++axis) {
         box.low[axis] = std::min(a.low[axis], b.low[axis]);
         box.high[axis] = std::max(a.high[axis], b.high[axis]);

@@ -106,7 +106,7 @@ public:
         return contacts;
     }
 
-    std::vector<std::string> warnings() const {
+    [[nodiscard]] std::vector<std::string> warnings() const {
         std::vector<std::string> lines;
         for (std::size_t i = 0; i < bodies_.size(); ++i) {
             if (2 * options_.distance > mean_edges_[i]) {
@@ -120,8 +120,8 @@ public:
         return lines;
     }
 
-    const std::vector<ContactBody<Dim>>& bodies() const { return bodies_; }
-    const ContactOptions& options() const { return options_; }
+    [[nodiscard]] const std::vector<ContactBody<Dim>>& bodies() const { return bodies_; }
+    [[nodiscard]] const ContactOptions& options() const { return options_; }
 
 private:
     [[nodiscard]] double search_distance() const { return options_.distance + 2 * options_.margin; }
@@ -200,19 +200,22 @@ private:
         searched_at_ = options_.margin > 0 ? Positions<Dim>(positions) : Positions<Dim>(Dim, 0);
     }
 
-    NearPairs points_near(int a, int b, const PositionsView<Dim>& positions) const {
+    [[nodiscard]] NearPairs points_near(int a, int b, const PositionsView<Dim>& positions) const {
         return near_pairs<Dim, 1, Dim>({bodies_[a].surface.vertices, trees_[a].vertices()},
                                        {bodies_[b].surface.facets, trees_[b].facets()}, positions,
                                        search_distance());
     }
 
-    NearPairs mixed_near(int a, int b, const PositionsView<Dim>& positions, Closest closest) const {
+    [[nodiscard]] NearPairs mixed_near(int a,
+                                       int b,
+                                       const PositionsView<Dim>& positions,
+                                       Closest closest) const {
         return near_pairs<Dim, 2, Dim - 1>({bodies_[a].surface.edges, trees_[a].edges()},
                                            {bodies_[b].surface.ridges, trees_[b].ridges()},
                                            positions, search_distance(), closest);
     }
 
-    std::vector<BodyPair> still_near(const PositionsView<Dim>& positions) const {
+    [[nodiscard]] std::vector<BodyPair> still_near(const PositionsView<Dim>& positions) const {
         const double eps = options_.distance;
         std::vector<BodyPair> result;
         for (const BodyPair& pair : pairs_) {

@@ -71,13 +71,17 @@ std::vector<ObstacleContact<Dim>> find_obstacle_contacts(
     return contacts;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                         \
-    template void add_forces<Dim>(const std::vector<Contact<Dim>>&, Positions<Dim>&); \
-    template std::vector<ObstacleContact<Dim>> find_obstacle_contacts<Dim>(           \
-        const std::vector<PenaltyObstacle<Dim>>&, const std::vector<std::uint32_t>&,  \
-        const PositionsView<Dim>&, Filter);
-PENT_INSTANTIATE(3)
-PENT_INSTANTIATE(4)
-#undef PENT_INSTANTIATE
+template void add_forces<3>(const std::vector<Contact<3>>&, Positions<3>&);
+template std::vector<ObstacleContact<3>> find_obstacle_contacts<3>(
+    const std::vector<PenaltyObstacle<3>>&,
+    const std::vector<std::uint32_t>&,
+    const PositionsView<3>&,
+    Filter);
+template void add_forces<4>(const std::vector<Contact<4>>&, Positions<4>&);
+template std::vector<ObstacleContact<4>> find_obstacle_contacts<4>(
+    const std::vector<PenaltyObstacle<4>>&,
+    const std::vector<std::uint32_t>&,
+    const PositionsView<4>&,
+    Filter);
 
 }  // namespace pent::contact

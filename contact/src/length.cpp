@@ -50,14 +50,19 @@ LengthEigensystem<Dim> length_eigensystem(const Stencil<Dim>& points,
     return {curvature * squared, slope * squared / l, difference / l};
 }
 
-#define PENT_INSTANTIATE(Dim)                                                                   \
-    template double length<Dim>(const Stencil<Dim>&, const Weights<Dim>&);                      \
-    template StencilVector<Dim> length_gradient<Dim>(const Stencil<Dim>&, const Weights<Dim>&); \
-    template StencilMatrix<Dim> length_hessian<Dim>(const Stencil<Dim>&, const Weights<Dim>&);  \
-    template LengthEigensystem<Dim> length_eigensystem<Dim>(const Stencil<Dim>&,                \
-                                                            const Weights<Dim>&, double, double);
-PENT_INSTANTIATE(3)
-PENT_INSTANTIATE(4)
-#undef PENT_INSTANTIATE
+template double length<3>(const Stencil<3>&, const Weights<3>&);
+template StencilVector<3> length_gradient<3>(const Stencil<3>&, const Weights<3>&);
+template StencilMatrix<3> length_hessian<3>(const Stencil<3>&, const Weights<3>&);
+template LengthEigensystem<3> length_eigensystem<3>(const Stencil<3>&,
+                                                    const Weights<3>&,
+                                                    double,
+                                                    double);
+template double length<4>(const Stencil<4>&, const Weights<4>&);
+template StencilVector<4> length_gradient<4>(const Stencil<4>&, const Weights<4>&);
+template StencilMatrix<4> length_hessian<4>(const Stencil<4>&, const Weights<4>&);
+template LengthEigensystem<4> length_eigensystem<4>(const Stencil<4>&,
+                                                    const Weights<4>&,
+                                                    double,
+                                                    double);
 
 }  // namespace pent::contact

@@ -214,24 +214,49 @@ NearPair nearest_facet(const Surface<Dim>& surface,
     return best;
 }
 
-#define PENT_INSTANTIATE(Dim, L)                                                                   \
-    template NearPairs near_pairs<Dim, 1, Dim>(const SearchSet<1>&, const SearchSet<Dim>&,         \
-                                               const PositionsView<Dim>&, double, Closest);        \
-    template NearPairs near_pairs<Dim, 2, L>(const SearchSet<2>&, const SearchSet<L>&,             \
-                                             const PositionsView<Dim>&, double, Closest);          \
-    template NearPairs still_near_pairs<Dim, 1, Dim>(const NearPairs&, const Simplices<1>&,        \
-                                                     const Simplices<Dim>&,                        \
-                                                     const PositionsView<Dim>&, double, Closest);  \
-    template NearPairs still_near_pairs<Dim, 2, L>(const NearPairs&, const Simplices<2>&,          \
-                                                   const Simplices<L>&, const PositionsView<Dim>&, \
-                                                   double, Closest);                               \
-    template std::vector<std::uint8_t> vertices_inside<Dim>(const Surface<Dim>&, const BoxTree&,   \
-                                                            const Surface<Dim>&, const BoxTree&,   \
-                                                            const PositionsView<Dim>&);            \
-    template NearPair nearest_facet<Dim>(const Surface<Dim>&, const BoxTree&,                      \
-                                         const PositionsView<Dim>&, const Vector<Dim>&);
-PENT_INSTANTIATE(3, 2)
-PENT_INSTANTIATE(4, 3)
-#undef PENT_INSTANTIATE
+template NearPairs near_pairs<3, 1, 3>(
+    const SearchSet<1>&, const SearchSet<3>&, const PositionsView<3>&, double, Closest);
+template NearPairs near_pairs<3, 2, 2>(
+    const SearchSet<2>&, const SearchSet<2>&, const PositionsView<3>&, double, Closest);
+template NearPairs still_near_pairs<3, 1, 3>(const NearPairs&,
+                                             const Simplices<1>&,
+                                             const Simplices<3>&,
+                                             const PositionsView<3>&,
+                                             double,
+                                             Closest);
+template NearPairs still_near_pairs<3, 2, 2>(const NearPairs&,
+                                             const Simplices<2>&,
+                                             const Simplices<2>&,
+                                             const PositionsView<3>&,
+                                             double,
+                                             Closest);
+template std::vector<std::uint8_t> vertices_inside<3>(
+    const Surface<3>&, const BoxTree&, const Surface<3>&, const BoxTree&, const PositionsView<3>&);
+template NearPair nearest_facet<3>(const Surface<3>&,
+                                   const BoxTree&,
+                                   const PositionsView<3>&,
+                                   const Vector<3>&);
+template NearPairs near_pairs<4, 1, 4>(
+    const SearchSet<1>&, const SearchSet<4>&, const PositionsView<4>&, double, Closest);
+template NearPairs near_pairs<4, 2, 3>(
+    const SearchSet<2>&, const SearchSet<3>&, const PositionsView<4>&, double, Closest);
+template NearPairs still_near_pairs<4, 1, 4>(const NearPairs&,
+                                             const Simplices<1>&,
+                                             const Simplices<4>&,
+                                             const PositionsView<4>&,
+                                             double,
+                                             Closest);
+template NearPairs still_near_pairs<4, 2, 3>(const NearPairs&,
+                                             const Simplices<2>&,
+                                             const Simplices<3>&,
+                                             const PositionsView<4>&,
+                                             double,
+                                             Closest);
+template std::vector<std::uint8_t> vertices_inside<4>(
+    const Surface<4>&, const BoxTree&, const Surface<4>&, const BoxTree&, const PositionsView<4>&);
+template NearPair nearest_facet<4>(const Surface<4>&,
+                                   const BoxTree&,
+                                   const PositionsView<4>&,
+                                   const Vector<4>&);
 
 }  // namespace pent::contact

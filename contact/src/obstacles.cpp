@@ -181,16 +181,23 @@ void check(const Obstacle<Dim>& obstacle, const char* name) {
     std::visit([&](const auto& shape) { check_shape(shape, name); }, obstacle);
 }
 
-#define PENT_INSTANTIATE(Dim)                                                                     \
-    template double signed_distance<Dim>(const Obstacle<Dim>&, const Vector<Dim>&);               \
-    template Vector<Dim> signed_distance_gradient<Dim>(const Obstacle<Dim>&, const Vector<Dim>&); \
-    template Eigen::Matrix<double, Dim, Dim> signed_distance_hessian<Dim>(const Obstacle<Dim>&,   \
-                                                                          const Vector<Dim>&);    \
-    template Response<Dim> obstacle_response<Dim>(const Obstacle<Dim>&, const Vector<Dim>&,       \
-                                                  const Penalty&, Filter);                        \
-    template void check<Dim>(const Obstacle<Dim>&, const char*);
-PENT_INSTANTIATE(3)
-PENT_INSTANTIATE(4)
-#undef PENT_INSTANTIATE
+template double signed_distance<3>(const Obstacle<3>&, const Vector<3>&);
+template Vector<3> signed_distance_gradient<3>(const Obstacle<3>&, const Vector<3>&);
+template Eigen::Matrix<double, 3, 3> signed_distance_hessian<3>(const Obstacle<3>&,
+                                                                const Vector<3>&);
+template Response<3> obstacle_response<3>(const Obstacle<3>&,
+                                          const Vector<3>&,
+                                          const Penalty&,
+                                          Filter);
+template void check<3>(const Obstacle<3>&, const char*);
+template double signed_distance<4>(const Obstacle<4>&, const Vector<4>&);
+template Vector<4> signed_distance_gradient<4>(const Obstacle<4>&, const Vector<4>&);
+template Eigen::Matrix<double, 4, 4> signed_distance_hessian<4>(const Obstacle<4>&,
+                                                                const Vector<4>&);
+template Response<4> obstacle_response<4>(const Obstacle<4>&,
+                                          const Vector<4>&,
+                                          const Penalty&,
+                                          Filter);
+template void check<4>(const Obstacle<4>&, const char*);
 
 }  // namespace pent::contact

@@ -154,17 +154,17 @@ std::optional<Contact<Dim>> local_contact(const PairSetting<Dim>& setting,
     return contact;
 }
 
-#define PENT_INSTANTIATE(Dim, L)                                                             \
-    template std::optional<Contact<Dim>> solid_contact<Dim>(                                 \
-        const PairSetting<Dim>&, std::uint32_t, const Simplices<Dim>&, std::uint32_t, bool); \
-    template std::optional<Contact<Dim>> local_contact<Dim, 1, Dim>(                         \
-        const PairSetting<Dim>&, const Simplices<1>&, std::uint32_t, const Simplices<Dim>&,  \
-        std::uint32_t);                                                                      \
-    template std::optional<Contact<Dim>> local_contact<Dim, 2, L>(                           \
-        const PairSetting<Dim>&, const Simplices<2>&, std::uint32_t, const Simplices<L>&,    \
-        std::uint32_t);
-PENT_INSTANTIATE(3, 2)
-PENT_INSTANTIATE(4, 3)
-#undef PENT_INSTANTIATE
+template std::optional<Contact<3>> solid_contact<3>(
+    const PairSetting<3>&, std::uint32_t, const Simplices<3>&, std::uint32_t, bool);
+template std::optional<Contact<3>> local_contact<3, 1, 3>(
+    const PairSetting<3>&, const Simplices<1>&, std::uint32_t, const Simplices<3>&, std::uint32_t);
+template std::optional<Contact<3>> local_contact<3, 2, 2>(
+    const PairSetting<3>&, const Simplices<2>&, std::uint32_t, const Simplices<2>&, std::uint32_t);
+template std::optional<Contact<4>> solid_contact<4>(
+    const PairSetting<4>&, std::uint32_t, const Simplices<4>&, std::uint32_t, bool);
+template std::optional<Contact<4>> local_contact<4, 1, 4>(
+    const PairSetting<4>&, const Simplices<1>&, std::uint32_t, const Simplices<4>&, std::uint32_t);
+template std::optional<Contact<4>> local_contact<4, 2, 3>(
+    const PairSetting<4>&, const Simplices<2>&, std::uint32_t, const Simplices<3>&, std::uint32_t);
 
 }  // namespace pent::contact

@@ -272,18 +272,22 @@ int winding_number(const Surface<Dim>& surface,
     return sum;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                                    \
-    template Surface<Dim> make_surface<Dim>(const Simplices<Dim + 1>&, Eigen::Index,             \
-                                            std::uint32_t);                                      \
-    template double mean_edge_length<Dim>(const Surface<Dim>&, const PositionsView<Dim>&);       \
-    template Vector<Dim> facet_normal<Dim>(const Corners<Dim, Dim>&);                            \
-    template Positions<Dim> vertex_normals<Dim>(const Surface<Dim>&, const PositionsView<Dim>&); \
-    template int winding_number<Dim>(const Surface<Dim>&, const BoxTree&,                        \
-                                     const PositionsView<Dim>&, const Vector<Dim>&);
-PENT_INSTANTIATE(3)
-PENT_INSTANTIATE(4)
-#undef PENT_INSTANTIATE
-
+template Surface<3> make_surface<3>(const Simplices<3 + 1>&, Eigen::Index, std::uint32_t);
+template double mean_edge_length<3>(const Surface<3>&, const PositionsView<3>&);
+template Vector<3> facet_normal<3>(const Corners<3, 3>&);
+template Positions<3> vertex_normals<3>(const Surface<3>&, const PositionsView<3>&);
+template int winding_number<3>(const Surface<3>&,
+                               const BoxTree&,
+                               const PositionsView<3>&,
+                               const Vector<3>&);
+template Surface<4> make_surface<4>(const Simplices<4 + 1>&, Eigen::Index, std::uint32_t);
+template double mean_edge_length<4>(const Surface<4>&, const PositionsView<4>&);
+template Vector<4> facet_normal<4>(const Corners<4, 4>&);
+template Positions<4> vertex_normals<4>(const Surface<4>&, const PositionsView<4>&);
+template int winding_number<4>(const Surface<4>&,
+                               const BoxTree&,
+                               const PositionsView<4>&,
+                               const Vector<4>&);
 template std::vector<Box> boxes_around<3, 1>(const Simplices<1>&, const PositionsView<3>&, double);
 template std::vector<Box> boxes_around<3, 2>(const Simplices<2>&, const PositionsView<3>&, double);
 template std::vector<Box> boxes_around<3, 3>(const Simplices<3>&, const PositionsView<3>&, double);

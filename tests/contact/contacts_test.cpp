@@ -99,7 +99,7 @@ TYPED_TEST(ContactsTest, AreNoneApart) {
 
 TYPED_TEST(ContactsTest, OfACornerOverAFaceIsTheHandWorkedOne) {
     constexpr int kDim = TypeParam::value;
-    for (const double gap : {0.15, 0.05, -0.1, -0.5}) {
+    for (const double gap : {0.15, 0.05, 1e-12, 0.0, -1e-12, -0.1, -0.5}) {
         const test::Scene<kDim> scene = TestFixture::corner_over_box(gap);
         const Contacts<kDim> contacts = contacts_of(scene);
         const Contact<kDim>* deepest = nullptr;
