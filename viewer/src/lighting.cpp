@@ -1,6 +1,7 @@
 #include "lighting.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -85,33 +86,27 @@ Visibility trace_visibility(const RayScene& scene,
                             int pattern) {
     static const DiskPoints<kSkyRays> sky_points = make_disk_points<kSkyRays>();
     static const DiskPoints<kKeyRays> key_points = make_disk_points<kKeyRays>();
-    const Vec from = point + lighting.skin * normal;
-    Visibility visibility;
+    static_assert(kSkyRays + kKeyRays <= RayScene::Bundle::kRays);
+    RayScene::Bundle bundle;
+    bundle.from = point + lighting.skin * normal;
     const Across tangent = across(normal);
-    int open = 0;
     for (int k = 0; k < kSkyRays; ++k) {
         const Eigen::Vector2f& d = sky_points[ray_index(pattern, k)];
         const float height = std::sqrt(std::max(0.0F, 1 - d.squaredNorm()));
-        const Vec direction = d.x() * tangent.a + d.y() * tangent.b + height * normal;
-        open += scene.is_blocked(from, direction, lighting.reach) ? 0 : 1;
-    }
-    visibility.sky = static_cast<float>(open) / kSkyRays;
-    if (normal.dot(lighting.to_key) <= -kKeyRadius) {
-        visibility.key = 0;
-        return visibility;
+        bundle.add(d.x() * tangent.a + d.y() * tangent.b + height * normal, lighting.reach);
     }
     const Across lamp = across(lighting.to_key);
-    int lit = 0;
     for (int k = 0; k < kKeyRays; ++k) {
         const Eigen::Vector2f d = kKeyRadius * key_points[ray_index(pattern, k)];
         const Vec direction = (lighting.to_key + d.x() * lamp.a + d.y() * lamp.b).normalized();
-        const bool is_lit =
-            normal.dot(direction) > 0
-            && !scene.is_blocked(from, direction, std::numeric_limits<float>::infinity());
-        lit += is_lit ? 1 : 0;
+        if (normal.dot(direction) > 0) {
+            bundle.add(direction, std::numeric_limits<float>::infinity());
+        }
     }
-    visibility.key = static_cast<float>(lit) / kKeyRays;
-    return visibility;
+    const unsigned open = ~scene.blocked(bundle) & ((1U << bundle.count) - 1);
+    constexpr unsigned kSkyMask = (1U << kSkyRays) - 1;
+    return {static_cast<float>(std::popcount(open & kSkyMask)) / kSkyRays,
+            static_cast<float>(std::popcount(open & ~kSkyMask)) / kKeyRays};
 }
 
 Color shade(const Lighting& lighting,

@@ -36,29 +36,19 @@ RayScene::RayScene(RTCDevice device,
     }
 }
 
-namespace {
-
-RTCRay make_ray(const Vec& from, const Vec& direction, float nearest, float farthest) {
-    RTCRay ray = {};
-    ray.org_x = from.x();
-    ray.org_y = from.y();
-    ray.org_z = from.z();
-    ray.dir_x = direction.x();
-    ray.dir_y = direction.y();
-    ray.dir_z = direction.z();
-    ray.tnear = nearest;
-    ray.tfar = farthest;
-    ray.mask = ~0U;
-    return ray;
-}
-
-}  // namespace
-
 RayHit RayScene::first_hit(const Vec& from, const Vec& direction, float nearest) const {
     RTCIntersectContext context{};
     rtcInitIntersectContext(&context);
     RTCRayHit query = {};
-    query.ray = make_ray(from, direction, nearest, std::numeric_limits<float>::infinity());
+    query.ray.org_x = from.x();
+    query.ray.org_y = from.y();
+    query.ray.org_z = from.z();
+    query.ray.dir_x = direction.x();
+    query.ray.dir_y = direction.y();
+    query.ray.dir_z = direction.z();
+    query.ray.tnear = nearest;
+    query.ray.tfar = std::numeric_limits<float>::infinity();
+    query.ray.mask = ~0U;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_.get(), &context, &query);
     RayHit hit;
@@ -73,12 +63,29 @@ RayHit RayScene::first_hit(const Vec& from, const Vec& direction, float nearest)
     return hit;
 }
 
-bool RayScene::is_blocked(const Vec& from, const Vec& direction, float farthest) const {
+unsigned RayScene::blocked(const Bundle& bundle) const {
     RTCIntersectContext context{};
     rtcInitIntersectContext(&context);
-    RTCRay ray = make_ray(from, direction, 0, farthest);
-    rtcOccluded1(scene_.get(), &context, &ray);
-    return ray.tfar < 0;
+    alignas(32) std::array<int, Bundle::kRays> valid{};  // -1 for a ray that is there
+    RTCRay8 rays = {};
+    for (int k = 0; k < bundle.count; ++k) {
+        valid[k] = -1;
+        rays.org_x[k] = bundle.from.x();
+        rays.org_y[k] = bundle.from.y();
+        rays.org_z[k] = bundle.from.z();
+        rays.dir_x[k] = bundle.directions[k].x();
+        rays.dir_y[k] = bundle.directions[k].y();
+        rays.dir_z[k] = bundle.directions[k].z();
+        rays.tfar[k] = bundle.farthest[k];
+        rays.mask[k] = ~0U;
+    }
+    rtcOccluded8(valid.data(), scene_.get(), &context, &rays);
+    unsigned blocked = 0;
+    for (int k = 0; k < bundle.count; ++k) {
+        blocked |=
+            rays.tfar[k] < 0 ? 1U << k : 0U;  // what Embree sets for a ray that meets something
+    }
+    return blocked;
 }
 
 Vec RayScene::corner(const RayHit& hit, int k) const {

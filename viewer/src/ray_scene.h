@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstdint>
 #include <embree3/rtcore.h>
 #include <limits>
@@ -52,8 +53,23 @@ public:
 
     [[nodiscard]] RayHit first_hit(const Vec& from, const Vec& direction, float nearest) const;
 
-    /// Whether anything is met before `farthest`.
-    [[nodiscard]] bool is_blocked(const Vec& from, const Vec& direction, float farthest) const;
+    /// Rays from one point that are asked together, which is faster than one by one.
+    struct Bundle {
+        static constexpr int kRays = 8;
+        Vec from = Vec::Zero();
+        std::array<Vec, kRays> directions{};
+        std::array<float, kRays> farthest{};  ///< m.
+        int count = 0;                        ///< How many of them there are.
+
+        void add(const Vec& direction, float reach) {
+            directions[count] = direction;
+            farthest[count] = reach;
+            ++count;
+        }
+    };
+
+    /// Whether each ray of a bundle meets anything: bit k for ray k.
+    [[nodiscard]] unsigned blocked(const Bundle& bundle) const;
 
     /// Corner k of the triangle that was hit, about the origin.
     [[nodiscard]] Vec corner(const RayHit& hit, int k) const;
