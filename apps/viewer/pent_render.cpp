@@ -6,10 +6,13 @@
 #include <pent/viewer/render_run.h>
 #include <pent/viewer/run_folder.h>
 
-#include <cstdio>
+#include <charconv>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 
 namespace pent::apps {
 
@@ -59,12 +62,28 @@ void add_options(CLI::App& cli, Arguments& arguments) {
     cli.add_flag("--no-caption", arguments.no_caption, "Leave out time, slice and color bar");
 }
 
+// "1280x720" as its two numbers, or nothing.
+std::optional<std::pair<int, int>> to_size(const std::string& text) {
+    int width = 0;
+    int height = 0;
+    const char* end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, width);
+    if (first.ec != std::errc() || first.ptr == end || *first.ptr != 'x') {
+        return std::nullopt;
+    }
+    const auto second = std::from_chars(first.ptr + 1, end, height);
+    if (second.ec != std::errc() || second.ptr != end) {
+        return std::nullopt;
+    }
+    return std::pair(width, height);
+}
+
 void read_size(const std::string& text, viewer::RenderRunOptions& render) {
-    int used = 0;
-    if (std::sscanf(text.c_str(), "%6dx%6d%n", &render.width, &render.height, &used) != 2
-        || static_cast<std::size_t>(used) != text.size()) {
+    const auto size = to_size(text);
+    if (!size) {
         throw Error("--size: found \"" + text + "\"; expected WIDTHxHEIGHT, as in 1280x720");
     }
+    std::tie(render.width, render.height) = *size;
 }
 
 viewer::ColorRange to_color_range(const std::string& text) {
