@@ -51,12 +51,13 @@ mesh armadillo_8 9963 109824 3 $research/armadillo.off \
     --surface-triangles 2004 --radius-edge-ratio 1.6 --layers 8 --thickness 53
 mesh alien 23551 245040 3 data/models/alien_4006f.obj \
     --surface-triangles 4000 --radius-edge-ratio 1.7 --layers 10 --thickness 0.64
-mesh octopus 24957 245184 3 $octopus --radius-edge-ratio 2.2 --layers 8 --thickness 0.63
+mesh octopus 24957 245184 3 $octopus \
+    --surface-triangles 5248 --radius-edge-ratio 2.3 --layers 8 --thickness 0.63
 mesh thin 26100 218488 3 $octopus \
     --surface-triangles 15470 --radius-edge-ratio 2.2 --layers 2 --thickness 0.1
 mesh thick 28212 280260 3 $octopus \
     --surface-triangles 8608 --radius-edge-ratio 2.3 --layers 5 --thickness 0.32
-mesh cantilever 17589 262144 0 --box 4,1,1,1 --cut corners --subdivide 8
+mesh cantilever 17589 262144 0 --box 4,1,1,1 --size 4,1,1,1 --cut corners --subdivide 8
 mesh noodle 6683 51200 0 --ball 4 --thickness 20 --layers 40
 
 echo "paper_meshes: in $out; $failures too far from the paper's counts"
