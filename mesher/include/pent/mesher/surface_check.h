@@ -40,7 +40,7 @@ struct SurfaceReport {
 /// Pairs of triangles that meet in more than their shared corners or edge, lower one first, sorted.
 ///
 /// Touching counts. Degenerate triangles and pairs with the same three corners are left out: they
-/// are defects of their own. Exact [cgal-kernel].
+/// are defects of their own. Exact [cgal2022].
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> self_intersections(const Surface& surface);
 
 /// The defects in one line, as in "3 border edges (first at triangle 10, near (0, 0.5, 1))"; a

@@ -12,7 +12,7 @@ namespace pent::mesher {
 enum class Generator {
     Auto,    ///< TetGen with the surface kept, else with it subdivided, else Mesh_3.
     TetGen,  ///< Constrained Delaunay refinement [si2015]: the surface exactly, and fast.
-    Mesh3,   ///< CGAL's Delaunay refinement [cgal-mesh3]: rounder cells, the surface nearly.
+    Mesh3,   ///< CGAL's Delaunay refinement [cgal2022]: rounder cells, the surface nearly.
 };
 
 struct TetrahedraOptions {
