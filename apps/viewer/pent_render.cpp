@@ -115,8 +115,9 @@ viewer::RenderTargets to_targets(const Program& program, const Arguments& argume
                            || !std::filesystem::path(output).has_extension()
                            || std::filesystem::is_directory(output);
     if (!is_folder && !has_extension(output, ".mp4") && !has_extension(output, ".png")) {
-        throw Error("--output: found " + output + "; expected a name that ends in .mp4 or .png, or a "
-                    "folder (with / at its end if there is a dot in its name)");
+        throw Error("--output: found " + output
+ + "; expected a name that ends in .mp4 or .png, or a folder (with / at its end "
+ "if there is a dot in its name)");
     }
     if (has_extension(output, ".mp4") && viewer::Movie::is_possible()) {
         targets.movie = output;

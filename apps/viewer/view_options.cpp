@@ -48,6 +48,7 @@ std::vector<double> to_range(const std::string& text, const std::string& what) {
     const double from = to_number(parts[0], what);
     const double to = to_number(parts[1], what);
     std::vector<double> numbers;
+    numbers.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < static_cast<int>(count); ++i) {
         numbers.push_back(from + (to - from) * i / (count - 1));
     }
@@ -65,8 +66,8 @@ std::vector<double> to_offsets(const std::vector<std::string>& texts, const std:
     return offsets;
 }
 
-// "xw:30", or "xw:A:B:N" for N angles evenly from A to B; appends the rotation, and the angles if there are
-// several.
+// "xw:30", or "xw:A:B:N" for N angles evenly from A to B; appends the rotation, and the angles if
+// there are several.
 void add_rotation(const std::string& text, viewer::SectionOptions& sections) {
     const std::string axes = "xyzw";
     const std::string plane = text.substr(0, 2);

@@ -89,8 +89,8 @@ TEST(CornerNormals, OfAFineBallPointAwayFromItsCenter) {
             worst = std::min(worst, normals.col(3 * t + k).dot(out));
         }
     }
-    // The surface has facets about 0.25 across on a ball of radius 1: their normals lean by up to half of
-    // that, an eighth of a radian, and averages over uneven neighborhoods no more.
+    // The surface has facets about 0.25 across on a ball of radius 1: their normals lean by up to
+    // half of that, an eighth of a radian, and averages over uneven neighborhoods no more.
     EXPECT_GT(worst, std::cos(0.2));
 }
 

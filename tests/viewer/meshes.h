@@ -8,8 +8,8 @@
 
 namespace pent::viewer::test {
 
-/// A box of tesseracts with its vertices moved at random by up to a twentieth of a cell, little enough
-/// that no cell turns over.
+/// A box of tesseracts with its vertices moved at random by up to a twentieth of a cell, little
+/// enough that no cell turns over.
 inline SimplexMesh<4> jittered_box(const std::array<int, 4>& count, unsigned seed) {
     SimplexMesh<4> mesh = pent::test::kuhn_box<4>(count, {1.0, 1.5, 0.8, 1.2});
     std::mt19937 random(seed);

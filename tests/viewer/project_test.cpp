@@ -52,8 +52,8 @@ TEST(Outline, OfATesseractAlongItsDiagonalIsTheRhombicDodecahedron) {
 }
 
 TEST(Outline, VolumeIsThatOfAllTetrahedraSeenFromTheFront) {
-    // Each tetrahedron counts with its volume times the cosine it is seen under; the images of all that
-    // face away add up to the same.
+    // Each tetrahedron counts with its volume times the cosine it is seen under; the images of all
+    // that face away add up to the same.
     SimplexMesh<4> mesh = test::jittered_box({3, 3, 3, 3}, 31);
     mesh.positions = test::twisted(mesh.positions, 0.4);
     const Boundary<4> boundary = make_boundary(mesh, "box");

@@ -12,8 +12,8 @@
 
 namespace pent::viewer::test {
 
-/// Writes a run folder of one body as pent-sim does: a box that twists further with each frame, 0.1 s
-/// apart, and moves along x at 2 m/s.
+/// Writes a run folder of one body as pent-sim does: a box that twists further with each frame,
+/// 0.1 s apart, and moves along x at 2 m/s.
 inline void write_run(const std::filesystem::path& run,
                       const std::string& body,
                       const std::vector<int>& frames) {

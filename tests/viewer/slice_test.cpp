@@ -18,8 +18,8 @@ using test::is_closed_and_oriented;
 using test::jittered_box;
 using test::twisted;
 
-// Volume of the section of a 4-simplex at height c: 4 |V| times the B-spline with the heights of the
-// five corners as knots (Curry and Schoenberg), as a divided difference. Heights must differ.
+// Volume of the section of a 4-simplex at height c: 4 |V| times the B-spline with the heights of
+// the five corners as knots (Curry and Schoenberg), as a divided difference. Heights must differ.
 double section_volume(double hypervolume, std::array<double, 5> heights, double c) {
     double sum = 0;
     for (int k = 0; k < 5; ++k) {

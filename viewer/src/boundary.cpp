@@ -45,8 +45,8 @@ void for_each_edge(const Eigen::Matrix<std::uint32_t, Dim, 1>& facet, Action act
     }
 }
 
-// Edges are bucketed by their lower vertex; each bucket is sorted and made unique, so that the whole
-// is linear in the number of facets.
+// Edges are bucketed by their lower vertex; each bucket is sorted and made unique, so that the
+// whole is linear in the number of facets.
 template <int Dim>
 void index_edges(Boundary<Dim>& boundary, Eigen::Index vertices) {
     std::vector<std::uint32_t> begins(static_cast<std::size_t>(vertices) + 1, 0);

@@ -69,8 +69,8 @@ pid_t start(const std::vector<std::string>& words, int input, int errors) {
     return process;
 }
 
-// Whether the boxes an MP4 file is made of fill it exactly, pictures and index among them. ffmpeg says
-// nothing but success when the disk is full.
+// Whether the boxes an MP4 file is made of fill it exactly, pictures and index among them. ffmpeg
+// says nothing but success when the disk is full.
 bool is_whole_mp4(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     const auto size = static_cast<std::uint64_t>(std::filesystem::file_size(path));

@@ -8,8 +8,8 @@
 
 namespace pent::viewer {
 
-/// Calls action(i) for i = 0 .. count - 1, in parallel and in no order; each must write only its own
-/// results. The number of threads is the caller's oneTBB arena.
+/// Calls action(i) for i = 0 .. count - 1, in parallel and in no order; each must write only its
+/// own results. The number of threads is the caller's oneTBB arena.
 template <typename Action>
 void parallel_for_each(Eigen::Index count, const Action& action) {
     constexpr Eigen::Index kChunk = 4096;

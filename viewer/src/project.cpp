@@ -19,8 +19,8 @@ namespace pent::viewer {
 namespace {
 
 // An outward tetrahedron faces an eye above the film if its image is negatively oriented:
-// det[e_w, t1 - t0, t2 - t0, t3 - t0] = -det3 of the images' edges. The images of a perspective have
-// the same sign, as all of the body is in front of the eye.
+// det[e_w, t1 - t0, t2 - t0, t3 - t0] = -det3 of the images' edges. The images of a perspective
+// have the same sign, as all of the body is in front of the eye.
 std::vector<std::uint32_t> facing_facets(const Boundary<4>& boundary, const Positions<3>& images) {
     std::vector<char> is_facing(static_cast<std::size_t>(boundary.facets.cols()));
     parallel_for_each(boundary.facets.cols(), [&](Eigen::Index f) {

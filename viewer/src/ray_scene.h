@@ -39,8 +39,8 @@ struct RayHit {
     [[nodiscard]] bool is_hit() const { return distance < std::numeric_limits<float>::infinity(); }
 };
 
-/// Objects ready to be met by rays. Coordinates are single precision about an origin chosen near by,
-/// so that scenes far from zero lose nothing.
+/// Objects ready to be met by rays. Coordinates are single precision about an origin chosen near
+/// by, so that scenes far from zero lose nothing.
 class RayScene {
 public:
     /// Keeps a view of the objects; takes those that are opaque, or those that are ghosts.

@@ -50,9 +50,10 @@ Vec lift(const RayScene& scene, const RayHit& hit, const Vec& point) {
     return moved;
 }
 
-// Renders in passes over the whole picture: what each pixel sees; how much light arrives there, by a
-// few rays in a pattern that differs in each of 8 x 8 pixels; the mean of that over each such block,
-// without crossing edges, which makes 64 times the rays of it; colors, with more samples at edges.
+// Renders in passes over the whole picture: what each pixel sees; how much light arrives there, by
+// a few rays in a pattern that differs in each of 8 x 8 pixels; the mean of that over each such
+// block, without crossing edges, which makes 64 times the rays of it; colors, with more samples at
+// edges.
 class Painter {
 public:
     Painter(RTCDevice device,
@@ -198,8 +199,9 @@ private:
         return a.normal.dot(b.normal) > 0.9F && off_plane < 3 * footprint(a.distance);
     }
 
-    // A weighted mean over 5 x 5 pixels `stride` apart, of those like the middle one. With 1 2 2 2 1 at
-    // stride 1 each of 4 x 4 neighbors counts alike, and with 1 2 1 at stride 4 after that each of 8 x 8.
+    // A weighted mean over 5 x 5 pixels `stride` apart, of those like the middle one. With weights
+    // 1 2 2 2 1 at stride 1 each of 4 x 4 neighbors counts alike, and with 0 1 2 1 0 at stride 4
+    // after that each of 8 x 8.
     [[nodiscard]] Visibility filtered(const std::vector<Visibility>& from,
                                       int x,
                                       int y,

@@ -139,7 +139,8 @@ bool render_frames(const Studio<Dim>& studio,
     return true;
 }
 
-// A row for each tile of a picture; a single tile's frames, and a single frame's tiles, fill a square.
+// A row for each tile of a picture. The frames of a single tile fill a square, and so do the tiles
+// of a single frame.
 template <int Dim>
 bool render_sheet(const Studio<Dim>& studio,
                   const RenderTargets& targets,

@@ -27,8 +27,8 @@ struct Shown {
     std::optional<Color> tint;  ///< In place of the body's color.
 };
 
-/// Makes the pictures of a run: it knows the bodies, what each tile of a picture shows, and, once it
-/// has looked at all frames, the camera and the colors.
+/// Makes the pictures of a run: it knows the bodies, what each tile of a picture shows, and, once
+/// it has looked at all frames, the camera and the colors.
 template <int Dim>
 class Studio {
 public:
@@ -62,7 +62,8 @@ public:
     void add_color_bar(Image& image) const;
 
 private:
-    // The sections a tile shows: one, or with onion skin all; `solid` is the one that is not a ghost.
+    // The sections a tile shows: one, or with onion skin all; `solid` is the one that is not a
+    // ghost.
     struct Tile {
         std::vector<std::size_t> sections;
         std::size_t solid = 0;

@@ -13,9 +13,12 @@ namespace pent::viewer {
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd vertex_speed(const Frame<Dim>& frame);
 
-/// How much each vertex's surroundings are strained, dimensionless: the mean over the cells at the vertex,
-/// weighted by their rest volumes, of |E|, the Frobenius norm of the Green strain
-/// E = (F^T F - I) / 2. Zero at every rigid motion of the mesh.
+/// How much each vertex's surroundings are strained, dimensionless: the mean over the cells at the
+/// vertex, weighted by their rest volumes, of |E|, the Frobenius norm of the Green strain
+///
+///     E = (F^T F - I) / 2.
+///
+/// Zero at every rigid motion of the mesh.
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd vertex_strain(const SimplexMesh<Dim>& rest,
                                             const Positions<Dim>& positions);
@@ -24,10 +27,11 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd vertex_w(const Positions<Dim>& positions);
 
-/// Outward normals for smooth shading, one per corner of each triangle of a surface: 3 x 3 triangles.
+/// Outward normals for smooth shading, one per corner of each triangle of a surface: 3 x 3
+/// triangles.
 ///
-/// They come from the boundary of the body in R^Dim, averaged over the facets around each vertex that
-/// are within `crease` of the facet, and are then projected into the picture. So they do not
+/// They come from the boundary of the body in R^Dim, averaged over the facets around each vertex
+/// that are within `crease` of the facet, and are then projected into the picture. So they do not
 /// suffer from slivers and zero-area triangles of a slice. A corner whose projected normal vanishes
 /// gets that of its triangle; in a triangle of zero area it may be zero. Unit length otherwise.
 ///

@@ -25,8 +25,8 @@ struct ViewOptions {
     double margin = 0.08;       ///< Share of the picture left free at the sides, 0..0.5.
 };
 
-/// Finds the nearest camera in a wanted direction that sees all of a number of points, which need not be
-/// there at once.
+/// Finds the nearest camera in a wanted direction that sees all of a number of points, which need
+/// not be there at once.
 class CameraFit {
 public:
     /// @param aspect  Width over height.

@@ -36,8 +36,8 @@ struct Hyperplane {
 
 /// The hyperplane n . p = offset, n the normal made unit.
 ///
-/// Its frame is turned from x, y, z by the smallest rotation that takes n to the w axis (for n with a
-/// negative w, after half a turn in zw). Throws an Error for a normal that is zero or not finite.
+/// Its frame is turned from x, y, z by the smallest rotation that takes n to the w axis (for n with
+/// a negative w, after half a turn in zw). Throws an Error for a normal that is zero or not finite.
 [[nodiscard]] Hyperplane hyperplane_across(const Eigen::Vector4d& normal, double offset);
 
 }  // namespace pent::viewer

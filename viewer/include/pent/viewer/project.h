@@ -31,9 +31,10 @@ struct Projection {
 
 /// The outline of a body's image: where the boundary turns away from the eye.
 ///
-/// In three dimensions the outline of a body is a curve; here it is a surface: the triangles of the boundary
-/// between a tetrahedron that faces the eye and one that does not (edge-on counts as not). It is closed
-/// and turned outward; at some edges more than two triangles may meet. Throws as project() does.
+/// In three dimensions the outline of a body is a curve; here it is a surface: the triangles of the
+/// boundary between a tetrahedron that faces the eye and one that does not (edge-on counts as not).
+/// It is closed and turned outward; at some edges more than two triangles may meet. Throws as
+/// project() does.
 [[nodiscard]] Surface outline(const Boundary<4>& boundary,
                               const Positions<4>& positions,
                               const Projection& projection);

@@ -46,9 +46,10 @@ template <int Dim>
 
 /// The numbers a user asked for, out of those there are.
 ///
-/// @param text  "A:B" or "A:B:STEP" from A to B with B included, each part optional; single numbers;
-///              "last"; or several of these with commas between. Empty for all.
-/// @return      Ascending, none twice. Throws an Error if nothing is left or the text is not understood.
+/// @param text  "A:B" or "A:B:STEP" from A to B with B included, each part optional; single
+///              numbers; "last"; or several of these with commas between. Empty for all.
+/// @return      Ascending, none twice. Throws an Error if nothing is left or the text is not
+///              understood.
 [[nodiscard]] std::vector<int> select_frames(const std::vector<int>& frames,
                                              const std::string& text);
 

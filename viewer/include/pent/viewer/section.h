@@ -39,8 +39,8 @@ struct Section {
 /// The hyperplanes asked for; at least one.
 ///
 /// @param frames  Of all bodies at one moment, to find the middle.
-/// Throws an Error for a normal without direction or together with rotations, an offset that is not finite,
-/// and for any option in three dimensions.
+/// Throws an Error for a normal without direction or together with rotations, an offset that is not
+/// finite, and for any option in three dimensions.
 template <int Dim>
 [[nodiscard]] std::vector<Section> make_sections(const SectionOptions& options,
                                                  std::span<const Frame<Dim>> frames);

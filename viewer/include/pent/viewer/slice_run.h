@@ -16,8 +16,8 @@
 
 namespace pent::viewer {
 
-/// Called before and after each piece of work with what it is ("sliced frame") and how many of these are
-/// done, from 0 to total; ends the work early by returning false.
+/// Called before and after each piece of work with what it is ("sliced frame") and how many of
+/// these are done, from 0 to total; ends the work early by returning false.
 using OnProgress =
     std::function<bool(std::string_view what, std::int64_t done, std::int64_t total)>;
 

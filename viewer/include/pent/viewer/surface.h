@@ -13,8 +13,8 @@ namespace pent::viewer {
 /// A closed triangle surface in R^3 that remembers the body it was taken from.
 ///
 /// Vertex v lies on the mesh edge from ends(0, v) to ends(1, v), ends(0, v) <= ends(1, v), at
-/// (1 - weights[v]) of the first and weights[v] of the second; a vertex of the mesh itself has equal
-/// ends or weight 0 or 1. Triangles turn counter-clockwise when seen from outside.
+/// (1 - weights[v]) of the first and weights[v] of the second; a vertex of the mesh itself has
+/// equal ends or weight 0 or 1. Triangles turn counter-clockwise when seen from outside.
 struct Surface {
     Positions<3> positions;             ///< 3 x vertices, m.
     Simplices<3> triangles;             ///< 3 x triangles.
@@ -42,8 +42,8 @@ struct Surface {
 /// collapse with it, so that a plane through vertices leaves no triangles of zero area.
 ///
 /// The result is as closed and oriented as the input. Where merging would put more than two
-/// triangles at an edge (the plane pinches the body there), the vertices of that edge stay apart, so every
-/// edge keeps exactly two triangles.
+/// triangles at an edge (the plane pinches the body there), the vertices of that edge stay apart,
+/// so every edge keeps exactly two triangles.
 [[nodiscard]] Surface merge_coincident(const Surface& surface);
 
 }  // namespace pent::viewer

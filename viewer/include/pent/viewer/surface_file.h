@@ -29,12 +29,12 @@ struct SurfaceExtras {
 /// ".ply", ".obj" or ".vtu".
 [[nodiscard]] std::string extension(SurfaceFormat format);
 
-/// Writes a surface through an OutputFile; throws an Error as that does. A surface without triangles
-/// gives a valid file without any.
+/// Writes a surface through an OutputFile; throws an Error as that does. A surface without
+/// triangles gives a valid file without any.
 ///
 /// PLY is binary, little-endian, with double positions, float scalars and 8-bit sRGB colors
-/// (`red green blue`). OBJ has positions that read back exactly, with sRGB colors 0..1 behind them. VTU is
-/// an unstructured grid of triangles with raw appended data.
+/// (`red green blue`). OBJ has positions that read back exactly, with sRGB colors 0..1 behind them.
+/// VTU is an unstructured grid of triangles with raw appended data.
 void write_surface(const std::filesystem::path& path,
                    const Surface& surface,
                    SurfaceFormat format,
