@@ -15,11 +15,9 @@ using pent::test::TempFolder;
 
 class ViewerPrograms : public testing::Test {
 protected:
-    ViewerPrograms() { test::write_run(folder_ / "run", "a", {0, 1, 2}); }
+    ViewerPrograms() { test::write_run(folder / "run", "a", {0, 1, 2}); }
 
-    [[nodiscard]] std::string at(const std::string& name) const {
-        return (folder_ / name).string();
-    }
+    [[nodiscard]] std::string at(const std::string& name) const { return (folder / name).string(); }
 
     // Expects exit code 1 with one line on stderr that has `part` in it.
     void expect_refused(const std::string& program,
@@ -32,7 +30,7 @@ protected:
         EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
     }
 
-    TempFolder folder_;
+    TempFolder folder;
 };
 
 TEST_F(ViewerPrograms, SliceARunInTheWaysShownInTheHelp) {
@@ -42,7 +40,7 @@ TEST_F(ViewerPrograms, SliceARunInTheWaysShownInTheHelp) {
           " --w -0.1:0.4:3 --format vtu", " --normal 0,1,0,1 --offset -0.1,0.5 --format obj",
           " --rotate xw:30 --rotate yz:-45 --color w",
           " --rotate yz:10 --rotate xw:0:40:3 --boundary", " --keep-degenerate --frames last"}) {
-        const Outcome outcome = run_program("pent-slice " + run + options);
+        const Outcome outcome = run_program(std::string("pent-slice ").append(run).append(options));
         EXPECT_EQ(outcome.exit_code, 0) << options << outcome.err;
         EXPECT_NE(outcome.out.find("finished: "), std::string::npos) << outcome.out;
     }
@@ -51,12 +49,13 @@ TEST_F(ViewerPrograms, SliceARunInTheWaysShownInTheHelp) {
 TEST_F(ViewerPrograms, WriteTheSameBytesForAnyNumberOfThreads) {
     const std::string rest = " --w 0.1,0.5 --color strain --project perspective -o ";
     for (const std::string threads : {"1", "3"}) {
-        const Outcome outcome = run_program("pent-slice " + at("run") + " --threads " + threads
-                                            + rest + at("out" + threads));
+        std::string command = "pent-slice " + at("run");
+        command.append(" --threads ").append(threads).append(rest).append(at("out" + threads));
+        const Outcome outcome = run_program(command);
         ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     }
-    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "out1")) {
-        const std::filesystem::path other = folder_ / "out3" / entry.path().filename();
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out1")) {
+        const std::filesystem::path other = folder / "out3" / entry.path().filename();
         EXPECT_EQ(pent::test::text_of(entry.path()), pent::test::text_of(other)) << other;
     }
 }
@@ -65,7 +64,7 @@ TEST_F(ViewerPrograms, RenderAPictureOfTheLastFrame) {
     const Outcome outcome =
         run_program("pent-render " + at("run") + " --size 64x48 -o " + at("a.png"));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "a.png"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "a.png"));
 }
 
 TEST_F(ViewerPrograms, FallBackToPicturesWithoutFfmpeg) {
@@ -73,7 +72,7 @@ TEST_F(ViewerPrograms, FallBackToPicturesWithoutFfmpeg) {
         "pent-render " + at("run") + " --size 64x48 -o " + at("a.mp4"), "PATH=/nonexistent");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("no ffmpeg"), std::string::npos) << outcome.out;
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "a_pictures/000002.png"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "a_pictures/000002.png"));
 }
 
 TEST_F(ViewerPrograms, RefuseBadInputInOneLine) {
@@ -92,7 +91,7 @@ TEST_F(ViewerPrograms, RefuseBadInputInOneLine) {
     expect_refused("pent-render", at("run") + " -o " + at("a.png") + " --size 3", "--size");
     expect_refused("pent-render", at("run") + " --sheet " + at("a.jpg"), ".png");
     expect_refused("pent-render", at("run") + " -o " + at("a.png") + " --range 2,1", "--range");
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
 TEST_F(ViewerPrograms, RefuseUnknownColorsAndFormatsAsWrongUsage) {
@@ -106,8 +105,8 @@ TEST_F(ViewerPrograms, LeaveNothingBehindOnAFullDisk) {
     const std::string full = "trap '' XFSZ; ulimit -f 1;";
     expect_refused("pent-slice", at("run") + " -o " + at("out"), "cannot be written", full);
     expect_refused("pent-render", at("run") + " -o " + at("b.png"), "cannot be written", full);
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "b.png"));
-    EXPECT_TRUE(std::filesystem::is_empty(folder_ / "out"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.png"));
+    EXPECT_TRUE(std::filesystem::is_empty(folder / "out"));
 }
 
 TEST_F(ViewerPrograms, LeaveNoMovieOnAFullDisk) {
@@ -118,7 +117,7 @@ TEST_F(ViewerPrograms, LeaveNoMovieOnAFullDisk) {
                                         "trap '' XFSZ; ulimit -f 4;");
     EXPECT_EQ(outcome.exit_code, 1);
     expect_one_error_line(outcome, "pent-render");
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "a.mp4"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.mp4"));
 }
 
 }  // namespace
