@@ -2,6 +2,7 @@
 
 #include <pent/error.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -28,6 +29,10 @@ constexpr std::array<TypeName, 8> kTypes = {{
     {"float", "float32", PlyType::Float, 4},
     {"double", "float64", PlyType::Double, 8},
 }};
+
+// Comments with a meaning; others are ignored.
+constexpr std::array<std::string_view, 8> kComments = {"pent", "dimension", "created_by", "crc32c",
+                                                       "mesh", "frame",     "step",       "time"};
 
 constexpr std::uint64_t kMostVertices = 0xFFFFFFFFU;  // indices are 32 bits wide
 
@@ -66,6 +71,14 @@ std::string quoted(std::string_view text) {
         shown += c >= ' ' && c < '\x7f' ? c : '?';
     }
     return "'" + shown + (text.size() > kLongest ? "...'" : "'");
+}
+
+// "property double x", "property list uint v0".
+std::string declaration(const PlyProperty& property) {
+    std::string text = property.count_type ? "property list " : "property ";
+    text += name_of(property.type);
+    text += " " + property.name;
+    return text;
 }
 
 // Reads a header line by line; every failure names the line.
@@ -155,10 +168,8 @@ private:
     }
 
     void parse_comment(const std::vector<std::string_view>& words, std::string_view line) {
-        static const std::set<std::string_view> kKnown = {
-            "pent", "dimension", "created_by", "crc32c", "mesh", "frame", "step", "time"};
         const std::string_view key = words[1];
-        if (kKnown.count(key) == 0) {
+        if (std::find(kComments.begin(), kComments.end(), key) == kComments.end()) {
             return;
         }
         if (!header_.elements.empty()) {
@@ -268,17 +279,13 @@ private:
                       const std::vector<std::string>& names,
                       PlyType type) const {
         for (std::size_t i = 0; i < names.size(); ++i) {
-            const std::string expected = "property " + std::string(name_of(type)) + " " + names[i];
-            const std::string place =
-                "property " + std::to_string(i) + " of element " + element.name;
-            if (i >= element.properties.size()) {
-                fail_header(place + " is missing, expected '" + expected + "'");
-            }
-            const PlyProperty& found = element.properties[i];
-            if (found.name != names[i] || found.type != type || found.count_type) {
-                fail_header(place + " is '" + (found.count_type ? "list " : "")
-                            + std::string(name_of(found.type)) + " " + found.name + "', expected '"
-                            + expected + "'");
+            const bool is_missing = i >= element.properties.size();
+            const PlyProperty found = is_missing ? PlyProperty{} : element.properties[i];
+            if (is_missing || found.name != names[i] || found.type != type || found.count_type) {
+                std::string what = "property " + std::to_string(i) + " of element " + element.name;
+                what += is_missing ? " is missing" : " is '" + declaration(found) + "'";
+                what += ", expected '" + declaration({names[i], type, std::nullopt}) + "'";
+                fail_header(what);
             }
         }
         for (const PlyProperty& property : element.properties) {
