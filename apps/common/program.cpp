@@ -1,6 +1,7 @@
 #include "program.h"
 
 #include <pent/error.h>
+#include <pent/nearest_name.h>
 #include <pent/output_file.h>
 
 #include <algorithm>
@@ -69,24 +70,6 @@ std::string one_line(std::string text) {
     return text;
 }
 
-// Edit distance, to find the option that was meant.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) {
-        row[j] = j;
-    }
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-        }
-    }
-    return row[b.size()];
-}
-
 // "unknown option --layer; did you mean --layers?", or "" if every option is known.
 std::string unknown_option(const CLI::App& cli) {
     for (const std::string& word : cli.remaining()) {
@@ -94,16 +77,11 @@ std::string unknown_option(const CLI::App& cli) {
             continue;
         }
         const std::string unknown = word.substr(0, word.find('='));
-        std::string best;
-        std::size_t best_distance = 4;
+        std::vector<std::string> known;
         for (const CLI::Option* option : cli.get_options()) {
-            const std::string name = option->get_name();
-            const std::size_t distance = edit_distance(unknown, name);
-            if (distance < best_distance) {
-                best = name;
-                best_distance = distance;
-            }
+            known.push_back(option->get_name());
         }
+        const std::string best = nearest_name(unknown, known);
         return "unknown option " + unknown + (best.empty() ? "" : "; did you mean " + best + "?");
     }
     return "";

@@ -1,6 +1,7 @@
 #include "toml_table.h"
 
 #include <pent/error.h>
+#include <pent/nearest_name.h>
 
 #include <algorithm>
 #include <sstream>
@@ -59,23 +60,6 @@ std::string type_of(const toml::node& node) {
     }
 }
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) {
-        row[j] = j;
-    }
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-        }
-    }
-    return row[b.size()];
-}
-
 std::string quoted(std::string_view word) {
     return "\"" + std::string(word) + "\"";
 }
@@ -83,15 +67,7 @@ std::string quoted(std::string_view word) {
 }  // namespace
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
-    std::string best;
-    std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2) + 1;
-    for (const std::string& candidate : candidates) {
-        const std::size_t distance = edit_distance(word, candidate);
-        if (distance < best_distance) {
-            best = candidate;
-            best_distance = distance;
-        }
-    }
+    const std::string best = nearest_name(word, candidates);
     return best.empty() ? "" : "; did you mean " + quoted(best) + "?";
 }
 

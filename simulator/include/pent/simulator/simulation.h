@@ -45,8 +45,8 @@ struct StepReport {
     std::string failure;
     int substeps = 0;           ///< 1, or more where the step had to be cut.
     int refused = 0;            ///< Attempts that were thrown away.
-    int newton_iterations = 0;   ///< After the first, linear step; 0 for LinearEuler.
-    int iterations = 0;          ///< Of the linear solver, in all.
+    int newton_iterations = 0;  ///< After the first, linear step; 0 for LinearEuler.
+    int iterations = 0;         ///< Of the linear solver, in all.
     double residual = 0;        ///< Largest |b - A x| / |b|, computed from x.
     std::int64_t inverted = 0;  ///< Elements with J <= 0 at the end.
     Energies energies;          ///< At the end.
