@@ -23,10 +23,11 @@ public:
 
     [[nodiscard]] int threads() const { return threads_; }
 
-    /// Runs `work` with the threads at its disposal; for_each within it then costs least.
+    /// Runs `work` with the threads at its disposal: for_each within it then costs least, and
+    /// parallel loops of other libraries keep to them.
     template <typename Work>
     [[nodiscard]] auto run(const Work& work) const {
-        return threads_ == 1 ? work() : arena_->execute(work);
+        return arena_->execute(work);
     }
 
     /// Calls work(i) for every i in [0, count), in any order and at the same time.
