@@ -67,7 +67,15 @@ void summarize(Program& program, const RunReport& report, const std::string& fol
     program.report()["vertices"] = report.size.vertices;
     program.report()["cells"] = report.size.cells;
     program.report()["bodies"] = bodies;
-    program.say(std::string(verdict_name(report.verdict)) + ": "
+    const std::int64_t collapsed = report.steps.empty() ? 0 : report.steps.back().collapsed;
+    program.report()["collapsed"] = collapsed;
+    if (collapsed > 0) {
+        program.say(std::to_string(collapsed) + " of " + std::to_string(report.size.elements)
+                    + " elements have collapsed, to where the stable neo-Hookean energy holds them"
+                      " (docs/simulator.md, Limits)");
+    }
+    program.say(std::string(verdict_name(report.verdict))
+                + (collapsed > 0 ? " with collapsed elements: " : ": ")
                 + std::to_string(report.frames.size()) + " frames in " + folder + ", "
                 + std::to_string(report.steps.size()) + " steps, "
                 + pent::apps::readable_time(report.seconds));

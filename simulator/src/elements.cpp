@@ -1,6 +1,7 @@
 #include "elements.h"
 
 #include <pent/error.h>
+#include <pent/simulator/energy.h>
 
 #include <Eigen/LU>
 
@@ -69,13 +70,15 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
                     + " matrix blocks; at most 2147483647 can be simulated");
     }
     for (const CellRange& range : ranges) {
+        const double scale = collapse_scale(range.material, Dim);
         const std::vector<Eigen::Index> chosen = elastic_cells<Dim>(cells, range, numbering);
         count_ += static_cast<std::int64_t>(chosen.size());
         for (std::size_t first = 0; first < chosen.size(); first += kChunkElements) {
             const std::size_t last = std::min(first + kChunkElements, chosen.size());
             const auto group =
                 static_cast<std::int64_t>(rest_.size() / (std::size_t{Dim * Dim + 1} * kGroup));
-            chunks_.push_back({group, static_cast<int>(last - first), range.material});
+            chunks_.push_back(
+                {group, static_cast<int>(last - first), range.material, Dim * scale * scale});
             append(rest, cells,
                    {chosen.begin() + static_cast<std::ptrdiff_t>(first),
                     chosen.begin() + static_cast<std::ptrdiff_t>(last)},
@@ -150,6 +153,7 @@ ElementRun Elements<Dim>::run(int chunk) const {
     return {.model = c.material.model,
             .mu = c.material.lame.mu,
             .lambda = c.material.lame.lambda,
+            .collapse_norm = c.collapse_norm,
             .elements = c.elements,
             .rest = rest_.data() + c.first_group * (Dim * Dim + 1) * kGroup,
             .vertices = vertices_.data() + c.first_group * (Dim + 1) * kGroup,
@@ -175,6 +179,7 @@ RunEnergy Elements<Dim>::add_forces(const Workers& workers,
     for (const RunEnergy& part : parts) {
         total.energy += part.energy;
         total.inverted += part.inverted;
+        total.collapsed += part.collapsed;
     }
     return total;
 }

@@ -66,6 +66,7 @@ private:
         std::int64_t first_group = 0;
         int elements = 0;
         Material material;
+        double collapse_norm = 0;
     };
 
     std::vector<double> rest_;

@@ -226,6 +226,26 @@ MatrixXd stress(const Material& material, const MatrixXd& F) {
     return 2 * mu * strain + lambda * strain.trace() * identity;
 }
 
+double collapse_scale(const Material& material, int dim) {
+    if (material.model != Model::StableNeoHookean || dim < 3) {
+        return 0;
+    }
+    const auto& [lambda, mu] = material.lame;
+    const auto excess = [&, lambda = lambda, mu = mu](double s) {
+        const double power = std::pow(s, dim - 2);
+        return mu * (1 - power) - (lambda + mu) * (1 - power * s * s) * power;
+    };
+    double low = 0;  // excess > 0
+    double high = 1;
+    // Both sides meet at s = 1 as well; just below it the right one is larger, for the material is
+    // stable at rest.
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        (excess(middle) > 0 ? low : high) = middle;
+    }
+    return low;
+}
+
 HessianFrame invariant_hessian(Invariant which, const MatrixXd& F) {
     const SignedSvd svd = signed_svd(F);
     if (which == Invariant::I3) {

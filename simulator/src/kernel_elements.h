@@ -97,6 +97,7 @@ RunEnergy add_forces(const ElementRun& run, const double* positions, double* for
     alignas(64) double force[Dim + 1][Dim][kGroup];
     alignas(64) double energy[kGroup];
     alignas(64) double det[kGroup];
+    alignas(64) double norm[kGroup];
     for (int g = 0; g < groups; ++g) {
         const Group<Dim> group = group_at<Dim>(run, g);
         gather_edges(group, positions, edges);
@@ -119,10 +120,12 @@ RunEnergy add_forces(const ElementRun& run, const double* positions, double* for
             }
             Lanes<Real>::store(volume * stress.energy, energy + lane);
             Lanes<Real>::store(stress.det, det + lane);
+            Lanes<Real>::store(stress.norm, norm + lane);
         }
         for (int lane = 0; lane < group.elements; ++lane) {
             total.energy += energy[lane];
             total.inverted += det[lane] > 0 ? 0 : 1;
+            total.collapsed += norm[lane] < run.collapse_norm ? 1 : 0;
             for (int a = 0; a <= Dim; ++a) {
                 double* sum = forces + std::int64_t{Dim} * group.vertices[a * kGroup + lane];
                 for (int i = 0; i < Dim; ++i) {

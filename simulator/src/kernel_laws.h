@@ -29,6 +29,7 @@ struct Stress {
     Tensor<Real, Dim> P;  // first Piola-Kirchhoff stress
     Real energy;          // per rest volume
     Real det;
+    Real norm;  // |F|^2
 };
 
 template <typename Real, int Dim>
@@ -66,7 +67,8 @@ Stress<Real, Dim> neo_hookean_stress(const Tensor<Real, Dim>& F, const Moduli& m
             stress.P[i][j] = mu * F[i][j] + pressure * C.matrix[i][j];
         }
     }
-    stress.energy = Real(0.5) * mu * (norm_squared(F) - Real(double(Dim))) - mu * growth
+    stress.norm = norm_squared(F);
+    stress.energy = Real(0.5) * mu * (stress.norm - Real(double(Dim))) - mu * growth
                     + Real(0.5) * lambda * growth * growth;
     stress.det = C.det;
     return stress;
@@ -89,6 +91,7 @@ Stress<Real, Dim> arap_stress(const Tensor<Real, Dim>& F, const Moduli& moduli) 
     }
     stress.energy = Real(moduli.mu) * norm_squared(gap);
     stress.det = cofactor(F).det;
+    stress.norm = norm_squared(F);
     return stress;
 }
 
@@ -119,6 +122,7 @@ Stress<Real, Dim> st_venant_kirchhoff_stress(const Tensor<Real, Dim>& F, const M
     }
     stress.energy = Real(moduli.mu) * norm_squared(E) + Real(0.5) * spherical * trace;
     stress.det = cofactor(F).det;
+    stress.norm = norm_squared(F);
     return stress;
 }
 
@@ -142,6 +146,7 @@ Stress<Real, Dim> linear_stress(const Tensor<Real, Dim>& F, const Moduli& moduli
     }
     stress.energy = Real(moduli.mu) * norm_squared(strain) + Real(0.5) * spherical * trace;
     stress.det = cofactor(F).det;
+    stress.norm = norm_squared(F);
     return stress;
 }
 

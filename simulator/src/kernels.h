@@ -28,6 +28,7 @@ struct ElementRun {
     Model model = Model::StableNeoHookean;
     double mu = 0;                 ///< Pa, of linear elasticity.
     double lambda = 0;             ///< Pa, of linear elasticity.
+    double collapse_norm = 0;      ///< An element with |F|^2 below has collapsed; 0: none can.
     int elements = 0;              ///< Elements in the run; groups = ceil(elements / kGroup).
     const double* rest = nullptr;  ///< Dim * Dim + 1 rows: inverse of Dm (row by row), rest volume.
     const std::uint32_t* vertices = nullptr;  ///< Dim + 1 rows.
@@ -37,8 +38,9 @@ struct ElementRun {
 };
 
 struct RunEnergy {
-    double energy = 0;          ///< J, of all elements of the run.
-    std::int64_t inverted = 0;  ///< Elements with J <= 0.
+    double energy = 0;           ///< J, of all elements of the run.
+    std::int64_t inverted = 0;   ///< Elements with J <= 0.
+    std::int64_t collapsed = 0;  ///< Elements with |F|^2 < ElementRun::collapse_norm.
 };
 
 /// Where Hessian blocks go.

@@ -20,6 +20,7 @@ Json step_json(const StepReport& step) {
             {"iterations", step.iterations},
             {"residual", step.residual},
             {"inverted", step.inverted},
+            {"collapsed", step.collapsed},
             {"kinetic", step.energies.kinetic},
             {"elastic", step.energies.elastic},
             {"gravity", step.energies.gravity},
@@ -40,6 +41,7 @@ StepReport parse_step(const Json& json) {
     json.at("iterations").get_to(step.iterations);
     json.at("residual").get_to(step.residual);
     json.at("inverted").get_to(step.inverted);
+    json.at("collapsed").get_to(step.collapsed);
     json.at("kinetic").get_to(step.energies.kinetic);
     json.at("elastic").get_to(step.energies.elastic);
     json.at("gravity").get_to(step.energies.gravity);

@@ -157,6 +157,7 @@ StepReport Simulation<Dim>::State::step() {
     report.step = steps_;
     report.time = time();
     report.inverted = current_.inverted;
+    report.collapsed = current_.collapsed;
     report.energies = current_.energies;
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -133,6 +133,7 @@ void System<Dim>::evaluate(BodyState<Dim>& state) const {
                       .gravity = points.gravity,
                       .obstacle = points.obstacle};
     state.inverted = elastic.inverted;
+    state.collapsed = elastic.collapsed;
 }
 
 template <int Dim>

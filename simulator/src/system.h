@@ -23,6 +23,7 @@ struct BodyState {
     Positions<Dim> forces;      ///< N: elastic, gravity, obstacles.
     Energies energies;
     std::int64_t inverted = 0;
+    std::int64_t collapsed = 0;
 
     [[nodiscard]] bool is_finite() const {
         return positions.allFinite() && velocities.allFinite() && forces.allFinite();

@@ -49,7 +49,9 @@ struct StepReport {
     int iterations = 0;         ///< Of the linear solver, in all.
     double residual = 0;        ///< Largest |b - A x| / |b|, computed from x.
     std::int64_t inverted = 0;  ///< Elements with J <= 0 at the end.
-    Energies energies;          ///< At the end.
+    std::int64_t collapsed =
+        0;              ///< Elements in the false minimum at the end; see collapse_scale().
+    Energies energies;  ///< At the end.
     double assembly_seconds = 0;
     double solve_seconds = 0;
     double seconds = 0;  ///< All of the step.
