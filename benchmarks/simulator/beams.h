@@ -36,7 +36,7 @@ inline Scene beam_scene(double poisson = 0.28) {
     Motion still;
     still.translate = Eigen::Vector4d::Zero();
     const HalfSpaceSelection end{.normal = Eigen::Vector4d(1, 0, 0, 0), .offset = 1e-6};
-    scene.constraints = {{.body = "beam", .select = {end}, .motion = still}};
+    scene.constraints = {{.body = "beam", .select = {end}, .motion = {still}}};
     scene.solver.tolerance = 1e-3;
     return scene;
 }

@@ -30,6 +30,13 @@ void check_plane(const Plane& plane, int dimension, const std::string& what) {
             what + ": a plane needs two different axes of the scene");
 }
 
+void check_spins(const std::vector<Spin>& spins, int dimension, const std::string& what) {
+    for (const Spin& spin : spins) {
+        check_plane(spin.plane, dimension, what);
+        require(std::isfinite(spin.degrees_per_s), what + ": degrees_per_s must be finite");
+    }
+}
+
 bool is_name(const std::string& name) {
     return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')
@@ -44,6 +51,10 @@ void check_body(const Body& body, int dimension) {
     require(body.place.scale > 0 && std::isfinite(body.place.scale),
             what + ": the scale must be above 0");
     check_vector(body.place.translate, dimension, what + ": place.translate");
+    if (body.velocity.size() > 0) {
+        check_vector(body.velocity, dimension, what + ": velocity");
+    }
+    check_spins(body.spin, dimension, what);
     for (const Turn& turn : body.place.rotate) {
         check_plane(turn.plane, dimension, what);
         require(std::isfinite(turn.degrees), what + ": the angle must be finite");
@@ -88,16 +99,14 @@ void check_constraint(const Constraint& constraint, const Scene& scene) {
     for (const Selection& selection : constraint.select) {
         std::visit(SelectionChecker{scene.dimension, what}, selection);
     }
-    const Motion& motion = constraint.motion;
-    check_vector(motion.translate, scene.dimension, what + ": motion.translate");
-    for (const Spin& spin : motion.rotate) {
-        check_plane(spin.plane, scene.dimension, what);
-        require(std::isfinite(spin.degrees_per_s), what + ": degrees_per_s must be finite");
+    for (const Motion& motion : constraint.motion) {
+        check_vector(motion.translate, scene.dimension, what + ": motion.translate");
+        check_spins(motion.rotate, scene.dimension, what);
+        if (motion.about) {
+            check_vector(*motion.about, scene.dimension, what + ": motion.about");
+        }
+        require(motion.from >= 0 && motion.to > motion.from, what + ": expected 0 <= from < to");
     }
-    if (motion.about) {
-        check_vector(*motion.about, scene.dimension, what + ": motion.about");
-    }
-    require(motion.from >= 0 && motion.to > motion.from, what + ": expected 0 <= from < to");
 }
 
 void check_solver(const SolverOptions& solver) {

@@ -30,6 +30,16 @@ Plane read_plane(TableReader& reader, int dimension) {
     return {static_cast<int>(from), static_cast<int>(to)};
 }
 
+std::vector<Spin> read_spins(std::vector<TableReader> tables, int dimension) {
+    std::vector<Spin> spins;
+    for (TableReader& spin : tables) {
+        const Plane plane = read_plane(spin, dimension);
+        spins.push_back({plane, spin.number("degrees_per_s", {}, kAnyNumber)});
+        spin.finish();
+    }
+    return spins;
+}
+
 Placement read_placement(TableReader reader, int dimension) {
     Placement place;
     place.scale = reader.number("scale", 1, kPositive);
@@ -80,6 +90,8 @@ Body read_body(TableReader& reader, int dimension, const std::filesystem::path& 
     if (reader.has("material")) {
         body.material = read_material(reader.table("material"), dimension);
     }
+    body.velocity = reader.vector("velocity", dimension, zero(dimension));
+    body.spin = read_spins(reader.tables("spin"), dimension);
     reader.finish();
     try {
         Scene probe;
@@ -167,14 +179,10 @@ Selection read_selection(TableReader& reader, int dimension) {
     return RegionSelection{static_cast<std::uint16_t>(reader.integer("region", {}, 0, 65535))};
 }
 
-Motion read_motion(TableReader reader, int dimension) {
+Motion read_motion(TableReader& reader, int dimension) {
     Motion motion;
     motion.translate = reader.vector("translate", dimension, zero(dimension));
-    for (TableReader& spin : reader.tables("rotate")) {
-        const Plane plane = read_plane(spin, dimension);
-        motion.rotate.push_back({plane, spin.number("degrees_per_s", {}, kAnyNumber)});
-        spin.finish();
-    }
+    motion.rotate = read_spins(reader.tables("rotate"), dimension);
     if (reader.has("about")) {
         motion.about = reader.vector("about", dimension, {});
     }
@@ -205,11 +213,12 @@ Constraint read_constraint(TableReader& reader, const Scene& scene) {
             constraint.select.push_back(read_selection(selection, scene.dimension));
         }
     }
-    constraint.motion.translate = zero(scene.dimension);
     if (reader.is_text("motion")) {
         static_cast<void>(reader.choice("motion", {"fixed"}, 0));
-    } else if (reader.has("motion")) {
-        constraint.motion = read_motion(reader.table("motion"), scene.dimension);
+    } else {
+        for (TableReader& motion : reader.tables("motion")) {
+            constraint.motion.push_back(read_motion(motion, scene.dimension));
+        }
     }
     reader.finish();
     if (constraint.select.empty()) {

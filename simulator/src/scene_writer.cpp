@@ -114,12 +114,15 @@ std::string selections(const std::vector<Selection>& select) {
     });
 }
 
-std::string motion(const Motion& motion) {
-    const std::string spins = list(motion.rotate, [](const Spin& spin) {
+std::string spins(const std::vector<Spin>& rotate) {
+    return list(rotate, [](const Spin& spin) {
         return "{ plane = " + in_quotes(plane_name(spin.plane))
                + ", degrees_per_s = " + number(spin.degrees_per_s) + " }";
     });
-    return "{ translate = " + vector(motion.translate) + ", rotate = " + spins
+}
+
+std::string motion(const Motion& motion) {
+    return "{ translate = " + vector(motion.translate) + ", rotate = " + spins(motion.rotate)
            + (motion.about ? ", about = " + vector(*motion.about) : "")
            + ", from = " + number(motion.from)
            + (std::isfinite(motion.to) ? ", to = " + number(motion.to) : "") + " }";
@@ -130,7 +133,9 @@ std::string body_text(const Body& body, int dimension) {
     return "\n[[body]]\n" + line("name", in_quotes(body.name)) + line("mesh", in_quotes(body.mesh))
            + line("place", placement(body.place)) + "# young = " + number(young.young)
            + ", poisson = " + number(young.poisson) + "\n"
-           + line("material", material(body.material));
+           + line("material", material(body.material))
+           + (body.velocity.size() > 0 ? line("velocity", vector(body.velocity)) : "")
+           + line("spin", spins(body.spin));
 }
 
 std::string obstacle_text(const Obstacle& obstacle) {
@@ -167,7 +172,8 @@ std::string scene_text(const Scene& scene) {
     for (const Constraint& constraint : scene.constraints) {
         text += "\n[[constraint]]\n" + line("body", in_quotes(constraint.body))
                 + line("select", selections(constraint.select))
-                + line("motion", motion(constraint.motion));
+                + line("motion", constraint.motion.empty() ? in_quotes("fixed")
+                                                           : list(constraint.motion, motion));
     }
     for (const Obstacle& obstacle : scene.obstacles) {
         text += obstacle_text(obstacle);

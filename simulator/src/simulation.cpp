@@ -21,7 +21,7 @@ public:
           system_(scene, world_, options),
           extent_((world_.rest.rowwise().maxCoeff() - world_.rest.rowwise().minCoeff()).norm()) {
         current_.positions = world_.rest;
-        current_.velocities.setZero(Dim, world_.vertex_count());
+        current_.velocities = start_velocities(scene, world_);
         place_held(world_, 0, current_.positions, &current_.velocities);
         system_.evaluate(current_);
     }

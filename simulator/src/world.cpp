@@ -57,6 +57,53 @@ void lump_masses(const Scene& scene, World<Dim>& world) {
     }
 }
 
+// Where a chain of motions takes points.
+template <int Dim>
+class Chain {
+public:
+    Chain(const std::vector<CenteredMotion<Dim>>& motions, double time) {
+        for (const CenteredMotion<Dim>& held : motions) {
+            links_.push_back({pose_at<Dim>(held.motion, time), held.about});
+        }
+    }
+
+    // Takes the point on; its velocity too unless that is null.
+    void move(Vector<Dim>& point, Vector<Dim>* velocity) const {
+        for (const auto& [pose, about] : links_) {
+            const Vector<Dim> arm = point - about;
+            // Written as a change of the position, which a motion at rest keeps to the bit.
+            point += (pose.rotation - Matrix<Dim>::Identity()) * arm + pose.shift;
+            if (velocity != nullptr) {
+                *velocity = (pose.rotation * *velocity + pose.rate * arm + pose.velocity).eval();
+            }
+        }
+    }
+
+private:
+    struct Link {
+        Pose<Dim> pose;
+        Vector<Dim> about;
+    };
+    std::vector<Link> links_;
+};
+
+// Finds what each motion turns about: what it says, or where those before have taken the middle.
+template <int Dim>
+std::vector<CenteredMotion<Dim>> center(const std::vector<Motion>& motions,
+                                        const Vector<Dim>& middle) {
+    std::vector<CenteredMotion<Dim>> centered;
+    for (const Motion& motion : motions) {
+        Vector<Dim> about = middle;
+        if (motion.about) {
+            about = *motion.about;
+        } else {
+            Chain<Dim>(centered, motion.from).move(about, nullptr);
+        }
+        centered.push_back({motion, about});
+    }
+    return centered;
+}
+
 // Marks what each constraint holds; returns which vertices are held.
 template <int Dim>
 std::vector<bool> hold_vertices(const Scene& scene, World<Dim>& world) {
@@ -66,8 +113,7 @@ std::vector<bool> hold_vertices(const Scene& scene, World<Dim>& world) {
                                         [&](const Body& b) { return b.name == constraint.body; });
         const auto body = static_cast<std::size_t>(found - scene.bodies.begin());
         HeldSet<Dim> held;
-        held.motion = constraint.motion;
-        held.about.setZero();
+        Vector<Dim> sum = Vector<Dim>::Zero();
         for (const std::uint32_t vertex : select_vertices(world.meshes[body], constraint)) {
             const auto global = static_cast<std::uint32_t>(vertex + world.first_vertex[body]);
             if (is_held[global]) {
@@ -76,12 +122,10 @@ std::vector<bool> hold_vertices(const Scene& scene, World<Dim>& world) {
             }
             is_held[global] = true;
             held.vertices.push_back(global);
-            held.about += world.rest.col(global);
+            sum += world.rest.col(global);
         }
-        held.about /= static_cast<double>(held.vertices.size());
-        if (constraint.motion.about) {
-            held.about = *constraint.motion.about;
-        }
+        const Vector<Dim> middle = sum / static_cast<double>(held.vertices.size());
+        held.motions = center<Dim>(constraint.motion, middle);
         world.held.push_back(std::move(held));
     }
     return is_held;
@@ -142,20 +186,39 @@ World<Dim> make_world(const Scene& scene, std::vector<SimplexMesh<Dim>> meshes) 
 }
 
 template <int Dim>
+Positions<Dim> start_velocities(const Scene& scene, const World<Dim>& world) {
+    Positions<Dim> velocities = Positions<Dim>::Zero(Dim, world.vertex_count());
+    for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+        const Eigen::Index first = world.first_vertex[body];
+        const Eigen::Index count = world.first_vertex[body + 1] - first;
+        const auto rest = world.rest.middleCols(first, count);
+        const auto masses = world.masses.segment(first, count);
+        const Vector<Dim> center = rest * masses / masses.sum();
+        const Motion motion{.translate = Vector<Dim>::Zero(), .rotate = scene.bodies[body].spin};
+        velocities.middleCols(first, count) =
+            pose_at<Dim>(motion, 0).rate * (rest.colwise() - center);
+        if (scene.bodies[body].velocity.size() > 0) {
+            const Vector<Dim> velocity = scene.bodies[body].velocity;
+            velocities.middleCols(first, count).colwise() += velocity;
+        }
+    }
+    return velocities;
+}
+
+template <int Dim>
 void place_held(const World<Dim>& world,
                 double time,
                 Positions<Dim>& positions,
                 Positions<Dim>* velocities) {
     for (const HeldSet<Dim>& held : world.held) {
-        const Pose<Dim> pose = pose_at<Dim>(held.motion, time);
+        const Chain<Dim> chain(held.motions, time);
         for (const std::uint32_t vertex : held.vertices) {
-            const Vector<Dim> arm = world.rest.col(vertex) - held.about;
-            // Written as a change of the rest position, which a motion at rest keeps to the bit.
-            positions.col(vertex) =
-                world.rest.col(vertex)
-                + ((pose.rotation - Matrix<Dim>::Identity()) * arm + pose.shift);
+            Vector<Dim> point = world.rest.col(vertex);
+            Vector<Dim> velocity = Vector<Dim>::Zero();
+            chain.move(point, velocities != nullptr ? &velocity : nullptr);
+            positions.col(vertex) = point;
             if (velocities != nullptr) {
-                velocities->col(vertex) = pose.rate * arm + pose.velocity;
+                velocities->col(vertex) = velocity;
             }
         }
     }
@@ -163,6 +226,8 @@ void place_held(const World<Dim>& world,
 
 template World<3> make_world<3>(const Scene&, std::vector<SimplexMesh<3>>);
 template World<4> make_world<4>(const Scene&, std::vector<SimplexMesh<4>>);
+template Positions<3> start_velocities<3>(const Scene&, const World<3>&);
+template Positions<4> start_velocities<4>(const Scene&, const World<4>&);
 template void place_held<3>(const World<3>&, double, Positions<3>&, Positions<3>*);
 template void place_held<4>(const World<4>&, double, Positions<4>&, Positions<4>*);
 

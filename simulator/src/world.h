@@ -11,12 +11,18 @@
 
 namespace pent::simulator {
 
+/// A motion and what it turns about, m.
+template <int Dim>
+struct CenteredMotion {
+    Motion motion;
+    Eigen::Matrix<double, Dim, 1> about;
+};
+
 /// Vertices that a constraint moves.
 template <int Dim>
 struct HeldSet {
-    std::vector<std::uint32_t> vertices;  ///< Of all bodies counted through, increasing.
-    Motion motion;
-    Eigen::Matrix<double, Dim, 1> about;  ///< What the motion turns about, m.
+    std::vector<std::uint32_t> vertices;       ///< Of all bodies counted through, increasing.
+    std::vector<CenteredMotion<Dim>> motions;  ///< Applied one after the other.
 };
 
 /// All bodies of a scene as one mesh: vertices and cells of the bodies one after the other.
@@ -40,6 +46,10 @@ struct World {
 /// constructor of Simulation says.
 template <int Dim>
 [[nodiscard]] World<Dim> make_world(const Scene& scene, std::vector<SimplexMesh<Dim>> meshes);
+
+/// The velocities that the scene gives its bodies at the start, Dim x vertices, m/s.
+template <int Dim>
+[[nodiscard]] Positions<Dim> start_velocities(const Scene& scene, const World<Dim>& world);
 
 /// Puts held vertices where they are at a time; their velocities too unless that is null.
 template <int Dim>

@@ -22,6 +22,8 @@ material = { model = "stable-neo-hookean", young = 1e5, poisson = 0.28, density 
 name = "core"
 mesh = "core.pent"
 material = { model = "arap", mu = 2e4, lambda = 1e4 }
+velocity = [0, 2, 0, 0]
+spin = [{ plane = "wz", degrees_per_s = -40 }]
 
 [[constraint]]
 body = "bunny"
@@ -30,7 +32,8 @@ select = [{ ball = { center = [0, 0, 0, 0.2], radius = 0.3 } },
           { half_space = { normal = [0, 2, 0, 0], offset = 0.1 } },
           { layers = { first = 0, last = 2 } },
           { region = 3 }]
-motion = { rotate = [{ plane = "yz", degrees_per_s = 90 }, { plane = "wx", degrees_per_s = 60 }], translate = [0.1, 0, 0, 0], about = [0, 1, 0, 0], from = 0.5, to = 2 }
+motion = [{ rotate = [{ plane = "yz", degrees_per_s = 90 }, { plane = "wx", degrees_per_s = 60 }], translate = [0.1, 0, 0, 0], about = [0, 1, 0, 0], from = 0.5, to = 2 },
+          { translate = [0, -1, 0, 0], from = 2 }]
 
 [[constraint]]
 body = "core"
@@ -86,8 +89,12 @@ TEST(ParseScene, ReadsEveryKey) {
     EXPECT_EQ(scene.constraints[0].select.size(), 5U);
     const auto& half_space = std::get<HalfSpaceSelection>(scene.constraints[0].select[2]);
     EXPECT_EQ(half_space.normal, Eigen::Vector4d(0, 1, 0, 0));
-    EXPECT_EQ(scene.constraints[0].motion.rotate[1].plane.from, 3);
-    EXPECT_EQ(scene.constraints[0].motion.to, 2);
+    EXPECT_EQ(scene.constraints[0].motion.at(0).rotate[1].plane.from, 3);
+    EXPECT_EQ(scene.constraints[0].motion.at(0).to, 2);
+    EXPECT_EQ(scene.constraints[0].motion.at(1).translate, Eigen::Vector4d(0, -1, 0, 0));
+    EXPECT_TRUE(scene.constraints[1].motion.empty());
+    EXPECT_EQ(scene.bodies[1].velocity, Eigen::Vector4d(0, 2, 0, 0));
+    EXPECT_EQ(scene.bodies[1].spin.at(0).degrees_per_s, -40);
     EXPECT_EQ(scene.obstacles.at(0).stiffness, 500);
     EXPECT_EQ(scene.damping->stiffness, 0.001);
     EXPECT_EQ(scene.solver.precision, Precision::Double);
@@ -171,6 +178,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{with("place = { rotate = [{ plane = \"xx\", degrees = 3 }] }\n"), "different axes"},
         Bad{with("place = { rotate = [{ plane = \"xv\", degrees = 3 }] }\n"), "xyzw"},
         Bad{with("place = { scale = 0 }\n"), "above 0"},
+        Bad{with("velocity = [1, 2]\n"), "4 numbers"},
+        Bad{with("spin = { plane = \"xw\", degrees = 3 }\n"), "needs \"degrees_per_s\""},
         Bad{with("[[constraint]]\nbody = \"b\"\nselect = \"everything\"\n"), "no body is called"},
         Bad{with("[[constraint]]\nbody = \"a\"\n"), "needs \"select\""},
         Bad{with("[[constraint]]\nbody = \"a\"\nselect = \"all\"\n"), "\"everything\""},

@@ -22,7 +22,7 @@ Scene box_scene() {
 }
 
 inline Constraint hold(const Selection& selection, const Motion& motion) {
-    return {.body = "box", .select = {selection}, .motion = motion};
+    return {.body = "box", .select = {selection}, .motion = {motion}};
 }
 
 /// No motion at all.

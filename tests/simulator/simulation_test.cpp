@@ -86,6 +86,75 @@ TEST(HeldVertices, FollowTheirMotionExactly) {
     EXPECT_GT((simulation.positions(0) - simulation.mesh(0).positions).norm(), 1);
 }
 
+// A quarter turn about the middle, a second's way along x, and then a quarter turn about where that
+// has taken the middle: together a half turn and the way.
+TEST(HeldVertices, GoThroughTheirMotionsOneAfterTheOther) {
+    Scene scene = box_scene<4>();
+    Motion turn = still(4);
+    turn.rotate = {{{1, 3}, 90}};
+    turn.to = 1;
+    Motion way = still(4);
+    way.translate = Eigen::Vector4d(2, 0, 0, 0);
+    way.to = 1;
+    Motion turn_again = turn;
+    turn_again.from = 1;
+    turn_again.to = 2;
+    scene.constraints = {
+        {.body = "box", .select = {EverythingSelection{}}, .motion = {turn, way, turn_again}}};
+    Simulation<4> simulation(scene, {bar(2)});
+    for (int i = 0; i < 60; ++i) {
+        ASSERT_TRUE(simulation.step().is_accepted);
+    }
+    const Positions<4> rest = simulation.mesh(0).positions;
+    const Eigen::Vector4d middle = rest.rowwise().mean();
+    const Positions<4> half_turned =
+        Eigen::Vector4d(1, -1, 1, -1).asDiagonal() * (rest.colwise() - middle);
+    const Eigen::Vector4d now = middle + Eigen::Vector4d(2, 0, 0, 0);
+    const Positions<4> expected = half_turned.colwise() + now;
+    EXPECT_LT((simulation.positions(0) - expected).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST(HeldVertices, HaveTheVelocityOfAllTheirMotions) {
+    Scene scene = box_scene<4>();
+    Motion turn = still(4);
+    turn.rotate = {{{1, 3}, 90}};
+    Motion way = still(4);
+    way.translate = Eigen::Vector4d(2, 0, 0, 0);
+    Motion other = still(4);
+    other.rotate = {{{0, 1}, 60}};
+    other.about = Eigen::Vector4d::Zero();
+    scene.constraints = {
+        {.body = "box", .select = {EverythingSelection{}}, .motion = {turn, way, other}}};
+    scene.frames_per_second = 1e5;
+    Simulation<4> simulation(scene, {bar(2)});
+    ASSERT_TRUE(simulation.step().is_accepted);
+    const Positions<4> before = simulation.positions(0);
+    const Positions<4> velocities_before = simulation.velocities(0);
+    ASSERT_TRUE(simulation.step().is_accepted);
+    const Positions<4> mean = (velocities_before + simulation.velocities(0)) / 2;
+    const Positions<4> difference = (simulation.positions(0) - before) * 1e5;
+    // The trapezoid is exact to h^2 / 12 times the third derivative of some m/s^3; rounding of
+    // positions of 1 m is 1e5 times 1e-16.
+    EXPECT_LT((difference - mean).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+// Without forces a body goes on as it started: the middle straight, and momentum kept.
+TEST(Body, StartsWithItsVelocityAndSpin) {
+    Scene scene = box_scene<4>();
+    scene.bodies[0].velocity = Eigen::Vector4d(0, 3, 0, -1);
+    scene.bodies[0].spin = {{{3, 2}, 90}};  // w towards z
+    Simulation<4> simulation(scene, {bar(2)});
+    const Positions<4> rest = simulation.mesh(0).positions;
+    // The box is the same on both sides of its middle, which is therefore its center of mass.
+    const Eigen::Vector4d middle = (rest.rowwise().maxCoeff() + rest.rowwise().minCoeff()) / 2;
+    const double omega = std::acos(-1.0) / 2;
+    for (Eigen::Index v = 0; v < rest.cols(); ++v) {
+        const Eigen::Vector4d arm = rest.col(v) - middle;
+        const Eigen::Vector4d expected(0, 3, omega * arm[3], -1 - omega * arm[2]);
+        EXPECT_LT((simulation.velocities(0).col(v) - expected).norm(), 1e-14);
+    }
+}
+
 TEST(FullyKinematicBody, HasNoUnknownsAndMovesRigidly) {
     Scene scene = box_scene<4>();
     Motion motion = still(4);

@@ -48,6 +48,8 @@ struct Body {
     std::string mesh;  ///< Path of a .pent file.
     Placement place;
     Material material;
+    Eigen::VectorXd velocity;  ///< At the start, m/s; empty is zero.
+    std::vector<Spin> spin;    ///< At the start, about the center of mass, added to the velocity.
 };
 
 /// Points at most `radius` from `center`.
@@ -91,14 +93,15 @@ using Selection = std::variant<BallSelection,
 
 /// How selected vertices move: turned about `about` while it is carried along.
 ///
-/// With s = the time within [from, to], less `from`, a vertex at X at t = 0 is at
+/// With s = the time within [from, to], less `from`, a vertex at X is taken to
 /// about + s translate + R(s) (X - about), R(s) being the spins applied in the order given. No
 /// translation and no spin holds the vertices where they are.
 struct Motion {
     Eigen::VectorXd translate;  ///< m/s.
     std::vector<Spin> rotate;
-    std::optional<Eigen::VectorXd> about;  ///< m; the mean of the selected vertices if absent.
-    double from = 0;                       ///< s, >= 0.
+    /// m; if absent the mean of the selected vertices, where they are at `from`.
+    std::optional<Eigen::VectorXd> about;
+    double from = 0;                                      ///< s, >= 0.
     double to = std::numeric_limits<double>::infinity();  ///< s, > from.
 };
 
@@ -106,7 +109,8 @@ struct Motion {
 struct Constraint {
     std::string body;
     std::vector<Selection> select;  ///< A union.
-    Motion motion;
+    /// Each takes the vertices on from where those before it have them; none holds them still.
+    std::vector<Motion> motion;
 };
 
 /// A half-space no body may enter: {p : normal . p < offset} pushes out along `normal`.
