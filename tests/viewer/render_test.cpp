@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <tbb/global_control.h>
 
 namespace pent::viewer {
@@ -135,8 +136,8 @@ TEST(Legend, WritesInTheCorners) {
         byte = 255;
     }
     const Font font(caption_pixels(180));
-    draw_caption(image, font, "t = 1");
-    draw_color_bar(image, font, ColorMap::Heat, {0, 2}, "speed");
+    const int end = draw_caption(image, font, "t = 1");
+    draw_color_bar(image, font, ColorMap::Heat, {0, 2}, "speed", end);
     const auto darkest = [&](int x0, int x1, int y0, int y1) {
         int least = 255;
         for (int y = y0; y < y1; ++y) {
@@ -149,6 +150,22 @@ TEST(Legend, WritesInTheCorners) {
     EXPECT_LT(darkest(0, 100, 140, 180), 100);
     EXPECT_LT(darkest(220, 320, 120, 180), 150);
     EXPECT_EQ(darkest(0, 320, 0, 100), 255);
+}
+
+TEST(Legend, PutsTheBarAboveACaptionThatLeavesNoRoom) {
+    Image caption_alone(200, 180);
+    std::fill(caption_alone.rgb.begin(), caption_alone.rgb.end(), std::uint8_t{255});
+    const Font font(caption_pixels(180));
+    const int end = draw_caption(caption_alone, font, "t = 1.333 s    w = 0.25");
+    EXPECT_LT(end, 200);
+    Image both = caption_alone;
+    draw_color_bar(both, font, ColorMap::Heat, {0, 2}, "speed", end);
+    EXPECT_NE(both.rgb, caption_alone.rgb);
+    for (int y = 180 - 2 * font.pixels(); y < 180; ++y) {  // the caption's own lines
+        for (int x = 0; x < 200; ++x) {
+            ASSERT_EQ(*both.pixel(x, y), *caption_alone.pixel(x, y)) << x << " " << y;
+        }
+    }
 }
 
 TEST(Font, IsWiderForLongerLinesAndDrawsNothingOutside) {

@@ -17,17 +17,23 @@ int caption_pixels(int picture_height) {
     return std::clamp(picture_height / 30, 13, 48);
 }
 
-void draw_caption(Image& image, const Font& font, std::string_view line) {
+int draw_caption(Image& image, const Font& font, std::string_view line) {
     const int margin = font.pixels();
     font.draw(image, margin, image.height - margin, line, kInk);
+    return margin + font.width(line);
 }
 
-void draw_color_bar(
-    Image& image, const Font& font, ColorMap map, const ColorRange& range, std::string_view title) {
+void draw_color_bar(Image& image,
+                    const Font& font,
+                    ColorMap map,
+                    const ColorRange& range,
+                    std::string_view title,
+                    int caption_end) {
     const int em = font.pixels();
-    const int wide = std::min(10 * em, image.width / 3);
+    const int wide = std::min(10 * em, image.width - 2 * em);
     const int left = image.width - wide - em;
-    const int bottom = image.height - em;
+    const bool is_beside = left >= caption_end + em;
+    const int bottom = image.height - (is_beside ? em : 5 * em / 2);
     const int top = bottom - 2 * em;  // of the bar, which is 2/3 em high; numbers stand below it
     for (int x = 0; x < wide; ++x) {
         const Color color = map_color(map, (x + 0.5) / wide);

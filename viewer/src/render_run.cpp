@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -155,12 +156,11 @@ bool render_sheet(const Studio<Dim>& studio,
             if (!on_progress("sheet picture", static_cast<std::int64_t>(tiles.size()), total)) {
                 return false;
             }
-            tiles.push_back(studio.small_tile(frame, tile));
+            tiles.push_back(studio.small_tile(frame, tile, std::ssize(tiles) + 1 == total));
             ++report.pictures;
         }
     }
     (void)on_progress("sheet picture", total, total);
-    studio.add_color_bar(tiles.back());
     const bool is_table = frames.size() > 1 && studio.tile_count() > 1;
     const auto columns = static_cast<int>(
         is_table ? frames.size() : static_cast<std::size_t>(std::ceil(std::sqrt(tiles.size()))));

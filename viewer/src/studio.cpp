@@ -108,34 +108,25 @@ Image Studio<Dim>::picture(int frame) const {
     int left = 0;
     for (std::size_t t = 0; t < tiles_.size(); ++t) {
         const int width = tile_width(t);
-        paste(image, paint(moment, tiles_[t], tile_camera_, width, options_.height), left, 0);
+        const bool has_bar = t + 1 == tiles_.size();
+        paste(image, paint(moment, tiles_[t], tile_camera_, width, options_.height, has_bar), left,
+              0);
         left += width;
     }
-    add_color_bar(image);
     return image;
 }
 
 template <int Dim>
 Image Studio<Dim>::tile_picture(int frame, std::size_t tile) const {
     const Moment<Dim> moment = load_moment<Dim>(run_, bodies_, frame, options_.color);
-    Image image = paint(moment, tiles_[tile], sheet_camera_, options_.width, options_.height);
-    add_color_bar(image);
-    return image;
+    return paint(moment, tiles_[tile], sheet_camera_, options_.width, options_.height, true);
 }
 
 template <int Dim>
-Image Studio<Dim>::small_tile(int frame, std::size_t tile) const {
+Image Studio<Dim>::small_tile(int frame, std::size_t tile, bool has_bar) const {
     const Moment<Dim> moment = load_moment<Dim>(run_, bodies_, frame, options_.color);
     return paint(moment, tiles_[tile], sheet_camera_, options_.width * 3 / 8,
-                 options_.height * 3 / 8);
-}
-
-template <int Dim>
-void Studio<Dim>::add_color_bar(Image& image) const {
-    if (options_.has_caption && options_.color != ColorBy::Body) {
-        draw_color_bar(image, Font(caption_pixels(image.height)), color_map_of(options_.color),
-                       range_, title_of(options_.color));
-    }
+                 options_.height * 3 / 8, has_bar);
 }
 
 template <int Dim>
@@ -205,7 +196,8 @@ Image Studio<Dim>::paint(const Moment<Dim>& moment,
                          const Tile& tile,
                          const Camera& camera,
                          int width,
-                         int height) const {
+                         int height,
+                         bool has_bar) const {
     std::vector<RenderObject> objects;
     for (Shown& shown : shown_in(tile, moment, true)) {
         objects.push_back(to_object(std::move(shown), options_.color, range_));
@@ -224,7 +216,12 @@ Image Studio<Dim>::paint(const Moment<Dim>& moment,
     if (options_.has_caption) {
         const std::string line = time_label(moment.frames.front().time)
                                  + (tile.label.empty() ? "" : "    " + tile.label);
-        draw_caption(image, Font(caption_pixels(height)), line);
+        const Font font(caption_pixels(height));
+        const int end = draw_caption(image, font, line);
+        if (has_bar && options_.color != ColorBy::Body) {
+            draw_color_bar(image, font, color_map_of(options_.color), range_,
+                           title_of(options_.color), end);
+        }
     }
     return image;
 }

@@ -56,10 +56,9 @@ public:
     [[nodiscard]] Image tile_picture(int frame, std::size_t tile) const;
 
     /// One tile of one frame for a contact sheet, smaller than a picture.
-    [[nodiscard]] Image small_tile(int frame, std::size_t tile) const;
-
-    /// Draws the color bar if there is one.
-    void add_color_bar(Image& image) const;
+    ///
+    /// @param has_bar  Whether this is the tile that shows the color bar, if there is one.
+    [[nodiscard]] Image small_tile(int frame, std::size_t tile, bool has_bar) const;
 
 private:
     // The sections a tile shows: one, or with onion skin all; `solid` is the one that is not a
@@ -87,7 +86,8 @@ private:
                               const Tile& tile,
                               const Camera& camera,
                               int width,
-                              int height) const;
+                              int height,
+                              bool has_bar) const;
     [[nodiscard]] int tile_width(std::size_t tile) const;
 
     const RunFolder& run_;
