@@ -1,8 +1,9 @@
-// pent-check: proves the decomposition tables, or validates a .pent file.
+// pent-check: validates a .pent file, or proves the decomposition tables or the eigensystems.
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "common/program.h"
+#include "eigen_table.h"
 #include "mesh_text.h"
 
 #include <pent/error.h>
@@ -149,9 +150,20 @@ int main(int argc, char** argv) {
                     "Validates a .pent file; without one, proves that prisms are cut correctly.",
                     "pent-check octopus.pent");
     std::filesystem::path path;
-    program.options().add_option("file", path, "A mesh or frame to validate")->type_name("FILE");
+    bool eigen = false;
+    CLI::Option* file = program.options()
+                            .add_option("file", path, "A mesh or frame to validate")
+                            ->type_name("FILE");
+    program.options()
+        .add_flag("--eigen", eigen,
+                  "Prove the eigensystems of the elastic energies, in dimensions 2 to 100")
+        ->excludes(file);
     return program.run(argc, argv, [&] {
-        path.empty() ? prove_tables(program) : check_file(program, path);
+        if (eigen) {
+            prove_eigensystems(program);
+        } else {
+            path.empty() ? prove_tables(program) : check_file(program, path);
+        }
         return pent::apps::Verdict::Finished;
     });
 }

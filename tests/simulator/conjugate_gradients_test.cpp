@@ -1,5 +1,6 @@
 #include "conjugate_gradients.h"
 
+#include "direct_solver.h"
 #include "elastic_box.h"
 
 #include <Eigen/Cholesky>
@@ -55,6 +56,27 @@ TEST(ConjugateGradients, FindTheSolutionOfTheDenseFactorization) {
         ElasticBox<4>::dense(A).ldlt().solve(problem.b.reshaped()).eval();
     // Condition about 1e4 times the residual.
     EXPECT_LT((problem.x.reshaped() - expected).norm(), 1e-8 * expected.norm());
+}
+
+TEST(DirectSolver, FindsTheSolutionOfTheDenseFactorization) {
+    Problem problem;
+    const BlockMatrix<4, float> A = definite_matrix<float>(problem.box, 0.01);
+    const LinearSolveReport report = solve_directly(A, problem.b, problem.x);
+    EXPECT_TRUE(report.has_converged);
+    EXPECT_LT(report.residual, 1e-14);  // of rounding in double, whatever the blocks are stored in
+    const Eigen::VectorXd expected =
+        ElasticBox<4>::dense(A).ldlt().solve(problem.b.reshaped()).eval();
+    EXPECT_LT((problem.x.reshaped() - expected).norm(), 1e-10 * expected.norm());
+}
+
+TEST(DirectSolver, ReportsAMatrixThatIsNotPositiveDefinite) {
+    Problem problem;
+    BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
+    A.diagonal(3).setZero();
+    A.diagonal(3).diagonal().setConstant(-1);
+    const LinearSolveReport report = solve_directly(A, problem.b, problem.x);
+    EXPECT_TRUE(report.has_broken_down);
+    EXPECT_FALSE(report.has_converged);
 }
 
 TEST(ConjugateGradients, ReachOneMillionthWithAFloatMatrix) {
