@@ -15,11 +15,17 @@ using pent::apps::Program;
 using pent::apps::text;
 using pent::simulator::EigenFunction;
 using pent::simulator::EigenProof;
+using pent::simulator::UndefinedModes;
 
 constexpr std::array kSmall = {2, 3, 4, 5, 6, 7, 8};
 constexpr std::array kLarge = {10, 30, 100};
+constexpr int kDimensions = kSmall.size() + kLarge.size();
 
 nlohmann::ordered_json to_json(const std::string& function, const EigenProof& proof) {
+    nlohmann::ordered_json undefined = nlohmann::ordered_json::object();
+    for (const UndefinedModes& entry : proof.undefined) {
+        undefined[entry.state] = entry.modes;
+    }
     return {{"function", function},
             {"dimension", proof.dim},
             {"states", proof.states},
@@ -28,7 +34,7 @@ nlohmann::ordered_json to_json(const std::string& function, const EigenProof& pr
             {"residual", proof.residual},
             {"orthogonality", proof.orthogonality},
             {"trace", proof.trace},
-            {"undefined", proof.undefined},
+            {"undefined", undefined},
             {"holds", proof.holds()}};
 }
 
@@ -76,21 +82,19 @@ void prove_eigensystems(Program& program) {
         "sampled.\n\n"
         "  function              n            states   modes     values        H q     q . q'      "
         "trace");
-    std::vector<std::string> undefined;
+    std::string undefined;
     for (const EigenFunction& function : pent::simulator::eigen_functions()) {
-        for (const EigenProof& proof : {prove(program, function, kSmall, "2 to 8"),
-                                        prove(program, function, kLarge, "10, 30, 100")}) {
-            for (const std::string& state : proof.undefined) {
-                undefined.push_back(eigen_function_name(function) + ", " + state);
-            }
+        EigenProof all = prove(program, function, kSmall, "2 to 8");
+        all.merge(prove(program, function, kLarge, "10, 30, 100"));
+        for (const auto& [state, modes] : all.undefined) {
+            undefined += text("\n  %-6s %-24s %3d modes in %d dimensions",
+                              eigen_function_name(function).c_str(), state.c_str(),
+                              static_cast<int>(modes), kDimensions);
         }
     }
     program.say(
         "\nUndefined, and left out above: the rotation R of F = R S is not unique where two "
         "singular\n"
-        "values add up to zero; the twist of their plane then has no eigenvalue (taken as 0):");
-    for (const std::string& state : undefined) {
-        program.say("  " + state);
-    }
-    program.say("\nfinished: all hold to rounding");
+        "values add up to zero; the twist of their plane then has no eigenvalue (taken as 0):"
+        + undefined + "\n\nfinished: all hold to rounding");
 }

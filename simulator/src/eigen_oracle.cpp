@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 // The determinant of a polynomial family det(F + t q) has cofactors that are polynomials in t. Their
 // coefficients of 1 and t by Cauchy's integral on |t| = 0.1, where the trapezoidal rule of 16 points
 // leaves out t^16 and up: 1e-14 even for the q that enlarges all of 100 directions alike. Away from
-// t = 0 the matrix can be inverted where F cannot.
+// t = 0 the matrix can be inverted where F cannot. Points below the real axis give conjugate values.
 struct Cofactors {
     MatrixXd at_zero;
     MatrixXd slope;
@@ -29,18 +29,17 @@ Cofactors cofactors_along(const MatrixXd& F, const MatrixXd& q) {
     constexpr int kPoints = 16;
     constexpr double kRadius = 0.1;
     const Index n = F.rows();
-    MatrixXcd sum = MatrixXcd::Zero(n, n);
-    MatrixXcd turned = MatrixXcd::Zero(n, n);
-    for (int k = 0; k < kPoints; ++k) {
+    Cofactors mean{MatrixXd::Zero(n, n), MatrixXd::Zero(n, n)};
+    for (int k = 0; k < kPoints / 2; ++k) {
         // Half a step off the real axis, where a real q may make F + t q singular.
         const std::complex<double> t =
             std::polar(kRadius, 2 * std::numbers::pi * (k + 0.5) / kPoints);
         const Eigen::PartialPivLU<MatrixXcd> lu(F.cast<std::complex<double>>() + t * q);
         const MatrixXcd cofactor = lu.determinant() * lu.inverse().transpose();
-        sum += cofactor;
-        turned += cofactor / t;
+        mean.at_zero += cofactor.real() / (kPoints / 2);
+        mean.slope += (cofactor / t).real() / (kPoints / 2);
     }
-    return {(sum / kPoints).real(), (turned / kPoints).real()};
+    return mean;
 }
 
 // The minor of F without one row and column.
@@ -300,9 +299,7 @@ void compare(const EigenFunction& function,
     ++proof.states;
     proof.modes += static_cast<std::int64_t>(chosen.size()) - undefined;
     if (undefined > 0) {
-        proof.undefined.push_back(name + ", n = " + std::to_string(n) + ": "
-                                  + std::to_string(undefined) + " of "
-                                  + std::to_string(chosen.size()) + " modes");
+        proof.undefined.push_back({name, undefined});
         return;  // no trace, no dense matrix
     }
     const double size = system.values().cwiseAbs().sum();

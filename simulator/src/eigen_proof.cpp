@@ -102,7 +102,16 @@ void EigenProof::merge(const EigenProof& other) {
     residual = std::max(residual, other.residual);
     orthogonality = std::max(orthogonality, other.orthogonality);
     trace = std::max(trace, other.trace);
-    undefined.insert(undefined.end(), other.undefined.begin(), other.undefined.end());
+    for (const UndefinedModes& theirs : other.undefined) {
+        const auto ours = std::find_if(undefined.begin(), undefined.end(), [&](const auto& entry) {
+            return entry.state == theirs.state;
+        });
+        if (ours == undefined.end()) {
+            undefined.push_back(theirs);
+        } else {
+            ours->modes += theirs.modes;
+        }
+    }
 }
 
 EigenProof prove_eigensystem(const EigenFunction& function, int dim) {

@@ -22,6 +22,12 @@ using EigenFunction = std::variant<Invariant, Model>;
 /// All seven.
 [[nodiscard]] std::vector<EigenFunction> eigen_functions();
 
+/// Modes that have no eigenvalue at a kind of F.
+struct UndefinedModes {
+    std::string state;
+    std::int64_t modes = 0;
+};
+
 /// The largest errors found. All are relative: to the largest |eigenvalue|, or to what is summed up.
 struct EigenProof {
     int dim = 0;
@@ -31,14 +37,12 @@ struct EigenProof {
     double residual = 0;       ///< |H q - lambda q| for q of norm 1.
     double orthogonality = 0;  ///< |q . q' - (q = q')|.
     double trace = 0;          ///< Sum of the eigenvalues against the trace of H.
-    std::vector<std::string>
-        undefined;  ///< States where some modes have no eigenvalue, and are left
-                    ///< out: which and how many.
+    std::vector<UndefinedModes> undefined;  ///< Left out above.
 
     /// Whether all errors are below 1e-10, which leaves rounding six digits.
     [[nodiscard]] bool holds() const;
 
-    /// Takes over what another proof tried; dim becomes the larger one.
+    /// Takes over what another proof tried, perhaps in another dimension; dim becomes the larger one.
     void merge(const EigenProof& other);
 };
 
