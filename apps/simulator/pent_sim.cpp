@@ -43,6 +43,33 @@ std::string percent(double fraction) {
     return text;
 }
 
+// What touched in a run, and its share of the time; says nothing of a scene without contact.
+void summarize_contact(Program& program, const RunReport& report) {
+    double seconds = 0;
+    double contact_seconds = 0;
+    double deepest = 0;
+    std::int64_t most = 0;
+    for (const StepReport& step : report.steps) {
+        seconds += step.seconds;
+        contact_seconds += step.contact.seconds;
+        deepest = std::max(deepest, step.contact.deepest);
+        most =
+            std::max(most, step.contact.point_facet + step.contact.mixed + step.contact.obstacle);
+    }
+    if (contact_seconds == 0) {
+        return;
+    }
+    const double share = contact_seconds / seconds;
+    char depth[32];
+    std::snprintf(depth, sizeof depth, "%.3g", deepest);
+    program.say("contact: " + percent(share) + " of the time; at most " + std::to_string(most)
+                + " pairs, deepest penetration " + depth + " m");
+    program.report()["contact"] = {{"share_of_time", share},
+                                   {"seconds", contact_seconds},
+                                   {"most_pairs", most},
+                                   {"deepest", deepest}};
+}
+
 void summarize(Program& program, const RunReport& report, const std::string& folder) {
     nlohmann::ordered_json bodies = nlohmann::ordered_json::array();
     for (std::size_t body = 0; body < report.bodies.size(); ++body) {
@@ -67,6 +94,7 @@ void summarize(Program& program, const RunReport& report, const std::string& fol
     program.report()["vertices"] = report.size.vertices;
     program.report()["cells"] = report.size.cells;
     program.report()["bodies"] = bodies;
+    summarize_contact(program, report);
     const std::int64_t collapsed = report.steps.empty() ? 0 : report.steps.back().collapsed;
     program.report()["collapsed"] = collapsed;
     if (collapsed > 0) {
@@ -91,6 +119,7 @@ Verdict simulate(Program& program, const Arguments& arguments) {
             progress.update(frame.frame, std::to_string(step.iterations) + " iterations");
         }
     };
+    callbacks.on_warning = [&](const std::string& line) { program.say("warning: " + line); };
     const RunReport report = run(scene,
                                  {.folder = arguments.output,
                                   .force = arguments.force,

@@ -26,6 +26,15 @@ public:
         }
     }
 
+    /// What has been done to the trees so far.
+    [[nodiscard]] std::int64_t built() const { return built_; }
+    [[nodiscard]] std::int64_t refit() const { return refit_; }
+
+    [[nodiscard]] std::int64_t bytes() const {
+        return vertices_.tree.bytes() + edges_.tree.bytes() + ridges_.tree.bytes()
+               + facets_.tree.bytes();
+    }
+
     [[nodiscard]] const BoxTree& vertices() const { return vertices_.tree; }
     [[nodiscard]] const BoxTree& edges() const { return edges_.tree; }
     [[nodiscard]] const BoxTree& facets() const { return facets_.tree; }
@@ -42,21 +51,25 @@ private:
     // How much worse than when it was built a tree may get before it is built anew.
     static constexpr double kWorn = 1.5;
 
-    static void update(Tree& tree, const std::vector<Box>& boxes) {
+    void update(Tree& tree, const std::vector<Box>& boxes) {
         if (tree.tree.size() == boxes.size()) {
             tree.tree.refit(boxes);
+            ++refit_;
             if (tree.tree.cost() <= kWorn * tree.built_cost) {
                 return;
             }
         }
         tree.tree = BoxTree(boxes);
         tree.built_cost = tree.tree.cost();
+        ++built_;
     }
 
     Tree vertices_;
     Tree edges_;
     Tree ridges_;
     Tree facets_;
+    std::int64_t built_ = 0;
+    std::int64_t refit_ = 0;
 };
 
 }  // namespace pent::contact

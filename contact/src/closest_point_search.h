@@ -7,7 +7,8 @@
 #include <bit>
 #include <utility>
 
-// The search behind closest_points(), in a header so that the narrow phase can inline it.
+// The search behind closest_points(), in a header so that the narrow phase can inline what most pairs
+// need, run_interior(). All faces are in closest_points.cpp, once.
 
 namespace pent::contact {
 
@@ -26,10 +27,7 @@ public:
     }
 
     /// Whether there is a pair below the limit; best() is it.
-    bool run() {
-        visit<(1U << K) - 1, (1U << L) - 1>();
-        return best_.first_face != 0;
-    }
+    bool run();
 
     /// Whether the closest points are below the limit and inside both simplices (their weights are
     /// all positive); best() is the pair then. Tries no face, so costs a fraction of run().
@@ -77,29 +75,11 @@ private:
 
     // The best pair of points on face A of the first and face B of the second simplex.
     template <unsigned A, unsigned B>
-    void visit() {
-        constexpr int kN = kUnknowns<A, B>;
-        Vector<Dim> offset = first_.col(corner(A, 0)) - second_.col(corner(B, 0));
-        if constexpr (kN == 0) {
-            record<A, B>(Parameters<0>(), offset);
-        } else {
-            const Edges<kN> edges = edges_of<A, B>(std::make_integer_sequence<int, kN>());
-            Parameters<kN> t = Parameters<kN>::Zero();
-            if (!solve_normal_equations<kN>(edges, offset, t)) {
-                visit_dependent<A, B>(edges, offset);
-                return;
-            }
-            offset += edges * t;
-            if (!(offset.squaredNorm() < best_.distance_squared)) {
-                return;  // nor is any point of the faces of these
-            }
-            if (is_inside<A, B>(t)) {
-                record<A, B>(t, offset);
-            } else {
-                visit_facets<A, B>(t, false);
-            }
-        }
-    }
+    void visit();
+    template <unsigned A, unsigned B>
+    void visit_facets(const Parameters<kUnknowns<A, B>>& t, bool all);
+    template <unsigned A, unsigned B>
+    void visit_dependent(const Edges<kUnknowns<A, B>>& edges, const Vector<Dim>& offset);
 
     // x - y = offset + edges t: edges of A from its first corner, then those of B, reversed.
     template <unsigned A, unsigned B, int... I>
@@ -204,31 +184,6 @@ private:
         best_.second_face = B;
     }
 
-    // The minimum of a convex function over a polytope lies on a facet that its free minimum is
-    // beyond: a facet is the lack of one corner, and beyond it the weight of that corner is negative.
-    template <unsigned A, unsigned B>
-    void visit_facets(const Parameters<kUnknowns<A, B>>& t, bool all) {
-        constexpr int kFirst = std::popcount(A);
-        constexpr int kSecond = std::popcount(B);
-        if constexpr (kFirst > 1) {
-            [&]<int... I>(std::integer_sequence<int, I...>) {
-                ((all || weight(t, 0, kFirst, I) < 0 ? visit<A & ~(1U << corner(A, I)), B>()
-                                                     : void()),
-                 ...);
-            }
-            (std::make_integer_sequence<int, kFirst>());
-        }
-        if constexpr (kSecond > 1) {
-            [&]<int... J>(std::integer_sequence<int, J...>) {
-                ((all || weight(t, kFirst - 1, kSecond, J) < 0
-                      ? visit<A, B & ~(1U << corner(B, J))>()
-                      : void()),
-                 ...);
-            }
-            (std::make_integer_sequence<int, kSecond>());
-        }
-    }
-
     // The same by a QR factorization; false where the edges are dependent to rounding.
     template <int N>
     [[nodiscard, gnu::noinline]] static bool solve_stably(const Edges<N>& edges,
@@ -241,18 +196,6 @@ private:
         }
         t = factors.solve(-offset);
         return true;
-    }
-
-    // Edges that are dependent, or nearly so: a stable solution where there is one, and all facets.
-    template <unsigned A, unsigned B>
-    [[gnu::noinline]] void visit_dependent(const Edges<kUnknowns<A, B>>& edges,
-                                           const Vector<Dim>& offset) {
-        constexpr int kN = kUnknowns<A, B>;
-        Parameters<kN> t = Parameters<kN>::Zero();
-        if (solve_stably<kN>(edges, offset, t) && is_inside<A, B>(t)) {
-            record<A, B>(t, offset + edges * t);
-        }
-        visit_facets<A, B>(t, true);
     }
 
     const Corners<Dim, K>& first_;

@@ -1,9 +1,7 @@
-#include "body_trees.h"
 #include "pair_contact.h"
+#include "pair_search.h"
 
 #include <algorithm>
-#include <array>
-#include <cassert>
 #include <chrono>
 #include <sstream>
 #include <tbb/parallel_for.h>
@@ -14,27 +12,6 @@ namespace {
 
 // Contacts are computed in chunks of this many pairs or vertices.
 constexpr std::size_t kChunk = 512;
-
-// Pairs kept for another evaluation, at most: 128 MB.
-constexpr std::size_t kMostKept = 8'000'000;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-// The pairs that two bodies (or one, with itself) may have in contact.
-struct BodyPair {
-    int first = 0;
-    int second = 0;
-    NearPairs points_first;   // vertices of the first, facets of the second
-    NearPairs points_second;  // the other way round
-    NearPairs mixed_first;    // edges of the first, ridges of the second
-    NearPairs mixed_second;   // the other way round
-
-    [[nodiscard]] std::array<NearPairs*, 4> lists() {
-        return {&points_first, &points_second, &mixed_first, &mixed_second};
-    }
-};
 
 // Appends add(i, contacts) of all i in [0, count), in their order.
 template <int Dim, typename Add>
@@ -71,7 +48,7 @@ public:
     State(std::vector<ContactBody<Dim>> bodies,
           const PositionsView<Dim>& rest,
           const ContactOptions& options)
-        : bodies_(std::move(bodies)), options_(options), trees_(bodies_.size()) {
+        : bodies_(std::move(bodies)), options_(options), search_(bodies_, options_) {
         for (const ContactBody<Dim>& body : bodies_) {
             mean_edges_.push_back(mean_edge_length<Dim>(body.surface, rest));
         }
@@ -83,26 +60,14 @@ public:
     Contacts<Dim> find(const PositionsView<Dim>& positions) {
         const auto start = std::chrono::steady_clock::now();
         Contacts<Dim> contacts;
-        ContactReport& report = contacts.report;
-        if (!is_kept_valid(positions)) {
-            update_trees(positions);
-            report.tree_seconds = seconds_since(start);
-            search(positions, report);
-        }
-        // What was found within the distance and the margin, or just now within the distance.
-        std::vector<BodyPair> narrowed;
-        if (options_.margin > 0) {
-            narrowed = still_near(positions);
-        }
-        const std::vector<BodyPair>& pairs = options_.margin > 0 ? narrowed : pairs_;
-        report.search_seconds = seconds_since(start) - report.tree_seconds;
+        const std::vector<BodyPair> pairs = search_.run(positions, contacts.report);
         update_normals(pairs, positions);
         for (const BodyPair& pair : pairs) {
             append(pair, positions, contacts.pairs);
         }
-        keep_or_drop();
         sum_up(contacts);
-        report.seconds = seconds_since(start);
+        contacts.report.seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return contacts;
     }
 
@@ -122,119 +87,15 @@ public:
 
     [[nodiscard]] const std::vector<ContactBody<Dim>>& bodies() const { return bodies_; }
     [[nodiscard]] const ContactOptions& options() const { return options_; }
+    [[nodiscard]] std::int64_t bytes() const {
+        std::int64_t sum = search_.bytes();
+        for (const ContactBody<Dim>& body : bodies_) {
+            sum += body.surface.bytes();
+        }
+        return sum + static_cast<std::int64_t>(sizeof(double)) * (rest_.size() + normals_.size());
+    }
 
 private:
-    [[nodiscard]] double search_distance() const { return options_.distance + 2 * options_.margin; }
-
-    // Whether no vertex has moved by more than the margin since pairs were last searched.
-    [[nodiscard]] bool is_kept_valid(const PositionsView<Dim>& positions) const {
-        return searched_at_.cols() > 0 && searched_at_.cols() == positions.cols()
-               && (positions - searched_at_).colwise().squaredNorm().maxCoeff()
-                      <= options_.margin * options_.margin;
-    }
-
-    void keep_or_drop() {
-        std::size_t kept = 0;
-        for (BodyPair& pair : pairs_) {
-            for (const NearPairs* list : pair.lists()) {
-                kept += list->pairs.size();
-            }
-        }
-        if (options_.margin == 0 || kept > kMostKept) {
-            searched_at_.resize(Dim, 0);
-            std::vector<BodyPair>().swap(pairs_);
-        }
-    }
-
-    [[nodiscard]] bool may_meet(std::size_t a, std::size_t b) const {
-        if (bodies_[a].is_kinematic && bodies_[b].is_kinematic) {
-            return false;
-        }
-        return a == b ? options_.self
-                      : overlap(trees_[a].vertices().root_box(), trees_[b].vertices().root_box());
-    }
-
-    // Finds which bodies may meet, and brings the trees of these up to date.
-    void update_trees(const PositionsView<Dim>& positions) {
-        const double margin = 0.5 * search_distance();
-        pairs_.clear();
-        if (bodies_.size() < 2 && !options_.self) {
-            return;
-        }
-        for (std::size_t i = 0; i < bodies_.size(); ++i) {
-            trees_[i].update_vertices(bodies_[i].surface, positions, margin);
-        }
-        std::vector<bool> is_needed(bodies_.size(), false);
-        for (std::size_t a = 0; a < bodies_.size(); ++a) {
-            for (std::size_t b = a; b < bodies_.size(); ++b) {
-                if (may_meet(a, b)) {
-                    pairs_.push_back({static_cast<int>(a), static_cast<int>(b), {}, {}, {}, {}});
-                    is_needed[a] = true;
-                    is_needed[b] = true;
-                }
-            }
-        }
-        for (std::size_t i = 0; i < bodies_.size(); ++i) {
-            if (is_needed[i]) {
-                trees_[i].update_faces(bodies_[i].surface, positions, margin);
-            }
-        }
-    }
-
-    void search(const PositionsView<Dim>& positions, ContactReport& report) {
-        // With a margin any pair may get its closest points inside before the next search.
-        const Closest closest = options_.margin > 0 ? Closest::Anywhere : Closest::Interior;
-        for (BodyPair& pair : pairs_) {
-            pair.points_first = points_near(pair.first, pair.second, positions);
-            pair.mixed_first = mixed_near(pair.first, pair.second, positions, closest);
-            if (pair.first != pair.second) {
-                pair.points_second = points_near(pair.second, pair.first, positions);
-                if constexpr (Dim > 3) {
-                    pair.mixed_second = mixed_near(pair.second, pair.first, positions, closest);
-                }
-            }
-            for (const NearPairs* list : pair.lists()) {
-                report.candidates += list->candidates;
-            }
-        }
-        searched_at_ = options_.margin > 0 ? Positions<Dim>(positions) : Positions<Dim>(Dim, 0);
-    }
-
-    [[nodiscard]] NearPairs points_near(int a, int b, const PositionsView<Dim>& positions) const {
-        return near_pairs<Dim, 1, Dim>({bodies_[a].surface.vertices, trees_[a].vertices()},
-                                       {bodies_[b].surface.facets, trees_[b].facets()}, positions,
-                                       search_distance());
-    }
-
-    [[nodiscard]] NearPairs mixed_near(int a,
-                                       int b,
-                                       const PositionsView<Dim>& positions,
-                                       Closest closest) const {
-        return near_pairs<Dim, 2, Dim - 1>({bodies_[a].surface.edges, trees_[a].edges()},
-                                           {bodies_[b].surface.ridges, trees_[b].ridges()},
-                                           positions, search_distance(), closest);
-    }
-
-    [[nodiscard]] std::vector<BodyPair> still_near(const PositionsView<Dim>& positions) const {
-        const double eps = options_.distance;
-        std::vector<BodyPair> result;
-        for (const BodyPair& pair : pairs_) {
-            const Surface<Dim>& a = bodies_[pair.first].surface;
-            const Surface<Dim>& b = bodies_[pair.second].surface;
-            result.push_back(
-                {pair.first, pair.second,
-                 still_near_pairs<Dim, 1, Dim>(pair.points_first, a.vertices, b.facets, positions,
-                                               eps),
-                 still_near_pairs<Dim, 1, Dim>(pair.points_second, b.vertices, a.facets, positions,
-                                               eps),
-                 still_near_pairs<Dim, 2, Dim - 1>(pair.mixed_first, a.edges, b.ridges, positions,
-                                                   eps, Closest::Interior),
-                 still_near_pairs<Dim, 2, Dim - 1>(pair.mixed_second, b.edges, a.ridges, positions,
-                                                   eps, Closest::Interior)});
-        }
-        return result;
-    }
-
     // Normals at the vertices of bodies that have pairs judged by normals.
     void update_normals(const std::vector<BodyPair>& pairs, const PositionsView<Dim>& positions) {
         std::vector<bool> is_needed(bodies_.size(), false);
@@ -327,9 +188,10 @@ private:
                       std::vector<Contact<Dim>>& contacts) const {
         const Surface<Dim>& surface = bodies_[setting.first_body].surface;
         const Surface<Dim>& around = bodies_[setting.second_body].surface;
-        const BoxTree& facets = trees_[setting.second_body].facets();
-        const std::vector<std::uint8_t> is_inside = vertices_inside<Dim>(
-            surface, trees_[setting.first_body].vertices(), around, facets, setting.positions);
+        const BoxTree& facets = search_.trees(setting.second_body).facets();
+        const std::vector<std::uint8_t> is_inside =
+            vertices_inside<Dim>(surface, search_.trees(setting.first_body).vertices(), around,
+                                 facets, setting.positions);
         const auto begin = starts_of(near, surface.vertices.cols());
         append_chunks<Dim>(
             surface.vertices.cols(),
@@ -373,11 +235,9 @@ private:
     std::vector<ContactBody<Dim>> bodies_;
     ContactOptions options_;
     std::vector<double> mean_edges_;
-    std::vector<BodyTrees<Dim>> trees_;
-    Positions<Dim> rest_;          // empty without self-contact
-    Positions<Dim> normals_;       // columns of bodies that needed them last
-    std::vector<BodyPair> pairs_;  // found within the distance and the margin
-    Positions<Dim> searched_at_;   // where; empty if pairs_ are of no further use
+    PairSearch<Dim> search_;
+    Positions<Dim> rest_;     // empty without self-contact
+    Positions<Dim> normals_;  // columns of bodies that needed them last
 };
 
 template <int Dim>
@@ -403,6 +263,11 @@ Contacts<Dim> ContactFinder<Dim>::find(const PositionsView<Dim>& positions) {
 template <int Dim>
 std::vector<std::string> ContactFinder<Dim>::warnings() const {
     return state_->warnings();
+}
+
+template <int Dim>
+std::int64_t ContactFinder<Dim>::bytes() const {
+    return state_->bytes();
 }
 
 template <int Dim>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <pent/contact/penalty.h>
+#include <pent/contact/filter.h>
 
 #include <cmath>
 

@@ -199,6 +199,7 @@ Surface<Dim> make_surface(const Simplices<Dim + 1>& cells,
                           Eigen::Index vertices,
                           std::uint32_t first_vertex) {
     Surface<Dim> surface;
+    surface.first_vertex = first_vertex;
     surface.facets = match_facets<Dim>(cells, vertices).boundary;
     surface.facets.array() += first_vertex;
     surface.vertices = faces_of<Dim, 1>(surface.facets);

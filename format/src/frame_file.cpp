@@ -5,7 +5,6 @@
 #include <pent/pent_file.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -32,26 +31,44 @@ void check_finite(const Positions<Dim>& values,
 template <int Dim>
 std::vector<Column> frame_columns(const Frame<Dim>& frame) {
     std::vector<Column> columns = vector_columns<Dim>(frame.positions, "");
-    if (frame.velocities.cols() > 0) {
-        const std::vector<Column> velocities = vector_columns<Dim>(frame.velocities, "v");
-        columns.insert(columns.end(), velocities.begin(), velocities.end());
-    }
+    const auto append = [&](const Positions<Dim>& values, std::string_view prefix) {
+        if (values.cols() > 0) {
+            const std::vector<Column> more = vector_columns<Dim>(values, prefix);
+            columns.insert(columns.end(), more.begin(), more.end());
+        }
+    };
+    append(frame.velocities, "v");
+    append(frame.contact_forces, "f");
     return columns;
 }
 
-// Velocities have all their components or none.
+// A vector has all its components or none.
 template <int Dim>
-bool has_velocities(const PlyElement& vertex, const std::filesystem::path& path) {
-    constexpr std::array<std::string_view, 4> kNames = {"vx", "vy", "vz", "vw"};
+bool has_vector(const PlyElement& vertex,
+                char prefix,
+                const char* what,
+                const std::filesystem::path& path) {
     int found = 0;
     for (int axis = 0; axis < Dim; ++axis) {
-        found += has_property(vertex, kNames[axis], PlyType::Double, path) ? 1 : 0;
+        const std::string name{prefix, "xyzw"[axis]};
+        found += has_property(vertex, name, PlyType::Double, path) ? 1 : 0;
     }
     if (found != 0 && found != Dim) {
-        throw Error(path.string() + ": header: " + std::to_string(found)
-                    + " velocity properties, expected none or all of " + std::to_string(Dim));
+        throw Error(path.string() + ": header: " + std::to_string(found) + " " + what
+                    + " properties, expected none or all of " + std::to_string(Dim));
     }
     return found != 0;
+}
+
+template <int Dim>
+void check_count(const Positions<Dim>& values,
+                 Eigen::Index expected,
+                 const char* what,
+                 const std::filesystem::path& path) {
+    if (values.cols() != 0 && values.cols() != expected) {
+        throw Error(path.string() + ": " + std::to_string(values.cols()) + " " + what
+                    + ", expected none or " + std::to_string(expected));
+    }
 }
 
 }  // namespace
@@ -62,11 +79,9 @@ void write_frame(const std::filesystem::path& path,
                  const WriteOptions& options) {
     check_finite<Dim>(frame.positions, "", path);
     check_finite<Dim>(frame.velocities, "v", path);
-    const Eigen::Index velocities = frame.velocities.cols();
-    if (velocities != 0 && velocities != frame.positions.cols()) {
-        throw Error(path.string() + ": " + std::to_string(velocities)
-                    + " velocities, expected none or " + std::to_string(frame.positions.cols()));
-    }
+    check_finite<Dim>(frame.contact_forces, "f", path);
+    check_count<Dim>(frame.velocities, frame.positions.cols(), "velocities", path);
+    check_count<Dim>(frame.contact_forces, frame.positions.cols(), "contact forces", path);
     if (frame.mesh_name.empty() || frame.mesh_name.find_first_of(" \n\r") != std::string::npos) {
         throw Error(path.string() + ": mesh name '" + frame.mesh_name
                     + "', expected a name without spaces");
@@ -105,8 +120,11 @@ Frame<Dim> read_frame(const std::filesystem::path& path) {
     Frame<Dim> frame;
     const auto count = static_cast<Eigen::Index>(header.info.vertices);
     frame.positions.resize(Dim, count);
-    if (has_velocities<Dim>(header.elements[0], path)) {
+    if (has_vector<Dim>(header.elements[0], 'v', "velocity", path)) {
         frame.velocities.resize(Dim, count);
+    }
+    if (has_vector<Dim>(header.elements[0], 'f', "contact force", path)) {
+        frame.contact_forces.resize(Dim, count);
     }
     frame.mesh_name = header.mesh_name;
     frame.mesh_crc = header.mesh_crc;
@@ -117,6 +135,7 @@ Frame<Dim> read_frame(const std::filesystem::path& path) {
     reader.finish();
     check_finite<Dim>(frame.positions, "", path);
     check_finite<Dim>(frame.velocities, "v", path);
+    check_finite<Dim>(frame.contact_forces, "f", path);
     return frame;
 }
 

@@ -18,6 +18,7 @@ using pent::simulator::StepReport;
 struct pent_simulation {
     Scene scene;
     std::variant<std::unique_ptr<Simulation<3>>, std::unique_ptr<Simulation<4>>> simulation;
+    StepReport last_step = {};
 };
 
 namespace {
@@ -78,6 +79,16 @@ pent_step_report c_report(const StepReport& step) {
             .elastic = step.energies.elastic,
             .gravity = step.energies.gravity,
             .obstacle = step.energies.obstacle};
+}
+
+pent_contact_report c_contacts(const StepReport& step) {
+    return {.point_facet = step.contact.point_facet,
+            .mixed = step.contact.mixed,
+            .obstacle = step.contact.obstacle,
+            .energy = step.energies.contact,
+            .deepest = step.contact.deepest,
+            .smallest_distance = step.contact.smallest_distance,
+            .seconds = step.contact.seconds};
 }
 
 }  // namespace
@@ -160,7 +171,15 @@ int pent_step(pent_simulation* simulation, pent_step_report* report) {
         if (report != nullptr) {
             *report = c_report(step);
         }
+        simulation->last_step = step;
         last_error = step.failure;
         return step.is_accepted ? 0 : -1;
+    });
+}
+
+int pent_contacts(const pent_simulation* simulation, pent_contact_report* report) {
+    return guarded(-1, [&] {
+        *report = c_contacts(simulation->last_step);
+        return 0;
     });
 }

@@ -38,6 +38,18 @@ typedef struct pent_step_report {
     double obstacle;
 } pent_step_report;
 
+/// What touched at the end of the last step. All zero, and the smallest distance infinite, before the
+/// first step and in a scene without contact.
+typedef struct pent_contact_report {
+    int64_t point_facet; /**< Vertices in contact with facets of bodies. */
+    int64_t mixed;       /**< Edges in contact with triangles (with edges in three dimensions). */
+    int64_t obstacle;    /**< Vertices in contact with obstacles. */
+    double energy;       /**< Between bodies, J. */
+    double deepest;      /**< Deepest penetration of a vertex, m. */
+    double smallest_distance; /**< Signed, m. */
+    double seconds;           /**< Spent on contact in the step. */
+} pent_contact_report;
+
 /// PENT_PLUGIN_VERSION of the library that is loaded.
 PENT_PLUGIN_API int pent_plugin_version(void);
 
@@ -61,7 +73,7 @@ PENT_PLUGIN_API int64_t pent_cell_count(const pent_simulation* simulation, int b
 /// (dimension + 1) indices a cell.
 PENT_PLUGIN_API const uint32_t* pent_cells(const pent_simulation* simulation, int body);
 
-/// dimension numbers a vertex: m, m/s, N.
+/// dimension numbers a vertex: m, m/s, N (elastic, gravity and contact).
 PENT_PLUGIN_API const double* pent_positions(const pent_simulation* simulation, int body);
 PENT_PLUGIN_API const double* pent_velocities(const pent_simulation* simulation, int body);
 PENT_PLUGIN_API const double* pent_forces(const pent_simulation* simulation, int body);
@@ -69,6 +81,9 @@ PENT_PLUGIN_API const double* pent_forces(const pent_simulation* simulation, int
 /// One time step of the scene. 0: done; -1: it could not be solved, and the state is as before.
 /// `report` may be NULL.
 PENT_PLUGIN_API int pent_step(pent_simulation* simulation, pent_step_report* report);
+
+/// Contacts of the last step. 0, or -1 on failure.
+PENT_PLUGIN_API int pent_contacts(const pent_simulation* simulation, pent_contact_report* report);
 
 #ifdef __cplusplus
 }

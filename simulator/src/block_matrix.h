@@ -37,6 +37,9 @@ template <int Dim>
 using BlockVector = Positions<Dim>;
 
 /// Symmetric matrix of Dim x Dim blocks on a fixed pattern, upper triangle stored.
+///
+/// There may be a second part on another pattern over the same unknowns, which products include:
+/// what contact couples beyond elasticity.
 template <int Dim, typename Scalar>
 class BlockMatrix {
 public:
@@ -63,6 +66,11 @@ public:
     [[nodiscard]] Eigen::Map<Block> diagonal(std::int64_t row) {
         return block(pattern_->row_start[static_cast<std::size_t>(row)]);
     }
+
+    /// The second part, or null.
+    [[nodiscard]] const BlockMatrix* coupling() const { return coupling_; }
+    /// @param coupling  Must outlive its use here; null for none.
+    void set_coupling(const BlockMatrix* coupling) { coupling_ = coupling; }
 
     void set_zero(const Workers& workers) {
         for_each_row_chunk(workers, [&](std::int64_t begin, std::int64_t end) {
@@ -94,6 +102,27 @@ public:
         for_each_row_chunk(workers, [&](std::int64_t begin, std::int64_t end) {
             result.middleCols(begin, end - begin).setZero();
         });
+        add_product(workers, kernels, x, result);
+        if (coupling_ != nullptr) {
+            coupling_->add_product(workers, kernels, x, result);
+        }
+    }
+
+    /// Calls work(begin, end) for chunks of rows, at the same time.
+    template <typename Work>
+    void for_each_row_chunk(const Workers& workers, const Work& work) const {
+        workers.for_each(pattern_->chunks, [&](int chunk) {
+            const std::int64_t begin = chunk * BlockPattern::kChunkRows;
+            work(begin, std::min(begin + BlockPattern::kChunkRows, rows()));
+        });
+    }
+
+private:
+    // result += A x, without the second part.
+    void add_product(const Workers& workers,
+                     const Kernels<Dim>& kernels,
+                     const BlockVector<Dim>& x,
+                     BlockVector<Dim>& result) const {
         for (const std::vector<int>& chunks : pattern_->coloring.colors) {
             workers.for_each(static_cast<int>(chunks.size()), [&](int i) {
                 const std::int64_t begin =
@@ -110,17 +139,8 @@ public:
         }
     }
 
-    /// Calls work(begin, end) for chunks of rows, at the same time.
-    template <typename Work>
-    void for_each_row_chunk(const Workers& workers, const Work& work) const {
-        workers.for_each(pattern_->chunks, [&](int chunk) {
-            const std::int64_t begin = chunk * BlockPattern::kChunkRows;
-            work(begin, std::min(begin + BlockPattern::kChunkRows, rows()));
-        });
-    }
-
-private:
     const BlockPattern* pattern_;
+    const BlockMatrix* coupling_ = nullptr;
     std::vector<Scalar, LineAllocator<Scalar>> values_;
 };
 

@@ -11,6 +11,22 @@ std::int64_t BlockPattern::find(std::uint32_t row, std::uint32_t column) const {
     return std::lower_bound(first, last, column) - columns.begin();
 }
 
+void color_rows(BlockPattern& pattern) {
+    pattern.chunks = static_cast<int>((pattern.rows() + BlockPattern::kChunkRows - 1)
+                                      / BlockPattern::kChunkRows);
+    pattern.coloring =
+        color_chunks(pattern.chunks, pattern.rows(), [&](int chunk, const auto& touch) {
+            const std::int64_t begin = chunk * BlockPattern::kChunkRows;
+            const std::int64_t end = std::min(begin + BlockPattern::kChunkRows, pattern.rows());
+            const auto row_start = [&](std::int64_t row) {
+                return pattern.row_start[static_cast<std::size_t>(row)];
+            };
+            for (std::int64_t k = row_start(begin); k < row_start(end); ++k) {
+                touch(pattern.columns[static_cast<std::size_t>(k)]);
+            }
+        });
+}
+
 template <int Dim>
 BlockPattern make_pattern(const Simplices<Dim + 1>& cells, const Numbering& numbering) {
     const std::uint32_t free_count = numbering.free_count();
@@ -46,18 +62,7 @@ BlockPattern make_pattern(const Simplices<Dim + 1>& cells, const Numbering& numb
         pattern.row_start.push_back(static_cast<std::int64_t>(pattern.columns.size()));
     }
     pattern.columns.shrink_to_fit();
-    pattern.chunks =
-        static_cast<int>((free_count + BlockPattern::kChunkRows - 1) / BlockPattern::kChunkRows);
-    pattern.coloring = color_chunks(pattern.chunks, free_count, [&](int chunk, const auto& touch) {
-        const std::int64_t begin = chunk * BlockPattern::kChunkRows;
-        const std::int64_t end = std::min(begin + BlockPattern::kChunkRows, pattern.rows());
-        const auto row_start = [&](std::int64_t row) {
-            return pattern.row_start[static_cast<std::size_t>(row)];
-        };
-        for (std::int64_t k = row_start(begin); k < row_start(end); ++k) {
-            touch(pattern.columns[static_cast<std::size_t>(k)]);
-        }
-    });
+    color_rows(pattern);
     return pattern;
 }
 

@@ -30,6 +30,9 @@ struct BlockPattern {
     [[nodiscard]] std::int64_t find(std::uint32_t row, std::uint32_t column) const;
 };
 
+/// Cuts the rows of a pattern into chunks and colors these, for products in parallel.
+void color_rows(BlockPattern& pattern);
+
 /// Blocks of all pairs of free vertices that share a cell.
 template <int Dim>
 [[nodiscard]] BlockPattern make_pattern(const Simplices<Dim + 1>& cells,

@@ -45,7 +45,8 @@ Potential<Dim> potential(const System<Dim>& system,
     const double drag = problem.scale * problem.rate * damping.mass;
     const Energies& energies = state.energies;
     Potential<Dim> phi;
-    phi.value = problem.scale * (energies.elastic + energies.gravity + energies.obstacle);
+    phi.value = problem.scale
+                * (energies.elastic + energies.gravity + energies.obstacle + energies.contact);
     phi.gradient.resize(Dim, numbering.free_count());
     BlockVector<Dim> travel(Dim, numbering.free_count());
     for (std::uint32_t unknown = 0; unknown < numbering.free_count(); ++unknown) {
@@ -68,6 +69,23 @@ Potential<Dim> potential(const System<Dim>& system,
                         + system.held_damping().cwiseProduct(travel).sum());
     }
     return phi;
+}
+
+// Sufficient decrease of phi along a direction of this slope.
+template <int Dim>
+bool has_improved(const Potential<Dim>& phi,
+                  const Potential<Dim>& next,
+                  double factor,
+                  double slope) {
+    constexpr double kRounding = 1e-13;  // of phi
+    return next.value <= phi.value + kArmijo * factor * slope + kRounding * std::abs(phi.value);
+}
+
+// Sufficient decrease of the unbalanced force. Mixed pairs in contact hold the weights that fade
+// them, so their forces are not quite the derivative of phi, and near balance phi alone may rise.
+template <int Dim>
+bool has_less_force(const Potential<Dim>& phi, const Potential<Dim>& next, double factor) {
+    return next.gradient.norm() <= (1 - kArmijo * factor) * phi.gradient.norm();
 }
 
 template <int Dim>
@@ -101,7 +119,8 @@ bool take_linear_step(System<Dim>& system,
     const Damping damping = system.damping();
     LinearStep<Dim> step;
     step.mass_factor = problem.inertia + problem.scale * problem.rate * damping.mass;
-    step.stiffness_factor = problem.scale * (1 + problem.rate * damping.stiffness);
+    step.elastic_factor = problem.scale * (1 + problem.rate * damping.stiffness);
+    step.contact_factor = problem.scale;
     step.held_shift = held_shift(world, problem, now.positions);
     step.right.resize(Dim, numbering.free_count());
     BlockVector<Dim> dx(Dim, numbering.free_count());
@@ -117,7 +136,7 @@ bool take_linear_step(System<Dim>& system,
     }
     x = now.positions;
     if (dx.cols() > 0) {
-        if (!has_solved(system.solve(now.positions, step, dx, report), report)) {
+        if (!has_solved(system.solve(now, step, dx, report), report)) {
             return false;
         }
         add_to_free(world, 1, dx, x);
@@ -135,7 +154,6 @@ bool minimize(System<Dim>& system,
               BodyState<Dim>& state,
               StepReport& report) {
     constexpr double kNegligible = 1e-10;  // of the scene, for a correction
-    constexpr double kRounding = 1e-13;    // of phi
     const Damping damping = system.damping();
     if (damping.stiffness > 0) {
         system.set_damping_tangent(now.positions, held_shift(world, problem, problem.origin));
@@ -161,13 +179,14 @@ bool minimize(System<Dim>& system,
         ++report.newton_iterations;
         LinearStep<Dim> step;
         step.mass_factor = problem.inertia + problem.scale * problem.rate * damping.mass;
-        step.stiffness_factor = problem.scale;
+        step.elastic_factor = problem.scale;
+        step.contact_factor = problem.scale;
         step.damping_factor = problem.scale * problem.rate * damping.stiffness;
         step.held_shift.setZero(Dim, state.positions.cols());
         step.right = -phi.gradient;
         step.tolerance = kForcing;
         BlockVector<Dim> dx = BlockVector<Dim>::Zero(Dim, phi.gradient.cols());
-        if (!has_solved(system.solve(state.positions, step, dx, report), report)) {
+        if (!has_solved(system.solve(state, step, dx, report), report)) {
             return false;
         }
         if (dx.cwiseAbs().maxCoeff() < kNegligible * extent) {
@@ -181,8 +200,8 @@ bool minimize(System<Dim>& system,
             add_to_free(world, factor, dx, trial.positions);
             system.evaluate(trial);
             Potential<Dim> next = potential(system, world, problem, trial);
-            is_taken = next.value
-                       <= phi.value + kArmijo * factor * slope + kRounding * std::abs(phi.value);
+            is_taken = has_improved(phi, next, factor, slope)
+                       || (trial.energies.contact > 0 && has_less_force(phi, next, factor));
             if (is_taken) {
                 std::swap(state, trial);
                 phi = std::move(next);

@@ -99,7 +99,12 @@ public:
           smoother_(std::move(smoother)) {
         const Eigen::Index size = kModes * aggregates.count();
         Eigen::MatrixXd half = Eigen::MatrixXd::Zero(size, size);
-        workers.for_each(aggregates.count(), [&](int piece) { project(matrix, piece, half); });
+        workers.for_each(aggregates.count(), [&](int piece) {
+            project(matrix, piece, half);
+            if (matrix.coupling() != nullptr) {
+                project(*matrix.coupling(), piece, half);
+            }
+        });
         Eigen::MatrixXd coarse = half + half.transpose();
         for (Eigen::Index k = 0; k < size; ++k) {
             // A mode that an aggregate does not have (rotations of a single vertex) is left out.

@@ -1,3 +1,4 @@
+#include "contact_table.h"
 #include "rigid_fit.h"
 #include "run_report.h"
 
@@ -49,6 +50,7 @@ public:
           simulation_(scene, read_meshes(), {.threads = options.threads, .isa = options.isa}) {
         report_.size = simulation_.size();
         report_.isa = simulation_.isa();
+        report_.warnings = simulation_.warnings();
         for (const Body& body : scene.bodies) {
             report_.bodies.push_back(body.name);
         }
@@ -118,7 +120,8 @@ void Run<Dim>::start_folder() {
                         + ": is not empty; use another folder, --resume to go on with the run in"
                           " it, or --force to replace it");
         }
-        for (const char* part : {"frames", "meshes", "checkpoint", "report.json", "scene.toml"}) {
+        for (const char* part :
+             {"frames", "meshes", "contacts", "checkpoint", "report.json", "scene.toml"}) {
             fs::remove_all(folder / part, ignored);
         }
     }
@@ -258,8 +261,18 @@ void Run<Dim>::write_frame_files(int frame) {
         Frame<Dim> file = frame_file(body, frame);
         file.positions = simulation_.positions(body);
         file.velocities = simulation_.velocities(body);
+        if (scene_.output.contact_forces) {
+            file.contact_forces = simulation_.contact_forces(body);
+        }
         write_frame(frame_path(report_.bodies[static_cast<std::size_t>(body)], frame), file,
                     {.created_by = options_.created_by});
+    }
+    if (scene_.output.contact_pairs) {
+        make_folder(options_.folder / "contacts");
+        char name[16];
+        std::snprintf(name, sizeof name, "%06d.csv", frame);
+        write_text(options_.folder / "contacts" / name,
+                   contact_table(simulation_, report_.bodies));
     }
     remove_checkpoint(frame - 1);
     report_.frames.push_back(measure(frame));
@@ -304,6 +317,9 @@ void Run<Dim>::write_report(std::string_view verdict) {
 
 template <int Dim>
 RunReport Run<Dim>::operator()() {
+    if (callbacks_.on_warning) {
+        std::for_each(report_.warnings.begin(), report_.warnings.end(), callbacks_.on_warning);
+    }
     int frame = 0;
     if (options_.resume) {
         frame = resume_folder();

@@ -3,6 +3,7 @@
 #include <pent/error.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace pent::simulator {
@@ -10,6 +11,42 @@ namespace pent::simulator {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+Json contact_json(const ContactSummary& contact) {
+    Json smallest;  // null where nothing touches
+    if (std::isfinite(contact.smallest_distance)) {
+        smallest = contact.smallest_distance;
+    }
+    return {{"point_facet", contact.point_facet},
+            {"mixed", contact.mixed},
+            {"self", contact.self},
+            {"obstacle", contact.obstacle},
+            {"deepest", contact.deepest},
+            {"smallest_distance", smallest},
+            {"searches", contact.searches},
+            {"candidates", contact.candidates},
+            {"trees_built", contact.trees_built},
+            {"trees_refit", contact.trees_refit},
+            {"seconds", contact.seconds}};
+}
+
+ContactSummary parse_contact(const Json& json) {
+    ContactSummary contact;
+    json.at("point_facet").get_to(contact.point_facet);
+    json.at("mixed").get_to(contact.mixed);
+    json.at("self").get_to(contact.self);
+    json.at("obstacle").get_to(contact.obstacle);
+    json.at("deepest").get_to(contact.deepest);
+    if (!json.at("smallest_distance").is_null()) {
+        json.at("smallest_distance").get_to(contact.smallest_distance);
+    }
+    json.at("searches").get_to(contact.searches);
+    json.at("candidates").get_to(contact.candidates);
+    json.at("trees_built").get_to(contact.trees_built);
+    json.at("trees_refit").get_to(contact.trees_refit);
+    json.at("seconds").get_to(contact.seconds);
+    return contact;
+}
 
 Json step_json(const StepReport& step) {
     return {{"step", step.step},
@@ -25,6 +62,8 @@ Json step_json(const StepReport& step) {
             {"elastic", step.energies.elastic},
             {"gravity", step.energies.gravity},
             {"obstacle", step.energies.obstacle},
+            {"contact_energy", step.energies.contact},
+            {"contact", contact_json(step.contact)},
             {"assembly_seconds", step.assembly_seconds},
             {"solve_seconds", step.solve_seconds},
             {"seconds", step.seconds}};
@@ -46,6 +85,8 @@ StepReport parse_step(const Json& json) {
     json.at("elastic").get_to(step.energies.elastic);
     json.at("gravity").get_to(step.energies.gravity);
     json.at("obstacle").get_to(step.energies.obstacle);
+    json.at("contact_energy").get_to(step.energies.contact);
+    step.contact = parse_contact(json.at("contact"));
     json.at("assembly_seconds").get_to(step.assembly_seconds);
     json.at("solve_seconds").get_to(step.solve_seconds);
     json.at("seconds").get_to(step.seconds);
@@ -86,10 +127,16 @@ std::string report_text(const RunReport& report,
     json["seconds"] = report.seconds;
     json["threads"] = threads;
     json["isa"] = report.isa;
-    json["size"] = {
-        {"vertices", report.size.vertices},           {"cells", report.size.cells},
-        {"free_vertices", report.size.free_vertices}, {"elements", report.size.elements},
-        {"matrix_blocks", report.size.matrix_blocks}, {"bytes", report.size.bytes}};
+    json["size"] = {{"vertices", report.size.vertices},
+                    {"cells", report.size.cells},
+                    {"free_vertices", report.size.free_vertices},
+                    {"elements", report.size.elements},
+                    {"matrix_blocks", report.size.matrix_blocks},
+                    {"contact_bytes", report.size.contact_bytes},
+                    {"bytes", report.size.bytes}};
+    if (!report.warnings.empty()) {
+        json["warnings"] = report.warnings;
+    }
     json["bodies"] = Json::array();
     for (std::size_t body = 0; body < report.bodies.size(); ++body) {
         json["bodies"].push_back(body_json(report, body));

@@ -109,6 +109,38 @@ void check_constraint(const Constraint& constraint, const Scene& scene) {
     }
 }
 
+struct ShapeChecker {
+    int dimension;
+
+    void operator()(const HalfSpaceObstacle& plane) const {
+        check_unit(plane.normal, dimension, "obstacle: normal");
+        require(std::isfinite(plane.offset), "obstacle: offset must be finite");
+    }
+    void operator()(const BallObstacle& ball) const { check_round(ball); }
+    void operator()(const CavityObstacle& cavity) const { check_round(cavity); }
+    void operator()(const BowlObstacle& bowl) const {
+        check_round(bowl);
+        check_unit(bowl.up, dimension, "obstacle: up");
+    }
+
+    template <typename Round>
+    void check_round(const Round& round) const {
+        check_vector(round.center, dimension, "obstacle: center");
+        require(round.radius > 0 && std::isfinite(round.radius),
+                "obstacle: radius must be above 0");
+    }
+};
+
+void check_push(double distance, double stiffness, const std::string& what) {
+    require(distance > 0 && std::isfinite(distance), what + ": distance must be above 0");
+    require(stiffness > 0 && std::isfinite(stiffness), what + ": stiffness must be above 0");
+}
+
+void check_obstacle(const Obstacle& obstacle, int dimension) {
+    std::visit(ShapeChecker{dimension}, obstacle.shape);
+    check_push(obstacle.distance, obstacle.stiffness, "obstacle");
+}
+
 void check_solver(const SolverOptions& solver) {
     require(solver.tolerance > 0 && solver.tolerance < 1, "solver: expected 0 < tolerance < 1");
     require(solver.newton_tolerance > 0 && solver.newton_tolerance < 1,
@@ -144,10 +176,10 @@ void check(const Scene& scene) {
         check_constraint(constraint, scene);
     }
     for (const Obstacle& obstacle : scene.obstacles) {
-        check_unit(obstacle.normal, scene.dimension, "obstacle: normal");
-        require(std::isfinite(obstacle.offset) && obstacle.distance >= 0 && obstacle.stiffness > 0
-                    && std::isfinite(obstacle.distance) && std::isfinite(obstacle.stiffness),
-                "obstacle: expected a finite offset, distance >= 0 and stiffness > 0");
+        check_obstacle(obstacle, scene.dimension);
+    }
+    if (scene.contact) {
+        check_push(scene.contact->distance, scene.contact->stiffness, "contact");
     }
     if (scene.damping) {
         require(scene.damping->mass >= 0 && scene.damping->stiffness >= 0,

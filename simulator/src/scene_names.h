@@ -32,6 +32,9 @@ inline constexpr std::array kFilters = {
     Name<Filter>{Filter::Absolute, "absolute"},
     Name<Filter>{Filter::None, "none"},
 };
+inline constexpr std::array kContactModels = {
+    Name<ContactModel>{ContactModel::Penalty, "penalty"},
+};
 inline constexpr std::array kPreconditioners = {
     Name<PreconditionerKind>{PreconditionerKind::BlockJacobi, "block-jacobi"},
     Name<PreconditionerKind>{PreconditionerKind::ColumnJacobi, "column-jacobi"},
@@ -68,6 +71,16 @@ inline constexpr std::array kPresets = {
             break;
     }
     return solver;
+}
+
+/// The place of a value in a table.
+template <typename Table, typename Value>
+[[nodiscard]] std::size_t place_of(const Table& table, Value value) {
+    std::size_t place = 0;
+    while (table[place].value != value) {
+        ++place;
+    }
+    return place;
 }
 
 /// The words of a table, in its order.

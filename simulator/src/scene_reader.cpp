@@ -1,3 +1,4 @@
+#include "contact_reader.h"
 #include "scene_names.h"
 #include "toml_table.h"
 
@@ -82,6 +83,9 @@ Body read_body(TableReader& reader, int dimension, const std::filesystem::path& 
     Body body;
     body.name = reader.text("name");
     body.mesh = (folder / reader.text("mesh")).lexically_normal().string();
+    if (reader.has("recipe")) {
+        body.recipe = reader.text("recipe");
+    }
     body.place.translate = zero(dimension);
     if (reader.has("place")) {
         body.place = read_placement(reader.table("place"), dimension);
@@ -105,16 +109,6 @@ Body read_body(TableReader& reader, int dimension, const std::filesystem::path& 
     return body;
 }
 
-Eigen::VectorXd read_normal(TableReader& reader, int dimension) {
-    const Eigen::VectorXd normal = reader.vector("normal", dimension, {});
-    if (!(normal.norm() > 0)) {
-        reader.fail("normal", "\"normal\" is zero; expected a direction");
-    }
-    // A direction that is a unit vector to rounding stays as it is, so that a scene written out and
-    // read again is the same to the last bit.
-    return std::abs(normal.norm() - 1) < 1e-14 ? normal : normal.normalized();
-}
-
 Selection read_ball(TableReader reader, int dimension) {
     BallSelection ball;
     ball.center = reader.vector("center", dimension, {});
@@ -136,7 +130,7 @@ Selection read_box(TableReader reader, int dimension) {
 
 Selection read_half_space(TableReader reader, int dimension) {
     HalfSpaceSelection half_space;
-    half_space.normal = read_normal(reader, dimension);
+    half_space.normal = read_direction(reader, "normal", dimension);
     half_space.offset = reader.number("offset", 0, kAnyNumber);
     reader.finish();
     return half_space;
@@ -155,25 +149,18 @@ Selection read_layers(TableReader reader) {
 }
 
 Selection read_selection(TableReader& reader, int dimension) {
-    const std::vector<std::string> kinds = {"ball", "box", "half_space", "layers", "region"};
-    const auto count = std::count_if(kinds.begin(), kinds.end(),
-                                     [&](const std::string& kind) { return reader.has(kind); });
+    const std::string kind = reader.one_of({"ball", "box", "half_space", "layers", "region"});
     reader.finish();
-    if (count != 1) {
-        reader.fail("", reader.name() + " has " + std::to_string(count)
-                            + " of ball, box, half_space, layers, region; expected one"
-                              " (a list of tables is a union)");
-    }
-    if (reader.has("ball")) {
+    if (kind == "ball") {
         return read_ball(reader.table("ball"), dimension);
     }
-    if (reader.has("box")) {
+    if (kind == "box") {
         return read_box(reader.table("box"), dimension);
     }
-    if (reader.has("half_space")) {
+    if (kind == "half_space") {
         return read_half_space(reader.table("half_space"), dimension);
     }
-    if (reader.has("layers")) {
+    if (kind == "layers") {
         return read_layers(reader.table("layers"));
     }
     return RegionSelection{static_cast<std::uint16_t>(reader.integer("region", {}, 0, 65535))};
@@ -228,43 +215,28 @@ Constraint read_constraint(TableReader& reader, const Scene& scene) {
     return constraint;
 }
 
-Obstacle read_obstacle(TableReader& reader, int dimension) {
-    Obstacle obstacle;
-    for (const std::string_view later : {"sphere_inside", "sphere_outside", "bowl"}) {
-        reader.refuse(later, "is not supported by this version; half_space is");
-    }
-    if (!reader.has("half_space")) {
-        reader.fail("", reader.name() + " needs \"half_space\"");
-    }
-    TableReader half_space = reader.table("half_space");
-    obstacle.normal = read_normal(half_space, dimension);
-    obstacle.offset = half_space.number("offset", 0, kAnyNumber);
-    half_space.finish();
-    obstacle.distance = reader.number("distance", obstacle.distance, kNotNegative);
-    obstacle.stiffness = reader.number("stiffness", obstacle.stiffness, kPositive);
+Output read_output(TableReader reader) {
+    Output output;
+    output.contact_forces = reader.flag("contact_forces", output.contact_forces);
+    output.contact_pairs = reader.flag("contact_pairs", output.contact_pairs);
     reader.finish();
-    return obstacle;
+    return output;
 }
 
 SolverOptions read_solver(TableReader reader) {
     SolverOptions solver = preset(kPresets[reader.choice("preset", names_of(kPresets), 1)].value);
-    const auto place = [](const auto& names, auto value) {
-        return static_cast<std::size_t>(
-            std::find_if(names.begin(), names.end(),
-                         [&](const auto& n) { return n.value == value; })
-            - names.begin());
-    };
     solver.integrator = kIntegrators[reader.choice("integrator", names_of(kIntegrators),
-                                                   place(kIntegrators, solver.integrator))]
+                                                   place_of(kIntegrators, solver.integrator))]
                             .value;
     solver.filter =
-        kFilters[reader.choice("filter", names_of(kFilters), place(kFilters, solver.filter))].value;
+        kFilters[reader.choice("filter", names_of(kFilters), place_of(kFilters, solver.filter))]
+            .value;
     solver.preconditioner =
         kPreconditioners[reader.choice("preconditioner", names_of(kPreconditioners),
-                                       place(kPreconditioners, solver.preconditioner))]
+                                       place_of(kPreconditioners, solver.preconditioner))]
             .value;
     solver.precision = kPrecisions[reader.choice("precision", names_of(kPrecisions),
-                                                 place(kPrecisions, solver.precision))]
+                                                 place_of(kPrecisions, solver.precision))]
                            .value;
     constexpr Range kFraction{.low = 0, .low_included = false, .high = 1, .high_included = false};
     solver.tolerance = reader.number("tolerance", solver.tolerance, kFraction);
@@ -314,9 +286,9 @@ Scene parse_scene(std::string_view text,
     for (TableReader& obstacle : reader.tables("obstacle")) {
         scene.obstacles.push_back(read_obstacle(obstacle, scene.dimension));
     }
-    reader.refuse("contact",
-                  "is not supported by this version: bodies pass through one another; an"
-                  " [[obstacle]] has its own distance and stiffness");
+    if (reader.has("contact")) {
+        scene.contact = read_contact(reader.table("contact"));
+    }
     if (reader.has("damping")) {
         TableReader damping = reader.table("damping");
         scene.damping = Damping{.mass = damping.number("mass", 0, kNotNegative),
@@ -327,6 +299,9 @@ Scene parse_scene(std::string_view text,
         scene.solver = read_solver(reader.table("solver"));
     } else {
         scene.solver = preset(Preset::Balanced);
+    }
+    if (reader.has("output")) {
+        scene.output = read_output(reader.table("output"));
     }
     reader.finish();
     if (scene.bodies.empty()) {

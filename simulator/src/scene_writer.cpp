@@ -131,6 +131,7 @@ std::string motion(const Motion& motion) {
 std::string body_text(const Body& body, int dimension) {
     const YoungPoisson young = young_from_lame(dimension, body.material.lame);
     return "\n[[body]]\n" + line("name", in_quotes(body.name)) + line("mesh", in_quotes(body.mesh))
+           + (body.recipe.empty() ? "" : line("recipe", in_quotes(body.recipe)))
            + line("place", placement(body.place)) + "# young = " + number(young.young)
            + ", poisson = " + number(young.poisson) + "\n"
            + line("material", material(body.material))
@@ -138,12 +139,44 @@ std::string body_text(const Body& body, int dimension) {
            + line("spin", spins(body.spin));
 }
 
+struct ShapeWriter {
+    std::string operator()(const HalfSpaceObstacle& plane) const {
+        return line("half_space", "{ normal = " + vector(plane.normal)
+                                      + ", offset = " + number(plane.offset) + " }");
+    }
+    std::string operator()(const BallObstacle& ball) const {
+        return line("ball", "{ " + round(ball) + " }");
+    }
+    std::string operator()(const CavityObstacle& cavity) const {
+        return line("cavity", "{ " + round(cavity) + " }");
+    }
+    std::string operator()(const BowlObstacle& bowl) const {
+        return line("bowl", "{ " + round(bowl) + ", up = " + vector(bowl.up) + " }");
+    }
+
+    template <typename Round>
+    static std::string round(const Round& round) {
+        return "center = " + vector(round.center) + ", radius = " + number(round.radius);
+    }
+};
+
 std::string obstacle_text(const Obstacle& obstacle) {
-    return "\n[[obstacle]]\n"
-           + line("half_space", "{ normal = " + vector(obstacle.normal)
-                                    + ", offset = " + number(obstacle.offset) + " }")
+    return "\n[[obstacle]]\n" + std::visit(ShapeWriter{}, obstacle.shape)
            + line("distance", number(obstacle.distance))
            + line("stiffness", number(obstacle.stiffness));
+}
+
+std::string contact_text(const Contact& contact) {
+    return "\n[contact]\n" + line("model", in_quotes(word_of(kContactModels, contact.model)))
+           + line("distance", number(contact.distance))
+           + line("stiffness", number(contact.stiffness))
+           + line("self", contact.self ? "true" : "false")
+           + line("filter", in_quotes(word_of(kFilters, contact.filter)));
+}
+
+std::string output_text(const Output& output) {
+    return "\n[output]\n" + line("contact_forces", output.contact_forces ? "true" : "false")
+           + line("contact_pairs", output.contact_pairs ? "true" : "false");
 }
 
 std::string solver_text(const SolverOptions& solver) {
@@ -178,11 +211,14 @@ std::string scene_text(const Scene& scene) {
     for (const Obstacle& obstacle : scene.obstacles) {
         text += obstacle_text(obstacle);
     }
+    if (scene.contact) {
+        text += contact_text(*scene.contact);
+    }
     if (scene.damping) {
         text += "\n[damping]\n" + line("mass", number(scene.damping->mass))
                 + line("stiffness", number(scene.damping->stiffness));
     }
-    return text + solver_text(scene.solver);
+    return text + solver_text(scene.solver) + output_text(scene.output);
 }
 
 }  // namespace pent::simulator

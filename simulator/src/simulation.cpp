@@ -51,6 +51,7 @@ private:
     [[nodiscard]] StepProblem<Dim> make_problem(double time, double h) const;
     void set_velocities(const StepProblem<Dim>& problem, double time);
     [[nodiscard]] bool is_sane() const;
+    [[nodiscard]] ContactSummary contact_summary();
 
     Scene scene_;
     World<Dim> world_;
@@ -137,6 +138,19 @@ bool Simulation<Dim>::State::advance(double time, double h, int depth, StepRepor
            && advance(time + h / 2, h / 2, depth + 1, report);
 }
 
+// What touches now, and the work of contact since this was last asked.
+template <int Dim>
+ContactSummary Simulation<Dim>::State::contact_summary() {
+    const ContactSummary work = system_.take_contact_work();
+    ContactSummary summary = current_.contacts ? current_.contacts->summary : ContactSummary();
+    summary.searches = work.searches;
+    summary.candidates = work.candidates;
+    summary.trees_built = work.trees_built;
+    summary.trees_refit = work.trees_refit;
+    summary.seconds = work.seconds;
+    return summary;
+}
+
 template <int Dim>
 StepReport Simulation<Dim>::State::step() {
     const auto start = std::chrono::steady_clock::now();
@@ -159,6 +173,7 @@ StepReport Simulation<Dim>::State::step() {
     report.inverted = current_.inverted;
     report.collapsed = current_.collapsed;
     report.energies = current_.energies;
+    report.contact = contact_summary();
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report;
@@ -229,6 +244,40 @@ typename Simulation<Dim>::View Simulation<Dim>::velocities(int body) const {
 template <int Dim>
 typename Simulation<Dim>::View Simulation<Dim>::forces(int body) const {
     return view(state_->world(), state_->current().forces, body);
+}
+
+template <int Dim>
+Positions<Dim> Simulation<Dim>::contact_forces(int body) const {
+    const BodyState<Dim>& current = state_->current();
+    Positions<Dim> all = Positions<Dim>::Zero(Dim, current.positions.cols());
+    if (current.contacts) {
+        current.contacts->add_forces(all);
+    }
+    return view(state_->world(), all, body);
+}
+
+template <int Dim>
+std::span<const contact::Contact<Dim>> Simulation<Dim>::contacts() const {
+    const auto& contacts = state_->current().contacts;
+    return contacts ? std::span<const contact::Contact<Dim>>(contacts->pairs)
+                    : std::span<const contact::Contact<Dim>>();
+}
+
+template <int Dim>
+std::span<const contact::ObstacleContact<Dim>> Simulation<Dim>::obstacle_contacts() const {
+    const auto& contacts = state_->current().contacts;
+    return contacts ? std::span<const contact::ObstacleContact<Dim>>(contacts->obstacles)
+                    : std::span<const contact::ObstacleContact<Dim>>();
+}
+
+template <int Dim>
+std::int64_t Simulation<Dim>::first_vertex(int body) const {
+    return state_->world().first_vertex[static_cast<std::size_t>(body)];
+}
+
+template <int Dim>
+std::vector<std::string> Simulation<Dim>::warnings() const {
+    return state_->system().contacts().warnings();
 }
 
 template <int Dim>

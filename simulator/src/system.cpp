@@ -1,7 +1,5 @@
 #include "system.h"
 
-#include "obstacles.h"
-
 #include <pent/error.h>
 
 #include <algorithm>
@@ -54,12 +52,10 @@ BlockVector<Dim> at_unknowns(const Numbering& numbering, const Positions<Dim>& v
 struct PointEnergies {
     double kinetic = 0;
     double gravity = 0;
-    double obstacle = 0;
 
     PointEnergies& operator+=(const PointEnergies& other) {
         kinetic += other.kinetic;
         gravity += other.gravity;
-        obstacle += other.obstacle;
         return *this;
     }
 };
@@ -71,13 +67,13 @@ System<Dim>::System(const Scene& scene, const World<Dim>& world, const Simulatio
     : world_(&world),
       options_(scene.solver),
       gravity_(scene.gravity),
-      obstacles_(scene.obstacles),
       damping_(scene.damping.value_or(Damping{})),
       workers_(options.threads),
       isa_(choose_isa(options.isa)),
       kernels_(&kernels<Dim>(isa_)),
       pattern_(make_pattern<Dim>(world.cells, world.numbering)),
-      elements_(world.rest, world.cells, world.ranges, world.numbering, pattern_) {
+      elements_(world.rest, world.cells, world.ranges, world.numbering, pattern_),
+      contacts_(scene, world) {
     const std::uint32_t unknowns = world.numbering.free_count();
     if (options_.preconditioner == PreconditionerKind::BlockJacobi) {
         column_start_.resize(unknowns + 1);
@@ -103,7 +99,7 @@ System<Dim>::System(const Scene& scene, const World<Dim>& world, const Simulatio
 }
 
 template <int Dim>
-void System<Dim>::evaluate(BodyState<Dim>& state) const {
+void System<Dim>::evaluate(BodyState<Dim>& state) {
     const Eigen::Index vertices = world_->vertex_count();
     const auto chunks = static_cast<int>((vertices + kChunkVertices - 1) / kChunkVertices);
     state.forces.resize(Dim, vertices);
@@ -113,50 +109,65 @@ void System<Dim>::evaluate(BodyState<Dim>& state) const {
         const Eigen::Index end = std::min(begin + kChunkVertices, vertices);
         for (Eigen::Index v = begin; v < end; ++v) {
             const double mass = world_->masses[v];
-            const Vector<Dim> position = state.positions.col(v);
-            Vector<Dim> force = mass * gravity_;
             sum.kinetic += 0.5 * mass * state.velocities.col(v).squaredNorm();
-            sum.gravity -= mass * gravity_.dot(position);
-            for (const Obstacle& obstacle : obstacles_) {
-                const ObstacleContact<Dim> contact = touch<Dim>(obstacle, position);
-                force += contact.force;
-                sum.obstacle += contact.energy;
-            }
-            state.forces.col(v) = force;
+            sum.gravity -= mass * gravity_.dot(state.positions.col(v));
+            state.forces.col(v) = mass * gravity_;
         }
         return sum;
     });
     const RunEnergy elastic =
         elements_.add_forces(workers_, *kernels_, state.positions, state.forces);
-    state.energies = {.kinetic = points.kinetic,
-                      .elastic = elastic.energy,
-                      .gravity = points.gravity,
-                      .obstacle = points.obstacle};
+    state.energies = {
+        .kinetic = points.kinetic, .elastic = elastic.energy, .gravity = points.gravity};
     state.inverted = elastic.inverted;
     state.collapsed = elastic.collapsed;
+    find_contacts(state);
+}
+
+template <int Dim>
+void System<Dim>::find_contacts(BodyState<Dim>& state) {
+    if (contacts_.is_empty()) {
+        return;
+    }
+    const Stopwatch watch;
+    auto found =
+        std::make_shared<const ContactState<Dim>>(contacts_.find(workers_, state.positions));
+    found->add_forces(state.forces);
+    state.energies.contact = found->energy;
+    state.energies.obstacle = found->obstacle_energy;
+    contact_work_.searches += found->summary.searches;
+    contact_work_.candidates += found->summary.candidates;
+    contact_work_.trees_built += found->summary.trees_built;
+    contact_work_.trees_refit += found->summary.trees_refit;
+    contact_work_.seconds += watch.seconds();
+    state.contacts = std::move(found);
 }
 
 template <int Dim>
 template <typename Scalar>
-void System<Dim>::add_diagonal(BlockMatrix<Dim, Scalar>& matrix,
-                               const Positions<Dim>& positions,
-                               const LinearStep<Dim>& step) const {
+void System<Dim>::add_masses(BlockMatrix<Dim, Scalar>& matrix, double factor) const {
     matrix.for_each_row_chunk(workers_, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             const std::uint32_t vertex =
                 world_->numbering.vertex_of_unknown[static_cast<std::size_t>(row)];
-            Matrix<Dim> block = step.mass_factor * world_->masses[vertex] * Matrix<Dim>::Identity();
-            for (const Obstacle& obstacle : obstacles_) {
-                const ObstacleContact<Dim> contact = touch<Dim>(obstacle, positions.col(vertex));
-                if (contact.is_active) {
-                    const Vector<Dim> normal = obstacle.normal;
-                    block +=
-                        (step.stiffness_factor * contact.curvature) * normal * normal.transpose();
-                }
-            }
-            matrix.diagonal(row) += block.template cast<Scalar>();
+            matrix.diagonal(row).diagonal().array() +=
+                static_cast<Scalar>(factor * world_->masses[vertex]);
         }
     });
+}
+
+template <int Dim>
+template <typename Scalar>
+std::unique_ptr<CouplingMatrix<Dim, Scalar>> System<Dim>::add_contacts(
+    const BodyState<Dim>& state, LinearStep<Dim>& step, BlockMatrix<Dim, Scalar>& matrix) {
+    if (!state.contacts) {
+        return nullptr;
+    }
+    const Stopwatch watch;
+    auto coupling = add_contact_hessian(workers_, world_->numbering, *state.contacts,
+                                        step.contact_factor, step.held_shift, matrix, step.right);
+    contact_work_.seconds += watch.seconds();
+    return coupling;
 }
 
 template <int Dim>
@@ -174,26 +185,30 @@ std::unique_ptr<Preconditioner<Dim>> System<Dim>::precondition(
 template <int Dim>
 template <typename Scalar>
 LinearSolveReport System<Dim>::solve_with(BlockMatrix<Dim, Scalar>& matrix,
-                                          const Positions<Dim>& positions,
+                                          const BodyState<Dim>& state,
                                           Filter filter,
                                           LinearStep<Dim> step,
                                           BlockVector<Dim>& dx,
                                           StepReport& report) {
     const Stopwatch assembly;
     matrix.set_zero(workers_);
-    elements_.add_hessian(workers_, *kernels_, positions, step.stiffness_factor, filter,
+    elements_.add_hessian(workers_, *kernels_, state.positions, step.elastic_factor, filter,
                           step.held_shift, matrix, step.right);
-    add_diagonal(matrix, positions, step);
+    add_masses(matrix, step.mass_factor);
     if (step.damping_factor > 0) {
         matrix.add_scaled(workers_, step.damping_factor, *damping_tangent_);
     }
     report.assembly_seconds += assembly.seconds();
+    const std::unique_ptr<CouplingMatrix<Dim, Scalar>> coupling = add_contacts(state, step, matrix);
+    matrix.set_coupling(coupling ? &coupling->matrix : nullptr);
     const Stopwatch solution;
-    const std::unique_ptr<Preconditioner<Dim>> preconditioner = precondition(matrix, positions);
+    const std::unique_ptr<Preconditioner<Dim>> preconditioner =
+        precondition(matrix, state.positions);
     const double tolerance = std::max(step.tolerance, options_.tolerance);
     const LinearSolveReport solved = pent::simulator::solve(
         workers_, *kernels_, matrix, *preconditioner, step.right,
         {.tolerance = tolerance, .max_iterations = options_.max_iterations}, space_, dx);
+    matrix.set_coupling(nullptr);
     report.solve_seconds += solution.seconds();
     report.iterations += solved.iterations;
     report.residual = std::max(report.residual, solved.residual);
@@ -201,13 +216,13 @@ LinearSolveReport System<Dim>::solve_with(BlockMatrix<Dim, Scalar>& matrix,
 }
 
 template <int Dim>
-LinearSolveReport System<Dim>::solve(const Positions<Dim>& positions,
+LinearSolveReport System<Dim>::solve(const BodyState<Dim>& state,
                                      LinearStep<Dim>& step,
                                      BlockVector<Dim>& dx,
                                      StepReport& report) {
     const auto solve_filtered = [&](Filter filter) {
-        return float_matrix_ ? solve_with(*float_matrix_, positions, filter, step, dx, report)
-                             : solve_with(*double_matrix_, positions, filter, step, dx, report);
+        return float_matrix_ ? solve_with(*float_matrix_, state, filter, step, dx, report)
+                             : solve_with(*double_matrix_, state, filter, step, dx, report);
     };
     const BlockVector<Dim> guess = dx;
     LinearSolveReport solved = solve_filtered(options_.filter);
@@ -252,7 +267,8 @@ SimulationSize System<Dim>::size() const {
     // Per vertex: positions, velocities, forces and their copies; per unknown: the solver's.
     constexpr std::int64_t kVertexVectors = 8;
     constexpr std::int64_t kUnknownVectors = 6;
-    size.bytes = elements_.bytes() + size.matrix_blocks * block
+    size.contact_bytes = contacts_.bytes();
+    size.bytes = elements_.bytes() + size.contact_bytes + size.matrix_blocks * block
                  + static_cast<std::int64_t>(sizeof(double)) * Dim
                        * (kVertexVectors * size.vertices + kUnknownVectors * size.free_vertices);
     return size;

@@ -2,15 +2,18 @@
 
 #include "block_matrix.h"
 #include "conjugate_gradients.h"
+#include "contact_matrix.h"
 #include "elements.h"
 #include "parallel.h"
 #include "preconditioner.h"
 #include "rotation.h"
+#include "scene_contacts.h"
 #include "world.h"
 
 #include <pent/simulator/simulation.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace pent::simulator {
@@ -20,7 +23,10 @@ template <int Dim>
 struct BodyState {
     Positions<Dim> positions;   ///< m.
     Positions<Dim> velocities;  ///< m/s.
-    Positions<Dim> forces;      ///< N: elastic, gravity, obstacles.
+    Positions<Dim> forces;      ///< N: elastic, gravity, contact.
+    /// What touches at these positions; null in a scene without contact. Never changed, so that
+    /// copies of the state share it.
+    std::shared_ptr<const ContactState<Dim>> contacts;
     Energies energies;
     std::int64_t inverted = 0;
     std::int64_t collapsed = 0;
@@ -32,19 +38,20 @@ struct BodyState {
 
 /// The linear equation of a step or of a Newton iteration, for the free vertices:
 ///
-///     (mass_factor M + stiffness_factor K + damping_factor K0) dx
-///         = right - stiffness_factor K_fh held_shift,
+///     (mass_factor M + elastic_factor K + contact_factor C + damping_factor K0) dx
+///         = right - (elastic_factor K + contact_factor C)_fh held_shift,
 ///
-/// K being the filtered Hessian of the elastic energy and the Hessian of the obstacles, K0 the one
-/// that System::set_damping_tangent() keeps.
+/// K being the filtered Hessian of the elastic energy, C that of all contacts, K0 the one that
+/// System::set_damping_tangent() keeps.
 template <int Dim>
 struct LinearStep {
     double mass_factor = 1;
-    double stiffness_factor = 0;  ///< s^2.
-    double damping_factor = 0;    ///< s^2.
-    double tolerance = 0;         ///< Of the linear solve; 0 for that of the scene.
-    Positions<Dim> held_shift;    ///< Dim x vertices; how far held ones move, m; 0 elsewhere.
-    BlockVector<Dim> right;       ///< Dim x unknowns.
+    double elastic_factor = 0;  ///< s^2.
+    double contact_factor = 0;  ///< s^2.
+    double damping_factor = 0;  ///< s^2.
+    double tolerance = 0;       ///< Of the linear solve; 0 for that of the scene.
+    Positions<Dim> held_shift;  ///< Dim x vertices; how far held ones move, m; 0 elsewhere.
+    BlockVector<Dim> right;     ///< Dim x unknowns.
 };
 
 /// The physics of a scene, apart from time: forces, energies, matrices, solves.
@@ -53,14 +60,15 @@ class System {
 public:
     System(const Scene& scene, const World<Dim>& world, const SimulationOptions& options);
 
-    /// Sets forces, energies and the count of inverted elements from positions and velocities.
-    void evaluate(BodyState<Dim>& state) const;
+    /// Sets forces, energies, contacts and the counts of elements from positions and velocities.
+    void evaluate(BodyState<Dim>& state);
 
-    /// Assembles at `positions` and solves; `dx` holds the first guess and then the solution.
+    /// Assembles at a state that has been evaluated, and solves; `dx` holds the first guess and then
+    /// the solution.
     ///
     /// Where the matrix turns out not to be positive definite, which clamping rules out, it is
     /// assembled and solved with once more, clamped.
-    [[nodiscard]] LinearSolveReport solve(const Positions<Dim>& positions,
+    [[nodiscard]] LinearSolveReport solve(const BodyState<Dim>& state,
                                           LinearStep<Dim>& step,
                                           BlockVector<Dim>& dx,
                                           StepReport& report);
@@ -73,6 +81,10 @@ public:
     [[nodiscard]] BlockVector<Dim> damping_product(const BlockVector<Dim>& travel) const;
     [[nodiscard]] const BlockVector<Dim>& held_damping() const { return held_damping_; }
 
+    /// Searches, trees and seconds of contact since the last call.
+    [[nodiscard]] ContactSummary take_contact_work() { return std::exchange(contact_work_, {}); }
+
+    [[nodiscard]] const SceneContacts<Dim>& contacts() const { return contacts_; }
     [[nodiscard]] const Damping& damping() const { return damping_; }
     [[nodiscard]] const SolverOptions& options() const { return options_; }
 
@@ -81,17 +93,19 @@ public:
     [[nodiscard]] SimulationSize size() const;
 
 private:
+    void find_contacts(BodyState<Dim>& state);
     template <typename Scalar>
     LinearSolveReport solve_with(BlockMatrix<Dim, Scalar>& matrix,
-                                 const Positions<Dim>& positions,
+                                 const BodyState<Dim>& state,
                                  Filter filter,
                                  LinearStep<Dim> step,
                                  BlockVector<Dim>& dx,
                                  StepReport& report);
     template <typename Scalar>
-    void add_diagonal(BlockMatrix<Dim, Scalar>& matrix,
-                      const Positions<Dim>& positions,
-                      const LinearStep<Dim>& step) const;
+    void add_masses(BlockMatrix<Dim, Scalar>& matrix, double factor) const;
+    template <typename Scalar>
+    [[nodiscard]] std::unique_ptr<CouplingMatrix<Dim, Scalar>> add_contacts(
+        const BodyState<Dim>& state, LinearStep<Dim>& step, BlockMatrix<Dim, Scalar>& matrix);
 
     template <typename Scalar>
     [[nodiscard]] std::unique_ptr<Preconditioner<Dim>> precondition(
@@ -100,13 +114,14 @@ private:
     const World<Dim>* world_;
     SolverOptions options_;
     Vector<Dim> gravity_;
-    std::vector<Obstacle> obstacles_;
     Damping damping_;
     Workers workers_;
     Isa isa_;
     const Kernels<Dim>* kernels_;
     BlockPattern pattern_;
     Elements<Dim> elements_;
+    SceneContacts<Dim> contacts_;
+    ContactSummary contact_work_;  // since it was last taken; counts of contacts are not used
     std::vector<std::uint32_t> column_start_;  // columns the preconditioner solves together
     Aggregates aggregates_;                    // for the coarse space, if there is one
     std::unique_ptr<BlockMatrix<Dim, float>> float_matrix_;

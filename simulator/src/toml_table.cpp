@@ -148,6 +148,17 @@ std::int64_t TableReader::integer(std::string_view key,
     return node->as_integer()->get();
 }
 
+bool TableReader::flag(std::string_view key, bool fallback) {
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        return fallback;
+    }
+    if (!node->is_boolean()) {
+        fail(key, quoted(key) + " is " + type_of(*node) + "; expected true or false");
+    }
+    return node->as_boolean()->get();
+}
+
 std::string TableReader::text(std::string_view key) {
     const toml::node* node = find(key);
     if (node == nullptr) {
@@ -238,6 +249,24 @@ std::vector<TableReader> TableReader::tables(std::string_view key) {
         readers.emplace_back(*entry.as_table(), quoted(key), file_);
     }
     return readers;
+}
+
+std::string TableReader::one_of(const std::vector<std::string>& kinds) {
+    std::string found;
+    std::string list;
+    int count = 0;
+    for (const std::string& kind : kinds) {
+        list += (list.empty() ? "" : ", ") + kind;
+        if (has(kind)) {
+            found = kind;
+            ++count;
+        }
+    }
+    if (count != 1) {
+        finish();  // a misspelled kind is the better thing to name
+        fail("", name_ + " has " + std::to_string(count) + " of " + list + "; expected one");
+    }
+    return found;
 }
 
 bool TableReader::is_text(std::string_view key) {

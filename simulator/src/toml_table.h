@@ -45,6 +45,7 @@ public:
                                        std::optional<std::int64_t> fallback,
                                        std::int64_t low,
                                        std::int64_t high);
+    [[nodiscard]] bool flag(std::string_view key, bool fallback);
     [[nodiscard]] std::string text(std::string_view key);
     [[nodiscard]] Eigen::VectorXd vector(std::string_view key,
                                          int length,
@@ -60,6 +61,10 @@ public:
 
     /// All tables of an array; none if the key is missing. A single table counts as an array of one.
     [[nodiscard]] std::vector<TableReader> tables(std::string_view key);
+
+    /// The one of these keys that is there; an Error unless it is exactly one. Ask for all other
+    /// keys before.
+    [[nodiscard]] std::string one_of(const std::vector<std::string>& kinds);
 
     /// Whether the value is a plain string.
     [[nodiscard]] bool is_text(std::string_view key);

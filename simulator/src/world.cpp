@@ -194,7 +194,8 @@ Positions<Dim> start_velocities(const Scene& scene, const World<Dim>& world) {
         const auto rest = world.rest.middleCols(first, count);
         const auto masses = world.masses.segment(first, count);
         const Vector<Dim> center = rest * masses / masses.sum();
-        const Motion motion{.translate = Vector<Dim>::Zero(), .rotate = scene.bodies[body].spin};
+        const Motion motion{
+            .translate = Vector<Dim>::Zero(), .rotate = scene.bodies[body].spin, .about = {}};
         velocities.middleCols(first, count) =
             pose_at<Dim>(motion, 0).rate * (rest.colwise() - center);
         if (scene.bodies[body].velocity.size() > 0) {

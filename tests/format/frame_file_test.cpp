@@ -20,6 +20,7 @@ Frame<4> sample() {
     Frame<4> frame;
     frame.positions = Positions<4>::Random(4, 9);  // Eigen's generator has a fixed seed
     frame.velocities = Positions<4>::Random(4, 9);
+    frame.contact_forces = Positions<4>::Random(4, 9);
     frame.mesh_name = "body.pent";
     frame.mesh_crc = 0x0badcafe;
     frame.frame = 123;
@@ -36,6 +37,7 @@ TEST(FrameFile, RoundTripIsBitExact) {
         const Frame<4> read = read_frame<4>(folder / "f.pent");
         EXPECT_EQ(std::memcmp(read.positions.data(), frame.positions.data(), 9 * 32), 0);
         EXPECT_EQ(std::memcmp(read.velocities.data(), frame.velocities.data(), 9 * 32), 0);
+        EXPECT_EQ(std::memcmp(read.contact_forces.data(), frame.contact_forces.data(), 9 * 32), 0);
         EXPECT_EQ(read.mesh_name, frame.mesh_name);
         EXPECT_EQ(read.mesh_crc, frame.mesh_crc);
         EXPECT_EQ(read.frame, frame.frame);
@@ -45,12 +47,25 @@ TEST(FrameFile, RoundTripIsBitExact) {
     }
 }
 
-TEST(FrameFile, VelocitiesMayBeLeftOut) {
+TEST(FrameFile, VelocitiesAndContactForcesMayBeLeftOut) {
     const test::TempFolder folder;
     Frame<4> frame = sample();
     frame.velocities.resize(4, 0);
     write_frame(folder / "f.pent", frame);
     EXPECT_EQ(read_frame<4>(folder / "f.pent").velocities.cols(), 0);
+    EXPECT_EQ(read_frame<4>(folder / "f.pent").contact_forces, frame.contact_forces);
+    frame.contact_forces.resize(4, 0);
+    write_frame(folder / "f.pent", frame);
+    EXPECT_EQ(read_frame<4>(folder / "f.pent").contact_forces.cols(), 0);
+}
+
+TEST(FrameFile, RefusesVectorsThatAreNotOneAVertex) {
+    const test::TempFolder folder;
+    Frame<4> frame = sample();
+    frame.contact_forces.resize(4, 3);
+    frame.contact_forces.setZero();
+    expect_contains(error_of([&] { write_frame(folder / "f.pent", frame); }),
+                    {"f.pent", "3 contact forces", "none or 9"});
 }
 
 TEST(FrameFile, IsNeverWrittenWithANumberThatIsNotFinite) {

@@ -45,6 +45,23 @@ half_space = { normal = [0, 1, 0, 0], offset = -1 }
 distance = 0.01
 stiffness = 500
 
+[[obstacle]]
+ball = { center = [0, -3, 0, 0], radius = 2 }
+
+[[obstacle]]
+cavity = { center = [0, 0, 0, 0], radius = 20 }
+
+[[obstacle]]
+bowl = { center = [0, 0, 1, 0], radius = 6, up = [0, 0, 2, 0] }
+distance = 0.1
+
+[contact]
+model = "penalty"
+distance = 0.03
+stiffness = 2500
+self = true
+filter = "absolute"
+
 [damping]
 mass = 0.1
 stiffness = 0.001
@@ -53,6 +70,10 @@ stiffness = 0.001
 preset = "accurate"
 filter = "absolute"
 max_halvings = 3
+
+[output]
+contact_forces = true
+contact_pairs = true
 )";
 
 Scene parse(std::string_view text) {
@@ -95,7 +116,20 @@ TEST(ParseScene, ReadsEveryKey) {
     EXPECT_TRUE(scene.constraints[1].motion.empty());
     EXPECT_EQ(scene.bodies[1].velocity, Eigen::Vector4d(0, 2, 0, 0));
     EXPECT_EQ(scene.bodies[1].spin.at(0).degrees_per_s, -40);
-    EXPECT_EQ(scene.obstacles.at(0).stiffness, 500);
+    ASSERT_EQ(scene.obstacles.size(), 4U);
+    EXPECT_EQ(scene.obstacles[0].stiffness, 500);
+    EXPECT_EQ(std::get<HalfSpaceObstacle>(scene.obstacles[0].shape).offset, -1);
+    EXPECT_EQ(std::get<BallObstacle>(scene.obstacles[1].shape).radius, 2);
+    EXPECT_EQ(std::get<CavityObstacle>(scene.obstacles[2].shape).radius, 20);
+    EXPECT_EQ(std::get<BowlObstacle>(scene.obstacles[3].shape).up, Eigen::Vector4d(0, 0, 1, 0));
+    EXPECT_EQ(scene.obstacles[3].distance, 0.1);
+    ASSERT_TRUE(scene.contact.has_value());
+    EXPECT_EQ(scene.contact->distance, 0.03);
+    EXPECT_EQ(scene.contact->stiffness, 2500);
+    EXPECT_TRUE(scene.contact->self);
+    EXPECT_EQ(scene.contact->filter, Filter::Absolute);
+    EXPECT_TRUE(scene.output.contact_forces);
+    EXPECT_TRUE(scene.output.contact_pairs);
     EXPECT_EQ(scene.damping->stiffness, 0.001);
     EXPECT_EQ(scene.solver.precision, Precision::Double);
     EXPECT_EQ(scene.solver.filter, Filter::Absolute);
@@ -107,8 +141,21 @@ TEST(ParseScene, FillsInDefaults) {
     EXPECT_EQ(scene.gravity, Eigen::Vector4d::Zero());
     EXPECT_EQ(scene.frames, 100);
     EXPECT_FALSE(scene.damping.has_value());
+    EXPECT_FALSE(scene.contact.has_value());
+    EXPECT_FALSE(scene.output.contact_forces);
     EXPECT_EQ(scene.bodies[0].place.scale, 1);
     EXPECT_NEAR(young_from_lame(4, scene.bodies[0].material.lame).poisson, 0.28, 1e-14);
+}
+
+TEST(ParseScene, FillsInDefaultsOfContact) {
+    const Scene scene =
+        parse(with("[contact]\n[[obstacle]]\nbowl = { center = [0,0,0,0], radius = 6 }\n"));
+    EXPECT_EQ(scene.contact->model, ContactModel::Penalty);
+    EXPECT_EQ(scene.contact->distance, 0.02);
+    EXPECT_EQ(scene.contact->stiffness, 1000);
+    EXPECT_FALSE(scene.contact->self);
+    EXPECT_EQ(scene.contact->filter, Filter::Clamp);
+    EXPECT_EQ(std::get<BowlObstacle>(scene.obstacles[0].shape).up, Eigen::Vector4d(0, 1, 0, 0));
 }
 
 TEST(ParseScene, TakesThreeDimensions) {
@@ -196,9 +243,20 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{with("[[constraint]]\nbody = \"a\"\nselect = \"everything\"\n"
                  "motion = { from = 2, to = 1 }\n"),
             "above 2"},
-        Bad{with("[[obstacle]]\ndistance = 1\n"), "needs \"half_space\""},
-        Bad{with("[[obstacle]]\nbowl = {}\n"), "not supported by this version"},
-        Bad{with("[contact]\nmodel = \"penalty\"\n"), "not supported by this version"},
+        Bad{with("[[obstacle]]\ndistance = 1\n"), "has 0 of half_space, ball, cavity, bowl"},
+        Bad{with("[[obstacle]]\ndistance = 0\n"), "above 0"},
+        Bad{with("[[obstacle]]\nbowl = {}\n"), "needs \"center\""},
+        Bad{with("[[obstacle]]\nbole = {}\n"), "did you mean \"bowl\"?"},
+        Bad{with("[[obstacle]]\nball = { center = [0,0,0,0], radius = 1 }\n"
+                 "cavity = { center = [0,0,0,0], radius = 1 }\n"),
+            "has 2 of half_space"},
+        Bad{with("[[obstacle]]\nball = { center = [0,0,0,0], radius = 0 }\n"), "above 0"},
+        Bad{with("[[obstacle]]\nhalf_space = { normal = [0,0,0,0] }\n"), "expected a direction"},
+        Bad{with("[contact]\nmodel = \"glue\"\n"), "expected \"penalty\""},
+        Bad{with("[contact]\ndistance = 0\n"), "above 0"},
+        Bad{with("[contact]\nstiffness = -1\n"), "above 0"},
+        Bad{with("[contact]\nself = 1\n"), "\"self\" is 1; expected true or false"},
+        Bad{with("[output]\ncontact_force = true\n"), "did you mean \"contact_forces\"?"},
         Bad{with("[solver]\nintegrator = \"rk4\"\n"), "\"linear_euler\""},
         Bad{with("[solver]\ntolerance = 1\n"), "below 1"},
         Bad{with("[damping]\nmass = -1\n"), "at least 0"}));

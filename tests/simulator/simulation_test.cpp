@@ -298,7 +298,9 @@ TEST(Floor, CarriesTheWeightOfABodyAtRest) {
     scene.gravity[1] = -9.8;
     scene.bodies[0].place.translate[1] = 0.02;
     scene.obstacles = {
-        {.normal = Eigen::Vector4d(0, 1, 0, 0), .offset = 0, .distance = 0.02, .stiffness = 2e4}};
+        {.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d(0, 1, 0, 0), .offset = 0},
+         .distance = 0.02,
+         .stiffness = 2e4}};
     scene.damping = Damping{.mass = 5, .stiffness = 0.01};
     Simulation<4> simulation(scene, {bar(2)});
     for (int i = 0; i < 150; ++i) {

@@ -28,16 +28,17 @@ struct FileInfo {
     bool is_frame = false;    ///< Positions (and velocities) without cells.
 };
 
-/// Positions and velocities of a body at one moment; the cells are those of its mesh.
+/// Positions, velocities and contact forces of a body at one moment; the cells are those of its mesh.
 template <int Dim>
 struct Frame {
-    Positions<Dim> positions;    ///< Dim x vertices, m.
-    Positions<Dim> velocities;   ///< Dim x vertices, m/s; or Dim x 0 where the file has none.
-    std::string mesh_name;       ///< File name of the mesh, without folders or spaces.
-    std::uint32_t mesh_crc = 0;  ///< crc32c of that mesh file.
-    std::uint64_t frame = 0;     ///< Number of the frame, from 0.
-    std::uint64_t step = 0;      ///< Time steps taken so far.
-    double time = 0;             ///< s.
+    Positions<Dim> positions;       ///< Dim x vertices, m.
+    Positions<Dim> velocities;      ///< Dim x vertices, m/s; or Dim x 0 where the file has none.
+    Positions<Dim> contact_forces;  ///< Dim x vertices, N; or Dim x 0 where the file has none.
+    std::string mesh_name;          ///< File name of the mesh, without folders or spaces.
+    std::uint32_t mesh_crc = 0;     ///< crc32c of that mesh file.
+    std::uint64_t frame = 0;        ///< Number of the frame, from 0.
+    std::uint64_t step = 0;         ///< Time steps taken so far.
+    double time = 0;                ///< s.
 };
 
 template <int Dim>

@@ -80,6 +80,10 @@ public:
 
     [[nodiscard]] std::size_t size() const { return leaves_.size(); }
     [[nodiscard]] bool is_empty() const { return leaves_.empty(); }
+    [[nodiscard]] std::int64_t bytes() const {
+        return static_cast<std::int64_t>(nodes_.size() * sizeof(Node)
+                                         + leaves_.size() * sizeof(std::uint32_t));
+    }
     [[nodiscard]] const Box& root_box() const { return root_; }
     [[nodiscard]] Range root() const { return {0, 0, static_cast<std::uint32_t>(size())}; }
 

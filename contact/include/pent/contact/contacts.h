@@ -59,6 +59,8 @@ struct ContactReport {
     std::int64_t mixed = 0;        ///< Contacts of this kind.
     std::int64_t self = 0;         ///< Contacts of either kind within one body.
     std::int64_t candidates = 0;   ///< Pairs of boxes that the narrow phase looked at.
+    std::int64_t trees_built = 0;  ///< Trees built anew.
+    std::int64_t trees_refit = 0;  ///< Trees fit to new positions.
     double energy = 0;             ///< J.
     double deepest = 0;            ///< Deepest penetration of a vertex into a body, m, >= 0.
     double smallest_distance =
@@ -114,6 +116,9 @@ public:
     /// One line for each body whose edges are not long against the distance of contact, which then
     /// floods the scene with contacts; empty if there is none.
     [[nodiscard]] std::vector<std::string> warnings() const;
+
+    /// Memory of surfaces, trees and kept pairs.
+    [[nodiscard]] std::int64_t bytes() const;
 
     [[nodiscard]] const std::vector<ContactBody<Dim>>& bodies() const;
     [[nodiscard]] const ContactOptions& options() const;

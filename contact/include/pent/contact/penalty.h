@@ -1,17 +1,11 @@
 #pragma once
 
 #include <pent/contact/closest_points.h>
+#include <pent/contact/filter.h>
 
 #include <cstdint>
 
 namespace pent::contact {
-
-/// What becomes of negative eigenvalues of a contact Hessian.
-enum class Filter : std::uint8_t {
-    Clamp,     ///< They are set to 0.
-    Absolute,  ///< They are replaced by their absolute values.
-    None,      ///< Nothing: the Hessian may be indefinite.
-};
 
 /// How far inside a penalty goes on pushing.
 enum class Reach : std::uint8_t {

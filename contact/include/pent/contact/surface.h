@@ -19,6 +19,7 @@ using PositionsView = Eigen::Ref<const Positions<Dim>>;
 /// ridges ascend, and edges and ridges are in ascending order of their corners.
 template <int Dim>
 struct Surface {
+    std::uint32_t first_vertex = 0;  ///< What the mesh's indices were raised by.
     Simplices<1> vertices;  ///< 1 x vertices, ascending.
     Simplices<2> edges;     ///< 2 x edges.
     Simplices<Dim - 1>
@@ -28,6 +29,12 @@ struct Surface {
     /// Facets at the i-th of `vertices`: facet_of[facet_begin[i] .. facet_begin[i + 1]), ascending.
     std::vector<std::uint32_t> facet_begin;
     std::vector<std::uint32_t> facet_of;
+
+    [[nodiscard]] std::int64_t bytes() const {
+        return static_cast<std::int64_t>(sizeof(std::uint32_t))
+               * (vertices.size() + edges.size() + ridges.size() + facets.size()
+                  + static_cast<std::int64_t>(facet_begin.size() + facet_of.size()));
+    }
 };
 
 /// Finds the boundary of a body.

@@ -15,6 +15,7 @@ namespace pent::simulator {
 ///     RUN/scene.toml                the scene as run, defaults filled in
 ///     RUN/meshes/BODY.pent          the mesh as placed
 ///     RUN/frames/BODY_000123.pent   positions and velocities; frame 0 is the start
+///     RUN/contacts/000123.csv       every pair in contact, if the scene asks for them
 ///     RUN/checkpoint/               what bdf2 needs beside the last frame to go on
 ///     RUN/report.json               verdict and statistics of every step and frame
 
@@ -40,7 +41,8 @@ struct FrameReport {
 
 struct RunReport {
     RunVerdict verdict = RunVerdict::Finished;
-    std::string message;  ///< Why a run diverged and what to try; empty otherwise.
+    std::string message;                ///< Why a run diverged and what to try; empty otherwise.
+    std::vector<std::string> warnings;  ///< Those of the simulation.
     SimulationSize size;
     std::string isa;
     std::vector<std::string> bodies;  ///< Names, in the order of the scene.
@@ -54,6 +56,8 @@ struct RunCallbacks {
     std::function<bool()> should_stop;
     /// Told of every frame written and the step before it (a default StepReport for frame 0).
     std::function<void(const FrameReport&, const StepReport&)> on_frame;
+    /// Told, before the first step, each of Simulation::warnings().
+    std::function<void(const std::string&)> on_warning = {};
 };
 
 /// Reads the meshes, simulates, and writes the folder as it goes.

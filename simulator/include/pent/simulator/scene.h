@@ -49,7 +49,9 @@ struct Body {
     Placement place;
     Material material;
     Eigen::VectorXd velocity;  ///< At the start, m/s; empty is zero.
-    std::vector<Spin> spin;    ///< At the start, about the center of mass, added to the velocity.
+    std::string recipe;  ///< Arguments of pent-mesh that make the mesh, paths relative to the scene
+                         ///< file; for pent-study. The simulator does not use it.
+    std::vector<Spin> spin;  ///< At the start, about the center of mass, added to the velocity.
 };
 
 /// Points at most `radius` from `center`.
@@ -113,15 +115,59 @@ struct Constraint {
     std::vector<Motion> motion;
 };
 
-/// A half-space no body may enter: {p : normal . p < offset} pushes out along `normal`.
+/// Solid below a hyperplane: {p : normal . p < offset}.
+struct HalfSpaceObstacle {
+    Eigen::VectorXd normal;  ///< Unit length, out of the solid.
+    double offset = 0;       ///< m.
+};
+
+/// A solid ball; bodies stay outside.
+struct BallObstacle {
+    Eigen::VectorXd center;  ///< m.
+    double radius = 0;       ///< m, > 0.
+};
+
+/// A hollow ball in a solid; bodies stay inside.
+struct CavityObstacle {
+    Eigen::VectorXd center;  ///< m.
+    double radius = 0;       ///< m, > 0.
+};
+
+/// Half a hollow ball dug into flat ground.
+struct BowlObstacle {
+    Eigen::VectorXd center;  ///< Of the ball and of its rim, m.
+    double radius = 0;       ///< m, > 0.
+    Eigen::VectorXd up;      ///< Unit length, out of the ground.
+};
+
+using ObstacleShape = std::variant<HalfSpaceObstacle, BallObstacle, CavityObstacle, BowlObstacle>;
+
+/// Something no body may enter, which does not move.
 ///
-/// Every vertex nearer than `distance` to the half-space, or inside it, has the energy
-/// stiffness (distance - l)^2, l being the signed distance: a force that grows linearly with depth.
+/// Every free vertex nearer than `distance` to it, or inside it, has the energy
+/// stiffness (distance - d)^2, d being the signed distance: a force that grows linearly with depth.
 struct Obstacle {
-    Eigen::VectorXd normal;   ///< Unit length.
-    double offset = 0;        ///< m.
-    double distance = 0.02;   ///< m, >= 0.
+    ObstacleShape shape;
+    double distance = 0.02;   ///< m, > 0.
     double stiffness = 1000;  ///< N/m for each vertex, > 0.
+};
+
+/// How bodies that touch push each other; docs/contact.md has the models.
+enum class ContactModel { Penalty };
+
+/// Contact between bodies, and within them if asked.
+struct Contact {
+    ContactModel model = ContactModel::Penalty;
+    double distance = 0.02;   ///< m, > 0: how near is in contact; a quarter of an edge is good.
+    double stiffness = 1000;  ///< N/m for each pair, > 0.
+    bool self = false;        ///< Whether bodies meet themselves.
+    Filter filter = Filter::Clamp;
+};
+
+/// What a run writes beside positions and velocities.
+struct Output {
+    bool contact_forces = false;  ///< The force on every vertex, in its frame file.
+    bool contact_pairs = false;   ///< Every pair in contact, in a table for each frame.
 };
 
 /// Rayleigh damping: C = mass M + stiffness K, K being the tangent at the start of a step.
@@ -139,8 +185,10 @@ struct Scene {
     std::vector<Body> bodies;
     std::vector<Constraint> constraints;
     std::vector<Obstacle> obstacles;
+    std::optional<Contact> contact;  ///< Absent: bodies pass through one another, at no cost.
     std::optional<Damping> damping;  ///< Absent: not modeled.
     SolverOptions solver;
+    Output output;
 
     /// Length of a time step, s.
     [[nodiscard]] double dt() const { return 1.0 / (frames_per_second * steps_per_frame); }

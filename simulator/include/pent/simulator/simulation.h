@@ -4,9 +4,18 @@
 #include <pent/simulator/scene.h>
 
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
+
+namespace pent::contact {
+template <int Dim>
+struct Contact;
+template <int Dim>
+struct ObstacleContact;
+}  // namespace pent::contact
 
 namespace pent::simulator {
 
@@ -23,17 +32,37 @@ struct SimulationSize {
     std::int64_t free_vertices = 0;  ///< Those with unknowns: Dim each.
     std::int64_t elements = 0;       ///< Cells with a free vertex; others cost nothing.
     std::int64_t matrix_blocks = 0;  ///< Dim x Dim blocks stored, upper triangle.
+    std::int64_t contact_bytes = 0;  ///< Of surfaces and trees for contact; part of `bytes`.
     std::int64_t bytes = 0;          ///< Of what grows with the mesh, in memory.
 };
 
 /// Energies of a state, J. A part of the model that is absent has 0.
 struct Energies {
     double kinetic = 0;
-    double elastic = 0;  ///< Of cells with a free vertex.
-    double gravity = 0;  ///< -sum of m g . x.
-    double obstacle = 0;
+    double elastic = 0;   ///< Of cells with a free vertex.
+    double gravity = 0;   ///< -sum of m g . x.
+    double obstacle = 0;  ///< Of free vertices and obstacles.
+    double contact = 0;   ///< Between bodies, and within them.
 
-    [[nodiscard]] double total() const { return kinetic + elastic + gravity + obstacle; }
+    [[nodiscard]] double total() const { return kinetic + elastic + gravity + obstacle + contact; }
+};
+
+/// What touches at the end of a step, and what contact cost in it. All zero without [contact] and
+/// [[obstacle]].
+struct ContactSummary {
+    std::int64_t point_facet = 0;  ///< Vertices in contact with a facet.
+    std::int64_t mixed = 0;        ///< Edges with triangles; in three dimensions with edges.
+    std::int64_t self = 0;         ///< Of both kinds, those within one body.
+    std::int64_t obstacle = 0;     ///< Vertices in contact with an obstacle.
+    double deepest = 0;            ///< Deepest penetration of a vertex, m, >= 0.
+    double smallest_distance =
+        std::numeric_limits<double>::infinity();  ///< Least signed distance in contact, m;
+                                                  ///< infinite where nothing touches.
+    std::int64_t searches = 0;                    ///< How often contacts were asked for.
+    std::int64_t candidates = 0;                  ///< Pairs of boxes that overlapped.
+    std::int64_t trees_built = 0;
+    std::int64_t trees_refit = 0;
+    double seconds = 0;  ///< Finding contacts, their forces and their part of the matrix.
 };
 
 /// What one step did.
@@ -52,6 +81,7 @@ struct StepReport {
     std::int64_t collapsed =
         0;              ///< Elements in the false minimum at the end; see collapse_scale().
     Energies energies;  ///< At the end.
+    ContactSummary contact;
     double assembly_seconds = 0;
     double solve_seconds = 0;
     double seconds = 0;  ///< All of the step.
@@ -90,8 +120,24 @@ public:
     [[nodiscard]] const SimplexMesh<Dim>& mesh(int body) const;  ///< As placed.
     [[nodiscard]] View positions(int body) const;                ///< m.
     [[nodiscard]] View velocities(int body) const;               ///< m/s.
-    [[nodiscard]] View forces(int body) const;  ///< Elastic, gravity and obstacles, N.
+    [[nodiscard]] View forces(int body) const;  ///< Elastic, gravity and contact, N.
     [[nodiscard]] Eigen::Map<const Eigen::VectorXd> masses(int body) const;  ///< Lumped, kg.
+
+    /// Forces of contact alone, of bodies and obstacles, on the vertices of a body, Dim x vertices, N.
+    [[nodiscard]] Positions<Dim> contact_forces(int body) const;
+
+    /// Pairs in contact, by bodies, kind and place. Their vertices are counted through all bodies.
+    /// <pent/contact/contacts.h> has the type.
+    [[nodiscard]] std::span<const contact::Contact<Dim>> contacts() const;
+
+    /// Vertices in contact with obstacles, by obstacle and vertex.
+    [[nodiscard]] std::span<const contact::ObstacleContact<Dim>> obstacle_contacts() const;
+
+    /// First vertex of a body where those of all bodies are counted through.
+    [[nodiscard]] std::int64_t first_vertex(int body) const;
+
+    /// Settings that do not suit the meshes, a line each; empty if there is none.
+    [[nodiscard]] std::vector<std::string> warnings() const;
 
     [[nodiscard]] double time() const;  ///< s.
     [[nodiscard]] std::uint64_t step_count() const;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <pent/contact/filter.h>
+
 namespace pent::simulator {
 
 /// How a time step is taken; docs/simulator.md compares them.
@@ -10,8 +12,8 @@ enum class Integrator {
     Quasistatic,  ///< Equilibrium at every step, no inertia; every body must be held.
 };
 
-/// What becomes of the negative eigenvalues of element Hessians.
-enum class Filter { Clamp, Absolute, None };
+/// What becomes of the negative eigenvalues of Hessians, of elements as of contacts.
+using contact::Filter;
 
 /// Block Jacobi; Jacobi by whole extrusion columns; the latter with a coarse space of rigid modes.
 enum class PreconditionerKind { BlockJacobi, ColumnJacobi, RigidModes };

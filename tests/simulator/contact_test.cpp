@@ -1,0 +1,307 @@
+#include "contact_scenes.h"
+
+#include <pent/contact/contacts.h>
+
+#include <gtest/gtest.h>
+
+#include <tbb/global_control.h>
+
+// Contact in whole simulations: laws that hold for every integrator, in three and four dimensions.
+
+namespace pent::simulator {
+namespace {
+
+using test::cube;
+using test::hold;
+using test::mean_velocity;
+using test::momentum;
+using test::still;
+using test::throw_up;
+using test::two_cubes;
+
+template <typename T>
+class ContactLaws : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+TYPED_TEST_SUITE(ContactLaws, Dimensions);
+
+constexpr std::array kMoving = {Integrator::LinearEuler};
+
+// The weights of a pair sum to zero, so its forces do: what is left is the linear solver's residual.
+TYPED_TEST(ContactLaws, ConserveLinearMomentumOfFreeBodies) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : kMoving) {
+        Scene scene = two_cubes<kDim>(0.06);
+        scene.solver.integrator = integrator;
+        scene.solver.precision = Precision::Double;
+        scene.solver.tolerance = 1e-11;
+        scene.solver.newton_tolerance = 1e-9;
+        Simulation<kDim> simulation(scene, {cube<kDim>(), cube<kDim>()});
+        throw_up(simulation, 0, 0.5);
+        throw_up(simulation, 1, -1.0);
+        const auto before = momentum(simulation);
+        std::int64_t touched = 0;
+        for (int i = 0; i < 15; ++i) {
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.is_accepted) << report.failure;
+            touched += report.contact.point_facet + report.contact.mixed;
+            ASSERT_LT((momentum(simulation) - before).norm(), 1e-8 * before.norm()) << i;
+        }
+        EXPECT_GT(touched, 100);
+    }
+}
+
+TYPED_TEST(ContactLaws, LetBodiesThrownAtEachOtherSeparateAgain) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : kMoving) {
+        Scene scene = two_cubes<kDim>(0.06);
+        scene.solver.integrator = integrator;
+        scene.bodies[0].material.density = scene.bodies[1].material.density = 100;
+        Simulation<kDim> simulation(scene, {cube<kDim>(), cube<kDim>()});
+        throw_up(simulation, 0, 0.5);
+        throw_up(simulation, 1, -0.5);
+        bool has_touched = false;
+        StepReport report;
+        for (int i = 0; i < 120; ++i) {
+            report = simulation.step();
+            ASSERT_TRUE(report.is_accepted) << report.failure;
+            has_touched |= report.energies.contact > 0;
+            ASSERT_LT(report.contact.deepest, 0.05) << i;  // nowhere near half of a cube
+        }
+        EXPECT_TRUE(has_touched);
+        EXPECT_EQ(report.contact.point_facet + report.contact.mixed, 0);
+        // Apart again, and each turned back; implicit steps take some of the speed.
+        EXPECT_GT(mean_velocity(simulation, 1)[1], 0.05);
+        EXPECT_LT(mean_velocity(simulation, 0)[1], -0.05);
+    }
+}
+
+// Dropped from 0.1 m, with damping: at rest the floor carries the weight, and all stays where it is.
+TYPED_TEST(ContactLaws, BringADroppedBodyToRestOnTheFloor) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = test::box_scene<kDim>();
+    scene.frames_per_second = 60;
+    scene.gravity[1] = -9.8;
+    scene.bodies[0].place.translate[1] = 0.1;
+    scene.obstacles = {
+        {.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(kDim, 1), .offset = 0},
+         .distance = 0.02,
+         .stiffness = 1e4}};
+    scene.damping = Damping{.mass = 3, .stiffness = 0.01};
+    Simulation<kDim> simulation(scene, {cube<kDim>()});
+    StepReport report;
+    for (int i = 0; i < 240; ++i) {
+        report = simulation.step();
+        ASSERT_TRUE(report.is_accepted);
+        ASSERT_GT(simulation.positions(0).row(1).minCoeff(), -0.02) << i;
+    }
+    EXPECT_LT(simulation.velocities(0).cwiseAbs().maxCoeff(), 1e-4);
+    const double weight = 9.8 * simulation.masses(0).sum();
+    EXPECT_NEAR(simulation.contact_forces(0).row(1).sum(), weight, 1e-3 * weight);
+    EXPECT_GT(report.contact.obstacle, 0);
+    EXPECT_GT(report.energies.obstacle, 0);
+    const Positions<kDim> rested = simulation.positions(0);
+    for (int i = 0; i < 60; ++i) {
+        ASSERT_TRUE(simulation.step().is_accepted);
+    }
+    EXPECT_LT((simulation.positions(0) - rested).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+// Two bodies one upon the other in a bowl of 0.8 m: nothing ever leaves it, and in the end all rests.
+TYPED_TEST(ContactLaws, KeepEverythingInTheBowlAndBringItToRest) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = two_cubes<kDim>(0.1);
+    scene.frames_per_second = 60;
+    scene.gravity[1] = -9.8;
+    for (Body& body : scene.bodies) {
+        body.place.scale = 0.6;
+        body.place.translate.array() -= 0.1;
+    }
+    scene.bodies[1].place.translate[1] -= 0.2;
+    scene.contact->distance = 0.03;
+    scene.contact->stiffness = 1e4;
+    scene.damping = Damping{.mass = 3, .stiffness = 0.01};
+    const Eigen::VectorXd center = 0.2 * Eigen::VectorXd::Unit(kDim, 1);
+    scene.obstacles = {
+        {.shape =
+             BowlObstacle{.center = center, .radius = 0.8, .up = Eigen::VectorXd::Unit(kDim, 1)},
+         .distance = 0.03,
+         .stiffness = 1e4}};
+    Simulation<kDim> simulation(scene, {cube<kDim>(), cube<kDim>()});
+    std::int64_t touched = 0;
+    for (int i = 0; i < 400; ++i) {
+        const StepReport report = simulation.step();
+        ASSERT_TRUE(report.is_accepted) << i << report.failure;
+        touched += report.contact.mixed + report.contact.point_facet;
+        for (int body = 0; body < 2; ++body) {
+            const auto from_center = simulation.positions(body).colwise() - center;
+            ASSERT_LT(from_center.colwise().norm().maxCoeff(), 0.8) << i;
+        }
+    }
+    EXPECT_GT(touched, 0);
+    for (int body = 0; body < 2; ++body) {
+        // A frictionless bowl is a pendulum that only damping stops: exp(-3/2 * 6.7 s) of its start.
+        EXPECT_LT(simulation.velocities(body).cwiseAbs().maxCoeff(), 5e-3);
+    }
+}
+
+TYPED_TEST(ContactLaws, LetAHeldMeshPushAFreeBody) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : kMoving) {
+        Scene scene = two_cubes<kDim>(0.06);
+        scene.solver.integrator = integrator;
+        Motion rise = still(kDim);
+        rise.translate[1] = 0.5;
+        scene.constraints = {{.body = "a", .select = {EverythingSelection{}}, .motion = {rise}}};
+        Simulation<kDim> simulation(scene, {cube<kDim>(), cube<kDim>()});
+        for (int i = 0; i < 60; ++i) {
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.is_accepted) << report.failure;
+            ASSERT_LT(report.contact.deepest, 0.05);
+        }
+        // It is never slower than what pushes it, once that has reached it.
+        EXPECT_GT(mean_velocity(simulation, 1)[1], 0.45);
+    }
+}
+
+// One body of two cubes: it meets itself only where the scene says so.
+TYPED_TEST(ContactLaws, KeepABodyOutOfItselfWhereAsked) {
+    constexpr int kDim = TypeParam::value;
+    SimplexMesh<kDim> mesh = cube<kDim>();
+    const Eigen::Index half = mesh.vertex_count();
+    const Positions<kDim> low = mesh.positions;
+    const auto cells = mesh.cells;
+    mesh.positions.resize(kDim, 2 * half);
+    mesh.positions << low, low.array() + 0.04;
+    mesh.positions.rightCols(half).row(1).array() += 0.57;
+    mesh.cells.resize(kDim + 1, 2 * cells.cols());
+    mesh.cells << cells, cells.array() + static_cast<std::uint32_t>(half);
+    for (const bool self : {false, true}) {
+        Scene scene = test::box_scene<kDim>();
+        scene.frames_per_second = 100;
+        scene.contact = Contact{.distance = 0.05, .stiffness = 2e3, .self = self};
+        Simulation<kDim> simulation(scene, {mesh});
+        Positions<kDim> velocities = Positions<kDim>::Zero(kDim, 2 * half);
+        velocities.row(1).leftCols(half).setConstant(0.3);
+        velocities.row(1).rightCols(half).setConstant(-0.3);
+        simulation.set_state(0, simulation.positions(0), velocities);
+        double deepest = 0;
+        std::int64_t touched = 0;
+        for (int i = 0; i < 60; ++i) {
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.is_accepted);
+            deepest =
+                std::max(deepest, simulation.positions(0).row(1).leftCols(half).maxCoeff()
+                                      - simulation.positions(0).row(1).rightCols(half).minCoeff());
+            touched += report.contact.self;
+            EXPECT_EQ(report.contact.self, report.contact.point_facet + report.contact.mixed);
+        }
+        EXPECT_EQ(touched > 0, self);
+        EXPECT_EQ(deepest > 0.05, !self) << deepest;
+    }
+}
+
+TEST(NoContact, BuildsNoTreeSearchesNothingAndTakesNoMemory) {
+    Scene scene = two_cubes<4>(0.01);
+    scene.contact.reset();
+    Simulation<4> simulation(scene, {cube<4>(), cube<4>()});
+    EXPECT_EQ(simulation.size().contact_bytes, 0);
+    const StepReport report = simulation.step();
+    EXPECT_EQ(report.contact.searches, 0);
+    EXPECT_EQ(report.contact.trees_built, 0);
+    EXPECT_EQ(report.contact.trees_refit, 0);
+    EXPECT_EQ(report.contact.candidates, 0);
+    EXPECT_EQ(report.contact.seconds, 0);
+    EXPECT_EQ(report.energies.contact, 0);
+    EXPECT_TRUE(simulation.contacts().empty());
+}
+
+TEST(NoContact, CostsNothingForOneBodyThatDoesNotMeetItself) {
+    Scene scene = test::box_scene<4>();
+    scene.contact = Contact{};
+    Simulation<4> simulation(scene, {cube<4>()});
+    EXPECT_EQ(simulation.size().contact_bytes, 0);
+    EXPECT_EQ(simulation.step().contact.searches, 0);
+}
+
+TEST(ContactOfALinearStep, IsSearchedOnceAStepAndItsTreesAreRefit) {
+    Simulation<4> simulation(two_cubes<4>(0.01), {cube<4>(), cube<4>()});
+    EXPECT_GT(simulation.size().contact_bytes, 0);
+    static_cast<void>(simulation.step());
+    const StepReport report = simulation.step();
+    EXPECT_EQ(report.contact.searches, 1);
+    EXPECT_EQ(report.contact.trees_built, 0);
+    EXPECT_EQ(report.contact.trees_refit, 8);  // vertices, edges, triangles, tetrahedra; two bodies
+    EXPECT_GT(report.contact.candidates, 0);
+}
+
+TEST(HeldBodies, DoNotMeetEachOther) {
+    Scene scene = two_cubes<4>(0.01);
+    for (const char* name : {"a", "b"}) {
+        scene.constraints.push_back(
+            {.body = name, .select = {EverythingSelection{}}, .motion = {}});
+    }
+    Simulation<4> simulation(scene, {cube<4>(), cube<4>()});
+    EXPECT_TRUE(simulation.step().is_accepted);
+    EXPECT_TRUE(simulation.contacts().empty());
+}
+
+// All bits of the positions and velocities of two bodies pressed together, after some steps.
+std::vector<double> state_after(int steps, int threads, Integrator integrator) {
+    Scene scene = two_cubes<4>(0.02);
+    scene.solver.integrator = integrator;
+    const SimplexMesh<4> slab = pent::test::kuhn_box<4>({5, 2, 5, 4}, {1.25, 0.5, 1.25, 1});
+    Simulation<4> simulation(scene, {slab, slab}, {.threads = threads, .isa = ""});
+    throw_up(simulation, 0, 0.5);
+    throw_up(simulation, 1, -0.5);
+    std::vector<double> state;
+    for (int i = 0; i < steps; ++i) {
+        const StepReport report = simulation.step();
+        EXPECT_TRUE(report.is_accepted) << report.failure;
+        EXPECT_GT(report.contact.mixed, 1000);
+    }
+    for (int body = 0; body < 2; ++body) {
+        const Positions<4> forces = simulation.contact_forces(body);
+        for (const auto& values : {Positions<4>(simulation.positions(body)),
+                                   Positions<4>(simulation.velocities(body)), forces}) {
+            state.insert(state.end(), values.data(), values.data() + values.size());
+        }
+    }
+    return state;
+}
+
+TEST(ContactInASimulation, IsTheSameToTheBitForAnyNumberOfThreads) {
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
+    const std::vector<double> one = state_after(2, 1, Integrator::LinearEuler);
+    for (const int threads : {2, 3, 8}) {
+        EXPECT_EQ(state_after(2, threads, Integrator::LinearEuler), one) << threads << " threads";
+    }
+}
+
+TEST(ContactForces, AreThoseOfThePairsAndSumToZero) {
+    Simulation<4> simulation(two_cubes<4>(0.01), {cube<4>(), cube<4>()});
+    static_cast<void>(simulation.step());
+    Positions<4> forces(4, 2 * simulation.mesh(0).vertex_count());
+    forces << simulation.contact_forces(0), simulation.contact_forces(1);
+    const double size = forces.norm();
+    EXPECT_GT(size, 0);
+    EXPECT_LT(forces.rowwise().sum().norm(), 1e-12 * size);
+    for (const contact::Contact<4>& contact : simulation.contacts()) {
+        for (int i = 0; i <= 4; ++i) {
+            forces.col(contact.vertices[i]) += contact.weights[i] * contact.response.gradient;
+        }
+    }
+    EXPECT_LT(forces.norm(), 1e-12 * size);
+}
+
+// A step that asks for more contact distance than the meshes bear says so.
+TEST(ContactWarnings, NameTheSettingAndTheBody) {
+    Scene scene = two_cubes<4>(0.5);
+    scene.contact->distance = 0.3;
+    const Simulation<4> simulation(scene, {cube<4>(), cube<4>()});
+    ASSERT_EQ(simulation.warnings().size(), 2U);
+    EXPECT_NE(simulation.warnings()[1].find("distance"), std::string::npos);
+    EXPECT_NE(simulation.warnings()[1].find("'b'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pent::simulator
