@@ -101,6 +101,18 @@ Geometry<Dim> geometry_of(const Obstacle<Dim>& obstacle, const Vector<Dim>& poin
     return std::visit([&](const auto& shape) { return geometry(shape, point); }, obstacle);
 }
 
+template <int Dim>
+Response<Dim> respond(
+    const Geometry<Dim>& at, double energy, double slope, double curvature, Filter filter) {
+    Response<Dim> response;
+    response.energy = energy;
+    response.gradient = slope * at.normal;
+    response.hessian =
+        at.combine(filtered(curvature, filter), filtered(slope * at.along_tangent, filter),
+                   filtered(slope * at.sideways, filter));
+    return response;
+}
+
 void require(bool is_right, const char* name, const char* expected) {
     if (!is_right) {
         throw Error(std::string(name) + ": " + expected);
@@ -166,14 +178,20 @@ Response<Dim> obstacle_response(const Obstacle<Dim>& obstacle,
                                 const Penalty& penalty,
                                 Filter filter) {
     const Geometry<Dim> at = geometry_of(obstacle, point);
-    const double slope = penalty_slope(at.distance, penalty);
-    Response<Dim> response;
-    response.energy = penalty_energy(at.distance, penalty);
-    response.gradient = slope * at.normal;
-    response.hessian = at.combine(filtered(penalty_curvature(at.distance, penalty), filter),
-                                  filtered(slope * at.along_tangent, filter),
-                                  filtered(slope * at.sideways, filter));
-    return response;
+    return respond<Dim>(at, penalty_energy(at.distance, penalty),
+                        penalty_slope(at.distance, penalty),
+                        penalty_curvature(at.distance, penalty), filter);
+}
+
+template <int Dim>
+Response<Dim> obstacle_response(const Obstacle<Dim>& obstacle,
+                                const Vector<Dim>& point,
+                                const Barrier& barrier,
+                                Filter filter) {
+    const Geometry<Dim> at = geometry_of(obstacle, point);
+    return respond<Dim>(at, barrier_energy(at.distance, barrier),
+                        barrier_slope(at.distance, barrier),
+                        barrier_curvature(at.distance, barrier), filter);
 }
 
 template <int Dim>
@@ -189,6 +207,10 @@ template Response<3> obstacle_response<3>(const Obstacle<3>&,
                                           const Vector<3>&,
                                           const Penalty&,
                                           Filter);
+template Response<3> obstacle_response<3>(const Obstacle<3>&,
+                                          const Vector<3>&,
+                                          const Barrier&,
+                                          Filter);
 template void check<3>(const Obstacle<3>&, const char*);
 template double signed_distance<4>(const Obstacle<4>&, const Vector<4>&);
 template Vector<4> signed_distance_gradient<4>(const Obstacle<4>&, const Vector<4>&);
@@ -197,6 +219,10 @@ template Eigen::Matrix<double, 4, 4> signed_distance_hessian<4>(const Obstacle<4
 template Response<4> obstacle_response<4>(const Obstacle<4>&,
                                           const Vector<4>&,
                                           const Penalty&,
+                                          Filter);
+template Response<4> obstacle_response<4>(const Obstacle<4>&,
+                                          const Vector<4>&,
+                                          const Barrier&,
                                           Filter);
 template void check<4>(const Obstacle<4>&, const char*);
 

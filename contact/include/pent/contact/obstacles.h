@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/contact/barrier.h>
 #include <pent/contact/penalty.h>
 
 #include <variant>
@@ -65,6 +66,13 @@ template <int Dim>
 [[nodiscard]] Response<Dim> obstacle_response(const Obstacle<Dim>& obstacle,
                                               const Vector<Dim>& point,
                                               const Penalty& penalty,
+                                              Filter filter);
+
+/// The same for a barrier; the point must be further than its separation out of the solid.
+template <int Dim>
+[[nodiscard]] Response<Dim> obstacle_response(const Obstacle<Dim>& obstacle,
+                                              const Vector<Dim>& point,
+                                              const Barrier& barrier,
                                               Filter filter);
 
 /// Throws an Error, beginning with `name`, unless numbers are finite, radii > 0 and normals of unit

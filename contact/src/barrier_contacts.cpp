@@ -1,0 +1,278 @@
+#include "barrier_setting.h"
+#include "closest_point_search.h"
+#include "gather.h"
+
+#include <Eigen/LU>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <tbb/parallel_for.h>
+
+namespace pent::contact {
+
+namespace {
+
+constexpr std::size_t kChunk = 512;
+
+// Mixed pairs spanning less than this part of the squared volume that they would span at rest if they
+// were normal to each other are nearly parallel [li2020].
+constexpr double kParallel = 1e-3;
+
+// Squared volume of the box that the edges of a simplex span.
+template <int Dim, int Count>
+double spanned_squared(const Corners<Dim, Count>& corners) {
+    const Eigen::Matrix<double, Dim, Count - 1> edges =
+        corners.template rightCols<Count - 1>().colwise() - corners.col(0);
+    return (edges.transpose() * edges).determinant();
+}
+
+// Contacts without a mollifier that are the same faces; the key is their corners.
+template <int Dim>
+bool is_before(const BarrierContact<Dim>& a, const BarrierContact<Dim>& b) {
+    const bool a_plain = a.mollifier.threshold == 0;
+    const bool b_plain = b.mollifier.threshold == 0;
+    if (a_plain != b_plain) {
+        return a_plain;
+    }
+    if (a.faces.first_count != b.faces.first_count) {
+        return a.faces.first_count < b.faces.first_count;
+    }
+    return a.vertices != b.vertices ? a.vertices < b.vertices : a.first_body < b.first_body;
+}
+
+template <int Dim>
+bool is_same(const BarrierContact<Dim>& a, const BarrierContact<Dim>& b) {
+    return a.mollifier.threshold == 0 && b.mollifier.threshold == 0
+           && a.faces.first_count == b.faces.first_count && a.vertices == b.vertices
+           && a.first_body == b.first_body;
+}
+
+// One contact for all pairs with the same nearest faces, in ascending order.
+template <int Dim>
+void merge(std::vector<BarrierContact<Dim>>& contacts) {
+    std::sort(contacts.begin(), contacts.end(), is_before<Dim>);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        if (kept > 0 && is_same(contacts[kept - 1], contacts[i])) {
+            contacts[kept - 1].multiplicity += contacts[i].multiplicity;
+        } else {
+            contacts[kept++] = contacts[i];
+        }
+    }
+    contacts.resize(kept);
+}
+
+template <int Dim>
+class Search {
+public:
+    Search(const BarrierSetting<Dim>& setting, const PositionsView<Dim>& positions)
+        : setting_(setting),
+          positions_(positions),
+          reach_(setting.options.distance + setting.options.separation) {}
+
+    BarrierContacts<Dim> run() {
+        for (const CandidatePairs& pairs : setting_.candidates.pairs()) {
+            const Surface<Dim>& first = setting_.bodies[pairs.first_body].surface;
+            const Surface<Dim>& second = setting_.bodies[pairs.second_body].surface;
+            const std::array<int, 2> bodies{pairs.first_body, pairs.second_body};
+            const std::array<int, 2> swapped{pairs.second_body, pairs.first_body};
+            append<1, Dim>(pairs.points_first, first.vertices, second.facets, bodies);
+            append<1, Dim>(pairs.points_second, second.vertices, first.facets, swapped);
+            append<2, Dim - 1>(pairs.mixed_first, first.edges, second.ridges, bodies);
+            append<2, Dim - 1>(pairs.mixed_second, second.edges, first.ridges, swapped);
+        }
+        append_obstacles();
+        merge(contacts_.pairs);
+        sum_up();
+        return std::move(contacts_);
+    }
+
+private:
+    // The contact of a pair whose closest points are known: of its nearest faces, the one with the lower
+    // vertex first, so that the same faces are the same contact whatever pair they come from.
+    template <int K, int L>
+    BarrierContact<Dim> make_contact(const ClosestPoints<Dim, K, L>& points,
+                                     const std::uint32_t* first,
+                                     const std::uint32_t* second,
+                                     const std::array<int, 2>& bodies) const {
+        BarrierContact<Dim> contact;
+        NearestFaces<Dim>& faces = contact.faces;
+        faces.distance = std::sqrt(points.distance_squared);
+        faces.weights.setZero();
+        contact.vertices.fill(kFixedPoint);
+        const auto add = [&](std::uint32_t vertex, double weight) {
+            faces.active |= static_cast<std::uint8_t>(1U << faces.count);
+            faces.weights[faces.count] = weight;
+            contact.vertices[faces.count++] = vertex;
+        };
+        const auto add_first = [&](double sign) {
+            for (int i = 0; i < K; ++i) {
+                if ((points.first_face >> i & 1) != 0) {
+                    add(first[i], sign * points.beta[i]);
+                }
+            }
+        };
+        const auto add_second = [&](double sign) {
+            for (int j = 0; j < L; ++j) {
+                if ((points.second_face >> j & 1) != 0) {
+                    add(second[j], sign * points.alpha[j]);
+                }
+            }
+        };
+        const bool is_swapped = bodies[0] >= 0
+                                && second[std::countr_zero(points.second_face)]
+                                       < first[std::countr_zero(points.first_face)];
+        if (is_swapped) {
+            add_second(1);
+            faces.first_count = faces.count;
+            add_first(-1);
+        } else {
+            add_first(1);
+            faces.first_count = faces.count;
+            add_second(-1);
+        }
+        faces.direction = (is_swapped ? -1 : 1) / faces.distance * points.difference;
+        contact.first_body = bodies[is_swapped ? 1 : 0];
+        contact.second_body = bodies[is_swapped ? 0 : 1];
+        contact.separation = setting_.options.separation;
+        return contact;
+    }
+
+    // The same with all corners, for a pair that is nearly parallel.
+    template <int K, int L>
+    BarrierContact<Dim> make_mollified(const ClosestPoints<Dim, K, L>& points,
+                                       const std::uint32_t* first,
+                                       const std::uint32_t* second,
+                                       const std::array<int, 2>& bodies,
+                                       double threshold) const {
+        BarrierContact<Dim> contact;
+        contact.first_body = bodies[0];
+        contact.second_body = bodies[1];
+        contact.separation = setting_.options.separation;
+        contact.mollifier.threshold = threshold;
+        contact.faces = nearest_faces<Dim, K, L>(points);
+        std::copy_n(first, K, contact.vertices.begin());
+        std::copy_n(second, L, contact.vertices.begin() + K);
+        return contact;
+    }
+
+    // c0 of a mixed pair, or 0 where it is not nearly parallel.
+    template <int K, int L>
+    double parallel_threshold(const Simplices<K>& first,
+                              std::uint32_t i,
+                              const Simplices<L>& second,
+                              std::uint32_t j,
+                              const Corners<Dim, K>& a,
+                              const Corners<Dim, L>& b) const {
+        const double threshold =
+            kParallel * spanned_squared<Dim, K>(gather<Dim, K>(first, i, setting_.rest))
+            * spanned_squared<Dim, L>(gather<Dim, L>(second, j, setting_.rest));
+        Stencil<Dim> points;
+        points << a, b;
+        return spanned_volume_squared<Dim>(points) < threshold ? threshold : 0;
+    }
+
+    template <int K, int L>
+    void append(const std::vector<IndexPair>& pairs,
+                const Simplices<K>& first,
+                const Simplices<L>& second,
+                const std::array<int, 2>& bodies) {
+        std::vector<std::vector<BarrierContact<Dim>>> found((pairs.size() + kChunk - 1) / kChunk);
+        tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t chunk) {
+            const std::size_t end = std::min((chunk + 1) * kChunk, pairs.size());
+            for (std::size_t k = chunk * kChunk; k < end; ++k) {
+                const auto [i, j] = pairs[k];
+                const Corners<Dim, K> a = gather<Dim, K>(first, i, positions_);
+                const Corners<Dim, L> b = gather<Dim, L>(second, j, positions_);
+                ClosestPointSearch<Dim, K, L> search(a, b, reach_ * reach_);
+                if (!search.run()) {
+                    continue;
+                }
+                const std::uint32_t* of_first = first.col(i).data();
+                const std::uint32_t* of_second = second.col(j).data();
+                double threshold = 0;
+                if constexpr (K == 2) {
+                    threshold = parallel_threshold<K, L>(first, i, second, j, a, b);
+                }
+                found[chunk].push_back(
+                    threshold > 0 ? make_mollified<K, L>(search.best(), of_first, of_second, bodies,
+                                                         threshold)
+                                  : make_contact<K, L>(search.best(), of_first, of_second, bodies));
+            }
+        });
+        for (const auto& part : found) {
+            contacts_.pairs.insert(contacts_.pairs.end(), part.begin(), part.end());
+        }
+        contacts_.report.candidates += static_cast<std::int64_t>(pairs.size());
+    }
+
+    void append_obstacles() {
+        for (std::size_t o = 0; o < setting_.obstacles.size(); ++o) {
+            if (const auto* ball = std::get_if<Ball<Dim>>(&setting_.obstacles[o])) {
+                append_ball(static_cast<std::int32_t>(o), *ball);
+                continue;
+            }
+            setting_.for_each_free_vertex([&](std::int32_t /*body*/, std::uint32_t vertex) {
+                const double distance =
+                    signed_distance<Dim>(setting_.obstacles[o], positions_.col(vertex));
+                if (distance < reach_) {
+                    contacts_.vertices.push_back({vertex, static_cast<std::int32_t>(o), distance});
+                }
+            });
+        }
+    }
+
+    void append_ball(std::int32_t obstacle, const Ball<Dim>& ball) {
+        const double separation = ball.radius + setting_.options.separation;
+        const double reach = ball.radius + reach_;
+        const Corners<Dim, 1> center = ball.center;
+        setting_.for_each_facet_near(ball, [&](std::int32_t body, std::uint32_t facet) {
+            const Simplices<Dim>& facets = setting_.bodies[body].surface.facets;
+            const Corners<Dim, Dim> corners = gather<Dim, Dim>(facets, facet, positions_);
+            ClosestPointSearch<Dim, 1, Dim> search(center, corners, reach * reach);
+            if (!search.run()) {
+                return;
+            }
+            BarrierContact<Dim> contact = make_contact<1, Dim>(
+                search.best(), &kFixedPoint, facets.col(facet).data(), {-1 - obstacle, body});
+            contact.separation = separation;
+            contacts_.pairs.push_back(contact);
+        });
+    }
+
+    void sum_up() {
+        BarrierReport& report = contacts_.report;
+        for (const BarrierContact<Dim>& contact : contacts_.pairs) {
+            report.smallest_gap =
+                std::min(report.smallest_gap, contact.faces.distance - contact.separation);
+            report.mollified += contact.mollifier.threshold > 0 ? 1 : 0;
+        }
+        for (const VertexContact& contact : contacts_.vertices) {
+            report.smallest_gap =
+                std::min(report.smallest_gap, contact.distance - setting_.options.separation);
+        }
+        report.contacts =
+            static_cast<std::int64_t>(contacts_.pairs.size() + contacts_.vertices.size());
+    }
+
+    const BarrierSetting<Dim>& setting_;
+    const PositionsView<Dim>& positions_;
+    double reach_;
+    BarrierContacts<Dim> contacts_;
+};
+
+}  // namespace
+
+template <int Dim>
+BarrierContacts<Dim> find_barrier_contacts(const BarrierSetting<Dim>& setting,
+                                           const PositionsView<Dim>& positions) {
+    return Search<Dim>(setting, positions).run();
+}
+
+template BarrierContacts<3> find_barrier_contacts(const BarrierSetting<3>&,
+                                                  const PositionsView<3>&);
+template BarrierContacts<4> find_barrier_contacts(const BarrierSetting<4>&,
+                                                  const PositionsView<4>&);
+
+}  // namespace pent::contact

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "path_candidates.h"
+
+#include <pent/contact/barrier_finder.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace pent::contact {
+
+/// A scene as the barrier model sees it, and what in it may come near what.
+template <int Dim>
+struct BarrierSetting {
+    const std::vector<ContactBody<Dim>>& bodies;
+    const std::vector<Obstacle<Dim>>& obstacles;
+    const BarrierOptions& options;
+    const Positions<Dim>& rest;
+    const PathCandidates<Dim>& candidates;
+
+    /// Calls visit(body, vertex) for surface vertices that are not held.
+    template <typename Visit>
+    void for_each_free_vertex(const Visit& visit) const {
+        for (std::size_t body = 0; body < bodies.size(); ++body) {
+            const Simplices<1>& vertices = bodies[body].surface.vertices;
+            for (Eigen::Index i = 0; !bodies[body].is_kinematic && i < vertices.cols(); ++i) {
+                if (!candidates.is_held()[vertices(0, i)]) {
+                    visit(static_cast<std::int32_t>(body), vertices(0, i));
+                }
+            }
+        }
+    }
+
+    /// Calls visit(body, facet) for facets with a free vertex that may come near a ball, ascending.
+    template <typename Visit>
+    void for_each_facet_near(const Ball<Dim>& ball, const Visit& visit) const {
+        for (std::size_t body = 0; body < bodies.size(); ++body) {
+            if (bodies[body].is_kinematic) {
+                continue;
+            }
+            std::vector<std::uint32_t> facets;
+            candidates.for_each_facet_near(static_cast<int>(body), ball.center, ball.radius,
+                                           [&](std::uint32_t facet) { facets.push_back(facet); });
+            std::sort(facets.begin(), facets.end());
+            const Simplices<Dim>& corners = bodies[body].surface.facets;
+            for (const std::uint32_t facet : facets) {
+                bool is_held = true;
+                for (int i = 0; i < Dim; ++i) {
+                    is_held &= candidates.is_held()[corners(i, facet)];
+                }
+                if (!is_held) {
+                    visit(static_cast<std::int32_t>(body), facet);
+                }
+            }
+        }
+    }
+};
+
+/// What is near what at positions that the candidates cover, without the report's seconds.
+template <int Dim>
+[[nodiscard]] BarrierContacts<Dim> find_barrier_contacts(const BarrierSetting<Dim>& setting,
+                                                         const PositionsView<Dim>& positions);
+
+/// How far a step that the candidates cover may go, without the seconds.
+template <int Dim>
+[[nodiscard]] StepLimit limit_barrier_step(const BarrierSetting<Dim>& setting,
+                                           const PositionsView<Dim>& from,
+                                           const PositionsView<Dim>& to);
+
+}  // namespace pent::contact

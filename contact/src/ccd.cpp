@@ -1,0 +1,147 @@
+#include "pent/contact/ccd.h"
+
+#include "closest_point_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pent::contact {
+
+namespace {
+
+// What stops the advances: a gap near enough to what has to be kept, or their number.
+constexpr double kGapReached = 2 * kGapKept;
+constexpr int kMostAdvances = 10'000;
+
+// How long the two simplices stay `target` apart along u. Every two corners are on their sides for
+// as long as that, so the hulls of the corners are too.
+template <int Dim, int K, int L>
+double time_apart(const Vector<Dim>& u,
+                  const Corners<Dim, K>& first,
+                  const Corners<Dim, K>& first_motion,
+                  const Corners<Dim, L>& second,
+                  const Corners<Dim, L>& second_motion,
+                  double target) {
+    double time = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < K; ++i) {
+        const double at = u.dot(first.col(i)) - target;
+        const double speed = u.dot(first_motion.col(i));
+        for (int j = 0; j < L; ++j) {
+            const double closing = u.dot(second_motion.col(j)) - speed;
+            if (closing > 0) {
+                time = std::min(time, (at - u.dot(second.col(j))) / closing);
+            }
+        }
+    }
+    return time;
+}
+
+template <int Dim>
+bool is_free_side_convex(const Obstacle<Dim>& obstacle) {
+    return std::holds_alternative<HalfSpace<Dim>>(obstacle)
+           || std::holds_alternative<Cavity<Dim>>(obstacle);
+}
+
+}  // namespace
+
+template <int Dim, int K, int L>
+double safe_fraction(const Corners<Dim, K>& first,
+                     const Corners<Dim, K>& first_motion,
+                     const Corners<Dim, L>& second,
+                     const Corners<Dim, L>& second_motion,
+                     const Clearance& clearance,
+                     double limit) {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    // In coordinates of one corner, so that rounding is relative to the pair and not to where it is.
+    const Vector<Dim> origin = first.col(0);
+    const Vector<Dim> drift = first_motion.col(0);
+    const Corners<Dim, K> first_path = first_motion.colwise() - drift;
+    const Corners<Dim, L> second_path = second_motion.colwise() - drift;
+    Corners<Dim, K> a = first.colwise() - origin;
+    Corners<Dim, L> b = second.colwise() - origin;
+    const Corners<Dim, K> a_start = a;
+    const Corners<Dim, L> b_start = b;
+    double near_gap = 0;  // what counts of the gap at the start
+    double t = 0;
+    for (int advance = 0; advance < kMostAdvances; ++advance) {
+        ClosestPointSearch<Dim, K, L> search(a, b, kFar);
+        search.run();
+        const double distance = std::sqrt(search.best().distance_squared);
+        const double gap = distance - clearance.separation;
+        if (advance == 0) {
+            near_gap = std::min(gap, clearance.distance);
+            if (!(near_gap > 0)) {
+                return 0;
+            }
+        } else if (gap <= kGapReached * near_gap) {
+            return t;
+        }
+        const Vector<Dim> u = search.best().difference / distance;
+        const double time = time_apart<Dim, K, L>(u, a, first_path, b, second_path,
+                                                  clearance.separation + kGapKept * near_gap);
+        if (!(time > 0)) {
+            return t;  // rounding: the separation along u is not what the distance says
+        }
+        t += time;
+        if (!(t < limit)) {
+            return limit;
+        }
+        a = a_start + t * first_path;
+        b = b_start + t * second_path;
+    }
+    return t;
+}
+
+template <int Dim>
+double safe_fraction(const Obstacle<Dim>& obstacle,
+                     const Vector<Dim>& point,
+                     const Vector<Dim>& motion,
+                     const Clearance& clearance,
+                     double limit) {
+    const double start_gap = signed_distance<Dim>(obstacle, point) - clearance.separation;
+    if (!(start_gap > 0)) {
+        return 0;
+    }
+    const double near_gap = std::min(start_gap, clearance.distance);
+    const double kept = kGapKept * near_gap;
+    const double speed = motion.norm();
+    const bool is_concave = is_free_side_convex<Dim>(obstacle);
+    const double end_gap = signed_distance<Dim>(obstacle, point + motion) - clearance.separation;
+    double gap = start_gap;
+    double t = 0;
+    for (int advance = 0; advance < kMostAdvances; ++advance) {
+        if (speed * (limit - t) <= gap - kept || (is_concave && end_gap >= kept)) {
+            return limit;
+        }
+        double time = (gap - kept) / speed;
+        if (is_concave) {  // above the chord to the end
+            time = std::max(time, (gap - kept) / (gap - end_gap) * (1 - t));
+        }
+        t += time;
+        if (!(t < limit)) {
+            return limit;
+        }
+        gap = signed_distance<Dim>(obstacle, point + t * motion) - clearance.separation;
+        if (gap <= kGapReached * near_gap) {
+            return t;
+        }
+    }
+    return t;
+}
+
+#define PENT_INSTANTIATE(Dim, K, L)                                                          \
+    template double safe_fraction<Dim, K, L>(const Corners<Dim, K>&, const Corners<Dim, K>&, \
+                                             const Corners<Dim, L>&, const Corners<Dim, L>&, \
+                                             const Clearance&, double);
+PENT_INSTANTIATE(3, 1, 3)
+PENT_INSTANTIATE(3, 2, 2)
+PENT_INSTANTIATE(4, 1, 4)
+PENT_INSTANTIATE(4, 2, 3)
+#undef PENT_INSTANTIATE
+template double safe_fraction<3>(
+    const Obstacle<3>&, const Vector<3>&, const Vector<3>&, const Clearance&, double);
+template double safe_fraction<4>(
+    const Obstacle<4>&, const Vector<4>&, const Vector<4>&, const Clearance&, double);
+
+}  // namespace pent::contact

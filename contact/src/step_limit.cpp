@@ -1,0 +1,144 @@
+#include "barrier_setting.h"
+#include "gather.h"
+
+#include <pent/contact/ccd.h>
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <tbb/parallel_for.h>
+
+namespace pent::contact {
+
+namespace {
+
+constexpr std::size_t kChunk = 512;
+
+template <int Dim>
+class Limiter {
+public:
+    Limiter(const BarrierSetting<Dim>& setting,
+            const PositionsView<Dim>& from,
+            const PositionsView<Dim>& to)
+        : setting_(setting), from_(from), motion_(to - from) {}
+
+    StepLimit run() {
+        for (const CandidatePairs& pairs : setting_.candidates.pairs()) {
+            const Surface<Dim>& first = setting_.bodies[pairs.first_body].surface;
+            const Surface<Dim>& second = setting_.bodies[pairs.second_body].surface;
+            const std::array<int, 2> bodies{pairs.first_body, pairs.second_body};
+            const std::array<int, 2> swapped{pairs.second_body, pairs.first_body};
+            shorten<1, Dim>(pairs.points_first, first.vertices, second.facets, bodies);
+            shorten<1, Dim>(pairs.points_second, second.vertices, first.facets, swapped);
+            shorten<2, Dim - 1>(pairs.mixed_first, first.edges, second.ridges, bodies);
+            shorten<2, Dim - 1>(pairs.mixed_second, second.edges, first.ridges, swapped);
+        }
+        shorten_by_obstacles();
+        return std::move(limit_);
+    }
+
+private:
+    // Takes the least fraction of all pairs; of equals the first.
+    template <int K, int L>
+    void shorten(const std::vector<IndexPair>& pairs,
+                 const Simplices<K>& first,
+                 const Simplices<L>& second,
+                 const std::array<int, 2>& bodies) {
+        struct Best {
+            double fraction = 1;
+            std::size_t pair = 0;
+        };
+        const Clearance clearance{setting_.options.separation, setting_.options.distance};
+        std::vector<Best> best((pairs.size() + kChunk - 1) / kChunk);
+        std::atomic<double> least = limit_.fraction;  // a bound that only saves work
+        tbb::parallel_for(std::size_t{0}, best.size(), [&](std::size_t chunk) {
+            Best& here = best[chunk];
+            const std::size_t end = std::min((chunk + 1) * kChunk, pairs.size());
+            for (std::size_t k = chunk * kChunk; k < end; ++k) {
+                const auto [i, j] = pairs[k];
+                const double bound = std::min(least.load(std::memory_order_relaxed), here.fraction);
+                const double fraction = safe_fraction<Dim, K, L>(
+                    gather<Dim, K>(first, i, from_), gather<Dim, K>(first, i, motion_),
+                    gather<Dim, L>(second, j, from_), gather<Dim, L>(second, j, motion_), clearance,
+                    std::nextafter(bound, 2.0));
+                if (fraction < here.fraction) {
+                    here = {fraction, k};
+                    double seen = least.load(std::memory_order_relaxed);
+                    while (fraction < seen
+                           && !least.compare_exchange_weak(seen, fraction,
+                                                           std::memory_order_relaxed)) {
+                    }
+                }
+            }
+        });
+        for (const Best& found : best) {
+            if (found.fraction < limit_.fraction) {
+                limit_.fraction = found.fraction;
+                const auto [i, j] = pairs[found.pair];
+                limit_.limiting = {CrossingKind::Touching,
+                                   bodies[0],
+                                   bodies[1],
+                                   {first.col(i).data(), first.col(i).data() + K},
+                                   {second.col(j).data(), second.col(j).data() + L},
+                                   0};
+            }
+        }
+    }
+
+    void shorten_by_obstacles() {
+        for (std::size_t o = 0; o < setting_.obstacles.size(); ++o) {
+            const auto take = [&](double fraction, std::int32_t body,
+                                  std::vector<std::uint32_t> corners) {
+                if (fraction < limit_.fraction) {
+                    limit_.fraction = fraction;
+                    limit_.limiting = {
+                        CrossingKind::Touching, body, -1 - static_cast<std::int32_t>(o),
+                        std::move(corners),     {},   0};
+                }
+            };
+            if (const auto* ball = std::get_if<Ball<Dim>>(&setting_.obstacles[o])) {
+                const Clearance clearance{ball->radius + setting_.options.separation,
+                                          setting_.options.distance};
+                const Corners<Dim, 1> center = ball->center;
+                setting_.for_each_facet_near(*ball, [&](std::int32_t body, std::uint32_t facet) {
+                    const Simplices<Dim>& facets = setting_.bodies[body].surface.facets;
+                    take(safe_fraction<Dim, 1, Dim>(center, Corners<Dim, 1>::Zero(),
+                                                    gather<Dim, Dim>(facets, facet, from_),
+                                                    gather<Dim, Dim>(facets, facet, motion_),
+                                                    clearance),
+                         body, {facets.col(facet).data(), facets.col(facet).data() + Dim});
+                });
+                continue;
+            }
+            const Clearance clearance{setting_.options.separation, setting_.options.distance};
+            setting_.for_each_free_vertex([&](std::int32_t body, std::uint32_t vertex) {
+                take(safe_fraction<Dim>(setting_.obstacles[o], from_.col(vertex),
+                                        motion_.col(vertex), clearance),
+                     body, {vertex});
+            });
+        }
+    }
+
+    const BarrierSetting<Dim>& setting_;
+    const PositionsView<Dim>& from_;
+    const Positions<Dim> motion_;
+    StepLimit limit_;
+};
+
+}  // namespace
+
+template <int Dim>
+StepLimit limit_barrier_step(const BarrierSetting<Dim>& setting,
+                             const PositionsView<Dim>& from,
+                             const PositionsView<Dim>& to) {
+    return Limiter<Dim>(setting, from, to).run();
+}
+
+template StepLimit limit_barrier_step(const BarrierSetting<3>&,
+                                      const PositionsView<3>&,
+                                      const PositionsView<3>&);
+template StepLimit limit_barrier_step(const BarrierSetting<4>&,
+                                      const PositionsView<4>&,
+                                      const PositionsView<4>&);
+
+}  // namespace pent::contact

@@ -1,0 +1,169 @@
+#include "scenes.h"
+#include "support/crossing_checker.h"
+
+#include <pent/contact/crossings.h>
+
+#include <gtest/gtest.h>
+
+namespace pent::contact {
+namespace {
+
+template <int Dim>
+std::vector<ContactBody<Dim>> bodies_of(const test::Scene<Dim>& scene) {
+    std::vector<ContactBody<Dim>> bodies;
+    for (const Surface<Dim>& surface : scene.surfaces) {
+        bodies.push_back({std::string(1, static_cast<char>('a' + bodies.size())), surface, false});
+    }
+    return bodies;
+}
+
+template <int Dim>
+std::vector<Crossing> crossings_of(const test::Scene<Dim>& scene,
+                                   bool self = false,
+                                   const std::vector<Obstacle<Dim>>& obstacles = {}) {
+    return find_crossings<Dim>(bodies_of(scene), obstacles,
+                               std::vector<bool>(static_cast<std::size_t>(scene.positions.cols())),
+                               scene.positions, 0, self);
+}
+
+int count(const std::vector<Crossing>& crossings, CrossingKind kind) {
+    return static_cast<int>(std::count_if(crossings.begin(), crossings.end(),
+                                          [&](const Crossing& c) { return c.kind == kind; }));
+}
+
+template <typename T>
+class CrossingsTest : public testing::Test {
+protected:
+    template <int Count>
+    Corners<T::value, Count> corners() {
+        return Corners<T::value, Count>::NullaryExpr([&] { return coordinate_(random_); });
+    }
+
+    template <int K, int L>
+    void expect_agreement() {
+        int crossing = 0;
+        for (int k = 0; k < 2000; ++k) {
+            const Corners<T::value, K> a = this->template corners<K>();
+            const Corners<T::value, L> b = this->template corners<L>();
+            const bool is_true = pent::test::do_cross<T::value, K, L>(
+                a.template cast<long double>(), b.template cast<long double>());
+            EXPECT_EQ((is_crossing<T::value, K, L>(a, b)), is_true);
+            crossing += is_true ? 1 : 0;
+        }
+        EXPECT_GT(crossing, 20);
+    }
+
+    std::mt19937 random_{23};
+    std::uniform_real_distribution<double> coordinate_{-1, 1};
+};
+
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+TYPED_TEST_SUITE(CrossingsTest, Dimensions);
+
+TYPED_TEST(CrossingsTest, OfTwoSimplicesAreWhereTheirHullsMeetInside) {
+    constexpr int kDim = TypeParam::value;
+    this->template expect_agreement<2, kDim>();
+    if constexpr (kDim == 4) {
+        this->template expect_agreement<3, 3>();
+    }
+}
+
+TYPED_TEST(CrossingsTest, AreFoundLikeByBruteForce) {
+    constexpr int kDim = TypeParam::value;
+    for (const double shift : {0.3, 0.9, 1.5}) {
+        test::Scene<kDim> scene;
+        scene.add(test::cube<kDim>(1), Vector<kDim>::Zero());
+        scene.add(test::cube<kDim>(1), Vector<kDim>::Constant(shift));
+        test::shake<kDim>(scene.positions, 0.05, 2);
+        const int brute = pent::test::count_crossings<kDim>(scene.surfaces[0], scene.surfaces[1],
+                                                            scene.positions);
+        EXPECT_EQ(brute > 0, shift < 1);
+        EXPECT_EQ(count(crossings_of<kDim>(scene), CrossingKind::Through), brute);
+    }
+}
+
+TEST(Crossings, OfTwoFourDimensionalBodiesMayBeOfTrianglesAlone) {
+    // Long in z and w against long in x and y: no edge of either meets the other, but they overlap in
+    // the middle. Diagonal edges do cross, so the cells are small against them: edges at the rim only.
+    test::Scene<4> scene;
+    scene.add(pent::test::kuhn_box<4>({1, 1, 3, 3}, {1, 1, 9, 9}), Vector<4>(0, 0, 0.3, 0.2));
+    scene.add(pent::test::kuhn_box<4>({3, 3, 1, 1}, {9, 9, 1, 1}), Vector<4>(-4.1, -3.9, 4.6, 4.4));
+    int triangles = 0;
+    for (const Crossing& crossing : crossings_of<4>(scene)) {
+        triangles += crossing.first.size() == 3 && crossing.second.size() == 3 ? 1 : 0;
+    }
+    EXPECT_GT(triangles, 0);
+    EXPECT_GT(pent::test::count_crossings<4>(scene.surfaces[0], scene.surfaces[1], scene.positions),
+              0);
+}
+
+TYPED_TEST(CrossingsTest, OfABodyInsideAnotherAreItsVertices) {
+    constexpr int kDim = TypeParam::value;
+    test::Scene<kDim> scene;
+    scene.add(test::cube<kDim>(3), Vector<kDim>::Zero());
+    scene.add(test::cube<kDim>(1), Vector<kDim>::Constant(1.1));
+    const std::vector<Crossing> crossings = crossings_of<kDim>(scene);
+    EXPECT_EQ(crossings.size(), 1U << kDim);
+    EXPECT_EQ(count(crossings, CrossingKind::Inside), 1 << kDim);
+    EXPECT_EQ(describe<kDim>(crossings[0], bodies_of(scene)), "vertex 0 of 'b' is inside 'a'");
+}
+
+TYPED_TEST(CrossingsTest, TouchingCubesAreReported) {
+    constexpr int kDim = TypeParam::value;
+    test::Scene<kDim> scene;
+    scene.add(test::cube<kDim>(1), Vector<kDim>::Zero());
+    scene.add(test::cube<kDim>(1), Vector<kDim>::Unit(0));
+    const std::vector<Crossing> touching = crossings_of<kDim>(scene);
+    EXPECT_GT(count(touching, CrossingKind::Touching), 0);
+    EXPECT_EQ(touching[0].distance, 0);
+    scene.body(1).row(0).array() += 1e-6;
+    EXPECT_TRUE(crossings_of<kDim>(scene).empty());
+}
+
+TYPED_TEST(CrossingsTest, WithinABodyAreFoundIfAsked) {
+    constexpr int kDim = TypeParam::value;
+    test::Scene<kDim> scene;
+    scene.add(test::cube<kDim>(2), Vector<kDim>::Zero());
+    EXPECT_TRUE(crossings_of<kDim>(scene, true).empty());
+    // The corner at 0 goes right through the body and out on the far side.
+    scene.positions.col(0) = Vector<kDim>::LinSpaced(1.43, 2.57);
+    EXPECT_TRUE(crossings_of<kDim>(scene, false).empty());
+    EXPECT_GT(count(crossings_of<kDim>(scene, true), CrossingKind::Through), 0);
+}
+
+TYPED_TEST(CrossingsTest, WithObstaclesAreReported) {
+    constexpr int kDim = TypeParam::value;
+    test::Scene<kDim> scene;
+    scene.add(test::cube<kDim>(1), Vector<kDim>::Zero());
+    const Vector<kDim> up = Vector<kDim>::Unit(1);
+    EXPECT_TRUE(crossings_of<kDim>(scene, false, {HalfSpace<kDim>{up, -0.1}}).empty());
+    const auto sunk = crossings_of<kDim>(scene, false, {HalfSpace<kDim>{up, 0.5}});
+    EXPECT_EQ(sunk.size(), 1U << (kDim - 1));
+    EXPECT_EQ(describe<kDim>(sunk[0], bodies_of(scene)), "vertex 0 of 'a' is inside obstacle 0");
+    // A ball that cuts a side between its vertices.
+    Vector<kDim> center = Vector<kDim>::Constant(0.5);
+    center[0] = -0.1;
+    EXPECT_FALSE(crossings_of<kDim>(scene, false, {Ball<kDim>{center, 0.2}}).empty());
+    EXPECT_TRUE(crossings_of<kDim>(scene, false, {Ball<kDim>{center, 0.05}}).empty());
+}
+
+TYPED_TEST(CrossingsTest, SweepOfTheCheckerSeesWhatPassesWithinAStep) {
+    constexpr int kDim = TypeParam::value;
+    test::Scene<kDim> scene;
+    scene.add(test::cube<kDim>(1), Vector<kDim>::Zero());
+    Vector<kDim> before = Vector<kDim>::Constant(0.1);
+    before[0] = -1.5;
+    scene.add(test::cube<kDim>(1), before);
+    test::shake<kDim>(scene.positions, 0.01, 8);
+    const auto swept = [&](double distance) {
+        Positions<kDim> to = scene.positions;
+        to.rightCols(to.cols() / 2).row(0).array() += distance;
+        return pent::test::count_swept_crossings<kDim>(scene.surfaces[0], scene.surfaces[1],
+                                                       scene.positions, to);
+    };
+    EXPECT_EQ(swept(0.4), 0);
+    EXPECT_GT(swept(5), 0);  // free of crossings at the start and at the end
+}
+
+}  // namespace
+}  // namespace pent::contact
