@@ -1,6 +1,7 @@
 #include "common/program.h"
 #include "common/progress.h"
 
+#include <pent/simulator/explain.h>
 #include <pent/simulator/run.h>
 #include <pent/simulator/scene_file.h>
 
@@ -23,6 +24,7 @@ struct Arguments {
     std::string isa;
     bool force = false;
     bool resume = false;
+    bool explain = false;
 };
 
 Verdict verdict_of(RunVerdict verdict) {
@@ -109,8 +111,30 @@ void summarize(Program& program, const RunReport& report, const std::string& fol
                 + pent::apps::readable_time(report.seconds));
 }
 
+Verdict explain_scene(Program& program, const pent::simulator::Scene& scene) {
+    const pent::simulator::Explanation explanation = explain(scene, program.common().threads);
+    program.say(explanation_text(explanation));
+    nlohmann::ordered_json terms = nlohmann::ordered_json::array();
+    for (const pent::simulator::Term& term : explanation.terms) {
+        terms.push_back({{"name", term.name},
+                         {"is_on", term.is_on},
+                         {"why", term.why},
+                         {"unknowns", term.unknowns},
+                         {"bytes", term.bytes},
+                         {"seconds", term.seconds}});
+    }
+    program.report()["terms"] = terms;
+    program.report()["advice"] = explanation.advice;
+    program.report()["bytes"] = explanation.bytes;
+    program.report()["seconds_per_step"] = explanation.seconds_per_step;
+    return Verdict::Finished;
+}
+
 Verdict simulate(Program& program, const Arguments& arguments) {
     const pent::simulator::Scene scene = pent::simulator::read_scene(arguments.scene);
+    if (arguments.explain) {
+        return explain_scene(program, scene);
+    }
     pent::apps::Progress progress("frame", scene.frames, program.common().quiet);
     pent::simulator::RunCallbacks callbacks;
     callbacks.should_stop = pent::apps::stop_requested;
@@ -146,7 +170,11 @@ int main(int argc, char** argv) {
     Arguments arguments;
     CLI::App& options = program.options();
     options.add_option("scene", arguments.scene, "Scene file (TOML)")->required();
-    options.add_option("-o,--output", arguments.output, "Folder for the run")->required();
+    CLI::Option* output = options.add_option("-o,--output", arguments.output, "Folder for the run");
+    options
+        .add_flag("--explain", arguments.explain,
+                  "Say what will be modeled and at what cost, and run nothing")
+        ->excludes(output);
     CLI::Option* force =
         options.add_flag("--force", arguments.force, "Replace a run that is in the folder");
     options
@@ -155,5 +183,10 @@ int main(int argc, char** argv) {
         ->excludes(force);
     options.add_option("--isa", arguments.isa,
                        "Instruction set: scalar, baseline, avx2 or avx512; default: the widest");
+    options.callback([&] {
+        if (!arguments.explain && arguments.output.empty()) {
+            throw CLI::RequiredError("--output");
+        }
+    });
     return program.run(argc, argv, [&] { return simulate(program, arguments); });
 }

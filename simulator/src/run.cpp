@@ -1,4 +1,5 @@
 #include "contact_table.h"
+#include "resume.h"
 #include "rigid_fit.h"
 #include "run_report.h"
 
@@ -68,6 +69,10 @@ private:
     }
     [[nodiscard]] fs::path checkpoint_path(const std::string& body, int frame) const {
         return numbered("checkpoint", body, frame);
+    }
+    [[nodiscard]] std::uint64_t step_of(int frame) const {
+        return static_cast<std::uint64_t>(frame)
+               * static_cast<std::uint64_t>(scene_.steps_per_frame);
     }
     [[nodiscard]] fs::path numbered(const char* part, const std::string& body, int frame) const;
     void start_folder();
@@ -147,7 +152,8 @@ std::optional<std::vector<Frame<Dim>>> Run<Dim>::read_frames(int frame) const {
         if (!fs::exists(frame_path(name, frame))) {
             return std::nullopt;
         }
-        frames.push_back(read_frame<Dim>(frame_path(name, frame)));
+        frames.push_back(read_own_frame<Dim>(frame_path(name, frame), mesh_crcs_[frames.size()],
+                                             static_cast<std::uint64_t>(frame), step_of(frame)));
     }
     return frames;
 }
@@ -159,10 +165,10 @@ int Run<Dim>::resume_folder() {
     if (!fs::exists(scene_path)) {
         throw Error(options_.folder.string() + ": holds no run to resume (no scene.toml)");
     }
-    if (read_text(scene_path) != scene_text_) {
-        throw Error(scene_path.string()
-                    + ": is another scene than the one given; resume with the same scene, or use"
-                      " --force to start again");
+    check_same_scene(scene_path, scene_text_);
+    for (int body = 0; body < simulation_.body_count(); ++body) {
+        const std::string& name = report_.bodies[static_cast<std::size_t>(body)];
+        mesh_crcs_.push_back(check_same_mesh<Dim>(mesh_path(name), simulation_.mesh(body)));
     }
     int frame = scene_.frames;
     std::optional<std::vector<Frame<Dim>>> frames = read_frames(frame);
@@ -242,18 +248,22 @@ void Run<Dim>::remove_checkpoint(int frame) {
 template <int Dim>
 void Run<Dim>::resume_history(int frame) {
     for (int body = 0; body < simulation_.body_count(); ++body) {
-        const fs::path path =
-            checkpoint_path(report_.bodies[static_cast<std::size_t>(body)], frame);
+        const auto i = static_cast<std::size_t>(body);
+        const fs::path path = checkpoint_path(report_.bodies[i], frame);
         if (!fs::exists(path)) {
+            if (fs::exists(checkpoint_path(report_.bodies[i], frame + 2))) {
+                throw Error(path.string() + ": is not kept so far back; put the later frames back, or"
+                                            " use --force to start again");
+            }
             return;  // there was none: the step before was the first, or cut in two
         }
-        const Frame<Dim> before = read_frame<Dim>(path);
+        const Frame<Dim> before = read_own_frame<Dim>(
+            path, mesh_crcs_[i], static_cast<std::uint64_t>(frame), step_of(frame));
         simulation_.set_history(body, before.positions, before.velocities);
     }
 }
 
-// The checkpoint of the frame before goes only when the new frame is whole: there is always one to
-// resume from.
+// Two checkpoints are kept: should the last frame be damaged, the one before is there to resume from.
 template <int Dim>
 void Run<Dim>::write_frame_files(int frame) {
     write_checkpoint(frame);
@@ -271,10 +281,9 @@ void Run<Dim>::write_frame_files(int frame) {
         make_folder(options_.folder / "contacts");
         char name[16];
         std::snprintf(name, sizeof name, "%06d.csv", frame);
-        write_text(options_.folder / "contacts" / name,
-                   contact_table(simulation_, report_.bodies));
+        write_text(options_.folder / "contacts" / name, contact_table(simulation_, report_.bodies));
     }
-    remove_checkpoint(frame - 1);
+    remove_checkpoint(frame - 2);
     report_.frames.push_back(measure(frame));
     if (callbacks_.on_frame) {
         callbacks_.on_frame(report_.frames.back(),
@@ -285,9 +294,7 @@ void Run<Dim>::write_frame_files(int frame) {
 // Takes the steps of one frame; false if the run ends within.
 template <int Dim>
 bool Run<Dim>::step_to_frame(int frame) {
-    const auto target =
-        static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(scene_.steps_per_frame);
-    while (simulation_.step_count() < target) {
+    while (simulation_.step_count() < step_of(frame)) {
         if (callbacks_.should_stop && callbacks_.should_stop()) {
             report_.verdict = RunVerdict::Stopped;
             return false;
@@ -323,7 +330,8 @@ RunReport Run<Dim>::operator()() {
     int frame = 0;
     if (options_.resume) {
         frame = resume_folder();
-        write_meshes();
+        remove_temporaries(options_.folder);
+        write_text(options_.folder / "scene.toml", scene_text_);
     } else {
         start_folder();
         write_meshes();
@@ -344,10 +352,14 @@ RunReport Run<Dim>::operator()() {
 
 RunReport run(const Scene& scene, const RunOptions& options, const RunCallbacks& callbacks) {
     check(scene);
-    if (scene.dimension == 3) {
-        return Run<3>(scene, options, callbacks)();
+    RunOptions chosen = options;
+    if (options.resume && options.isa.empty()) {
+        chosen.isa = isa_of_run(options.folder);
     }
-    return Run<4>(scene, options, callbacks)();
+    if (scene.dimension == 3) {
+        return Run<3>(scene, chosen, callbacks)();
+    }
+    return Run<4>(scene, chosen, callbacks)();
 }
 
 std::string_view verdict_name(RunVerdict verdict) {

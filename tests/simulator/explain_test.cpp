@@ -1,0 +1,120 @@
+#include "scenes.h"
+#include "support/messages.h"
+#include "support/temp_folder.h"
+
+#include <pent/pent_file.h>
+#include <pent/simulator/explain.h>
+
+#include <gtest/gtest.h>
+
+namespace pent::simulator {
+namespace {
+
+using pent::test::expect_contains;
+using pent::test::kuhn_box;
+using pent::test::TempFolder;
+
+// Two boxes of 2 x 1 x 1 x 1 unit cells, the second moved along x.
+Scene two_boxes(const TempFolder& folder, double distance) {
+    write_mesh(folder / "box.pent", kuhn_box<4>({2, 1, 1, 1}, {2, 1, 1, 1}));
+    Scene scene = test::box_scene<4>();
+    scene.bodies[0].mesh = (folder / "box.pent").string();
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies[1].name = "other";
+    scene.bodies[1].place.translate[0] = distance;
+    return scene;
+}
+
+const Term& term(const Explanation& explanation, const std::string& name) {
+    for (const Term& t : explanation.terms) {
+        if (t.name == name) {
+            return t;
+        }
+    }
+    ADD_FAILURE() << name;
+    return explanation.terms.front();
+}
+
+std::string advice(const Explanation& explanation) {
+    std::string all;
+    for (const std::string& line : explanation.advice) {
+        all += line + "\n";
+    }
+    return all;
+}
+
+TEST(Explain, ListsEveryTermWithWhatSwitchesIt) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    const Explanation off = explain(scene, 1);
+    for (const std::string name : {"gravity", "damping", "constraints", "contact between bodies",
+                                   "contact within bodies", "obstacles"}) {
+        EXPECT_FALSE(term(off, name).is_on) << name;
+        EXPECT_EQ(term(off, name).seconds, 0) << name;
+        EXPECT_EQ(term(off, name).bytes, 0) << name;
+    }
+    for (const std::string name : {"inertia", "elasticity of box", "elasticity of other"}) {
+        EXPECT_TRUE(term(off, name).is_on) << name;
+    }
+    EXPECT_EQ(off.unknowns, 4 * 2 * 3 * 8);  // 3 x 2 x 2 x 2 vertices each
+    scene.gravity[1] = -9.8;
+    scene.damping = Damping{.mass = 0.1};
+    scene.contact = Contact{.self = true};
+    scene.constraints = {test::hold(EverythingSelection{}, test::still(4))};
+    const Explanation on = explain(scene, 1);
+    for (const std::string name : {"gravity", "damping", "constraints", "contact between bodies",
+                                   "contact within bodies", "elasticity of other"}) {
+        EXPECT_TRUE(term(on, name).is_on) << name;
+    }
+    EXPECT_FALSE(term(on, "elasticity of box").is_on);  // all of it is held
+    EXPECT_EQ(on.unknowns, off.unknowns / 2);
+    expect_contains(explanation_text(on), {"elasticity of other", "stable-neo-hookean", "a step"});
+}
+
+TEST(Explain, SaysThatContactBetweenBodiesFarApartCouldGo) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    scene.contact = Contact{.distance = 0.1};
+    expect_contains(advice(explain(scene, 1)), {"3 m apart", "0.1 m", "[contact] could go"});
+    scene = two_boxes(folder, 2.05);
+    scene.contact = Contact{.distance = 0.1};
+    EXPECT_EQ(advice(explain(scene, 1)).find("could go"), std::string::npos);
+}
+
+TEST(Explain, SaysThatContactIsMissingWhereBodiesOverlap) {
+    const TempFolder folder;
+    expect_contains(advice(explain(two_boxes(folder, 1), 1)), {"overlap", "no [contact]"});
+    EXPECT_EQ(advice(explain(two_boxes(folder, 5), 1)).find("overlap"), std::string::npos);
+}
+
+TEST(Explain, WarnsOfLockingOfThinBodiesAndOfIdleTerms) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    scene.damping = Damping{};
+    scene.gravity[0] = 2;
+    const std::string lines = advice(explain(scene, 1));
+    expect_contains(lines, {"box is at most 1 cell thick", "lock", "[damping] is all zero",
+                            "falls, 11.1 m"});  // 2/2 (100/30)^2
+}
+
+TEST(Explain, WarnsOfTurnsTooFarForALinearStep) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    Motion turn = test::still(4);
+    turn.rotate = {{.plane = {0, 3}, .degrees_per_s = 900}};  // 30 degrees a step
+    scene.constraints = {
+        test::hold(HalfSpaceSelection{.normal = Eigen::Vector4d(1, 0, 0, 0), .offset = 0.1}, turn)};
+    expect_contains(advice(explain(scene, 1)), {"30 degrees a step", "linear_euler"});
+    scene.solver.integrator = Integrator::NewtonEuler;
+    EXPECT_EQ(advice(explain(scene, 1)).find("degrees a step"), std::string::npos);
+}
+
+TEST(CellsAcross, AreTwiceTheEdgesFromTheMiddleToTheBoundary) {
+    EXPECT_EQ(cells_across(kuhn_box<4>({3, 1, 1, 1}, {3, 1, 1, 1})), 1);
+    EXPECT_EQ(cells_across(kuhn_box<4>({3, 2, 2, 2}, {3, 1, 1, 1})), 2);
+    EXPECT_EQ(cells_across(kuhn_box<3>({4, 4, 4}, {1, 1, 1})), 4);
+    EXPECT_EQ(cells_across(kuhn_box<3>({8, 6, 6}, {1, 1, 1})), 6);
+}
+
+}  // namespace
+}  // namespace pent::simulator
