@@ -1,0 +1,177 @@
+#include "axes.h"
+
+#include <pent/error.h>
+#include <pent/nearest_name.h>
+#include <pent/simulator/scene_file.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+namespace pent::study {
+
+namespace {
+
+constexpr std::string_view kHeads[] = {"[solver]", "[contact]"};
+
+// The keys that a section of a scene text has, in its order; empty if there is no such section.
+std::vector<std::string> keys_of(const std::string& scene, std::string_view head) {
+    std::vector<std::string> keys;
+    std::istringstream lines(scene);
+    std::string line;
+    bool is_inside = false;
+    while (std::getline(lines, line)) {
+        if (!line.empty() && line[0] == '[') {
+            is_inside = line == head;
+        } else if (is_inside && line.find(" = ") != std::string::npos) {
+            keys.push_back(line.substr(0, line.find(" = ")));
+        }
+    }
+    return keys;
+}
+
+// The text of a scene with another value for a key of a section, which is there.
+std::string replaced(const std::string& scene,
+                     std::string_view head,
+                     const std::string& key,
+                     const std::string& value) {
+    std::string text;
+    std::istringstream lines(scene);
+    std::string line;
+    bool is_inside = false;
+    while (std::getline(lines, line)) {
+        if (!line.empty() && line[0] == '[') {
+            is_inside = line == head;
+        }
+        const std::string start = key + " = ";
+        if (is_inside && line.rfind(start, 0) == 0) {
+            const bool is_text = line.size() > start.size() && line[start.size()] == '"';
+            line = start + (is_text ? '"' + value + '"' : value);
+        }
+        text += line + "\n";
+    }
+    return text;
+}
+
+simulator::Scene with_dt(simulator::Scene scene, const std::string& value) {
+    const double steps = 1 / (scene.frames_per_second * parse_seconds(value));
+    const double whole = std::max(1.0, std::round(steps));
+    if (std::abs(steps - whole) > 1e-6 * whole || whole > 1e6) {
+        std::ostringstream nearest;
+        nearest << "1/" << scene.frames_per_second * whole;
+        throw Error("dt=" + value + ": does not divide the time between two frames (1/"
+                    + std::to_string(scene.frames_per_second)
+                    + " s) into whole steps; the nearest that does is " + nearest.str());
+    }
+    scene.steps_per_frame = static_cast<int>(whole);
+    return scene;
+}
+
+}  // namespace
+
+std::string settings_text(const Settings& settings) {
+    std::string text;
+    for (const Setting& setting : settings) {
+        text += (text.empty() ? "" : " ") + setting.axis + "=" + setting.value;
+    }
+    return text.empty() ? "as it is" : text;
+}
+
+std::string file_name(const Settings& settings) {
+    std::string name;
+    for (const Setting& setting : settings) {
+        name += (name.empty() ? "" : ".") + setting.axis + "-" + setting.value;
+    }
+    for (char& c : name) {
+        const bool is_safe =
+            std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
+        c = is_safe ? c : '_';
+    }
+    return name.empty() ? "scene" : name;
+}
+
+Axis parse_axis(const std::string& text) {
+    const auto equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
+        throw Error("--vary " + text + ": expected a name and values, as in dt=1/30,1/60");
+    }
+    Axis axis{.name = text.substr(0, equals)};
+    std::istringstream values(text.substr(equals + 1));
+    std::string value;
+    while (std::getline(values, value, ',')) {
+        if (value.empty()) {
+            throw Error("--vary " + text + ": one of the values is empty");
+        }
+        if (std::find(axis.values.begin(), axis.values.end(), value) != axis.values.end()) {
+            throw Error("--vary " + text + ": " + value + " is there twice");
+        }
+        axis.values.push_back(value);
+    }
+    return axis;
+}
+
+std::vector<Settings> combinations(const std::vector<Axis>& axes) {
+    std::vector<Settings> all = {{}};
+    for (const Axis& axis : axes) {
+        std::vector<Settings> longer;
+        for (const Settings& settings : all) {
+            for (const std::string& value : axis.values) {
+                longer.push_back(settings);
+                longer.back().push_back({axis.name, value});
+            }
+        }
+        all = std::move(longer);
+    }
+    return all;
+}
+
+bool is_mesh_axis(const std::string& name) {
+    return name == "layers" || name == "subdivide";
+}
+
+double parse_seconds(const std::string& text) {
+    char* end = nullptr;
+    double seconds = std::strtod(text.c_str(), &end);
+    if (*end == '/') {
+        const char* divisor = end + 1;
+        seconds /= std::strtod(divisor, &end);
+        end = end == divisor ? const_cast<char*>(divisor - 1) : end;
+    }
+    if (end == text.c_str() || *end != '\0' || !(seconds > 0) || !std::isfinite(seconds)) {
+        throw Error("dt=" + text + ": is not a time; expected seconds, as in 1/60 or 0.01");
+    }
+    return seconds;
+}
+
+simulator::Scene with_setting(const simulator::Scene& scene, const Setting& setting) {
+    if (is_mesh_axis(setting.axis)) {
+        return scene;
+    }
+    if (setting.axis == "dt") {
+        return with_dt(scene, setting.value);
+    }
+    const std::string text = simulator::scene_text(scene);
+    const bool is_contact = setting.axis == "contact";
+    const std::string_view head = kHeads[is_contact ? 1 : 0];
+    const std::string key = is_contact ? "model" : setting.axis;
+    std::vector<std::string> keys = keys_of(text, head);
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+        if (is_contact) {
+            throw Error("--vary contact: the scene has no [contact]");
+        }
+        keys.insert(keys.end(), {"dt", "contact", "layers", "subdivide"});
+        const std::string nearest = nearest_name(setting.axis, keys);
+        std::string known;
+        for (const std::string& name : keys) {
+            known += (known.empty() ? "" : ", ") + name;
+        }
+        throw Error("--vary " + setting.axis + ": is not known"
+                    + (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " There are "
+                    + known);
+    }
+    return simulator::parse_scene(replaced(text, head, key, setting.value),
+                                  "--vary " + setting.axis + "=" + setting.value, "");
+}
+
+}  // namespace pent::study

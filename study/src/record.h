@@ -1,0 +1,37 @@
+#pragma once
+
+#include <pent/study/study.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pent::study {
+
+/// What is kept of one combination between two calls of a study: OUT/runs/NAME.json.
+struct Record {
+    std::string scene = {};      ///< Text of the scene that was run.
+    std::string reference = {};  ///< Text of the reference's scene it was compared with.
+    std::uint32_t meshes = 0;    ///< Checksum of the checksums of the mesh files.
+    std::string verdict = {};
+    std::string message = {};
+    std::vector<double> wall_seconds = {};  ///< One a repetition.
+    std::vector<double> cpu_seconds = {};
+    std::vector<double> peak_bytes = {};
+    Errors errors = {};
+};
+
+/// The medians of a record.
+[[nodiscard]] Cost cost_of(const Record& record, int frames);
+
+void write_record(const std::filesystem::path& path, const Record& record);
+
+/// Nothing if there is no such file. Throws an Error if it is something else.
+[[nodiscard]] std::optional<Record> read_record(const std::filesystem::path& path);
+
+/// Text of study.json and study.csv.
+[[nodiscard]] std::string study_json(const StudyReport& report, const std::string& created_by);
+[[nodiscard]] std::string study_csv(const StudyReport& report);
+
+}  // namespace pent::study

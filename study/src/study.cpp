@@ -1,0 +1,390 @@
+#include "axes.h"
+#include "child_process.h"
+#include "compare.h"
+#include "drawing.h"
+#include "frontier.h"
+#include "meshes.h"
+#include "plot.h"
+#include "record.h"
+#include "trajectory.h"
+
+#include <pent/error.h>
+#include <pent/output_file.h>
+#include <pent/simulator/scene_file.h>
+#include <pent/study/study.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+
+namespace pent::study {
+
+namespace {
+
+namespace fs = std::filesystem;
+using simulator::Scene;
+
+/// Thrown to leave a study that was asked to stop.
+struct Stopped {};
+
+std::string read_text(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+Scene shortened(Scene scene, int frames) {
+    if (frames > 0) {
+        scene.frames = std::min(scene.frames, frames);
+    }
+    return scene;
+}
+
+Scene with_settings(Scene scene, const Settings& settings) {
+    for (const Setting& setting : settings) {
+        scene = with_setting(scene, setting);
+    }
+    return scene;
+}
+
+// The settings of the mesh with the largest numbers, which the reference has.
+Settings finest_mesh(const std::vector<Axis>& axes) {
+    Settings settings;
+    for (const Axis& axis : axes) {
+        if (is_mesh_axis(axis.name)) {
+            const auto number = [](const std::string& a, const std::string& b) {
+                return std::atof(a.c_str()) < std::atof(b.c_str());
+            };
+            settings.push_back({axis.name, *std::ranges::max_element(axis.values, number)});
+        }
+    }
+    return settings;
+}
+
+// As accurate as the program can be at a given dt.
+simulator::SolverOptions reference_solver(const simulator::SolverOptions& solver) {
+    simulator::SolverOptions exact = solver;
+    if (exact.integrator != simulator::Integrator::Quasistatic) {
+        exact.integrator = simulator::Integrator::Bdf2;
+    }
+    exact.precision = simulator::Precision::Double;
+    exact.tolerance = 1e-8;
+    exact.newton_tolerance = 1e-7;
+    exact.max_iterations = std::max(exact.max_iterations, 20'000);
+    return exact;
+}
+
+class Study {
+public:
+    Study(const StudyOptions& options, const StudyCallbacks& callbacks)
+        : options_(options),
+          callbacks_(callbacks),
+          scene_(shortened(simulator::read_scene(options.scene), options.frames)) {
+        for (const std::string& text : options.vary) {
+            axes_.push_back(parse_axis(text));
+            const bool is_twice =
+                std::ranges::count(axes_, axes_.back().name, [](const Axis& a) { return a.name; })
+                > 1;
+            if (is_twice) {
+                throw Error("--vary " + text + ": " + axes_.back().name + " is varied twice");
+            }
+        }
+        combinations_ = combinations(axes_);
+        for (const Settings& settings : combinations_) {
+            static_cast<void>(with_settings(scene_, settings));  // all mistakes before any work
+        }
+        report_.scene = options.scene.filename().string();
+        report_.frames = scene_.frames;
+        report_.scene_frames = simulator::read_scene(options.scene).frames;
+        report_.threads = options.threads;
+    }
+
+    StudyReport operator()();
+
+private:
+    void open_folder();
+    void run_reference();
+    void run_level(const Scene& scene, const fs::path& folder);
+    void run_combinations();
+    void run_once(std::size_t combination);
+    void measure(std::size_t combination, Record& record);
+    void tell(const std::string& next);
+    [[nodiscard]] bool is_stopping() const {
+        return callbacks_.should_stop && callbacks_.should_stop();
+    }
+    ChildOutcome simulate(const Scene& scene, const fs::path& folder, bool resume);
+    [[nodiscard]] const Interpolation& where_in_reference(std::uint32_t meshes,
+                                                          const Trajectory& run);
+    void write_files();
+
+    const StudyOptions& options_;
+    const StudyCallbacks& callbacks_;
+    Scene scene_;
+    std::vector<Axis> axes_;
+    std::vector<Settings> combinations_;
+    std::vector<Scene> scenes_;  // one a combination, with their meshes
+    std::vector<Record> records_;
+    std::unique_ptr<Trajectory> reference_;
+    std::string reference_text_;
+    std::uint32_t reference_meshes_ = 0;
+    Window window_;
+    std::map<std::uint32_t, Interpolation> where_;  // by mesh_checksum()
+    int runs_done_ = 0;
+    StudyReport report_;
+};
+
+void Study::tell(const std::string& next) {
+    if (is_stopping()) {
+        throw Stopped{};
+    }
+    if (callbacks_.on_run) {
+        const int total = options_.reference_halvings + 1
+                          + options_.repeats * static_cast<int>(combinations_.size());
+        callbacks_.on_run(runs_done_, total, next);
+    }
+    ++runs_done_;
+}
+
+// The folder is of this scene, or new.
+void Study::open_folder() {
+    make_folder(options_.folder);
+    const fs::path path = options_.folder / "scene.toml";
+    const std::string text = simulator::scene_text(scene_);
+    if (options_.force) {
+        for (const char* part : {"runs", "references", "meshes"}) {
+            fs::remove_all(options_.folder / part);
+        }
+    } else if (fs::exists(path) && read_text(path) != text) {
+        throw Error(options_.folder.string()
+                    + ": holds the study of another scene; use another folder or --force");
+    }
+    write_text(path, text);
+    for (const char* part : {"runs", "references"}) {
+        make_folder(options_.folder / part);
+    }
+}
+
+ChildOutcome Study::simulate(const Scene& scene, const fs::path& folder, bool resume) {
+    const fs::path scene_path = folder.string() + ".toml";
+    write_text(scene_path, simulator::scene_text(scene));
+    return run_child(options_.programs / "pent-sim",
+                     {scene_path.string(), "-o", folder.string(), "--quiet", "--threads",
+                      std::to_string(options_.threads), resume ? "--resume" : "--force"},
+                     {}, callbacks_.should_stop);
+}
+
+// Runs a level of the reference unless it is there; goes on where an earlier call was interrupted.
+void Study::run_level(const Scene& scene, const fs::path& folder) {
+    tell("reference, dt = " + short_number(scene.dt()) + " s");
+    const fs::path scene_path = folder.string() + ".toml";
+    const bool is_same = read_text(scene_path) == simulator::scene_text(scene);
+    const std::optional<RunVerdict> before = verdict_of(folder);
+    if (is_same && before && before->verdict == "finished") {
+        return;
+    }
+    const ChildOutcome outcome = simulate(scene, folder, is_same && before.has_value());
+    if (is_stopping()) {
+        throw Stopped{};
+    }
+    const std::optional<RunVerdict> verdict = verdict_of(folder);
+    if (outcome.exit_code != 0 || !verdict || verdict->verdict != "finished") {
+        throw Error("the reference (bdf2, dt = " + short_number(scene.dt())
+                    + " s) does not run to its end: " + outcome.error);
+    }
+    // Of a level that was interrupted only the last part: the reference is then said to be cheaper.
+    Record record;
+    record.verdict = "finished";
+    record.wall_seconds = {outcome.wall_seconds};
+    record.cpu_seconds = {outcome.cpu_seconds};
+    record.peak_bytes = {outcome.peak_bytes};
+    write_record(folder.string() + ".json", record);
+}
+
+void Study::run_reference() {
+    Scene base = with_meshes(scene_, finest_mesh(axes_), options_, callbacks_.should_stop);
+    base.solver = reference_solver(base.solver);
+    for (const Settings& settings : combinations_) {
+        base.steps_per_frame =
+            std::max(base.steps_per_frame, with_settings(scene_, settings).steps_per_frame);
+    }
+    std::vector<std::unique_ptr<Trajectory>> levels;
+    fs::path folder;
+    for (int level = 0; level <= options_.reference_halvings; ++level) {
+        Scene scene = base;
+        scene.steps_per_frame = base.steps_per_frame << level;
+        folder =
+            options_.folder / "references" / ("steps-" + std::to_string(scene.steps_per_frame));
+        run_level(scene, folder);
+        levels.push_back(std::make_unique<Trajectory>(scene, folder));
+        report_.reference.dt.push_back(scene.dt());
+        reference_text_ = simulator::scene_text(scene);
+    }
+    reference_meshes_ = mesh_checksum(base);
+    ReferenceReport& report = report_.reference;
+    window_ = window_of(*levels.back(), scene_.frames_per_second);
+    for (std::size_t level = 0; level + 1 < levels.size(); ++level) {
+        report.difference.push_back(
+            compare(*levels[level], *levels[level + 1], {}, window_, scene_.frames_per_second)
+                .position);
+    }
+    const std::size_t last = report.difference.size() - 1;
+    const Convergence convergence =
+        convergence_of(report.difference[last - 1], report.difference[last]);
+    report.order = convergence.order;
+    report.error_bar = convergence.error_bar;
+    report.is_converged = convergence.is_converged;
+    report.window = window_.end;
+    report.has_contact = window_.has_contact;
+    const std::optional<Record> record = read_record(folder.string() + ".json");
+    report.cost = record ? cost_of(*record, scene_.frames) : Cost{};
+    report_.vertices = levels.back()->rest().cols();
+    report_.cells = levels.back()->cell_count();
+    reference_ = std::move(levels.back());
+}
+
+const Interpolation& Study::where_in_reference(std::uint32_t meshes, const Trajectory& run) {
+    // A body's layers may reach a hair beyond those of a coarser one; a cell's height is another mesh.
+    constexpr double kMostOutside = 0.5;
+    if (const auto known = where_.find(meshes); known != where_.end()) {
+        return known->second;
+    }
+    Interpolation where;
+    if (meshes != reference_meshes_) {
+        where = locate(run.rest(), reference_->rest(), reference_->cells());
+        if (where.farthest > kMostOutside) {
+            throw Error(
+                "the meshes of the study are of different shapes; expected layers or"
+                " subdivisions of one body");
+        }
+    }
+    return where_.emplace(meshes, std::move(where)).first->second;
+}
+
+// Compares a run that has just finished with the reference.
+void Study::measure(std::size_t combination, Record& record) {
+    const fs::path folder = options_.folder / "runs" / file_name(combinations_[combination]);
+    const Trajectory run(scenes_[combination], folder);
+    record.errors = compare(run, *reference_, where_in_reference(record.meshes, run), window_,
+                            scene_.frames_per_second);
+    record.reference = reference_text_;
+    if (!options_.keep_runs) {
+        fs::remove_all(folder);
+    }
+}
+
+void Study::run_once(std::size_t combination) {
+    const Settings& settings = combinations_[combination];
+    Record& record = records_[combination];
+    const fs::path folder = options_.folder / "runs" / file_name(settings);
+    const ChildOutcome outcome = simulate(scenes_[combination], folder, false);
+    if (is_stopping()) {
+        throw Stopped{};
+    }
+    const bool is_first = record.wall_seconds.empty();
+    record.wall_seconds.push_back(outcome.wall_seconds);
+    record.cpu_seconds.push_back(outcome.cpu_seconds);
+    record.peak_bytes.push_back(outcome.peak_bytes);
+    if (outcome.exit_code == 0) {
+        record.verdict = "finished";
+        if (is_first) {
+            measure(combination, record);
+        } else if (!options_.keep_runs) {
+            fs::remove_all(folder);
+        }
+    } else {
+        record.verdict = outcome.exit_code == 3 ? "diverged" : "refused";
+        record.message = outcome.exit_code < 0 ? "ended by a signal" : outcome.error;
+        fs::remove_all(folder);
+    }
+    write_record(folder.string() + ".json", record);
+}
+
+// Repetitions alternate between the combinations, so that a slow minute of the machine does not fall on
+// one of them alone.
+void Study::run_combinations() {
+    for (const Settings& settings : combinations_) {
+        scenes_.push_back(with_settings(
+            with_meshes(scene_, settings, options_, callbacks_.should_stop), settings));
+        Record fresh;
+        fresh.scene = simulator::scene_text(scenes_.back());
+        fresh.meshes = mesh_checksum(scenes_.back());
+        const std::optional<Record> before =
+            read_record(options_.folder / "runs" / (file_name(settings) + ".json"));
+        const bool is_valid =
+            before && before->scene == fresh.scene && before->meshes == fresh.meshes
+            && (before->verdict != "finished" || before->reference == reference_text_);
+        records_.push_back(is_valid ? *before : fresh);
+    }
+    for (int repeat = 0; repeat < options_.repeats; ++repeat) {
+        for (std::size_t i = 0; i < combinations_.size(); ++i) {
+            tell(settings_text(combinations_[i]));
+            const Record& record = records_[i];
+            const bool has_failed = !record.verdict.empty() && record.verdict != "finished";
+            if (!has_failed && static_cast<int>(record.wall_seconds.size()) <= repeat) {
+                run_once(i);
+            }
+        }
+    }
+}
+
+void Study::write_files() {
+    const fs::path& folder = options_.folder;
+    write_text(folder / "study.json", study_json(report_, options_.created_by));
+    write_text(folder / "study.csv", study_csv(report_));
+    const Drawing plot = frontier_plot(report_);
+    write_text(folder / "frontier.svg", svg(plot));
+    viewer::write_png(folder / "frontier.png", raster(plot));
+}
+
+StudyReport Study::operator()() {
+    open_folder();
+    try {
+        run_reference();
+        run_combinations();
+    } catch (const Stopped&) {
+        report_.is_stopped = true;
+        return std::move(report_);
+    }
+    for (std::size_t i = 0; i < combinations_.size(); ++i) {
+        report_.results.push_back({.settings = combinations_[i],
+                                   .verdict = records_[i].verdict,
+                                   .message = records_[i].message,
+                                   .cost = cost_of(records_[i], scene_.frames),
+                                   .errors = records_[i].errors});
+    }
+    report_.frontier = frontier_of(report_.results, report_.reference.error_bar);
+    report_.sentences = sentences_of(report_);
+    write_files();
+    return std::move(report_);
+}
+
+void check(const StudyOptions& options) {
+    if (options.repeats < 1 || options.reference_halvings < 2 || options.reference_halvings > 8
+        || options.frames < 0 || options.threads < 1) {
+        throw Error(
+            "a study needs at least 1 repetition, 2 to 8 halvings of the reference, and"
+            " at least 1 thread");
+    }
+}
+
+}  // namespace
+
+StudyReport run_study(const StudyOptions& options, const StudyCallbacks& callbacks) {
+    check(options);
+    return Study(options, callbacks)();
+}
+
+std::string scene_with(const StudyOptions& options, const Result& result, const fs::path& where) {
+    // Of a mesh that was made for the study the text names the file in its folder.
+    const Scene scene = with_settings(
+        with_meshes(simulator::read_scene(options.scene), result.settings, options, {}),
+        result.settings);
+    Scene moved = scene;
+    for (simulator::Body& body : moved.bodies) {
+        body.mesh = fs::proximate(body.mesh, fs::absolute(where)).string();
+    }
+    return simulator::scene_text(moved);
+}
+
+}  // namespace pent::study

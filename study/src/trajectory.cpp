@@ -1,0 +1,164 @@
+#include "trajectory.h"
+
+#include <pent/error.h>
+#include <pent/pent_file.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace pent::study {
+
+namespace {
+
+using Json = nlohmann::json;
+
+Json read_report(const std::filesystem::path& folder) {
+    const std::filesystem::path path = folder / "report.json";
+    std::ifstream file(path);
+    try {
+        return Json::parse(file);
+    } catch (const Json::exception& error) {
+        throw Error(path.string() + ": not the report of a run (" + error.what() + ")");
+    }
+}
+
+StepRecord read_step(const Json& json) {
+    StepRecord step;
+    step.time = json.at("time");
+    step.internal = json.at("kinetic").get<double>() + json.at("elastic").get<double>();
+    step.contact_energy =
+        json.at("obstacle").get<double>() + json.at("contact_energy").get<double>();
+    step.total = step.internal + json.at("gravity").get<double>() + step.contact_energy;
+    const Json& contact = json.at("contact");
+    step.has_contact = contact.at("point_facet").get<std::int64_t>()
+                           + contact.at("mixed").get<std::int64_t>()
+                           + contact.at("obstacle").get<std::int64_t>()
+                       > 0;
+    step.penetration = contact.at("deepest");
+    step.iterations = json.at("iterations");
+    step.newton_iterations = json.at("newton_iterations");
+    step.refused = json.at("refused");
+    return step;
+}
+
+template <int Dim>
+double cell_measure(const Eigen::MatrixXd& positions,
+                    const Eigen::Matrix<std::uint32_t, -1, -1>& cells,
+                    Eigen::Index cell) {
+    Eigen::Matrix<double, Dim, Dim + 1> corners;
+    for (int corner = 0; corner <= Dim; ++corner) {
+        corners.col(corner) = positions.col(cells(corner, cell));
+    }
+    return simplex_volume<Dim>(corners);
+}
+
+double cell_measure(int dimension,
+                    const Eigen::MatrixXd& positions,
+                    const Eigen::Matrix<std::uint32_t, -1, -1>& cells,
+                    Eigen::Index cell) {
+    return dimension == 3 ? cell_measure<3>(positions, cells, cell)
+                          : cell_measure<4>(positions, cells, cell);
+}
+
+}  // namespace
+
+std::optional<RunVerdict> verdict_of(const std::filesystem::path& folder) {
+    if (!std::filesystem::exists(folder / "report.json")) {
+        return std::nullopt;
+    }
+    const Json report = read_report(folder);
+    return RunVerdict{report.value("verdict", ""), report.value("message", "")};
+}
+
+Trajectory::Trajectory(const simulator::Scene& scene, std::filesystem::path folder)
+    : folder_(std::move(folder)), dimension_(scene.dimension), frames_(scene.frames) {
+    for (const simulator::Body& body : scene.bodies) {
+        bodies_.push_back(body.name);
+    }
+    if (dimension_ == 3) {
+        read_meshes<3>(scene);
+    } else {
+        read_meshes<4>(scene);
+    }
+    const Json report = read_report(folder_);
+    try {
+        for (const Json& step : report.at("steps")) {
+            steps_.push_back(read_step(step));
+        }
+    } catch (const Json::exception& error) {
+        throw Error((folder_ / "report.json").string() + ": not the report of a run ("
+                    + error.what() + ")");
+    }
+}
+
+template <int Dim>
+void Trajectory::read_meshes(const simulator::Scene& scene) {
+    std::vector<SimplexMesh<Dim>> meshes;
+    Eigen::Index cells = 0;
+    for (const std::string& body : bodies_) {
+        meshes.push_back(read_mesh<Dim>(folder_ / "meshes" / (body + ".pent")).mesh);
+        first_vertex_.push_back(first_vertex_.back() + meshes.back().vertex_count());
+        cells += meshes.back().cell_count();
+    }
+    rest_.resize(Dim, first_vertex_.back());
+    masses_.setZero(first_vertex_.back());
+    cells_.resize(Dim + 1, cells);
+    volumes_.resize(cells);
+    Eigen::Index cell = 0;
+    for (std::size_t body = 0; body < meshes.size(); ++body) {
+        const SimplexMesh<Dim>& mesh = meshes[body];
+        rest_.middleCols(first_vertex_[body], mesh.vertex_count()) = mesh.positions;
+        const double share = scene.bodies[body].material.density / (Dim + 1);
+        for (Eigen::Index c = 0; c < mesh.cell_count(); ++c, ++cell) {
+            volumes_[cell] = cell_volume<Dim>(mesh.positions, mesh.cells, c);
+            for (int corner = 0; corner <= Dim; ++corner) {
+                const Eigen::Index vertex = first_vertex_[body] + mesh.cells(corner, c);
+                cells_(corner, cell) = static_cast<std::uint32_t>(vertex);
+                masses_[vertex] += share * volumes_[cell];
+            }
+        }
+    }
+}
+
+template <int Dim>
+void Trajectory::read_moment(int frame, Moment& moment) const {
+    char number[16];
+    std::snprintf(number, sizeof number, "_%06d.pent", frame);
+    for (std::size_t body = 0; body < bodies_.size(); ++body) {
+        const std::filesystem::path path = folder_ / "frames" / (bodies_[body] + number);
+        const Frame<Dim> file = read_frame<Dim>(path);
+        const Eigen::Index first = first_vertex_[body];
+        const Eigen::Index count = first_vertex_[body + 1] - first;
+        if (file.positions.cols() != count || file.velocities.cols() != count) {
+            throw Error(path.string() + ": has " + std::to_string(file.positions.cols())
+                        + " vertices; expected " + std::to_string(count) + " with velocities");
+        }
+        moment.positions.middleCols(first, count) = file.positions;
+        moment.velocities.middleCols(first, count) = file.velocities;
+    }
+}
+
+Moment Trajectory::moment(int frame) const {
+    Moment moment;
+    moment.positions.resize(dimension_, rest_.cols());
+    moment.velocities.resize(dimension_, rest_.cols());
+    if (dimension_ == 3) {
+        read_moment<3>(frame, moment);
+    } else {
+        read_moment<4>(frame, moment);
+    }
+    return moment;
+}
+
+double Trajectory::smallest_J(const Eigen::MatrixXd& positions) const {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (Eigen::Index cell = 0; cell < cells_.cols(); ++cell) {
+        smallest =
+            std::min(smallest, cell_measure(dimension_, positions, cells_, cell) / volumes_[cell]);
+    }
+    return smallest;
+}
+
+}  // namespace pent::study

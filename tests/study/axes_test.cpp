@@ -1,0 +1,97 @@
+#include "axes.h"
+
+#include "scene.h"
+#include "support/messages.h"
+
+#include <pent/simulator/scene_file.h>
+
+#include <gtest/gtest.h>
+
+namespace pent::study {
+namespace {
+
+using pent::test::error_of;
+using pent::test::expect_contains;
+using pent::test::TempFolder;
+
+simulator::Scene bar_scene(const TempFolder& folder) {
+    return simulator::read_scene(test::write_bar(folder));
+}
+
+TEST(ParseAxis, TakesANameAndItsValues) {
+    const Axis axis = parse_axis("dt=1/30,0.01");
+    EXPECT_EQ(axis.name, "dt");
+    EXPECT_EQ(axis.values, (std::vector<std::string>{"1/30", "0.01"}));
+}
+
+TEST(ParseAxis, RefusesWhatIsNotOne) {
+    for (const std::string text : {"dt", "=1", "dt=", "dt=1,,2", "dt=1,2,1"}) {
+        expect_contains(error_of([&] { static_cast<void>(parse_axis(text)); }), {text});
+    }
+}
+
+TEST(Combinations, AreAllOfThemWithTheLastAxisFastest) {
+    const std::vector<Settings> all = combinations({{"a", {"1", "2"}}, {"b", {"x", "y", "z"}}});
+    ASSERT_EQ(all.size(), 6U);
+    EXPECT_EQ(settings_text(all[0]), "a=1 b=x");
+    EXPECT_EQ(settings_text(all[1]), "a=1 b=y");
+    EXPECT_EQ(settings_text(all[5]), "a=2 b=z");
+    EXPECT_EQ(combinations({}).size(), 1U);
+}
+
+TEST(FileName, HasNoSeparatorsOfFolders) {
+    EXPECT_EQ(file_name({{"dt", "1/60"}, {"filter", "none"}}), "dt-1_60.filter-none");
+}
+
+TEST(WithSetting, TakesTimeStepsAsWholePartsOfAFrame) {
+    const TempFolder folder;
+    const simulator::Scene scene = bar_scene(folder);
+    EXPECT_EQ(with_setting(scene, {"dt", "1/30"}).steps_per_frame, 1);
+    EXPECT_EQ(with_setting(scene, {"dt", "1/240"}).steps_per_frame, 8);
+    EXPECT_DOUBLE_EQ(with_setting(scene, {"dt", "1/240"}).dt(), 1.0 / 240);
+    expect_contains(error_of([&] {
+                        static_cast<void>(with_setting(scene, {"dt", "1/200"}));
+                    }),
+                    {"1/200", "1/210"});
+    for (const std::string bad : {"0", "-1", "x", "1/", "1/0", "1/30s", ""}) {
+        expect_contains(error_of([&] {
+                            static_cast<void>(with_setting(scene, {"dt", bad}));
+                        }),
+                        {"dt=" + bad});
+    }
+}
+
+TEST(WithSetting, SetsEveryKeyOfTheSolver) {
+    const TempFolder folder;
+    const simulator::Scene scene = bar_scene(folder);
+    EXPECT_EQ(with_setting(scene, {"integrator", "bdf2"}).solver.integrator,
+              simulator::Integrator::Bdf2);
+    EXPECT_EQ(with_setting(scene, {"precision", "double"}).solver.precision,
+              simulator::Precision::Double);
+    EXPECT_EQ(with_setting(scene, {"tolerance", "1e-6"}).solver.tolerance, 1e-6);
+    EXPECT_EQ(with_setting(scene, {"filter", "absolute"}).solver.filter,
+              simulator::Filter::Absolute);
+}
+
+TEST(WithSetting, LeavesEverythingElseAsItIs) {
+    const TempFolder folder;
+    const simulator::Scene scene = bar_scene(folder);
+    simulator::Scene changed = with_setting(scene, {"integrator", "bdf2"});
+    changed.solver.integrator = scene.solver.integrator;
+    EXPECT_EQ(simulator::scene_text(changed), simulator::scene_text(scene));
+}
+
+TEST(WithSetting, NamesTheNearestAxisAndRefusesBadValues) {
+    const TempFolder folder;
+    const simulator::Scene scene = bar_scene(folder);
+    const auto message = [&](const std::string& axis, const std::string& value) {
+        return error_of([&] { static_cast<void>(with_setting(scene, {axis, value})); });
+    };
+    expect_contains(message("intgrator", "bdf2"), {"intgrator", "integrator"});
+    expect_contains(message("integrator", "bdf3"), {"bdf3", "bdf2"});
+    expect_contains(message("tolerance", "2"), {"tolerance=2"});
+    expect_contains(message("contact", "penalty"), {"no [contact]"});
+}
+
+}  // namespace
+}  // namespace pent::study

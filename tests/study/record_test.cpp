@@ -1,0 +1,55 @@
+#include "record.h"
+
+#include "support/messages.h"
+#include "support/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace pent::study {
+namespace {
+
+TEST(Record, IsReadBackAsItWasWritten) {
+    const pent::test::TempFolder folder;
+    Record record{.scene = "a\n\"b\"", .reference = "r", .meshes = 7, .verdict = "finished"};
+    record.wall_seconds = {0.1, 1.0 / 3, 2};
+    record.errors.position = 0.01 / 3;
+    record.errors.angular_momentum = {1, 2, 3, 4, 5, 6};
+    record.errors.iterations = 1'000'000'000'000;
+    write_record(folder / "r.json", record);
+    const std::optional<Record> back = read_record(folder / "r.json");
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->scene, record.scene);
+    EXPECT_EQ(back->meshes, record.meshes);
+    EXPECT_EQ(back->wall_seconds, record.wall_seconds);
+    EXPECT_EQ(back->errors.position, record.errors.position);
+    EXPECT_EQ(back->errors.angular_momentum, record.errors.angular_momentum);
+    EXPECT_EQ(back->errors.iterations, record.errors.iterations);
+    EXPECT_DOUBLE_EQ(cost_of(*back, 10).seconds_per_frame, 1.0 / 30);
+}
+
+TEST(Record, IsNothingWhereThereIsNoFileAndAnErrorWhereThereIsAnother) {
+    const pent::test::TempFolder folder;
+    EXPECT_FALSE(read_record(folder / "none.json"));
+    std::ofstream(folder / "bad.json") << "{\"verdict\": 3";
+    pent::test::expect_contains(
+        pent::test::error_of([&] { static_cast<void>(read_record(folder / "bad.json")); }),
+        {"bad.json", "remove"});
+}
+
+TEST(StudyCsv, HasAsManyFieldsInEveryLineAsInItsHead) {
+    StudyReport report;
+    report.results.resize(2);
+    report.results[0].settings = {{"dt", "1/30"}, {"filter", "none"}};
+    report.results[1].settings = {{"dt", "1/60"}, {"filter", "none"}};
+    const std::string csv = study_csv(report);
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 3);
+    const std::string head = csv.substr(0, csv.find('\n'));
+    EXPECT_EQ(std::ranges::count(csv, ','), 3 * std::ranges::count(head, ','));
+    pent::test::expect_contains(csv, {"dt,filter,verdict", "1/30,none,", "1/60,none,"});
+}
+
+}  // namespace
+}  // namespace pent::study
