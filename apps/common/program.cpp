@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <tbb/global_control.h>
@@ -122,7 +123,7 @@ int Program::fail(const std::string& message) {
     return exit_code(Verdict::Refused);
 }
 
-void Program::write_report(Verdict verdict, double seconds, const std::string& error) {
+void Program::write_report(Verdict verdict, const std::string& error) {
     if (common_.json.empty()) {
         return;
     }
@@ -130,13 +131,24 @@ void Program::write_report(Verdict verdict, double seconds, const std::string& e
     json["program"] = name_;
     json["version"] = PENT_VERSION;
     json["verdict"] = verdict_name(verdict);
-    json["seconds"] = seconds;
+    json["seconds"] =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     json["threads"] = common_.threads;
     if (!error.empty()) {
         json["error"] = error;
     }
     json.update(report_);
     write_text(common_.json, json.dump(2) + "\n");
+}
+
+void Program::abandon(Verdict verdict, const std::string& error) {
+    fail(error);
+    try {
+        write_report(verdict, one_line(error));
+    } catch (const Error& report_error) {
+        fail(report_error.what());
+    }
+    std::_Exit(exit_code(verdict));
 }
 
 int Program::run(int argc, const char* const* argv, const std::function<Verdict()>& body) {
@@ -154,7 +166,7 @@ int Program::run(int argc, const char* const* argv, const std::function<Verdict(
     std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size then is an error of write()
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(common_.threads));
-    const auto start = std::chrono::steady_clock::now();
+    start_ = std::chrono::steady_clock::now();
     Verdict verdict = Verdict::Refused;
     std::string error;
     try {
@@ -164,9 +176,8 @@ int Program::run(int argc, const char* const* argv, const std::function<Verdict(
     } catch (const std::exception& exception) {
         error = one_line(exception.what());
     }
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     try {
-        write_report(verdict, seconds.count(), error);
+        write_report(verdict, error);
     } catch (const Error& report_error) {
         if (error.empty()) {
             return fail(report_error.what());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -47,13 +48,19 @@ public:
     /// exit code 1. SIGINT and SIGTERM set stop_requested() once; a second one ends the program.
     [[nodiscard]] int run(int argc, const char* const* argv, const std::function<Verdict()>& body);
 
+    /// Ends the program at once with the line on stderr, the report and the exit code that run()
+    /// would give for it. For another thread, while the body is stuck in a library: nothing else may
+    /// use the program meanwhile.
+    [[noreturn]] void abandon(Verdict verdict, const std::string& error);
+
 private:
     int fail(const std::string& message);
-    void write_report(Verdict verdict, double seconds, const std::string& error);
+    void write_report(Verdict verdict, const std::string& error);
 
     std::string name_;
     CLI::App cli_;
     CommonOptions common_;
+    std::chrono::steady_clock::time_point start_;
     nlohmann::ordered_json report_ = nlohmann::ordered_json::object();
 };
 

@@ -2,6 +2,8 @@
 
 #include "mesh_options.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pent::apps {
@@ -196,6 +198,10 @@ void add_options(CLI::App& cli, MeshArguments& arguments) {
     cli.add_option("--time-limit", arguments.time_limit, "Give up after this long (s)")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
+    cli.add_option("--step-limit", arguments.step_limit,
+                   "End a step of mending or filling after this long (s), and try the next way")
+        ->check(CLI::Range(1.0, 1e9))
+        ->capture_default_str();
     cli.add_option("--memory-limit", arguments.memory_limit,
                    "Use no more memory than this (MiB); default: the machine's")
         ->check(CLI::PositiveNumber);
@@ -217,6 +223,11 @@ void complete(const CLI::App& cli, MeshArguments& arguments) {
     }
     request.extrusion.anchor = arguments.one_sided ? mesher::Anchor::Start : mesher::Anchor::Middle;
     request.extrusion.alternate = !arguments.lean;
+    mesher::StepLimits limits{.seconds = arguments.step_limit};
+    if (arguments.memory_limit > 0) {
+        limits.memory_mib = std::max<std::int64_t>(1, std::llround(arguments.memory_limit));
+    }
+    request.limit_steps(limits);
 }
 
 }  // namespace pent::apps

@@ -16,7 +16,8 @@ struct MeshArguments {
     bool ascii = false;
     bool show_quality = false;
     std::filesystem::path histogram;  ///< An SVG file; empty for none.
-    double time_limit = 900;          ///< s.
+    double time_limit = 900;          ///< s, for all.
+    double step_limit = 300;          ///< s, for each step that may run away.
     double memory_limit = 0;          ///< MiB; 0: the machine's.
 
     std::filesystem::path input;

@@ -7,11 +7,13 @@
 #include "mesh_text.h"
 #include "watchdog.h"
 
+#include <pent/error.h>
 #include <pent/mesher/make_body.h>
 #include <pent/output_file.h>
 #include <pent/pent_file.h>
 
 #include <cmath>
+#include <new>
 
 namespace {
 
@@ -120,8 +122,8 @@ nlohmann::ordered_json to_json(const BodyReport& report, std::int64_t vertices) 
 }
 
 template <int Dim>
-pent::mesher::Body<Dim> make(const MeshArguments& arguments) {
-    const pent::apps::Watchdog watchdog(arguments.time_limit);
+pent::mesher::Body<Dim> make(Program& program, const MeshArguments& arguments) {
+    const pent::apps::Watchdog watchdog(program, arguments.time_limit);
     if constexpr (Dim == 4) {
         return pent::mesher::make_body(arguments.request);
     } else {
@@ -131,7 +133,7 @@ pent::mesher::Body<Dim> make(const MeshArguments& arguments) {
 
 template <int Dim>
 void make_and_write(Program& program, const MeshArguments& arguments) {
-    const pent::mesher::Body<Dim> body = make<Dim>(arguments);
+    const pent::mesher::Body<Dim> body = make<Dim>(program, arguments);
     const auto encoding = arguments.ascii ? pent::Encoding::Ascii : pent::Encoding::Binary;
     pent::write_mesh(arguments.output, body.mesh,
                      {.encoding = encoding, .created_by = program.name_and_version()});
@@ -164,8 +166,13 @@ int main(int argc, char** argv) {
     return program.run(argc, argv, [&] {
         pent::apps::complete(program.options(), arguments);
         pent::apps::limit_memory(arguments.memory_limit);
-        arguments.dim == 4 ? make_and_write<4>(program, arguments)
-                           : make_and_write<3>(program, arguments);
+        try {
+            arguments.dim == 4 ? make_and_write<4>(program, arguments)
+                               : make_and_write<3>(program, arguments);
+        } catch (const std::bad_alloc&) {
+            throw pent::Error(
+                "out of memory; ask for fewer cells or a coarser surface, or raise --memory-limit");
+        }
         return pent::apps::Verdict::Finished;
     });
 }

@@ -2,16 +2,16 @@
 
 #include "watchdog.h"
 
-#include "common/program.h"
+#include "mesh_text.h"
 
 #include <chrono>
-#include <cstdio>
 #include <sys/resource.h>
 #include <unistd.h>
 
 namespace pent::apps {
 
-Watchdog::Watchdog(double seconds) : thread_([this, seconds] { watch(seconds); }) {}
+Watchdog::Watchdog(Program& program, double seconds)
+    : program_(program), thread_([this, seconds] { watch(seconds); }) {}
 
 Watchdog::~Watchdog() {
     {
@@ -28,15 +28,13 @@ void Watchdog::watch(double seconds) {
     while (!released_.wait_for(lock, std::chrono::milliseconds(100),
                                [this] { return is_released_; })) {
         if (stop_requested()) {
-            std::fprintf(stderr, "pent-mesh: stopped as asked; nothing was written\n");
-            ::_exit(3);
+            program_.abandon(Verdict::Stopped, "stopped as asked; no mesh was written");
         }
         if (std::chrono::steady_clock::now() > end) {
-            std::fprintf(stderr,
-                         "pent-mesh: not done after %g s; ask for fewer cells or a coarser "
-                         "surface, or raise --time-limit\n",
-                         seconds);
-            ::_exit(1);
+            program_.abandon(Verdict::Refused,
+                             text("not done after %g s; ask for fewer cells or a coarser surface, "
+                                  "or raise --time-limit",
+                                  seconds));
         }
     }
 }

@@ -1,19 +1,21 @@
 #pragma once
 
+#include "common/program.h"
+
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 
 namespace pent::apps {
 
-/// Ends the program when it takes too long or is asked to stop, while a library is at work that
-/// cannot be interrupted. Says so in one line on stderr; exits with 1, or 3 when asked to stop.
+/// Ends the program when it takes too long or is asked to stop, while work is done that cannot be
+/// interrupted: by Program::abandon(), as refused or as stopped.
 ///
-/// Let it live only while nothing is written: the process ends at once.
+/// Let it live only while nothing is written, and the program is not used: the process ends at once.
 class Watchdog {
 public:
     /// @param seconds  Limit, above 0.
-    explicit Watchdog(double seconds);
+    Watchdog(Program& program, double seconds);
     ~Watchdog();
     Watchdog(const Watchdog&) = delete;
     Watchdog& operator=(const Watchdog&) = delete;
@@ -23,6 +25,7 @@ public:
 private:
     void watch(double seconds);
 
+    Program& program_;
     std::mutex mutex_;
     std::condition_variable released_;
     bool is_released_ = false;

@@ -67,9 +67,16 @@ Repaired mend(const Surface& surface, const BodyRequest& request, Repair level) 
     }
 }
 
+void add_failure(BodyReport& report, const std::string& failure) {
+    if (!failure.empty()) {
+        report.failures += (report.failures.empty() ? "" : "; ") + failure;
+    }
+}
+
 Surface oriented_surface(const Repaired& mended, BodyReport& report) {
     report.repair = mended.used;
     report.repair_distance = mended.distance;
+    add_failure(report, mended.failures);
     report.surface_read = mended.before;
     Oriented oriented = orient(mended.surface);
     report.flipped_triangles = oriented.flipped_triangles;
@@ -220,9 +227,9 @@ Tetrahedra fill_at(const Surface& surface,
     TetrahedraOptions options = request.tetrahedra;
     filled = surface;
     if (request.surface_triangles > 0) {
-        filled = resample(surface, request.surface_triangles);
+        filled = resample(surface, request.surface_triangles, options.limits);
     } else if (edge_length > 0) {
-        filled = resample(surface, triangles_for(area(surface), edge_length));
+        filled = resample(surface, triangles_for(area(surface), edge_length), options.limits);
     }
     if (edge_length > 0) {
         options.edge_length = edge_length;
@@ -282,13 +289,13 @@ SimplexMesh<3> fill_base(const BodyRequest& request,
             || report.surface_read.triangles == 0) {
             throw;
         }
-        report.failures = std::string(error.what()) + "; ";
+        add_failure(report, error.what());
         mend_and_fill(Repair::Wrap);
     }
     report.surface = check_surface(filled);
     report.surface_area = area(filled);
     report.generator = tetrahedra.generator;
-    report.failures += tetrahedra.failures;
+    add_failure(report, tetrahedra.failures);
     return std::move(tetrahedra.mesh);
 }
 

@@ -1,8 +1,6 @@
 #include "cgal_mesh.h"
 #include "generators.h"
-#include "silent_cgal.h"
-
-#include <pent/error.h>
+#include "isolated.h"
 
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_criteria_3.h>
@@ -11,7 +9,7 @@
 #include <CGAL/Polyhedral_mesh_domain_with_features_3.h>
 #include <CGAL/make_mesh_3.h>
 #include <map>
-#include <string>
+#include <utility>
 
 namespace pent::mesher {
 
@@ -93,14 +91,16 @@ Tetrahedra fill_with_mesh3(const Surface& surface, const TetrahedraOptions& opti
         options.edge_length > 0 ? options.edge_length : mean_edge_of(surface);
     Tetrahedra tetrahedra;
     tetrahedra.generator = "CGAL Mesh_3";
-    const SilentCgal silent;
-    try {
+    // It crashes on some surfaces, runs away on others, and breaks its own assumptions on some more.
+    Pieces<4> pieces = run_isolated<4>("Mesh_3", options.limits, [&]() -> Pieces<4> {
+        SimplexMesh<3> mesh;
         for (const Surface& body : bodies_of(surface)) {
-            fill_body(body, edge_length, tetrahedra.mesh);
+            fill_body(body, edge_length, mesh);
         }
-    } catch (const std::exception& error) {
-        throw Error(std::string("Mesh_3 failed: ") + error.what());
-    }
+        return {std::move(mesh.positions), std::move(mesh.cells)};
+    });
+    tetrahedra.mesh.positions = std::move(pieces.points);
+    tetrahedra.mesh.cells = std::move(pieces.cells);
     return tetrahedra;
 }
 

@@ -1,3 +1,4 @@
+#include "isolated.h"
 #include "surface_readers.h"
 
 #include <pent/error.h>
@@ -8,6 +9,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <string>
+#include <utility>
 
 namespace pent::mesher {
 
@@ -64,11 +66,7 @@ void add_node(const aiScene& scene,
     }
 }
 
-}  // namespace
-
-TriangleSoup read_gltf(const std::filesystem::path& path) {
-    // No steps behind the import but validation: Debian's assimp has its asserts on, and several
-    // steps end the whole program on a damaged scene.
+TriangleSoup import_by_assimp(const std::filesystem::path& path) {
     Assimp::Importer importer;
     const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
     if (scene == nullptr || scene->mRootNode == nullptr) {
@@ -77,6 +75,18 @@ TriangleSoup read_gltf(const std::filesystem::path& path) {
     SoupBuilder builder;
     add_node(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), path.string(), builder);
     return builder.soup();
+}
+
+}  // namespace
+
+TriangleSoup read_gltf(const std::filesystem::path& path) {
+    // Debian's assimp has its asserts on, and a damaged scene ends the process.
+    Pieces<3> pieces =
+        run_isolated<3>(path.string() + ": reading it by assimp", {}, [&]() -> Pieces<3> {
+            TriangleSoup soup = import_by_assimp(path);
+            return {std::move(soup.points), std::move(soup.triangles)};
+        });
+    return {std::move(pieces.points), std::move(pieces.cells)};
 }
 
 }  // namespace pent::mesher

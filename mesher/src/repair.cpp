@@ -1,12 +1,14 @@
+#include "isolated.h"
 #include "repair_steps.h"
-#include "silent_cgal.h"
 
 #include <pent/error.h>
 #include <pent/mesher/repair.h>
 
 #include <Eigen/Eigenvalues>
 
-#include <exception>
+#include <cstdio>
+#include <string>
+#include <utility>
 
 namespace pent::mesher {
 
@@ -19,6 +21,20 @@ bool is_flat(const Positions<3>& points) {
     const Eigen::Vector3d normal = solver.eigenvectors().col(0);
     const Eigen::VectorXd heights = arms.transpose() * normal;
     return heights.maxCoeff() - heights.minCoeff() <= 1e-12 * diagonal(points);
+}
+
+// Hypervolumes, sums of them and their squares stay finite and above 0 in between.
+void check_size(const Positions<3>& points) {
+    constexpr double kSmallest = 1e-30;
+    constexpr double kLargest = 1e30;
+    const double size = diagonal(points);
+    if (!(size >= kSmallest && size <= kLargest)) {
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "the surface is %.3g m across; expected %g to %g m: scale it first", size,
+                      kSmallest, kLargest);
+        throw Error(text);
+    }
 }
 
 bool is_usable(const SurfaceReport& report) {
@@ -37,34 +53,57 @@ Repaired mended(const Surface& surface, Surface result, Repair used, SurfaceRepo
     return repaired;
 }
 
-// CGAL throws on some surfaces that break its assumptions; that is one more way not to succeed, and
-// leaves the surface as it was.
 template <typename Step>
-Surface attempt(const Surface& surface, Step step) {
-    const SilentCgal silent;
+Surface isolated(const char* name, const StepLimits& limits, Step step) {
+    Pieces<3> pieces = run_isolated<3>(name, limits, [&]() -> Pieces<3> {
+        Surface result = step();
+        return {std::move(result.points), std::move(result.triangles)};
+    });
+    return {std::move(pieces.points), std::move(pieces.cells)};
+}
+
+// A step that fails leaves the surface as it was.
+template <typename Step>
+Surface attempt(const Surface& surface,
+                const char* name,
+                const RepairOptions& options,
+                std::string& failures,
+                Step step) {
     try {
-        return step(surface);
-    } catch (const std::exception&) {
+        return isolated(name, options.limits, [&] { return step(surface); });
+    } catch (const Error& error) {
+        failures += (failures.empty() ? "" : "; ") + std::string(error.what());
         return surface;
     }
 }
 
-Surface without_holes(const Surface& surface) {
-    return attempt(surface,
+Surface without_holes(const Surface& surface, const RepairOptions& options, std::string& failures) {
+    return attempt(surface, "filling holes", options, failures,
                    [](const Surface& open) { return close_holes(drop_useless_triangles(open)); });
 }
 
 Repaired try_light(const Surface& surface,
                    const Surface& closed,
                    const RepairOptions& options,
-                   const SurfaceReport& report) {
-    if (is_usable(check_surface(closed))) {
+                   const SurfaceReport& report,
+                   std::string& failures) {
+    const SurfaceReport left = check_surface(closed);
+    if (is_usable(left)) {
         return mended(surface, closed, Repair::Light, report);
     }
-    Surface cut = attempt(closed, [&](const Surface& crossing) {
-        return cut_self_intersections(crossing, options.seconds);
-    });
-    return mended(surface, std::move(cut), Repair::Light, report);
+    if (left.components > 1 && left.border_edges.count == 0) {
+        Repaired united = mended(surface,
+                                 attempt(closed, "uniting bodies that cross", options, failures,
+                                         unite_crossing_components),
+                                 Repair::Light, report);
+        if (is_usable(united.after)) {
+            return united;
+        }
+    }
+    return mended(surface,
+                  attempt(closed, "cutting out self-intersections", options, failures,
+                          cut_self_intersections),
+                  Repair::Light, report);
 }
 
 // Finer and finer, until the wrap is close enough to the surface without its holes: through a hole
@@ -77,7 +116,10 @@ Repaired try_wrap(const Surface& closed,
     constexpr double kFinest = 1.0 / 400;
     for (double alpha = kCoarsest; alpha >= kFinest; alpha /= 2) {
         Repaired repaired =
-            mended(closed, wrap(closed, alpha * size, alpha * size / 20), Repair::Wrap, report);
+            mended(closed,
+                   isolated("the wrap", options.limits,
+                            [&] { return wrap(closed, alpha * size, alpha * size / 20); }),
+                   Repair::Wrap, report);
         if (is_usable(repaired.after) && repaired.distance <= options.wrap_distance * size) {
             return repaired;
         }
@@ -89,6 +131,7 @@ Repaired try_wrap(const Surface& closed,
 }  // namespace
 
 Repaired repair(const Surface& surface, const RepairOptions& options) {
+    check_size(surface.points);
     if (is_flat(surface.points)) {
         throw Error("all points of the surface lie in a plane; it encloses no volume");
     }
@@ -103,18 +146,23 @@ Repaired repair(const Surface& surface, const RepairOptions& options) {
     if (options.repair == Repair::None) {
         throw Error("not the boundary of a body: " + describe(report) + "; let it be mended");
     }
-    const Surface closed = without_holes(surface);
+    std::string failures;
+    const Surface closed = without_holes(surface, options, failures);
     if (options.repair != Repair::Wrap) {
-        Repaired light = try_light(surface, closed, options, report);
+        Repaired light = try_light(surface, closed, options, report, failures);
+        light.failures = failures;
         if (is_usable(light.after)) {
             return light;
         }
         if (options.repair == Repair::Light) {
             throw Error("light mending is not enough: " + describe(light.after)
+                        + (failures.empty() ? "" : "; " + failures)
                         + "; before: " + describe(report) + "; allow a wrap");
         }
     }
-    return try_wrap(closed, options, report);
+    Repaired wrapped = try_wrap(closed, options, report);
+    wrapped.failures = failures;
+    return wrapped;
 }
 
 std::string name_of(Repair repair) {

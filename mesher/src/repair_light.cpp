@@ -10,7 +10,6 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <map>
 #include <vector>
 
@@ -63,15 +62,6 @@ void fill_holes(CgalMesh& mesh) {
     }
 }
 
-// Asks the removal to stop when time is up.
-struct Deadline : pmp::experimental::Remove_self_intersection_default_visitor<CgalMesh> {
-    explicit Deadline(double seconds)
-        : end(std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds)) {}
-    [[nodiscard]] bool stop() const { return std::chrono::steady_clock::now() > end; }
-
-    std::chrono::time_point<std::chrono::steady_clock, std::chrono::duration<double>> end;
-};
-
 }  // namespace
 
 Surface drop_useless_triangles(const Surface& surface) {
@@ -83,11 +73,16 @@ Surface drop_useless_triangles(const Surface& surface) {
             balance[key.corners] += key.is_even ? 1 : -1;
         }
     }
+    // Walls go, both of their sides; but where all triangles come in pairs, the surface as a whole is
+    // two-sided, as renderers like it, and one side stays.
+    const bool is_two_sided = std::all_of(balance.begin(), balance.end(),
+                                          [](const auto& entry) { return entry.second == 0; });
     std::vector<std::uint32_t> corners;
     for (Eigen::Index t = 0; t < surface.triangle_count(); ++t) {
         const Key key = key_of(surface.triangles, t);
         const auto place = balance.find(key.corners);
-        if (place != balance.end() && (key.is_even ? place->second > 0 : place->second < 0)) {
+        if (place != balance.end()
+            && (is_two_sided || (key.is_even ? place->second > 0 : place->second < 0))) {
             for (int i = 0; i < 3; ++i) {
                 corners.push_back(surface.triangles(i, t));
             }
@@ -106,11 +101,10 @@ Surface close_holes(const Surface& surface) {
     return weld(closed.points, closed.triangles).surface;
 }
 
-Surface cut_self_intersections(const Surface& surface, double seconds) {
+Surface cut_self_intersections(const Surface& surface) {
     CgalMesh mesh = manifold_of(surface);
     if (CGAL::is_closed(mesh)) {
-        pmp::experimental::remove_self_intersections(
-            mesh, CGAL::parameters::preserve_genus(false).visitor(Deadline(seconds)));
+        pmp::experimental::remove_self_intersections(mesh, CGAL::parameters::preserve_genus(false));
         fill_holes(mesh);
     }
     const Surface mended = from_cgal(mesh);

@@ -1,4 +1,5 @@
 #include "cgal_mesh.h"
+#include "isolated.h"
 #include "refine.h"
 
 #include <pent/error.h>
@@ -13,6 +14,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <string>
+#include <utility>
 
 namespace pent::mesher {
 
@@ -38,29 +40,39 @@ Surface collapse(const Surface& surface,
     return from_cgal(mesh);
 }
 
-Surface coarsen(const Surface& surface, std::int64_t triangles) {
+Surface coarsen(const Surface& surface, std::int64_t triangles, const StepLimits& limits) {
     const sms::LindstromTurk_cost<CgalMesh> shape_cost;
     const sms::LindstromTurk_placement<CgalMesh> shape_placement;
     const sms::Edge_length_cost<CgalMesh> length_cost;
     const sms::Midpoint_placement<CgalMesh> middle_placement;
-    SurfaceReport report;
+    std::string failure;
     for (int attempt = 0; attempt < 3; ++attempt) {
-        const Surface coarse =
-            attempt == 2 ? collapse(surface, triangles, length_cost, middle_placement, true)
-                         : collapse(surface, triangles, shape_cost, shape_placement, attempt == 1);
-        report = check_surface(coarse);
-        if (report.is_clean() && report.triangles <= triangles) {
-            return coarse;
+        try {
+            Pieces<3> pieces = run_isolated<3>("coarsening", limits, [&]() -> Pieces<3> {
+                Surface coarse =
+                    attempt == 2
+                        ? collapse(surface, triangles, length_cost, middle_placement, true)
+                        : collapse(surface, triangles, shape_cost, shape_placement, attempt == 1);
+                return {std::move(coarse.points), std::move(coarse.triangles)};
+            });
+            Surface coarse{std::move(pieces.points), std::move(pieces.cells)};
+            const SurfaceReport report = check_surface(coarse);
+            if (report.is_clean() && report.triangles <= triangles) {
+                return coarse;
+            }
+            failure = describe(report);
+        } catch (const Error& error) {
+            failure = error.what();
         }
     }
     throw Error("the surface cannot be brought from " + std::to_string(surface.triangle_count())
-                + " to " + std::to_string(triangles) + " triangles without faults ("
-                + describe(report) + "); ask for more triangles");
+                + " to " + std::to_string(triangles) + " triangles without faults (" + failure
+                + "); ask for more triangles");
 }
 
 }  // namespace
 
-Surface resample(const Surface& surface, std::int64_t triangles) {
+Surface resample(const Surface& surface, std::int64_t triangles, const StepLimits& limits) {
     if (triangles < 4) {
         throw Error("a surface of " + std::to_string(triangles)
                     + " triangles is asked for; expected 4 or more");
@@ -70,7 +82,7 @@ Surface resample(const Surface& surface, std::int64_t triangles) {
         return surface;
     }
     if (even < surface.triangle_count()) {
-        return coarsen(surface, even);
+        return coarsen(surface, even, limits);
     }
     Surface fine = refine(surface, even);
     const SurfaceReport report = check_surface(fine);

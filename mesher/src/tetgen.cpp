@@ -1,5 +1,6 @@
 #include "../tetgen_worker/protocol.h"
 #include "generators.h"
+#include "isolated.h"
 #include "worker_process.h"
 
 #include <pent/error.h>
@@ -9,7 +10,6 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <signal.h>
 #include <vector>
 
 namespace pent::mesher {
@@ -42,18 +42,13 @@ std::string switches(const TetrahedraOptions& options) {
 
 std::string explain(const ProcessResult& result, const TetrahedraOptions& options) {
     using namespace pent::tetgen;
-    if (result.signal == SIGXCPU || result.signal == SIGKILL) {
-        return "was ended after " + std::to_string(options.cpu_seconds)
-               + " s of CPU time; ask for fewer or larger tetrahedra";
-    }
     if (result.signal != 0) {
-        return "crashed (signal " + std::to_string(result.signal) + ")";
+        return explain_signal(result.signal, options.limits);
     }
     switch (result.exit_code) {
         case kOutOfMemory:
         case kTetgenThrew + 1:
-            return "needs more than " + std::to_string(options.memory_mib)
-                   + " MiB of memory; ask for fewer or larger tetrahedra";
+            return explain_out_of_memory(options.limits);
         case kTetgenThrew + 2:
             return "met an internal error of TetGen";
         case kTetgenThrew + 3:
@@ -184,11 +179,11 @@ Tetrahedra fill_with_tetgen(const Surface& surface, const TetrahedraOptions& opt
     const File reply = temporary_file();
     write_request(request.get(), surface);
     const std::string wanted = switches(options);
-    const ProcessResult result =
-        run_process(worker,
-                    {wanted + "AQS" + std::to_string(options.max_added_points),
-                     std::to_string(options.memory_mib), std::to_string(options.cpu_seconds)},
-                    request.get(), reply.get());
+    const ProcessResult result = run_process(
+        worker,
+        {wanted + "AQS" + std::to_string(options.max_added_points),
+         std::to_string(options.limits.memory_mib), std::to_string(whole_seconds(options.limits))},
+        request.get(), reply.get());
     if (result.signal != 0 || result.exit_code != tetgen::kDone) {
         throw Error("TetGen " + wanted + " " + explain(result, options));
     }

@@ -12,11 +12,14 @@
 #define TETLIBRARY
 #include "protocol.h"
 
+#include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <tetgen.h>
 #include <unistd.h>
@@ -38,16 +41,19 @@ using pent::tetgen::Header;
     }
 }
 
-void set_limit(int resource, rlim_t value) {
-    const rlimit limit{value, value};
+// The soft limit alone, so that its own signal tells what happened.
+void lower_limit(int resource, rlim_t value) {
+    rlimit limit{};
+    ::getrlimit(resource, &limit);
+    limit.rlim_cur = std::min(limit.rlim_cur, value);
     ::setrlimit(resource, &limit);
 }
 
 void set_limits(const char* memory_mib, const char* cpu_seconds) {
-    set_limit(RLIMIT_CORE, 0);
-    set_limit(RLIMIT_CPU, std::strtoull(cpu_seconds, nullptr, 10));
+    lower_limit(RLIMIT_CORE, 0);
+    lower_limit(RLIMIT_CPU, std::strtoull(cpu_seconds, nullptr, 10));
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes
-    set_limit(RLIMIT_AS, std::strtoull(memory_mib, nullptr, 10) << 20U);
+    lower_limit(RLIMIT_AS, std::strtoull(memory_mib, nullptr, 10) << 20U);
 #else
     static_cast<void>(memory_mib);
 #endif
@@ -127,6 +133,7 @@ int main(int argc, char** argv) {
         return pent::tetgen::kBadArguments;
     }
     std::set_terminate(exit_on_throw);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // without pent-mesh there is nobody to answer
     set_limits(argv[2], argv[3]);
     // TetGen reports on stdout; the answer keeps the real one to itself.
     std::FILE* answer = ::fdopen(::dup(STDOUT_FILENO), "wb");

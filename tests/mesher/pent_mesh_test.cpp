@@ -1,5 +1,6 @@
 #include "apps/run_program.h"
 #include "shapes.h"
+#include "support/messages.h"
 
 #include <gtest/gtest.h>
 
@@ -66,10 +67,13 @@ TEST(PentMesh, GivesUpAfterItsTimeLimit) {
     const test::TempFolder folder;
     const Outcome outcome = run_program(
         "pent-mesh " + kModels + "/octopus_5246f.obj --edge-length 0.005 --time-limit 1 -o "
-        + (folder / "out.pent").string());
+        + (folder / "out.pent").string() + " --json " + (folder / "report.json").string());
     EXPECT_EQ(outcome.exit_code, 1);
     test::expect_one_error_line(outcome, "pent-mesh");
     EXPECT_NE(outcome.err.find("--time-limit"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.pent"));
+    test::expect_contains(test::text_of(folder / "report.json"),
+                          {R"("verdict": "refused")", "not done after 1 s", R"("seconds": 1)"});
 }
 
 TEST(PentMesh, WantsExactlyOneInput) {

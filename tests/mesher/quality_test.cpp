@@ -53,13 +53,15 @@ TYPED_TEST(QualityInDimension, DependsOnTheShapeAlone) {
         if (simplex_volume<kDim>(corners) < 0) {
             corners.col(0).swap(corners.col(1));
         }
-        using Square = Eigen::Matrix<double, kDim, kDim>;
-        Square Q =
-            Square::NullaryExpr([&] { return coordinate(random); }).householderQr().householderQ();
+        // Of dynamic size: decompositions are slow to compile, and one is enough for all dimensions.
+        const Eigen::MatrixXd any =
+            Eigen::MatrixXd::NullaryExpr(kDim, kDim, [&] { return coordinate(random); });
+        Eigen::MatrixXd Q = any.householderQr().householderQ();
         if (Q.determinant() < 0) {
             Q.col(0) = -Q.col(0);
         }
-        Corners<kDim> moved = (3 * Q * corners).colwise() + Q.col(0);
+        Corners<kDim> moved = (3 * Eigen::Matrix<double, kDim, kDim>(Q) * corners).colwise()
+                              + Q.col(0).template head<kDim>();
         // Three corners in turn: an even permutation.
         moved.col(0).swap(moved.col(1));
         moved.col(1).swap(moved.col(2));

@@ -1,6 +1,7 @@
 #include "shapes.h"
 #include "support/messages.h"
 
+#include <pent/mesher/orient.h>
 #include <pent/mesher/repair.h>
 
 #include <gtest/gtest.h>
@@ -45,22 +46,70 @@ TEST(Repair, TakesTheWallOutBetweenTwoBodies) {
     EXPECT_DOUBLE_EQ(std::abs(enclosed_volume(repaired.surface)), 2);
 }
 
+TEST(Repair, UnitesBodiesThatCross) {
+    // Two unit cubes that share an eighth, and one off to the side, turned inside out.
+    Surface third = test::box_surface({5, 5, 5}, {6, 6, 6});
+    third.triangles.row(0).swap(third.triangles.row(1));
+    const Repaired repaired = repair(test::join(model("dirty/d_twocubes_overlap.off"), third));
+    EXPECT_EQ(repaired.used, Repair::Light);
+    EXPECT_TRUE(repaired.after.is_clean());
+    EXPECT_EQ(repaired.after.components, 2);
+    EXPECT_NEAR(enclosed_volume(orient(repaired.surface).surface), 2.875, 1e-12);
+    EXPECT_LT(repaired.distance, 1e-15);
+}
+
+TEST(Repair, UnitesBodiesThatTouchInPartsOfTheirSides) {
+    const Repaired repaired = repair(test::join(test::box_surface({0, 0, 0}, {2, 2, 2}),
+                                                test::box_surface({2, 0.5, 0.5}, {3, 1.5, 1.5})));
+    EXPECT_EQ(repaired.used, Repair::Light);
+    EXPECT_EQ(repaired.after.components, 1);
+    EXPECT_NEAR(std::abs(enclosed_volume(repaired.surface)), 9, 1e-12);
+}
+
 TEST(Repair, WrapsWhatCannotBeMendedLightly) {
-    const Surface cubes = model("dirty/d_twocubes_overlap.off");
-    const Repaired repaired = repair(cubes);
+    // Two cubes that touch in a corner.
+    const Surface cubes = model("dirty/d_sharevertex.off");
+    const RepairOptions options{.wrap_distance = 0.04};
+    const Repaired repaired = repair(cubes, options);
     EXPECT_EQ(repaired.used, Repair::Wrap);
     EXPECT_TRUE(repaired.after.is_clean());
-    EXPECT_LE(repaired.distance, 0.01 * diagonal(cubes.points));
-    // The union of two unit cubes that share an eighth, in a shell that is no thicker than that.
+    EXPECT_LE(repaired.distance, options.wrap_distance * diagonal(cubes.points));
+    // Both, in a shell that is no thicker than that.
     const double volume = enclosed_volume(repaired.surface);
-    EXPECT_GT(volume, 1.875);
-    EXPECT_LT(volume, 1.875 + area(repaired.surface) * repaired.distance);
+    EXPECT_GT(volume, 2);
+    EXPECT_LT(volume, 2 + area(repaired.surface) * repaired.distance);
 }
 
 TEST(Repair, WrapsWhenAskedTo) {
-    const Repaired repaired = repair(model("dirty/d_cube.off"), {.repair = Repair::Wrap});
+    const Repaired repaired =
+        repair(model("dirty/d_cube.off"), {.repair = Repair::Wrap, .wrap_distance = 0.04});
     EXPECT_EQ(repaired.used, Repair::Wrap);
     EXPECT_TRUE(repaired.after.is_clean());
+}
+
+TEST(Repair, RefusesSizesWhoseVolumesCannotBeNumbers) {
+    Surface box = test::box_surface({0, 0, 0}, {1, 1, 1});
+    for (const double scale : {1e-300, 1e-40, 1e40, 1e300}) {
+        Surface scaled = box;
+        scaled.points *= scale;
+        test::expect_contains(message_for(scaled, Repair::Auto), {"m across", "scale it"});
+    }
+    for (const double scale : {1e-20, 1e20}) {
+        Surface scaled = box;
+        scaled.points *= scale;
+        EXPECT_EQ(repair(scaled).used, Repair::None);
+    }
+}
+
+TEST(Repair, KeepsOneSideOfASurfaceWithTwo) {
+    const Surface box = test::box_surface({0, 0, 0}, {1, 1, 1});
+    Surface inside_out = box;
+    inside_out.triangles.row(0).swap(inside_out.triangles.row(1));
+    const Surface both = test::join(box, inside_out);
+    const Repaired repaired = repair(weld(both.points, both.triangles).surface);
+    EXPECT_EQ(repaired.used, Repair::Light);
+    EXPECT_EQ(repaired.surface.triangle_count(), 12);
+    EXPECT_DOUBLE_EQ(std::abs(enclosed_volume(repaired.surface)), 1);
 }
 
 TEST(Repair, RefusesWhatHasNoInside) {
@@ -91,7 +140,7 @@ TEST(Repair, MendsATriangleSoupOfMyOwnMaking) {
     extra.triangles(2, 1) = 3;
     Surface soup = test::join(box, extra);
     soup.triangles = soup.triangles.rightCols(soup.triangle_count() - 1).eval();
-    const Repaired repaired = repair(soup);
+    const Repaired repaired = repair(soup, {.wrap_distance = 0.04});
     EXPECT_TRUE(repaired.after.is_clean());
     EXPECT_NE(repaired.used, Repair::None);
 }

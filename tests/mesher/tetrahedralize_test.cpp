@@ -89,11 +89,11 @@ TEST(Tetrahedralize, EndsAWorkerThatPassesItsLimits) {
     greedy.edge_length = 0.001;  // would be 10^10 tetrahedra
     greedy.keep_surface = false;
     greedy.max_added_points = 1'000'000'000;
-    greedy.cpu_seconds = 1;
-    test::expect_contains(message_for(box, greedy), {"1 s of CPU time"});
+    greedy.limits.seconds = 1;
+    test::expect_contains(message_for(box, greedy), {"ended after 1 s"});
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    greedy.cpu_seconds = 60;
-    greedy.memory_mib = 64;
+    greedy.limits.seconds = 60;
+    greedy.limits.memory_mib = 64;
     test::expect_contains(message_for(box, greedy), {"64 MiB of memory"});
 #endif
 }
@@ -119,6 +119,15 @@ TEST(TetrahedralizeByMesh3, FillsEveryBodyAndLeavesCavitiesEmpty) {
     // Sharp edges are kept, so that boxes come out to rounding of their flat sides.
     EXPECT_NEAR(total_volume(tetrahedra.mesh), 26.027, 1e-6);
     EXPECT_EQ(tetrahedra.generator, "CGAL Mesh_3");
+}
+
+TEST(TetrahedralizeByMesh3, EndsAtItsLimit) {
+    const Surface box = test::box_surface({0, 0, 0}, {1, 1, 1});
+    TetrahedraOptions greedy;
+    greedy.generator = Generator::Mesh3;
+    greedy.edge_length = 0.002;  // would be 10^9 tetrahedra
+    greedy.limits.seconds = 1;
+    test::expect_contains(message_for(box, greedy), {"Mesh_3 was ended after 1 s"});
 }
 
 TEST(TetrahedralizeAuto, FallsBackToMesh3AndSaysWhy) {

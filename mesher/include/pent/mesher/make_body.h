@@ -6,6 +6,7 @@
 #include <pent/mesher/quality.h>
 #include <pent/mesher/repair.h>
 #include <pent/mesher/shapes.h>
+#include <pent/mesher/step_limits.h>
 #include <pent/mesher/surface_check.h>
 #include <pent/mesher/tetrahedralize.h>
 
@@ -62,6 +63,12 @@ struct BodyRequest {
     TetrahedraOptions tetrahedra;   ///< Its edge_length is for the inside alone.
     ExtrusionRequest extrusion;
     int subdivide = 1;  ///< Every edge of the body is cut in this many parts, see subdivide().
+
+    /// Sets what every step that may crash or run away is allowed.
+    void limit_steps(const StepLimits& limits) {
+        repair.limits = limits;
+        tetrahedra.limits = limits;
+    }
 };
 
 /// What a stage of the work took.
@@ -83,7 +90,7 @@ struct BodyReport {
     double surface_area = 0;       ///< m^2.
 
     std::string generator;  ///< What made the base cells, as in "TetGen pq1.414Y".
-    std::string failures;   ///< Of the generators tried before; empty if there were none.
+    std::string failures;   ///< Of steps and generators tried in vain; empty if there were none.
     int fillings = 0;       ///< How often the surface was filled to meet target_cells.
     std::int64_t base_vertices = 0;
     std::int64_t base_cells = 0;
@@ -108,8 +115,9 @@ struct Body {
 /// tet mesh (read, extrude, prove).
 ///
 /// If a surface that was clean or lightly mended cannot be filled, and a wrap is allowed, its wrap
-/// is. An edge length beyond that of the surface coarsens it. Throws an Error if the surface cannot be made clean, with what, how many and where; if a stage
-/// fails; or if the result does not pass prove().
+/// is. An edge length beyond that of the surface coarsens it. Throws an Error if the surface cannot be
+/// made clean, with what, how many and where; if a stage fails; or if the result does not pass
+/// prove().
 [[nodiscard]] Body<4> make_body(const BodyRequest& request);
 
 /// Makes a tetrahedral body from a flat triangle mesh: all z are equal, and become the base of the

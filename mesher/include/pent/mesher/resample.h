@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/mesher/step_limits.h>
 #include <pent/mesher/surface.h>
 
 #include <cstdint>
@@ -15,9 +16,12 @@ namespace pent::mesher {
 ///
 /// @param surface    Clean (see check_surface) and oriented.
 /// @param triangles  4 or more.
+/// @param limits     For each way of coarsening.
 /// @return           Clean and oriented, with `triangles` triangles when refined, and at most that
 ///                   many, less a few, when coarsened.
 /// Throws an Error if no way was found that keeps the surface clean.
-[[nodiscard]] Surface resample(const Surface& surface, std::int64_t triangles);
+[[nodiscard]] Surface resample(const Surface& surface,
+                               std::int64_t triangles,
+                               const StepLimits& limits = {});
 
 }  // namespace pent::mesher

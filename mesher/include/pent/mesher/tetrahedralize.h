@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/mesher/step_limits.h>
 #include <pent/mesher/surface.h>
 
 #include <cstdint>
@@ -26,8 +27,7 @@ struct TetrahedraOptions {
     /// TetGen: keeps every triangle of the surface as it is; otherwise they may be subdivided.
     bool keep_surface = true;
     std::int64_t max_added_points = 2'000'000;  ///< TetGen runs away without a bound.
-    std::int64_t memory_mib = 8192;             ///< Limit for the TetGen worker's address space.
-    std::int64_t cpu_seconds = 600;             ///< Limit for the TetGen worker's time.
+    StepLimits limits = {};                     ///< For each run of TetGen or Mesh_3.
     /// The worker program; empty: pent-tetgen beside the running program, else in
     /// ../libexec/pent beside its folder.
     std::filesystem::path worker;
