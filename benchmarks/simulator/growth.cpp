@@ -1,0 +1,80 @@
+#include "beams.h"
+#include "cases.h"
+
+#include <pent/simulator/simulation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <malloc.h>
+#include <unistd.h>
+
+namespace pent::simulator::bench {
+
+namespace {
+
+// Memory of this process that is in use, bytes.
+double resident_bytes() {
+    malloc_trim(0);
+    std::ifstream file("/proc/self/statm");
+    double total = 0;
+    double resident = 0;
+    file >> total >> resident;
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+struct Size {
+    double cells = 0;
+    double seconds = 0;
+    double bytes = 0;
+    int iterations = 0;
+};
+
+Size measure(const std::array<int, 4>& count, int threads) {
+    constexpr int kSteps = 3;
+    const double before = resident_bytes();
+    Simulation<4> simulation(beam_scene(), {box(count)}, {.threads = threads, .isa = ""});
+    Size size;
+    std::vector<double> seconds;
+    for (int i = 0; i < kSteps; ++i) {
+        const StepReport report = simulation.step();
+        seconds.push_back(report.seconds);
+        size.iterations = std::max(size.iterations, report.iterations);
+    }
+    std::sort(seconds.begin(), seconds.end());
+    size.cells = static_cast<double>(simulation.size().cells);
+    size.seconds = seconds[kSteps / 2];
+    size.bytes = resident_bytes() - before;
+    return size;
+}
+
+}  // namespace
+
+std::string growth(int threads) {
+    std::string table =
+        "| pentachora | time per step | memory | iterations | exponent of time | of memory |\n"
+        "| --- | --- | --- | --- | --- | --- |\n";
+    Size first;
+    for (const std::array<int, 4>& count :
+         {std::array{8, 8, 7, 7}, {11, 10, 10, 10}, {15, 15, 15, 14}, {21, 20, 20, 20}}) {
+        const Size size = measure(count, threads);
+        char row[200];
+        std::snprintf(row, sizeof row, "| %.0f | %.0f ms | %.0f MB | %d |", size.cells,
+                      1e3 * size.seconds, 1e-6 * size.bytes, size.iterations);
+        table += row;
+        if (first.cells == 0) {
+            first = size;
+            table += " | |\n";
+            continue;
+        }
+        const double growth = std::log(size.cells / first.cells);
+        std::snprintf(row, sizeof row, " %.2f | %.2f |\n",
+                      std::log(size.seconds / first.seconds) / growth,
+                      std::log(size.bytes / first.bytes) / growth);
+        table += row;
+    }
+    return table;
+}
+
+}  // namespace pent::simulator::bench

@@ -1,0 +1,20 @@
+#include "shaken_beam.h"
+
+#include <random>
+
+namespace pent::simulator::bench {
+
+ShakenBeam::ShakenBeam(SimplexMesh<4> box)
+    : mesh(std::move(box)), material{.lame = lame_from_young(4, 1e7, 0.28)} {
+    const std::vector<bool> is_held(mesh.columns.size(), false);
+    numbering = number_unknowns<4>(mesh.cells, is_held, mesh.columns, mesh.layers);
+    pattern = make_pattern<4>(mesh.cells, numbering);
+    const std::vector<CellRange> ranges = {{0, mesh.cell_count(), material}};
+    elements =
+        std::make_unique<Elements<4>>(mesh.positions, mesh.cells, ranges, numbering, pattern);
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal(0, 0.01);
+    positions = mesh.positions.unaryExpr([&](double x) { return x + normal(random); });
+}
+
+}  // namespace pent::simulator::bench
