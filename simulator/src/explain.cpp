@@ -330,8 +330,8 @@ template <int Dim>
 int cells_across(const SimplexMesh<Dim>& mesh) {
     constexpr int kFar = std::numeric_limits<int>::max();
     std::vector<int> depth(static_cast<std::size_t>(mesh.vertex_count()), kFar);
-    for (const std::uint32_t vertex :
-         match_facets<Dim>(mesh.cells, mesh.vertex_count()).boundary.reshaped()) {
+    const auto facets = match_facets<Dim>(mesh.cells, mesh.vertex_count());
+    for (const std::uint32_t vertex : facets.boundary.reshaped()) {
         depth[vertex] = 0;
     }
     // One pass over the cells takes the depth at least one edge further in.
