@@ -3,10 +3,23 @@
 # runs every test.
 #
 #   scripts/test.sh [ARGUMENTS FOR CTEST]     for example: scripts/test.sh -R Slice
+#   scripts/test.sh --all                     then the same under the address and undefined-behavior
+#                                             sanitizers, and the threaded parts under the thread
+#                                             sanitizer (about an hour)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+run_preset() {  # PRESET [ARGUMENTS FOR CTEST]
+    cmake --preset "$1"
+    cmake --build --preset "$1"
+    ctest --preset "$@"
+}
+
 scripts/setup.sh
-cmake --preset dev
-cmake --build --preset dev
-ctest --preset dev "$@"
+if [ "${1:-}" != --all ]; then
+    run_preset dev "$@"
+    exit
+fi
+run_preset dev
+run_preset asan
+run_preset tsan

@@ -1,0 +1,198 @@
+#include "readers.h"
+
+#include "crc32c.h"
+
+#include <pent/error.h>
+#include <pent/pent_file.h>
+#include <pent/simulator/scene_file.h>
+#ifdef PENT_FUZZ_MESHER
+#include <pent/mesher/edge_order.h>
+#include <pent/mesher/profile.h>
+#include <pent/mesher/read_tetrahedra.h>
+#include <pent/mesher/surface.h>
+#endif
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace pent::fuzz {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// A broken law: the fuzzer keeps the input that led here.
+void require(bool holds, const char* law) {
+    if (!holds) {
+        std::fprintf(stderr, "broken law: %s\n", law);
+        std::abort();
+    }
+}
+
+// A folder of this process in memory, for readers that look at the ending of a name.
+const fs::path& folder() {
+    static const fs::path path = [] {
+        std::string name = "/dev/shm/pent-fuzz-XXXXXX";
+        require(::mkdtemp(name.data()) != nullptr, "a folder in /dev/shm can be made");
+        std::atexit([] {
+            std::error_code ignored;
+            fs::remove_all(path, ignored);
+        });
+        return fs::path(name);
+    }();
+    return path;
+}
+
+std::string content(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+template <int Dim>
+void try_mesh(const fs::path& path) {
+    const SimplexMesh<Dim> mesh = read_mesh<Dim>(path).mesh;
+    validate(mesh, "accepted mesh");
+    const fs::path copy = folder() / "copy.pent";
+    write_mesh(copy, mesh);
+    const SimplexMesh<Dim> again = read_mesh<Dim>(copy).mesh;
+    require(again.positions == mesh.positions && again.cells == mesh.cells,
+            "a mesh that is accepted survives being written and read");
+}
+
+template <int Dim>
+void try_frame(const fs::path& path) {
+    const Frame<Dim> frame = read_frame<Dim>(path);
+    require(frame.positions.allFinite() && frame.velocities.allFinite(), "frames are finite");
+    const fs::path copy = folder() / "copy.pent";
+    write_frame(copy, frame);
+    require(read_frame<Dim>(copy).positions == frame.positions,
+            "a frame that is accepted survives being written and read");
+}
+
+void try_pent(const fs::path& path) {
+    const FileInfo info = read_info(path);
+    switch (info.dimension) {
+        case 2:
+            return info.is_frame ? try_frame<2>(path) : try_mesh<2>(path);
+        case 3:
+            return info.is_frame ? try_frame<3>(path) : try_mesh<3>(path);
+        case 4:
+            return info.is_frame ? try_frame<4>(path) : try_mesh<4>(path);
+        default:
+            require(false, "the dimension is 2, 3 or 4");
+    }
+}
+
+// The same with the checksum put right, so that damage gets past it.
+void try_pent_with_checksum(const fs::path& path) {
+    std::string text = content(path);
+    constexpr std::string_view kEnd = "end_header\n";
+    constexpr std::string_view kSum = "crc32c ";
+    const std::size_t end = text.find(kEnd);
+    const std::size_t sum = text.find(kSum);
+    if (end != std::string::npos && sum != std::string::npos
+        && sum + kSum.size() + 8 <= text.size()) {
+        const std::size_t body = end + kEnd.size();
+        std::array<char, 9> digits{};
+        std::snprintf(digits.data(), digits.size(), "%08x",
+                      crc32c(text.data() + body, text.size() - body));
+        text.replace(sum + kSum.size(), 8, digits.data());
+        std::ofstream(path, std::ios::binary) << text;
+    }
+    try_pent(path);
+}
+
+void try_scene(const fs::path& path) {
+    const auto read_again = [](const simulator::Scene& scene) {
+        return simulator::parse_scene(simulator::scene_text(scene), "again", "");
+    };
+    const simulator::Scene scene = read_again(simulator::read_scene(path));
+    require(simulator::scene_text(scene) == simulator::scene_text(read_again(scene)),
+            "a scene that is accepted survives being written and read");
+}
+
+#ifdef PENT_FUZZ_MESHER
+void try_surface(const fs::path& path) {
+    const mesher::Surface surface = mesher::read_surface(path).surface;
+    require(surface.points.allFinite() && surface.triangle_count() > 0
+                && surface.triangles.maxCoeff() < surface.point_count(),
+            "a surface has triangles of its finite points");
+}
+
+void try_tetrahedra(const fs::path& path) {
+    validate(mesher::read_tetrahedra(path).mesh, "accepted mesh");
+}
+
+// TetGen's two files in one, the second behind a line "-- ele".
+void try_tetgen(const fs::path& path) {
+    const std::string text = content(path);
+    constexpr std::string_view kCut = "-- ele\n";
+    const std::size_t cut = text.find(kCut);
+    const fs::path nodes = folder() / "pair.node";
+    const fs::path elements = folder() / "pair.ele";
+    std::ofstream(nodes, std::ios::binary) << text.substr(0, cut);
+    std::ofstream(elements, std::ios::binary)
+        << (cut == std::string::npos ? std::string() : text.substr(cut + kCut.size()));
+    try_tetrahedra(nodes);
+}
+
+void try_edges(const fs::path& path) {
+    constexpr std::int64_t kVertices = 100;
+    const mesher::DirectedEdges edges = mesher::read_directed_edges(path, kVertices);
+    require(edges.size() == 0 || edges.maxCoeff() < kVertices, "edges join vertices of the mesh");
+}
+
+void try_profile(const fs::path& path) {
+    require(mesher::read_profile(path).size() >= 2, "a profile has two layers or more");
+}
+#endif
+
+}  // namespace
+
+const std::vector<Reader>& readers() {
+    static const std::vector<Reader> all = {
+        {"pent", ".pent", try_pent},          {"pent_checksum", ".pent", try_pent_with_checksum},
+        {"scene", ".toml", try_scene},
+#ifdef PENT_FUZZ_MESHER
+        {"obj", ".obj", try_surface},         {"off", ".off", try_surface},
+        {"ply", ".ply", try_surface},         {"stl", ".stl", try_surface},
+        {"gmsh", ".msh", try_tetrahedra},     {"medit", ".mesh", try_tetrahedra},
+        {"vtk", ".vtk", try_tetrahedra},      {"tobj", ".tobj", try_tetrahedra},
+        {"tetgen", ".pair", try_tetgen},      {"edges", ".edges", try_edges},
+        {"profile", ".profile", try_profile},
+#endif
+    };
+    return all;
+}
+
+const Reader* find_reader(const char* name) {
+    for (const Reader& reader : readers()) {
+        if (std::strcmp(reader.name, name) == 0) {
+            return &reader;
+        }
+    }
+    return nullptr;
+}
+
+bool try_bytes(const Reader& reader, const void* data, std::size_t bytes) {
+    const fs::path path = folder() / (std::string("input") + reader.ending);
+    std::ofstream(path, std::ios::binary)
+        .write(static_cast<const char*>(data), static_cast<std::streamsize>(bytes));
+    try {
+        reader.try_file(path);
+        return true;
+    } catch (const Error& error) {
+        require(*error.what() != '\0' && std::strchr(error.what(), '\n') == nullptr,
+                "an error is one line");
+        return false;
+    }
+}
+
+}  // namespace pent::fuzz
