@@ -133,14 +133,15 @@ void add_view_options(CLI::App& cli, ViewArguments& arguments) {
                    "Distance of the eye of a perspective from the slice, m; default: three times "
                    "the reach of the bodies")
         ->type_name("D");
-    cli.add_option("--color", arguments.color, "Color by body, w, speed or strain; default: body")
-        ->check(CLI::IsMember({"body", "w", "speed", "strain"}).description(""))
+    cli.add_option("--color", arguments.color,
+                   "Color by body, w, speed, strain or force (of contact); default: body")
+        ->check(CLI::IsMember({"body", "w", "speed", "strain", "force"}).description(""))
         ->type_name("WHAT");
 }
 
 viewer::ColorBy to_color(const ViewArguments& arguments) {
     using viewer::ColorBy;
-    for (const ColorBy by : {ColorBy::W, ColorBy::Speed, ColorBy::Strain}) {
+    for (const ColorBy by : {ColorBy::W, ColorBy::Speed, ColorBy::Strain, ColorBy::Force}) {
         if (arguments.color == viewer::name_of(by)) {
             return by;
         }

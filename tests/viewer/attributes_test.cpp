@@ -35,6 +35,17 @@ TEST(VertexStrain, OfAUniformStretchIsThatOfItsMatrix) {
     EXPECT_NEAR(strain.maxCoeff(), 0.22, 1e-13);
 }
 
+TEST(VertexForce, IsTheLengthOfTheContactForce) {
+    Frame<4> frame;
+    frame.positions = Positions<4>::Zero(4, 2);
+    EXPECT_FALSE(has_contact_forces(frame));
+    frame.contact_forces.resize(4, 2);
+    frame.contact_forces.col(0) << 1, 1, 1, 1;
+    frame.contact_forces.col(1) << 0, 3, 0, 4;
+    EXPECT_TRUE(has_contact_forces(frame));
+    EXPECT_EQ(vertex_force<4>(frame), Eigen::Vector2d(2, 5));
+}
+
 TEST(VertexSpeed, IsTheLengthOfTheVelocityOrZeroWithoutOne) {
     Frame<4> frame;
     frame.positions.setZero(4, 2);

@@ -85,6 +85,11 @@ Eigen::VectorXd vertex_speed(const Frame<Dim>& frame) {
 }
 
 template <int Dim>
+Eigen::VectorXd vertex_force(const Frame<Dim>& frame) {
+    return frame.contact_forces.colwise().norm().transpose();
+}
+
+template <int Dim>
 Eigen::VectorXd vertex_strain(const SimplexMesh<Dim>& rest, const Positions<Dim>& positions) {
     Eigen::VectorXd volumes(rest.cell_count());
     Eigen::VectorXd strains(rest.cell_count());
@@ -167,6 +172,8 @@ Positions<3> corner_normals(const Surface& surface, double crease) {
 
 template Eigen::VectorXd vertex_speed<3>(const Frame<3>& frame);
 template Eigen::VectorXd vertex_speed<4>(const Frame<4>& frame);
+template Eigen::VectorXd vertex_force<3>(const Frame<3>& frame);
+template Eigen::VectorXd vertex_force<4>(const Frame<4>& frame);
 template Eigen::VectorXd vertex_strain<3>(const SimplexMesh<3>&, const Positions<3>&);
 template Eigen::VectorXd vertex_strain<4>(const SimplexMesh<4>&, const Positions<4>&);
 template Eigen::VectorXd vertex_w<3>(const Positions<3>& positions);

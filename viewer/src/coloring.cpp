@@ -1,9 +1,11 @@
 #include "pent/viewer/coloring.h"
 
+#include <pent/error.h>
 #include <pent/viewer/attributes.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace pent::viewer {
@@ -18,6 +20,8 @@ std::string_view name_of(ColorBy by) {
             return "speed";
         case ColorBy::Strain:
             return "strain";
+        case ColorBy::Force:
+            return "force";
     }
     return "";
 }
@@ -32,6 +36,8 @@ std::string_view title_of(ColorBy by) {
             return "speed, m/s";
         case ColorBy::Strain:
             return "strain";
+        case ColorBy::Force:
+            return "contact force, N";
     }
     return "";
 }
@@ -49,6 +55,13 @@ Eigen::VectorXd vertex_values(const Body<Dim>& body, const Frame<Dim>& frame, Co
             return vertex_speed<Dim>(frame);
         case ColorBy::Strain:
             return vertex_strain<Dim>(body.mesh, frame.positions);
+        case ColorBy::Force:
+            if (!has_contact_forces(frame)) {
+                throw Error("frame " + std::to_string(frame.frame) + " of \"" + body.name
+                            + "\" has no contact forces to color by; run the scene with [output]"
+                              " contact_forces = true");
+            }
+            return vertex_force<Dim>(frame);
         case ColorBy::Body:
             break;
     }

@@ -6,6 +6,7 @@
 
 #include <pent/error.h>
 #include <pent/output_file.h>
+#include <pent/viewer/attributes.h>
 
 #include <cstdio>
 #include <map>
@@ -52,7 +53,7 @@ public:
           folder_(folder),
           options_(options),
           bodies_(load_bodies<Dim>(run)),
-          start_(load_moment<Dim>(run, bodies_, run.frames.front(), ColorBy::Body)),
+          start_(load_moment<Dim>(run, bodies_, run.frames.front(), options.color)),
           sections_(make_sections<Dim>(options.sections, start_.frames)) {}
 
     // The range of colors, from all frames; false if ended early.
@@ -152,7 +153,11 @@ private:
         VtuGrid grid;
         grid.points = frame.positions.template topRows<3>();
         grid.cells = bodies_[body].boundary.facets;
-        for (const ColorBy by : {ColorBy::W, ColorBy::Speed, ColorBy::Strain}) {
+        std::vector<ColorBy> quantities = {ColorBy::W, ColorBy::Speed, ColorBy::Strain};
+        if (has_contact_forces(frame)) {
+            quantities.push_back(ColorBy::Force);
+        }
+        for (const ColorBy by : quantities) {
             grid.point_data.push_back(
                 {std::string(name_of(by)), vertex_values<4>(bodies_[body], frame, by)});
         }

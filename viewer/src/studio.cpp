@@ -46,7 +46,7 @@ Studio<Dim>::Studio(const RunFolder& run, const RenderRunOptions& options)
     : run_(run),
       options_(options),
       bodies_(load_bodies<Dim>(run)),
-      start_(load_moment<Dim>(run, bodies_, run.frames.front(), ColorBy::Body)),
+      start_(load_moment<Dim>(run, bodies_, run.frames.front(), options.color)),
       sections_(make_sections<Dim>(options.sections, start_.frames)),
       tiles_(make_tiles()),
       tile_fit_(aspect(tile_width(0), options.height), options.view),

@@ -13,9 +13,9 @@
 namespace pent::viewer {
 
 /// What the color of a surface tells.
-enum class ColorBy { Body, W, Speed, Strain };
+enum class ColorBy { Body, W, Speed, Strain, Force };
 
-/// "body", "w", "speed" or "strain".
+/// "body", "w", "speed", "strain" or "force".
 [[nodiscard]] std::string_view name_of(ColorBy by);
 
 /// The quantity with its unit, for a color bar: "speed, m/s".
@@ -36,6 +36,8 @@ struct ColorRange {
 };
 
 /// The quantity at the vertices of a body's mesh; zero for ColorBy::Body.
+///
+/// Throws an Error for ColorBy::Force if the frame has no contact forces.
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd vertex_values(const Body<Dim>& body,
                                             const Frame<Dim>& frame,

@@ -56,8 +56,8 @@ struct SliceRunReport {
 /// Slices frames of a run and writes one surface file per body, frame and hyperplane into a folder,
 /// which is made if need be: BODY_000123.ply, or BODY_s01_000123.ply when there are several
 /// hyperplanes. Beside them slices.csv lists all of them with volumes and areas; for VTU,
-/// BODY.pvd puts them in time for ParaView. The boundary is tetrahedra at x, y, z with w, speed and
-/// strain as point data: a contour of w is a slice.
+/// BODY.pvd puts them in time for ParaView. The boundary is tetrahedra at x, y, z with w, speed,
+/// strain and, where frames have them, contact forces as point data: a contour of w is a slice.
 ///
 /// The color range is that of the frames chosen. Throws an Error as reading and writing do.
 [[nodiscard]] SliceRunReport slice_run(const RunFolder& run,
