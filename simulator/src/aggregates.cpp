@@ -3,16 +3,26 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace pent::simulator {
 
 namespace {
 
-// The dense coarse matrix of 10 modes for each aggregate is factored in every step: 100 aggregates
-// take about as long as 50 products with the matrix of a mesh that large.
-constexpr std::size_t kAggregateSize = 550;
-constexpr std::size_t kMostAggregates = 100;
+constexpr double kAggregateSize = 550;
+// The dense coarse matrix of 10 modes for each aggregate is factored in every step and read in every
+// iteration. Beyond this number of aggregates it grows as the root of the number of unknowns, so that
+// it stays a sixth of the matrix of the mesh.
+constexpr double kManyAggregates = 100;
+
+// Most unknowns of an aggregate; halving leaves pieces of half of that or more.
+std::size_t most_unknowns(std::size_t unknowns) {
+    const double count = static_cast<double>(unknowns);
+    const double aggregates =
+        kManyAggregates * std::sqrt(std::max(1.0, count / (kManyAggregates * kAggregateSize)));
+    return static_cast<std::size_t>(std::max(kAggregateSize, 2 * count / aggregates));
+}
 
 template <int Dim>
 void bisect(const Positions<Dim>& rest,
@@ -49,7 +59,7 @@ Aggregates make_aggregates(const Positions<Dim>& rest, const std::vector<std::ui
     for (std::uint32_t unknown = 0; unknown < bodies.size(); ++unknown) {
         of_body[bodies[unknown]].push_back(unknown);
     }
-    const std::size_t most = std::max(kAggregateSize, 2 * bodies.size() / kMostAggregates);
+    const std::size_t most = most_unknowns(bodies.size());
     Aggregates aggregates;
     for (auto& [body, unknowns] : of_body) {
         bisect(rest, most, std::move(unknowns), aggregates.members);

@@ -85,10 +85,18 @@ LinearSolveReport solve(const Workers& workers,
     for (BlockVector<Dim>* vector : {&space.r, &space.z, &space.p, &space.q}) {
         vector->resize(Dim, x.cols());
     }
+    A.multiply(workers, kernels, x, space.r);
+    double r_norm = std::sqrt(residual(workers, b, space.r));
+    if (r_norm > options.tolerance * b_norm && preconditioner.correct(workers, space.r, x)) {
+        A.multiply(workers, kernels, x, space.r);
+        r_norm = std::sqrt(residual(workers, b, space.r));
+    }
     constexpr int kMaxStarts = 5;
     for (int start = 0; start < kMaxStarts; ++start) {
-        A.multiply(workers, kernels, x, space.r);
-        double r_norm = std::sqrt(residual(workers, b, space.r));
+        if (start > 0) {
+            A.multiply(workers, kernels, x, space.r);
+            r_norm = std::sqrt(residual(workers, b, space.r));
+        }
         report.residual = r_norm / b_norm;
         report.has_converged = report.residual <= options.tolerance;
         if (report.has_converged || !std::isfinite(r_norm)

@@ -8,12 +8,12 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
+using Entries = std::vector<Eigen::Triplet<double>>;
+
 // The stored triangle, entry by entry: rows of blocks below the diagonal of A^T = A.
 template <int Dim, typename Scalar>
-Sparse lower_triangle(const BlockMatrix<Dim, Scalar>& A) {
+void add_lower_triangle(const BlockMatrix<Dim, Scalar>& A, Entries& entries) {
     const BlockPattern& pattern = A.pattern();
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(static_cast<std::size_t>(Dim * Dim * pattern.blocks()));
     for (std::int64_t row = 0; row < A.rows(); ++row) {
         const auto r = static_cast<std::size_t>(row);
         for (std::int64_t k = pattern.row_start[r]; k < pattern.row_start[r + 1]; ++k) {
@@ -27,6 +27,16 @@ Sparse lower_triangle(const BlockMatrix<Dim, Scalar>& A) {
                 }
             }
         }
+    }
+}
+
+// Both parts of the matrix.
+template <int Dim, typename Scalar>
+Sparse lower_triangle(const BlockMatrix<Dim, Scalar>& A) {
+    Entries entries;
+    add_lower_triangle(A, entries);
+    if (A.coupling() != nullptr) {
+        add_lower_triangle(*A.coupling(), entries);
     }
     const auto size = static_cast<Eigen::Index>(Dim * A.rows());
     Sparse lower(size, size);

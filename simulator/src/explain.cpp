@@ -209,7 +209,9 @@ private:
         add({.name = "linear solver",
              .is_on = size_.free_vertices > 0,
              .why =
-                 std::string(word_of(kPreconditioners, options.preconditioner)) + ", "
+                 (options.linear == LinearSolver::Direct
+                      ? std::string("direct, ")
+                      : std::string(word_of(kPreconditioners, options.preconditioner)) + ", ")
                  + std::string(word_of(kPrecisions, options.precision))
                  + format(" matrix, to %.1g: %d iterations", options.tolerance, step_.iterations),
              .unknowns = result_.unknowns,

@@ -24,6 +24,16 @@ public:
     virtual void apply(const Workers& workers,
                        const BlockVector<Dim>& r,
                        BlockVector<Dim>& z) const = 0;
+
+    /// Adds to x what a coarse space, if there is one, makes of the residual r: a better first guess.
+    /// Bodies that move rigidly are then solved for at once.
+    ///
+    /// @return  Whether x has changed.
+    [[nodiscard]] virtual bool correct(const Workers& /*workers*/,
+                                       const BlockVector<Dim>& /*r*/,
+                                       BlockVector<Dim>& /*x*/) const {
+        return false;
+    }
 };
 
 /// Block Jacobi along the columns of an extruded mesh: the unknowns of all layers above one base

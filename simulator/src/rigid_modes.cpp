@@ -123,6 +123,12 @@ public:
                const BlockVector<Dim>& r,
                BlockVector<Dim>& z) const override {
         smoother_->apply(workers, r, z);
+        static_cast<void>(correct(workers, r, z));
+    }
+
+    bool correct(const Workers& workers,
+                 const BlockVector<Dim>& r,
+                 BlockVector<Dim>& x) const override {
         Eigen::VectorXd coarse(kModes * aggregates_->count());
         workers.for_each(aggregates_->count(), [&](int piece) {
             Coefficients sum = Coefficients::Zero();
@@ -135,9 +141,10 @@ public:
         workers.for_each(aggregates_->count(), [&](int piece) {
             const Coefficients part = coarse.template segment<kModes>(kModes * piece);
             for (const std::uint32_t i : aggregates_->members[static_cast<std::size_t>(piece)]) {
-                z.col(i) += Modes<Dim>::combined(part, arms_.col(i));
+                x.col(i) += Modes<Dim>::combined(part, arms_.col(i));
             }
         });
+        return true;
     }
 
 private:

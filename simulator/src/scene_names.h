@@ -35,6 +35,10 @@ inline constexpr std::array kFilters = {
 inline constexpr std::array kContactModels = {
     Name<ContactModel>{ContactModel::Penalty, "penalty"},
 };
+inline constexpr std::array kLinearSolvers = {
+    Name<LinearSolver>{LinearSolver::Iterative, "cg"},
+    Name<LinearSolver>{LinearSolver::Direct, "direct"},
+};
 inline constexpr std::array kPreconditioners = {
     Name<PreconditionerKind>{PreconditionerKind::BlockJacobi, "block-jacobi"},
     Name<PreconditionerKind>{PreconditionerKind::ColumnJacobi, "column-jacobi"},

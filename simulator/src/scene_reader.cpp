@@ -231,6 +231,9 @@ SolverOptions read_solver(TableReader reader) {
     solver.filter =
         kFilters[reader.choice("filter", names_of(kFilters), place_of(kFilters, solver.filter))]
             .value;
+    solver.linear = kLinearSolvers[reader.choice("linear", names_of(kLinearSolvers),
+                                                 place_of(kLinearSolvers, solver.linear))]
+                        .value;
     solver.preconditioner =
         kPreconditioners[reader.choice("preconditioner", names_of(kPreconditioners),
                                        place_of(kPreconditioners, solver.preconditioner))]

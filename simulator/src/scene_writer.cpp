@@ -182,6 +182,7 @@ std::string output_text(const Output& output) {
 std::string solver_text(const SolverOptions& solver) {
     return "\n[solver]\n" + line("integrator", in_quotes(word_of(kIntegrators, solver.integrator)))
            + line("filter", in_quotes(word_of(kFilters, solver.filter)))
+           + line("linear", in_quotes(word_of(kLinearSolvers, solver.linear)))
            + line("preconditioner", in_quotes(word_of(kPreconditioners, solver.preconditioner)))
            + line("precision", in_quotes(word_of(kPrecisions, solver.precision)))
            + line("tolerance", number(solver.tolerance))

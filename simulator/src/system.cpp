@@ -1,5 +1,7 @@
 #include "system.h"
 
+#include "direct_solver.h"
+
 #include <pent/error.h>
 
 #include <algorithm>
@@ -81,7 +83,13 @@ System<Dim>::System(const Scene& scene, const World<Dim>& world, const Simulatio
     } else {
         column_start_ = world.numbering.column_start;
     }
-    if (options_.preconditioner == PreconditionerKind::RigidModes) {
+    if (options_.linear == LinearSolver::Direct && unknowns > kMostDirectVertices) {
+        throw Error("solver.linear = \"direct\" takes at most "
+                    + std::to_string(kMostDirectVertices) + " free vertices; this scene has "
+                    + std::to_string(unknowns) + ": use \"cg\"");
+    }
+    if (options_.linear == LinearSolver::Iterative
+        && options_.preconditioner == PreconditionerKind::RigidModes) {
         std::vector<std::uint32_t> bodies(unknowns);
         for (std::uint32_t unknown = 0; unknown < unknowns; ++unknown) {
             const auto after =
@@ -184,6 +192,19 @@ std::unique_ptr<Preconditioner<Dim>> System<Dim>::precondition(
 
 template <int Dim>
 template <typename Scalar>
+LinearSolveReport System<Dim>::iterate(const BlockMatrix<Dim, Scalar>& matrix,
+                                       const Positions<Dim>& positions,
+                                       const LinearStep<Dim>& step,
+                                       BlockVector<Dim>& dx) {
+    const std::unique_ptr<Preconditioner<Dim>> preconditioner = precondition(matrix, positions);
+    return pent::simulator::solve(workers_, *kernels_, matrix, *preconditioner, step.right,
+                                  {.tolerance = std::max(step.tolerance, options_.tolerance),
+                                   .max_iterations = options_.max_iterations},
+                                  space_, dx);
+}
+
+template <int Dim>
+template <typename Scalar>
 LinearSolveReport System<Dim>::solve_with(BlockMatrix<Dim, Scalar>& matrix,
                                           const BodyState<Dim>& state,
                                           Filter filter,
@@ -202,12 +223,9 @@ LinearSolveReport System<Dim>::solve_with(BlockMatrix<Dim, Scalar>& matrix,
     const std::unique_ptr<CouplingMatrix<Dim, Scalar>> coupling = add_contacts(state, step, matrix);
     matrix.set_coupling(coupling ? &coupling->matrix : nullptr);
     const Stopwatch solution;
-    const std::unique_ptr<Preconditioner<Dim>> preconditioner =
-        precondition(matrix, state.positions);
-    const double tolerance = std::max(step.tolerance, options_.tolerance);
-    const LinearSolveReport solved = pent::simulator::solve(
-        workers_, *kernels_, matrix, *preconditioner, step.right,
-        {.tolerance = tolerance, .max_iterations = options_.max_iterations}, space_, dx);
+    const LinearSolveReport solved = options_.linear == LinearSolver::Direct
+                                         ? solve_directly(matrix, step.right, dx)
+                                         : iterate(matrix, state.positions, step, dx);
     matrix.set_coupling(nullptr);
     report.solve_seconds += solution.seconds();
     report.iterations += solved.iterations;

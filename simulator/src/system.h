@@ -102,6 +102,11 @@ private:
                                  BlockVector<Dim>& dx,
                                  StepReport& report);
     template <typename Scalar>
+    LinearSolveReport iterate(const BlockMatrix<Dim, Scalar>& matrix,
+                              const Positions<Dim>& positions,
+                              const LinearStep<Dim>& step,
+                              BlockVector<Dim>& dx);
+    template <typename Scalar>
     void add_masses(BlockMatrix<Dim, Scalar>& matrix, double factor) const;
     template <typename Scalar>
     [[nodiscard]] std::unique_ptr<CouplingMatrix<Dim, Scalar>> add_contacts(

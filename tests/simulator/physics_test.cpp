@@ -2,6 +2,7 @@
 #include "rigid_fit.h"
 #include "scenes.h"
 
+#include <pent/error.h>
 #include <pent/simulator/energy.h>
 #include <pent/simulator/simulation.h>
 
@@ -361,6 +362,31 @@ TEST(Quasistatic, EndsWhereADampedMotionComesToRest) {
     const double moved = (at_once.positions(0) - mesh.positions).norm();
     EXPECT_LT((at_once.positions(0) - slowly.positions(0)).norm(), 1e-5 * moved);
     EXPECT_LT(at_once.forces(0).col(3).norm(), 1e-6);  // a free vertex in equilibrium
+}
+
+TEST(DirectSolver, TakesTheStepsOfConjugateGradients) {
+    Scene scene = soft_bar(Integrator::NewtonEuler, 1);
+    scene.gravity[1] = -9.8;
+    scene.constraints = {hold(kLeftEnd, still(4))};
+    const SimplexMesh<4> mesh = pent::test::kuhn_box<4>({3, 1, 1, 1}, {0.9, 0.3, 0.3, 0.3});
+    Simulation<4> iterated(scene, {mesh});
+    scene.solver.linear = LinearSolver::Direct;
+    Simulation<4> direct(scene, {mesh});
+    for (int i = 0; i < 10; ++i) {
+        ASSERT_TRUE(iterated.step().is_accepted);
+        const StepReport report = direct.step();
+        ASSERT_TRUE(report.is_accepted);
+        EXPECT_EQ(report.iterations, 0);
+    }
+    // Newton's method stops at 1e-9 of the unbalanced force.
+    EXPECT_LT((iterated.positions(0) - direct.positions(0)).norm(), 1e-7);
+}
+
+TEST(DirectSolver, IsRefusedWhereItWouldTakeMinutes) {
+    Scene scene = soft_bar(Integrator::LinearEuler, 1);
+    scene.solver.linear = LinearSolver::Direct;
+    EXPECT_THROW(Simulation<4>(scene, {pent::test::kuhn_box<4>({8, 6, 6, 6}, {1, 1, 1, 1})}),
+                 Error);
 }
 
 TEST(NewtonEuler, EqualsLinearEulerForTheLinearEnergy) {

@@ -46,6 +46,17 @@ void expect_free_fall(Precision precision) {
     EXPECT_NEAR(simulation.velocities(0)(1, 3), -9.8 * h * steps, 1e-4);
 }
 
+// Rigid motions are in the coarse space, which the solver asks first.
+TEST(FreeFall, TakesNoIterations) {
+    Scene scene = box_scene<4>();
+    scene.gravity[1] = -9.8;
+    scene.solver.tolerance = 1e-5;
+    Simulation<4> simulation(scene, {bar()});
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(simulation.step().iterations, 0);
+    }
+}
+
 TEST(FreeFall, IsExactForTheIntegrator) {
     expect_free_fall<3>(Precision::Double);
     expect_free_fall<4>(Precision::Double);

@@ -15,6 +15,9 @@ enum class Integrator {
 /// What becomes of the negative eigenvalues of Hessians, of elements as of contacts.
 using contact::Filter;
 
+/// Conjugate gradients; sparse L D L^T, the reference for small scenes (2500 free vertices at most).
+enum class LinearSolver { Iterative, Direct };
+
 /// Block Jacobi; Jacobi by whole extrusion columns; the latter with a coarse space of rigid modes.
 enum class PreconditionerKind { BlockJacobi, ColumnJacobi, RigidModes };
 
@@ -24,6 +27,7 @@ enum class Precision { Float, Double };
 struct SolverOptions {
     Integrator integrator = Integrator::LinearEuler;
     Filter filter = Filter::Clamp;
+    LinearSolver linear = LinearSolver::Iterative;
     PreconditionerKind preconditioner = PreconditionerKind::RigidModes;
     Precision precision = Precision::Float;
     double tolerance = 1e-4;  ///< |b - A x| / |b| at which the linear solve stops, in (0, 1).
