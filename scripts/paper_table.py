@@ -31,6 +31,15 @@ PAPER = {
 }
 
 
+INTRODUCTION = """# Our runs of the paper's scenes
+
+As `scripts/paper.sh` wrote it; docs/gallery.md has the pictures and says where the thresholds come from. The paper does not say
+whether its "per frame" is a time step or 1/30 s; both ratios are given. "Processor s" is the time all threads together were busy, with
+reading and writing: what a step costs also on a machine that has other work; the last column compares it with the paper's cores times
+seconds, as if all its cores had been busy. Of the five equal cantilevers both tables count one. Without eps and k the scene has no contact.
+""".split("\n")
+
+
 class Run:
     """A run folder with its scene and its slices."""
 
@@ -109,14 +118,25 @@ def check_bunny(run):
 
 
 def check_twist(run):
-    volume = run.slice_volumes()
-    least = min(volume.values()) / volume[0]
-    start = run.hypervolume(run.bodies[0], 0)
-    change = max(abs(run.hypervolume(run.bodies[0], frame) / start - 1) for frame in list(volume)[::3] + [run.last])
-    return [
-        (least < 0.97, f"the middle slice shrinks to {least:.3f} of its volume (below 0.97)"),
+    body = run.bodies[0]
+    layers = read_pent(run.path / "meshes" / f"{body}.pent")[1]["vertex"]["layer"]
+    middle = layers == layers.max() // 2
+
+    def radius(frame):  # RMS distance of the middle layer from the axis of the twist
+        seen = run.positions(body, frame)[middle][:, [0, 2]]
+        return np.sqrt(((seen - seen.mean(0)) ** 2).sum(1).mean())
+
+    crush = radius(run.last) / radius(0)
+    volume, start = run.slice_volumes(), run.hypervolume(body, 0)
+    change = max(abs(run.hypervolume(body, frame) / start - 1) for frame in [*list(volume)[::3], run.last])
+    checks = [
+        (crush < 0.9, f"the middle layer shrinks towards the axis to {crush:.3f} of its radius (below 0.9)"),
         (change < 0.05, f"the hypervolume changes by at most {100 * change:.2f}% (below 5%)"),
     ]
+    if run.name == "octopus_twist":
+        least = min(volume.values()) / volume[0]
+        checks.append((least < 0.95, f"the middle slice shrinks to {least:.3f} of its volume (below 0.95)"))
+    return checks
 
 
 def check_cantilevers(run):
@@ -247,7 +267,7 @@ def machine():
 def main():
     folder, names = pathlib.Path(sys.argv[1]), sys.argv[2:]
     runs = {name: Run(folder, name) for name in names}
-    lines = table(runs.values()) + ["", f"Machine: {machine()}.", ""]
+    lines = [*INTRODUCTION, *table(runs.values()), "", f"Machine: {machine()}.", ""]
     failures = 0
     for name, run in runs.items():
         if name in PAPER:

@@ -19,11 +19,15 @@ recipes() {
     sed -n "s/^# $1:[ ]*//p" "$2"
 }
 
-# make_target TARGET SOURCE COMMAND...: runs the command unless the target is newer than the source
+# make_target TARGET "SOURCES" COMMAND...: runs the command unless the target is newer than all sources
 make_target() {
-    local target=$1 source=$2
+    local target=$1 sources=$2 source state=current
     shift 2
-    if [ -e "$target" ] && [ ! "$source" -nt "$target" ]; then
+    [ -e "$target" ] || state=missing
+    for source in $sources; do
+        [ ! "$source" -nt "$target" ] || state=old
+    done
+    if [ $state = current ]; then
         say "$target is up to date"
         return
     fi
@@ -39,7 +43,7 @@ make_meshes() {
         target=$2/$(sed 's/.* -o \([^ ]*\).*/\1/' <<<"$recipe")
         recipe=${recipe#pent-mesh }
         # shellcheck disable=SC2086  # options
-        make_target "$target" "$bin/pent-mesh" "$bin/pent-mesh" ${recipe/-o /-o $2/} \
+        make_target "$target" "$1" "$bin/pent-mesh" ${recipe/-o /-o $2/} \
             --json "${target%.pent}.json"
     done < <(recipes Mesh "$1")
 }
@@ -66,30 +70,31 @@ make_pictures() {
     local options name
     options=$(recipes Slices "$1")
     # shellcheck disable=SC2086
-    make_target "$2-slices/slices.csv" "$2/report.json" \
+    make_target "$2-slices/slices.csv" "$2/report.json $1" \
         "$bin/pent-slice" "$2" -o "$2-slices" $options
     while read -r name options; do
         # shellcheck disable=SC2086
-        make_target "$2-$name.png" "$2/report.json" \
+        make_target "$2-$name.png" "$2/report.json $1" \
             "$bin/pent-render" "$2" --sheet "$2-$name.png" $options
     done < <(recipes Picture "$1")
     while read -r options; do
         # shellcheck disable=SC2086
-        make_target "$2.mp4" "$2/report.json" "$bin/pent-render" "$2" -o "$2.mp4" $options
+        make_target "$2.mp4" "$2/report.json $1" "$bin/pent-render" "$2" -o "$2.mp4" $options
     done < <(recipes Movie "$1")
 }
 
 # make_scene SCENE OUT [FRAMES]: everything into the folder OUT; FRAMES shortens the scene
 make_scene() {
-    local scene run=$2/$(basename "$1" .toml)
+    local run=$2/$(basename "$1" .toml) scene
     scene=$run.toml
     make_meshes "$1" "$2"
-    sed "${3:+s/^frames = .*/frames = $3/}" "$1" >"$scene.new"
+    # Without other comments, so that a new recipe for a picture does not make a new run.
+    sed -e '/^# Mesh:/p' -e '/^#/d' ${3:+-e "s/^frames = .*/frames = $3/"} "$1" >"$scene.new"
     if cmp -s "$scene.new" "$scene"; then
         rm "$scene.new"
     else
         mv "$scene.new" "$scene"
     fi
     simulate "$scene" "$run"
-    make_pictures "$scene" "$run"
+    make_pictures "$1" "$run"
 }
