@@ -186,7 +186,9 @@ private:
                 const Corners<Dim, K> a = gather<Dim, K>(first, i, positions_);
                 const Corners<Dim, L> b = gather<Dim, L>(second, j, positions_);
                 ClosestPointSearch<Dim, K, L> search(a, b, reach_ * reach_);
-                if (!search.run()) {
+                if (!search.run()
+                    || (setting_.candidates.template is_held<K>(first, i)
+                        && setting_.candidates.template is_held<L>(second, j))) {
                     continue;
                 }
                 const std::uint32_t* of_first = first.col(i).data();

@@ -44,11 +44,7 @@ struct BarrierSetting {
             std::sort(facets.begin(), facets.end());
             const Simplices<Dim>& corners = bodies[body].surface.facets;
             for (const std::uint32_t facet : facets) {
-                bool is_held = true;
-                for (int i = 0; i < Dim; ++i) {
-                    is_held &= candidates.is_held()[corners(i, facet)];
-                }
-                if (!is_held) {
+                if (!candidates.template is_held<Dim>(corners, facet)) {
                     visit(static_cast<std::int32_t>(body), facet);
                 }
             }

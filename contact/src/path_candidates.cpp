@@ -32,17 +32,6 @@ bool share_a_vertex(const Simplices<K>& first,
 }
 
 template <int Count>
-bool is_all_held(const std::vector<bool>& is_held,
-                 const Simplices<Count>& simplices,
-                 Eigen::Index i) {
-    bool all = true;
-    for (int a = 0; a < Count; ++a) {
-        all &= is_held[simplices(a, i)];
-    }
-    return all;
-}
-
-template <int Count>
 double most_travel(const Eigen::VectorXd& travel,
                    const Simplices<Count>& simplices,
                    Eigen::Index i) {
@@ -162,7 +151,7 @@ void PathCandidates<Dim>::search() {
     for (std::size_t a = 0; a < bodies_.size(); ++a) {
         for (std::size_t b = a; b < bodies_.size(); ++b) {
             const bool is_self = a == b;
-            if ((is_self && !self_) || (bodies_[a].is_kinematic && bodies_[b].is_kinematic)
+            if ((is_self && !self_)
                 || !overlap(trees_[a].vertices.tree().root_box(),
                             trees_[b].vertices.tree().root_box())) {
                 continue;
@@ -199,8 +188,7 @@ std::vector<IndexPair> PathCandidates<Dim>::search(const Simplices<K>& first,
     const std::vector<BoxTree::Work> work = BoxTree::split(first_tree, second_tree, kPieces);
     std::vector<std::vector<IndexPair>> found(work.size());
     const auto add = [&](std::uint32_t i, std::uint32_t j, std::vector<IndexPair>& list) {
-        if (share_a_vertex<K, L>(first, i, second, j)
-            || (is_all_held<K>(is_held_, first, i) && is_all_held<L>(is_held_, second, j))) {
+        if (share_a_vertex<K, L>(first, i, second, j)) {
             return;
         }
         if (is_same_list && j < i) {

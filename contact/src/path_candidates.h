@@ -26,7 +26,7 @@ struct CandidatePairs {
 };
 
 /// The pairs of simplices that can come within a reach of each other while vertices move along
-/// straight paths. Pairs that share a vertex are left out, and pairs of held vertices alone.
+/// straight paths. Pairs that share a vertex are left out.
 ///
 /// Every vertex has a box around its path and some slack; a pair whose boxes are further apart than
 /// the reach is no candidate. So candidates hold for all motions that stay in the boxes, and are
@@ -50,6 +50,16 @@ public:
 
     [[nodiscard]] const std::vector<CandidatePairs>& pairs() const { return pairs_; }
     [[nodiscard]] const std::vector<bool>& is_held() const { return is_held_; }
+
+    /// Whether all corners of a simplex are held.
+    template <int Count>
+    [[nodiscard]] bool is_held(const Simplices<Count>& simplices, Eigen::Index i) const {
+        bool is_all = true;
+        for (int corner = 0; corner < Count; ++corner) {
+            is_all &= is_held_[simplices(corner, i)];
+        }
+        return is_all;
+    }
 
     /// Calls visit(facet) for facets of a body, in any order, that may come within the reach of a
     /// ball. After cover().

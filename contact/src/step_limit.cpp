@@ -57,10 +57,16 @@ private:
             for (std::size_t k = chunk * kChunk; k < end; ++k) {
                 const auto [i, j] = pairs[k];
                 const double bound = std::min(least.load(std::memory_order_relaxed), here.fraction);
+                const Corners<Dim, K> a_motion = gather<Dim, K>(first, i, motion_);
+                const Corners<Dim, L> b_motion = gather<Dim, L>(second, j, motion_);
+                const Vector<Dim> together = a_motion.col(0);
+                if ((a_motion.colwise() - together).isZero(0)
+                    && (b_motion.colwise() - together).isZero(0)) {
+                    continue;  // held vertices may touch if they stay as they are
+                }
                 const double fraction = safe_fraction<Dim, K, L>(
-                    gather<Dim, K>(first, i, from_), gather<Dim, K>(first, i, motion_),
-                    gather<Dim, L>(second, j, from_), gather<Dim, L>(second, j, motion_), clearance,
-                    std::nextafter(bound, 2.0));
+                    gather<Dim, K>(first, i, from_), a_motion, gather<Dim, L>(second, j, from_),
+                    b_motion, clearance, std::nextafter(bound, 2.0));
                 if (fraction < here.fraction) {
                     here = {fraction, k};
                     double seen = least.load(std::memory_order_relaxed);

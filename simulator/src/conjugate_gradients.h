@@ -15,6 +15,8 @@ struct LinearSolveReport {
     double residual = 0;           ///< |b - A x| / |b| computed from x at the end; 0 if b = 0.
     bool has_converged = false;    ///< residual <= tolerance.
     bool has_broken_down = false;  ///< A direction p with p . A p <= 0 or not finite turned up.
+    bool has_lost_inertia =
+        false;  ///< Not tried: beside the stiffness the masses drown in rounding.
 };
 
 /// Vectors that a solve works in; kept between solves.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <span>
 
 namespace pent::simulator {
 
@@ -11,6 +12,39 @@ namespace {
 // Rows are cut into at most this many chunks, each with a table of all columns.
 constexpr std::size_t kMostChunks = 64;
 constexpr std::size_t kLeastRows = 32;
+
+/// Contacts counted through: those whose Hessian is w_i w_j K, and those that have a whole one.
+template <int Dim>
+class Terms {
+public:
+    explicit Terms(const ContactTerms<Dim>& terms) : terms_(terms) {}
+
+    [[nodiscard]] std::size_t size() const { return weighted() + terms_.moving.size(); }
+    [[nodiscard]] std::span<const std::uint32_t> vertices(std::size_t which) const {
+        if (which >= weighted()) {
+            const LocalHessian<Dim>& local = moving(which);
+            return {local.vertices.data(), static_cast<std::size_t>(local.count)};
+        }
+        return contact(which).vertices;
+    }
+    [[nodiscard]] bool is_weighted(std::size_t which) const { return which < weighted(); }
+    [[nodiscard]] const contact::Contact<Dim>& contact(std::size_t which) const {
+        const auto& pairs = terms_.state.pairs;
+        const std::size_t plain = terms_.moving.empty() ? pairs.size() : 0;
+        return which < plain ? pairs[which] : terms_.state.friction.pairs[which - plain];
+    }
+    [[nodiscard]] const LocalHessian<Dim>& moving(std::size_t which) const {
+        return terms_.moving[which - weighted()];
+    }
+
+private:
+    [[nodiscard]] std::size_t weighted() const {
+        return (terms_.moving.empty() ? terms_.state.pairs.size() : 0)
+               + terms_.state.friction.pairs.size();
+    }
+
+    const ContactTerms<Dim>& terms_;
+};
 
 /// Corner `corner` of contact `contact` is at a row.
 struct Incidence {
@@ -26,13 +60,16 @@ struct Incidences {
 };
 
 template <int Dim>
-Incidences list_by_rows(const Numbering& numbering,
-                        const std::vector<contact::Contact<Dim>>& contacts) {
+Incidences list_by_rows(const Numbering& numbering, const Terms<Dim>& contacts) {
     std::vector<std::uint32_t> next(numbering.free_count() + std::size_t{1}, 0);
     const auto for_each = [&](const auto& visit) {
         for (std::uint32_t c = 0; c < contacts.size(); ++c) {
-            for (std::uint32_t i = 0; i <= Dim; ++i) {
-                const std::uint32_t row = numbering.unknown_of_vertex[contacts[c].vertices[i]];
+            const std::span<const std::uint32_t> vertices = contacts.vertices(c);
+            for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+                if (vertices[i] == contact::kFixedPoint) {
+                    continue;
+                }
+                const std::uint32_t row = numbering.unknown_of_vertex[vertices[i]];
                 if (row < numbering.free_count()) {
                     visit(row, Incidence{c, i});
                 }
@@ -67,7 +104,7 @@ template <int Dim, typename Scalar>
 class RowSum {
 public:
     RowSum(const Numbering& numbering,
-           const std::vector<contact::Contact<Dim>>& contacts,
+           const Terms<Dim>& contacts,
            double scale,
            const Positions<Dim>& held_shift,
            BlockMatrix<Dim, Scalar>& matrix,
@@ -110,16 +147,36 @@ private:
     using Block = Eigen::Matrix<double, Dim, Dim>;
 
     void add(std::uint32_t row, const Incidence& at) {
-        const contact::Contact<Dim>& contact = contacts_[at.contact];
+        if (!contacts_.is_weighted(at.contact)) {
+            add_moving(row, at);
+            return;
+        }
+        const contact::Contact<Dim>& contact = contacts_.contact(at.contact);
         const Block weighted = (scale_ * contact.weights[at.corner]) * contact.response.hessian;
         for (std::uint32_t j = 0; j <= Dim; ++j) {
-            const std::uint32_t vertex = contact.vertices[j];
-            const std::uint32_t column = numbering_.unknown_of_vertex[vertex];
-            if (column >= numbering_.free_count()) {
-                right_.col(row) -= contact.weights[j] * (weighted * held_shift_.col(vertex));
-            } else if (column >= row) {
-                sums_[slot_of(column)] += contact.weights[j] * weighted;
+            add_block(row, contact.vertices[j], contact.weights[j] * weighted);
+        }
+    }
+
+    void add_moving(std::uint32_t row, const Incidence& at) {
+        const LocalHessian<Dim>& local = contacts_.moving(at.contact);
+        for (int j = 0; j < local.count; ++j) {
+            const std::uint32_t vertex = local.vertices[static_cast<std::size_t>(j)];
+            if (vertex != contact::kFixedPoint) {
+                add_block(row, vertex,
+                          scale_
+                              * local.matrix.template block<Dim, Dim>(
+                                  Dim * static_cast<int>(at.corner), Dim * j));
             }
+        }
+    }
+
+    void add_block(std::uint32_t row, std::uint32_t vertex, const Block& block) {
+        const std::uint32_t column = numbering_.unknown_of_vertex[vertex];
+        if (column >= numbering_.free_count()) {
+            right_.col(row) -= block * held_shift_.col(vertex);
+        } else if (column >= row) {
+            sums_[slot_of(column)] += block;
         }
     }
 
@@ -145,7 +202,7 @@ private:
     }
 
     const Numbering& numbering_;
-    const std::vector<contact::Contact<Dim>>& contacts_;
+    const Terms<Dim>& contacts_;
     double scale_;
     const Positions<Dim>& held_shift_;
     BlockMatrix<Dim, Scalar>& matrix_;
@@ -211,24 +268,28 @@ std::unique_ptr<CouplingMatrix<Dim, Scalar>> join(std::uint32_t unknowns,
 template <int Dim, typename Scalar>
 std::unique_ptr<CouplingMatrix<Dim, Scalar>> add_contact_hessian(const Workers& workers,
                                                                  const Numbering& numbering,
-                                                                 const ContactState<Dim>& contacts,
+                                                                 const ContactTerms<Dim>& contacts,
                                                                  double scale,
                                                                  const Positions<Dim>& held_shift,
                                                                  BlockMatrix<Dim, Scalar>& matrix,
                                                                  BlockVector<Dim>& right) {
-    for (const contact::ObstacleContact<Dim>& contact : contacts.obstacles) {
-        const std::uint32_t row = numbering.unknown_of_vertex[contact.vertex];
-        matrix.diagonal(row) += (scale * contact.response.hessian).template cast<Scalar>();
+    const ContactState<Dim>& state = contacts.state;
+    for (const auto* list : {&state.obstacles, &state.friction.obstacles}) {
+        for (const contact::ObstacleContact<Dim>& contact : *list) {
+            const std::uint32_t row = numbering.unknown_of_vertex[contact.vertex];
+            matrix.diagonal(row) += (scale * contact.response.hessian).template cast<Scalar>();
+        }
     }
-    if (contacts.pairs.empty()) {
+    const Terms<Dim> terms(contacts);
+    if (terms.size() == 0) {
         return nullptr;
     }
-    const Incidences incidences = list_by_rows(numbering, contacts.pairs);
+    const Incidences incidences = list_by_rows(numbering, terms);
     const std::size_t rows = incidences.rows.size();
     const std::size_t size = std::max(kLeastRows, (rows + kMostChunks - 1) / kMostChunks);
     std::vector<Leftover<Dim, Scalar>> parts((rows + size - 1) / size);
     workers.for_each(static_cast<int>(parts.size()), [&](int chunk) {
-        RowSum<Dim, Scalar> sum(numbering, contacts.pairs, scale, held_shift, matrix, right);
+        RowSum<Dim, Scalar> sum(numbering, terms, scale, held_shift, matrix, right);
         const std::size_t begin = static_cast<std::size_t>(chunk) * size;
         for (std::size_t i = begin; i < std::min(begin + size, rows); ++i) {
             sum.add_row(incidences.rows[i], incidences.list.data() + incidences.begin[i],
@@ -241,7 +302,7 @@ std::unique_ptr<CouplingMatrix<Dim, Scalar>> add_contact_hessian(const Workers& 
 
 #define PENT_INSTANTIATE(Dim, Scalar)                                                              \
     template std::unique_ptr<CouplingMatrix<Dim, Scalar>> add_contact_hessian<Dim, Scalar>(        \
-        const Workers&, const Numbering&, const ContactState<Dim>&, double, const Positions<Dim>&, \
+        const Workers&, const Numbering&, const ContactTerms<Dim>&, double, const Positions<Dim>&, \
         BlockMatrix<Dim, Scalar>&, BlockVector<Dim>&);
 PENT_INSTANTIATE(3, float)
 PENT_INSTANTIATE(3, double)

@@ -23,6 +23,13 @@ struct CouplingMatrix {
     BlockMatrix<Dim, Scalar> matrix;
 };
 
+/// All that has a Hessian among the contacts of a state.
+template <int Dim>
+struct ContactTerms {
+    const ContactState<Dim>& state;
+    std::vector<LocalHessian<Dim>> moving;  ///< Pairs of a barrier, whose weights move.
+};
+
 /// Adds `scale` times the filtered Hessian of all contacts to the matrix of a step.
 ///
 /// Blocks of vertices that share a cell, which are all but those between the two simplices of a pair,
@@ -37,7 +44,7 @@ template <int Dim, typename Scalar>
 [[nodiscard]] std::unique_ptr<CouplingMatrix<Dim, Scalar>> add_contact_hessian(
     const Workers& workers,
     const Numbering& numbering,
-    const ContactState<Dim>& contacts,
+    const ContactTerms<Dim>& contacts,
     double scale,
     const Positions<Dim>& held_shift,
     BlockMatrix<Dim, Scalar>& matrix,

@@ -60,6 +60,9 @@ Contact read_contact(TableReader reader) {
     contact.filter =
         kFilters[reader.choice("filter", names_of(kFilters), place_of(kFilters, contact.filter))]
             .value;
+    contact.separation = reader.number("separation", contact.separation, kNotNegative);
+    contact.friction = reader.number("friction", contact.friction, kNotNegative);
+    contact.slip_speed = reader.number("slip_speed", contact.slip_speed, kPositive);
     reader.finish();
     return contact;
 }

@@ -6,6 +6,7 @@
 #include <pent/error.h>
 #include <pent/output_file.h>
 #include <pent/pent_file.h>
+#include <pent/simulator/crossing_error.h>
 #include <pent/simulator/run.h>
 #include <pent/simulator/scene_file.h>
 
@@ -348,6 +349,18 @@ RunReport Run<Dim>::operator()() {
     return std::move(report_);
 }
 
+// A scene that its barrier refuses leaves the cells that are in each other's way beside the folder.
+template <int Dim>
+RunReport run_in(const Scene& scene, const RunOptions& options, const RunCallbacks& callbacks) {
+    try {
+        return Run<Dim>(scene, options, callbacks)();
+    } catch (const CrossingError<Dim>& error) {
+        const std::string path = options.folder.string() + "-crossings.pent";
+        write_mesh<Dim>(path, error.offenders(), {.created_by = options.created_by});
+        throw Error(std::string(error.what()) + "; " + path + " has the cells");
+    }
+}
+
 }  // namespace
 
 RunReport run(const Scene& scene, const RunOptions& options, const RunCallbacks& callbacks) {
@@ -357,9 +370,9 @@ RunReport run(const Scene& scene, const RunOptions& options, const RunCallbacks&
         chosen.isa = isa_of_run(options.folder);
     }
     if (scene.dimension == 3) {
-        return Run<3>(scene, chosen, callbacks)();
+        return run_in<3>(scene, chosen, callbacks);
     }
-    return Run<4>(scene, chosen, callbacks)();
+    return run_in<4>(scene, chosen, callbacks);
 }
 
 std::string_view verdict_name(RunVerdict verdict) {

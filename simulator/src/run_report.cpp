@@ -27,6 +27,8 @@ Json contact_json(const ContactSummary& contact) {
             {"candidates", contact.candidates},
             {"trees_built", contact.trees_built},
             {"trees_refit", contact.trees_refit},
+            {"ccd_seconds", contact.ccd_seconds},
+            {"stiffness", contact.stiffness},
             {"seconds", contact.seconds}};
 }
 
@@ -44,6 +46,8 @@ ContactSummary parse_contact(const Json& json) {
     json.at("candidates").get_to(contact.candidates);
     json.at("trees_built").get_to(contact.trees_built);
     json.at("trees_refit").get_to(contact.trees_refit);
+    json.at("ccd_seconds").get_to(contact.ccd_seconds);
+    json.at("stiffness").get_to(contact.stiffness);
     json.at("seconds").get_to(contact.seconds);
     return contact;
 }
@@ -56,6 +60,7 @@ Json step_json(const StepReport& step) {
             {"newton_iterations", step.newton_iterations},
             {"iterations", step.iterations},
             {"residual", step.residual},
+            {"unbalanced", step.unbalanced},
             {"inverted", step.inverted},
             {"collapsed", step.collapsed},
             {"kinetic", step.energies.kinetic},
@@ -79,6 +84,7 @@ StepReport parse_step(const Json& json) {
     json.at("newton_iterations").get_to(step.newton_iterations);
     json.at("iterations").get_to(step.iterations);
     json.at("residual").get_to(step.residual);
+    json.at("unbalanced").get_to(step.unbalanced);
     json.at("inverted").get_to(step.inverted);
     json.at("collapsed").get_to(step.collapsed);
     json.at("kinetic").get_to(step.energies.kinetic);

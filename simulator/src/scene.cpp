@@ -150,6 +150,19 @@ void check_solver(const SolverOptions& solver) {
             "solver: max_halvings must be from 0 to 20");
 }
 
+void check_contact(const Contact& contact, Integrator integrator) {
+    check_push(contact.distance, contact.stiffness, "contact");
+    require(contact.separation >= 0 && std::isfinite(contact.separation),
+            "contact: separation must not be negative");
+    require(contact.friction >= 0 && std::isfinite(contact.friction),
+            "contact: friction must not be negative");
+    require(contact.slip_speed > 0 && std::isfinite(contact.slip_speed),
+            "contact: slip_speed must be above 0");
+    require(contact.model != ContactModel::Barrier || integrator != Integrator::LinearEuler,
+            "contact: the barrier model needs a solver that iterates, since one linear solve cannot"
+            " keep bodies apart; use integrator = \"newton_euler\", or model = \"penalty\"");
+}
+
 }  // namespace
 
 std::string plane_name(const Plane& plane) {
@@ -179,7 +192,7 @@ void check(const Scene& scene) {
         check_obstacle(obstacle, scene.dimension);
     }
     if (scene.contact) {
-        check_push(scene.contact->distance, scene.contact->stiffness, "contact");
+        check_contact(*scene.contact, scene.solver.integrator);
     }
     if (scene.damping) {
         require(scene.damping->mass >= 0 && scene.damping->stiffness >= 0,

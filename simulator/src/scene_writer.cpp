@@ -171,7 +171,10 @@ std::string contact_text(const Contact& contact) {
            + line("distance", number(contact.distance))
            + line("stiffness", number(contact.stiffness))
            + line("self", contact.self ? "true" : "false")
-           + line("filter", in_quotes(word_of(kFilters, contact.filter)));
+           + line("filter", in_quotes(word_of(kFilters, contact.filter)))
+           + line("separation", number(contact.separation))
+           + line("friction", number(contact.friction))
+           + line("slip_speed", number(contact.slip_speed));
 }
 
 std::string output_text(const Output& output) {

@@ -18,6 +18,7 @@ struct StepProblem {
     double inertia = 1;     ///< 0 for statics.
     double scale = 0;       ///< s^2; m^0 for statics.
     double rate = 0;        ///< 1/s.
+    double time = 0;        ///< At the end of the step, s.
     Positions<Dim> target;  ///< Dim x vertices: where inertia alone would carry them, m.
     Positions<Dim> origin;  ///< Dim x vertices, m.
     Positions<Dim> held;    ///< Dim x vertices: held ones at the end of the step, m.

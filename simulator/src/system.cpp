@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <numeric>
 
 namespace pent::simulator {
@@ -75,7 +76,8 @@ System<Dim>::System(const Scene& scene, const World<Dim>& world, const Simulatio
       kernels_(&kernels<Dim>(isa_)),
       pattern_(make_pattern<Dim>(world.cells, world.numbering)),
       elements_(world.rest, world.cells, world.ranges, world.numbering, pattern_),
-      contacts_(scene, world) {
+      contacts_(scene, world),
+      on_move_(options.on_move) {
     const std::uint32_t unknowns = world.numbering.free_count();
     if (options_.preconditioner == PreconditionerKind::BlockJacobi) {
         column_start_.resize(unknowns + 1);
@@ -143,12 +145,64 @@ void System<Dim>::find_contacts(BodyState<Dim>& state) {
     found->add_forces(state.forces);
     state.energies.contact = found->energy;
     state.energies.obstacle = found->obstacle_energy;
+    state.energies.friction = found->friction.energy;
     contact_work_.searches += found->summary.searches;
     contact_work_.candidates += found->summary.candidates;
     contact_work_.trees_built += found->summary.trees_built;
     contact_work_.trees_refit += found->summary.trees_refit;
     contact_work_.seconds += watch.seconds();
     state.contacts = std::move(found);
+}
+
+template <int Dim>
+void System<Dim>::begin_step(BodyState<Dim>& now, bool is_linear, double h) {
+    if (!now.contacts || !contacts_.has_friction()) {
+        return;
+    }
+    contacts_.begin_step(*now.contacts, now.positions, is_linear ? &now.velocities : nullptr, h);
+    evaluate(now);
+}
+
+template <int Dim>
+contact::StepLimit System<Dim>::limit_step(const Positions<Dim>& from, const Positions<Dim>& to) {
+    contact::StepLimit limit = contacts_.limit_step(workers_, from, to);
+    contact_work_.seconds += limit.seconds;
+    contact_work_.ccd_seconds += limit.seconds;
+    return limit;
+}
+
+template <int Dim>
+void System<Dim>::set_barrier_stiffness(double stiffness, BodyState<Dim>& state) {
+    if (stiffness != contacts_.stiffness()) {
+        contacts_.set_stiffness(stiffness);
+        evaluate(state);
+    }
+}
+
+// Whether factor times the masses would drown in the rounding of the stiffness that the matrix holds. In a
+// free body the stiffness cancels for rigid motions, and the rounding that is left takes the place of
+// inertia: at most 1e-2 of it here, as rounding is not all of one sign.
+template <int Dim>
+template <typename Scalar>
+bool System<Dim>::has_lost_inertia(const BlockMatrix<Dim, Scalar>& matrix, double factor) const {
+    if (factor == 0) {
+        return false;  // statics
+    }
+    constexpr double kMostRatio = 1e-2 / double{std::numeric_limits<Scalar>::epsilon()};
+    const auto rows = static_cast<std::int64_t>(world_->numbering.free_count());
+    const auto chunks = static_cast<int>((rows + kChunkVertices - 1) / kChunkVertices);
+    return workers_.sum(chunks, [&](int chunk) {
+        const std::int64_t begin = chunk * kChunkVertices;
+        const std::int64_t end = std::min<std::int64_t>(begin + kChunkVertices, rows);
+        int lost = 0;
+        for (std::int64_t row = begin; row < end; ++row) {
+            const std::uint32_t vertex =
+                world_->numbering.vertex_of_unknown[static_cast<std::size_t>(row)];
+            const double stiffness = static_cast<double>(matrix.diagonal(row).trace()) / Dim;
+            lost += stiffness > kMostRatio * factor * world_->masses[vertex] ? 1 : 0;
+        }
+        return lost;
+    }) > 0;
 }
 
 template <int Dim>
@@ -172,8 +226,12 @@ std::unique_ptr<CouplingMatrix<Dim, Scalar>> System<Dim>::add_contacts(
         return nullptr;
     }
     const Stopwatch watch;
-    auto coupling = add_contact_hessian(workers_, world_->numbering, *state.contacts,
-                                        step.contact_factor, step.held_shift, matrix, step.right);
+    const ContactTerms<Dim> terms{
+        *state.contacts, contacts_.has_barrier()
+                             ? contacts_.hessians(workers_, *state.contacts, state.positions)
+                             : std::vector<LocalHessian<Dim>>()};
+    auto coupling = add_contact_hessian(workers_, world_->numbering, terms, step.contact_factor,
+                                        step.held_shift, matrix, step.right);
     contact_work_.seconds += watch.seconds();
     return coupling;
 }
@@ -215,6 +273,11 @@ LinearSolveReport System<Dim>::solve_with(BlockMatrix<Dim, Scalar>& matrix,
     matrix.set_zero(workers_);
     elements_.add_hessian(workers_, *kernels_, state.positions, step.elastic_factor, filter,
                           step.held_shift, matrix, step.right);
+    if (has_lost_inertia(matrix, step.mass_factor)) {
+        LinearSolveReport lost;
+        lost.has_lost_inertia = true;
+        return lost;
+    }
     add_masses(matrix, step.mass_factor);
     if (step.damping_factor > 0) {
         matrix.add_scaled(workers_, step.damping_factor, *damping_tangent_);
@@ -239,8 +302,17 @@ LinearSolveReport System<Dim>::solve(const BodyState<Dim>& state,
                                      BlockVector<Dim>& dx,
                                      StepReport& report) {
     const auto solve_filtered = [&](Filter filter) {
-        return float_matrix_ ? solve_with(*float_matrix_, state, filter, step, dx, report)
-                             : solve_with(*double_matrix_, state, filter, step, dx, report);
+        if (float_matrix_) {
+            const LinearSolveReport solved =
+                solve_with(*float_matrix_, state, filter, step, dx, report);
+            if (!solved.has_lost_inertia) {
+                return solved;
+            }
+            if (!double_matrix_) {
+                double_matrix_ = std::make_unique<BlockMatrix<Dim, double>>(pattern_);
+            }
+        }
+        return solve_with(*double_matrix_, state, filter, step, dx, report);
     };
     const BlockVector<Dim> guess = dx;
     LinearSolveReport solved = solve_filtered(options_.filter);

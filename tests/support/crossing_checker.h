@@ -103,18 +103,6 @@ public:
               const RealCorners<Dim, L>& b1)
         : a0_(a0), a1_(a1), b0_(b0), b1_(b1) {}
 
-    [[nodiscard]] bool do_boxes_meet() const {
-        for (int axis = 0; axis < Dim; ++axis) {
-            if (std::max(a0_.row(axis).maxCoeff(), a1_.row(axis).maxCoeff())
-                    < std::min(b0_.row(axis).minCoeff(), b1_.row(axis).minCoeff())
-                || std::max(b0_.row(axis).maxCoeff(), b1_.row(axis).maxCoeff())
-                       < std::min(a0_.row(axis).minCoeff(), a1_.row(axis).minCoeff())) {
-                return false;
-            }
-        }
-        return true;
-    }
-
     [[nodiscard]] bool do_meet() const {
         Coefficients values;
         Eigen::Matrix<Real, Dim + 1, Dim + 1> bernstein;
@@ -211,6 +199,58 @@ template <int Dim, int K, int L>
     return false;
 }
 
+/// The extents of simplices along every axis over a motion: lowest and highest, Dim x simplices each.
+template <int Dim>
+struct Extents {
+    Eigen::Matrix<double, Dim, Eigen::Dynamic> low;
+    Eigen::Matrix<double, Dim, Eigen::Dynamic> high;
+
+    [[nodiscard]] bool do_meet(Eigen::Index i, const Extents& other, Eigen::Index j) const {
+        return (low.col(i).array() <= other.high.col(j).array()).all()
+               && (other.low.col(j).array() <= high.col(i).array()).all();
+    }
+};
+
+template <int Dim, int Count>
+[[nodiscard]] Extents<Dim> extents_of(const Simplices<Count>& simplices,
+                                      const Positions<Dim>& from,
+                                      const Positions<Dim>& to) {
+    Extents<Dim> extents;
+    extents.low.resize(Dim, simplices.cols());
+    extents.high.resize(Dim, simplices.cols());
+    for (Eigen::Index i = 0; i < simplices.cols(); ++i) {
+        extents.low.col(i) = from.col(simplices(0, i));
+        extents.high.col(i) = from.col(simplices(0, i));
+        for (int k = 0; k < Count; ++k) {
+            for (const Positions<Dim>* positions : {&from, &to}) {
+                const auto corner = positions->col(simplices(k, i));
+                extents.low.col(i) = extents.low.col(i).cwiseMin(corner);
+                extents.high.col(i) = extents.high.col(i).cwiseMax(corner);
+            }
+        }
+    }
+    return extents;
+}
+
+/// Calls visit(i, j) for all pairs of simplices, but those that share a corner or whose extents do not
+/// meet.
+template <int Dim, int K, int L, typename Visit>
+void for_each_near_pair(const Simplices<K>& a,
+                        const Simplices<L>& b,
+                        const Positions<Dim>& from,
+                        const Positions<Dim>& to,
+                        const Visit& visit) {
+    const Extents<Dim> of_a = extents_of<Dim, K>(a, from, to);
+    const Extents<Dim> of_b = extents_of<Dim, L>(b, from, to);
+    for (Eigen::Index i = 0; i < a.cols(); ++i) {
+        for (Eigen::Index j = 0; j < b.cols(); ++j) {
+            if (of_a.do_meet(i, of_b, j) && !share_corner<Dim, K, L>(a, i, b, j)) {
+                visit(i, j);
+            }
+        }
+    }
+}
+
 /// Pairs of simplices of two surfaces (or one and itself) that go through each other.
 template <int Dim>
 [[nodiscard]] int count_crossings(const contact::Surface<Dim>& first,
@@ -218,19 +258,13 @@ template <int Dim>
                                   const Positions<Dim>& positions) {
     int count = 0;
     const auto visit = [&]<int K, int L>(const Simplices<K>& a, const Simplices<L>& b) {
-        for (Eigen::Index i = 0; i < a.cols(); ++i) {
-            const auto p = real_corners<Dim, K>(a, i, positions);
-            for (Eigen::Index j = 0; j < b.cols(); ++j) {
-                const auto q = real_corners<Dim, L>(b, j, positions);
-                const bool is_apart =
-                    (p.rowwise().maxCoeff().array() < q.rowwise().minCoeff().array()).any()
-                    || (q.rowwise().maxCoeff().array() < p.rowwise().minCoeff().array()).any();
-                if (!is_apart && !share_corner<Dim, K, L>(a, i, b, j)
-                    && do_cross<Dim, K, L>(p, q)) {
-                    ++count;
-                }
-            }
-        }
+        for_each_near_pair<Dim, K, L>(
+            a, b, positions, positions, [&](Eigen::Index i, Eigen::Index j) {
+                count += do_cross<Dim, K, L>(real_corners<Dim, K>(a, i, positions),
+                                             real_corners<Dim, L>(b, j, positions))
+                             ? 1
+                             : 0;
+            });
     };
     visit.template operator()<2, Dim>(first.edges, second.facets);
     if (&first != &second) {
@@ -251,18 +285,12 @@ template <int Dim>
                                         const Positions<Dim>& to) {
     int count = 0;
     const auto visit = [&]<int K, int L>(const Simplices<K>& a, const Simplices<L>& b) {
-        for (Eigen::Index i = 0; i < a.cols(); ++i) {
-            const auto a0 = real_corners<Dim, K>(a, i, from);
-            const auto a1 = real_corners<Dim, K>(a, i, to);
-            for (Eigen::Index j = 0; j < b.cols(); ++j) {
-                const SweptPair<Dim, K, L> pair(a0, a1, real_corners<Dim, L>(b, j, from),
-                                                real_corners<Dim, L>(b, j, to));
-                if (pair.do_boxes_meet() && !share_corner<Dim, K, L>(a, i, b, j)
-                    && pair.do_meet()) {
-                    ++count;
-                }
-            }
-        }
+        for_each_near_pair<Dim, K, L>(a, b, from, to, [&](Eigen::Index i, Eigen::Index j) {
+            const SweptPair<Dim, K, L> pair(
+                real_corners<Dim, K>(a, i, from), real_corners<Dim, K>(a, i, to),
+                real_corners<Dim, L>(b, j, from), real_corners<Dim, L>(b, j, to));
+            count += pair.do_meet() ? 1 : 0;
+        });
     };
     visit.template operator()<1, Dim>(first.vertices, second.facets);
     visit.template operator()<2, Dim - 1>(first.edges, second.ridges);

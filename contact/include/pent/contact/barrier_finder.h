@@ -81,8 +81,9 @@ template <int Dim>
 class BarrierFinder {
 public:
     /// @param bodies   Their surfaces index the columns of positions.
-    /// @param is_held  One for each vertex of the scene: moved from outside. Held vertices do not meet
-    ///                 each other or obstacles.
+    /// @param is_held  One for each vertex of the scene: moved from outside. Held vertices do not push
+    ///                 each other and do not meet obstacles, but a step does not lead them through
+    ///                 each other.
     /// @param rest     Rest positions of all vertices.
     ///
     /// Throws an Error if options or obstacles are out of range.

@@ -63,8 +63,10 @@ struct RunCallbacks {
 /// Reads the meshes, simulates, and writes the folder as it goes.
 ///
 /// Throws an Error for meshes that cannot be read or do not fit the scene, a folder that is in use
-/// (without force or resume) or holds another scene (with resume), and for files that cannot be
-/// written. What was written before stays: whole frames and a report that says so.
+/// (without force or resume) or holds another scene (with resume), for files that cannot be written,
+/// and for a start that crosses where [contact] is a barrier: FOLDER-crossings.pent then has the
+/// cells in each other's way, a region for each body. What was written before stays: whole frames
+/// and a report that says so.
 [[nodiscard]] RunReport run(const Scene& scene,
                             const RunOptions& options,
                             const RunCallbacks& callbacks = {});

@@ -153,15 +153,21 @@ struct Obstacle {
 };
 
 /// How bodies that touch push each other; docs/contact.md has the models.
-enum class ContactModel { Penalty };
+enum class ContactModel {
+    Penalty,  ///< Soft and fast; bodies can pass through each other.
+    Barrier,  ///< Nothing ever crosses; not with the linear Euler integrator.
+};
 
 /// Contact between bodies, and within them if asked.
 struct Contact {
     ContactModel model = ContactModel::Penalty;
     double distance = 0.02;   ///< m, > 0: how near is in contact; a quarter of an edge is good.
-    double stiffness = 1000;  ///< N/m for each pair, > 0.
+    double stiffness = 1000;  ///< N/m for each pair, > 0; a barrier raises it where it has to.
     bool self = false;        ///< Whether bodies meet themselves.
     Filter filter = Filter::Clamp;
+    double separation = 0;     ///< m, >= 0: a distance that a barrier never lets be reached.
+    double friction = 0;       ///< Coulomb's coefficient, >= 0; of bodies and obstacles.
+    double slip_speed = 1e-3;  ///< m/s, > 0: what slides slower than that sticks.
 };
 
 /// What a run writes beside positions and velocities.

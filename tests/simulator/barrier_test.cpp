@@ -1,0 +1,253 @@
+#include "barrier_scenes.h"
+#include "support/messages.h"
+
+#include <pent/error.h>
+#include <pent/simulator/crossing_error.h>
+
+#include <gtest/gtest.h>
+
+namespace pent::simulator {
+namespace {
+
+using test::BarrierScene;
+using test::box;
+using test::vector;
+using test::WatchedRun;
+
+// Every step taken, nothing ever crossed, and contact was what the scene is about.
+template <int Dim>
+void expect_sound(const WatchedRun<Dim>& run) {
+    EXPECT_EQ(run.failure(), "");
+    EXPECT_EQ(run.crossings(), 0);
+    EXPECT_GT(run.smallest_distance(), 0);
+    EXPECT_LT(run.smallest_distance(), 0.02);
+    testing::Test::RecordProperty("smallest_distance", std::to_string(run.smallest_distance()));
+    testing::Test::RecordProperty("newton_iterations", run.newton_iterations());
+}
+
+template <typename T>
+class BarrierTest : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+TYPED_TEST_SUITE(BarrierTest, Dimensions);
+
+TYPED_TEST(BarrierTest, HundredBodyLengthsASecondDoNotTunnel) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    const Eigen::VectorXd unit = Eigen::VectorXd::Constant(kDim, 0.2);
+    // Each step is two bodies long: after the first, the bullet would be behind the target.
+    scene.scene.frames_per_second = 50;
+    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(0, 0));
+    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(-0.3, 0.03, 0.02)).velocity =
+        vector<kDim>(20, 0);
+    WatchedRun<kDim> run(scene);
+    run.run(10);
+    expect_sound(run);
+    EXPECT_GT(run.simulation().velocities(0).row(0).mean(), 1);  // the target was hit
+}
+
+TYPED_TEST(BarrierTest, StackedNoodlesStayApart) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    scene.scene.gravity = vector<kDim>(0, -9.8);
+    scene.scene.obstacles.push_back(
+        {.shape = HalfSpaceObstacle{.normal = vector<kDim>(0, 1), .offset = 0}});
+    const Eigen::VectorXd along_x = vector<kDim>(0.9, 0.1, 0.1);
+    Eigen::VectorXd along_z = vector<kDim>(0.1, 0.1, 0.1);
+    along_z[2] = 0.9;
+    SimplexMesh<kDim> crosswise = box<kDim>(4, 1, 1, along_x);
+    crosswise.positions.row(0).swap(crosswise.positions.row(2));  // a mirror image: turn it back
+    crosswise.positions.row(0) *= -1;
+    scene.add(box<kDim>(4, 1, 1, along_x), vector<kDim>(0, 0.08));
+    scene.add(crosswise, vector<kDim>(0.02, 0.2, 0.01));
+    scene.add(box<kDim>(4, 1, 1, along_x), vector<kDim>(0.01, 0.32, 0.03));
+    WatchedRun<kDim> run(scene);
+    run.run(kDim == 3 ? 30 : 8);
+    expect_sound(run);
+}
+
+TYPED_TEST(BarrierTest, NeedleGoesIntoAGapNarrowerThanItself) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    const Eigen::VectorXd block = vector<kDim>(0.3, 0.3, 0.4);
+    const Eigen::VectorXd everywhere = vector<kDim>(9, 9, 9);
+    // The gap is 0.1 wide, the soft needle 0.16, its tip 0.05.
+    for (const double x : {-0.2, 0.2}) {
+        scene.add(box<kDim>(1, 1, 1, block), vector<kDim>(x, 0), 1e7);
+        scene.hold(-everywhere, everywhere, vector<kDim>(0, 0));
+    }
+    SimplexMesh<kDim> needle = box<kDim>(1, 4, 1, vector<kDim>(0.16, 0.6, 0.16));
+    for (Eigen::Index v = 0; v < needle.vertex_count(); ++v) {
+        needle.positions(0, v) *= needle.positions(1, v) < -0.2 ? 0.3 : 1;
+    }
+    scene.add(needle, vector<kDim>(0, 0.48), 2e4);
+    scene.hold(vector<kDim>(-9, 0.77, -9), everywhere, vector<kDim>(0, -1.5));
+    WatchedRun<kDim> run(scene);
+    run.run(kDim == 3 ? 20 : 12);
+    expect_sound(run);
+    EXPECT_LT(run.simulation().positions(2).row(1).minCoeff(), 0.14);  // the tip is in the gap
+}
+
+TYPED_TEST(BarrierTest, HooksThatArePulledApartHold) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    const Eigen::VectorXd size = vector<kDim>(0.3, 0.3, 0.1);
+    SimplexMesh<kDim> hook = box<kDim>(3, 3, 1, size);
+    for (Eigen::Index v = 0; v < hook.vertex_count(); ++v) {
+        hook.positions(1, v) *= std::abs(hook.positions(1, v)) < 0.1 ? 1.4 : 1;  // a wider mouth
+    }
+    hook = test::without<kDim>(hook, {-0.05, -0.07}, {0.16, 0.07});
+    SimplexMesh<kDim> other = hook;
+    other.positions.row(0) *= -1;  // opens to the other side: turned over, not mirrored
+    other.positions.row(1) *= -1;
+    const Eigen::VectorXd everywhere = vector<kDim>(9, 9, 9);
+    scene.add(hook, vector<kDim>(0, 0));
+    scene.hold(-everywhere, vector<kDim>(-0.09, 9, 9), vector<kDim>(0, 0));
+    scene.add(other, vector<kDim>(0.11, 0.11, 0.005));
+    scene.hold(vector<kDim>(0.2, -9, -9), everywhere, vector<kDim>(0, 1), 0.15);
+    WatchedRun<kDim> run(scene);
+    run.run(kDim == 3 ? 20 : 8);
+    expect_sound(run);
+}
+
+TYPED_TEST(BarrierTest, StiffnessMayDifferAMillionfold) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    scene.scene.gravity = vector<kDim>(0, -9.8);
+    scene.scene.solver.precision = Precision::Double;
+    scene.scene.obstacles.push_back(
+        {.shape = HalfSpaceObstacle{.normal = vector<kDim>(0, 1), .offset = 0}});
+    const Eigen::VectorXd unit = Eigen::VectorXd::Constant(kDim, 0.2);
+    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(0, 0.115), 1e4);
+    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(0.03, 0.34, 0.02), 1e10);
+    WatchedRun<kDim> run(scene);
+    run.run(20);
+    expect_sound(run);
+}
+
+TYPED_TEST(BarrierTest, SheetsOfOneLayerDoNotPassThroughEachOther) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    scene.scene.gravity = vector<kDim>(0, -9.8);
+    scene.scene.obstacles.push_back(
+        {.shape = BallObstacle{.center = vector<kDim>(0, -0.3), .radius = 0.25}});
+    const Eigen::VectorXd size = vector<kDim>(0.6, 0.01, 0.6);
+    const int cells = kDim == 3 ? 4 : 2;
+    scene.add(box<kDim>(cells, 1, cells, size), vector<kDim>(0, 0));
+    scene.add(box<kDim>(cells, 1, cells, size), vector<kDim>(0.02, 0.05, 0.01)).velocity =
+        vector<kDim>(0, -3);
+    WatchedRun<kDim> run(scene);
+    run.run(kDim == 3 ? 20 : 4);
+    expect_sound(run);
+}
+
+TYPED_TEST(BarrierTest, ABodyMeetsItselfIfAsked) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    scene.scene.contact->self = true;
+    // The mouth of a hook is shut by force.
+    SimplexMesh<kDim> hook = box<kDim>(4, 3, 1, vector<kDim>(0.4, 0.3, 0.1));
+    hook = test::without<kDim>(hook, {-0.1, -0.05}, {0.21, 0.05});
+    const Eigen::VectorXd everywhere = vector<kDim>(9, 9, 9);
+    scene.add(hook, vector<kDim>(0, 0));
+    scene.hold(-everywhere, vector<kDim>(9, -0.14, 9), vector<kDim>(0, 0));
+    scene.hold(vector<kDim>(0.15, 0.14, -9), everywhere, vector<kDim>(0, -2), 0.045);
+    WatchedRun<kDim> run(scene);
+    run.run(kDim == 3 ? 12 : 6);
+    expect_sound(run);
+}
+
+TYPED_TEST(BarrierTest, MomentumOfFreeBodiesIsKept) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    scene.scene.solver.newton_tolerance = 1e-8;
+    const Eigen::VectorXd unit = Eigen::VectorXd::Constant(kDim, 0.2);
+    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(0, 0)).velocity = vector<kDim>(1, 0);
+    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(0.23, 0.01, 0.02)).velocity =
+        vector<kDim>(-2, 0.1);
+    WatchedRun<kDim> run(scene);
+    const auto momentum = [&] {
+        Eigen::VectorXd sum = Eigen::VectorXd::Zero(kDim);
+        for (int body = 0; body < 2; ++body) {
+            sum += run.simulation().velocities(body) * run.simulation().masses(body);
+        }
+        return sum;
+    };
+    const Eigen::VectorXd before = momentum();
+    run.run(10);
+    expect_sound(run);
+    // What Newton's method leaves unbalanced in a step is 1e-8 of the momentum in it.
+    EXPECT_LT((momentum() - before).norm(), 1e-5 * before.norm());
+}
+
+TYPED_TEST(BarrierTest, StartThatCrossesIsRefusedWithItsPairs) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    const Eigen::VectorXd unit = Eigen::VectorXd::Constant(kDim, 0.2);
+    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(0, 0));
+    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(0.15, 0.03, 0.02));
+    try {
+        const Simulation<kDim> simulation(scene.scene, scene.meshes);
+        FAIL() << "was not refused";
+    } catch (const CrossingError<kDim>& error) {
+        EXPECT_NE(std::string(error.what()).find("of 'a' goes through"), std::string::npos)
+            << error.what();
+        EXPECT_NO_THROW(validate<kDim>(error.offenders(), "offenders"));
+        EXPECT_EQ(error.offenders().regions.size(),
+                  static_cast<std::size_t>(error.offenders().cell_count()));
+    }
+    // Touching is refused too: a barrier has no force at distance 0.
+    scene.scene.bodies[1].place.translate = vector<kDim>(0.2, 0);
+    EXPECT_THROW(Simulation<kDim>(scene.scene, scene.meshes), CrossingError<kDim>);
+    scene.scene.bodies[1].place.translate = vector<kDim>(0.21, 0);
+    EXPECT_NO_THROW(Simulation<kDim>(scene.scene, scene.meshes));
+}
+
+TYPED_TEST(BarrierTest, MotionThatLeavesNoWayOutIsReportedWithItsPair) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    scene.scene.solver.max_halvings = 0;
+    const Eigen::VectorXd everywhere = vector<kDim>(9, 9, 9);
+    // A held body is driven through another that is held.
+    const Eigen::VectorXd unit = Eigen::VectorXd::Constant(kDim, 0.2);
+    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(0, 0));
+    scene.hold(-everywhere, vector<kDim>(0.05, 9, 9), vector<kDim>(0, 0));
+    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(0.3, 0.01, 0.02));
+    scene.hold(vector<kDim>(0.35, -9, -9), everywhere, vector<kDim>(-6, 0));
+    WatchedRun<kDim> run(scene);
+    run.run(12);
+    EXPECT_NE(run.failure().find("cannot go on without a crossing at t = 0.0"), std::string::npos)
+        << run.failure();
+    EXPECT_NE(run.failure().find("of 'a'"), std::string::npos) << run.failure();
+    EXPECT_NE(run.failure().find("of 'b'"), std::string::npos) << run.failure();
+    EXPECT_EQ(run.crossings(), 0);
+}
+
+TEST(Barrier, NeedsAnIntegratorThatIterates) {
+    BarrierScene<3> scene;
+    scene.add(box<3>(1, 1, 1, Eigen::VectorXd::Constant(3, 0.2)), vector<3>(0, 0));
+    scene.scene.solver.integrator = Integrator::LinearEuler;
+    EXPECT_NE(pent::test::error_of([&] { check(scene.scene); }).find("newton_euler"),
+              std::string::npos);
+}
+
+TEST(Barrier, ResultsAreTheSameForAnyNumberOfThreads) {
+    Positions<4> first;
+    for (const int threads : {1, 3}) {
+        BarrierScene<4> scene;
+        const Eigen::VectorXd unit = Eigen::VectorXd::Constant(4, 0.2);
+        scene.add(box<4>(1, 1, 1, unit), vector<4>(0, 0));
+        scene.add(box<4>(1, 1, 1, unit), vector<4>(-0.23, 0.03, 0.02)).velocity = vector<4>(3, 0);
+        Simulation<4> simulation(scene.scene, scene.meshes, {.threads = threads});
+        for (int k = 0; k < 4; ++k) {
+            EXPECT_TRUE(simulation.step().is_accepted);
+        }
+        const Positions<4> end = simulation.positions(1);
+        if (threads == 1) {
+            first = end;
+        }
+        EXPECT_EQ(end, first);
+    }
+}
+
+}  // namespace
+}  // namespace pent::simulator
