@@ -1,0 +1,82 @@
+#pragma once
+
+#include <pent/simulator/scene.h>
+
+#include <string>
+#include <vector>
+
+namespace pent::stability {
+
+/// How far out a simulation can go: one table of cases, which the tests judge and docs/stability.md
+/// shows. A case changes some numbers of a small body and asks for motions whose end is known.
+
+/// The numbers of a case. Lengths of the body are multiples of `size`, so that a case is one thing.
+struct Extreme {
+    double poisson = 0.28;
+    double young = 1e5;     ///< Pa.
+    double density = 1000;  ///< kg/m^4.
+    double dt = 1.0 / 30;   ///< s.
+    double aspect = 1;      ///< Thickness of layers over the other edges.
+    double ratio = 1;       ///< Young's modulus of a second body over that of the first.
+    double size = 1;        ///< m.
+    double offset = 0;      ///< Distance of the body from the origin, in sizes.
+    double gravity = 9.8;   ///< m/s^2.
+    int cells = 2;          ///< Tesseracts along the body; 0 for a single pentachoron.
+};
+
+struct Case {
+    std::string group;      ///< As in "Poisson's ratio".
+    std::string name;       ///< As in "-0.5".
+    bool is_inside = true;  ///< Of the box in which every case has to be right.
+    Extreme extreme = {};
+};
+
+/// Everything that is tried.
+[[nodiscard]] const std::vector<Case>& cases();
+
+/// What is asked of every case. Each has an exact answer that depends on nothing but the motion told.
+enum class Motion {
+    Fall,  ///< Nothing held, implicit Euler: x = x0 + g h^2 n (n + 1) / 2 after n steps, exactly.
+    Turn,  ///< One end turned by 60 degrees in two planes, quasistatic: the body turns rigidly.
+    Rest,  ///< One end held, no gravity, a velocity of zero: nothing moves at all.
+};
+inline constexpr Motion kMotions[] = {Motion::Fall, Motion::Turn, Motion::Rest};
+
+struct Outcome {
+    enum class Kind { Right, Refused, Reported, Wrong } kind = Kind::Right;
+    double error = 0;    ///< Largest distance from the answer over the body's size and travel.
+    std::string reason;  ///< Of Refused (the scene is not accepted) and Reported (a step fails).
+};
+
+/// Largest error that counts as right, by precision of the matrix.
+[[nodiscard]] double bound(simulator::Precision precision);
+
+/// Runs a case; never throws for what a simulation may do with its numbers.
+[[nodiscard]] Outcome run(const Extreme& extreme, Motion motion, simulator::Precision precision);
+
+/// States to come back from: how a body starts that is at rest and held at one end, and whether
+/// stable neo-Hookean is known to bring it back (see collapse_scale()).
+struct Start {
+    std::string name;
+    bool comes_back = true;
+};
+[[nodiscard]] const std::vector<Start>& starts();
+
+/// Runs newton_euler with damping from a start; Right with the final distance from rest as error.
+[[nodiscard]] Outcome run(const Start& start, simulator::Precision precision);
+
+/// Two bodies and contact at its extremes; Right if no coordinate leaves the world, the bodies do not end
+/// deeper in one another than they began, and momentum is kept.
+struct Touch {
+    std::string name;
+    double gap = 0.05;      ///< Between the bodies, edges; negative: they overlap.
+    double distance = 0.1;  ///< Of contact, edges.
+    double shift = 0.3;     ///< Of the second along the others' faces, edges; 0: exactly parallel.
+};
+[[nodiscard]] const std::vector<Touch>& touches();
+[[nodiscard]] Outcome run(const Touch& touch, simulator::Precision precision);
+
+/// "right, 1e-9", "refused: ...", "reported: ...", "WRONG, 0.1".
+[[nodiscard]] std::string text(const Outcome& outcome);
+
+}  // namespace pent::stability
