@@ -1,6 +1,12 @@
 #pragma once
 
+#include "facing_pairs.h"
+#include "fitted_tree.h"
+
 #include <pent/contact/near_pairs.h>
+
+#include <utility>
+#include <vector>
 
 namespace pent::contact {
 
@@ -26,42 +32,80 @@ public:
         }
     }
 
+    /// Fits trees like these around the outward normals; `normals` has those of all vertices of the
+    /// scene, Dim x n.
+    void update_normals(const Surface<Dim>& surface, const Positions<Dim>& normals) {
+        update_like(vertices_, normal_boxes<Dim, 1>(surface.vertices, normals));
+        update_like(edges_, normal_boxes<Dim, 2>(surface.edges, normals));
+        update_like(facets_, normal_boxes<Dim, Dim>(surface.facets, normals));
+        if constexpr (Dim > 3) {
+            update_like(ridges_, normal_boxes<Dim, Dim - 1>(surface.ridges, normals));
+        }
+    }
+
     /// What has been done to the trees so far.
     [[nodiscard]] std::int64_t built() const { return built_; }
     [[nodiscard]] std::int64_t refit() const { return refit_; }
 
     [[nodiscard]] std::int64_t bytes() const {
-        return vertices_.tree.bytes() + edges_.tree.bytes() + ridges_.tree.bytes()
-               + facets_.tree.bytes();
+        std::int64_t sum = 0;
+        for (const Tree* tree : {&vertices_, &edges_, &ridges_, &facets_}) {
+            sum += tree->fitted.tree().bytes() + tree->normals.bytes()
+                   + static_cast<std::int64_t>(tree->normal_boxes.size() * sizeof(Box));
+        }
+        return sum;
     }
 
-    [[nodiscard]] const BoxTree& vertices() const { return vertices_.tree; }
-    [[nodiscard]] const BoxTree& edges() const { return edges_.tree; }
-    [[nodiscard]] const BoxTree& facets() const { return facets_.tree; }
+    [[nodiscard]] const BoxTree& vertices() const { return vertices_.fitted.tree(); }
+    [[nodiscard]] const BoxTree& edges() const { return edges_.fitted.tree(); }
+    [[nodiscard]] const BoxTree& facets() const { return facets_.fitted.tree(); }
 
     /// In R^3 the tree of the edges: ridges are edges there.
-    [[nodiscard]] const BoxTree& ridges() const { return Dim > 3 ? ridges_.tree : edges_.tree; }
+    [[nodiscard]] const BoxTree& ridges() const { return ridge_tree().fitted.tree(); }
+
+    /// What facing_pairs() takes, as of update_normals().
+    [[nodiscard]] FacingSet<1> facing_vertices(const Surface<Dim>& surface) const {
+        return facing(surface.vertices, vertices_);
+    }
+    [[nodiscard]] FacingSet<2> facing_edges(const Surface<Dim>& surface) const {
+        return facing(surface.edges, edges_);
+    }
+    [[nodiscard]] FacingSet<Dim - 1> facing_ridges(const Surface<Dim>& surface) const {
+        return facing(surface.ridges, ridge_tree());
+    }
+    [[nodiscard]] FacingSet<Dim> facing_facets(const Surface<Dim>& surface) const {
+        return facing(surface.facets, facets_);
+    }
 
 private:
     struct Tree {
-        BoxTree tree;
-        double built_cost = 0;
+        FittedTree fitted;
+        std::vector<Box> normal_boxes;
+        BoxTree normals;
+        bool is_normals_old = true;  // of another tree than `fitted`
     };
 
-    // How much worse than when it was built a tree may get before it is built anew.
-    static constexpr double kWorn = 1.5;
+    [[nodiscard]] const Tree& ridge_tree() const { return Dim > 3 ? ridges_ : edges_; }
 
     void update(Tree& tree, const std::vector<Box>& boxes) {
-        if (tree.tree.size() == boxes.size()) {
-            tree.tree.refit(boxes);
-            ++refit_;
-            if (tree.tree.cost() <= kWorn * tree.built_cost) {
-                return;
-            }
+        const bool is_new = tree.fitted.update(boxes);
+        tree.is_normals_old = tree.is_normals_old || is_new;
+        built_ += is_new ? 1 : 0;
+        refit_ += is_new ? 0 : 1;
+    }
+
+    template <int Count>
+    static FacingSet<Count> facing(const Simplices<Count>& simplices, const Tree& tree) {
+        return {simplices, tree.fitted.tree(), tree.normal_boxes, tree.normals};
+    }
+
+    static void update_like(Tree& tree, std::vector<Box> boxes) {
+        if (tree.is_normals_old) {
+            tree.normals = tree.fitted.tree();
+            tree.is_normals_old = false;
         }
-        tree.tree = BoxTree(boxes);
-        tree.built_cost = tree.tree.cost();
-        ++built_;
+        tree.normals.refit(boxes);
+        tree.normal_boxes = std::move(boxes);
     }
 
     Tree vertices_;

@@ -60,8 +60,13 @@ public:
     Contacts<Dim> find(const PositionsView<Dim>& positions) {
         const auto start = std::chrono::steady_clock::now();
         Contacts<Dim> contacts;
-        const std::vector<BodyPair> pairs = search_.run(positions, contacts.report);
-        update_normals(pairs, positions);
+        if (options_.self) {
+            update_normals(std::vector<bool>(bodies_.size(), true), positions);
+        }
+        const std::vector<BodyPair> pairs = search_.run(positions, normals_, contacts.report);
+        if (!options_.self) {
+            update_normals(judged_by_normals(pairs), positions);
+        }
         for (const BodyPair& pair : pairs) {
             append(pair, positions, contacts.pairs);
         }
@@ -96,18 +101,19 @@ public:
     }
 
 private:
-    // Normals at the vertices of bodies that have pairs judged by normals.
-    void update_normals(const std::vector<BodyPair>& pairs, const PositionsView<Dim>& positions) {
-        std::vector<bool> is_needed(bodies_.size(), false);
+    // Bodies that have pairs judged by normals.
+    [[nodiscard]] std::vector<bool> judged_by_normals(const std::vector<BodyPair>& pairs) const {
+        std::vector<bool> is_judged(bodies_.size(), false);
         for (const BodyPair& pair : pairs) {
-            const bool has_local =
-                !pair.mixed_first.pairs.empty() || !pair.mixed_second.pairs.empty()
-                || (pair.first == pair.second && !pair.points_first.pairs.empty());
-            if (has_local) {
-                is_needed[pair.first] = true;
-                is_needed[pair.second] = true;
+            if (!pair.mixed_first.pairs.empty() || !pair.mixed_second.pairs.empty()) {
+                is_judged[pair.first] = true;
+                is_judged[pair.second] = true;
             }
         }
+        return is_judged;
+    }
+
+    void update_normals(const std::vector<bool>& is_needed, const PositionsView<Dim>& positions) {
         for (std::size_t i = 0; i < bodies_.size(); ++i) {
             if (!is_needed[i]) {
                 continue;

@@ -36,7 +36,7 @@ template <int Dim>
 void add_forces(const std::vector<Contact<Dim>>& contacts, Positions<Dim>& forces) {
     for (const Contact<Dim>& contact : contacts) {
         for (int i = 0; i <= Dim; ++i) {
-            forces.col(contact.vertices[i]) -= contact.weights[i] * contact.response.gradient;
+            forces.col(contact.vertices[i]) += contact.force(i);
         }
     }
 }

@@ -1,7 +1,10 @@
 #include "pair_contact.h"
 
 #include "closest_point_search.h"
+#include "facing_pairs.h"
 #include "gather.h"
+
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +18,13 @@ namespace {
 constexpr double kTouching = 1e-6;
 
 // A mixed pair fades where its closest points come this near to a border, in barycentric weight:
-// there a neighboring pair, or a vertex and a facet, takes over.
-constexpr double kBorder = 0.1;
+// there a neighboring pair, or a vertex and a facet, takes over. Wide, so that its forces along the
+// surfaces are small.
+constexpr double kBorder = 0.25;
+
+// Where the Gram determinant of the edges, over the product of their squares, is below this, they
+// are nearly parallel: closest points run along them at a touch, and tilts are held back.
+constexpr double kParallel = 1e-4;
 
 // What looks crossed within one body, but is this many distances of contact apart at rest or
 // nearer, is taken for the two sides of something thin.
@@ -26,7 +34,7 @@ constexpr double kThin = 3;
 template <int Dim>
 struct View {
     double side = 0;        // 1 apart, -1 crossed, 0 no contact
-    double weight = 0;      // goes to 0 where one turns its back
+    double weight = 0;      // goes to 0 where one turns aside
     Vector<Dim> direction;  // from the second to the first, unit length; out of both if crossed
 };
 
@@ -43,9 +51,10 @@ View<Dim> view(const ClosestPoints<Dim, K, L>& points,
     const double second_faces = from_second.dot(second_normal);
     const double first_faces = -from_second.dot(first_normal);
     View<Dim> result;
-    if (second_faces * first_faces > 0) {
+    const double least = std::min(std::abs(first_faces), std::abs(second_faces));
+    if (second_faces * first_faces > 0 && least > kLeastView) {
         result.side = second_faces > 0 ? 1 : -1;
-        result.weight = std::min(1.0, 2 * std::min(std::abs(first_faces), std::abs(second_faces)));
+        result.weight = std::min(1.0, (least - kLeastView) / kLeastView);
         result.direction = result.side * from_second;
     }
     return result;
@@ -71,6 +80,62 @@ bool is_culled(const PairSetting<Dim>& setting,
     const Corners<Dim, K> a = gather<Dim, K>(first, i, setting.rest);
     const Corners<Dim, L> b = gather<Dim, L>(second, j, setting.rest);
     return ClosestPointSearch<Dim, K, L>(a, b, least * least).run();
+}
+
+// How a mixed pair fades with the least of its barycentric weights: 1 within, 0 at a border, with a
+// continuous slope.
+struct Fade {
+    double value = 0;
+    double slope = 0;  // by that weight
+    int which = 0;     // corner: of the first simplex, then of the second
+};
+
+template <int Dim, int K, int L>
+Fade fade_of(const ClosestPoints<Dim, K, L>& points) {
+    Fade fade;
+    Weights<Dim> weights;
+    weights << points.beta, points.alpha;
+    const double t = std::clamp(weights.minCoeff(&fade.which) / kBorder, 0.0, 1.0);
+    fade.value = t * t * (3 - 2 * t);
+    fade.slope = 6 * t * (1 - t) / kBorder;
+    return fade;
+}
+
+// Adds the gradient of energy * fade by way of the fade: the closest points solve E^T r = 0 with
+// r = x - y and E the edges, those of the second simplex reversed, which is differentiated.
+template <int Dim, int K, int L>
+void add_tilt(const Corners<Dim, K>& first,
+              const Corners<Dim, L>& second,
+              const ClosestPoints<Dim, K, L>& points,
+              const Fade& fade,
+              double energy,
+              Contact<Dim>& contact) {
+    constexpr int kN = Dim - 1;
+    Eigen::Matrix<double, Dim, kN> edges;
+    edges << first.template rightCols<K - 1>().colwise() - first.col(0),
+        (-second.template rightCols<L - 1>()).colwise() + second.col(0);
+    const Eigen::Matrix<double, kN, kN> gram = edges.transpose() * edges;
+    const double independence = gram.determinant() / gram.diagonal().prod();
+    if (!(independence > 0)) {
+        return;
+    }
+    // The weight in question as a function of the parameters, which leave out the first corners.
+    Eigen::Matrix<double, kN, 1> selected = Eigen::Matrix<double, kN, 1>::Zero();
+    if (fade.which == 0) {
+        selected.template head<K - 1>().setConstant(-1);
+    } else if (fade.which == K) {
+        selected.template tail<L - 1>().setConstant(-1);
+    } else {
+        selected[fade.which - (fade.which < K ? 1 : 2)] = 1;
+    }
+    const Eigen::Matrix<double, kN, 1> q = gram.inverse() * selected;
+    const double factor = -energy * fade.slope * std::min(1.0, independence / kParallel);
+    const double l = std::sqrt(points.distance_squared);
+    contact.response.gradient += factor * (edges * q);
+    contact.tilt_direction = points.difference / l;
+    contact.tilts << -q.template head<K - 1>().sum(), q.template head<K - 1>(),
+        q.template tail<L - 1>().sum(), -q.template tail<L - 1>();
+    contact.tilts *= factor * l;
 }
 
 template <int Dim, int K, int L>
@@ -139,8 +204,8 @@ std::optional<Contact<Dim>> local_contact(const PairSetting<Dim>& setting,
     const View<Dim> seen = view<Dim, K, L>(
         points, normal_at<Dim, K>(setting.normals, first, i, points.beta),
         normal_at<Dim, L>(setting.normals, second, j, points.alpha), kTouching * eps);
-    const double border = std::min(points.beta.minCoeff(), points.alpha.minCoeff());
-    const double weight = seen.weight * (K == 1 ? 1 : std::min(1.0, border / kBorder));
+    const Fade fade = K == 1 ? Fade{.value = 1} : fade_of<Dim, K, L>(points);
+    const double weight = seen.weight * fade.value;
     if (weight == 0
         || (setting.is_self() && is_culled<Dim, K, L>(setting, first, i, second, j, seen.side))) {
         return {};
@@ -151,6 +216,11 @@ std::optional<Contact<Dim>> local_contact(const PairSetting<Dim>& setting,
     contact.response = pair_response<Dim>(contact.distance, seen.direction,
                                           {eps, setting.options.stiffness, Reach::Fading}, weight,
                                           setting.options.filter);
+    if constexpr (K > 1) {
+        if (setting.options.tilt && fade.slope > 0 && points.distance_squared > 0) {
+            add_tilt<Dim, K, L>(a, b, points, fade, contact.response.energy / fade.value, contact);
+        }
+    }
     return contact;
 }
 

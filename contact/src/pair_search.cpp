@@ -1,5 +1,6 @@
 #include "pair_search.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace pent::contact {
@@ -27,11 +28,15 @@ std::size_t count_pairs(const std::vector<BodyPair>& pairs) {
 
 template <int Dim>
 std::vector<BodyPair> PairSearch<Dim>::run(const PositionsView<Dim>& positions,
+                                           const Positions<Dim>& normals,
                                            ContactReport& report) {
     const auto start = std::chrono::steady_clock::now();
-    if (!is_kept_valid(positions)) {
+    const bool is_kept = is_kept_valid(positions);
+    if (!is_kept || options_.self) {
         update_trees(positions, report);
         report.tree_seconds = seconds_since(start);
+    }
+    if (!is_kept) {
         search(positions, report);
     }
     std::vector<BodyPair> found;
@@ -41,6 +46,15 @@ std::vector<BodyPair> PairSearch<Dim>::run(const PositionsView<Dim>& positions,
     } else {
         std::swap(found, pairs_);
     }
+    for (std::size_t body = 0; options_.self && body < bodies_.size(); ++body) {
+        if (!bodies_[body].is_kinematic) {
+            found.push_back(search_within(static_cast<int>(body), positions, normals));
+            report.candidates += found.back().candidates();
+        }
+    }
+    std::stable_sort(found.begin(), found.end(), [](const BodyPair& a, const BodyPair& b) {
+        return a.first != b.first ? a.first < b.first : a.second < b.second;
+    });
     report.search_seconds = seconds_since(start) - report.tree_seconds;
     return found;
 }
@@ -63,18 +77,14 @@ void PairSearch<Dim>::drop_what_is_too_much() {
 
 template <int Dim>
 bool PairSearch<Dim>::may_meet(std::size_t a, std::size_t b) const {
-    if (bodies_[a].is_kinematic && bodies_[b].is_kinematic) {
-        return false;
-    }
-    return a == b ? options_.self
-                  : overlap(trees_[a].vertices().root_box(), trees_[b].vertices().root_box());
+    return !(bodies_[a].is_kinematic && bodies_[b].is_kinematic)
+           && overlap(trees_[a].vertices().root_box(), trees_[b].vertices().root_box());
 }
 
-// Finds which bodies may meet, and brings the trees of these up to date.
+// Brings the trees of all bodies that may be in contact up to date.
 template <int Dim>
 void PairSearch<Dim>::update_trees(const PositionsView<Dim>& positions, ContactReport& report) {
     const double margin = 0.5 * search_distance();
-    pairs_.clear();
     if (bodies_.size() < 2 && !options_.self) {
         return;
     }
@@ -85,9 +95,9 @@ void PairSearch<Dim>::update_trees(const PositionsView<Dim>& positions, ContactR
     }
     std::vector<bool> is_needed(bodies_.size(), false);
     for (std::size_t a = 0; a < bodies_.size(); ++a) {
-        for (std::size_t b = a; b < bodies_.size(); ++b) {
+        is_needed[a] = is_needed[a] || (options_.self && !bodies_[a].is_kinematic);
+        for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
             if (may_meet(a, b)) {
-                pairs_.push_back({.first = static_cast<int>(a), .second = static_cast<int>(b)});
                 is_needed[a] = true;
                 is_needed[b] = true;
             }
@@ -102,26 +112,50 @@ void PairSearch<Dim>::update_trees(const PositionsView<Dim>& positions, ContactR
     }
 }
 
+// Pairs between bodies.
 template <int Dim>
 void PairSearch<Dim>::search(const PositionsView<Dim>& positions, ContactReport& report) {
     // With a margin any pair may get its closest points inside before the next search.
     const Closest closest = options_.margin > 0 ? Closest::Anywhere : Closest::Interior;
-    for (BodyPair& pair : pairs_) {
-        pair.points_first = points_near(pair.first, pair.second, positions);
-        pair.mixed_first = mixed_near(pair.first, pair.second, positions, closest);
-        if (pair.first != pair.second) {
-            pair.points_second = points_near(pair.second, pair.first, positions);
-            if constexpr (Dim > 3) {
-                pair.mixed_second = mixed_near(pair.second, pair.first, positions, closest);
+    pairs_.clear();
+    for (std::size_t a = 0; a < bodies_.size(); ++a) {
+        for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
+            if (!may_meet(a, b)) {
+                continue;
             }
-        }
-        for (const NearPairs* list : pair.lists()) {
-            report.candidates += list->candidates;
+            const auto i = static_cast<int>(a);
+            const auto j = static_cast<int>(b);
+            BodyPair pair{.first = i, .second = j};
+            pair.points_first = points_near(i, j, positions);
+            pair.points_second = points_near(j, i, positions);
+            pair.mixed_first = mixed_near(i, j, positions, closest);
+            if constexpr (Dim > 3) {
+                pair.mixed_second = mixed_near(j, i, positions, closest);
+            }
+            report.candidates += pair.candidates();
+            pairs_.push_back(std::move(pair));
         }
     }
     if (options_.margin > 0) {
         searched_at_ = positions;
     }
+}
+
+template <int Dim>
+BodyPair PairSearch<Dim>::search_within(int body,
+                                        const PositionsView<Dim>& positions,
+                                        const Positions<Dim>& normals) {
+    const Surface<Dim>& surface = bodies_[body].surface;
+    BodyTrees<Dim>& trees = trees_[body];
+    trees.update_normals(surface, normals);
+    BodyPair pair{.first = body, .second = body};
+    pair.points_first =
+        facing_pairs<Dim, 1, Dim>(trees.facing_vertices(surface), trees.facing_facets(surface),
+                                  positions, options_.distance, Closest::Anywhere);
+    pair.mixed_first =
+        facing_pairs<Dim, 2, Dim - 1>(trees.facing_edges(surface), trees.facing_ridges(surface),
+                                      positions, options_.distance, Closest::Interior);
+    return pair;
 }
 
 template <int Dim>

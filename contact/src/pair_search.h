@@ -21,9 +21,15 @@ struct BodyPair {
     [[nodiscard]] std::array<const NearPairs*, 4> lists() const {
         return {&points_first, &points_second, &mixed_first, &mixed_second};
     }
+
+    [[nodiscard]] std::int64_t candidates() const {
+        return points_first.candidates + points_second.candidates + mixed_first.candidates
+               + mixed_second.candidates;
+    }
 };
 
-/// Finds the near pairs of all bodies: their trees, and pairs kept for positions nearby.
+/// Finds the near pairs of all bodies: their trees, and pairs between bodies kept for positions
+/// nearby. Pairs within bodies are not kept, since what is left out of their search depends on normals.
 template <int Dim>
 class PairSearch {
 public:
@@ -32,7 +38,10 @@ public:
         : bodies_(bodies), options_(options), trees_(bodies.size()) {}
 
     /// Pairs nearer than the distance of contact, by bodies; the report is told the work.
+    ///
+    /// @param normals  Outward normals at all boundary vertices; read for pairs within bodies alone.
     [[nodiscard]] std::vector<BodyPair> run(const PositionsView<Dim>& positions,
+                                            const Positions<Dim>& normals,
                                             ContactReport& report);
 
     /// As of the last run.
@@ -48,6 +57,9 @@ private:
     [[nodiscard]] bool may_meet(std::size_t a, std::size_t b) const;
     void update_trees(const PositionsView<Dim>& positions, ContactReport& report);
     void search(const PositionsView<Dim>& positions, ContactReport& report);
+    [[nodiscard]] BodyPair search_within(int body,
+                                         const PositionsView<Dim>& positions,
+                                         const Positions<Dim>& normals);
     void drop_what_is_too_much();
     [[nodiscard]] NearPairs points_near(int a, int b, const PositionsView<Dim>& positions) const;
     [[nodiscard]] NearPairs mixed_near(int a,
@@ -59,7 +71,7 @@ private:
     const std::vector<ContactBody<Dim>>& bodies_;
     const ContactOptions& options_;
     std::vector<BodyTrees<Dim>> trees_;
-    std::vector<BodyPair> pairs_;  // found within the distance and the margin
+    std::vector<BodyPair> pairs_;  // between bodies, found within the distance and the margin
     Positions<Dim> searched_at_;   // where; empty if pairs_ are of no further use
 };
 

@@ -1,5 +1,6 @@
 #include "step_problem.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pent::simulator {
@@ -8,6 +9,12 @@ namespace {
 
 constexpr int kMostIterations = 50;
 constexpr int kMostBacktracks = 30;
+// Where a vertex lies in a valley between two facets of another body, phi has a kink: its lowest point
+// is where the forces of both facets would have to act at once. Newton's method is there when a step
+// that had to be cut gains less than this part of what all of them have, and the force left over is
+// below this part of that at the start.
+constexpr double kKinkGain = 1e-4;
+constexpr double kKinkForce = 0.05;
 // The linear solves of Newton's method need not be more exact than this: each iteration then gains
 // two digits, which is what its quadratic model is good for.
 constexpr double kForcing = 1e-2;
@@ -81,8 +88,8 @@ bool has_improved(const Potential<Dim>& phi,
     return next.value <= phi.value + kArmijo * factor * slope + kRounding * std::abs(phi.value);
 }
 
-// Sufficient decrease of the unbalanced force. Mixed pairs in contact hold the weights that fade
-// them, so their forces are not quite the derivative of phi, and near balance phi alone may rise.
+// Sufficient decrease of the unbalanced force. What views take from mixed pairs in contact is held, so
+// their forces are not quite the derivative of phi, and near balance phi alone may rise.
 template <int Dim>
 bool has_less_force(const Potential<Dim>& phi, const Potential<Dim>& next, double factor) {
     return next.gradient.norm() <= (1 - kArmijo * factor) * phi.gradient.norm();
@@ -100,11 +107,8 @@ void add_to_free(const World<Dim>& world,
 
 bool has_solved(const LinearSolveReport& solved, StepReport& report) {
     if (!solved.has_converged) {
-        report.failure =
-            solved.has_broken_down    ? "the matrix was not positive definite"
-            : solved.has_lost_inertia ? "the stiffness drowns the inertia; take smaller steps, softer"
-                                        " or denser bodies, or thicker cells"
-                                      : "the linear solver did not reach its tolerance";
+        report.failure = solved.has_broken_down ? "the matrix was not positive definite"
+                                                : "the linear solver did not reach its tolerance";
     }
     return solved.has_converged;
 }
@@ -164,7 +168,8 @@ bool minimize(System<Dim>& system,
     state.velocities = now.velocities;  // kinetic energy plays no part in phi
     state.positions = now.positions + held_shift(world, problem, now.positions);
     system.evaluate(state);
-    const double start = potential(system, world, problem, state).gradient.norm();
+    const Potential<Dim> begin = potential(system, world, problem, state);
+    const double start = begin.gradient.norm();
     if (!take_linear_step(system, world, problem, now, state.positions, report)) {
         return false;
     }
@@ -177,6 +182,7 @@ bool minimize(System<Dim>& system,
             return false;
         }
         if (phi.gradient.norm() <= system.options().newton_tolerance * start) {
+            report.unbalanced = std::max(report.unbalanced, phi.gradient.norm() / start);
             return true;
         }
         ++report.newton_iterations;
@@ -196,6 +202,7 @@ bool minimize(System<Dim>& system,
             return true;
         }
         const double slope = phi.gradient.cwiseProduct(dx).sum();
+        const double before = phi.value;
         double factor = 1;
         bool is_taken = false;
         for (int k = 0; k < kMostBacktracks && !is_taken; ++k, factor /= 2) {
@@ -209,6 +216,14 @@ bool minimize(System<Dim>& system,
                 std::swap(state, trial);
                 phi = std::move(next);
             }
+        }
+        const bool is_cut =
+            !is_taken || factor < 0.5;  // it was halved once more behind the last trial
+        if (is_cut && state.energies.contact > 0
+            && before - phi.value <= kKinkGain * (begin.value - phi.value)
+            && phi.gradient.norm() <= kKinkForce * start) {
+            report.unbalanced = std::max(report.unbalanced, phi.gradient.norm() / start);
+            return true;
         }
         if (!is_taken) {
             report.failure = "the line search found no decrease";

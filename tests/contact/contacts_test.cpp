@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -49,6 +50,7 @@ void expect_identical(const Contacts<Dim>& a, const Contacts<Dim>& b) {
         EXPECT_EQ(a.pairs[i].response.energy, b.pairs[i].response.energy);
         EXPECT_EQ(a.pairs[i].response.gradient, b.pairs[i].response.gradient);
         EXPECT_EQ(a.pairs[i].response.hessian, b.pairs[i].response.hessian);
+        EXPECT_EQ(a.pairs[i].tilts, b.pairs[i].tilts);
         EXPECT_EQ(a.pairs[i].kind, b.pairs[i].kind);
     }
 }
@@ -75,12 +77,22 @@ protected:
     }
 
     // Two boxes face to face, with shaken vertices, at a distance of about `gap`.
-    static test::Scene<kD> face_to_face(double gap, double shaken = 0.03) {
+    //
+    // @param turn  Of the upper one within the plane of the faces, rad.
+    static test::Scene<kD> face_to_face(double gap, double shaken = 0.03, double turn = 0) {
         test::Scene<kD> scene;
         scene.add(test::cube<kD>(kD == 3 ? 3 : 2), Vector<kD>::Zero());
         Vector<kD> offset = Vector<kD>::LinSpaced(0.31, 0.44);
         offset[1] = (kD == 3 ? 3 : 2) + gap;
-        scene.add(test::cube<kD>(kD == 3 ? 3 : 2), offset);
+        SimplexMesh<kD> upper = test::cube<kD>(kD == 3 ? 3 : 2);
+        for (int axis = 2; axis < kD; ++axis) {
+            Eigen::Matrix<double, kD, kD> rotation = Eigen::Matrix<double, kD, kD>::Identity();
+            rotation(0, 0) = rotation(axis, axis) = std::cos(turn);
+            rotation(axis, 0) = std::sin(turn);
+            rotation(0, axis) = -std::sin(turn);
+            upper.positions = rotation * upper.positions;
+        }
+        scene.add(upper, offset);
         test::shake<kD>(scene.positions, shaken, 3);
         return scene;
     }
@@ -169,6 +181,40 @@ TYPED_TEST(ContactsTest, ForcesOfVerticesAndFacetsAreDerivativesOfTheirEnergy) {
             // Contacts that begin within a step of 1e-6 m add k h^2; truncation is of that order too.
             EXPECT_NEAR(slope, gradient.cwiseProduct(step).sum(), 1e-5 * gradient.norm());
         }
+    }
+}
+
+// Largest error of the forces as a derivative of the energy of all contacts, over the size of the
+// forces, in some directions.
+template <int Dim>
+double derivative_error(const test::Scene<Dim>& scene, bool tilt) {
+    ContactOptions options = kOptions;
+    options.tilt = tilt;
+    ContactFinder<Dim> finder(bodies_of(scene), scene.positions, options);
+    const Positions<Dim> gradient =
+        -forces_of(finder.find(scene.positions), scene.positions.cols());
+    double worst = 0;
+    for (unsigned trial = 0; trial < 6; ++trial) {
+        Positions<Dim> step = Positions<Dim>::Zero(Dim, scene.positions.cols());
+        test::shake<Dim>(step, 1, 40 + trial);
+        const double h = 1e-6;
+        const double slope = (finder.find(scene.positions + h * step).report.energy
+                              - finder.find(scene.positions - h * step).report.energy)
+                             / (2 * h);
+        worst = std::max(worst, std::abs(slope - gradient.cwiseProduct(step).sum()));
+    }
+    return worst / gradient.norm();
+}
+
+// With tilts all that is held is what views take, at the rims of the boxes: a twentieth at most. The
+// fading itself, held where there are no tilts, is many times that.
+TYPED_TEST(ContactsTest, TiltsMakeForcesTheDerivativeOfTheEnergyButForViews) {
+    constexpr int kDim = TypeParam::value;
+    for (const double gap : {0.12, 0.05}) {
+        const test::Scene<kDim> scene = TestFixture::face_to_face(gap, 0.03, 0.3);
+        const double tilted = derivative_error<kDim>(scene, true);
+        EXPECT_LT(tilted, 0.05) << gap;
+        EXPECT_GT(derivative_error<kDim>(scene, false), 5 * tilted) << gap;
     }
 }
 
