@@ -1,4 +1,4 @@
-#include "step_problem.h"
+#include "potential.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,102 +15,12 @@ constexpr int kMostBacktracks = 30;
 // below this part of that at the start.
 constexpr double kKinkGain = 1e-4;
 constexpr double kKinkForce = 0.05;
-// The linear solves of Newton's method need not be more exact than this: each iteration then gains
-// two digits, which is what its quadratic model is good for.
-constexpr double kForcing = 1e-2;
-// Least part of the decrease that the slope promises for a step to be taken [nocedal2006, 3.1].
-constexpr double kArmijo = 1e-4;
-
-// Held vertices at the end of the step minus where they are in x; zero for free ones.
-template <int Dim>
-Positions<Dim> held_shift(const World<Dim>& world,
-                          const StepProblem<Dim>& problem,
-                          const Positions<Dim>& x) {
-    Positions<Dim> shift = Positions<Dim>::Zero(Dim, x.cols());
-    for (const HeldSet<Dim>& held : world.held) {
-        for (const std::uint32_t vertex : held.vertices) {
-            shift.col(vertex) = problem.held.col(vertex) - x.col(vertex);
-        }
-    }
-    return shift;
-}
-
-template <int Dim>
-struct Potential {
-    double value = 0;
-    BlockVector<Dim> gradient;  // Dim x unknowns
-};
-
-// phi at a state whose forces and energies are up to date.
-template <int Dim>
-Potential<Dim> potential(const System<Dim>& system,
-                         const World<Dim>& world,
-                         const StepProblem<Dim>& problem,
-                         const BodyState<Dim>& state) {
-    const Numbering& numbering = world.numbering;
-    const Damping damping = system.damping();
-    const double drag = problem.scale * problem.rate * damping.mass;
-    const Energies& energies = state.energies;
-    Potential<Dim> phi;
-    phi.value = problem.scale
-                * (energies.elastic + energies.gravity + energies.obstacle + energies.contact);
-    phi.gradient.resize(Dim, numbering.free_count());
-    BlockVector<Dim> travel(Dim, numbering.free_count());
-    for (std::uint32_t unknown = 0; unknown < numbering.free_count(); ++unknown) {
-        const std::uint32_t vertex = numbering.vertex_of_unknown[unknown];
-        const double mass = world.masses[vertex];
-        const Vector<Dim> lag = state.positions.col(vertex) - problem.target.col(vertex);
-        travel.col(unknown) = state.positions.col(vertex) - problem.origin.col(vertex);
-        phi.value +=
-            0.5 * mass
-            * (problem.inertia * lag.squaredNorm() + drag * travel.col(unknown).squaredNorm());
-        phi.gradient.col(unknown) = problem.inertia * mass * lag + drag * mass * travel.col(unknown)
-                                    - problem.scale * state.forces.col(vertex);
-    }
-    if (damping.stiffness > 0) {
-        const double factor = problem.scale * problem.rate * damping.stiffness;
-        const BlockVector<Dim> resistance = system.damping_product(travel);
-        phi.gradient += factor * (resistance + system.held_damping());
-        phi.value += factor
-                     * (0.5 * resistance.cwiseProduct(travel).sum()
-                        + system.held_damping().cwiseProduct(travel).sum());
-    }
-    return phi;
-}
-
-// Sufficient decrease of phi along a direction of this slope.
-template <int Dim>
-bool has_improved(const Potential<Dim>& phi,
-                  const Potential<Dim>& next,
-                  double factor,
-                  double slope) {
-    constexpr double kRounding = 1e-13;  // of phi
-    return next.value <= phi.value + kArmijo * factor * slope + kRounding * std::abs(phi.value);
-}
 
 // Sufficient decrease of the unbalanced force. What views take from mixed pairs in contact is held, so
 // their forces are not quite the derivative of phi, and near balance phi alone may rise.
 template <int Dim>
 bool has_less_force(const Potential<Dim>& phi, const Potential<Dim>& next, double factor) {
     return next.gradient.norm() <= (1 - kArmijo * factor) * phi.gradient.norm();
-}
-
-template <int Dim>
-void add_to_free(const World<Dim>& world,
-                 double factor,
-                 const BlockVector<Dim>& dx,
-                 Positions<Dim>& x) {
-    for (std::uint32_t unknown = 0; unknown < world.numbering.free_count(); ++unknown) {
-        x.col(world.numbering.vertex_of_unknown[unknown]) += factor * dx.col(unknown);
-    }
-}
-
-bool has_solved(const LinearSolveReport& solved, StepReport& report) {
-    if (!solved.has_converged) {
-        report.failure = solved.has_broken_down ? "the matrix was not positive definite"
-                                                : "the linear solver did not reach its tolerance";
-    }
-    return solved.has_converged;
 }
 
 }  // namespace
@@ -160,10 +70,12 @@ bool minimize(System<Dim>& system,
               double extent,
               BodyState<Dim>& state,
               StepReport& report) {
-    constexpr double kNegligible = 1e-10;  // of the scene, for a correction
     const Damping damping = system.damping();
     if (damping.stiffness > 0) {
         system.set_damping_tangent(now.positions, held_shift(world, problem, problem.origin));
+    }
+    if (system.contacts().has_barrier()) {
+        return minimize_without_crossing(system, world, problem, now, extent, state, report);
     }
     state.velocities = now.velocities;  // kinetic energy plays no part in phi
     state.positions = now.positions + held_shift(world, problem, now.positions);
@@ -186,14 +98,8 @@ bool minimize(System<Dim>& system,
             return true;
         }
         ++report.newton_iterations;
-        LinearStep<Dim> step;
-        step.mass_factor = problem.inertia + problem.scale * problem.rate * damping.mass;
-        step.elastic_factor = problem.scale;
-        step.contact_factor = problem.scale;
-        step.damping_factor = problem.scale * problem.rate * damping.stiffness;
+        LinearStep<Dim> step = newton_step(system, problem, phi);
         step.held_shift.setZero(Dim, state.positions.cols());
-        step.right = -phi.gradient;
-        step.tolerance = kForcing;
         BlockVector<Dim> dx = BlockVector<Dim>::Zero(Dim, phi.gradient.cols());
         if (!has_solved(system.solve(state, step, dx, report), report)) {
             return false;

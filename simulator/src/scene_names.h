@@ -34,6 +34,7 @@ inline constexpr std::array kFilters = {
 };
 inline constexpr std::array kContactModels = {
     Name<ContactModel>{ContactModel::Penalty, "penalty"},
+    Name<ContactModel>{ContactModel::Barrier, "barrier"},
 };
 inline constexpr std::array kLinearSolvers = {
     Name<LinearSolver>{LinearSolver::Iterative, "cg"},

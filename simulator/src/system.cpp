@@ -76,7 +76,8 @@ System<Dim>::System(const Scene& scene, const World<Dim>& world, const Simulatio
       kernels_(&kernels<Dim>(isa_)),
       pattern_(make_pattern<Dim>(world.cells, world.numbering)),
       elements_(world.rest, world.cells, world.ranges, world.numbering, pattern_),
-      contacts_(scene, world) {
+      contacts_(scene, world),
+      on_move_(options.on_move) {
     const std::uint32_t unknowns = world.numbering.free_count();
     if (options_.preconditioner == PreconditionerKind::BlockJacobi) {
         column_start_.resize(unknowns + 1);
@@ -144,12 +145,38 @@ void System<Dim>::find_contacts(BodyState<Dim>& state) {
     found->add_forces(state.forces);
     state.energies.contact = found->energy;
     state.energies.obstacle = found->obstacle_energy;
+    state.energies.friction = found->friction.energy;
     contact_work_.searches += found->summary.searches;
     contact_work_.candidates += found->summary.candidates;
     contact_work_.trees_built += found->summary.trees_built;
     contact_work_.trees_refit += found->summary.trees_refit;
     contact_work_.seconds += watch.seconds();
     state.contacts = std::move(found);
+}
+
+template <int Dim>
+void System<Dim>::begin_step(BodyState<Dim>& now, bool is_linear, double h) {
+    if (!now.contacts || !contacts_.has_friction()) {
+        return;
+    }
+    contacts_.begin_step(*now.contacts, now.positions, is_linear ? &now.velocities : nullptr, h);
+    evaluate(now);
+}
+
+template <int Dim>
+contact::StepLimit System<Dim>::limit_step(const Positions<Dim>& from, const Positions<Dim>& to) {
+    contact::StepLimit limit = contacts_.limit_step(workers_, from, to);
+    contact_work_.seconds += limit.seconds;
+    contact_work_.ccd_seconds += limit.seconds;
+    return limit;
+}
+
+template <int Dim>
+void System<Dim>::set_barrier_stiffness(double stiffness, BodyState<Dim>& state) {
+    if (stiffness != contacts_.stiffness()) {
+        contacts_.set_stiffness(stiffness);
+        evaluate(state);
+    }
 }
 
 // Whether factor times the masses would drown in the rounding of the stiffness that the matrix holds. In a
@@ -199,8 +226,12 @@ std::unique_ptr<CouplingMatrix<Dim, Scalar>> System<Dim>::add_contacts(
         return nullptr;
     }
     const Stopwatch watch;
-    auto coupling = add_contact_hessian(workers_, world_->numbering, *state.contacts,
-                                        step.contact_factor, step.held_shift, matrix, step.right);
+    const ContactTerms<Dim> terms{
+        *state.contacts, contacts_.has_barrier()
+                             ? contacts_.hessians(workers_, *state.contacts, state.positions)
+                             : std::vector<LocalHessian<Dim>>()};
+    auto coupling = add_contact_hessian(workers_, world_->numbering, terms, step.contact_factor,
+                                        step.held_shift, matrix, step.right);
     contact_work_.seconds += watch.seconds();
     return coupling;
 }

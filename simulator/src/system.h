@@ -12,6 +12,7 @@
 
 #include <pent/simulator/simulation.h>
 
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -82,6 +83,24 @@ public:
     [[nodiscard]] BlockVector<Dim> damping_product(const BlockVector<Dim>& travel) const;
     [[nodiscard]] const BlockVector<Dim>& held_damping() const { return held_damping_; }
 
+    /// Starts a step of length h (s) from an evaluated state: friction acts from there on, and is in its
+    /// forces afterwards.
+    void begin_step(BodyState<Dim>& now, bool is_linear, double h);
+
+    /// How far a step may go before something crosses; all of it without a barrier.
+    [[nodiscard]] contact::StepLimit limit_step(const Positions<Dim>& from,
+                                                const Positions<Dim>& to);
+
+    /// Tells SimulationOptions::on_move where vertices are on the path of a step.
+    void tell_move(const Positions<Dim>& positions, bool is_start) const {
+        if (on_move_) {
+            on_move_(positions, is_start);
+        }
+    }
+
+    /// Gives the barrier a stiffness, N/m, and evaluates the state with it.
+    void set_barrier_stiffness(double stiffness, BodyState<Dim>& state);
+
     /// Searches, trees and seconds of contact since the last call.
     [[nodiscard]] ContactSummary take_contact_work() { return std::exchange(contact_work_, {}); }
 
@@ -103,13 +122,13 @@ private:
                                  BlockVector<Dim>& dx,
                                  StepReport& report);
     template <typename Scalar>
+    [[nodiscard]] bool has_lost_inertia(const BlockMatrix<Dim, Scalar>& matrix,
+                                        double factor) const;
+    template <typename Scalar>
     LinearSolveReport iterate(const BlockMatrix<Dim, Scalar>& matrix,
                               const Positions<Dim>& positions,
                               const LinearStep<Dim>& step,
                               BlockVector<Dim>& dx);
-    template <typename Scalar>
-    [[nodiscard]] bool has_lost_inertia(const BlockMatrix<Dim, Scalar>& matrix,
-                                        double factor) const;
     template <typename Scalar>
     void add_masses(BlockMatrix<Dim, Scalar>& matrix, double factor) const;
     template <typename Scalar>
@@ -130,6 +149,7 @@ private:
     BlockPattern pattern_;
     Elements<Dim> elements_;
     SceneContacts<Dim> contacts_;
+    std::function<void(const Eigen::MatrixXd&, bool)> on_move_;
     ContactSummary contact_work_;  // since it was last taken; counts of contacts are not used
     std::vector<std::uint32_t> column_start_;  // columns the preconditioner solves together
     Aggregates aggregates_;                    // for the coarse space, if there is one
