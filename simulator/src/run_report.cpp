@@ -27,6 +27,8 @@ Json contact_json(const ContactSummary& contact) {
             {"candidates", contact.candidates},
             {"trees_built", contact.trees_built},
             {"trees_refit", contact.trees_refit},
+            {"ccd_seconds", contact.ccd_seconds},
+            {"stiffness", contact.stiffness},
             {"seconds", contact.seconds}};
 }
 
@@ -44,6 +46,8 @@ ContactSummary parse_contact(const Json& json) {
     json.at("candidates").get_to(contact.candidates);
     json.at("trees_built").get_to(contact.trees_built);
     json.at("trees_refit").get_to(contact.trees_refit);
+    json.at("ccd_seconds").get_to(contact.ccd_seconds);
+    json.at("stiffness").get_to(contact.stiffness);
     json.at("seconds").get_to(contact.seconds);
     return contact;
 }

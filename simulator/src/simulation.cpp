@@ -1,3 +1,4 @@
+#include "crossing_error.h"
 #include "step_problem.h"
 #include "system.h"
 #include "world.h"
@@ -23,6 +24,7 @@ public:
         current_.positions = world_.rest;
         current_.velocities = start_velocities(scene, world_);
         place_held(world_, 0, current_.positions, &current_.velocities);
+        refuse_crossings();
         system_.evaluate(current_);
     }
 
@@ -33,6 +35,7 @@ public:
     [[nodiscard]] const System<Dim>& system() const { return system_; }
     [[nodiscard]] BodyState<Dim>& current() {
         if (is_stale_) {
+            refuse_crossings();
             system_.evaluate(current_);
             is_stale_ = false;
         }
@@ -51,6 +54,7 @@ private:
     [[nodiscard]] StepProblem<Dim> make_problem(double time, double h) const;
     void set_velocities(const StepProblem<Dim>& problem, double time);
     [[nodiscard]] bool is_sane() const;
+    void refuse_crossings() const;
     [[nodiscard]] ContactSummary contact_summary();
 
     Scene scene_;
@@ -83,6 +87,7 @@ StepProblem<Dim> Simulation<Dim>::State::make_problem(double time, double h) con
         return euler_problem(current_, h);
     };
     StepProblem<Dim> problem = choose();
+    problem.time = time + h;
     problem.held = current_.positions;
     place_held<Dim>(world_, time + h, problem.held, nullptr);
     return problem;
@@ -102,11 +107,22 @@ bool Simulation<Dim>::State::is_sane() const {
            && (next_.positions - current_.positions).cwiseAbs().maxCoeff() < kMostExtents * extent_;
 }
 
+// Throws unless the barrier finds nothing that crosses.
+template <int Dim>
+void Simulation<Dim>::State::refuse_crossings() const {
+    const std::vector<contact::Crossing> crossings =
+        system_.contacts().find_crossings(system_.workers(), current_.positions);
+    if (!crossings.empty()) {
+        throw crossing_error(world_, system_.contacts(), crossings, current_.positions);
+    }
+}
+
 template <int Dim>
 bool Simulation<Dim>::State::attempt(double time, double h, StepReport& report) {
     const StepProblem<Dim> problem = make_problem(time, h);
     const bool is_linear =
         scene_.solver.integrator == Integrator::LinearEuler || world_.numbering.free_count() == 0;
+    system_.begin_step(current_, is_linear, h);
     const bool is_solved =
         is_linear ? take_linear_step(system_, world_, problem, current_, next_.positions, report)
                   : minimize(system_, world_, problem, current_, extent_, next_, report);
@@ -147,6 +163,8 @@ ContactSummary Simulation<Dim>::State::contact_summary() {
     summary.candidates = work.candidates;
     summary.trees_built = work.trees_built;
     summary.trees_refit = work.trees_refit;
+    summary.ccd_seconds = work.ccd_seconds;
+    summary.stiffness = system_.contacts().stiffness();
     summary.seconds = work.seconds;
     return summary;
 }

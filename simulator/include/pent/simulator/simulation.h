@@ -4,6 +4,7 @@
 #include <pent/simulator/scene.h>
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -23,6 +24,9 @@ struct SimulationOptions {
     int threads = 1;  ///< At least 1. Results do not depend on it.
     std::string isa =
         {};  ///< "scalar", "baseline", "avx2" or "avx512"; empty for the best there is.
+    /// Told, with a barrier, of the path that a step takes: all positions (Dim x vertices, m) where it
+    /// starts, with true, and after each move, with false. For proofs that nothing crosses.
+    std::function<void(const Eigen::MatrixXd& positions, bool is_start)> on_move = {};
 };
 
 /// How big a simulation is.
@@ -43,6 +47,8 @@ struct Energies {
     double gravity = 0;   ///< -sum of m g . x.
     double obstacle = 0;  ///< Of free vertices and obstacles.
     double contact = 0;   ///< Between bodies, and within them.
+    double friction = 0;  ///< What Newton's method minimizes for friction in a step: no energy that
+                          ///< could be had back, so not in the total.
 
     [[nodiscard]] double total() const { return kinetic + elastic + gravity + obstacle + contact; }
 };
@@ -62,7 +68,9 @@ struct ContactSummary {
     std::int64_t candidates = 0;                  ///< Pairs of boxes that overlapped.
     std::int64_t trees_built = 0;
     std::int64_t trees_refit = 0;
-    double seconds = 0;  ///< Finding contacts, their forces and their part of the matrix.
+    double ccd_seconds = 0;  ///< Of `seconds`: how far steps may go without a crossing.
+    double stiffness = 0;    ///< Of the barrier at the end, N/m; 0 without one.
+    double seconds = 0;      ///< Finding contacts, their forces and their part of the matrix.
 };
 
 /// What one step did.
