@@ -22,8 +22,8 @@ namespace {
 
 struct Case {
     const char* name = "";
-    Scene scene;
-    std::vector<SimplexMesh<4>> meshes;
+    Scene scene = {};
+    std::vector<SimplexMesh<4>> meshes = {};
     int penalty_steps = 1;  // a frame
 };
 
