@@ -58,5 +58,5 @@ for name in "${chosen[@]}"; do
     files+=("$file")
 done
 say "all pictures, slices and runs are in $out; its table.md compares them with the paper:"
-python3 scripts/paper_table.py "$out" "${files[@]}"
+PATH=/usr/bin:$PATH python3 scripts/paper_table.py "$out" "${files[@]}"  # Debian's own, with numpy
 say "done in $((SECONDS - start)) s"

@@ -21,7 +21,7 @@ packages=(
     libxsimd-dev                  # simulator: vectorized kernels
     libgtest-dev libbenchmark-dev # tests and benchmarks
     ffmpeg                        # movies
-    python3 python3-numpy         # the test of the numpy reader
+    python3 python3-numpy         # the numpy reader, the table of paper.sh
 )
 
 is_installed() {
