@@ -65,8 +65,8 @@ void expect_the_sum_over_contacts() {
     const double scale = 0.37;
     BlockMatrix<Dim, double> matrix(pressed.pattern);
     BlockVector<Dim> right = BlockVector<Dim>::Zero(Dim, pressed.pattern.rows());
-    const auto coupling = add_contact_hessian<Dim, double>(Workers(2), numbering, pressed.contacts,
-                                                           scale, pressed.shift, matrix, right);
+    const auto coupling = add_contact_hessian<Dim, double>(
+        Workers(2), numbering, {pressed.contacts, {}}, scale, pressed.shift, matrix, right);
     ASSERT_NE(coupling, nullptr);
     const Eigen::MatrixXd full = scale * pressed.oracle();
     const auto dense = test::ElasticBox<Dim>::template dense<double>;
@@ -109,9 +109,10 @@ TEST(ContactHessian, LeavesNoCouplingWhereNothingTouches) {
     BlockMatrix<4, float> matrix(pattern);
     BlockVector<4> right = BlockVector<4>::Zero(4, pattern.rows());
     SceneContacts<4> finder(scene, world);
-    const auto coupling = add_contact_hessian<4, float>(
-        Workers(1), world.numbering, finder.find(Workers(1), world.rest), 1,
-        Positions<4>::Zero(4, world.vertex_count()), matrix, right);
+    const ContactState<4> contacts = finder.find(Workers(1), world.rest);
+    const auto coupling =
+        add_contact_hessian<4, float>(Workers(1), world.numbering, {contacts, {}}, 1,
+                                      Positions<4>::Zero(4, world.vertex_count()), matrix, right);
     EXPECT_EQ(coupling, nullptr);
 }
 

@@ -27,7 +27,7 @@ TYPED_TEST_SUITE(ContactLaws, Dimensions);
 constexpr std::array kMoving = {Integrator::LinearEuler, Integrator::NewtonEuler, Integrator::Bdf2};
 
 // The weights of a pair sum to zero, so its forces do: what is left is the residual of the linear
-// solver, or the unbalanced force that Newton's method leaves, at a kink up to a thousandth.
+// solver, or the unbalanced force that Newton's method leaves, at a kink a few thousandths.
 TYPED_TEST(ContactLaws, ConserveLinearMomentumOfFreeBodies) {
     constexpr int kDim = TypeParam::value;
     for (const Integrator integrator : kMoving) {
@@ -47,7 +47,7 @@ TYPED_TEST(ContactLaws, ConserveLinearMomentumOfFreeBodies) {
             ASSERT_TRUE(report.is_accepted) << report.failure;
             touched += report.contact.point_facet + report.contact.mixed;
             ASSERT_LT((momentum(simulation) - before).norm(),
-                      (is_linear ? 1e-8 : 1e-3) * before.norm())
+                      (is_linear ? 1e-8 : 5e-3) * before.norm())
                 << i;
         }
         EXPECT_GT(touched, 20);

@@ -131,7 +131,7 @@ TEST(ParseScene, ReadsEveryKey) {
     EXPECT_TRUE(scene.output.contact_forces);
     EXPECT_TRUE(scene.output.contact_pairs);
     EXPECT_EQ(scene.damping->stiffness, 0.001);
-    EXPECT_EQ(scene.solver.precision, Precision::Double);
+    EXPECT_EQ(scene.solver.integrator, Integrator::Bdf2);
     EXPECT_EQ(scene.solver.filter, Filter::Absolute);
     EXPECT_EQ(scene.solver.max_halvings, 3);
 }
@@ -246,13 +246,13 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{with("[[obstacle]]\ndistance = 1\n"), "has 0 of half_space, ball, cavity, bowl"},
         Bad{with("[[obstacle]]\ndistance = 0\n"), "above 0"},
         Bad{with("[[obstacle]]\nbowl = {}\n"), "needs \"center\""},
-        Bad{with("[[obstacle]]\nbole = {}\n"), "did you mean \"bowl\"?"},
+        Bad{with("[[obstacle]]\nbowll = {}\n"), "did you mean \"bowl\"?"},
         Bad{with("[[obstacle]]\nball = { center = [0,0,0,0], radius = 1 }\n"
                  "cavity = { center = [0,0,0,0], radius = 1 }\n"),
             "has 2 of half_space"},
         Bad{with("[[obstacle]]\nball = { center = [0,0,0,0], radius = 0 }\n"), "above 0"},
         Bad{with("[[obstacle]]\nhalf_space = { normal = [0,0,0,0] }\n"), "expected a direction"},
-        Bad{with("[contact]\nmodel = \"glue\"\n"), "expected \"penalty\""},
+        Bad{with("[contact]\nmodel = \"glue\"\n"), "expected one of \"penalty\""},
         Bad{with("[contact]\ndistance = 0\n"), "above 0"},
         Bad{with("[contact]\nstiffness = -1\n"), "above 0"},
         Bad{with("[contact]\nself = 1\n"), "\"self\" is 1; expected true or false"},
