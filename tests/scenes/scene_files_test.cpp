@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <ostream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -57,6 +58,11 @@ struct Row {
     double distance;
     double stiffness;
 };
+
+// What GoogleTest prints of a row.
+void PrintTo(const Row& row, std::ostream* out) {  // NOLINT(readability-identifier-naming)
+    *out << row.scene;
+}
 
 class PaperScene : public testing::TestWithParam<Row> {};
 
