@@ -1,3 +1,4 @@
+#include "apart.h"
 #include "barrier_setting.h"
 #include "closest_point_search.h"
 #include "gather.h"
@@ -185,6 +186,9 @@ private:
                 const auto [i, j] = pairs[k];
                 const Corners<Dim, K> a = gather<Dim, K>(first, i, positions_);
                 const Corners<Dim, L> b = gather<Dim, L>(second, j, positions_);
+                if (are_boxes_apart<Dim, K, L>(a, b, reach_ * reach_)) {
+                    continue;
+                }
                 ClosestPointSearch<Dim, K, L> search(a, b, reach_ * reach_);
                 if (!search.run()
                     || (setting_.candidates.template is_held<K>(first, i)

@@ -14,7 +14,7 @@ namespace pent::contact {
 namespace {
 
 // Candidates hold until a vertex has left its path by this part of the distance of contact.
-constexpr double kSlack = 0.5;
+constexpr double kSlack = 0.1;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -1,5 +1,6 @@
 #include "pent/contact/ccd.h"
 
+#include "apart.h"
 #include "closest_point_search.h"
 
 #include <algorithm>
@@ -62,6 +63,15 @@ double safe_fraction(const Corners<Dim, K>& first,
     Corners<Dim, L> b = second.colwise() - origin;
     const Corners<Dim, K> a_start = a;
     const Corners<Dim, L> b_start = b;
+    // Paths that keep apart by what has to be left of any gap need no closest points.
+    const double always = clearance.separation + kGapKept * clearance.distance;
+    Corners<Dim, 2 * K> a_path;
+    Corners<Dim, 2 * L> b_path;
+    a_path << a, a + first_path;
+    b_path << b, b + second_path;
+    if (are_boxes_apart<Dim, 2 * K, 2 * L>(a_path, b_path, always * always)) {
+        return limit;
+    }
     double near_gap = 0;  // what counts of the gap at the start
     double t = 0;
     for (int advance = 0; advance < kMostAdvances; ++advance) {

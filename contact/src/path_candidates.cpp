@@ -1,5 +1,6 @@
 #include "path_candidates.h"
 
+#include "apart.h"
 #include "closest_point_search.h"
 #include "gather.h"
 
@@ -13,6 +14,10 @@ namespace pent::contact {
 namespace {
 
 constexpr std::size_t kPieces = 512;
+
+// Candidates of a motion this many times as long as what is asked for are searched anew: there are many
+// more of them than are of use.
+constexpr double kCrude = 2;
 
 // The narrow test allows for rounding: candidates have to be a superset.
 constexpr double kRoundUp = 1 + 1e-9;
@@ -84,7 +89,10 @@ void PathCandidates<Dim>::cover(const PositionsView<Dim>& from,
                                 const PositionsView<Dim>& to,
                                 double slack) {
     const Eigen::Index count = from.cols();
-    if (start_.cols() == count && is_covered(from) && is_covered(to)) {
+    const double needed =
+        count == 0 ? 0 : std::sqrt((to - from).colwise().squaredNorm().maxCoeff()) + slack;
+    const bool is_crude = kCrude * needed < longest_;
+    if (start_.cols() == count && !is_crude && is_covered(from) && is_covered(to)) {
         return;
     }
     start_ = from;
@@ -105,6 +113,7 @@ void PathCandidates<Dim>::cover(const PositionsView<Dim>& from,
         }
         travel_[v] = std::sqrt(squared);
     }
+    longest_ = needed;
     update_trees();
     search();
     ++searches_;
@@ -200,7 +209,8 @@ std::vector<IndexPair> PathCandidates<Dim>::search(const Simplices<K>& first,
             * kRoundUp;
         const Corners<Dim, K> a = gather<Dim, K>(first, i, start_);
         const Corners<Dim, L> b = gather<Dim, L>(second, j, start_);
-        if (ClosestPointSearch<Dim, K, L>(a, b, most * most).run()) {
+        if (!are_boxes_apart<Dim, K, L>(a, b, most * most)
+            && ClosestPointSearch<Dim, K, L>(a, b, most * most).run()) {
             list.push_back({i, j});
         }
     };

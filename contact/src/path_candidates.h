@@ -30,7 +30,7 @@ struct CandidatePairs {
 ///
 /// Every vertex has a box around its path and some slack; a pair whose boxes are further apart than
 /// the reach is no candidate. So candidates hold for all motions that stay in the boxes, and are
-/// searched again only when a vertex leaves its own.
+/// searched again only when a vertex leaves its own, or when much shorter motions are asked for.
 template <int Dim>
 class PathCandidates {
 public:
@@ -101,6 +101,7 @@ private:
     Positions<Dim> start_;         // where the covered paths begin
     std::vector<Box> boxes_;       // around the path of each vertex, its slack and half the reach
     std::vector<Box> free_boxes_;  // the same without the reach: where a vertex may go
+    double longest_ = 0;           // motion with slack that candidates were searched for, m
     Eigen::VectorXd travel_;       // how far from start_ each vertex may get, m
     std::vector<Trees> trees_;
     std::vector<CandidatePairs> pairs_;
