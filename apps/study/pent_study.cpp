@@ -134,9 +134,10 @@ int main(int argc, char** argv) {
     options.add_option("scene", arguments.study.scene, "Scene file (TOML)")->required();
     options.add_option("-o,--output", arguments.study.folder, "Folder for everything")->required();
     options
-        .add_option("--vary", arguments.study.vary,
-                    "NAME=VALUE,VALUE,...: dt (s), contact (its model), layers or subdivide (of the"
-                    " mesh, where the scene has its recipe), or a key of [solver]")
+        .add_option(
+            "--vary", arguments.study.vary,
+            "NAME=VALUE,VALUE,...: dt (s), preset, contact (its model), layers or subdivide (of the"
+            " mesh, where the scene has its recipe), or a key of [solver]")
         ->allow_extra_args(false)
         ->required();
     options
@@ -148,6 +149,8 @@ int main(int argc, char** argv) {
         .add_option("--reference-halvings", arguments.study.reference_halvings,
                     "How often the reference halves the smallest dt")
         ->check(CLI::Range(2, 8));
+    options.add_option("--reference-integrator", arguments.study.reference_integrator,
+                       "Of the reference; linear_euler where Newton's method does not get through");
     options.add_flag("--keep-runs", arguments.study.keep_runs, "Keep the frames of all runs");
     options.add_flag("--force", arguments.study.force, "Throw away what is in the folder");
     CLI::Option* error = options

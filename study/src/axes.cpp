@@ -54,6 +54,15 @@ std::string replaced(const std::string& scene,
     return text;
 }
 
+// The text of a scene with a preset in place of its [solver].
+std::string with_preset(const std::string& scene, const std::string& preset) {
+    constexpr std::string_view kHead = "[solver]\n";
+    const std::size_t begin = scene.find(kHead) + kHead.size();
+    const std::size_t end = scene.find("\n[", begin);
+    return scene.substr(0, begin) + "preset = \"" + preset + "\"\n"
+           + (end == std::string::npos ? "" : scene.substr(end));
+}
+
 simulator::Scene with_dt(simulator::Scene scene, const std::string& value) {
     const double steps = 1 / (scene.frames_per_second * parse_seconds(value));
     const double whole = std::max(1.0, std::round(steps));
@@ -152,6 +161,10 @@ simulator::Scene with_setting(const simulator::Scene& scene, const Setting& sett
         return with_dt(scene, setting.value);
     }
     const std::string text = simulator::scene_text(scene);
+    const std::string place = "--vary " + setting.axis + "=" + setting.value;
+    if (setting.axis == "preset") {
+        return simulator::parse_scene(with_preset(text, setting.value), place, "");
+    }
     const bool is_contact = setting.axis == "contact";
     const std::string_view head = kHeads[is_contact ? 1 : 0];
     const std::string key = is_contact ? "model" : setting.axis;
@@ -160,7 +173,7 @@ simulator::Scene with_setting(const simulator::Scene& scene, const Setting& sett
         if (is_contact) {
             throw Error("--vary contact: the scene has no [contact]");
         }
-        keys.insert(keys.end(), {"dt", "contact", "layers", "subdivide"});
+        keys.insert(keys.end(), {"dt", "preset", "contact", "layers", "subdivide"});
         const std::string nearest = nearest_name(setting.axis, keys);
         std::string known;
         for (const std::string& name : keys) {
@@ -170,8 +183,7 @@ simulator::Scene with_setting(const simulator::Scene& scene, const Setting& sett
                     + (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " There are "
                     + known);
     }
-    return simulator::parse_scene(replaced(text, head, key, setting.value),
-                                  "--vary " + setting.axis + "=" + setting.value, "");
+    return simulator::parse_scene(replaced(text, head, key, setting.value), place, "");
 }
 
 }  // namespace pent::study

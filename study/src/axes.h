@@ -24,7 +24,7 @@ struct Axis {
 /// Whether an axis changes the mesh: layers or subdivide.
 [[nodiscard]] bool is_mesh_axis(const std::string& name);
 
-/// The scene with a setting: dt, contact (its model), or a key of [solver]. Axes of the mesh leave the
+/// The scene with a setting: dt, preset, contact (its model), or a key of [solver]. Axes of the mesh leave the
 /// scene as it is.
 ///
 /// dt must divide the time between two frames into whole steps. Throws an Error for an unknown axis

@@ -8,7 +8,7 @@
 namespace pent::study {
 
 /// The results that finished and that no other beats in both seconds per frame and position error, the
-/// fastest first. Errors below `error_bar` count as equal to it: the reference cannot tell them apart.
+/// fastest first. A gain in error below a twentieth counts as none, and errors below `error_bar` count as equal to it: the reference cannot tell them apart.
 [[nodiscard]] std::vector<std::size_t> frontier_of(const std::vector<Result>& results,
                                                    double error_bar);
 

@@ -238,7 +238,7 @@ private:
         }
         y += kRowHeight / 2.0;
         row("Not beaten in both time and error:", kGray);
-        const auto most = static_cast<std::size_t>((kTop + kPlotHeight - y) / (2 * kRowHeight));
+        const auto most = static_cast<std::size_t>((drawing_.height - y) / (2 * kRowHeight));
         for (std::size_t i = 0; i < std::min(most, report_.frontier.size()); ++i) {
             const Result& result = report_.results[report_.frontier[i]];
             row(std::to_string(i + 1) + "  " + settings_text(result.settings), kBlack);

@@ -73,6 +73,17 @@ TEST(WithSetting, SetsEveryKeyOfTheSolver) {
               simulator::Filter::Absolute);
 }
 
+TEST(WithSetting, TakesAPresetInPlaceOfAllKeysOfTheSolver) {
+    const TempFolder folder;
+    const simulator::Scene scene =
+        simulator::read_scene(test::write_bar(folder, "[solver]\nfilter = \"none\"\n"));
+    const simulator::Scene accurate = with_setting(scene, {"preset", "accurate"});
+    EXPECT_EQ(accurate.solver.integrator, simulator::Integrator::Bdf2);
+    EXPECT_EQ(accurate.solver.filter, simulator::Filter::Clamp);
+    EXPECT_EQ(accurate.bodies.size(), 1U);
+    EXPECT_EQ(accurate.constraints.size(), 1U);
+}
+
 TEST(WithSetting, LeavesEverythingElseAsItIs) {
     const TempFolder folder;
     const simulator::Scene scene = bar_scene(folder);

@@ -38,9 +38,10 @@ struct StudyOptions {
     int frames = 0;                      ///< Study only so many frames; 0 for all of the scene.
     int reference_halvings = 2;  ///< The reference takes steps down to the smallest dt of the study
                                  ///< over 2^this; at least 2, for an observed order.
-    int threads = 1;             ///< Of each run.
-    bool force = false;          ///< Throw away what is in the folder.
-    bool keep_runs = false;      ///< Keep the frames of runs that have been measured.
+    std::string reference_integrator = "bdf2";  ///< As in a scene.
+    int threads = 1;                            ///< Of each run.
+    bool force = false;                         ///< Throw away what is in the folder.
+    bool keep_runs = false;               ///< Keep the frames of runs that have been measured.
     std::filesystem::path programs = {};  ///< Folder with pent-sim and pent-mesh.
     std::string created_by = "pent-study";
 };
