@@ -48,7 +48,7 @@ struct Locking {
     double at_028;
     double at_032;
 };
-constexpr Locking kLocking[] = {{2, 0.62, 0.43, 0.22}, {4, 0.87, 0.74, 0.52}};
+constexpr Locking kLocking[] = {{2, 0.57, 0.44, 0.25}, {4, 0.84, 0.72, 0.52}};
 
 template <int Dim>
 class Explainer {
