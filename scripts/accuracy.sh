@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# What the presets cost and what error they make: studies the scenes of data/study and writes
+# docs/accuracy.md with its plots. What was measured before is not measured again.
+#
+#   scripts/accuracy.sh [OUTPUT FOLDER]      default: out/accuracy; half an hour, best on a quiet machine
+set -euo pipefail
+out=$(realpath -m "${1:-$(dirname "$0")/../out/accuracy}")
+cd "$(dirname "$0")/.."
+
+scripts/setup.sh
+cmake --preset release >/dev/null
+cmake --build --preset release --target pent-study pent-sim pent-mesh
+python3 scripts/accuracy.py build/release/bin "$out" docs/accuracy.md
