@@ -43,7 +43,8 @@ double triad(const Workers& workers, std::size_t count, int repetitions) {
             loop.triad(a.data() + at, b.data() + at, c.data() + at, kChunk);
         });
     }
-    return 24 * static_cast<double>(count / kChunk * kChunk) * repetitions / watch.seconds();
+    const std::size_t whole_chunks = count / kChunk * kChunk;
+    return 24 * static_cast<double>(whole_chunks) * repetitions / watch.seconds();
 }
 
 template <typename Scalar, typename Chains>

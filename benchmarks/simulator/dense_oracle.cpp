@@ -85,7 +85,7 @@ CellMatrix projected_hessian(const Cell& cell, const Material& material) {
     Eigen::Matrix<double, 16, 20> B = Eigen::Matrix<double, 16, 20>::Zero();  // dF / dx
     for (int a = 0; a < 5; ++a) {
         for (int j = 0; j < 4; ++j) {
-            B.block<4, 4>(4 * j, 4 * a).diagonal().setConstant(cell.gradients(a, j));
+            B.block<4, 4>(Index{4} * j, Index{4} * a).diagonal().setConstant(cell.gradients(a, j));
         }
     }
     return cell.volume * B.transpose() * H * B;

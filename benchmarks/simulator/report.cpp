@@ -3,6 +3,7 @@
 #include "stopwatch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
@@ -12,7 +13,8 @@ namespace {
 
 double quantile(std::vector<double> values, double part) {
     std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1) + 0.5)];
+    return values[static_cast<std::size_t>(
+        std::lround(part * static_cast<double>(values.size() - 1)))];
 }
 
 std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
@@ -54,6 +56,7 @@ Report measure(const std::vector<Case>& cases, int rounds, int max_threads) {
     for (const std::vector<Ceilings>& samples : ceilings) {
         const auto median = [&](double Ceilings::*figure) {
             std::vector<double> values;
+            values.reserve(samples.size());
             for (const Ceilings& sample : samples) {
                 values.push_back(sample.*figure);
             }
