@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 
 #include <bit>
+#include <cmath>
 #include <utility>
 
 // The search behind closest_points(), in a header so that the narrow phase can inline what most pairs
@@ -38,7 +39,8 @@ public:
         Vector<Dim> offset = first_.col(0) - second_.col(0);
         const Edges<kN> edges = edges_of<kA, kB>(std::make_integer_sequence<int, kN>());
         Parameters<kN> t = Parameters<kN>::Zero();
-        if (!solve_normal_equations<kN>(edges, offset, t) && !solve_stably<kN>(edges, offset, t)) {
+        if (!solve_normal_equations<kN>(edges, offset, t)
+            && (is_apart<kN>(edges, offset) || !solve_stably<kN>(edges, offset, t))) {
             return false;
         }
         if (!is_inside<kA, kB>(t)) {
@@ -182,6 +184,34 @@ private:
         best_.distance_squared = squared;
         best_.first_face = A;
         best_.second_face = B;
+    }
+
+    // Whether all of |offset + edges t|, |t_i| <= 1, is beyond the limit for a reason that is cheap to
+    // see where edges are nearly dependent: an edge that is nearly in the span of those before it
+    // changes what is normal to the span by no more than its own normal part.
+    template <int N>
+    [[nodiscard]] bool is_apart(const Edges<N>& edges, Vector<Dim> offset) const {
+        constexpr double kRounding = 1e-12;
+        Edges<N> span = Edges<N>::Zero();  // orthonormal, the first few columns
+        double slack = kRounding * offset.norm();
+        int rank = 0;
+        for (int i = 0; i < N; ++i) {
+            Vector<Dim> normal = edges.col(i);
+            const double length_squared = normal.squaredNorm();
+            for (int j = 0; j < rank; ++j) {
+                normal -= span.col(j).dot(normal) * span.col(j);
+            }
+            const double normal_squared = normal.squaredNorm();
+            if (normal_squared > kDependent * length_squared) {
+                const Vector<Dim> unit = normal / std::sqrt(normal_squared);
+                offset -= unit.dot(offset) * unit;
+                span.col(rank++) = unit;
+            } else {
+                slack += std::sqrt(normal_squared);
+            }
+        }
+        const double apart = offset.norm() - slack;
+        return apart > 0 && apart * apart >= best_.distance_squared;
     }
 
     // The same by a QR factorization; false where the edges are dependent to rounding.
