@@ -1,7 +1,8 @@
 """Puts runs of the paper's scenes beside Table 1 of [shi2025], and checks what came out of them.
 
 Usage: paper_table.py FOLDER SCENE ...   as paper.sh calls it; writes FOLDER/table.md, prints it, and
-exits with 1 if a check fails. Thresholds come from geometry and beam theory; docs/gallery.md derives them.
+exits with 1 if a check fails. With --meshes first, as paper_meshes.sh calls it, only the counts of the
+meshes are checked, before there is any run. Thresholds come from geometry and beam theory; docs/gallery.md derives them.
 """
 import csv
 import itertools
@@ -66,8 +67,7 @@ class Run:
     def mesh(self, body):
         """Positions (n x 4) as placed and cells (m x 5)."""
         if body not in self._meshes:
-            arrays = read_pent(self.path / "meshes" / f"{body}.pent")[1]
-            self._meshes[body] = (points(arrays["vertex"]), np.stack([arrays["pentachoron"][f"v{k}"] for k in range(5)], 1))
+            self._meshes[body] = read_mesh(self.path / "meshes" / f"{body}.pent")
         return self._meshes[body]
 
     def positions(self, body, frame):
@@ -204,24 +204,45 @@ CHECKS = {
 }
 
 
-def check_counts(run):
+def check_counts(name, counts):
     """The mesh against the paper's counts: exactly where it is built of blocks, else within 3%."""
-    allowed = 0 if run.name in ("cantilevers", "noodles") else 0.03
-    off = max(abs(ours / known - 1) for ours, known in zip(row_of(run)["counts"], PAPER[run.name]))
+    allowed = 0 if name in ("cantilevers", "noodles") else 0.03
+    off = max(abs(ours / known - 1) for ours, known in zip(counts, PAPER[name]))
     return off <= allowed, f"the counts of its mesh are within {100 * off:.1f}% of the paper's (at most {100 * allowed:g}%)"
 
 
 # ---- the table
 
 
+def counts_of(meshes):
+    """Vertices, pentachora, boundary tetrahedra, triangles and edges of meshes (positions, cells)."""
+    return sum(np.array([len(rest), len(cells), *boundary_counts(cells)]) for rest, cells in meshes)
+
+
+def read_mesh(path):
+    """Positions (n x 4) and cells (m x 5)."""
+    arrays = read_pent(path)[1]
+    return points(arrays["vertex"]), np.stack([arrays["pentachoron"][f"v{k}"] for k in range(5)], 1)
+
+
+def check_meshes(folder, names):
+    """Prints how far the meshes of scenes are from the paper's; returns how many are too far."""
+    failures = 0
+    for name in names:
+        scene = tomllib.loads((pathlib.Path(__file__).parent.parent / "data" / "scenes" / f"{name}.toml").read_text())
+        bodies = scene["body"][:1] if name == "cantilevers" else scene["body"]
+        counts = counts_of([read_mesh(folder / body["mesh"]) for body in bodies])
+        holds, words = check_counts(name, counts)
+        failures += not holds
+        print(f"- {'PASS' if holds else 'FAIL'} {name}: {counts[0]:,} vertices, {counts[1]:,} pentachora; {words}")
+    return failures
+
+
 def row_of(run):
     """Counts, step, contact and cost; of the five equal cantilevers one, as in the paper."""
     scene, steps = run.scene["scene"], run.report["steps"]
     share = len(run.bodies) if run.name == "cantilevers" else 1
-    counts = np.zeros(5, int)
-    for body in run.bodies[:1] if share > 1 else run.bodies:
-        rest, cells = run.mesh(body)
-        counts += (len(rest), len(cells), *boundary_counts(cells))
+    counts = counts_of([run.mesh(body) for body in (run.bodies[:1] if share > 1 else run.bodies)])
     rate = scene["frames_per_second"] * scene["steps_per_frame"]
     contact = run.scene.get("contact", {})
     per_step = sum(step["seconds"] for step in steps) / len(steps) / share
@@ -265,13 +286,15 @@ def machine():
 
 
 def main():
+    if sys.argv[1] == "--meshes":
+        sys.exit(1 if check_meshes(pathlib.Path(sys.argv[2]), sys.argv[3:]) else 0)
     folder, names = pathlib.Path(sys.argv[1]), sys.argv[2:]
     runs = {name: Run(folder, name) for name in names}
     lines = [*INTRODUCTION, *table(runs.values()), "", f"Machine: {machine()}.", ""]
     failures = 0
     for name, run in runs.items():
         if name in PAPER:
-            holds, words = check_counts(run)
+            holds, words = check_counts(run.name, row_of(run)["counts"])
             failures += not holds
             lines.append(f"- {'PASS' if holds else 'FAIL'} {name}: {words}")
         if not run.is_whole or run.report["verdict"] != "finished":
