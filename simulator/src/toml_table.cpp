@@ -77,7 +77,8 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
     } catch (const toml::parse_error& error) {
         throw Error(at(file, error.source().begin) + std::string(error.description()));
     } catch (const BrokenToml&) {
-        throw Error(file + ": is not TOML; expected lines of the form key = value and [table] lines");
+        throw Error(file
+                    + ": is not TOML; expected lines of the form key = value and [table] lines");
     }
 }
 

@@ -20,8 +20,8 @@ using PositionsView = Eigen::Ref<const Positions<Dim>>;
 template <int Dim>
 struct Surface {
     std::uint32_t first_vertex = 0;  ///< What the mesh's indices were raised by.
-    Simplices<1> vertices;  ///< 1 x vertices, ascending.
-    Simplices<2> edges;     ///< 2 x edges.
+    Simplices<1> vertices;           ///< 1 x vertices, ascending.
+    Simplices<2> edges;              ///< 2 x edges.
     Simplices<Dim - 1>
         ridges;             ///< (Dim - 1) x ridges: faces of facets, which are edges again in R^3.
     Simplices<Dim> facets;  ///< Dim x facets, outward; see match_facets().

@@ -85,8 +85,8 @@ struct StepReport {
     int newton_iterations = 0;  ///< After the first, linear step; 0 for LinearEuler.
     int iterations = 0;         ///< Of the linear solver, in all.
     double residual = 0;        ///< Largest |b - A x| / |b|, computed from x.
-    double unbalanced = 0;      ///< Largest unbalanced force at the end of a Newton step over that at
-                                ///< its start; above newton_tolerance at kinks of contact alone.
+    double unbalanced = 0;  ///< Largest unbalanced force at the end of a Newton step over that at
+                            ///< its start; above newton_tolerance at kinks of contact alone.
     std::int64_t inverted = 0;  ///< Elements with J <= 0 at the end.
     std::int64_t collapsed =
         0;              ///< Elements in the false minimum at the end; see collapse_scale().
