@@ -73,16 +73,9 @@ public:
           reach_(setting.options.distance + setting.options.separation) {}
 
     BarrierContacts<Dim> run() {
-        for (const CandidatePairs& pairs : setting_.candidates.pairs()) {
-            const Surface<Dim>& first = setting_.bodies[pairs.first_body].surface;
-            const Surface<Dim>& second = setting_.bodies[pairs.second_body].surface;
-            const std::array<int, 2> bodies{pairs.first_body, pairs.second_body};
-            const std::array<int, 2> swapped{pairs.second_body, pairs.first_body};
-            append<1, Dim>(pairs.points_first, first.vertices, second.facets, bodies);
-            append<1, Dim>(pairs.points_second, second.vertices, first.facets, swapped);
-            append<2, Dim - 1>(pairs.mixed_first, first.edges, second.ridges, bodies);
-            append<2, Dim - 1>(pairs.mixed_second, second.edges, first.ridges, swapped);
-        }
+        setting_.for_each_list(
+            [this](const auto& pairs, const auto& first, const auto& second,
+                   const std::array<int, 2>& bodies) { append(pairs, first, second, bodies); });
         append_obstacles();
         merge(contacts_.pairs);
         sum_up();

@@ -5,6 +5,7 @@
 #include <pent/contact/barrier_finder.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace pent::contact {
@@ -17,6 +18,22 @@ struct BarrierSetting {
     const BarrierOptions& options;
     const Positions<Dim>& rest;
     const PathCandidates<Dim>& candidates;
+
+    /// Calls visit(pairs, first, second, bodies) for each list of candidates: index pairs, the lists of
+    /// simplices that they are places in, and the bodies that these belong to.
+    template <typename Visit>
+    void for_each_list(const Visit& visit) const {
+        for (const CandidatePairs& pairs : candidates.pairs()) {
+            const Surface<Dim>& first = bodies[pairs.first_body].surface;
+            const Surface<Dim>& second = bodies[pairs.second_body].surface;
+            const std::array<int, 2> in_order{pairs.first_body, pairs.second_body};
+            const std::array<int, 2> swapped{pairs.second_body, pairs.first_body};
+            visit(pairs.points_first, first.vertices, second.facets, in_order);
+            visit(pairs.points_second, second.vertices, first.facets, swapped);
+            visit(pairs.mixed_first, first.edges, second.ridges, in_order);
+            visit(pairs.mixed_second, second.edges, first.ridges, swapped);
+        }
+    }
 
     /// Calls visit(body, vertex) for surface vertices that are not held.
     template <typename Visit>

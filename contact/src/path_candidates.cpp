@@ -1,8 +1,7 @@
 #include "path_candidates.h"
 
 #include "apart.h"
-#include "closest_point_search.h"
-#include "gather.h"
+#include "collect_pairs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,28 +12,12 @@ namespace pent::contact {
 
 namespace {
 
-constexpr std::size_t kPieces = 512;
-
 // Candidates of a motion this many times as long as what is asked for are searched anew: there are many
 // more of them than are of use.
 constexpr double kCrude = 2;
 
 // The narrow test allows for rounding: candidates have to be a superset.
 constexpr double kRoundUp = 1 + 1e-9;
-
-template <int K, int L>
-bool share_a_vertex(const Simplices<K>& first,
-                    Eigen::Index i,
-                    const Simplices<L>& second,
-                    Eigen::Index j) {
-    bool is_shared = false;
-    for (int a = 0; a < K; ++a) {
-        for (int b = 0; b < L; ++b) {
-            is_shared |= first(a, i) == second(b, j);
-        }
-    }
-    return is_shared;
-}
 
 template <int Count>
 double most_travel(const Eigen::VectorXd& travel,

@@ -23,16 +23,9 @@ public:
         : setting_(setting), from_(from), motion_(to - from) {}
 
     StepLimit run() {
-        for (const CandidatePairs& pairs : setting_.candidates.pairs()) {
-            const Surface<Dim>& first = setting_.bodies[pairs.first_body].surface;
-            const Surface<Dim>& second = setting_.bodies[pairs.second_body].surface;
-            const std::array<int, 2> bodies{pairs.first_body, pairs.second_body};
-            const std::array<int, 2> swapped{pairs.second_body, pairs.first_body};
-            shorten<1, Dim>(pairs.points_first, first.vertices, second.facets, bodies);
-            shorten<1, Dim>(pairs.points_second, second.vertices, first.facets, swapped);
-            shorten<2, Dim - 1>(pairs.mixed_first, first.edges, second.ridges, bodies);
-            shorten<2, Dim - 1>(pairs.mixed_second, second.edges, first.ridges, swapped);
-        }
+        setting_.for_each_list(
+            [this](const auto& pairs, const auto& first, const auto& second,
+                   const std::array<int, 2>& bodies) { shorten(pairs, first, second, bodies); });
         shorten_by_obstacles();
         return std::move(limit_);
     }

@@ -28,7 +28,7 @@ std::string format(const char* form, ...) {
     return text;
 }
 
-// "1.2 ms", "3.4 s"; "" for nothing.
+// "1.2 ms", "3.4 s"; "-" for nothing.
 std::string time_text(double seconds) {
     if (seconds <= 0) {
         return "-";
