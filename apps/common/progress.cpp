@@ -1,5 +1,7 @@
 #include "progress.h"
 
+#include <pent/formatted.h>
+
 #include <cmath>
 #include <cstdio>
 #include <unistd.h>
@@ -8,20 +10,19 @@
 namespace pent::apps {
 
 std::string readable_time(double seconds) {
-    char text[64];
     const auto whole = static_cast<std::int64_t>(std::llround(seconds));
     if (seconds < 9.95) {
-        std::snprintf(text, sizeof text, "%.1f s", seconds);
-    } else if (whole < 60) {
-        std::snprintf(text, sizeof text, "%d s", static_cast<int>(whole));
-    } else if (whole < 3600) {
-        std::snprintf(text, sizeof text, "%d min %02d s", static_cast<int>(whole / 60),
-                      static_cast<int>(whole % 60));
-    } else {
-        std::snprintf(text, sizeof text, "%d h %02d min", static_cast<int>(whole / 3600),
-                      static_cast<int>(whole % 3600 / 60));
+        return formatted("%.1f s", seconds);
     }
-    return text;
+    if (whole < 60) {
+        return formatted("%d s", static_cast<int>(whole));
+    }
+    if (whole < 3600) {
+        return formatted("%d min %02d s", static_cast<int>(whole / 60),
+                         static_cast<int>(whole % 60));
+    }
+    return formatted("%d h %02d min", static_cast<int>(whole / 3600),
+                     static_cast<int>(whole % 3600 / 60));
 }
 
 Progress::Progress(std::string label, std::int64_t total, bool quiet)

@@ -2,17 +2,16 @@
 
 #include "eigen_table.h"
 
-#include "mesh_text.h"
-
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/simulator/eigen_proof.h>
 
 #include <array>
 
 namespace {
 
+using pent::formatted;
 using pent::apps::Program;
-using pent::apps::text;
 using pent::simulator::EigenFunction;
 using pent::simulator::EigenProof;
 using pent::simulator::UndefinedModes;
@@ -51,10 +50,12 @@ EigenProof prove(Program& program,
         program.report()["eigensystems"].push_back(to_json(name, proof));
         all.merge(proof);
     }
-    const std::string values = all.dim <= kSmall.back() ? text("%9.0e", all.values) : "        -";
-    program.say(text("  %-20s  %-11s  %6d  %6lld  %s  %9.0e  %9.0e  %9.0e", name.c_str(), range,
-                     all.states, static_cast<long long>(all.modes),  // NOLINT(google-runtime-int)
-                     values.c_str(), all.residual, all.orthogonality, all.trace));
+    const std::string values =
+        all.dim <= kSmall.back() ? formatted("%9.0e", all.values) : "        -";
+    program.say(formatted("  %-20s  %-11s  %6d  %6lld  %s  %9.0e  %9.0e  %9.0e", name.c_str(),
+                          range, all.states,
+                          static_cast<long long>(all.modes),  // NOLINT(google-runtime-int)
+                          values.c_str(), all.residual, all.orthogonality, all.trace));
     if (!all.holds()) {
         throw pent::Error("the eigensystem of " + name + " does not hold; see the table");
     }
@@ -87,9 +88,9 @@ void prove_eigensystems(Program& program) {
         EigenProof all = prove(program, function, kSmall, "2 to 8");
         all.merge(prove(program, function, kLarge, "10, 30, 100"));
         for (const auto& [state, modes] : all.undefined) {
-            undefined += text("\n  %-6s %-24s %3d modes in %d dimensions",
-                              eigen_function_name(function).c_str(), state.c_str(),
-                              static_cast<int>(modes), kDimensions);
+            undefined += formatted("\n  %-6s %-24s %3d modes in %d dimensions",
+                                   eigen_function_name(function).c_str(), state.c_str(),
+                                   static_cast<int>(modes), kDimensions);
         }
     }
     program.say(

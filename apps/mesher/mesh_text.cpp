@@ -2,8 +2,7 @@
 
 #include "mesh_text.h"
 
-#include <cstdarg>
-#include <cstdio>
+#include <pent/formatted.h>
 
 namespace pent::apps {
 
@@ -18,19 +17,10 @@ nlohmann::ordered_json to_json(const mesher::Spread& spread) {
 
 }  // namespace
 
-std::string text(const char* format, ...) {
-    char buffer[512];
-    va_list values;
-    va_start(values, format);
-    std::vsnprintf(buffer, sizeof buffer, format, values);
-    va_end(values);
-    return buffer;
-}
-
 std::string quality_line(const mesher::QualityReport& report) {
-    return text("mean ratio min %.3f mean %.3f, condition of Dm mean %.3g max %.3g",
-                report.mean_ratio.min, report.mean_ratio.mean, report.condition.mean,
-                report.condition.max);
+    return formatted("mean ratio min %.3f mean %.3f, condition of Dm mean %.3g max %.3g",
+                     report.mean_ratio.min, report.mean_ratio.mean, report.condition.mean,
+                     report.condition.max);
 }
 
 nlohmann::ordered_json to_json(const mesher::QualityReport& report) {

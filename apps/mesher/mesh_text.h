@@ -7,9 +7,6 @@
 
 namespace pent::apps {
 
-/// printf into a string of up to 512 characters.
-[[nodiscard]] std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
-
 /// One line with the figures that matter most.
 [[nodiscard]] std::string quality_line(const mesher::QualityReport& report);
 

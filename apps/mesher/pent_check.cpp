@@ -7,6 +7,7 @@
 #include "mesh_text.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/mesher/decomposition.h>
 #include <pent/mesher/links.h>
 #include <pent/mesher/prove.h>
@@ -16,8 +17,8 @@
 
 namespace {
 
+using pent::formatted;
 using pent::apps::Program;
-using pent::apps::text;
 using Long = long long;  // NOLINT(google-runtime-int): printf's type
 
 std::string searched(const pent::mesher::DecompositionProof& proof, std::int64_t count) {
@@ -34,12 +35,13 @@ void prove_tables(Program& program) {
     for (int n = 2; n <= 6; ++n) {
         const pent::mesher::DecompositionProof proof = pent::mesher::prove_decompositions(n);
         const std::int64_t cyclic = proof.orientations - proof.acyclic;
-        program.say(text("  %8d  %10lld  %6lld  %6lld %6s  %6lld  %10s  %7lld  %lld of %lld", n,
-                         static_cast<Long>(proof.orientations), static_cast<Long>(proof.acyclic),
-                         static_cast<Long>(proof.filled), searched(proof, proof.unique).c_str(),
-                         static_cast<Long>(cyclic), searched(proof, proof.impossible).c_str(),
-                         static_cast<Long>(proof.with_triangle), static_cast<Long>(proof.agreeing),
-                         static_cast<Long>(proof.neighbors)));
+        program.say(
+            formatted("  %8d  %10lld  %6lld  %6lld %6s  %6lld  %10s  %7lld  %lld of %lld", n,
+                      static_cast<Long>(proof.orientations), static_cast<Long>(proof.acyclic),
+                      static_cast<Long>(proof.filled), searched(proof, proof.unique).c_str(),
+                      static_cast<Long>(cyclic), searched(proof, proof.impossible).c_str(),
+                      static_cast<Long>(proof.with_triangle), static_cast<Long>(proof.agreeing),
+                      static_cast<Long>(proof.neighbors)));
         nlohmann::ordered_json row = {{"base_vertices", n},
                                       {"orientations", proof.orientations},
                                       {"acyclic", proof.acyclic},
@@ -78,18 +80,19 @@ void check_mesh(Program& program, const std::filesystem::path& path) {
     }
     const pent::mesher::LinkReport links = pent::mesher::check_links(file.mesh);
     const pent::mesher::QualityReport quality = pent::mesher::measure_quality(file.mesh);
-    program.say(text("file       dimension %d, %s, by %s, crc32c %08x", Dim,
-                     file.info.encoding == pent::Encoding::Ascii ? "ascii" : "binary",
-                     file.info.created_by.c_str(), file.info.crc32c));
-    program.say(text("mesh       %lld vertices, %lld %s, %.10g m^%d",
-                     static_cast<Long>(file.mesh.vertex_count()), static_cast<Long>(proof.cells),
-                     pent::cell_name_plural(Dim).data(), proof.volume, Dim));
-    program.say(text("facets     %lld inner ones match, boundary of %lld is closed and oriented",
-                     static_cast<Long>(proof.interior_facets),
-                     static_cast<Long>(proof.boundary_facets)));
-    program.say(text("links      of %lld boundary vertices are spheres, %lld are not",
-                     static_cast<Long>(links.boundary_vertices - links.faulty),
-                     static_cast<Long>(links.faulty)));
+    program.say(formatted("file       dimension %d, %s, by %s, crc32c %08x", Dim,
+                          file.info.encoding == pent::Encoding::Ascii ? "ascii" : "binary",
+                          file.info.created_by.c_str(), file.info.crc32c));
+    program.say(formatted("mesh       %lld vertices, %lld %s, %.10g m^%d",
+                          static_cast<Long>(file.mesh.vertex_count()),
+                          static_cast<Long>(proof.cells), pent::cell_name_plural(Dim).data(),
+                          proof.volume, Dim));
+    program.say(formatted(
+        "facets     %lld inner ones match, boundary of %lld is closed and oriented",
+        static_cast<Long>(proof.interior_facets), static_cast<Long>(proof.boundary_facets)));
+    program.say(formatted("links      of %lld boundary vertices are spheres, %lld are not",
+                          static_cast<Long>(links.boundary_vertices - links.faulty),
+                          static_cast<Long>(links.faulty)));
     program.say("quality    " + pent::apps::quality_line(quality));
     program.report()["mesh"] = {{"dimension", Dim},
                                 {"vertices", file.mesh.vertex_count()},
@@ -104,11 +107,11 @@ void check_mesh(Program& program, const std::filesystem::path& path) {
     program.report()["quality"] = pent::apps::to_json(quality);
     if (links.faulty + links.unused_vertices > 0) {
         throw pent::Error(
-            text("%s: %lld vertices without a cell, and the boundary is not a manifold "
-                 "at %lld vertices (first: %lld); parts that touch in a point or an "
-                 "edge must be joined or moved apart",
-                 path.c_str(), static_cast<Long>(links.unused_vertices),
-                 static_cast<Long>(links.faulty), static_cast<Long>(links.first_faulty)));
+            formatted("%s: %lld vertices without a cell, and the boundary is not a manifold "
+                      "at %lld vertices (first: %lld); parts that touch in a point or an "
+                      "edge must be joined or moved apart",
+                      path.c_str(), static_cast<Long>(links.unused_vertices),
+                      static_cast<Long>(links.faulty), static_cast<Long>(links.first_faulty)));
     }
     program.say("finished: " + path.string() + " is sound");
 }
@@ -116,10 +119,10 @@ void check_mesh(Program& program, const std::filesystem::path& path) {
 template <int Dim>
 void check_frame(Program& program, const std::filesystem::path& path) {
     const pent::Frame<Dim> frame = pent::read_frame<Dim>(path);
-    program.say(text("frame      %lld of %s, step %lld, %.6g s, %lld vertices",
-                     static_cast<Long>(frame.frame), frame.mesh_name.c_str(),
-                     static_cast<Long>(frame.step), frame.time,
-                     static_cast<Long>(frame.positions.cols())));
+    program.say(formatted("frame      %lld of %s, step %lld, %.6g s, %lld vertices",
+                          static_cast<Long>(frame.frame), frame.mesh_name.c_str(),
+                          static_cast<Long>(frame.step), frame.time,
+                          static_cast<Long>(frame.positions.cols())));
     program.report()["frame"] = {{"dimension", Dim},     {"mesh", frame.mesh_name},
                                  {"frame", frame.frame}, {"step", frame.step},
                                  {"time", frame.time},   {"vertices", frame.positions.cols()}};

@@ -8,6 +8,7 @@
 #include "watchdog.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/mesher/make_body.h>
 #include <pent/output_file.h>
 #include <pent/pent_file.h>
@@ -17,9 +18,9 @@
 
 namespace {
 
+using pent::formatted;
 using pent::apps::MeshArguments;
 using pent::apps::Program;
-using pent::apps::text;
 using pent::mesher::BodyReport;
 using pent::mesher::Repair;
 using Long = long long;  // NOLINT(google-runtime-int): printf's type
@@ -27,21 +28,21 @@ using Long = long long;  // NOLINT(google-runtime-int): printf's type
 void say_surface(const Program& program, const BodyReport& report) {
     if (report.repair != Repair::None) {
         program.say("found      " + pent::mesher::describe(report.surface_read));
-        program.say(text("mended     %s: now within %.3g m of what was read",
-                         report.repair == Repair::Light ? "lightly" : "by a wrap",
-                         report.repair_distance));
+        program.say(formatted("mended     %s: now within %.3g m of what was read",
+                              report.repair == Repair::Light ? "lightly" : "by a wrap",
+                              report.repair_distance));
     }
     if (report.merged_points + report.flipped_triangles > 0) {
-        program.say(text("corrected  %lld points merged, %lld triangles turned over",
-                         static_cast<Long>(report.merged_points),
-                         static_cast<Long>(report.flipped_triangles)));
+        program.say(formatted("corrected  %lld points merged, %lld triangles turned over",
+                              static_cast<Long>(report.merged_points),
+                              static_cast<Long>(report.flipped_triangles)));
     }
     if (report.surface.triangles > 0) {
         const std::string cavities =
             report.cavities == 0
                 ? ""
-                : text(", %lld of them cavities", static_cast<Long>(report.cavities));
-        program.say(text(
+                : formatted(", %lld of them cavities", static_cast<Long>(report.cavities));
+        program.say(formatted(
             "surface    %lld points, %lld triangles, area %.6g m^2, %lld component%s%s",
             static_cast<Long>(report.surface.points), static_cast<Long>(report.surface.triangles),
             report.surface_area, static_cast<Long>(report.components),
@@ -56,31 +57,32 @@ void say_base(const Program& program, const BodyReport& report, int dim) {
     if (report.layers == 0) {
         return;
     }
-    program.say(text("base       %lld vertices, %lld %s (%s), %.6g m^%d, mean edge %.4g m",
-                     static_cast<Long>(report.base_vertices), static_cast<Long>(report.base_cells),
-                     pent::cell_name_plural(dim - 1).data(), report.generator.c_str(),
-                     report.base_volume, dim - 1, report.base_edge));
-    program.say(text("extrusion  %.6g m along %c, %d layer%s", report.direction[dim - 1],
-                     "xyzw"[dim - 1], report.layers, report.layers == 1 ? "" : "s"));
+    program.say(formatted("base       %lld vertices, %lld %s (%s), %.6g m^%d, mean edge %.4g m",
+                          static_cast<Long>(report.base_vertices),
+                          static_cast<Long>(report.base_cells),
+                          pent::cell_name_plural(dim - 1).data(), report.generator.c_str(),
+                          report.base_volume, dim - 1, report.base_edge));
+    program.say(formatted("extrusion  %.6g m along %c, %d layer%s", report.direction[dim - 1],
+                          "xyzw"[dim - 1], report.layers, report.layers == 1 ? "" : "s"));
 }
 
 void say_body(const Program& program, const BodyReport& report, std::int64_t vertices, int dim) {
     const pent::mesher::Proof& proof = report.proof;
-    program.say(text("body       %lld vertices, %lld %s, %.10g m^%d", static_cast<Long>(vertices),
-                     static_cast<Long>(proof.cells), pent::cell_name_plural(dim).data(),
-                     proof.volume, dim));
-    program.say(
-        text("proved     %lld inner facets match, boundary of %lld facets closed, "
-             "volume as expected to %.1e",
-             static_cast<Long>(proof.interior_facets), static_cast<Long>(proof.boundary_facets),
-             std::abs(proof.volume - proof.expected_volume) / proof.expected_volume));
+    program.say(formatted("body       %lld vertices, %lld %s, %.10g m^%d",
+                          static_cast<Long>(vertices), static_cast<Long>(proof.cells),
+                          pent::cell_name_plural(dim).data(), proof.volume, dim));
+    program.say(formatted(
+        "proved     %lld inner facets match, boundary of %lld facets closed, "
+        "volume as expected to %.1e",
+        static_cast<Long>(proof.interior_facets), static_cast<Long>(proof.boundary_facets),
+        std::abs(proof.volume - proof.expected_volume) / proof.expected_volume));
     program.say("quality    " + pent::apps::quality_line(report.quality));
 }
 
 void say_stages(const Program& program, const BodyReport& report) {
     std::string stages = "time      ";
     for (const pent::mesher::Stage& stage : report.stages) {
-        stages += text(" %s %.3f s", stage.name.c_str(), stage.seconds);
+        stages += formatted(" %s %.3f s", stage.name.c_str(), stage.seconds);
     }
     program.say(stages);
 }

@@ -2,7 +2,7 @@
 
 #include "watchdog.h"
 
-#include "mesh_text.h"
+#include <pent/formatted.h>
 
 #include <chrono>
 #include <sys/resource.h>
@@ -31,10 +31,11 @@ void Watchdog::watch(double seconds) {
             program_.abandon(Verdict::Stopped, "stopped as asked; no mesh was written");
         }
         if (std::chrono::steady_clock::now() > end) {
-            program_.abandon(Verdict::Refused,
-                             text("not done after %g s; ask for fewer cells or a coarser surface, "
-                                  "or raise --time-limit",
-                                  seconds));
+            program_.abandon(
+                Verdict::Refused,
+                formatted("not done after %g s; ask for fewer cells or a coarser surface, "
+                          "or raise --time-limit",
+                          seconds));
         }
     }
 }

@@ -3,6 +3,7 @@
 #include "crc32c.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/output_file.h>
 
 #include <array>
@@ -221,11 +222,9 @@ void BodyReader::check_checksum() const {
     }
     const std::uint32_t found = crc32c(body_.data(), body_.size());
     if (found != header_.info.crc32c) {
-        std::array<char, 80> text{};
-        std::snprintf(text.data(), text.size(),
-                      "the data has crc32c %08x, expected %08x from the header", found,
-                      header_.info.crc32c);
-        fail("checksum", std::string(text.data()) + ": the file was changed after it was written");
+        fail("checksum", formatted("the data has crc32c %08x, expected %08x from the header: the "
+                                   "file was changed after it was written",
+                                   found, header_.info.crc32c));
     }
 }
 

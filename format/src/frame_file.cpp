@@ -2,6 +2,7 @@
 #include "input_file.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/pent_file.h>
 
 #include <algorithm>
@@ -137,6 +138,10 @@ Frame<Dim> read_frame(const std::filesystem::path& path) {
     check_finite<Dim>(frame.velocities, "v", path);
     check_finite<Dim>(frame.contact_forces, "f", path);
     return frame;
+}
+
+std::string frame_file_name(const std::string& body, int frame) {
+    return body + formatted("_%06d.pent", frame);
 }
 
 #define PENT_INSTANTIATE(Dim)                                                       \

@@ -1,6 +1,7 @@
 #include "header.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 
 #include <algorithm>
 #include <array>
@@ -342,12 +343,6 @@ private:
     std::set<std::string> seen_;
 };
 
-std::string hex(std::uint32_t value) {
-    std::array<char, 9> text{};
-    std::snprintf(text.data(), text.size(), "%08x", value);
-    return text.data();
-}
-
 std::string shortest(double value) {
     std::array<char, 32> text{};
     const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
@@ -374,12 +369,12 @@ std::string format_header(const Header& header) {
     text += " 1.0\ncomment pent 1.0\ncomment dimension " + std::to_string(header.info.dimension);
     text += "\ncomment created_by " + header.info.created_by;
     if (header.info.is_frame) {
-        text += "\ncomment mesh " + header.mesh_name + " " + hex(header.mesh_crc);
+        text += "\ncomment mesh " + header.mesh_name + " " + formatted("%08x", header.mesh_crc);
         text += "\ncomment frame " + std::to_string(header.frame);
         text += "\ncomment step " + std::to_string(header.step);
         text += "\ncomment time " + shortest(header.time);
     }
-    text += "\ncomment crc32c " + hex(header.info.crc32c) + "\n";
+    text += "\ncomment crc32c " + formatted("%08x", header.info.crc32c) + "\n";
     for (const PlyElement& element : header.elements) {
         text += "element " + element.name + " " + std::to_string(element.count) + "\n";
         for (const PlyProperty& property : element.properties) {

@@ -1,10 +1,11 @@
 #include <pent/facets.h>
+#include <pent/formatted.h>
 #include <pent/mesher/prove.h>
 
 #include <Eigen/LU>
 
+#include <cinttypes>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace pent::mesher {
@@ -120,17 +121,12 @@ std::string describe_faults(const Proof& proof, int dim) {
     if (proof.holds()) {
         return "";
     }
-    char text[512];
-    std::snprintf(text, sizeof text,
-                  "%lld of %lld facets do not match, %lld ridges of the boundary are open or "
-                  "overfull, the cells fill %.17g m^%d (boundary: %.17g, expected: %.17g, "
-                  "tolerance %.3g)",
-                  static_cast<long long>(proof.faulty_facets),  // NOLINT(google-runtime-int)
-                  static_cast<long long>(proof.interior_facets  // NOLINT(google-runtime-int)
-                                         + proof.boundary_facets + proof.faulty_facets),
-                  static_cast<long long>(proof.faulty_ridges),  // NOLINT(google-runtime-int)
-                  proof.volume, dim, proof.boundary_volume, proof.expected_volume, proof.tolerance);
-    return text;
+    const std::int64_t facets = proof.interior_facets + proof.boundary_facets + proof.faulty_facets;
+    return formatted("%" PRId64 " of %" PRId64 " facets do not match, %" PRId64
+                     " ridges of the boundary are open or overfull, the cells fill %.17g m^%d "
+                     "(boundary: %.17g, expected: %.17g, tolerance %.3g)",
+                     proof.faulty_facets, facets, proof.faulty_ridges, proof.volume, dim,
+                     proof.boundary_volume, proof.expected_volume, proof.tolerance);
 }
 
 template Proof prove<2>(const SimplexMesh<2>&, double);

@@ -1,8 +1,10 @@
+#include <pent/formatted.h>
 #include <pent/mesher/quality.h>
 
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cinttypes>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -143,11 +145,9 @@ std::vector<std::int64_t> worst_of(const std::vector<CellQuality>& cells) {
 }
 
 void append_line(std::string& text, const char* name, const Spread& spread) {
-    char line[160];
-    std::snprintf(line, sizeof line, "  %-16s %9.4g %9.4g %9.4g %9.4g %9.4g %9.4g %9.4g %9.4g\n",
-                  name, spread.min, spread.percentile_1, spread.percentile_5, spread.median,
-                  spread.mean, spread.percentile_95, spread.percentile_99, spread.max);
-    text += line;
+    text += formatted("  %-16s %9.4g %9.4g %9.4g %9.4g %9.4g %9.4g %9.4g %9.4g\n", name, spread.min,
+                      spread.percentile_1, spread.percentile_5, spread.median, spread.mean,
+                      spread.percentile_95, spread.percentile_99, spread.max);
 }
 
 }  // namespace
@@ -205,12 +205,9 @@ std::string quality_text(const QualityReport& report) {
         constexpr std::int64_t kWidest = 50;
         const std::int64_t count = report.histogram[bin];
         const auto width = static_cast<std::size_t>((count * kWidest + most - 1) / most);
-        char line[64];
-        std::snprintf(line, sizeof line, "  %.2f-%.2f %9lld ",
-                      bin / static_cast<double>(kHistogramBins),
-                      (bin + 1) / static_cast<double>(kHistogramBins),
-                      static_cast<long long>(count));  // NOLINT(google-runtime-int)
-        text += line + std::string(width, '#') + "\n";
+        text += formatted("  %.2f-%.2f %9" PRId64 " ", bin / static_cast<double>(kHistogramBins),
+                          (bin + 1) / static_cast<double>(kHistogramBins), count)
+                + std::string(width, '#') + "\n";
     }
     text += "  worst cells:";
     for (const std::int64_t cell : report.worst_cells) {

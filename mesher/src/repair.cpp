@@ -2,11 +2,11 @@
 #include "repair_steps.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/mesher/repair.h>
 
 #include <Eigen/Eigenvalues>
 
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -29,11 +29,8 @@ void check_size(const Positions<3>& points) {
     constexpr double kLargest = 1e30;
     const double size = diagonal(points);
     if (!(size >= kSmallest && size <= kLargest)) {
-        char text[160];
-        std::snprintf(text, sizeof text,
-                      "the surface is %.3g m across; expected %g to %g m: scale it first", size,
-                      kSmallest, kLargest);
-        throw Error(text);
+        throw Error(formatted("the surface is %.3g m across; expected %g to %g m: scale it first",
+                              size, kSmallest, kLargest));
     }
 }
 

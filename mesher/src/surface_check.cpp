@@ -2,9 +2,10 @@
 #include "self_intersections.h"
 #include "union_find.h"
 
+#include <pent/formatted.h>
 #include <pent/mesher/surface_check.h>
 
-#include <cstdio>
+#include <cinttypes>
 
 namespace pent::mesher {
 
@@ -102,12 +103,11 @@ void add_text(std::string& text,
     if (defect.count == 0) {
         return;
     }
-    char place[128];
-    std::snprintf(place, sizeof place, " (first at triangle %lld, near (%.6g, %.6g, %.6g))",
-                  static_cast<long long>(defect.first_triangle),  // NOLINT(google-runtime-int)
-                  defect.place.x(), defect.place.y(), defect.place.z());
-    text += (text.empty() ? "" : "; ") + std::to_string(defect.count) + " "
-            + (defect.count == 1 ? singular : plural) + place;
+    text +=
+        (text.empty() ? "" : "; ") + std::to_string(defect.count) + " "
+        + (defect.count == 1 ? singular : plural)
+        + formatted(" (first at triangle %" PRId64 ", near (%.6g, %.6g, %.6g))",
+                    defect.first_triangle, defect.place.x(), defect.place.y(), defect.place.z());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "worker_process.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/mesher/orient.h>
 
 #include <cassert>
@@ -22,20 +23,14 @@ struct Answer {
     std::vector<double> regions;  // one a tet
 };
 
-std::string short_number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
-}
-
 // p: a surface; A: number the regions; Q: quiet; see TetGen's manual.
 std::string switches(const TetrahedraOptions& options) {
-    std::string text = "pq" + short_number(options.radius_edge_ratio);
+    std::string text = "pq" + formatted("%.6g", options.radius_edge_ratio);
     if (options.keep_surface) {
         text += "Y";
     }
     if (options.edge_length > 0) {
-        text += "a" + short_number(std::pow(options.edge_length, 3) / (6 * std::sqrt(2.0)));
+        text += "a" + formatted("%.6g", std::pow(options.edge_length, 3) / (6 * std::sqrt(2.0)));
     }
     return text;
 }

@@ -1,13 +1,13 @@
 #include "generators.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/mesher/links.h>
 #include <pent/mesher/prove.h>
 #include <pent/mesher/quality.h>
 #include <pent/mesher/tetrahedralize.h>
 
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -32,11 +32,10 @@ void accept(Tetrahedra& tetrahedra, double expected, double largest_error) {
     const SimplexMesh<3>& mesh = tetrahedra.mesh;
     const double found = mesh.cell_count() > 0 ? total_volume(mesh) : 0;
     tetrahedra.volume_error = std::abs(found - expected) / std::abs(expected);
-    char text[160];
     if (!(tetrahedra.volume_error < largest_error)) {
-        std::snprintf(text, sizeof text, " filled %.6g m^3 of %.6g m^3 that the surface encloses",
-                      found, expected);
-        throw Error(tetrahedra.generator + text);
+        throw Error(
+            tetrahedra.generator
+            + formatted(" filled %.6g m^3 of %.6g m^3 that the surface encloses", found, expected));
     }
     validate(mesh, tetrahedra.generator);
     const Proof proof = prove(mesh);
@@ -49,8 +48,8 @@ void accept(Tetrahedra& tetrahedra, double expected, double largest_error) {
     }
     const double flattest = measure_quality(mesh).mean_ratio.min;
     if (flattest < kFlattest) {
-        std::snprintf(text, sizeof text, " left a tetrahedron of mean ratio %.1e", flattest);
-        throw Error(tetrahedra.generator + text);
+        throw Error(tetrahedra.generator
+                    + formatted(" left a tetrahedron of mean ratio %.1e", flattest));
     }
 }
 

@@ -1,6 +1,7 @@
 #include "pent/viewer/movie.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/output_file.h>
 
 #include <array>
@@ -33,12 +34,6 @@ std::string find_in_path(const std::string& program) {
         }
     }
     return "";
-}
-
-std::string number(double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.9g", value);
-    return text;
 }
 
 // Starts a program with the given standard input and standard error, and no output.
@@ -189,7 +184,7 @@ Movie::Movie(const std::filesystem::path& path, int width, int height, double fr
                                             "-video_size",
                                             std::to_string(width) + "x" + std::to_string(height),
                                             "-framerate",
-                                            number(frames_per_second),
+                                            formatted("%.9g", frames_per_second),
                                             "-i",
                                             "pipe:0",
                                             "-c:v",

@@ -3,13 +3,13 @@
 #include "studio.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/output_file.h>
 #include <pent/viewer/image.h>
 #include <pent/viewer/movie.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <memory>
 #include <utility>
@@ -55,15 +55,11 @@ std::vector<int> spread(const std::vector<int>& frames, int count) {
 }
 
 std::string picture_name(int frame) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%06d.png", frame);
-    return text;
+    return formatted("%06d.png", frame);
 }
 
 std::string sweep_picture_name(int frame, std::size_t section) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%06d_s%02u.png", frame, static_cast<unsigned>(section));
-    return text;
+    return formatted("%06d_s%02zu.png", frame, section);
 }
 
 // Finds out before all the work whether the files can be made at all.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <map>
 #include <optional>
 #include <set>
@@ -22,9 +21,7 @@ fs::path mesh_path(const RunFolder& run, const std::string& body) {
 }
 
 fs::path frame_path(const RunFolder& run, const std::string& body, int frame) {
-    char number[32];
-    std::snprintf(number, sizeof number, "_%06d.pent", frame);
-    return run.path / "frames" / (body + number);
+    return run.path / "frames" / frame_file_name(body, frame);
 }
 
 std::optional<int> to_number(const std::string& text) {

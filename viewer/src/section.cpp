@@ -1,11 +1,11 @@
 #include "pent/viewer/section.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/viewer/slice.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -70,9 +70,7 @@ double middle_offset(const SectionOptions& options, std::span<const Frame<4>> fr
 }  // namespace
 
 std::string short_number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value == 0 ? 0.0 : value);  // no "-0"
-    return text;
+    return formatted("%.4g", value == 0 ? 0.0 : value);  // no "-0"
 }
 
 template <>

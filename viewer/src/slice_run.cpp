@@ -5,10 +5,11 @@
 #include "vtu.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/output_file.h>
 #include <pent/viewer/attributes.h>
 
-#include <cstdio>
+#include <cinttypes>
 #include <map>
 #include <utility>
 
@@ -16,29 +17,18 @@ namespace pent::viewer {
 
 namespace {
 
-std::string numbered(const char* format, std::size_t number) {
-    char text[32];
-    std::snprintf(text, sizeof text, format, static_cast<unsigned>(number));
-    return text;
-}
-
 // "octopus", or "octopus_s01" where there are several hyperplanes.
 std::string series_name(const std::string& body, std::size_t section, std::size_t sections) {
-    return sections > 1 ? body + numbered("_s%02u", section) : body;
+    return sections > 1 ? body + formatted("_s%02zu", section) : body;
 }
 
 std::string csv_of(const std::vector<SliceRecord>& slices) {
     std::string csv = "file,frame,time,section,offset,body,vertices,triangles,volume,area\n";
-    char line[256];
     for (const SliceRecord& slice : slices) {
-        std::snprintf(line, sizeof line, ",%d,%.17g,", slice.frame, slice.time);
-        csv += slice.file + line + '"' + slice.section + '"';
-        std::snprintf(line, sizeof line, ",%.17g,%s,%lld,%lld,%.17g,%.17g\n", slice.offset,
-                      slice.body.c_str(),
-                      static_cast<long long>(slice.vertices),   // NOLINT(google-runtime-int)
-                      static_cast<long long>(slice.triangles),  // NOLINT(google-runtime-int)
-                      slice.volume, slice.area);
-        csv += line;
+        csv += slice.file + formatted(",%d,%.17g,\"", slice.frame, slice.time) + slice.section
+               + formatted("\",%.17g,", slice.offset) + slice.body
+               + formatted(",%" PRId64 ",%" PRId64 ",%.17g,%.17g\n", slice.vertices,
+                           slice.triangles, slice.volume, slice.area);
     }
     return csv;
 }
@@ -168,7 +158,7 @@ private:
     }
 
     static std::string file_name(const std::string& series, int number, const std::string& ending) {
-        return series + numbered("_%06u", static_cast<std::size_t>(number)) + ending;
+        return series + formatted("_%06d", number) + ending;
     }
 
     // Writes one surface with what colors it; gives the file's name.

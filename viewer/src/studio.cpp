@@ -1,10 +1,10 @@
 #include "studio.h"
 
+#include <pent/formatted.h>
 #include <pent/viewer/attributes.h>
 #include <pent/viewer/legend.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <numeric>
 #include <utility>
 
@@ -17,9 +17,7 @@ constexpr float kOnionOpacity = 0.22F;
 constexpr float kOutlineOpacity = 0.07F;
 
 std::string time_label(double time) {
-    char text[40];
-    std::snprintf(text, sizeof text, "t = %.3f s", time);
-    return text;
+    return formatted("t = %.3f s", time);
 }
 
 RenderObject to_object(Shown shown, ColorBy color, const ColorRange& range) {

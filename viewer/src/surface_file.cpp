@@ -2,11 +2,11 @@
 
 #include "vtu.h"
 
+#include <pent/formatted.h>
 #include <pent/output_file.h>
 
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 
 namespace pent::viewer {
@@ -68,23 +68,17 @@ std::string ply_bytes(const Surface& surface, const SurfaceExtras& extras) {
 
 std::string obj_text(const Surface& surface, const SurfaceExtras& extras) {
     std::string text = extras.comment.empty() ? "" : "# " + extras.comment + "\n";
-    char line[160];
     for (Eigen::Index v = 0; v < surface.vertex_count(); ++v) {
         const auto p = surface.positions.col(v);
-        std::snprintf(line, sizeof line, "v %.17g %.17g %.17g", p.x(), p.y(), p.z());
-        text += line;
+        text += formatted("v %.17g %.17g %.17g", p.x(), p.y(), p.z());
         if (has_colors(extras)) {
             const std::array<std::uint8_t, 3> c = to_srgb(extras.colors.col(v));
-            std::snprintf(line, sizeof line, " %.4g %.4g %.4g", c[0] / 255.0, c[1] / 255.0,
-                          c[2] / 255.0);
-            text += line;
+            text += formatted(" %.4g %.4g %.4g", c[0] / 255.0, c[1] / 255.0, c[2] / 255.0);
         }
         text += '\n';
     }
     for (const auto& triangle : surface.triangles.colwise()) {
-        std::snprintf(line, sizeof line, "f %u %u %u\n", triangle[0] + 1, triangle[1] + 1,
-                      triangle[2] + 1);
-        text += line;
+        text += formatted("f %u %u %u\n", triangle[0] + 1, triangle[1] + 1, triangle[2] + 1);
     }
     return text;
 }

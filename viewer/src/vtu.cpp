@@ -1,6 +1,7 @@
 #include "vtu.h"
 
-#include <cstdio>
+#include <pent/formatted.h>
+
 #include <cstring>
 
 namespace pent::viewer {
@@ -74,10 +75,8 @@ std::string to_pvd(const std::vector<PvdEntry>& entries) {
     std::string xml =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
         "byte_order=\"LittleEndian\">\n<Collection>\n";
-    char time[40];
     for (const PvdEntry& entry : entries) {
-        std::snprintf(time, sizeof time, "%.17g", entry.time);
-        xml += std::string("<DataSet timestep=\"") + time + "\" part=\"0\" file=\"" + entry.file
+        xml += formatted("<DataSet timestep=\"%.17g\" part=\"0\" file=\"", entry.time) + entry.file
                + "\"/>\n";
     }
     return xml + "</Collection>\n</VTKFile>\n";

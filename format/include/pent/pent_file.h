@@ -75,4 +75,7 @@ void write_frame(const std::filesystem::path& path,
 template <int Dim>
 [[nodiscard]] Frame<Dim> read_frame(const std::filesystem::path& path);
 
+/// The name of a body's frame in the folder of a run: "octopus_000042.pent".
+[[nodiscard]] std::string frame_file_name(const std::string& body, int frame);
+
 }  // namespace pent
