@@ -9,8 +9,11 @@ target_compile_options(pent_build_flags INTERFACE
   -ffp-contract=off  # same digits with and without FMA hardware
   $<$<BOOL:${PENT_WERROR}>:-Werror>)
 if(PENT_SANITIZE)
+  # A finding ends the program. Left out: what the address sanitizer finds as well, and what doubles
+  # the time and the memory that heavy templates take to compile.
   target_compile_options(pent_build_flags INTERFACE
-    -fsanitize=${PENT_SANITIZE} -fno-omit-frame-pointer)
+    -fsanitize=${PENT_SANITIZE} -fno-sanitize=null,alignment,object-size,vptr
+    -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(pent_build_flags INTERFACE -fsanitize=${PENT_SANITIZE})
 endif()
 
