@@ -72,7 +72,8 @@ bool minimize(System<Dim>& system,
               StepReport& report) {
     const Damping damping = system.damping();
     if (damping.stiffness > 0) {
-        system.set_damping_tangent(now.positions, held_shift(world, problem, problem.origin));
+        system.set_damping_tangent(now.positions, held_shift(world, problem, problem.origin),
+                                   report);
     }
     if (system.contacts().has_barrier()) {
         return minimize_without_crossing(system, world, problem, now, extent, state, report);

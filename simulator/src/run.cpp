@@ -1,4 +1,5 @@
 #include "contact_table.h"
+#include "rest_file.h"
 #include "resume.h"
 #include "rigid_fit.h"
 #include "run_report.h"
@@ -81,6 +82,7 @@ private:
     int resume_folder();
     [[nodiscard]] std::optional<std::vector<Frame<Dim>>> read_frames(int frame) const;
     void write_frame_files(int frame);
+    [[nodiscard]] fs::path rest_path(int frame) const;
     void write_checkpoint(int frame);
     void remove_checkpoint(int frame);
     void resume_history(int frame);
@@ -187,6 +189,9 @@ int Run<Dim>::resume_folder() {
     const std::uint64_t step = frames->front().step;
     simulation_.set_step_count(step);
     resume_history(frame);
+    if (scene_.sleep) {
+        simulation_.set_rest(read_rest(rest_path(frame), report_.bodies));
+    }
     const fs::path report_path = options_.folder / "report.json";
     if (fs::exists(report_path)) {
         ReportHistory history = parse_history(read_text(report_path), report_path.string(),
@@ -222,13 +227,18 @@ Frame<Dim> Run<Dim>::frame_file(int body, int frame) const {
     return file;
 }
 
-// What a frame does not hold but BDF2 needs to go on from it: the state one step before.
+// What a frame does not hold: who sleeps, and for BDF2 the state one step before.
 template <int Dim>
 void Run<Dim>::write_checkpoint(int frame) {
+    if (scene_.sleep || simulation_.has_history()) {
+        make_folder(options_.folder / "checkpoint");
+    }
+    if (scene_.sleep) {
+        write_rest(rest_path(frame), report_.bodies, simulation_.rest());
+    }
     if (!simulation_.has_history()) {
         return;
     }
-    make_folder(options_.folder / "checkpoint");
     for (int body = 0; body < simulation_.body_count(); ++body) {
         Frame<Dim> file = frame_file(body, frame);
         file.positions = simulation_.previous_positions(body);
@@ -239,9 +249,15 @@ void Run<Dim>::write_checkpoint(int frame) {
 }
 
 template <int Dim>
+fs::path Run<Dim>::rest_path(int frame) const {
+    return fs::path(numbered("checkpoint", "rest", frame)).replace_extension(".json");
+}
+
+template <int Dim>
 void Run<Dim>::remove_checkpoint(int frame) {
+    std::error_code ignored;
+    fs::remove(rest_path(frame), ignored);
     for (const std::string& body : report_.bodies) {
-        std::error_code ignored;
         fs::remove(checkpoint_path(body, frame), ignored);
     }
 }

@@ -59,6 +59,10 @@ Json step_json(const StepReport& step) {
             {"refused", step.refused},
             {"newton_iterations", step.newton_iterations},
             {"iterations", step.iterations},
+            {"asleep", step.asleep},
+            {"unknowns", step.unknowns},
+            {"hessians", step.hessians},
+            {"damping_hessians", step.damping_hessians},
             {"residual", step.residual},
             {"unbalanced", step.unbalanced},
             {"inverted", step.inverted},
@@ -83,6 +87,10 @@ StepReport parse_step(const Json& json) {
     json.at("refused").get_to(step.refused);
     json.at("newton_iterations").get_to(step.newton_iterations);
     json.at("iterations").get_to(step.iterations);
+    json.at("asleep").get_to(step.asleep);
+    json.at("unknowns").get_to(step.unknowns);
+    json.at("hessians").get_to(step.hessians);
+    json.at("damping_hessians").get_to(step.damping_hessians);
     json.at("residual").get_to(step.residual);
     json.at("unbalanced").get_to(step.unbalanced);
     json.at("inverted").get_to(step.inverted);

@@ -163,6 +163,14 @@ void check_contact(const Contact& contact, Integrator integrator) {
             " keep bodies apart; use integrator = \"newton_euler\", or model = \"penalty\"");
 }
 
+void check_sleep(const Sleep& sleep, Integrator integrator) {
+    require(sleep.speed > 0 && std::isfinite(sleep.speed), "sleep: speed must be above 0");
+    require(sleep.time > 0 && std::isfinite(sleep.time), "sleep: time must be above 0");
+    require(integrator != Integrator::Quasistatic,
+            "sleep: the quasistatic integrator has no motion that could come to rest; leave [sleep]"
+            " out");
+}
+
 }  // namespace
 
 std::string plane_name(const Plane& plane) {
@@ -197,6 +205,9 @@ void check(const Scene& scene) {
     if (scene.damping) {
         require(scene.damping->mass >= 0 && scene.damping->stiffness >= 0,
                 "damping: mass and stiffness must not be negative");
+    }
+    if (scene.sleep) {
+        check_sleep(*scene.sleep, scene.solver.integrator);
     }
     check_solver(scene.solver);
     for (const Body& body : scene.bodies) {

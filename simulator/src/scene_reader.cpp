@@ -298,6 +298,13 @@ Scene parse_scene(std::string_view text,
                                 .stiffness = damping.number("stiffness", 0, kNotNegative)};
         damping.finish();
     }
+    if (reader.has("sleep")) {
+        TableReader sleep = reader.table("sleep");
+        const Sleep standard;
+        scene.sleep = Sleep{.speed = sleep.number("speed", standard.speed, kPositive),
+                            .time = sleep.number("time", standard.time, kPositive)};
+        sleep.finish();
+    }
     if (reader.has("solver")) {
         scene.solver = read_solver(reader.table("solver"));
     } else {

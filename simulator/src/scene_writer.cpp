@@ -222,6 +222,10 @@ std::string scene_text(const Scene& scene) {
         text += "\n[damping]\n" + line("mass", number(scene.damping->mass))
                 + line("stiffness", number(scene.damping->stiffness));
     }
+    if (scene.sleep) {
+        text += "\n[sleep]\n" + line("speed", number(scene.sleep->speed))
+                + line("time", number(scene.sleep->time));
+    }
     return text + solver_text(scene.solver) + output_text(scene.output);
 }
 

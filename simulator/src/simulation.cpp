@@ -1,202 +1,12 @@
-#include "crossing_error.h"
-#include "step_problem.h"
-#include "system.h"
-#include "world.h"
+#include "simulation_state.h"
 
 #include <pent/error.h>
 #include <pent/simulator/simulation.h>
 
-#include <chrono>
+#include <algorithm>
 #include <utility>
 
 namespace pent::simulator {
-
-template <int Dim>
-class Simulation<Dim>::State {
-public:
-    State(const Scene& scene,
-          std::vector<SimplexMesh<Dim>> meshes,
-          const SimulationOptions& options)
-        : scene_(scene),
-          world_(make_world(scene, std::move(meshes))),
-          system_(scene, world_, options),
-          extent_((world_.rest.rowwise().maxCoeff() - world_.rest.rowwise().minCoeff()).norm()) {
-        current_.positions = world_.rest;
-        current_.velocities = start_velocities(scene, world_);
-        place_held(world_, 0, current_.positions, &current_.velocities);
-        refuse_crossings();
-        system_.evaluate(current_);
-    }
-
-    StepReport step();
-
-    [[nodiscard]] double time() const { return static_cast<double>(steps_) * scene_.dt(); }
-    [[nodiscard]] const World<Dim>& world() const { return world_; }
-    [[nodiscard]] const System<Dim>& system() const { return system_; }
-    [[nodiscard]] BodyState<Dim>& current() {
-        if (is_stale_) {
-            refuse_crossings();
-            system_.evaluate(current_);
-            is_stale_ = false;
-        }
-        return current_;
-    }
-    [[nodiscard]] bool has_history() const { return has_history_; }
-    [[nodiscard]] History<Dim>& history() { return history_; }
-    void set_has_history() { has_history_ = true; }
-    [[nodiscard]] std::uint64_t steps() const { return steps_; }
-    void set_steps(std::uint64_t steps) { steps_ = steps; }
-    void set_stale() { is_stale_ = true; }
-
-private:
-    bool advance(double time, double h, int depth, StepReport& report);
-    bool attempt(double time, double h, StepReport& report);
-    [[nodiscard]] StepProblem<Dim> make_problem(double time, double h) const;
-    void set_velocities(const StepProblem<Dim>& problem, double time);
-    [[nodiscard]] bool is_sane() const;
-    void refuse_crossings() const;
-    [[nodiscard]] ContactSummary contact_summary();
-
-    Scene scene_;
-    World<Dim> world_;
-    System<Dim> system_;
-    double extent_;  // diagonal of the box around all bodies at rest, m
-    BodyState<Dim> current_;
-    BodyState<Dim> next_;
-    History<Dim> history_;  // the state one step of full length ago, for BDF2
-    bool has_history_ = false;
-    std::uint64_t steps_ = 0;
-    bool is_stale_ = false;  // forces and energies do not belong to positions and velocities
-};
-
-template <int Dim>
-StepProblem<Dim> Simulation<Dim>::State::make_problem(double time, double h) const {
-    const auto choose = [&] {
-        switch (scene_.solver.integrator) {
-            case Integrator::Quasistatic:
-                return static_problem(current_, h);
-            case Integrator::Bdf2:
-                if (has_history_ && h == scene_.dt()) {
-                    return bdf2_problem(current_, history_, h);
-                }
-                break;  // the first step, and steps cut in two, which have no even past
-            case Integrator::LinearEuler:
-            case Integrator::NewtonEuler:
-                break;
-        }
-        return euler_problem(current_, h);
-    };
-    StepProblem<Dim> problem = choose();
-    problem.time = time + h;
-    problem.held = current_.positions;
-    place_held<Dim>(world_, time + h, problem.held, nullptr);
-    return problem;
-}
-
-template <int Dim>
-void Simulation<Dim>::State::set_velocities(const StepProblem<Dim>& problem, double time) {
-    next_.velocities = problem.rate * (next_.positions - problem.origin);
-    place_held(world_, time, next_.positions, &next_.velocities);
-}
-
-// Whether the new state is finite and within bounds that only a failed step leaves.
-template <int Dim>
-bool Simulation<Dim>::State::is_sane() const {
-    constexpr double kMostExtents = 1e3;
-    return next_.is_finite()
-           && (next_.positions - current_.positions).cwiseAbs().maxCoeff() < kMostExtents * extent_;
-}
-
-// Throws unless the barrier finds nothing that crosses.
-template <int Dim>
-void Simulation<Dim>::State::refuse_crossings() const {
-    const std::vector<contact::Crossing> crossings =
-        system_.contacts().find_crossings(system_.workers(), current_.positions);
-    if (!crossings.empty()) {
-        throw crossing_error(world_, system_.contacts(), crossings, current_.positions);
-    }
-}
-
-template <int Dim>
-bool Simulation<Dim>::State::attempt(double time, double h, StepReport& report) {
-    const StepProblem<Dim> problem = make_problem(time, h);
-    const bool is_linear =
-        scene_.solver.integrator == Integrator::LinearEuler || world_.numbering.free_count() == 0;
-    system_.begin_step(current_, is_linear, h);
-    const bool is_solved =
-        is_linear ? take_linear_step(system_, world_, problem, current_, next_.positions, report)
-                  : minimize(system_, world_, problem, current_, extent_, next_, report);
-    if (!is_solved) {
-        return false;
-    }
-    set_velocities(problem, time + h);
-    system_.evaluate(next_);
-    if (!is_sane()) {
-        report.failure = "the motion grew beyond all bounds";
-        return false;
-    }
-    if (scene_.solver.integrator == Integrator::Bdf2) {
-        history_ = {current_.positions, current_.velocities};
-        has_history_ = h == scene_.dt();
-    }
-    std::swap(current_, next_);
-    return true;
-}
-
-template <int Dim>
-bool Simulation<Dim>::State::advance(double time, double h, int depth, StepReport& report) {
-    if (attempt(time, h, report)) {
-        ++report.substeps;
-        return true;
-    }
-    ++report.refused;
-    return depth < scene_.solver.max_halvings && advance(time, h / 2, depth + 1, report)
-           && advance(time + h / 2, h / 2, depth + 1, report);
-}
-
-// What touches now, and the work of contact since this was last asked.
-template <int Dim>
-ContactSummary Simulation<Dim>::State::contact_summary() {
-    const ContactSummary work = system_.take_contact_work();
-    ContactSummary summary = current_.contacts ? current_.contacts->summary : ContactSummary();
-    summary.searches = work.searches;
-    summary.candidates = work.candidates;
-    summary.trees_built = work.trees_built;
-    summary.trees_refit = work.trees_refit;
-    summary.ccd_seconds = work.ccd_seconds;
-    summary.stiffness = system_.contacts().stiffness();
-    summary.seconds = work.seconds;
-    return summary;
-}
-
-template <int Dim>
-StepReport Simulation<Dim>::State::step() {
-    const auto start = std::chrono::steady_clock::now();
-    const BodyState<Dim> before = current();
-    static_cast<void>(system_.take_contact_work());  // of looking at the state between steps
-    const History<Dim> history_before = history_;
-    const bool had_history = has_history_;
-    StepReport report;
-    report.is_accepted =
-        system_.workers().run([&] { return advance(time(), scene_.dt(), 0, report); });
-    if (report.is_accepted) {
-        ++steps_;
-        report.failure.clear();
-    } else {
-        current_ = before;
-        history_ = history_before;
-        has_history_ = had_history;
-    }
-    report.step = steps_;
-    report.time = time();
-    report.inverted = current_.inverted;
-    report.collapsed = current_.collapsed;
-    report.energies = current_.energies;
-    report.contact = contact_summary();
-    report.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return report;
-}
 
 template <int Dim>
 Simulation<Dim>::Simulation(const Scene& scene,
@@ -340,10 +150,27 @@ void Simulation<Dim>::set_state(int body,
     const Eigen::Index first = world.first_vertex[static_cast<std::size_t>(body)];
     const Eigen::Index count = world.first_vertex[static_cast<std::size_t>(body) + 1] - first;
     check_state(positions, velocities, count);
-    BodyState<Dim>& current = state_->current();
-    current.positions.middleCols(first, count) = positions;
-    current.velocities.middleCols(first, count) = velocities;
-    state_->set_stale();
+    state_->set_body(body, positions, velocities);
+}
+
+template <int Dim>
+const std::vector<BodyRest>& Simulation<Dim>::rest() const {
+    return state_->rest();
+}
+
+template <int Dim>
+void Simulation<Dim>::set_rest(const std::vector<BodyRest>& rest) {
+    const bool can_sleep = state_->scene().sleep.has_value();
+    const bool is_right = rest.size() == state_->rest().size()
+                          && (can_sleep || std::ranges::all_of(rest, [](const BodyRest& body) {
+                                  return body == BodyRest();
+                              }));
+    if (!is_right) {
+        throw Error("the rest of " + std::to_string(rest.size()) + " bodies was given; expected "
+                    + std::to_string(state_->rest().size())
+                    + (can_sleep ? "" : ", none of them at rest, as the scene has no [sleep]"));
+    }
+    state_->set_rest(rest);
 }
 
 template <int Dim>

@@ -79,33 +79,59 @@ System<Dim>::System(const Scene& scene, const World<Dim>& world, const Simulatio
       contacts_(scene, world),
       on_move_(options.on_move) {
     const std::uint32_t unknowns = world.numbering.free_count();
-    if (options_.preconditioner == PreconditionerKind::BlockJacobi) {
-        column_start_.resize(unknowns + 1);
-        std::iota(column_start_.begin(), column_start_.end(), 0U);
-    } else {
-        column_start_ = world.numbering.column_start;
-    }
     if (options_.linear == LinearSolver::Direct && unknowns > kMostDirectVertices) {
         throw Error("solver.linear = \"direct\" takes at most "
                     + std::to_string(kMostDirectVertices) + " free vertices; this scene has "
                     + std::to_string(unknowns) + ": use \"cg\"");
+    }
+    set_up_solver();
+}
+
+template <int Dim>
+void System<Dim>::set_up_solver() {
+    const Numbering& numbering = world_->numbering;
+    const std::uint32_t unknowns = numbering.free_count();
+    if (options_.preconditioner == PreconditionerKind::BlockJacobi) {
+        column_start_.resize(unknowns + 1);
+        std::iota(column_start_.begin(), column_start_.end(), 0U);
+    } else {
+        column_start_ = numbering.column_start;
     }
     if (options_.linear == LinearSolver::Iterative
         && options_.preconditioner == PreconditionerKind::RigidModes) {
         std::vector<std::uint32_t> bodies(unknowns);
         for (std::uint32_t unknown = 0; unknown < unknowns; ++unknown) {
             const auto after =
-                std::upper_bound(world.first_vertex.begin(), world.first_vertex.end(),
-                                 world.numbering.vertex_of_unknown[unknown]);
-            bodies[unknown] = static_cast<std::uint32_t>(after - world.first_vertex.begin());
+                std::upper_bound(world_->first_vertex.begin(), world_->first_vertex.end(),
+                                 numbering.vertex_of_unknown[unknown]);
+            bodies[unknown] = static_cast<std::uint32_t>(after - world_->first_vertex.begin());
         }
-        aggregates_ = make_aggregates<Dim>(at_unknowns(world.numbering, world.rest), bodies);
+        aggregates_ = make_aggregates<Dim>(at_unknowns(numbering, world_->rest), bodies);
     }
+    float_matrix_.reset();
+    double_matrix_.reset();
     if (options_.precision == Precision::Float) {
         float_matrix_ = std::make_unique<BlockMatrix<Dim, float>>(pattern_);
     } else {
         double_matrix_ = std::make_unique<BlockMatrix<Dim, double>>(pattern_);
     }
+}
+
+template <int Dim>
+void System<Dim>::renumber(const std::vector<bool>& asleep, const Positions<Dim>& positions) {
+    const auto lay_out = [&](const Numbering& numbering) {
+        pattern_ = make_pattern<Dim>(world_->cells, numbering);
+        elements_ = Elements<Dim>(world_->rest, world_->cells, world_->ranges, numbering, pattern_);
+    };
+    damping_tangent_.reset();
+    frozen_ = {};
+    if (std::ranges::find(asleep, true) != asleep.end()) {
+        lay_out(number_bodies(*world_, asleep));
+        frozen_.forces.setZero(Dim, positions.cols());
+        frozen_.energy = elements_.add_forces(workers_, *kernels_, positions, frozen_.forces);
+    }
+    lay_out(world_->numbering);
+    set_up_solver();
 }
 
 template <int Dim>
@@ -127,10 +153,14 @@ void System<Dim>::evaluate(BodyState<Dim>& state) {
     });
     const RunEnergy elastic =
         elements_.add_forces(workers_, *kernels_, state.positions, state.forces);
-    state.energies = {
-        .kinetic = points.kinetic, .elastic = elastic.energy, .gravity = points.gravity};
-    state.inverted = elastic.inverted;
-    state.collapsed = elastic.collapsed;
+    if (frozen_.forces.cols() > 0) {
+        state.forces += frozen_.forces;
+    }
+    state.energies = {.kinetic = points.kinetic,
+                      .elastic = elastic.energy + frozen_.energy.energy,
+                      .gravity = points.gravity};
+    state.inverted = elastic.inverted + frozen_.energy.inverted;
+    state.collapsed = elastic.collapsed + frozen_.energy.collapsed;
     find_contacts(state);
 }
 
@@ -282,6 +312,8 @@ LinearSolveReport System<Dim>::solve_with(BlockMatrix<Dim, Scalar>& matrix,
     if (step.damping_factor > 0) {
         matrix.add_scaled(workers_, step.damping_factor, *damping_tangent_);
     }
+    report.hessians += elements_.count();
+    report.unknowns += Dim * matrix.rows();
     report.assembly_seconds += assembly.seconds();
     const std::unique_ptr<CouplingMatrix<Dim, Scalar>> coupling = add_contacts(state, step, matrix);
     matrix.set_coupling(coupling ? &coupling->matrix : nullptr);
@@ -301,6 +333,11 @@ LinearSolveReport System<Dim>::solve(const BodyState<Dim>& state,
                                      LinearStep<Dim>& step,
                                      BlockVector<Dim>& dx,
                                      StepReport& report) {
+    if (dx.cols() == 0) {  // all bodies sleep
+        LinearSolveReport nothing;
+        nothing.has_converged = true;
+        return nothing;
+    }
     const auto solve_filtered = [&](Filter filter) {
         if (float_matrix_) {
             const LinearSolveReport solved =
@@ -325,7 +362,8 @@ LinearSolveReport System<Dim>::solve(const BodyState<Dim>& state,
 
 template <int Dim>
 void System<Dim>::set_damping_tangent(const Positions<Dim>& positions,
-                                      const Positions<Dim>& held_travel) {
+                                      const Positions<Dim>& held_travel,
+                                      StepReport& report) {
     if (!damping_tangent_) {
         damping_tangent_ = std::make_unique<BlockMatrix<Dim, double>>(pattern_);
     }
@@ -334,6 +372,7 @@ void System<Dim>::set_damping_tangent(const Positions<Dim>& positions,
     elements_.add_hessian(workers_, *kernels_, positions, 1, options_.filter, held_travel,
                           *damping_tangent_, held_damping_);
     held_damping_ = -held_damping_;
+    report.damping_hessians += elements_.count();
 }
 
 template <int Dim>

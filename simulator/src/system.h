@@ -64,6 +64,12 @@ public:
     /// Sets forces, energies, contacts and the counts of elements from positions and velocities.
     void evaluate(BodyState<Dim>& state);
 
+    /// Lays matrices and elements out anew after the numbering of the world has changed.
+    ///
+    /// @param asleep     One entry a body. Their elastic forces and energies are kept as they are at
+    /// @param positions  Dim x vertices, m.
+    void renumber(const std::vector<bool>& asleep, const Positions<Dim>& positions);
+
     /// Assembles at a state that has been evaluated, and solves; `dx` holds the first guess and then
     /// the solution.
     ///
@@ -77,7 +83,9 @@ public:
 
     /// Keeps the tangent K0 at these positions for Rayleigh damping of the steps that follow, and
     /// its product with how far held vertices travel.
-    void set_damping_tangent(const Positions<Dim>& positions, const Positions<Dim>& held_travel);
+    void set_damping_tangent(const Positions<Dim>& positions,
+                             const Positions<Dim>& held_travel,
+                             StepReport& report);
 
     /// K0 travel, for free vertices; held_damping() has the part of the held ones.
     [[nodiscard]] BlockVector<Dim> damping_product(const BlockVector<Dim>& travel) const;
@@ -113,6 +121,13 @@ public:
     [[nodiscard]] SimulationSize size() const;
 
 private:
+    /// Elasticity of bodies that sleep, which does not change.
+    struct Frozen {
+        Positions<Dim> forces;  // Dim x vertices, N; empty if none sleeps
+        RunEnergy energy;
+    };
+
+    void set_up_solver();
     void find_contacts(BodyState<Dim>& state);
     template <typename Scalar>
     LinearSolveReport solve_with(BlockMatrix<Dim, Scalar>& matrix,
@@ -148,6 +163,7 @@ private:
     const Kernels<Dim>* kernels_;
     BlockPattern pattern_;
     Elements<Dim> elements_;
+    Frozen frozen_;
     SceneContacts<Dim> contacts_;
     std::function<void(const Eigen::MatrixXd&, bool)> on_move_;
     ContactSummary contact_work_;  // since it was last taken; counts of contacts are not used

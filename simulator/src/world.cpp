@@ -131,12 +131,7 @@ std::vector<bool> hold_vertices(const Scene& scene, World<Dim>& world) {
     return is_held;
 }
 
-struct Columns {
-    std::vector<std::uint32_t> columns;
-    std::vector<std::uint32_t> layers;
-};
-
-// Extrusion columns of all bodies, numbered through; a mesh without them has one a vertex.
+// A mesh without columns has one a vertex.
 template <int Dim>
 Columns number_columns(const World<Dim>& world) {
     Columns all;
@@ -179,10 +174,22 @@ World<Dim> make_world(const Scene& scene, std::vector<SimplexMesh<Dim>> meshes) 
     world.meshes = std::move(meshes);
     append_bodies(scene, world);
     lump_masses(scene, world);
-    const std::vector<bool> is_held = hold_vertices(scene, world);
-    const Columns columns = number_columns(world);
-    world.numbering = number_unknowns<Dim>(world.cells, is_held, columns.columns, columns.layers);
+    world.is_held = hold_vertices(scene, world);
+    world.columns = number_columns(world);
+    world.numbering = number_bodies(world, std::vector<bool>(world.meshes.size(), true));
     return world;
+}
+
+template <int Dim>
+Numbering number_bodies(const World<Dim>& world, const std::vector<bool>& is_in) {
+    std::vector<bool> is_held = world.is_held;
+    for (std::size_t body = 0; body < is_in.size(); ++body) {
+        if (!is_in[body]) {
+            std::fill(is_held.begin() + world.first_vertex[body],
+                      is_held.begin() + world.first_vertex[body + 1], true);
+        }
+    }
+    return number_unknowns<Dim>(world.cells, is_held, world.columns.columns, world.columns.layers);
 }
 
 template <int Dim>
@@ -227,6 +234,8 @@ void place_held(const World<Dim>& world,
 
 template World<3> make_world<3>(const Scene&, std::vector<SimplexMesh<3>>);
 template World<4> make_world<4>(const Scene&, std::vector<SimplexMesh<4>>);
+template Numbering number_bodies<3>(const World<3>&, const std::vector<bool>&);
+template Numbering number_bodies<4>(const World<4>&, const std::vector<bool>&);
 template Positions<3> start_velocities<3>(const Scene&, const World<3>&);
 template Positions<4> start_velocities<4>(const Scene&, const World<4>&);
 template void place_held<3>(const World<3>&, double, Positions<3>&, Positions<3>*);

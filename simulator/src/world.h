@@ -25,6 +25,12 @@ struct HeldSet {
     std::vector<CenteredMotion<Dim>> motions;  ///< Applied one after the other.
 };
 
+/// Extrusion columns of all bodies, numbered through, and places within them. One entry a vertex.
+struct Columns {
+    std::vector<std::uint32_t> columns;
+    std::vector<std::uint32_t> layers;
+};
+
 /// All bodies of a scene as one mesh: vertices and cells of the bodies one after the other.
 template <int Dim>
 struct World {
@@ -35,7 +41,9 @@ struct World {
     std::vector<CellRange> ranges;   ///< One a body.
     Eigen::VectorXd masses;          ///< One a vertex, kg.
     std::vector<HeldSet<Dim>> held;  ///< One a constraint.
-    Numbering numbering;
+    std::vector<bool> is_held;       ///< One a vertex.
+    Columns columns;
+    Numbering numbering;  ///< Of what is solved for: vertices that are not held, of bodies awake.
 
     [[nodiscard]] Eigen::Index vertex_count() const { return rest.cols(); }
 };
@@ -46,6 +54,12 @@ struct World {
 /// constructor of Simulation says.
 template <int Dim>
 [[nodiscard]] World<Dim> make_world(const Scene& scene, std::vector<SimplexMesh<Dim>> meshes);
+
+/// Numbers the unknowns of some bodies alone.
+///
+/// @param is_in  One entry a body.
+template <int Dim>
+[[nodiscard]] Numbering number_bodies(const World<Dim>& world, const std::vector<bool>& is_in);
 
 /// The velocities that the scene gives its bodies at the start, Dim x vertices, m/s.
 template <int Dim>

@@ -66,6 +66,9 @@ filter = "absolute"
 mass = 0.1
 stiffness = 0.001
 
+[sleep]
+speed = 0.002
+
 [solver]
 preset = "accurate"
 filter = "absolute"
@@ -131,6 +134,9 @@ TEST(ParseScene, ReadsEveryKey) {
     EXPECT_TRUE(scene.output.contact_forces);
     EXPECT_TRUE(scene.output.contact_pairs);
     EXPECT_EQ(scene.damping->stiffness, 0.001);
+    ASSERT_TRUE(scene.sleep.has_value());
+    EXPECT_EQ(scene.sleep->speed, 0.002);
+    EXPECT_EQ(scene.sleep->time, 0.5);
     EXPECT_EQ(scene.solver.integrator, Integrator::Bdf2);
     EXPECT_EQ(scene.solver.filter, Filter::Absolute);
     EXPECT_EQ(scene.solver.max_halvings, 3);
@@ -259,7 +265,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{with("[output]\ncontact_force = true\n"), "did you mean \"contact_forces\"?"},
         Bad{with("[solver]\nintegrator = \"rk4\"\n"), "\"linear_euler\""},
         Bad{with("[solver]\ntolerance = 1\n"), "below 1"},
-        Bad{with("[damping]\nmass = -1\n"), "at least 0"}));
+        Bad{with("[damping]\nmass = -1\n"), "at least 0"},
+        Bad{with("[sleep]\ntime = 0\n"), "above 0"},
+        Bad{with("[sleep]\nspeeed = 1\n"), "did you mean \"speed\"?"}));
 
 TEST(ReadScene, NamesAFileThatIsNotThere) {
     try {

@@ -182,6 +182,16 @@ struct Damping {
     double stiffness = 0;  ///< s, >= 0.
 };
 
+/// Bodies at rest that are not solved for until something moves them.
+///
+/// A body falls asleep, its velocities set to zero, when for a while it and all it touches have been
+/// slow, asleep, or held still. It wakes when its held vertices move, or when it touches what moves.
+struct Sleep {
+    double speed = 1e-3;  ///< Of the fastest vertex, in diagonals of the box around the body a
+                          ///< second, > 0: slower counts as at rest.
+    double time = 0.5;    ///< s, > 0: how long a body has to be at rest.
+};
+
 struct Scene {
     int dimension = 4;        ///< 3 or 4.
     Eigen::VectorXd gravity;  ///< m/s^2.
@@ -193,6 +203,7 @@ struct Scene {
     std::vector<Obstacle> obstacles;
     std::optional<Contact> contact;  ///< Absent: bodies pass through one another, at no cost.
     std::optional<Damping> damping;  ///< Absent: not modeled.
+    std::optional<Sleep> sleep;      ///< Absent: all bodies are solved for all the time.
     SolverOptions solver;
     Output output;
 

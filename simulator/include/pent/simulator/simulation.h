@@ -73,6 +73,14 @@ struct ContactSummary {
     double seconds = 0;      ///< Finding contacts, their forces and their part of the matrix.
 };
 
+/// Whether a body sleeps, and what it takes to decide that; see Sleep.
+struct BodyRest {
+    bool is_asleep = false;
+    std::uint64_t quiet_steps = 0;  ///< Steps in a row, up to now, that ended with it at rest.
+
+    bool operator==(const BodyRest&) const = default;
+};
+
 /// What one step did.
 struct StepReport {
     std::uint64_t step = 0;  ///< Steps taken so far, this one included.
@@ -84,7 +92,12 @@ struct StepReport {
     int refused = 0;            ///< Attempts that were thrown away.
     int newton_iterations = 0;  ///< After the first, linear step; 0 for LinearEuler.
     int iterations = 0;         ///< Of the linear solver, in all.
-    double residual = 0;        ///< Largest |b - A x| / |b|, computed from x.
+    int asleep = 0;             ///< Bodies that sleep at the end.
+    std::int64_t unknowns = 0;  ///< Scalars solved for, in all linear solves.
+    std::int64_t hessians = 0;  ///< Of elements that were assembled, in all.
+    std::int64_t damping_hessians =
+        0;                  ///< The same for Rayleigh damping with a tangent of its own.
+    double residual = 0;    ///< Largest |b - A x| / |b|, computed from x.
     double unbalanced = 0;  ///< Largest unbalanced force at the end of a Newton step over that at
                             ///< its start; above newton_tolerance at kinks of contact alone.
     std::int64_t inverted = 0;  ///< Elements with J <= 0 at the end.
@@ -168,6 +181,13 @@ public:
 
     /// Gives back the history of a body, for a resumed run; call it for all bodies, after set_state().
     void set_history(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
+
+    /// Whether each body sleeps; none does without Scene::sleep.
+    [[nodiscard]] const std::vector<BodyRest>& rest() const;
+
+    /// Gives back what rest() gave, for a resumed run; call it after set_state(), which wakes. Throws an Error unless there is one a body, and none sleeps without
+    /// Scene::sleep.
+    void set_rest(const std::vector<BodyRest>& rest);
 
     /// Sets how many steps have been taken, and so the time.
     void set_step_count(std::uint64_t steps);

@@ -1,0 +1,362 @@
+#include "contact_scenes.h"
+#include "support/messages.h"
+#include "support/temp_folder.h"
+
+#include <pent/pent_file.h>
+#include <pent/simulator/run.h>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+// Bodies that sleep are not solved for, and nothing else changes.
+
+namespace pent::simulator {
+namespace {
+
+namespace fs = std::filesystem;
+using pent::test::TempFolder;
+using test::cube;
+using test::two_cubes;
+
+// Solved so tightly that runs may be compared.
+void solve_tightly(Scene& scene) {
+    scene.solver.precision = Precision::Double;
+    scene.solver.tolerance = 1e-12;
+    scene.solver.newton_tolerance = 1e-8;
+}
+
+// A cube that rests on a floor, pressed into it a little.
+template <int Dim>
+Scene cube_on_floor() {
+    Scene scene = test::box_scene<Dim>();
+    scene.gravity[1] = -9.8;
+    scene.obstacles = {{.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(Dim, 1)},
+                        .distance = 0.02,
+                        .stiffness = 2e4}};
+    scene.sleep = Sleep{.speed = 1e-3, .time = 0.2};
+    return scene;
+}
+
+template <int Dim>
+void expect_sleep_on_floor() {
+    Simulation<Dim> simulation(cube_on_floor<Dim>(), {cube<Dim>()});
+    int steps = 0;
+    StepReport report = simulation.step();
+    for (; report.asleep == 0; ++steps) {
+        ASSERT_LT(steps, 600);
+        EXPECT_GT(report.unknowns, 0);
+        report = simulation.step();
+    }
+    const Positions<Dim> positions = simulation.positions(0);
+    const Positions<Dim> forces = simulation.forces(0);
+    const Positions<Dim> push = simulation.contact_forces(0);
+    const double energy = simulation.energies().total();
+    for (int i = 0; i < 20; ++i) {
+        report = simulation.step();
+        ASSERT_TRUE(report.is_accepted);
+        EXPECT_EQ(report.unknowns + report.hessians + report.iterations, 0);
+    }
+    EXPECT_EQ(simulation.positions(0), positions);
+    EXPECT_TRUE(simulation.velocities(0).isZero(0));
+    EXPECT_EQ(simulation.size().free_vertices, 0);
+    EXPECT_EQ(simulation.size().matrix_blocks, 0);
+    // Forces and energies are those of before, and the floor still carries the weight.
+    EXPECT_EQ(simulation.forces(0), forces);
+    EXPECT_EQ(simulation.contact_forces(0), push);
+    EXPECT_EQ(simulation.energies().total(), energy);
+    const double weight = 9.8 * simulation.masses(0).sum();
+    EXPECT_NEAR(push.row(1).sum(), weight, 2e-2 * weight);
+}
+
+TEST(SleepingBody, StaysExactlyWhereItIsAndIsNotSolvedForInThreeDimensions) {
+    expect_sleep_on_floor<3>();
+}
+
+TEST(SleepingBody, StaysExactlyWhereItIsAndIsNotSolvedForInFourDimensions) {
+    expect_sleep_on_floor<4>();
+}
+
+TEST(BodyThatNeverSleeps, MovesAsWithoutSleepToTheBit) {
+    Scene scene = cube_on_floor<4>();
+    scene.sleep->time = 1e6;
+    Simulation<4> with(scene, {cube<4>()});
+    scene.sleep.reset();
+    Simulation<4> without(scene, {cube<4>()});
+    for (int i = 0; i < 30; ++i) {
+        EXPECT_EQ(with.step().asleep, 0);
+        static_cast<void>(without.step());
+    }
+    EXPECT_EQ(with.positions(0), without.positions(0));
+    EXPECT_EQ(with.velocities(0), without.velocities(0));
+}
+
+TEST(SleepingBody, KeepsElasticForcesAndEnergiesAsIfItWereAwake) {
+    // Stretched between held ends: at rest under stress.
+    Scene scene = test::box_scene<4>();
+    scene.solver.integrator = Integrator::NewtonEuler;
+    solve_tightly(scene);
+    Motion pull = test::still(4);
+    pull.translate[0] = 0.5;
+    pull.to = 0.2;
+    const HalfSpaceSelection left{.normal = Eigen::Vector4d(1, 0, 0, 0), .offset = 1e-6};
+    const HalfSpaceSelection right{.normal = Eigen::Vector4d(-1, 0, 0, 0), .offset = -0.749999};
+    scene.constraints = {test::hold(left, test::still(4)), test::hold(right, pull)};
+    scene.damping = Damping{.mass = 20, .stiffness = 0.01};
+    scene.sleep = Sleep{.speed = 1e-3, .time = 0.2};
+    Simulation<4> simulation(scene, {test::bar(3)});
+    for (int i = 0; i < 100 && simulation.step().asleep == 0; ++i) {
+    }
+    ASSERT_EQ(simulation.rest()[0].is_asleep, true);
+    scene.sleep.reset();
+    Simulation<4> awake(scene, {test::bar(3)});
+    awake.set_state(0, simulation.positions(0), simulation.velocities(0));
+    EXPECT_GT(awake.energies().elastic, 1);
+    EXPECT_NEAR(simulation.energies().elastic / awake.energies().elastic, 1, 1e-12);
+    const double scale = awake.forces(0).cwiseAbs().maxCoeff();
+    EXPECT_LT((simulation.forces(0) - awake.forces(0)).cwiseAbs().maxCoeff(), 1e-12 * scale);
+}
+
+struct Hit {
+    Integrator integrator;
+    ContactModel model;
+    int dim;
+};
+
+class SleepingBodyThatIsHit : public testing::TestWithParam<Hit> {};
+INSTANTIATE_TEST_SUITE_P(All,
+                         SleepingBodyThatIsHit,
+                         testing::Values(Hit{Integrator::LinearEuler, ContactModel::Penalty, 3},
+                                         Hit{Integrator::LinearEuler, ContactModel::Penalty, 4},
+                                         Hit{Integrator::NewtonEuler, ContactModel::Penalty, 3},
+                                         Hit{Integrator::Bdf2, ContactModel::Penalty, 4},
+                                         Hit{Integrator::NewtonEuler, ContactModel::Barrier, 3},
+                                         Hit{Integrator::Bdf2, ContactModel::Barrier, 4}));
+
+// b falls on a, which has been asleep for long: from where they touch on all is as without sleep.
+template <int Dim>
+void expect_same_hit(const Hit& hit) {
+    Scene scene = two_cubes<Dim>(0.2);
+    scene.solver.integrator = hit.integrator;
+    scene.contact->model = hit.model;
+    solve_tightly(scene);
+    scene.bodies[1].velocity = -1.5 * Eigen::VectorXd::Unit(Dim, 1);
+    Simulation<Dim> awake(scene, {cube<Dim>(1), cube<Dim>(1)});
+    scene.sleep = Sleep{.speed = 1e-3, .time = 0.05};
+    Simulation<Dim> simulation(scene, {cube<Dim>(1), cube<Dim>(1)});
+    const auto before = test::momentum(simulation);
+    bool has_slept = false;
+    double loaded = 0;
+    for (int i = 0; i < 40; ++i) {
+        const StepReport report = simulation.step();
+        ASSERT_TRUE(report.is_accepted) << report.failure;
+        ASSERT_TRUE(awake.step().is_accepted);
+        has_slept = has_slept || report.asleep == 1;
+        loaded = std::max(loaded, report.energies.contact);
+        // What Newton's method leaves of forces at kinks of contact is not our business.
+        const double drift = (test::momentum(awake) - before).norm();
+        ASSERT_LT((test::momentum(simulation) - before).norm(), drift + 1e-6 * before.norm()) << i;
+        for (int body = 0; body < 2; ++body) {
+            ASSERT_LT((simulation.positions(body) - awake.positions(body)).cwiseAbs().maxCoeff(),
+                      1e-6)
+                << i;
+        }
+    }
+    EXPECT_TRUE(has_slept);
+    EXPECT_GT(loaded, 0);
+    EXPECT_FALSE(simulation.rest()[0].is_asleep);
+    EXPECT_LT(test::mean_velocity(simulation, 0)[1], -0.1);
+}
+
+TEST_P(SleepingBodyThatIsHit, WakesAndMovesAsWithoutSleep) {
+    if (GetParam().dim == 3) {
+        expect_same_hit<3>(GetParam());
+    } else {
+        expect_same_hit<4>(GetParam());
+    }
+}
+
+// Where both cubes of a stack are at rest on a floor, one on the other.
+Scene stack() {
+    Scene scene = two_cubes<3>(0.03);
+    scene.gravity[1] = -9.8;
+    scene.obstacles = {
+        {.shape = HalfSpaceObstacle{.normal = Eigen::Vector3d::UnitY(), .offset = -0.01},
+         .distance = 0.02,
+         .stiffness = 2e4}};
+    scene.damping = Damping{.mass = 10, .stiffness = 0};
+    scene.contact->friction = 0.6;  // the upper one would slide off
+    scene.sleep = Sleep{.speed = 2e-3, .time = 0.1};
+    return scene;
+}
+
+TEST(StackOfBodies, FallsAsleepTogetherAndWakesTogether) {
+    Simulation<3> simulation(stack(), {cube<3>(), cube<3>()});
+    int asleep = 0;
+    for (int i = 0; i < 600 && asleep == 0; ++i) {
+        asleep = simulation.step().asleep;
+    }
+    ASSERT_EQ(asleep, 2);  // neither before the other
+    const Positions<3> lower = simulation.positions(0);
+    EXPECT_EQ(simulation.step().unknowns, 0);
+    // The host takes the upper one away: the lower one, which carried it, has to notice.
+    Positions<3> away = simulation.positions(1);
+    away.row(1).array() += 0.01;  // still in contact
+    simulation.set_state(1, away, simulation.velocities(1));
+    const StepReport report = simulation.step();
+    EXPECT_EQ(report.asleep, 0);
+    EXPECT_NE(simulation.positions(0), lower);
+}
+
+TEST(SleepingBody, DoesNotHinderThoseFarAway) {
+    Scene scene = two_cubes<3>(5);
+    scene.bodies[1].velocity = Eigen::Vector3d(0, 0, 1);
+    scene.sleep = Sleep{.speed = 1e-3, .time = 0.02};
+    Simulation<3> simulation(scene, {cube<3>(1), cube<3>(2)});
+    const StepReport first = simulation.step();
+    EXPECT_EQ(first.unknowns, 3 * (8 + 27));
+    EXPECT_EQ(first.hessians, 6 * (1 + 8));  // Kuhn simplices in a cell
+    EXPECT_EQ(simulation.step().asleep, 1);
+    const StepReport later = simulation.step();
+    EXPECT_EQ(later.unknowns, 3 * 27);
+    EXPECT_EQ(later.hessians, 6 * 8);
+    EXPECT_NEAR(simulation.velocities(1)(2, 5), 1, 1e-4);
+}
+
+// The end of a bar begins to turn at t = 0.3 s; until then nothing moves.
+TEST(SleepingBody, WakesWhenItsConstraintMoves) {
+    Scene scene = test::box_scene<4>();
+    solve_tightly(scene);
+    Motion turn = test::still(4);
+    turn.rotate = {{.plane = {0, 3}, .degrees_per_s = 40}};
+    turn.from = 0.3;
+    scene.constraints = {
+        test::hold(HalfSpaceSelection{.normal = Eigen::Vector4d(1, 0, 0, 0), .offset = 0.3}, turn)};
+    Simulation<4> awake(scene, {test::bar(3)});
+    scene.sleep = Sleep{.speed = 1e-3, .time = 0.1};
+    Simulation<4> simulation(scene, {test::bar(3)});
+    bool has_slept = false;
+    for (int i = 0; i < 15; ++i) {
+        has_slept = simulation.step().asleep == 1 || has_slept;
+        static_cast<void>(awake.step());
+    }
+    EXPECT_TRUE(has_slept);
+    EXPECT_FALSE(simulation.rest()[0].is_asleep);
+    EXPECT_LT((simulation.positions(0) - awake.positions(0)).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_GT((simulation.positions(0) - simulation.mesh(0).positions).cwiseAbs().maxCoeff(), 0.01);
+}
+
+class SleepingBodyInTheWay : public testing::TestWithParam<ContactModel> {};
+INSTANTIATE_TEST_SUITE_P(All,
+                         SleepingBodyInTheWay,
+                         testing::Values(ContactModel::Penalty, ContactModel::Barrier));
+
+// A body that is held everywhere comes down on one that sleeps: nothing else has unknowns.
+TEST_P(SleepingBodyInTheWay, WakesWhenAHeldBodyTouchesIt) {
+    Scene scene = two_cubes<3>(0.2);
+    scene.contact->model = GetParam();
+    scene.solver.integrator = Integrator::NewtonEuler;
+    Motion down = test::still(3);
+    down.translate[1] = -1;
+    scene.constraints = {{.body = "b", .select = {EverythingSelection{}}, .motion = {down}}};
+    scene.sleep = Sleep{.speed = 1e-3, .time = 0.05};
+    Simulation<3> simulation(scene, {cube<3>(1), cube<3>(1)});
+    bool has_slept = false;
+    for (int i = 0; i < 60; ++i) {
+        const StepReport report = simulation.step();
+        ASSERT_TRUE(report.is_accepted) << report.failure;
+        has_slept = has_slept || (report.asleep == 1 && report.unknowns == 0);
+    }
+    EXPECT_TRUE(has_slept);
+    EXPECT_LT(test::mean_velocity(simulation, 0)[1], -0.5);  // pushed along
+}
+
+TEST(SleepingBody, IsTheSameToTheBitForAnyNumberOfThreads) {
+    std::vector<Positions<3>> ends;
+    for (const int threads : {1, 3}) {
+        Simulation<3> simulation(stack(), {cube<3>(), cube<3>()}, {.threads = threads});
+        test::throw_up(simulation, 1, 0.5);
+        for (int i = 0; i < 80; ++i) {
+            static_cast<void>(simulation.step());
+        }
+        ends.push_back(simulation.positions(1));
+    }
+    EXPECT_EQ(ends[0], ends[1]);
+}
+
+std::string read_text(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// a falls asleep; b comes down on it: stopped and resumed before, while and after a sleeps.
+TEST(RunWithSleep, ResumesToTheSameBytes) {
+    for (const Integrator integrator : {Integrator::LinearEuler, Integrator::Bdf2}) {
+        const TempFolder folder;
+        write_mesh(folder / "cube.pent", cube<3>(1));
+        Scene scene = two_cubes<3>(0.1);
+        scene.solver.integrator = integrator;
+        for (Body& body : scene.bodies) {
+            body.mesh = (folder / "cube.pent").string();
+        }
+        scene.bodies[1].velocity = Eigen::Vector3d(0, -1, 0);
+        scene.frames = 15;
+        scene.sleep = Sleep{.speed = 1e-3, .time = 0.03};
+        const RunReport whole = run(scene, {.folder = folder / "whole"});
+        EXPECT_TRUE(std::ranges::any_of(whole.steps, [](const auto& s) { return s.asleep == 1; }));
+        for (const int stop : {2, 4, 12}) {
+            int asked = 0;
+            const fs::path cut = folder / ("cut" + std::to_string(stop));
+            static_cast<void>(
+                run(scene, {.folder = cut},
+                    {.should_stop = [&] { return ++asked > stop; }, .on_frame = nullptr}));
+            const RunReport resumed = run(scene, {.folder = cut, .resume = true});
+            for (const char* name : {"a_000015.pent", "b_000015.pent"}) {
+                EXPECT_EQ(read_text(folder / "whole/frames" / name),
+                          read_text(cut / "frames" / name));
+            }
+            ASSERT_EQ(resumed.steps.size(), whole.steps.size());
+            for (std::size_t i = 0; i < whole.steps.size(); ++i) {
+                EXPECT_EQ(resumed.steps[i].unknowns, whole.steps[i].unknowns) << i;
+            }
+        }
+    }
+}
+
+TEST(RunWithSleep, NamesTheFileThatIsMissingToResume) {
+    const TempFolder folder;
+    write_mesh(folder / "cube.pent", cube<3>(1));
+    Scene scene = cube_on_floor<3>();
+    scene.bodies[0].mesh = (folder / "cube.pent").string();
+    scene.frames = 2;
+    static_cast<void>(run(scene, {.folder = folder / "run"}));
+    fs::remove(folder / "run/checkpoint/rest_000002.json");
+    pent::test::expect_contains(
+        pent::test::error_of(
+            [&] { static_cast<void>(run(scene, {.folder = folder / "run", .resume = true})); }),
+        {"rest_000002.json", "--force"});
+}
+
+TEST(SetRest, RefusesWhatDoesNotFitTheScene) {
+    Scene scene = cube_on_floor<3>();
+    const std::vector<BodyRest> one = {{.is_asleep = true, .quiet_steps = 9}};
+    Simulation<3> simulation(scene, {cube<3>(1)});
+    EXPECT_NO_THROW(simulation.set_rest(one));
+    EXPECT_EQ(simulation.step().unknowns, 0);
+    EXPECT_ANY_THROW(simulation.set_rest({}));
+    scene.sleep.reset();
+    Simulation<3> without(scene, {cube<3>(1)});
+    EXPECT_ANY_THROW(without.set_rest(one));
+}
+
+TEST(Sleep, IsRefusedWhereNothingMoves) {
+    Scene scene = cube_on_floor<3>();
+    scene.constraints = {test::hold(EverythingSelection{}, test::still(3))};
+    scene.solver.integrator = Integrator::Quasistatic;
+    pent::test::expect_contains(pent::test::error_of([&] { check(scene); }),
+                                {"quasistatic", "[sleep]"});
+}
+
+}  // namespace
+}  // namespace pent::simulator
