@@ -43,6 +43,18 @@ public:
         }
     }
 
+    /// Finds how the patches of these trees have moved from `rest`, both of all vertices of the scene.
+    void update_patches(const Surface<Dim>& surface,
+                        const PositionsView<Dim>& rest,
+                        const PositionsView<Dim>& positions) {
+        update_patches(vertices_, surface.vertices, rest, positions);
+        update_patches(edges_, surface.edges, rest, positions);
+        update_patches(facets_, surface.facets, rest, positions);
+        if constexpr (Dim > 3) {
+            update_patches(ridges_, surface.ridges, rest, positions);
+        }
+    }
+
     /// What has been done to the trees so far.
     [[nodiscard]] std::int64_t built() const { return built_; }
     [[nodiscard]] std::int64_t refit() const { return refit_; }
@@ -50,7 +62,7 @@ public:
     [[nodiscard]] std::int64_t bytes() const {
         std::int64_t sum = 0;
         for (const Tree* tree : {&vertices_, &edges_, &ridges_, &facets_}) {
-            sum += tree->fitted.tree().bytes() + tree->normals.bytes()
+            sum += tree->fitted.tree().bytes() + tree->normals.bytes() + tree->patches.bytes()
                    + static_cast<std::int64_t>(tree->normal_boxes.size() * sizeof(Box));
         }
         return sum;
@@ -63,17 +75,17 @@ public:
     /// In R^3 the tree of the edges: ridges are edges there.
     [[nodiscard]] const BoxTree& ridges() const { return ridge_tree().fitted.tree(); }
 
-    /// What facing_pairs() takes, as of update_normals().
-    [[nodiscard]] FacingSet<1> facing_vertices(const Surface<Dim>& surface) const {
+    /// What facing_pairs() takes, as of update_normals() and, if it was called, update_patches().
+    [[nodiscard]] FacingSet<Dim, 1> facing_vertices(const Surface<Dim>& surface) const {
         return facing(surface.vertices, vertices_);
     }
-    [[nodiscard]] FacingSet<2> facing_edges(const Surface<Dim>& surface) const {
+    [[nodiscard]] FacingSet<Dim, 2> facing_edges(const Surface<Dim>& surface) const {
         return facing(surface.edges, edges_);
     }
-    [[nodiscard]] FacingSet<Dim - 1> facing_ridges(const Surface<Dim>& surface) const {
+    [[nodiscard]] FacingSet<Dim, Dim - 1> facing_ridges(const Surface<Dim>& surface) const {
         return facing(surface.ridges, ridge_tree());
     }
-    [[nodiscard]] FacingSet<Dim> facing_facets(const Surface<Dim>& surface) const {
+    [[nodiscard]] FacingSet<Dim, Dim> facing_facets(const Surface<Dim>& surface) const {
         return facing(surface.facets, facets_);
     }
 
@@ -81,31 +93,45 @@ private:
     struct Tree {
         FittedTree fitted;
         std::vector<Box> normal_boxes;
-        BoxTree normals;
-        bool is_normals_old = true;  // of another tree than `fitted`
+        BoxTree normals;  // empty if not like `fitted` any more, as are the patches
+        Patches<Dim> patches;
     };
 
     [[nodiscard]] const Tree& ridge_tree() const { return Dim > 3 ? ridges_ : edges_; }
 
     void update(Tree& tree, const std::vector<Box>& boxes) {
         const bool is_new = tree.fitted.update(boxes);
-        tree.is_normals_old = tree.is_normals_old || is_new;
+        if (is_new) {
+            tree.normals = BoxTree();
+            tree.patches = Patches<Dim>();
+        }
         built_ += is_new ? 1 : 0;
         refit_ += is_new ? 0 : 1;
     }
 
     template <int Count>
-    static FacingSet<Count> facing(const Simplices<Count>& simplices, const Tree& tree) {
-        return {simplices, tree.fitted.tree(), tree.normal_boxes, tree.normals};
+    static FacingSet<Dim, Count> facing(const Simplices<Count>& simplices, const Tree& tree) {
+        return {simplices, tree.fitted.tree(), tree.normal_boxes, tree.normals,
+                tree.patches.motions()};
     }
 
     static void update_like(Tree& tree, std::vector<Box> boxes) {
-        if (tree.is_normals_old) {
+        if (tree.normals.is_empty()) {
             tree.normals = tree.fitted.tree();
-            tree.is_normals_old = false;
         }
         tree.normals.refit(boxes);
         tree.normal_boxes = std::move(boxes);
+    }
+
+    template <int Count>
+    static void update_patches(Tree& tree,
+                               const Simplices<Count>& simplices,
+                               const PositionsView<Dim>& rest,
+                               const PositionsView<Dim>& positions) {
+        if (tree.patches.motions().empty()) {
+            tree.patches = Patches<Dim>(simplices, tree.fitted.tree(), rest);
+        }
+        tree.patches.fit(positions);
     }
 
     Tree vertices_;

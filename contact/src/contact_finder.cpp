@@ -48,7 +48,7 @@ public:
     State(std::vector<ContactBody<Dim>> bodies,
           const PositionsView<Dim>& rest,
           const ContactOptions& options)
-        : bodies_(std::move(bodies)), options_(options), search_(bodies_, options_) {
+        : bodies_(std::move(bodies)), options_(options), search_(bodies_, rest_, options_) {
         for (const ContactBody<Dim>& body : bodies_) {
             mean_edges_.push_back(mean_edge_length<Dim>(body.surface, rest));
         }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 
 namespace pent::contact {
 
@@ -22,6 +23,17 @@ std::size_t count_pairs(const std::vector<BodyPair>& pairs) {
         }
     }
     return count;
+}
+
+// Of pairs found in two ways, each once.
+NearPairs join(const NearPairs& a, const NearPairs& b) {
+    NearPairs all;
+    all.candidates = a.candidates + b.candidates;
+    std::set_union(a.pairs.begin(), a.pairs.end(), b.pairs.begin(), b.pairs.end(),
+                   std::back_inserter(all.pairs), [](const NearPair& x, const NearPair& y) {
+                       return x.first != y.first ? x.first < y.first : x.second < y.second;
+                   });
+    return all;
 }
 
 }  // namespace
@@ -146,15 +158,27 @@ BodyPair PairSearch<Dim>::search_within(int body,
                                         const PositionsView<Dim>& positions,
                                         const Positions<Dim>& normals) {
     const Surface<Dim>& surface = bodies_[body].surface;
+    const double eps = options_.distance;
+    std::optional<TightPairs>& tight = tight_[static_cast<std::size_t>(body)];
+    if (!tight) {
+        tight = find_tight_pairs<Dim>(surface, rest_, eps);
+    }
     BodyTrees<Dim>& trees = trees_[body];
     trees.update_normals(surface, normals);
+    if (tight->rest_distance > 0) {
+        trees.update_patches(surface, rest_, positions);
+    }
     BodyPair pair{.first = body, .second = body};
     pair.points_first =
-        facing_pairs<Dim, 1, Dim>(trees.facing_vertices(surface), trees.facing_facets(surface),
-                                  positions, options_.distance, Closest::Anywhere);
-    pair.mixed_first =
+        join(still_near_pairs<Dim, 1, Dim>(tight->points, surface.vertices, surface.facets,
+                                           positions, eps),
+             facing_pairs<Dim, 1, Dim>(trees.facing_vertices(surface), trees.facing_facets(surface),
+                                       positions, eps, tight->rest_distance, Closest::Anywhere));
+    pair.mixed_first = join(
+        still_near_pairs<Dim, 2, Dim - 1>(tight->mixed, surface.edges, surface.ridges, positions,
+                                          eps, Closest::Interior),
         facing_pairs<Dim, 2, Dim - 1>(trees.facing_edges(surface), trees.facing_ridges(surface),
-                                      positions, options_.distance, Closest::Interior);
+                                      positions, eps, tight->rest_distance, Closest::Interior));
     return pair;
 }
 
@@ -201,6 +225,9 @@ std::int64_t PairSearch<Dim>::bytes() const {
     std::int64_t sum = static_cast<std::int64_t>(count_pairs(pairs_) * sizeof(NearPair));
     for (const BodyTrees<Dim>& trees : trees_) {
         sum += trees.bytes();
+    }
+    for (const std::optional<TightPairs>& tight : tight_) {
+        sum += tight ? tight->bytes() : 0;
     }
     return sum + static_cast<std::int64_t>(sizeof(double)) * searched_at_.size();
 }

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "body_trees.h"
+#include "tight_pairs.h"
 
 #include <pent/contact/contacts.h>
 #include <pent/contact/near_pairs.h>
 
 #include <array>
+#include <optional>
 
 namespace pent::contact {
 
@@ -29,13 +31,21 @@ struct BodyPair {
 };
 
 /// Finds the near pairs of all bodies: their trees, and pairs between bodies kept for positions
-/// nearby. Pairs within bodies are not kept, since what is left out of their search depends on normals.
+/// nearby. Within bodies only pairs that are near at rest are kept, once for all.
 template <int Dim>
 class PairSearch {
 public:
-    /// Both must outlive this.
-    PairSearch(const std::vector<ContactBody<Dim>>& bodies, const ContactOptions& options)
-        : bodies_(bodies), options_(options), trees_(bodies.size()) {}
+    /// All must outlive this.
+    ///
+    /// @param rest  Of all vertices of the scene; read for pairs within bodies alone.
+    PairSearch(const std::vector<ContactBody<Dim>>& bodies,
+               const Positions<Dim>& rest,
+               const ContactOptions& options)
+        : bodies_(bodies),
+          rest_(rest),
+          options_(options),
+          trees_(bodies.size()),
+          tight_(bodies.size()) {}
 
     /// Pairs nearer than the distance of contact, by bodies; the report is told the work.
     ///
@@ -69,8 +79,10 @@ private:
     [[nodiscard]] std::vector<BodyPair> still_near(const PositionsView<Dim>& positions) const;
 
     const std::vector<ContactBody<Dim>>& bodies_;
+    const Positions<Dim>& rest_;
     const ContactOptions& options_;
     std::vector<BodyTrees<Dim>> trees_;
+    std::vector<std::optional<TightPairs>> tight_;  // of bodies that were searched within
     std::vector<BodyPair> pairs_;  // between bodies, found within the distance and the margin
     Positions<Dim> searched_at_;   // where; empty if pairs_ are of no further use
 };

@@ -63,9 +63,9 @@ void expect_only_pairs_of_one_view_are_missing(const Crumpled<Dim>& body,
         near_pairs<Dim, K, L>({first, tree_first}, {second, tree_second}, body.scene.positions,
                               kDistance, Closest::Anywhere);
     const NearPairs facing =
-        facing_pairs<Dim, K, L>({first, tree_first, normals_first, normal_tree_first},
-                                {second, tree_second, normals_second, normal_tree_second},
-                                body.scene.positions, kDistance, Closest::Anywhere);
+        facing_pairs<Dim, K, L>({first, tree_first, normals_first, normal_tree_first, {}},
+                                {second, tree_second, normals_second, normal_tree_second, {}},
+                                body.scene.positions, kDistance, 0, Closest::Anywhere);
     std::set<std::pair<std::uint32_t, std::uint32_t>> found;
     for (const NearPair& pair : facing.pairs) {
         found.insert({pair.first, pair.second});

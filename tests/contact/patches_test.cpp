@@ -1,0 +1,215 @@
+#include "patches.h"
+
+#include "gather.h"
+#include "scenes.h"
+
+#include <pent/contact/near_pairs.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace pent::contact {
+namespace {
+
+template <int Dim>
+using Map = Eigen::Matrix<double, Dim, Dim>;
+
+template <typename T>
+class PatchesTest : public testing::Test {
+protected:
+    static constexpr int kD = T::value;
+
+    // Edges and ridges of a bar along the first axis, and their patches.
+    struct Bar {
+        test::Scene<kD> scene;
+        BoxTree edge_tree;
+        BoxTree ridge_tree;
+        Patches<kD> edges;
+        Patches<kD> ridges;
+
+        Bar() {
+            std::array<int, kD> count{};
+            std::array<double, kD> size{};
+            count.fill(kD == 3 ? 2 : 1);
+            size.fill(kD == 3 ? 2 : 1);
+            count[0] = 12;
+            size[0] = 12;
+            scene.add(pent::test::kuhn_box<kD>(count, size), Vector<kD>::Zero());
+            test::shake<kD>(scene.positions, 0.05, 3);
+            const Surface<kD>& surface = scene.surfaces[0];
+            edge_tree = BoxTree(boxes_around<kD, 2>(surface.edges, scene.positions, 0));
+            ridge_tree = BoxTree(boxes_around<kD, kD - 1>(surface.ridges, scene.positions, 0));
+            edges = Patches<kD>(surface.edges, edge_tree, scene.positions);
+            ridges = Patches<kD>(surface.ridges, ridge_tree, scene.positions);
+        }
+
+        void fit(const Positions<kD>& positions) {
+            edges.fit(positions);
+            ridges.fit(positions);
+        }
+    };
+
+    // Leaves of each patch, in the order of patches.
+    static std::vector<BoxTree::Range> ranges_of(const BoxTree& tree) {
+        std::vector<BoxTree::Range> ranges{tree.root()};
+        for (int depth = patch_depth(tree.size()); depth > 0; --depth) {
+            std::vector<BoxTree::Range> halves;
+            for (const BoxTree::Range& range : ranges) {
+                halves.push_back(range.left());
+                halves.push_back(range.right());
+            }
+            ranges = halves;
+        }
+        return ranges;
+    }
+
+    // A bar rolled up to a circle of that radius, stretched by 1 on a line through its axis.
+    static Positions<kD> rolled(const Positions<kD>& rest, double radius) {
+        Positions<kD> positions = rest;
+        for (auto x : positions.colwise()) {
+            const double angle = x[0] / radius;
+            const double r = radius - x[1];
+            x[0] = r * std::sin(angle);
+            x[1] = radius - r * std::cos(angle);
+        }
+        return positions;
+    }
+
+    static std::vector<Positions<kD>> deformed(const Positions<kD>& rest) {
+        std::vector<Positions<kD>> all{rest, rolled(rest, 20), rolled(rest, 4), rolled(rest, 2)};
+        for (const double size : {0.02, 0.2, 2.0}) {
+            all.push_back(test::tilt<kD>() * rest);
+            test::shake<kD>(all.back(), size, 11);
+        }
+        all.push_back(Positions<kD>::Zero(kD, rest.cols()));
+        return all;
+    }
+};
+
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+TYPED_TEST_SUITE(PatchesTest, Dimensions);
+
+TYPED_TEST(PatchesTest, DeviateFromTheirMapsByNoMoreThanTheySay) {
+    constexpr int kDim = TypeParam::value;
+    typename TestFixture::Bar bar;
+    const Positions<kDim>& rest = bar.scene.positions;
+    const auto ranges = TestFixture::ranges_of(bar.ridge_tree);
+    ASSERT_EQ(ranges.size(), bar.ridges.motions().size());
+    for (const Positions<kDim>& positions : TestFixture::deformed(rest)) {
+        bar.fit(positions);
+        for (std::size_t patch = 0; patch < ranges.size(); ++patch) {
+            const PatchMotion<kDim>& motion = bar.ridges.motions()[patch];
+            for (std::uint32_t i = 0; i < ranges[patch].count; ++i) {
+                const auto corners =
+                    bar.scene.surfaces[0].ridges.col(bar.ridge_tree.leaf(ranges[patch].begin + i));
+                for (const std::uint32_t v : corners) {
+                    const Vector<kDim> offset = rest.col(v) - motion.rest_center;
+                    const Vector<kDim> expected = motion.center + motion.map * offset;
+                    EXPECT_LE((positions.col(v) - expected).norm(), motion.deviation);
+                    EXPECT_LE(offset.norm(), motion.radius);
+                }
+            }
+        }
+    }
+}
+
+// Corners at a face of the bar, where the fit has nothing to go by across, included.
+TYPED_TEST(PatchesTest, FollowAnAffineMapExactly) {
+    constexpr int kDim = TypeParam::value;
+    typename TestFixture::Bar bar;
+    const Map<kDim> stretch = Vector<kDim>::LinSpaced(0.8, 1.3).asDiagonal();
+    const Positions<kDim> positions =
+        (test::tilt<kDim>() * stretch * bar.scene.positions).colwise() + Vector<kDim>::Ones();
+    bar.fit(positions);
+    for (const PatchMotion<kDim>& motion : bar.edges.motions()) {
+        // The vertices were shaken by a twentieth: how far a flat patch is from flat.
+        EXPECT_LT(motion.deviation, 0.05);
+        EXPECT_GT(motion.least_stretch, 0.75);
+        EXPECT_LT(motion.least_stretch, 1.01);
+    }
+}
+
+TYPED_TEST(PatchesTest, OfABodyThatMovesRigidlyStayApart) {
+    constexpr int kDim = TypeParam::value;
+    typename TestFixture::Bar bar;
+    const Positions<kDim> positions =
+        (test::tilt<kDim>() * bar.scene.positions).colwise() + 100 * Vector<kDim>::Ones();
+    bar.fit(positions);
+    for (const PatchMotion<kDim>& a : bar.edges.motions()) {
+        for (const PatchMotion<kDim>& b : bar.ridges.motions()) {
+            EXPECT_TRUE(stay_apart<kDim>(a, b, 0.1001, 0.1));
+            EXPECT_FALSE(stay_apart<kDim>(a, b, 0.1, 0.1));
+        }
+    }
+}
+
+// The definition, by all pairs of all patches.
+TYPED_TEST(PatchesTest, StayApartOnlyWhereAllTheirPairsDo) {
+    constexpr int kDim = TypeParam::value;
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    typename TestFixture::Bar bar;
+    const Positions<kDim>& rest = bar.scene.positions;
+    const Surface<kDim>& surface = bar.scene.surfaces[0];
+    const auto edge_ranges = TestFixture::ranges_of(bar.edge_tree);
+    const auto ridge_ranges = TestFixture::ranges_of(bar.ridge_tree);
+    const double rest_distance = 0.5;
+    const double distance = 0.25;
+    int apart = 0;
+    int others = 0;
+    const auto expect_apart = [&](std::uint32_t i, std::uint32_t j, const auto& positions) {
+        const auto far =
+            closest_points<kDim, 2, kDim - 1>(gather<kDim, 2>(surface.edges, i, rest),
+                                              gather<kDim, kDim - 1>(surface.ridges, j, rest));
+        if (far.distance_squared < rest_distance * rest_distance) {
+            return;
+        }
+        const auto now =
+            closest_points<kDim, 2, kDim - 1>(gather<kDim, 2>(surface.edges, i, positions),
+                                              gather<kDim, kDim - 1>(surface.ridges, j, positions));
+        EXPECT_GT(now.distance_squared, distance * distance);
+    };
+    for (const Positions<kDim>& positions : TestFixture::deformed(rest)) {
+        bar.fit(positions);
+        for (std::size_t a = 0; a < edge_ranges.size(); ++a) {
+            for (std::size_t b = 0; b < ridge_ranges.size(); ++b) {
+                if (!stay_apart<kDim>(bar.edges.motions()[a], bar.ridges.motions()[b],
+                                      rest_distance, distance)) {
+                    ++others;
+                    continue;
+                }
+                ++apart;
+                // A sample of the pairs: the first of one patch with all of the other.
+                for (std::uint32_t j = 0; j < ridge_ranges[b].count; ++j) {
+                    expect_apart(bar.edge_tree.leaf(edge_ranges[a].begin),
+                                 bar.ridge_tree.leaf(ridge_ranges[b].begin + j), positions);
+                }
+            }
+        }
+        EXPECT_FALSE(stay_apart<kDim>(bar.edges.motions()[0], bar.ridges.motions()[0],
+                                      rest_distance, kInfinite));
+    }
+    EXPECT_GT(apart, 100);
+    EXPECT_GT(others, 100);
+}
+
+TYPED_TEST(PatchesTest, NeverStayApartWhereNothingIsKnown) {
+    constexpr int kDim = TypeParam::value;
+    typename TestFixture::Bar bar;
+    Positions<kDim> positions = bar.scene.positions;
+    positions.setConstant(std::numeric_limits<double>::quiet_NaN());
+    bar.fit(positions);
+    const PatchMotion<kDim> nowhere = bar.edges.motions()[0];
+    EXPECT_FALSE(stay_apart<kDim>(nowhere, nowhere, 2, 1));
+    // All vertices on a line: a map across it is anyone's guess.
+    test::Scene<kDim> line = bar.scene;
+    line.positions.bottomRows(kDim - 1).setZero();
+    Patches<kDim> patches(line.surfaces[0].edges, bar.edge_tree, line.positions);
+    patches.fit(line.positions);
+    EXPECT_FALSE(stay_apart<kDim>(patches.motions()[0], patches.motions()[0], 2, 1));
+    EXPECT_FALSE(stay_apart<kDim>(PatchMotion<kDim>(), PatchMotion<kDim>(), 2, 1));
+}
+
+}  // namespace
+}  // namespace pent::contact
