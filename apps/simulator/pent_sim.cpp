@@ -61,6 +61,9 @@ void summarize_contact(Program& program, const RunReport& report) {
     if (contact_seconds == 0) {
         return;
     }
+    if (most == 0) {
+        program.say("contact: nothing has touched; without it the run would have been the same");
+    }
     const double share = contact_seconds / seconds;
     char depth[32];
     std::snprintf(depth, sizeof depth, "%.3g", deepest);

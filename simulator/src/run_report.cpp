@@ -25,6 +25,8 @@ Json contact_json(const ContactSummary& contact) {
             {"smallest_distance", smallest},
             {"searches", contact.searches},
             {"candidates", contact.candidates},
+            {"obstacle_tests", contact.obstacle_tests},
+            {"friction", contact.friction},
             {"trees_built", contact.trees_built},
             {"trees_refit", contact.trees_refit},
             {"ccd_seconds", contact.ccd_seconds},
@@ -44,6 +46,8 @@ ContactSummary parse_contact(const Json& json) {
     }
     json.at("searches").get_to(contact.searches);
     json.at("candidates").get_to(contact.candidates);
+    json.at("obstacle_tests").get_to(contact.obstacle_tests);
+    json.at("friction").get_to(contact.friction);
     json.at("trees_built").get_to(contact.trees_built);
     json.at("trees_refit").get_to(contact.trees_refit);
     json.at("ccd_seconds").get_to(contact.ccd_seconds);

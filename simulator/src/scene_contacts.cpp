@@ -203,10 +203,14 @@ ContactState<Dim> SceneContacts<Dim>::find(const Workers& workers,
         } else {
             state.obstacles = contact::find_obstacle_contacts<Dim>(
                 obstacles_, free_vertices_, positions, contact::Filter::Clamp);
+            state.summary.obstacle_tests =
+                static_cast<std::int64_t>(obstacles_.size() * free_vertices_.size());
         }
     });
     if (friction_) {
         state.friction = friction_->find(positions);
+        state.summary.friction = static_cast<std::int64_t>(state.friction.pairs.size()
+                                                           + state.friction.obstacles.size());
     }
     if (!barrier_) {
         sum_up(report, state);
@@ -305,8 +309,13 @@ std::vector<std::string> SceneContacts<Dim>::warnings() const {
 
 template <int Dim>
 std::int64_t SceneContacts<Dim>::bytes() const {
-    return (finder_ ? finder_->bytes() : 0)
-           + static_cast<std::int64_t>(free_vertices_.size() * sizeof(std::uint32_t));
+    std::int64_t bytes = static_cast<std::int64_t>(free_vertices_.size() * sizeof(std::uint32_t));
+    if (barrier_) {
+        for (const contact::ContactBody<Dim>& body : barrier_->bodies()) {
+            bytes += body.surface.bytes();
+        }
+    }
+    return bytes + (finder_ ? finder_->bytes() : 0);
 }
 
 template struct ContactState<3>;

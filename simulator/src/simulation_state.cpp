@@ -231,6 +231,8 @@ ContactSummary Simulation<Dim>::State::contact_summary() {
     ContactSummary summary = current_.contacts ? current_.contacts->summary : ContactSummary();
     summary.searches = work.searches;
     summary.candidates = work.candidates;
+    summary.obstacle_tests = work.obstacle_tests;
+    summary.friction = work.friction;
     summary.trees_built = work.trees_built;
     summary.trees_refit = work.trees_refit;
     summary.ccd_seconds = work.ccd_seconds;

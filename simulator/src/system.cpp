@@ -178,6 +178,8 @@ void System<Dim>::find_contacts(BodyState<Dim>& state) {
     state.energies.friction = found->friction.energy;
     contact_work_.searches += found->summary.searches;
     contact_work_.candidates += found->summary.candidates;
+    contact_work_.obstacle_tests += found->summary.obstacle_tests;
+    contact_work_.friction += found->summary.friction;
     contact_work_.trees_built += found->summary.trees_built;
     contact_work_.trees_refit += found->summary.trees_refit;
     contact_work_.seconds += watch.seconds();
@@ -396,8 +398,10 @@ SimulationSize System<Dim>::size() const {
     // Per vertex: positions, velocities, forces and their copies; per unknown: the solver's.
     constexpr std::int64_t kVertexVectors = 8;
     constexpr std::int64_t kUnknownVectors = 6;
+    size.element_bytes = elements_.bytes();
+    size.matrix_bytes = size.matrix_blocks * block;
     size.contact_bytes = contacts_.bytes();
-    size.bytes = elements_.bytes() + size.contact_bytes + size.matrix_blocks * block
+    size.bytes = size.element_bytes + size.contact_bytes + size.matrix_bytes
                  + static_cast<std::int64_t>(sizeof(double)) * Dim
                        * (kVertexVectors * size.vertices + kUnknownVectors * size.free_vertices);
     return size;

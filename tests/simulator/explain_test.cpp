@@ -47,8 +47,9 @@ TEST(Explain, ListsEveryTermWithWhatSwitchesIt) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 5);
     const Explanation off = explain(scene, 1);
-    for (const std::string name : {"gravity", "damping", "constraints", "contact between bodies",
-                                   "contact within bodies", "obstacles"}) {
+    for (const std::string name :
+         {"gravity", "damping", "constraints", "contact between bodies", "contact within bodies",
+          "obstacles", "friction", "sleeping", "output of contact"}) {
         EXPECT_FALSE(term(off, name).is_on) << name;
         EXPECT_EQ(term(off, name).seconds, 0) << name;
         EXPECT_EQ(term(off, name).bytes, 0) << name;
@@ -59,16 +60,58 @@ TEST(Explain, ListsEveryTermWithWhatSwitchesIt) {
     EXPECT_EQ(off.unknowns, 4 * 2 * 3 * 8);  // 3 x 2 x 2 x 2 vertices each
     scene.gravity[1] = -9.8;
     scene.damping = Damping{.mass = 0.1};
-    scene.contact = Contact{.self = true};
+    scene.contact = Contact{.self = true, .friction = 0.4};
+    scene.obstacles = {
+        {.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d::UnitY(), .offset = -9}}};
+    scene.sleep = Sleep{};
+    scene.output.contact_forces = true;
     scene.constraints = {test::hold(EverythingSelection{}, test::still(4))};
     const Explanation on = explain(scene, 1);
-    for (const std::string name : {"gravity", "damping", "constraints", "contact between bodies",
-                                   "contact within bodies", "elasticity of other"}) {
+    for (const std::string name :
+         {"gravity", "damping", "constraints", "contact between bodies", "contact within bodies",
+          "obstacles", "friction", "sleeping", "output of contact", "elasticity of other"}) {
         EXPECT_TRUE(term(on, name).is_on) << name;
     }
     EXPECT_FALSE(term(on, "elasticity of box").is_on);  // all of it is held
     EXPECT_EQ(on.unknowns, off.unknowns / 2);
-    expect_contains(explanation_text(on), {"elasticity of other", "stable-neo-hookean", "a step"});
+    EXPECT_EQ(term(on, "elasticity of other").unknowns, on.unknowns);
+    EXPECT_GT(term(on, "contact between bodies").bytes, 0);
+    EXPECT_GT(term(on, "contact between bodies").seconds, 0);
+    EXPECT_EQ(term(on, "contact within bodies").seconds, 0);  // found together: counted once
+    expect_contains(explanation_text(on), {"elasticity of other", "stable-neo-hookean", "a step",
+                                           "coefficient 0.4", "filter clamp", "forces, no pairs"});
+}
+
+TEST(Explain, CountsTheMemoryOfATermOnce) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    scene.contact = Contact{.self = true};
+    const Explanation explanation = explain(scene, 1);
+    std::int64_t bytes = 0;
+    double seconds = 0;
+    for (const Term& t : explanation.terms) {
+        bytes += t.bytes;
+        seconds += t.seconds;
+    }
+    EXPECT_LE(bytes, explanation.bytes);
+    EXPECT_GT(bytes, explanation.bytes / 2);
+    EXPECT_LE(seconds, explanation.seconds_per_step);
+}
+
+TEST(Explain, TellsThePartsOfTheBarrierAndOfDampingWithNewtonsMethod) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 2.01);
+    scene.contact = Contact{.model = ContactModel::Barrier, .distance = 0.02};
+    scene.solver.integrator = Integrator::NewtonEuler;
+    scene.damping = Damping{.mass = 0, .stiffness = 0.01};
+    scene.obstacles = {
+        {.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d::UnitY(), .offset = -1}}};
+    const Explanation explanation = explain(scene, 1);
+    expect_contains(term(explanation, "contact between bodies").why, {"barrier", "crosses"});
+    expect_contains(term(explanation, "obstacles").why, {"1, barrier", "0 vertices touch"});
+    EXPECT_GT(term(explanation, "damping").bytes, 0);
+    EXPECT_GT(term(explanation, "damping").seconds, 0);
+    EXPECT_EQ(advice(explanation).find("could go"), std::string::npos);
 }
 
 TEST(Explain, SaysThatContactBetweenBodiesFarApartCouldGo) {
@@ -93,7 +136,7 @@ TEST(Explain, WarnsOfLockingOfThinBodiesAndOfIdleTerms) {
     scene.damping = Damping{};
     scene.gravity[0] = 2;
     const std::string lines = advice(explain(scene, 1));
-    expect_contains(lines, {"box is at most 1 cell thick", "lock", "[damping] is all zero",
+    expect_contains(lines, {"box is 1 cell thick", "lock", "[damping] is all zero",
                             "falls, 11.1 m"});  // 2/2 (100/30)^2
 }
 
@@ -107,6 +150,37 @@ TEST(Explain, WarnsOfTurnsTooFarForALinearStep) {
     expect_contains(advice(explain(scene, 1)), {"30 degrees a step", "linear_euler"});
     scene.solver.integrator = Integrator::NewtonEuler;
     EXPECT_EQ(advice(explain(scene, 1)).find("degrees a step"), std::string::npos);
+}
+
+TEST(Explain, SaysWhatContactObstaclesAndSleepHaveNothingToDo) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    scene.bodies.pop_back();
+    scene.contact = Contact{};
+    const HalfSpaceObstacle floor{.normal = Eigen::Vector4d::UnitY(), .offset = -1};
+    scene.obstacles = {{.shape = floor}};
+    scene.sleep = Sleep{.speed = 1e-3, .time = 0.1};
+    expect_contains(advice(explain(scene, 1)),
+                    {"[contact] has nothing to do: there is one body", "[[obstacle]] could go",
+                     "sleep.time is 0.1 s, 3 steps"});
+    scene.contact->friction = 0.5;  // of the obstacle, which the body now moves towards
+    scene.bodies[0].velocity = Eigen::Vector4d(0, -1, 0, 0);
+    scene.sleep->time = 1;
+    const std::string lines = advice(explain(scene, 1));
+    for (const char* idle : {"nothing to do", "could go", "sleep.time"}) {
+        EXPECT_EQ(lines.find(idle), std::string::npos) << idle;
+    }
+}
+
+TEST(Explain, WarnsOfBodiesTooFastForASoftContact) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    scene.contact = Contact{.distance = 0.1};
+    scene.bodies[0].velocity = Eigen::Vector4d(30, 0, 0, 0);  // 1 m a step
+    expect_contains(advice(explain(scene, 1)),
+                    {"box and other move 1 m a step", "10 steps_per_frame"});
+    scene.bodies[1].velocity = scene.bodies[0].velocity;  // side by side
+    EXPECT_EQ(advice(explain(scene, 1)).find("a step past"), std::string::npos);
 }
 
 TEST(CellsAcross, AreTwiceTheEdgesFromTheMiddleToTheBoundary) {

@@ -36,6 +36,8 @@ struct SimulationSize {
     std::int64_t free_vertices = 0;  ///< Those with unknowns: Dim each.
     std::int64_t elements = 0;       ///< Cells with a free vertex; others cost nothing.
     std::int64_t matrix_blocks = 0;  ///< Dim x Dim blocks stored, upper triangle.
+    std::int64_t element_bytes = 0;  ///< Of elements; part of `bytes`.
+    std::int64_t matrix_bytes = 0;   ///< Of the matrix; part of `bytes`.
     std::int64_t contact_bytes = 0;  ///< Of surfaces and trees for contact; part of `bytes`.
     std::int64_t bytes = 0;          ///< Of what grows with the mesh, in memory.
 };
@@ -66,6 +68,8 @@ struct ContactSummary {
                                                   ///< infinite where nothing touches.
     std::int64_t searches = 0;                    ///< How often contacts were asked for.
     std::int64_t candidates = 0;                  ///< Pairs of boxes that overlapped.
+    std::int64_t obstacle_tests = 0;              ///< Distances of vertices to obstacles.
+    std::int64_t friction = 0;                    ///< Contacts whose friction was computed.
     std::int64_t trees_built = 0;
     std::int64_t trees_refit = 0;
     double ccd_seconds = 0;  ///< Of `seconds`: how far steps may go without a crossing.

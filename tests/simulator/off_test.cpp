@@ -1,0 +1,111 @@
+#include "contact_scenes.h"
+
+#include <gtest/gtest.h>
+
+// What a scene leaves out does no work: counted, not timed.
+
+namespace pent::simulator {
+namespace {
+
+using test::cube;
+using test::two_cubes;
+
+StepReport first_step(const Scene& scene) {
+    std::vector<SimplexMesh<4>> meshes(scene.bodies.size(), cube<4>());
+    StepReport report = Simulation<4>(scene, std::move(meshes)).step();
+    EXPECT_TRUE(report.is_accepted) << report.failure;
+    return report;
+}
+
+// Of a cube: 2^4 cells of 24 simplices.
+constexpr std::int64_t kElements = 384;
+
+TEST(Damping, AssemblesATangentOfItsOwnOnlyForNewtonsMethodWithStiffness) {
+    Scene scene = test::box_scene<4>();
+    scene.bodies[0].spin = {{.plane = {0, 3}, .degrees_per_s = 90}};
+    for (const Integrator integrator :
+         {Integrator::LinearEuler, Integrator::NewtonEuler, Integrator::Bdf2}) {
+        scene.solver.integrator = integrator;
+        const bool is_newton = integrator != Integrator::LinearEuler;
+        scene.damping.reset();
+        const StepReport without = first_step(scene);
+        EXPECT_EQ(without.damping_hessians, 0);
+        EXPECT_EQ(without.hessians, kElements * (1 + without.newton_iterations));
+        scene.damping = Damping{.mass = 0.1, .stiffness = 0};
+        EXPECT_EQ(first_step(scene).damping_hessians, 0);
+        scene.damping = Damping{.mass = 0, .stiffness = 0.01};
+        EXPECT_EQ(first_step(scene).damping_hessians, is_newton ? kElements : 0);
+    }
+}
+
+TEST(Obstacles, AreTestedAgainstEveryFreeVertexAndNotAtAllWithoutThem) {
+    Scene scene = test::box_scene<4>();
+    EXPECT_EQ(first_step(scene).contact.obstacle_tests, 0);
+    const HalfSpaceObstacle floor{.normal = Eigen::Vector4d::UnitY(), .offset = -1};
+    scene.obstacles = {{.shape = floor}, {.shape = floor}};
+    EXPECT_EQ(first_step(scene).contact.obstacle_tests, 2 * 81);
+    EXPECT_EQ(first_step(scene).contact.searches, 0);  // of pairs there are none to look for
+    scene.constraints = {test::hold(
+        HalfSpaceSelection{.normal = Eigen::Vector4d(1, 0, 0, 0), .offset = 1e-6}, test::still(4))};
+    EXPECT_EQ(first_step(scene).contact.obstacle_tests, 2 * 54);  // a third is held
+}
+
+TEST(ContactWithinBodies, LooksAtNoPairUnlessAsked) {
+    Scene scene = two_cubes<4>(5);
+    for (const bool self : {false, true}) {
+        scene.contact->self = self;
+        Simulation<4> simulation(scene, {cube<4>(), cube<4>()});
+        // Pressed flat: the two sides of a body are nearer to each other than the distance of contact.
+        Positions<4> flat = simulation.positions(0);
+        flat.row(0) *= 0.01;
+        simulation.set_state(0, flat, simulation.velocities(0));
+        EXPECT_EQ(simulation.step().contact.candidates > 0, self);
+    }
+}
+
+TEST(Friction, IsComputedForNoContactUnlessAsked) {
+    Scene scene = two_cubes<4>(0.01);
+    scene.obstacles = {
+        {.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d::UnitY(), .offset = -0.01}}};
+    const StepReport without = first_step(scene);
+    EXPECT_GT(without.contact.mixed, 0);
+    EXPECT_GT(without.contact.obstacle, 0);
+    EXPECT_EQ(without.contact.friction, 0);
+    EXPECT_EQ(without.energies.friction, 0);
+    scene.contact->friction = 0.3;
+    EXPECT_GT(first_step(scene).contact.friction, 0);
+}
+
+TEST(PenaltyContact, NeverAsksHowFarAStepMayGo) {
+    Scene scene = two_cubes<4>(0.06);
+    scene.bodies[0].velocity = Eigen::Vector4d(0, 1, 0, 0);
+    scene.solver.integrator = Integrator::NewtonEuler;
+    const StepReport penalty = first_step(scene);
+    EXPECT_EQ(penalty.contact.ccd_seconds, 0);
+    EXPECT_EQ(penalty.contact.stiffness, 0);
+    scene.contact->model = ContactModel::Barrier;
+    EXPECT_GT(first_step(scene).contact.ccd_seconds, 0);
+}
+
+TEST(Filter, TakesNoSecondAssemblyWhereNothingIsNegative) {
+    Scene scene = test::box_scene<4>();
+    scene.bodies[0].velocity = Eigen::Vector4d(0, 1, 0, 0);
+    for (const Filter filter : {Filter::None, Filter::Clamp, Filter::Absolute}) {
+        scene.solver.filter = filter;
+        EXPECT_EQ(first_step(scene).hessians, kElements);
+    }
+}
+
+TEST(History, IsKeptForBdf2Alone) {
+    Scene scene = test::box_scene<4>();
+    for (const Integrator integrator :
+         {Integrator::LinearEuler, Integrator::NewtonEuler, Integrator::Bdf2}) {
+        scene.solver.integrator = integrator;
+        Simulation<4> simulation(scene, {cube<4>()});
+        static_cast<void>(simulation.step());
+        EXPECT_EQ(simulation.has_history(), integrator == Integrator::Bdf2);
+    }
+}
+
+}  // namespace
+}  // namespace pent::simulator
