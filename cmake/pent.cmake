@@ -16,6 +16,9 @@ if(PENT_SANITIZE)
     -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(pent_build_flags INTERFACE -fsanitize=${PENT_SANITIZE})
 endif()
+if(PENT_SANITIZE STREQUAL thread)
+  target_include_directories(pent_build_flags INTERFACE ${CMAKE_CURRENT_LIST_DIR}/tsan)
+endif()
 
 # pent_add_library(NAME HEADERS <public> SOURCES <files> DEPS <public targets>
 #                  PRIVATE_DEPS <targets>)

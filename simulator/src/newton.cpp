@@ -16,13 +16,6 @@ constexpr int kMostBacktracks = 30;
 constexpr double kKinkGain = 1e-4;
 constexpr double kKinkForce = 0.05;
 
-// Sufficient decrease of the unbalanced force. What views take from mixed pairs in contact is held, so
-// their forces are not quite the derivative of phi, and near balance phi alone may rise.
-template <int Dim>
-bool has_less_force(const Potential<Dim>& phi, const Potential<Dim>& next, double factor) {
-    return next.gradient.norm() <= (1 - kArmijo * factor) * phi.gradient.norm();
-}
-
 }  // namespace
 
 template <int Dim>
@@ -117,6 +110,8 @@ bool minimize(System<Dim>& system,
             add_to_free(world, factor, dx, trial.positions);
             system.evaluate(trial);
             Potential<Dim> next = potential(system, world, problem, trial);
+            // What views take from mixed pairs in contact is held, so their forces are not quite the
+            // derivative of phi, and near balance phi alone may rise.
             is_taken = has_improved(phi, next, factor, slope)
                        || (trial.energies.contact > 0 && has_less_force(phi, next, factor));
             if (is_taken) {

@@ -1,5 +1,7 @@
 #include "potential.h"
 
+#include <limits>
+
 namespace pent::simulator {
 
 namespace {
@@ -36,6 +38,7 @@ Potential<Dim> potential(const System<Dim>& system,
     phi.value = problem.scale
                 * (energies.elastic + energies.gravity + energies.obstacle + energies.contact
                    + energies.friction);
+    phi.rounding = problem.scale * world.large_energy * std::numeric_limits<double>::epsilon();
     phi.gradient.resize(Dim, numbering.free_count());
     BlockVector<Dim> travel(Dim, numbering.free_count());
     for (std::uint32_t unknown = 0; unknown < numbering.free_count(); ++unknown) {

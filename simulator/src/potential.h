@@ -17,6 +17,7 @@ inline constexpr double kNegligible = 1e-10;
 template <int Dim>
 struct Potential {
     double value = 0;
+    double rounding = 0;        ///< What terms of the elastic energy that cancel may leave of it.
     BlockVector<Dim> gradient;  ///< Dim x unknowns.
 };
 
@@ -27,14 +28,25 @@ template <int Dim>
                                        const StepProblem<Dim>& problem,
                                        const BodyState<Dim>& state);
 
-/// Sufficient decrease of phi along a direction of this slope.
+/// Sufficient decrease of the unbalanced force.
+template <int Dim>
+[[nodiscard]] bool has_less_force(const Potential<Dim>& phi,
+                                  const Potential<Dim>& next,
+                                  double factor) {
+    return next.gradient.norm() <= (1 - kArmijo * factor) * phi.gradient.norm();
+}
+
+/// Sufficient decrease of phi along a direction of this slope; where that drowns in rounding, of the
+/// unbalanced force.
 template <int Dim>
 [[nodiscard]] bool has_improved(const Potential<Dim>& phi,
                                 const Potential<Dim>& next,
                                 double factor,
                                 double slope) {
     constexpr double kRounding = 1e-13;  // of phi
-    return next.value <= phi.value + kArmijo * factor * slope + kRounding * std::abs(phi.value);
+    const double change = next.value - phi.value;
+    return change <= kArmijo * factor * slope + kRounding * std::abs(phi.value)
+           || (change <= phi.rounding && has_less_force(phi, next, factor));
 }
 
 /// Held vertices at the end of the step minus where they are in x; zero for free ones.

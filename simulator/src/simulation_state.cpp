@@ -3,27 +3,10 @@
 #include "crossing_error.h"
 
 #include <chrono>
-#include <cmath>
+#include <string>
 #include <utility>
 
 namespace pent::simulator {
-
-namespace {
-
-// Elastic energy of all bodies at strains of about one, J.
-template <int Dim>
-double large_energy(const World<Dim>& world) {
-    double energy = 0;
-    for (std::size_t body = 0; body < world.ranges.size(); ++body) {
-        const Eigen::Index first = world.first_vertex[body];
-        const double mass = world.masses.segment(first, world.first_vertex[body + 1] - first).sum();
-        const Material& material = world.ranges[body].material;
-        energy += (material.lame.mu + std::abs(material.lame.lambda)) * mass / material.density;
-    }
-    return energy;
-}
-
-}  // namespace
 
 template <int Dim>
 Simulation<Dim>::State::State(const Scene& scene,
@@ -34,8 +17,7 @@ Simulation<Dim>::State::State(const Scene& scene,
       system_(scene, world_, options),
       sleepers_(scene, world_),
       asleep_(sleepers_.asleep()),
-      extent_((world_.rest.rowwise().maxCoeff() - world_.rest.rowwise().minCoeff()).norm()),
-      large_energy_(large_energy(world_)) {
+      extent_((world_.rest.rowwise().maxCoeff() - world_.rest.rowwise().minCoeff()).norm()) {
     current_.positions = world_.rest;
     current_.velocities = start_velocities(scene, world_);
     place_held(world_, 0, current_.positions, &current_.velocities);
@@ -102,17 +84,22 @@ void Simulation<Dim>::State::set_velocities(const StepProblem<Dim>& problem, dou
     still(next_.velocities);
 }
 
-// Whether the new state is finite and within bounds that only a failed step leaves: a linear step far
-// from equilibrium may turn motion into many times the elastic energy that there was to begin with.
+// Empty unless the new state is beyond bounds that only a failed step leaves.
 template <int Dim>
-bool Simulation<Dim>::State::is_sane() const {
+std::string Simulation<Dim>::State::complaint() const {
     constexpr double kMostExtents = 1e3;
     constexpr double kMostGrowth = 1e2;
+    if (!next_.is_finite()
+        || (next_.positions - current_.positions).cwiseAbs().maxCoeff() >= kMostExtents * extent_) {
+        return "the motion grew beyond all bounds";
+    }
     const double before = current_.energies.elastic + current_.energies.kinetic;
-    return next_.is_finite()
-           && (next_.positions - current_.positions).cwiseAbs().maxCoeff() < kMostExtents * extent_
-           && next_.energies.elastic
-                  < kMostGrowth * (large_energy_ + before + next_.energies.kinetic);
+    if (!(next_.energies.elastic
+          < kMostGrowth * (world_.large_energy + before + next_.energies.kinetic))) {
+        return "the elastic energy grew a hundred times; take smaller steps, or newton_euler, which"
+               " comes back from far";
+    }
+    return {};
 }
 
 // Throws unless the barrier finds nothing that crosses.
@@ -197,8 +184,8 @@ bool Simulation<Dim>::State::attempt(double time, double h, StepReport& report) 
     }
     set_velocities(problem, time + h);
     system_.evaluate(next_);
-    if (!is_sane()) {
-        report.failure = "the motion grew beyond all bounds";
+    report.failure = complaint();
+    if (!report.failure.empty()) {
         return false;
     }
     // Newton's method has forces at the end of the step: what was run into there has to give way.

@@ -7,6 +7,7 @@
 
 #include <pent/simulator/simulation.h>
 
+#include <string>
 #include <vector>
 
 namespace pent::simulator {
@@ -40,7 +41,7 @@ private:
     bool attempt(double time, double h, StepReport& report);
     [[nodiscard]] StepProblem<Dim> make_problem(double time, double h) const;
     void set_velocities(const StepProblem<Dim>& problem, double time);
-    [[nodiscard]] bool is_sane() const;
+    [[nodiscard]] std::string complaint() const;
     [[nodiscard]] bool wake(const BodyState<Dim>& state, const StepProblem<Dim>& problem);
     void settle();
     void still(Positions<Dim>& velocities) const;
@@ -54,7 +55,6 @@ private:
     Sleepers<Dim> sleepers_;
     std::vector<bool> asleep_;  // bodies that the numbering leaves out
     double extent_;             // diagonal of the box around all bodies at rest, m
-    double large_energy_;       // elastic energy at strains of about one, J
     BodyState<Dim> current_;
     BodyState<Dim> next_;
     History<Dim> history_;  // the state one step of full length ago, for BDF2

@@ -6,6 +6,7 @@
 #include <pent/error.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace pent::simulator {
@@ -38,9 +39,11 @@ template <int Dim>
 void lump_masses(const Scene& scene, World<Dim>& world) {
     world.masses.setZero(world.vertex_count());
     for (const CellRange& range : world.ranges) {
+        const Lame& lame = range.material.lame;
         for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
-            const double share = range.material.density
-                                 * cell_volume<Dim>(world.rest, world.cells, cell) / (Dim + 1);
+            const double volume = cell_volume<Dim>(world.rest, world.cells, cell);
+            const double share = range.material.density * volume / (Dim + 1);
+            world.large_energy += (lame.mu + std::abs(lame.lambda)) * volume;
             for (int corner = 0; corner <= Dim; ++corner) {
                 world.masses[world.cells(corner, cell)] += share;
             }

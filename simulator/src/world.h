@@ -40,6 +40,7 @@ struct World {
     Simplices<Dim + 1> cells;
     std::vector<CellRange> ranges;   ///< One a body.
     Eigen::VectorXd masses;          ///< One a vertex, kg.
+    double large_energy = 0;         ///< Elastic energy of all bodies at strains of about one, J.
     std::vector<HeldSet<Dim>> held;  ///< One a constraint.
     std::vector<bool> is_held;       ///< One a vertex.
     Columns columns;

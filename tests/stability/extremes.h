@@ -7,8 +7,8 @@
 
 namespace pent::stability {
 
-/// How far out a simulation can go: one table of cases, which the tests judge and docs/stability.md
-/// shows. A case changes some numbers of a small body and asks for motions whose end is known.
+/// How far out a simulation can go: tables of cases, which the tests judge and docs/stability.md shows.
+/// A case changes some numbers of a small body and asks for motions whose end is known.
 
 /// The numbers of a case. Lengths of the body are multiples of `size`, so that a case is one thing.
 struct Extreme {
@@ -22,6 +22,8 @@ struct Extreme {
     double offset = 0;      ///< Distance of the body from the origin, in sizes.
     double gravity = 9.8;   ///< m/s^2.
     int cells = 2;          ///< Tesseracts along the body; 0 for a single pentachoron.
+    int across = 1;         ///< Tesseracts along each of the other axes.
+    int threads = 1;
 };
 
 struct Case {
@@ -34,13 +36,20 @@ struct Case {
 /// Everything that is tried.
 [[nodiscard]] const std::vector<Case>& cases();
 
+/// A body of a million pentachora: for the report alone, too slow for a test.
+[[nodiscard]] Case million();
+
 /// What is asked of every case. Each has an exact answer that depends on nothing but the motion told.
 enum class Motion {
     Fall,  ///< Nothing held, implicit Euler: x = x0 + g h^2 n (n + 1) / 2 after n steps, exactly.
-    Turn,  ///< One end turned by 60 degrees in two planes, quasistatic: the body turns rigidly.
-    Rest,  ///< One end held, no gravity, a velocity of zero: nothing moves at all.
+    Descend,  ///< The same by Newton's method.
+    Turn,     ///< One end turned by 60 degrees in two planes, quasistatic: the body turns rigidly.
+    Load,     ///< A single pentachoron on a held facet, its corner pulled along and across by its
+              ///< weight, quasistatic: stable neo-Hookean gives the corner's place in closed form.
+    Rest,     ///< One end held, no gravity, a velocity of zero: nothing moves at all.
 };
-inline constexpr Motion kMotions[] = {Motion::Fall, Motion::Turn, Motion::Rest};
+inline constexpr Motion kMotions[] = {Motion::Fall, Motion::Descend, Motion::Turn, Motion::Load,
+                                      Motion::Rest};
 
 struct Outcome {
     enum class Kind { Right, Refused, Reported, Wrong } kind = Kind::Right;
@@ -58,23 +67,31 @@ struct Outcome {
 /// stable neo-Hookean is known to bring it back (see collapse_scale()).
 struct Start {
     std::string name;
-    bool comes_back = true;
+    bool comes_back = true;  ///< By Newton's method.
 };
 [[nodiscard]] const std::vector<Start>& starts();
 
-/// Runs newton_euler with damping from a start; Right with the final distance from rest as error.
-[[nodiscard]] Outcome run(const Start& start, simulator::Precision precision);
+/// Lets go of a damped body at a start; Right with the final distance from rest as error.
+[[nodiscard]] Outcome run(const Start& start,
+                          simulator::Integrator integrator,
+                          simulator::Precision precision);
 
-/// Two bodies and contact at its extremes; Right if no coordinate leaves the world, the bodies do not end
-/// deeper in one another than they began, and momentum is kept.
+/// Two bodies and contact at its extremes. Right if momentum is kept, which is the error, no coordinate
+/// leaves the world, and with a barrier nothing crosses. Penalties promise less: Reported where
+/// vertices end deeper in the other body than they began, as StepReport says.
 struct Touch {
     std::string name;
     double gap = 0.05;      ///< Between the bodies, edges; negative: they overlap.
     double distance = 0.1;  ///< Of contact, edges.
     double shift = 0.3;     ///< Of the second along the others' faces, edges; 0: exactly parallel.
+    double ratio = 1;       ///< Young's modulus of the second over that of the first.
+    double speed = 0;       ///< Of the second towards the first, edges a second.
+    int cells = 1;          ///< As in Extreme.
 };
 [[nodiscard]] const std::vector<Touch>& touches();
-[[nodiscard]] Outcome run(const Touch& touch, simulator::Precision precision);
+[[nodiscard]] Outcome run(const Touch& touch,
+                          simulator::ContactModel model,
+                          simulator::Precision precision);
 
 /// "right, 1e-9", "refused: ...", "reported: ...", "WRONG, 0.1".
 [[nodiscard]] std::string text(const Outcome& outcome);

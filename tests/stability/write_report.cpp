@@ -2,15 +2,18 @@
 
 #include "extremes.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
-#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
 using namespace pent::stability;
+using pent::simulator::ContactModel;
+using pent::simulator::Integrator;
 using pent::simulator::Precision;
 
 // The worst of the motions of a case.
@@ -26,10 +29,50 @@ std::string worst(const Case& one, Precision precision) {
     return text(worst);
 }
 
-template <typename Row>
-void row(const std::string& group, const std::string& name, const char* box, const Row& cell) {
+template <typename Cell>
+void row(const std::string& group, const std::string& name, const char* box, const Cell& cell) {
     std::cout << "| " << group << " | " << name << " | " << box << " | " << cell(Precision::Float)
               << " | " << cell(Precision::Double) << " |\n";
+}
+
+void heading(const char* title, const char* first, const char* second) {
+    std::cout << "\n## " << title << "\n\n| " << first << " | " << second
+              << " | box | float | double |\n| --- | --- | --- | --- | --- |\n";
+}
+
+void write_numbers() {
+    std::vector<Case> all = cases();
+    all.push_back(million());
+    std::string group;
+    heading("Numbers", "", "value");
+    for (const Case& one : all) {
+        row(one.group == group ? "" : one.group, one.name, one.is_inside ? "in" : "out",
+            [&](Precision precision) { return worst(one, precision); });
+        group = one.group;
+    }
+}
+
+void write_starts() {
+    heading("Starts", "integrator", "start");
+    for (const auto& [name, integrator] : {std::pair("newton_euler", Integrator::NewtonEuler),
+                                           std::pair("linear_euler", Integrator::LinearEuler)}) {
+        for (const Start& start : starts()) {
+            const bool is_inside = start.comes_back && integrator == Integrator::NewtonEuler;
+            row(&start == starts().data() ? name : "", start.name, is_inside ? "in" : "out",
+                [&](Precision precision) { return text(run(start, integrator, precision)); });
+        }
+    }
+}
+
+void write_touches() {
+    heading("Contact", "model", "bodies");
+    for (const auto& [name, model] : {std::pair("penalty", ContactModel::Penalty),
+                                      std::pair("barrier", ContactModel::Barrier)}) {
+        for (const Touch& touch : touches()) {
+            row(&touch == touches().data() ? name : "", touch.name, "out",
+                [&](Precision precision) { return text(run(touch, model, precision)); });
+        }
+    }
 }
 
 }  // namespace
@@ -42,25 +85,8 @@ int main(int argc, char** argv) {
     }
     std::ifstream introduction(argv[1]);
     std::cout << introduction.rdbuf();
-    std::cout
-        << "\n## Numbers\n\n| | value | box | float | double |\n| --- | --- | --- | --- | --- |\n";
-    std::string group;
-    for (const Case& one : cases()) {
-        row(one.group == group ? "" : one.group, one.name, one.is_inside ? "in" : "out",
-            [&](Precision precision) { return worst(one, precision); });
-        group = one.group;
-    }
-    std::cout
-        << "\n## Starts\n\n| | start | box | float | double |\n| --- | --- | --- | --- | --- |\n";
-    for (const Start& start : starts()) {
-        row("", start.name, start.comes_back ? "in" : "out",
-            [&](Precision precision) { return text(run(start, precision)); });
-    }
-    std::cout
-        << "\n## Contact\n\n| | bodies | box | float | double |\n| --- | --- | --- | --- | --- |\n";
-    for (const Touch& touch : touches()) {
-        row("", touch.name, "out",
-            [&](Precision precision) { return text(run(touch, precision)); });
-    }
+    write_numbers();
+    write_starts();
+    write_touches();
     return 0;
 }
