@@ -1,11 +1,10 @@
 #pragma once
 
-#include "facing_pairs.h"
 #include "fitted_tree.h"
+#include "pairs_within.h"
 
 #include <pent/contact/near_pairs.h>
 
-#include <utility>
 #include <vector>
 
 namespace pent::contact {
@@ -32,17 +31,6 @@ public:
         }
     }
 
-    /// Fits trees like these around the outward normals; `normals` has those of all vertices of the
-    /// scene, Dim x n.
-    void update_normals(const Surface<Dim>& surface, const Positions<Dim>& normals) {
-        update_like(vertices_, normal_boxes<Dim, 1>(surface.vertices, normals));
-        update_like(edges_, normal_boxes<Dim, 2>(surface.edges, normals));
-        update_like(facets_, normal_boxes<Dim, Dim>(surface.facets, normals));
-        if constexpr (Dim > 3) {
-            update_like(ridges_, normal_boxes<Dim, Dim - 1>(surface.ridges, normals));
-        }
-    }
-
     /// Finds how the patches of these trees have moved from `rest`, both of all vertices of the scene.
     void update_patches(const Surface<Dim>& surface,
                         const PositionsView<Dim>& rest,
@@ -62,8 +50,7 @@ public:
     [[nodiscard]] std::int64_t bytes() const {
         std::int64_t sum = 0;
         for (const Tree* tree : {&vertices_, &edges_, &ridges_, &facets_}) {
-            sum += tree->fitted.tree().bytes() + tree->normals.bytes() + tree->patches.bytes()
-                   + static_cast<std::int64_t>(tree->normal_boxes.size() * sizeof(Box));
+            sum += tree->fitted.tree().bytes() + tree->patches.bytes();
         }
         return sum;
     }
@@ -75,26 +62,24 @@ public:
     /// In R^3 the tree of the edges: ridges are edges there.
     [[nodiscard]] const BoxTree& ridges() const { return ridge_tree().fitted.tree(); }
 
-    /// What facing_pairs() takes, as of update_normals() and, if it was called, update_patches().
-    [[nodiscard]] FacingSet<Dim, 1> facing_vertices(const Surface<Dim>& surface) const {
-        return facing(surface.vertices, vertices_);
+    /// What pairs_within() takes, as of update_patches().
+    [[nodiscard]] PatchedSet<Dim, 1> patched_vertices(const Surface<Dim>& surface) const {
+        return patched(surface.vertices, vertices_);
     }
-    [[nodiscard]] FacingSet<Dim, 2> facing_edges(const Surface<Dim>& surface) const {
-        return facing(surface.edges, edges_);
+    [[nodiscard]] PatchedSet<Dim, 2> patched_edges(const Surface<Dim>& surface) const {
+        return patched(surface.edges, edges_);
     }
-    [[nodiscard]] FacingSet<Dim, Dim - 1> facing_ridges(const Surface<Dim>& surface) const {
-        return facing(surface.ridges, ridge_tree());
+    [[nodiscard]] PatchedSet<Dim, Dim - 1> patched_ridges(const Surface<Dim>& surface) const {
+        return patched(surface.ridges, ridge_tree());
     }
-    [[nodiscard]] FacingSet<Dim, Dim> facing_facets(const Surface<Dim>& surface) const {
-        return facing(surface.facets, facets_);
+    [[nodiscard]] PatchedSet<Dim, Dim> patched_facets(const Surface<Dim>& surface) const {
+        return patched(surface.facets, facets_);
     }
 
 private:
     struct Tree {
         FittedTree fitted;
-        std::vector<Box> normal_boxes;
-        BoxTree normals;  // empty if not like `fitted` any more, as are the patches
-        Patches<Dim> patches;
+        Patches<Dim> patches;  // none if not of this tree any more
     };
 
     [[nodiscard]] const Tree& ridge_tree() const { return Dim > 3 ? ridges_ : edges_; }
@@ -102,25 +87,10 @@ private:
     void update(Tree& tree, const std::vector<Box>& boxes) {
         const bool is_new = tree.fitted.update(boxes);
         if (is_new) {
-            tree.normals = BoxTree();
             tree.patches = Patches<Dim>();
         }
         built_ += is_new ? 1 : 0;
         refit_ += is_new ? 0 : 1;
-    }
-
-    template <int Count>
-    static FacingSet<Dim, Count> facing(const Simplices<Count>& simplices, const Tree& tree) {
-        return {simplices, tree.fitted.tree(), tree.normal_boxes, tree.normals,
-                tree.patches.motions()};
-    }
-
-    static void update_like(Tree& tree, std::vector<Box> boxes) {
-        if (tree.normals.is_empty()) {
-            tree.normals = tree.fitted.tree();
-        }
-        tree.normals.refit(boxes);
-        tree.normal_boxes = std::move(boxes);
     }
 
     template <int Count>
@@ -132,6 +102,11 @@ private:
             tree.patches = Patches<Dim>(simplices, tree.fitted.tree(), rest);
         }
         tree.patches.fit(positions);
+    }
+
+    template <int Count>
+    static PatchedSet<Dim, Count> patched(const Simplices<Count>& simplices, const Tree& tree) {
+        return {simplices, tree.fitted.tree(), tree.patches.motions()};
     }
 
     Tree vertices_;

@@ -60,13 +60,8 @@ public:
     Contacts<Dim> find(const PositionsView<Dim>& positions) {
         const auto start = std::chrono::steady_clock::now();
         Contacts<Dim> contacts;
-        if (options_.self) {
-            update_normals(std::vector<bool>(bodies_.size(), true), positions);
-        }
-        const std::vector<BodyPair> pairs = search_.run(positions, normals_, contacts.report);
-        if (!options_.self) {
-            update_normals(judged_by_normals(pairs), positions);
-        }
+        const std::vector<BodyPair> pairs = search_.run(positions, contacts.report);
+        update_normals(judged_by_normals(pairs), positions);
         for (const BodyPair& pair : pairs) {
             append(pair, positions, contacts.pairs);
         }
@@ -105,7 +100,10 @@ private:
     [[nodiscard]] std::vector<bool> judged_by_normals(const std::vector<BodyPair>& pairs) const {
         std::vector<bool> is_judged(bodies_.size(), false);
         for (const BodyPair& pair : pairs) {
-            if (!pair.mixed_first.pairs.empty() || !pair.mixed_second.pairs.empty()) {
+            const bool has_self_points =
+                pair.first == pair.second && !pair.points_first.pairs.empty();
+            if (has_self_points || !pair.mixed_first.pairs.empty()
+                || !pair.mixed_second.pairs.empty()) {
                 is_judged[pair.first] = true;
                 is_judged[pair.second] = true;
             }

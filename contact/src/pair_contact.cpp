@@ -1,7 +1,6 @@
 #include "pair_contact.h"
 
 #include "closest_point_search.h"
-#include "facing_pairs.h"
 #include "gather.h"
 
 #include <Eigen/LU>
@@ -16,6 +15,10 @@ namespace {
 // Below this part of the distance of contact, closest points touch: the direction between them is
 // rounding, and that of the normals is taken.
 constexpr double kTouching = 1e-6;
+
+// Least sine of the angle at which a pair has to see the surfaces beside it, from the front or from
+// the back, to be in contact.
+constexpr double kLeastView = 0.2;
 
 // A mixed pair fades where its closest points come this near to a border, in barycentric weight:
 // there a neighboring pair, or a vertex and a facet, takes over. Wide, so that its forces along the

@@ -40,7 +40,6 @@ NearPairs join(const NearPairs& a, const NearPairs& b) {
 
 template <int Dim>
 std::vector<BodyPair> PairSearch<Dim>::run(const PositionsView<Dim>& positions,
-                                           const Positions<Dim>& normals,
                                            ContactReport& report) {
     const auto start = std::chrono::steady_clock::now();
     const bool is_kept = is_kept_valid(positions);
@@ -60,7 +59,7 @@ std::vector<BodyPair> PairSearch<Dim>::run(const PositionsView<Dim>& positions,
     }
     for (std::size_t body = 0; options_.self && body < bodies_.size(); ++body) {
         if (!bodies_[body].is_kinematic) {
-            found.push_back(search_within(static_cast<int>(body), positions, normals));
+            found.push_back(search_within(static_cast<int>(body), positions));
             report.candidates += found.back().candidates();
         }
     }
@@ -154,9 +153,7 @@ void PairSearch<Dim>::search(const PositionsView<Dim>& positions, ContactReport&
 }
 
 template <int Dim>
-BodyPair PairSearch<Dim>::search_within(int body,
-                                        const PositionsView<Dim>& positions,
-                                        const Positions<Dim>& normals) {
+BodyPair PairSearch<Dim>::search_within(int body, const PositionsView<Dim>& positions) {
     const Surface<Dim>& surface = bodies_[body].surface;
     const double eps = options_.distance;
     std::optional<TightPairs>& tight = tight_[static_cast<std::size_t>(body)];
@@ -164,20 +161,25 @@ BodyPair PairSearch<Dim>::search_within(int body,
         tight = find_tight_pairs<Dim>(surface, rest_, eps);
     }
     BodyTrees<Dim>& trees = trees_[body];
-    trees.update_normals(surface, normals);
-    if (tight->rest_distance > 0) {
-        trees.update_patches(surface, rest_, positions);
-    }
     BodyPair pair{.first = body, .second = body};
-    pair.points_first =
-        join(still_near_pairs<Dim, 1, Dim>(tight->points, surface.vertices, surface.facets,
-                                           positions, eps),
-             facing_pairs<Dim, 1, Dim>(trees.facing_vertices(surface), trees.facing_facets(surface),
-                                       positions, eps, tight->rest_distance, Closest::Anywhere));
+    if (tight->rest_distance == 0) {
+        pair.points_first = near_pairs<Dim, 1, Dim>(
+            {surface.vertices, trees.vertices()}, {surface.facets, trees.facets()}, positions, eps);
+        pair.mixed_first = near_pairs<Dim, 2, Dim - 1>({surface.edges, trees.edges()},
+                                                       {surface.ridges, trees.ridges()}, positions,
+                                                       eps, Closest::Interior);
+        return pair;
+    }
+    trees.update_patches(surface, rest_, positions);
+    pair.points_first = join(
+        still_near_pairs<Dim, 1, Dim>(tight->points, surface.vertices, surface.facets, positions,
+                                      eps),
+        pairs_within<Dim, 1, Dim>(trees.patched_vertices(surface), trees.patched_facets(surface),
+                                  positions, eps, tight->rest_distance, Closest::Anywhere));
     pair.mixed_first = join(
         still_near_pairs<Dim, 2, Dim - 1>(tight->mixed, surface.edges, surface.ridges, positions,
                                           eps, Closest::Interior),
-        facing_pairs<Dim, 2, Dim - 1>(trees.facing_edges(surface), trees.facing_ridges(surface),
+        pairs_within<Dim, 2, Dim - 1>(trees.patched_edges(surface), trees.patched_ridges(surface),
                                       positions, eps, tight->rest_distance, Closest::Interior));
     return pair;
 }

@@ -48,10 +48,7 @@ public:
           tight_(bodies.size()) {}
 
     /// Pairs nearer than the distance of contact, by bodies; the report is told the work.
-    ///
-    /// @param normals  Outward normals at all boundary vertices; read for pairs within bodies alone.
     [[nodiscard]] std::vector<BodyPair> run(const PositionsView<Dim>& positions,
-                                            const Positions<Dim>& normals,
                                             ContactReport& report);
 
     /// As of the last run.
@@ -67,9 +64,7 @@ private:
     [[nodiscard]] bool may_meet(std::size_t a, std::size_t b) const;
     void update_trees(const PositionsView<Dim>& positions, ContactReport& report);
     void search(const PositionsView<Dim>& positions, ContactReport& report);
-    [[nodiscard]] BodyPair search_within(int body,
-                                         const PositionsView<Dim>& positions,
-                                         const Positions<Dim>& normals);
+    [[nodiscard]] BodyPair search_within(int body, const PositionsView<Dim>& positions);
     void drop_what_is_too_much();
     [[nodiscard]] NearPairs points_near(int a, int b, const PositionsView<Dim>& positions) const;
     [[nodiscard]] NearPairs mixed_near(int a,
