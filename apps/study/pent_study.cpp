@@ -2,10 +2,10 @@
 #include "common/progress.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/output_file.h>
 #include <pent/study/study.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -26,9 +26,7 @@ struct Arguments {
 };
 
 std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
+    return pent::formatted("%.3g", value);
 }
 
 void say_reference(const Program& program, const StudyReport& report) {

@@ -1,11 +1,11 @@
 #include "beams.h"
 #include "cases.h"
 
+#include <pent/formatted.h>
 #include <pent/simulator/simulation.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <malloc.h>
 #include <unistd.h>
@@ -59,20 +59,16 @@ std::string growth(int threads) {
     for (const std::array<int, 4>& count :
          {std::array{8, 8, 7, 7}, {11, 10, 10, 10}, {15, 15, 15, 14}, {21, 20, 20, 20}}) {
         const Size size = measure(count, threads);
-        char row[200];
-        std::snprintf(row, sizeof row, "| %.0f | %.0f ms | %.0f MB | %d |", size.cells,
-                      1e3 * size.seconds, 1e-6 * size.bytes, size.iterations);
-        table += row;
+        table += formatted("| %.0f | %.0f ms | %.0f MB | %d |", size.cells, 1e3 * size.seconds,
+                           1e-6 * size.bytes, size.iterations);
         if (first.cells == 0) {
             first = size;
             table += " | |\n";
             continue;
         }
         const double growth = std::log(size.cells / first.cells);
-        std::snprintf(row, sizeof row, " %.2f | %.2f |\n",
-                      std::log(size.seconds / first.seconds) / growth,
-                      std::log(size.bytes / first.bytes) / growth);
-        table += row;
+        table += formatted(" %.2f | %.2f |\n", std::log(size.seconds / first.seconds) / growth,
+                           std::log(size.bytes / first.bytes) / growth);
     }
     return table;
 }

@@ -2,10 +2,10 @@
 
 #include "stopwatch.h"
 
+#include <pent/formatted.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
 namespace pent::simulator::bench {
 
@@ -17,21 +17,11 @@ double quantile(std::vector<double> values, double part) {
         std::lround(part * static_cast<double>(values.size() - 1)))];
 }
 
-std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
-std::string text(const char* format, ...) {
-    char buffer[256];
-    va_list arguments;
-    va_start(arguments, format);
-    std::vsnprintf(buffer, sizeof buffer, format, arguments);
-    va_end(arguments);
-    return buffer;
-}
-
 std::string readable(double seconds) {
-    return seconds < 1e-6   ? text("%.3g ns", 1e9 * seconds)
-           : seconds < 1e-3 ? text("%.3g us", 1e6 * seconds)
-           : seconds < 1    ? text("%.3g ms", 1e3 * seconds)
-                            : text("%.3g s", seconds);
+    return seconds < 1e-6   ? formatted("%.3g ns", 1e9 * seconds)
+           : seconds < 1e-3 ? formatted("%.3g us", 1e6 * seconds)
+           : seconds < 1    ? formatted("%.3g ms", 1e3 * seconds)
+                            : formatted("%.3g s", seconds);
 }
 
 }  // namespace
@@ -89,23 +79,25 @@ std::string markdown(const Report& report) {
         "| --- | --- | --- | --- | --- |\n";
     for (std::size_t i = 0; i < report.ceilings.size(); ++i) {
         const Ceilings& c = report.ceilings[i];
-        out += text("| %zu | %.1f GB/s | %.1f GB/s | %.0f GFLOP/s | %.0f GFLOP/s |\n", i + 1,
-                    1e-9 * c.memory, 1e-9 * c.cache, 1e-9 * c.float_flops, 1e-9 * c.double_flops);
+        out +=
+            formatted("| %zu | %.1f GB/s | %.1f GB/s | %.0f GFLOP/s | %.0f GFLOP/s |\n", i + 1,
+                      1e-9 * c.memory, 1e-9 * c.cache, 1e-9 * c.float_flops, 1e-9 * c.double_flops);
     }
     out +=
         "\n| what | threads | time | +- | each | bound | of the bound | plain way | faster by | |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
     for (const Row& row : report.rows) {
-        out += "| " + row.name + text(" | %d | ", row.threads) + readable(row.seconds)
-               + text(" | %.0f%% | ", 100 * row.spread)
+        out += "| " + row.name + formatted(" | %d | ", row.threads) + readable(row.seconds)
+               + formatted(" | %.0f%% | ", 100 * row.spread)
                + (row.unit.empty() ? "" : readable(row.seconds / row.units) + " / " + row.unit)
                + " | "
                + (row.bound > 0
-                      ? readable(row.bound) + text(" | %.0f%%", 100 * row.bound / row.seconds)
+                      ? readable(row.bound) + formatted(" | %.0f%%", 100 * row.bound / row.seconds)
                       : " | ")
                + " | "
-               + (row.oracle > 0 ? readable(row.oracle) + text(" | %.3gx", row.oracle / row.seconds)
-                                 : " | ")
+               + (row.oracle > 0
+                      ? readable(row.oracle) + formatted(" | %.3gx", row.oracle / row.seconds)
+                      : " | ")
                + " | " + row.note + " |\n";
     }
     return out;

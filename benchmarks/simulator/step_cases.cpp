@@ -5,10 +5,10 @@
 #include "step_work.h"
 #include "stopwatch.h"
 
+#include <pent/formatted.h>
 #include <pent/simulator/simulation.h>
 
 #include <bit>
-#include <cstdio>
 
 namespace pent::simulator::bench {
 
@@ -51,13 +51,10 @@ public:
     }
 
     [[nodiscard]] std::string note() const {
-        char text[160];
-        std::snprintf(text, sizeof text,
-                      "%d iterations, %d Newton, assembly %.1f ms, solve %.1f ms, %.0f MB, %08x",
-                      report_.iterations, report_.newton_iterations, 1e3 * report_.assembly_seconds,
-                      1e3 * report_.solve_seconds,
-                      1e-6 * static_cast<double>(simulation_.size().bytes), hash());
-        return text;
+        return formatted("%d iterations, %d Newton, assembly %.1f ms, solve %.1f ms, %.0f MB, %08x",
+                         report_.iterations, report_.newton_iterations,
+                         1e3 * report_.assembly_seconds, 1e3 * report_.solve_seconds,
+                         1e-6 * static_cast<double>(simulation_.size().bytes), hash());
     }
 
 private:

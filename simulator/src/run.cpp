@@ -5,6 +5,7 @@
 #include "run_report.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/output_file.h>
 #include <pent/pent_file.h>
 #include <pent/simulator/crossing_error.h>
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -113,9 +113,7 @@ std::vector<SimplexMesh<Dim>> Run<Dim>::read_meshes() const {
 
 template <int Dim>
 fs::path Run<Dim>::numbered(const char* part, const std::string& body, int frame) const {
-    char number[16];
-    std::snprintf(number, sizeof number, "_%06d.pent", frame);
-    return options_.folder / part / (body + number);
+    return options_.folder / part / frame_file_name(body, frame);
 }
 
 template <int Dim>
@@ -296,9 +294,8 @@ void Run<Dim>::write_frame_files(int frame) {
     }
     if (scene_.output.contact_pairs) {
         make_folder(options_.folder / "contacts");
-        char name[16];
-        std::snprintf(name, sizeof name, "%06d.csv", frame);
-        write_text(options_.folder / "contacts" / name, contact_table(simulation_, report_.bodies));
+        write_text(options_.folder / "contacts" / formatted("%06d.csv", frame),
+                   contact_table(simulation_, report_.bodies));
     }
     remove_checkpoint(frame - 2);
     report_.frames.push_back(measure(frame));

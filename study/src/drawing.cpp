@@ -1,10 +1,10 @@
 #include "drawing.h"
 
+#include <pent/formatted.h>
 #include <pent/viewer/text.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <sstream>
 
@@ -15,11 +15,8 @@ namespace {
 constexpr double kDash = 5;  // pixels on and off
 
 std::string hex(const Rgb& color) {
-    char text[8];
     const auto channel = [](float value) { return static_cast<int>(std::lround(255 * value)); };
-    std::snprintf(text, sizeof text, "#%02x%02x%02x", channel(color[0]), channel(color[1]),
-                  channel(color[2]));
-    return text;
+    return formatted("#%02x%02x%02x", channel(color[0]), channel(color[1]), channel(color[2]));
 }
 
 std::string escaped(const std::string& text) {

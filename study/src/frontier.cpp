@@ -1,8 +1,9 @@
 #include "frontier.h"
 
+#include <pent/formatted.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 namespace pent::study {
@@ -27,16 +28,11 @@ std::string sentence(double level, const Result& result, const StudyReport& repo
 }  // namespace
 
 std::string short_number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text,
-                  std::abs(value) >= 100 && std::abs(value) < 1e5 ? "%.0f" : "%.3g", value);
-    return text;
+    return formatted(std::abs(value) >= 100 && std::abs(value) < 1e5 ? "%.0f" : "%.3g", value);
 }
 
 std::string percent(double fraction) {
-    char text[32];
-    std::snprintf(text, sizeof text, std::abs(fraction) >= 1 ? "%.0f%%" : "%.2g%%", 100 * fraction);
-    return text;
+    return formatted(std::abs(fraction) >= 1 ? "%.0f%%" : "%.2g%%", 100 * fraction);
 }
 
 double median(std::vector<double> values) {

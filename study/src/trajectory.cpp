@@ -4,7 +4,6 @@
 #include <pent/pent_file.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -124,10 +123,9 @@ void Trajectory::read_meshes(const simulator::Scene& scene) {
 
 template <int Dim>
 void Trajectory::read_moment(int frame, Moment& moment) const {
-    char number[16];
-    std::snprintf(number, sizeof number, "_%06d.pent", frame);
     for (std::size_t body = 0; body < bodies_.size(); ++body) {
-        const std::filesystem::path path = folder_ / "frames" / (bodies_[body] + number);
+        const std::filesystem::path path =
+            folder_ / "frames" / frame_file_name(bodies_[body], frame);
         const Frame<Dim> file = read_frame<Dim>(path);
         const Eigen::Index first = first_vertex_[body];
         const Eigen::Index count = first_vertex_[body + 1] - first;

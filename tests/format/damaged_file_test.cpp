@@ -3,6 +3,7 @@
 #include "support/messages.h"
 #include "support/temp_folder.h"
 
+#include <pent/formatted.h>
 #include <pent/pent_file.h>
 
 #include <gtest/gtest.h>
@@ -54,10 +55,9 @@ protected:
         std::string bytes = good_;
         bytes.replace(body_ + offset, sizeof value,
                       std::string(reinterpret_cast<const char*>(&value), sizeof value));
-        char digits[9];
         const std::string body = bytes.substr(body_);
-        std::snprintf(digits, sizeof digits, "%08x", crc32c(body.data(), body.size()));
-        bytes.replace(bytes.find("crc32c ") + 7, 8, digits);
+        bytes.replace(bytes.find("crc32c ") + 7, 8,
+                      formatted("%08x", crc32c(body.data(), body.size())));
         return bytes;
     }
 

@@ -2,6 +2,7 @@
 #include "support/messages.h"
 #include "support/temp_folder.h"
 
+#include <pent/formatted.h>
 #include <pent/pent_file.h>
 
 #include <gtest/gtest.h>
@@ -161,10 +162,8 @@ TEST(PentFile, SkipsUnknownListsInBinary) {
             crc = (crc & 1) != 0 ? (crc >> 1) ^ 0x82F63B78U : crc >> 1;
         }
     }
-    char digits[9];
-    std::snprintf(digits, sizeof digits, "%08x", ~crc);
     bytes += extra;
-    bytes.replace(bytes.find("crc32c ") + 7, 8, digits);
+    bytes.replace(bytes.find("crc32c ") + 7, 8, formatted("%08x", ~crc));
     bytes.insert(body - 11, "element strip 2\nproperty list uchar short run\n");
     std::ofstream(folder / "b.pent", std::ios::binary) << bytes;
     expect_same_bits(read_mesh<2>(folder / "b.pent").mesh, mesh);

@@ -3,6 +3,7 @@
 #include "crc32c.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/pent_file.h>
 #include <pent/simulator/scene_file.h>
 #ifdef PENT_FUZZ_MESHER
@@ -12,7 +13,6 @@
 #include <pent/mesher/surface.h>
 #endif
 
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -100,10 +100,8 @@ void try_pent_with_checksum(const fs::path& path) {
     if (end != std::string::npos && sum != std::string::npos
         && sum + kSum.size() + 8 <= text.size()) {
         const std::size_t body = end + kEnd.size();
-        std::array<char, 9> digits{};
-        std::snprintf(digits.data(), digits.size(), "%08x",
-                      crc32c(text.data() + body, text.size() - body));
-        text.replace(sum + kSum.size(), 8, digits.data());
+        text.replace(sum + kSum.size(), 8,
+                     formatted("%08x", crc32c(text.data() + body, text.size() - body)));
         std::ofstream(path, std::ios::binary) << text;
     }
     try_pent(path);

@@ -3,6 +3,7 @@
 #include "support/messages.h"
 #include "support/temp_folder.h"
 
+#include <pent/formatted.h>
 #include <pent/mesher/profile.h>
 #include <pent/mesher/prove.h>
 #include <pent/mesher/shapes.h>
@@ -75,10 +76,8 @@ TEST(ReadProfile, MakesTaperedBentAndClosedBodies) {
     std::string bent;
     for (int l = 0; l <= 48; ++l) {
         const double angle = std::numbers::pi / 2 * l / 48;
-        char line[160];
-        std::snprintf(line, sizeof line, "%.17g 1 %.17g 0 0 0 0 %.17g 0 0 0\n", 2 * std::sin(angle),
-                      2 * std::cos(angle), angle * 180 / std::numbers::pi);
-        bent += line;
+        bent += formatted("%.17g 1 %.17g 0 0 0 0 %.17g 0 0 0\n", 2 * std::sin(angle),
+                          2 * std::cos(angle), angle * 180 / std::numbers::pi);
     }
     const SimplexMesh<4> ring = extruded(base, read_text(bent));
     EXPECT_TRUE(prove(ring).holds());

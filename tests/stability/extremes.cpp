@@ -2,11 +2,12 @@
 
 #include "small_body.h"
 
+#include <pent/formatted.h>
+
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 namespace pent::stability {
@@ -21,9 +22,7 @@ constexpr double kDegrees = 60;
 constexpr int kSteps = 6;
 
 std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
+    return formatted("%.6g", value);
 }
 
 // Gravity that shears the corner of a single pentachoron of the first body by 0.3 along three axes and
@@ -179,17 +178,15 @@ Outcome run(const Extreme& extreme, Motion motion, Precision precision) {
 }
 
 std::string text(const Outcome& outcome) {
-    char error[32];
-    std::snprintf(error, sizeof error, "%.0e", outcome.error);
     switch (outcome.kind) {
         case Outcome::Kind::Right:
-            return std::string("right, ") + error;
+            return formatted("right, %.0e", outcome.error);
         case Outcome::Kind::Refused:
             return "refused: " + outcome.reason;
         case Outcome::Kind::Reported:
             return "reported: " + outcome.reason;
         case Outcome::Kind::Wrong:
-            return std::string("WRONG, ") + error;
+            return formatted("WRONG, %.0e", outcome.error);
     }
     return "";
 }

@@ -5,7 +5,6 @@
 #include <pent/output_file.h>
 #include <pent/pent_file.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -32,9 +31,7 @@ inline void write_run(const std::filesystem::path& run,
         frame.frame = static_cast<std::uint64_t>(number);
         frame.step = frame.frame;
         frame.time = 0.1 * number;
-        char name[32];
-        std::snprintf(name, sizeof name, "_%06d.pent", number);
-        write_frame<4>(run / "frames" / (body + name), frame);
+        write_frame<4>(run / "frames" / frame_file_name(body, number), frame);
     }
 }
 
