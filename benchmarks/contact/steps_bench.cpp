@@ -1,94 +1,64 @@
 // Steps of scenes where contact is all there is; counters: iterations, pairs, and the share of contact
 // in the time of a step.
 
-#include "support/kuhn_box.h"
+#include "step_scenes.h"
 
 #include <pent/simulator/simulation.h>
 
 #include <benchmark/benchmark.h>
 
-#include <random>
-
 namespace pent::simulator {
 namespace {
 
-constexpr double kEps = 0.025;  // a quarter of a cell
+using namespace bench;
 
-// A box of cubes of 0.1 m, columns labeled.
-SimplexMesh<4> box(const std::array<int, 4>& count) {
-    SimplexMesh<4> mesh = pent::test::kuhn_box<4>(
-        count, {0.1 * count[0], 0.1 * count[1], 0.1 * count[2], 0.1 * count[3]});
-    const auto base = static_cast<std::uint32_t>((count[0] + 1) * (count[1] + 1) * (count[2] + 1));
-    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-        mesh.columns.push_back(v % base);
-        mesh.layers.push_back(v / base);
+// Positions and velocities of all bodies.
+struct Start {
+    std::vector<Positions<4>> positions;
+    std::vector<Positions<4>> velocities;
+};
+
+void set(Simulation<4>& simulation, const Start& start) {
+    for (int body = 0; body < simulation.body_count(); ++body) {
+        const auto i = static_cast<std::size_t>(body);
+        simulation.set_state(body, start.positions[i], start.velocities[i]);
     }
-    return mesh;
 }
 
-// A body of density 1000 with E = 1e7, nu = 0.28; the linear solver goes to 1e-3.
-Scene one_body() {
-    Scene scene;
-    scene.gravity = Eigen::Vector4d::Zero();
-    Body body;
-    body.name = "body";
-    body.mesh = "body.pent";
-    body.place.translate = Eigen::Vector4d::Zero();
-    body.material.lame = lame_from_young(4, 1e7, 0.28);
-    scene.bodies = {body};
-    scene.contact = Contact{.distance = kEps, .stiffness = 1e4};
-    scene.solver.tolerance = 1e-3;
-    return scene;
-}
-
-// Two bodies of 60 x 12 x 3 x 2 cells, 207,360 pentachora in all, face to face along w at half of the
-// distance of contact and pressed together at 0.5 m/s.
-Scene hug_scene(bool self) {
-    Scene scene = one_body();
-    scene.frames_per_second = 200;
-    scene.bodies.push_back(scene.bodies[0]);
-    scene.bodies[1].name = "other";
-    scene.bodies[0].velocity = 0.25 * Eigen::Vector4d::UnitW();
-    scene.bodies[1].velocity = -0.25 * Eigen::Vector4d::UnitW();
-    scene.bodies[1].place.translate = Eigen::Vector4d(0.03, 0, 0, 0.2 + 0.5 * kEps);
-    scene.contact->self = self;
-    return scene;
-}
-
-// Shaken by a tenth of a cell: aligned boxes are not what bodies look like.
-SimplexMesh<4> hug_body(unsigned seed) {
-    SimplexMesh<4> mesh = box({60, 12, 3, 2});
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> shake(-0.005, 0.005);
-    for (double& x : mesh.positions.reshaped()) {
-        x += shake(random);
+// A scene after some linear steps; if it is to settle, each of them from a standstill.
+Start after_steps(Scene scene,
+                  const std::vector<SimplexMesh<4>>& meshes,
+                  int steps,
+                  bool does_settle) {
+    scene.solver.integrator = Integrator::LinearEuler;
+    Simulation<4> simulation(scene, meshes, {.threads = 2});
+    Start start;
+    for (int i = 0; i < steps; ++i) {
+        benchmark::DoNotOptimize(simulation.step().is_accepted);
+        start = {};
+        for (int body = 0; body < simulation.body_count(); ++body) {
+            start.positions.emplace_back(simulation.positions(body));
+            start.velocities.emplace_back((does_settle ? 0 : 1) * simulation.velocities(body));
+        }
+        if (does_settle) {
+            set(simulation, start);
+        }
     }
-    return mesh;
+    return start;
 }
 
+// The same step again and again.
 void run_steps(benchmark::State& state,
                const Scene& scene,
                const std::vector<SimplexMesh<4>>& meshes,
-               int warm_up) {
+               const Start& start) {
     Simulation<4> simulation(scene, meshes, {.threads = static_cast<int>(state.range(0))});
-    for (int i = 0; i < warm_up; ++i) {
-        benchmark::DoNotOptimize(simulation.step().is_accepted);
-    }
-    std::vector<Positions<4>> positions;
-    std::vector<Positions<4>> velocities;
-    for (int body = 0; body < simulation.body_count(); ++body) {
-        positions.emplace_back(simulation.positions(body));
-        velocities.emplace_back(simulation.velocities(body));
-    }
     StepReport report;
     double seconds = 0;
     double contact_seconds = 0;
     for ([[maybe_unused]] auto _ : state) {
         state.PauseTiming();
-        for (int body = 0; body < simulation.body_count(); ++body) {
-            const auto i = static_cast<std::size_t>(body);
-            simulation.set_state(body, positions[i], velocities[i]);
-        }
+        set(simulation, start);
         benchmark::DoNotOptimize(simulation.energies());
         state.ResumeTiming();
         report = simulation.step();
@@ -107,22 +77,26 @@ void run_steps(benchmark::State& state,
     state.counters["MB"] = 1e-6 * static_cast<double>(simulation.size().bytes);
 }
 
-void hug(benchmark::State& state) {
-    run_steps(state, hug_scene(false), {hug_body(1), hug_body(2)}, 2);
+void hug(benchmark::State& state, bool self, Integrator integrator) {
+    const std::vector<SimplexMesh<4>> meshes{hug_body(1), hug_body(2)};
+    Scene scene = hug_scene(self);
+    const Start start = after_steps(scene, meshes, 12, true);
+    scene.solver.integrator = integrator;
+    run_steps(state, scene, meshes, start);
 }
-BENCHMARK(hug)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
-
-void hug_self(benchmark::State& state) {
-    run_steps(state, hug_scene(true), {hug_body(1), hug_body(2)}, 2);
-}
-BENCHMARK(hug_self)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
-
-void hug_newton(benchmark::State& state) {
-    Scene scene = hug_scene(false);
-    scene.solver.integrator = Integrator::NewtonEuler;
-    run_steps(state, scene, {hug_body(1), hug_body(2)}, 2);
-}
-BENCHMARK(hug_newton)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(hug, between, false, Integrator::LinearEuler)
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(hug, self, true, Integrator::LinearEuler)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(hug, newton, false, Integrator::NewtonEuler)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 // A beam of 50 x 6 x 6 x 6 cells, 259,200 pentachora, held at one end under gravity, without contact
 // and where it may meet itself.
@@ -132,7 +106,8 @@ void beam(benchmark::State& state, bool self) {
     const HalfSpaceSelection end{.normal = Eigen::Vector4d(1, 0, 0, 0), .offset = 1e-6};
     scene.constraints = {{.body = "body", .select = {end}, .motion = {}}};
     scene.contact->self = self;
-    run_steps(state, scene, {box({50, 6, 6, 6})}, 8);
+    const std::vector<SimplexMesh<4>> meshes{box({50, 6, 6, 6})};
+    run_steps(state, scene, meshes, after_steps(scene, meshes, 8, false));
 }
 BENCHMARK_CAPTURE(beam, alone, false)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(beam, self, true)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
