@@ -14,14 +14,15 @@ from read_pent import read_pent  # noqa: E402
 
 DTS = ("1/30", "1/60", "1/120")
 PRESETS = ("fast", "balanced", "accurate")
-# With contact the motion has kinks: the reference takes smaller steps, and no Newton's method.
+REPEATS = 3
+# With contact the motion has kinks: the reference takes smaller steps.
 STUDIES = (
     ("bar", 30, []),
     ("beam", 8, []),
     ("octopus", 8, []),
     ("alien", 8, []),
     ("drop", 15, ["--reference-halvings", "4"]),
-    ("collision", 15, ["--reference-integrator", "linear_euler", "--reference-halvings", "5"]),
+    ("collision", 15, ["--reference-halvings", "4"]),
 )
 CELLS = (2, 4, 8)
 POISSONS = (0, 0.28, 0.32)
@@ -35,7 +36,7 @@ def study(programs, out, page, scene, frames, options):
     folder = os.path.join(out, scene)
     print("accuracy:", scene, flush=True)
     run(programs, "pent-study", f"data/study/{scene}.toml", "-o", folder, "--frames", str(frames),
-        "--threads", "1", "--vary", "preset=" + ",".join(PRESETS), "--vary", "dt=" + ",".join(DTS),
+        "--threads", "1", "--repeat", str(REPEATS), "--vary", "preset=" + ",".join(PRESETS), "--vary", "dt=" + ",".join(DTS),
         *options)
     images = os.path.join(os.path.dirname(page), "images")
     shutil.copy(os.path.join(folder, "frontier.png"),
@@ -78,6 +79,21 @@ newton_tolerance = 1e-6
     theory = density * gravity * (12 * length**4 / (8 * young * width**2)
                                   + length**2 / (2 * kappa * shear))
     return sag / theory
+
+
+def machine(out):
+    """What the times were measured on: noted with the first measurement in a folder."""
+    note = os.path.join(out, "machine.txt")
+    if not os.path.exists(note):
+        with open("/proc/cpuinfo", encoding="utf-8") as file:
+            models = [line.split(":", 1)[1].strip() for line in file if line.startswith("model name")]
+        commit = subprocess.run(["git", "describe", "--always", "--dirty"], capture_output=True,
+                                text=True, check=False).stdout.strip()
+        with open(note, "w", encoding="utf-8") as file:
+            file.write(f"{models[0] if models else 'an unknown processor'}, {os.cpu_count()} cores,"
+                       f" {os.getloadavg()[0]:.1f} of them busy at the start, commit {commit}")
+    with open(note, encoding="utf-8") as file:
+        return file.read()
 
 
 def percent(fraction):
@@ -141,10 +157,12 @@ def locking_table(programs, out):
 def main():
     programs, out, page = sys.argv[1:]
     os.makedirs(out, exist_ok=True)
+    where = machine(out)
     studies = [(scene, study(programs, out, page, scene, frames, options))
                for scene, frames, options in STUDIES]
     with open("data/study/accuracy.md.in", encoding="utf-8") as template:
         text = template.read()
+    text = text.replace("@REPEATS@", str(REPEATS)).replace("@MACHINE@", where)
     text = text.replace("@PRESETS@", presets_table(studies))
     text = text.replace("@CONTACT@", contact_table(studies))
     text = text.replace("@LOCKING@", locking_table(programs, out))

@@ -2,7 +2,7 @@
 # What the presets cost and what error they make: studies the scenes of data/study and writes
 # docs/accuracy.md with its plots. What was measured before is not measured again.
 #
-#   scripts/accuracy.sh [OUTPUT FOLDER]      default: out/accuracy; half an hour, best on a quiet machine
+#   scripts/accuracy.sh [OUTPUT FOLDER]      default: out/accuracy; half an hour on a quiet machine
 set -euo pipefail
 out=$(realpath -m "${1:-$(dirname "$0")/../out/accuracy}")
 cd "$(dirname "$0")/.."
@@ -10,4 +10,4 @@ cd "$(dirname "$0")/.."
 scripts/setup.sh
 cmake --preset release >/dev/null
 cmake --build --preset release --target pent-study pent-sim pent-mesh
-python3 scripts/accuracy.py build/release/bin "$out" docs/accuracy.md
+PATH=/usr/bin:$PATH python3 scripts/accuracy.py build/release/bin "$out" docs/accuracy.md  # Debian's own, with numpy

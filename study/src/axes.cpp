@@ -31,6 +31,10 @@ std::vector<std::string> keys_of(const std::string& scene, std::string_view head
     return keys;
 }
 
+std::string place_of(const Setting& setting) {
+    return "--vary " + setting.axis + "=" + setting.value;
+}
+
 // The text of a scene with another value for a key of a section, which is there.
 std::string replaced(const std::string& scene,
                      std::string_view head,
@@ -54,13 +58,11 @@ std::string replaced(const std::string& scene,
     return text;
 }
 
-// The text of a scene with a preset in place of its [solver].
-std::string with_preset(const std::string& scene, const std::string& preset) {
-    constexpr std::string_view kHead = "[solver]\n";
-    const std::size_t begin = scene.find(kHead) + kHead.size();
-    const std::size_t end = scene.find("\n[", begin);
-    return scene.substr(0, begin) + "preset = \"" + preset + "\"\n"
-           + (end == std::string::npos ? "" : scene.substr(end));
+// What a preset stands for.
+simulator::SolverOptions preset_solver(const Setting& setting) {
+    const std::string text =
+        "[[body]]\nname = \"a\"\nmesh = \"a.pent\"\n[solver]\npreset = \"" + setting.value + "\"\n";
+    return simulator::parse_scene(text, place_of(setting), "").solver;
 }
 
 simulator::Scene with_dt(simulator::Scene scene, const std::string& value) {
@@ -75,6 +77,29 @@ simulator::Scene with_dt(simulator::Scene scene, const std::string& value) {
     }
     scene.steps_per_frame = static_cast<int>(whole);
     return scene;
+}
+
+// The text of a scene with a setting of [solver] or of the model of contact.
+std::string with_key(const std::string& text, const Setting& setting) {
+    const bool is_contact = setting.axis == "contact";
+    const std::string_view head = kHeads[is_contact ? 1 : 0];
+    const std::string key = is_contact ? "model" : setting.axis;
+    std::vector<std::string> keys = keys_of(text, head);
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+        if (is_contact) {
+            throw Error("--vary contact: the scene has no [contact]");
+        }
+        keys.insert(keys.end(), {"dt", "preset", "contact", "layers", "subdivide"});
+        const std::string nearest = nearest_name(setting.axis, keys);
+        std::string known;
+        for (const std::string& name : keys) {
+            known += (known.empty() ? "" : ", ") + name;
+        }
+        throw Error("--vary " + setting.axis + ": is not known"
+                    + (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " There are "
+                    + known);
+    }
+    return replaced(text, head, key, setting.value);
 }
 
 }  // namespace
@@ -153,37 +178,32 @@ double parse_seconds(const std::string& text) {
     return seconds;
 }
 
-simulator::Scene with_setting(const simulator::Scene& scene, const Setting& setting) {
-    if (is_mesh_axis(setting.axis)) {
-        return scene;
-    }
-    if (setting.axis == "dt") {
-        return with_dt(scene, setting.value);
-    }
-    const std::string text = simulator::scene_text(scene);
-    const std::string place = "--vary " + setting.axis + "=" + setting.value;
-    if (setting.axis == "preset") {
-        return simulator::parse_scene(with_preset(text, setting.value), place, "");
-    }
-    const bool is_contact = setting.axis == "contact";
-    const std::string_view head = kHeads[is_contact ? 1 : 0];
-    const std::string key = is_contact ? "model" : setting.axis;
-    std::vector<std::string> keys = keys_of(text, head);
-    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-        if (is_contact) {
-            throw Error("--vary contact: the scene has no [contact]");
+simulator::Scene with_settings(simulator::Scene scene, const Settings& settings) {
+    std::string place = "these settings";
+    for (const Setting& setting : settings) {
+        place = settings.size() == 1 ? place_of(setting) : place;
+        if (setting.axis == "preset") {
+            scene.solver = preset_solver(setting);
+        } else if (setting.axis == "dt") {
+            scene = with_dt(std::move(scene), setting.value);
         }
-        keys.insert(keys.end(), {"dt", "preset", "contact", "layers", "subdivide"});
-        const std::string nearest = nearest_name(setting.axis, keys);
-        std::string known;
-        for (const std::string& name : keys) {
-            known += (known.empty() ? "" : ", ") + name;
-        }
-        throw Error("--vary " + setting.axis + ": is not known"
-                    + (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " There are "
-                    + known);
     }
-    return simulator::parse_scene(replaced(text, head, key, setting.value), place, "");
+    std::string text = simulator::scene_text(scene);
+    for (const Setting& setting : settings) {
+        if (!is_mesh_axis(setting.axis) && setting.axis != "preset" && setting.axis != "dt") {
+            text = with_key(text, setting);
+        }
+    }
+    return simulator::parse_scene(text, place, "");
+}
+
+void check_setting(simulator::Scene scene, const Setting& setting) {
+    // From where every single value is possible.
+    scene.solver.integrator = simulator::Integrator::NewtonEuler;
+    if (scene.contact) {
+        scene.contact->model = simulator::ContactModel::Penalty;
+    }
+    static_cast<void>(with_settings(std::move(scene), {setting}));
 }
 
 }  // namespace pent::study

@@ -41,13 +41,6 @@ Scene shortened(Scene scene, int frames) {
     return scene;
 }
 
-Scene with_settings(Scene scene, const Settings& settings) {
-    for (const Setting& setting : settings) {
-        scene = with_setting(scene, setting);
-    }
-    return scene;
-}
-
 // The settings of the mesh with the largest numbers, which the reference has.
 Settings finest_mesh(const std::vector<Axis>& axes) {
     Settings settings;
@@ -88,10 +81,12 @@ public:
                 throw Error("--vary " + text + ": " + axes_.back().name + " is varied twice");
             }
         }
-        combinations_ = combinations(axes_);
-        for (const Settings& settings : combinations_) {
-            static_cast<void>(with_settings(scene_, settings));  // all mistakes before any work
+        for (const Axis& axis : axes_) {
+            for (const std::string& value : axis.values) {
+                check_setting(scene_, {axis.name, value});  // all mistakes before any work
+            }
         }
+        combinations_ = combinations(axes_);
         report_.scene = options.scene.filename().string();
         report_.frames = scene_.frames;
         report_.scene_frames = simulator::read_scene(options.scene).frames;
@@ -202,12 +197,16 @@ void Study::run_level(const Scene& scene, const fs::path& folder) {
 void Study::run_reference() {
     Scene base = with_meshes(scene_, finest_mesh(axes_), options_, callbacks_.should_stop);
     if (base.solver.integrator != simulator::Integrator::Quasistatic) {
-        base = with_setting(base, {"integrator", options_.reference_integrator});
+        base = with_settings(base, {{"integrator", options_.reference_integrator}});
     }
     base.solver = reference_solver(base);
-    for (const Settings& settings : combinations_) {
-        base.steps_per_frame =
-            std::max(base.steps_per_frame, with_settings(scene_, settings).steps_per_frame);
+    for (const Axis& axis : axes_) {
+        for (const std::string& value : axis.values) {
+            if (axis.name == "dt") {
+                const Scene fine = with_settings(base, {{axis.name, value}});
+                base.steps_per_frame = std::max(base.steps_per_frame, fine.steps_per_frame);
+            }
+        }
     }
     std::vector<std::unique_ptr<Trajectory>> levels;
     fs::path folder;
@@ -305,9 +304,14 @@ void Study::run_once(std::size_t combination) {
 // one of them alone.
 void Study::run_combinations() {
     for (const Settings& settings : combinations_) {
-        scenes_.push_back(with_settings(
-            with_meshes(scene_, settings, options_, callbacks_.should_stop), settings));
+        scenes_.push_back(with_meshes(scene_, settings, options_, callbacks_.should_stop));
         Record fresh;
+        try {
+            scenes_.back() = with_settings(scenes_.back(), settings);
+        } catch (const Error& error) {  // each of them is right; together they are not
+            fresh.verdict = "refused";
+            fresh.message = error.what();
+        }
         fresh.scene = simulator::scene_text(scenes_.back());
         fresh.meshes = mesh_checksum(scenes_.back());
         const std::optional<Record> before =
@@ -315,7 +319,7 @@ void Study::run_combinations() {
         const bool is_valid =
             before && before->scene == fresh.scene && before->meshes == fresh.meshes
             && (before->verdict != "finished" || before->reference == reference_text_);
-        records_.push_back(is_valid ? *before : fresh);
+        records_.push_back(is_valid && fresh.verdict.empty() ? *before : fresh);
     }
     for (int repeat = 0; repeat < options_.repeats; ++repeat) {
         for (std::size_t i = 0; i < combinations_.size(); ++i) {

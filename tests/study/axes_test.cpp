@@ -43,65 +43,90 @@ TEST(FileName, HasNoSeparatorsOfFolders) {
     EXPECT_EQ(file_name({{"dt", "1/60"}, {"filter", "none"}}), "dt-1_60.filter-none");
 }
 
-TEST(WithSetting, TakesTimeStepsAsWholePartsOfAFrame) {
+TEST(WithSettings, TakesTimeStepsAsWholePartsOfAFrame) {
     const TempFolder folder;
     const simulator::Scene scene = bar_scene(folder);
-    EXPECT_EQ(with_setting(scene, {"dt", "1/30"}).steps_per_frame, 1);
-    EXPECT_EQ(with_setting(scene, {"dt", "1/240"}).steps_per_frame, 8);
-    EXPECT_DOUBLE_EQ(with_setting(scene, {"dt", "1/240"}).dt(), 1.0 / 240);
+    EXPECT_EQ(with_settings(scene, {{"dt", "1/30"}}).steps_per_frame, 1);
+    EXPECT_EQ(with_settings(scene, {{"dt", "1/240"}}).steps_per_frame, 8);
+    EXPECT_DOUBLE_EQ(with_settings(scene, {{"dt", "1/240"}}).dt(), 1.0 / 240);
     expect_contains(error_of([&] {
-                        static_cast<void>(with_setting(scene, {"dt", "1/200"}));
+                        static_cast<void>(with_settings(scene, {{"dt", "1/200"}}));
                     }),
                     {"1/200", "1/210"});
     for (const std::string bad : {"0", "-1", "x", "1/", "1/0", "1/30s", ""}) {
         expect_contains(error_of([&] {
-                            static_cast<void>(with_setting(scene, {"dt", bad}));
+                            static_cast<void>(with_settings(scene, {{"dt", bad}}));
                         }),
                         {"dt=" + bad});
     }
 }
 
-TEST(WithSetting, SetsEveryKeyOfTheSolver) {
+TEST(WithSettings, SetsEveryKeyOfTheSolver) {
     const TempFolder folder;
     const simulator::Scene scene = bar_scene(folder);
-    EXPECT_EQ(with_setting(scene, {"integrator", "bdf2"}).solver.integrator,
+    EXPECT_EQ(with_settings(scene, {{"integrator", "bdf2"}}).solver.integrator,
               simulator::Integrator::Bdf2);
-    EXPECT_EQ(with_setting(scene, {"precision", "double"}).solver.precision,
+    EXPECT_EQ(with_settings(scene, {{"precision", "double"}}).solver.precision,
               simulator::Precision::Double);
-    EXPECT_EQ(with_setting(scene, {"tolerance", "1e-6"}).solver.tolerance, 1e-6);
-    EXPECT_EQ(with_setting(scene, {"filter", "absolute"}).solver.filter,
+    EXPECT_EQ(with_settings(scene, {{"tolerance", "1e-6"}}).solver.tolerance, 1e-6);
+    EXPECT_EQ(with_settings(scene, {{"filter", "absolute"}}).solver.filter,
               simulator::Filter::Absolute);
 }
 
-TEST(WithSetting, TakesAPresetInPlaceOfAllKeysOfTheSolver) {
+TEST(WithSettings, TakesAPresetInPlaceOfAllKeysOfTheSolver) {
     const TempFolder folder;
     const simulator::Scene scene =
         simulator::read_scene(test::write_bar(folder, "[solver]\nfilter = \"none\"\n"));
-    const simulator::Scene accurate = with_setting(scene, {"preset", "accurate"});
+    const simulator::Scene accurate = with_settings(scene, {{"preset", "accurate"}});
     EXPECT_EQ(accurate.solver.integrator, simulator::Integrator::Bdf2);
     EXPECT_EQ(accurate.solver.filter, simulator::Filter::Clamp);
     EXPECT_EQ(accurate.bodies.size(), 1U);
     EXPECT_EQ(accurate.constraints.size(), 1U);
 }
 
-TEST(WithSetting, LeavesEverythingElseAsItIs) {
+TEST(WithSettings, LeavesEverythingElseAsItIs) {
     const TempFolder folder;
     const simulator::Scene scene = bar_scene(folder);
-    simulator::Scene changed = with_setting(scene, {"integrator", "bdf2"});
+    simulator::Scene changed = with_settings(scene, {{"integrator", "bdf2"}});
     changed.solver.integrator = scene.solver.integrator;
     EXPECT_EQ(simulator::scene_text(changed), simulator::scene_text(scene));
 }
 
-TEST(WithSetting, NamesTheNearestAxisAndRefusesBadValues) {
+TEST(CheckSetting, NamesTheNearestAxisAndRefusesBadValues) {
     const TempFolder folder;
     const simulator::Scene scene = bar_scene(folder);
     const auto message = [&](const std::string& axis, const std::string& value) {
-        return error_of([&] { static_cast<void>(with_setting(scene, {axis, value})); });
+        return error_of([&] { check_setting(scene, {axis, value}); });
     };
     expect_contains(message("intgrator", "bdf2"), {"intgrator", "integrator"});
     expect_contains(message("integrator", "bdf3"), {"bdf3", "bdf2"});
     expect_contains(message("tolerance", "2"), {"tolerance=2"});
     expect_contains(message("contact", "penalty"), {"no [contact]"});
+}
+
+TEST(WithSettings, DoNotDependOnTheirOrder) {
+    const TempFolder folder;
+    simulator::Scene scene = bar_scene(folder);
+    scene.contact = simulator::Contact{};
+    const Setting barrier{"contact", "barrier"};  // not with linear_euler, which the scene has
+    const Setting newton{"integrator", "newton_euler"};
+    const Setting preset{"preset", "fast"};
+    EXPECT_EQ(simulator::scene_text(with_settings(scene, {barrier, newton, preset})),
+              simulator::scene_text(with_settings(scene, {preset, newton, barrier})));
+    const simulator::Scene all = with_settings(scene, {barrier, newton, preset, {"dt", "1/60"}});
+    EXPECT_EQ(all.contact->model, simulator::ContactModel::Barrier);
+    EXPECT_EQ(all.solver.tolerance, 1e-2);  // of the preset
+    EXPECT_EQ(all.steps_per_frame, 2);
+}
+
+TEST(WithSettings, RefuseWhatDoesNotGoTogetherThoughEachIsRight) {
+    const TempFolder folder;
+    simulator::Scene scene = bar_scene(folder);
+    scene.contact = simulator::Contact{};
+    const Setting barrier{"contact", "barrier"};
+    EXPECT_NO_THROW(check_setting(scene, barrier));
+    expect_contains(error_of([&] { static_cast<void>(with_settings(scene, {barrier})); }),
+                    {"barrier", "newton_euler"});
 }
 
 }  // namespace

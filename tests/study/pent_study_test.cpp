@@ -125,5 +125,130 @@ TEST(PentStudy, SaysInOneLineWhatItDoesNotUnderstand) {
     EXPECT_FALSE(std::filesystem::exists(folder / "study"));
 }
 
+// Two cubes of one cell each that fly at each other.
+std::filesystem::path write_collision(const TempFolder& folder) {
+    write_mesh(folder / "cube.pent", pent::test::kuhn_box<3>({1, 1, 1}, {0.5, 0.5, 0.5}));
+    std::ofstream(folder / "hit.toml") << R"([scene]
+dimension = 3
+frames = 9
+
+[[body]]
+name = "a"
+mesh = "cube.pent"
+velocity = [1, 0, 0]
+
+[[body]]
+name = "b"
+mesh = "cube.pent"
+place = { translate = [0.55, 0.1, 0.1] }
+
+[contact]
+distance = 0.04
+)";
+    return folder / "hit.toml";
+}
+
+TEST(RunStudy, VariesTheModelOfContactAndRefusesWhatDoesNotGoTogether) {
+    const TempFolder folder;
+    const StudyReport report =
+        run_study({.scene = write_collision(folder),
+                   .folder = folder / "study",
+                   .vary = {"contact=penalty,barrier", "integrator=linear_euler,newton_euler"},
+                   .repeats = 1,
+                   .programs = PENT_BIN});
+    ASSERT_EQ(report.results.size(), 4U);
+    EXPECT_TRUE(report.reference.has_contact);
+    // 0.2 s behind the first contact, where a has gone 0.01 of the 0.05 m between them.
+    EXPECT_NEAR(report.reference.window, 0.21, 1.0 / 120);
+    for (const std::size_t i : {0U, 1U, 3U}) {
+        EXPECT_EQ(report.results[i].verdict, "finished") << report.results[i].message;
+    }
+    EXPECT_EQ(report.results[2].verdict, "refused");  // barrier with linear_euler
+    expect_contains(report.results[2].message, {"barrier", "newton_euler"});
+    EXPECT_EQ(report.results[3].errors.deepest_penetration, 0);
+    EXPECT_GT(report.results[3].errors.contact_energy, 0);
+    const std::string csv = text_of(folder / "study/study.csv");
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 5);
+}
+
+TEST(RunStudy, VariesTheSettingsOfTheLinearSolver) {
+    const TempFolder folder;
+    const StudyReport report = run_study(
+        bar_study(folder, {"precision=float,double", "tolerance=1e-1,1e-6", "filter=clamp,none",
+                           "preconditioner=block-jacobi,rigid-modes"}));
+    ASSERT_EQ(report.results.size(), 16U);
+    for (const Result& result : report.results) {
+        EXPECT_EQ(result.verdict, "finished") << settings_text(result.settings);
+    }
+    for (std::size_t i = 0; i < 16; i += 2) {  // the better preconditioner in as many or fewer
+        EXPECT_GE(report.results[i].errors.iterations, report.results[i + 1].errors.iterations)
+            << i;
+    }
+    EXPECT_GT(report.results[4].errors.iterations, report.results[0].errors.iterations);  // 1e-6
+}
+
+// A ball on layers held at its bottom; its recipe makes it anew for each level.
+TEST(RunStudy, MakesTheMeshesOfItsLevelsAndMeasuresAgainstTheFinest) {
+    if (!std::filesystem::exists(PENT_BIN "/pent-mesh")) {
+        GTEST_SKIP() << "built without the mesher";
+    }
+    const TempFolder folder;
+    std::ofstream(folder / "ball.toml") << R"([scene]
+gravity = [0, -9.8, 0, 0]
+frames = 2
+[[body]]
+name = "ball"
+mesh = "ball.pent"
+recipe = "--ball 1 --thickness 1 --layers 1"
+[[constraint]]
+body = "ball"
+select = { half_space = { normal = [0, 1, 0, 0], offset = -0.5 } }
+[solver]
+preset = "accurate"
+)";
+    const StudyOptions options{.scene = folder / "ball.toml",
+                               .folder = folder / "study",
+                               .vary = {"layers=2,1", "subdivide=1,2", "dt=1/30,1/120"},
+                               .repeats = 1,
+                               .programs = PENT_BIN};
+    const StudyReport report = run_study(options);
+    ASSERT_EQ(report.results.size(), 8U);
+    EXPECT_EQ(report.cells, 80 * 2 * 16);  // 4 pentachora a tetrahedron and layer, 2^4 of each
+    const auto error = [&](std::size_t i) { return report.results[i].errors.position; };
+    EXPECT_LT(error(3), error(1));  // 2 layers, subdivided or not, at 1/120
+    EXPECT_LT(error(3), error(7));  // 2 layers or 1, both subdivided
+    // The chosen scene names the mesh that was made for it.
+    const simulator::Scene chosen = simulator::parse_scene(
+        scene_with(options, report.results[3], folder / "study"), "chosen", folder / "study");
+    EXPECT_TRUE(std::filesystem::exists(chosen.bodies[0].mesh)) << chosen.bodies[0].mesh;
+}
+
+TEST(PentStudy, ChoosesTheMostAccurateSettingsWithinABudget) {
+    const TempFolder folder;
+    const std::string command = "pent-study " + test::write_bar(folder).string() + " -o "
+                                + (folder / "study").string() + " --vary dt=1/30,1/240 --repeat 1";
+    const Outcome rich = run_program(command + " --budget 1000");
+    ASSERT_EQ(rich.exit_code, 0) << rich.err;
+    expect_contains(rich.out, {"chosen     dt=1/240"});
+    const Outcome poor = run_program(command + " --budget 1e-9");  // nothing is run anew
+    EXPECT_EQ(poor.exit_code, 1);
+    expect_contains(poor.err, {"at most 1e-09 s", "ask for less"});
+}
+
+TEST(PentStudy, GoesOnAfterCtrlC) {
+    const TempFolder folder;
+    const std::string scene = test::write_bar(folder).string();
+    const std::string out = (folder / "study").string();
+    // The reference, down to 1/3840 s, takes far longer than the wait.
+    const std::string command =
+        "pent-study " + scene + " -o " + out + " --vary dt=1/240 --repeat 1 --reference-halvings 4";
+    const Outcome cut = run_program(command, "timeout --signal=INT 0.2");
+    EXPECT_EQ(cut.exit_code, 124);  // timeout's own; it has sent the signal
+    expect_contains(cut.out, {"stopped: run the same command again"});
+    const Outcome again = run_program(command);
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / "study/frontier.png"));
+}
+
 }  // namespace
 }  // namespace pent::study
