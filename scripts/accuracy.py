@@ -90,14 +90,14 @@ def machine(out):
         commit = subprocess.run(["git", "describe", "--always", "--dirty"], capture_output=True,
                                 text=True, check=False).stdout.strip()
         with open(note, "w", encoding="utf-8") as file:
-            file.write(f"{models[0] if models else 'an unknown processor'}, {os.cpu_count()} cores,"
-                       f" {os.getloadavg()[0]:.1f} of them busy at the start, commit {commit}")
+            file.write(f"{models[0] if models else 'an unknown processor'} with {os.cpu_count()} cores,"
+                       f" load {os.getloadavg()[0]:.1f} at the start, commit {commit}")
     with open(note, encoding="utf-8") as file:
         return file.read()
 
 
 def percent(fraction):
-    return f"{100 * fraction:.2g}%"
+    return f"{100 * fraction:.0f}%" if fraction >= 1 else f"{100 * fraction:.2g}%"
 
 
 def presets_table(studies):
@@ -162,7 +162,8 @@ def main():
                for scene, frames, options in STUDIES]
     with open("data/study/accuracy.md.in", encoding="utf-8") as template:
         text = template.read()
-    text = text.replace("@REPEATS@", str(REPEATS)).replace("@MACHINE@", where)
+    times = "single runs" if REPEATS == 1 else f"medians of {REPEATS} runs that alternate"
+    text = text.replace("@TIMES@", times).replace("@MACHINE@", where)
     text = text.replace("@PRESETS@", presets_table(studies))
     text = text.replace("@CONTACT@", contact_table(studies))
     text = text.replace("@LOCKING@", locking_table(programs, out))
