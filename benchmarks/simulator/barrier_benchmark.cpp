@@ -1,18 +1,25 @@
 // What it costs that nothing can cross: the barrier against the penalty, on the same scenes in one run.
 //
-//     bench_barrier [--part FRACTION] [--frames N]
+//     bench_barrier [--part FRACTION] [--frames N] [--threads N] [SCENE.toml ...]
 //
-// The penalty takes the paper's steps with its integrator; the barrier takes one step a frame. Times are
-// per simulated second.
+// Without a scene: two of boxes, like the paper's hug and noodles, at a part of their size. The penalty
+// takes a scene's steps with its integrator; the barrier takes one step a frame. Frames of both take
+// turns, so that other work on the machine slows both. Times are per simulated second, of the clock and of
+// the processor.
 
 #include "beams.h"
 
+#include <pent/error.h>
+#include <pent/pent_file.h>
+#include <pent/simulator/scene_file.h>
 #include <pent/simulator/simulation.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
+#include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
@@ -21,10 +28,9 @@ namespace pent::simulator::bench {
 namespace {
 
 struct Case {
-    const char* name = "";
+    std::string name;
     Scene scene = {};
     std::vector<SimplexMesh<4>> meshes = {};
-    int penalty_steps = 1;  // a frame
 };
 
 Body body(const char* name, const Eigen::Vector4d& at, const Eigen::Vector4d& velocity) {
@@ -41,20 +47,21 @@ Body body(const char* name, const Eigen::Vector4d& at, const Eigen::Vector4d& ve
 // hug takes 200 steps a second.
 Case hug(double part) {
     const int length = std::max(2, static_cast<int>(std::lround(60 * part)));
-    Case result{.name = "hug",
-                .meshes = {box({length, 12, 3, 2}), box({length, 12, 3, 2})},
-                .penalty_steps = 7};
+    Case result{.name = "hug", .meshes = {box({length, 12, 3, 2}), box({length, 12, 3, 2})}};
+    result.scene.steps_per_frame = 7;
     result.scene.bodies = {body("left", {0, 0, 0, 0}, {0, 0, 0, 0.5}),
                            body("right", {0.033, 0.021, 0.013, 0.22}, {0, 0, 0, -0.5})};
     result.scene.gravity = Eigen::Vector4d::Zero();
     result.scene.contact = Contact{.distance = 0.02, .stiffness = 3000};
+    result.scene.solver.tolerance = 1e-3;
     return result;
 }
 
 // Bars that fall crosswise upon one another onto the ground. The paper's noodles take 150 steps a second.
 Case noodles(double part) {
     const int length = std::max(4, static_cast<int>(std::lround(40 * part)));
-    Case result{.name = "noodles", .penalty_steps = 5};
+    Case result{.name = "noodles"};
+    result.scene.steps_per_frame = 5;
     result.scene.gravity = Eigen::Vector4d(0, -9.8, 0, 0);
     for (int i = 0; i < 5; ++i) {
         const bool is_along_x = i % 2 == 0;
@@ -69,75 +76,125 @@ Case noodles(double part) {
     result.scene.obstacles.push_back(
         {.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d(0, 1, 0, 0)}, .stiffness = 3000});
     result.scene.contact = Contact{.distance = 0.02, .stiffness = 3000};
+    result.scene.solver.tolerance = 1e-3;
     return result;
 }
 
-struct Cost {
-    double seconds = 0;       // per simulated second
-    double ccd_share = 0;     // of all of it
-    double newton = 0;        // iterations a step
-    double smallest = 1e300;  // distance, m
-    bool is_whole = true;
-};
-
-Cost run(Case scene, bool has_barrier, int frames, int threads) {
-    scene.scene.frames_per_second = 30;
-    scene.scene.steps_per_frame = has_barrier ? 1 : scene.penalty_steps;
-    scene.scene.solver.tolerance = 1e-3;
-    if (has_barrier) {
-        scene.scene.contact->model = ContactModel::Barrier;
-        scene.scene.solver.integrator = Integrator::NewtonEuler;
+Case read_case(const std::string& path) {
+    Case result{.name = path.substr(path.find_last_of('/') + 1), .scene = read_scene(path)};
+    for (const Body& body : result.scene.bodies) {
+        result.meshes.push_back(read_mesh<4>(body.mesh).mesh);
     }
-    Simulation<4> simulation(scene.scene, scene.meshes, {.threads = threads});
-    Cost cost;
-    double ccd = 0;
-    const int steps = frames * scene.scene.steps_per_frame;
-    for (int k = 0; k < steps; ++k) {
-        const StepReport report = simulation.step();
-        cost.is_whole = cost.is_whole && report.is_accepted;
-        cost.seconds += report.seconds;
-        ccd += report.contact.ccd_seconds;
-        cost.newton += static_cast<double>(report.newton_iterations) / steps;
-        cost.smallest = std::min(cost.smallest, report.contact.smallest_distance);
-    }
-    cost.ccd_share = ccd / cost.seconds;
-    cost.seconds *= 30.0 / frames;
-    return cost;
+    return result;
 }
 
-int compare(double part, int frames) {
-    const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    std::printf("%-8s %10s | %12s | %12s %8s %8s %12s | %s\n", "scene", "pentachora",
-                "penalty, s/s", "barrier, s/s", "newton", "ccd", "smallest, m", "ratio");
-    for (const Case& scene : {hug(part), noodles(part)}) {
-        const Cost penalty = run(scene, false, frames, threads);
-        const Cost barrier = run(scene, true, frames, threads);
-        Eigen::Index cells = 0;
-        for (const SimplexMesh<4>& mesh : scene.meshes) {
-            cells += mesh.cell_count();
+// One model of contact in a scene, and what its frames have cost so far.
+class Contender {
+public:
+    Contender(const Case& scene, ContactModel model, int threads)
+        : scene_(with(scene.scene, model)),
+          simulation_(scene_, scene.meshes, {.threads = threads}) {}
+
+    void take_frame() {
+        for (int k = 0; k < scene_.steps_per_frame; ++k) {
+            const std::clock_t start = std::clock();
+            const StepReport report = simulation_.step();
+            processor_ += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+            is_whole_ = is_whole_ && report.is_accepted;
+            seconds_ += report.seconds;
+            ccd_ += report.contact.ccd_seconds;
+            newton_ += report.newton_iterations;
+            smallest_ = std::min(smallest_, report.contact.smallest_distance);
+            ++steps_;
         }
-        std::printf("%-8s %10lld | %12.3g | %12.3g %8.1f %7.1f%% %12.3g | %.2f%s\n", scene.name,
-                    static_cast<long long>(cells),  // NOLINT(google-runtime-int): for printf
-                    penalty.seconds, barrier.seconds, barrier.newton, 100 * barrier.ccd_share,
-                    barrier.smallest, barrier.seconds / penalty.seconds,
-                    penalty.is_whole && barrier.is_whole ? "" : "  (not all steps taken)");
     }
-    return 0;
+
+    [[nodiscard]] double clock() const { return seconds_ / simulation_.time(); }
+    [[nodiscard]] double processor() const { return processor_ / simulation_.time(); }
+    [[nodiscard]] double ccd_share() const { return ccd_ / seconds_; }
+    [[nodiscard]] double newton() const { return newton_ / steps_; }
+    [[nodiscard]] double smallest() const { return smallest_; }
+    [[nodiscard]] bool is_whole() const { return is_whole_; }
+
+private:
+    static Scene with(Scene scene, ContactModel model) {
+        scene.contact->model = model;
+        if (model == ContactModel::Barrier) {
+            scene.solver.integrator = Integrator::NewtonEuler;
+            scene.steps_per_frame = 1;
+        }
+        return scene;
+    }
+
+    Scene scene_;
+    Simulation<4> simulation_;
+    double seconds_ = 0;
+    double processor_ = 0;
+    double ccd_ = 0;
+    double newton_ = 0;
+    double smallest_ = 1e300;  // distance, m
+    int steps_ = 0;
+    bool is_whole_ = true;
+};
+
+void compare(const Case& scene, int frames, int threads) {
+    Contender penalty(scene, ContactModel::Penalty, threads);
+    Contender barrier(scene, ContactModel::Barrier, threads);
+    for (int frame = 0; frame < frames; ++frame) {
+        penalty.take_frame();
+        barrier.take_frame();
+    }
+    Eigen::Index cells = 0;
+    for (const SimplexMesh<4>& mesh : scene.meshes) {
+        cells += mesh.cell_count();
+    }
+    std::printf(
+        "%-20s %10lld %6d | %8.3g %8.3g | %8.3g %8.3g %6.1f %5.1f%% %11.3g | %6.2f %6.2f%s\n",
+        scene.name.c_str(), static_cast<long long>(cells),  // NOLINT(google-runtime-int)
+        frames, penalty.clock(), penalty.processor(), barrier.clock(), barrier.processor(),
+        barrier.newton(), 100 * barrier.ccd_share(), barrier.smallest(),
+        barrier.clock() / penalty.clock(), barrier.processor() / penalty.processor(),
+        penalty.is_whole() && barrier.is_whole() ? "" : "  (not all steps taken)");
+    std::fflush(stdout);
 }
 
 }  // namespace
 }  // namespace pent::simulator::bench
 
 int main(int argc, char** argv) {
+    using namespace pent::simulator::bench;
     double part = 1;
-    int frames = 4;
-    for (int i = 1; i + 1 < argc; i += 2) {
+    int frames = 0;
+    int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    std::vector<std::string> paths;
+    for (int i = 1; i < argc; ++i) {
         const std::string_view option = argv[i];
-        if (option == "--part") {
-            part = std::atof(argv[i + 1]);
-        } else if (option == "--frames") {
-            frames = std::atoi(argv[i + 1]);
+        if (option.substr(0, 2) != "--") {
+            paths.emplace_back(option);
+        } else if (i + 1 < argc) {
+            const char* value = argv[++i];
+            part = option == "--part" ? std::atof(value) : part;
+            frames = option == "--frames" ? std::atoi(value) : frames;
+            threads = option == "--threads" ? std::atoi(value) : threads;
         }
     }
-    return pent::simulator::bench::compare(part, frames);
+    try {
+        std::printf("%-20s %10s %6s | %17s | %45s | %13s\n", "", "", "", "penalty", "barrier",
+                    "ratio");
+        std::printf("%-20s %10s %6s | %8s %8s | %8s %8s %6s %6s %11s | %6s %6s\n", "scene",
+                    "pentachora", "frames", "s/s", "cpu s/s", "s/s", "cpu s/s", "newton", "ccd",
+                    "smallest, m", "s", "cpu s");
+        if (paths.empty()) {
+            compare(hug(part), frames > 0 ? frames : 4, threads);
+            compare(noodles(part), frames > 0 ? frames : 4, threads);
+        }
+        for (const std::string& path : paths) {
+            const Case scene = read_case(path);
+            compare(scene, frames > 0 ? frames : scene.scene.frames, threads);
+        }
+    } catch (const pent::Error& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
+    return 0;
 }

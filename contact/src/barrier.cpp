@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace pent::contact {
 
@@ -119,6 +120,60 @@ StencilVector<Dim> outer(const Weights<Dim>& weights, const Vector<Dim>& directi
     return product;
 }
 
+// The Hessian of faces with a given number of edges: all sizes known.
+template <int Dim, int Edges>
+StencilMatrix<Dim> hessian_of_edges(const NearestFaces<Dim>& faces,
+                                    const MovingWeights<Dim>& moving,
+                                    double slope,
+                                    double curvature,
+                                    Filter filter) {
+    constexpr int kSize = 2 * Edges + 1;
+    using Inner = Eigen::Matrix<double, kSize, kSize>;
+    const Eigen::Matrix<double, Dim + 1, Dim> weight_frame = weight_basis<Dim>(faces, moving);
+    const double length = faces.weights.norm();
+    Inner inner = Inner::Zero();
+    if constexpr (Edges > 0) {
+        // W R^-1 in the basis: how the weights answer to unit motions along the frame.
+        Eigen::Matrix<double, Edges + 1, Edges> answer =
+            weight_frame.template leftCols<Edges + 1>().transpose().lazyProduct(
+                moving.weights.template leftCols<Edges>());
+        moving.triangle.template topLeftCorner<Edges, Edges>()
+            .template triangularView<Eigen::Upper>()
+            .template solveInPlace<Eigen::OnTheRight>(answer);
+        inner.template topLeftCorner<Edges + 1, Edges + 1>() =
+            -slope * faces.distance * answer.lazyProduct(answer.transpose());
+        inner.template topRightCorner<Edges + 1, Edges>() = -slope * length * answer;
+        inner.template bottomLeftCorner<Edges, Edges + 1>() =
+            inner.template topRightCorner<Edges + 1, Edges>().transpose();
+    }
+    inner(0, 0) += curvature * length * length;
+    inner = filtered_square(inner, filter);
+
+    Eigen::Matrix<double, Dim*(Dim + 1), kSize> basis;
+    for (int k = 0; k <= Edges; ++k) {
+        basis.col(k) = outer<Dim>(weight_frame.col(k), faces.direction);
+    }
+    for (int k = 0; k < Edges; ++k) {
+        basis.col(Edges + 1 + k) = outer<Dim>(weight_frame.col(0), moving.frame.col(k));
+    }
+    const Eigen::Matrix<double, Dim*(Dim + 1), kSize> product = basis.lazyProduct(inner);
+    StencilMatrix<Dim> hessian = product.lazyProduct(basis.transpose());
+    // What is normal to the direction and to the faces: buckling, negative where psi' is.
+    const double buckling = filtered(slope / faces.distance, filter);
+    if (Edges < Dim - 1 && buckling != 0) {
+        Eigen::Matrix<double, Dim, Dim> normal = Eigen::Matrix<double, Dim, Dim>::Identity();
+        normal -= faces.direction * faces.direction.transpose();
+        normal -= moving.frame * moving.frame.transpose();
+        for (int i = 0; i <= Dim; ++i) {
+            for (int j = 0; j <= Dim; ++j) {
+                hessian.template block<Dim, Dim>(Dim * i, Dim * j) +=
+                    buckling * faces.weights[i] * faces.weights[j] * normal;
+            }
+        }
+    }
+    return hessian;
+}
+
 }  // namespace
 
 double barrier_energy(double distance, const Barrier& barrier) {
@@ -164,50 +219,16 @@ StencilMatrix<Dim> distance_energy_hessian(const Stencil<Dim>& points,
                                            double slope,
                                            double curvature,
                                            Filter filter) {
-    constexpr int kMost = 2 * Dim - 1;
-    using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
     const MovingWeights<Dim> moving = moving_weights<Dim>(points, faces);
-    const int n = moving.edges;
-    const Eigen::Matrix<double, Dim + 1, Dim> weight_frame = weight_basis<Dim>(faces, moving);
-    const double length = faces.weights.norm();
-    // W R^-1 in the basis: how the weights answer to unit motions along the frame.
-    Small answer = weight_frame.leftCols(n + 1).transpose() * moving.weights.leftCols(n);
-    if (n > 0) {
-        moving.triangle.topLeftCorner(n, n)
-            .template triangularView<Eigen::Upper>()
-            .template solveInPlace<Eigen::OnTheRight>(answer);
+    return [&]<int... Edges>(std::integer_sequence<int, Edges...>) {
+        StencilMatrix<Dim> hessian;
+        ((moving.edges == Edges ? void(
+              hessian = hessian_of_edges<Dim, Edges>(faces, moving, slope, curvature, filter))
+                                : void()),
+         ...);
+        return hessian;
     }
-    Small inner = Small::Zero(2 * n + 1, 2 * n + 1);
-    inner.topLeftCorner(n + 1, n + 1) = -slope * faces.distance * (answer * answer.transpose());
-    inner(0, 0) += curvature * length * length;
-    inner.topRightCorner(n + 1, n) = -slope * length * answer;
-    inner.bottomLeftCorner(n, n + 1) = inner.topRightCorner(n + 1, n).transpose();
-    inner = filtered_square(inner, filter);
-
-    Eigen::Matrix<double, Dim*(Dim + 1), Eigen::Dynamic, 0, Dim*(Dim + 1), kMost> basis(
-        Dim * (Dim + 1), 2 * n + 1);
-    for (int k = 0; k <= n; ++k) {
-        basis.col(k) = outer<Dim>(weight_frame.col(k), faces.direction);
-    }
-    for (int k = 0; k < n; ++k) {
-        basis.col(n + 1 + k) = outer<Dim>(weight_frame.col(0), moving.frame.col(k));
-    }
-    StencilMatrix<Dim> hessian =
-        basis * inner.template selfadjointView<Eigen::Lower>() * basis.transpose();
-    // What is normal to the direction and to the faces: buckling, negative where psi' is.
-    const double buckling = filtered(slope / faces.distance, filter);
-    if (n < Dim - 1 && buckling != 0) {
-        Eigen::Matrix<double, Dim, Dim> normal = Eigen::Matrix<double, Dim, Dim>::Identity();
-        normal -= faces.direction * faces.direction.transpose();
-        normal -= moving.frame * moving.frame.transpose();
-        for (int i = 0; i <= Dim; ++i) {
-            for (int j = 0; j <= Dim; ++j) {
-                hessian.template block<Dim, Dim>(Dim * i, Dim * j) +=
-                    buckling * faces.weights[i] * faces.weights[j] * normal;
-            }
-        }
-    }
-    return hessian;
+    (std::make_integer_sequence<int, Dim>());
 }
 
 template <int Dim>

@@ -8,6 +8,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <tbb/parallel_for.h>
 
 namespace pent::contact {
@@ -51,17 +52,21 @@ bool is_same(const BarrierContact<Dim>& a, const BarrierContact<Dim>& b) {
 
 // One contact for all pairs with the same nearest faces, in ascending order.
 template <int Dim>
-void merge(std::vector<BarrierContact<Dim>>& contacts) {
-    std::sort(contacts.begin(), contacts.end(), is_before<Dim>);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-        if (kept > 0 && is_same(contacts[kept - 1], contacts[i])) {
-            contacts[kept - 1].multiplicity += contacts[i].multiplicity;
+std::vector<BarrierContact<Dim>> merged(const std::vector<BarrierContact<Dim>>& contacts) {
+    std::vector<std::uint32_t> order(contacts.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return is_before<Dim>(contacts[a], contacts[b]);
+    });
+    std::vector<BarrierContact<Dim>> kept;
+    for (const std::uint32_t i : order) {
+        if (!kept.empty() && is_same(kept.back(), contacts[i])) {
+            kept.back().multiplicity += contacts[i].multiplicity;
         } else {
-            contacts[kept++] = contacts[i];
+            kept.push_back(contacts[i]);
         }
     }
-    contacts.resize(kept);
+    return kept;
 }
 
 template <int Dim>
@@ -77,7 +82,7 @@ public:
             [this](const auto& pairs, const auto& first, const auto& second,
                    const std::array<int, 2>& bodies) { append(pairs, first, second, bodies); });
         append_obstacles();
-        merge(contacts_.pairs);
+        contacts_.pairs = merged(contacts_.pairs);
         sum_up();
         return std::move(contacts_);
     }

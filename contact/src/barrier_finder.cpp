@@ -13,7 +13,7 @@ namespace pent::contact {
 
 namespace {
 
-// Candidates hold until a vertex has left its path by this part of the distance of contact.
+// Candidates hold at least until a vertex has left its path by this part of the distance of contact.
 constexpr double kSlack = 0.1;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -50,12 +50,15 @@ public:
           obstacles_(std::move(obstacles)),
           options_(options),
           rest_(rest),
-          candidates_(
-              bodies_, std::move(is_held), options.self, options.distance + options.separation) {}
+          candidates_(bodies_,
+                      std::move(is_held),
+                      options.self,
+                      options.distance + options.separation,
+                      kSlack * options.distance) {}
 
     BarrierContacts<Dim> find(const PositionsView<Dim>& positions) {
         const auto start = std::chrono::steady_clock::now();
-        candidates_.cover(positions, positions, kSlack * options_.distance);
+        candidates_.cover(positions);
         BarrierContacts<Dim> contacts = find_barrier_contacts<Dim>(setting(), positions);
         contacts.report.seconds = seconds_since(start);
         return contacts;
@@ -63,7 +66,7 @@ public:
 
     StepLimit limit_step(const PositionsView<Dim>& from, const PositionsView<Dim>& to) {
         const auto start = std::chrono::steady_clock::now();
-        candidates_.cover(from, to, kSlack * options_.distance);
+        candidates_.cover(from, to);
         StepLimit limit = limit_barrier_step<Dim>(setting(), from, to);
         limit.seconds = seconds_since(start);
         return limit;

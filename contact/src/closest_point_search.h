@@ -2,8 +2,6 @@
 
 #include <pent/contact/closest_points.h>
 
-#include <Eigen/QR>
-
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -214,17 +212,38 @@ private:
         return apart > 0 && apart * apart >= best_.distance_squared;
     }
 
-    // The same by a QR factorization; false where the edges are dependent to rounding.
+    // The same by orthonormal columns; false where the edges are dependent to rounding.
     template <int N>
     [[nodiscard, gnu::noinline]] static bool solve_stably(const Edges<N>& edges,
                                                           const Vector<Dim>& offset,
                                                           Parameters<N>& t) {
-        Eigen::ColPivHouseholderQR<Edges<N>> factors(edges);
-        factors.setThreshold(1e-14);
-        if (factors.rank() < N) {
-            return false;
+        constexpr double kRounding = 1e-14;
+        Edges<N> frame = Edges<N>::Zero();  // edges = frame * upper
+        Eigen::Matrix<double, N, N> upper = Eigen::Matrix<double, N, N>::Zero();
+        Vector<Dim> rest = -offset;
+        for (int i = 0; i < N; ++i) {
+            Vector<Dim> normal = edges.col(i);
+            for (int pass = 0; pass < 2; ++pass) {  // the second makes up for rounding in the first
+                for (int j = 0; j < i; ++j) {
+                    const double along = frame.col(j).dot(normal);
+                    upper(j, i) += along;
+                    normal -= along * frame.col(j);
+                }
+            }
+            upper(i, i) = normal.norm();
+            if (!(upper(i, i) > kRounding * edges.col(i).norm())) {
+                return false;
+            }
+            frame.col(i) = normal / upper(i, i);
+            t[i] = frame.col(i).dot(rest);
+            rest -= t[i] * frame.col(i);
         }
-        t = factors.solve(-offset);
+        for (int i = N - 1; i >= 0; --i) {
+            for (int j = i + 1; j < N; ++j) {
+                t[i] -= upper(i, j) * t[j];
+            }
+            t[i] /= upper(i, i);
+        }
         return true;
     }
 

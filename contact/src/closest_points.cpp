@@ -2,6 +2,8 @@
 
 #include "closest_point_search.h"
 
+#include <Eigen/QR>
+
 #include <limits>
 
 namespace pent::contact {
@@ -110,6 +112,9 @@ template <unsigned A, unsigned B>
 [[gnu::noinline]] void ClosestPointSearch<Dim, K, L>::visit_dependent(
     const Edges<kUnknowns<A, B>>& edges, const Vector<Dim>& offset) {
     constexpr int kN = kUnknowns<A, B>;
+    if (is_apart<kN>(edges, offset)) {
+        return;
+    }
     Parameters<kN> t = Parameters<kN>::Zero();
     if (solve_stably<kN>(edges, offset, t) && is_inside<A, B>(t)) {
         record<A, B>(t, offset + edges * t);

@@ -74,9 +74,6 @@ public:
         const Surface<Dim>& first = bodies_[a].surface;
         const Surface<Dim>& second = bodies_[b].surface;
         bodies_of_pair_ = {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)};
-        if (bodies_[a].is_kinematic && bodies_[b].is_kinematic) {
-            return;
-        }
         add_crossing<2, Dim>(first.edges, trees_[a].edges, second.facets, trees_[b].facets);
         if constexpr (Dim > 3) {
             add_crossing<3, 3>(first.ridges, trees_[a].ridges, second.ridges, trees_[b].ridges);
@@ -157,8 +154,9 @@ private:
              std::vector<std::uint32_t> first,
              std::vector<std::uint32_t> second,
              double distance) {
-        const bool is_of_held = are_held(first) && are_held(second) && bodies_of_pair_[1] >= 0;
-        if (found_.size() < most_ && !is_of_held) {
+        const bool may_be = kind == CrossingKind::Touching && bodies_of_pair_[1] >= 0
+                            && are_held(first) && are_held(second);
+        if (found_.size() < most_ && !may_be) {
             found_.push_back({kind, bodies_of_pair_[0], bodies_of_pair_[1], std::move(first),
                               std::move(second), distance});
         }

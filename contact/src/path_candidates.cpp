@@ -14,7 +14,15 @@ namespace {
 
 // Candidates of a motion this many times as long as what is asked for are searched anew: there are many
 // more of them than are of use.
-constexpr double kCrude = 2;
+constexpr double kCrude = 3;
+
+// The slack around long ways is this part of them. Newton's method goes less far from one iteration to
+// the next, so candidates of the first hold for some that follow.
+constexpr double kSlackOfWay = 0.25;
+
+// Where vertices can go less far than this times the reach, candidates are those whose distance is
+// within it. Beyond, nearly all whose boxes are near enough would be, and distances cost more.
+constexpr double kShortWay = 1;
 
 // The narrow test allows for rounding: candidates have to be a superset.
 constexpr double kRoundUp = 1 + 1e-9;
@@ -50,15 +58,20 @@ template <int Dim>
 PathCandidates<Dim>::PathCandidates(const std::vector<ContactBody<Dim>>& bodies,
                                     std::vector<bool> is_held,
                                     bool self,
-                                    double reach)
+                                    double reach,
+                                    double slack)
     : bodies_(bodies),
       is_held_(std::move(is_held)),
       self_(self),
       reach_(reach),
+      slack_(slack),
       trees_(bodies.size()) {}
 
 template <int Dim>
 bool PathCandidates<Dim>::is_covered(const PositionsView<Dim>& positions) const {
+    if (positions.cols() != start_.cols() || searches_ == 0) {
+        return false;
+    }
     for (Eigen::Index v = 0; v < positions.cols(); ++v) {
         if (!is_inside<Dim>(positions.col(v), free_boxes_[static_cast<std::size_t>(v)])) {
             return false;
@@ -68,16 +81,29 @@ bool PathCandidates<Dim>::is_covered(const PositionsView<Dim>& positions) const 
 }
 
 template <int Dim>
-void PathCandidates<Dim>::cover(const PositionsView<Dim>& from,
-                                const PositionsView<Dim>& to,
-                                double slack) {
-    const Eigen::Index count = from.cols();
-    const double needed =
-        count == 0 ? 0 : std::sqrt((to - from).colwise().squaredNorm().maxCoeff()) + slack;
-    const bool is_crude = kCrude * needed < longest_;
-    if (start_.cols() == count && !is_crude && is_covered(from) && is_covered(to)) {
-        return;
+void PathCandidates<Dim>::cover(const PositionsView<Dim>& from, const PositionsView<Dim>& to) {
+    const double way =
+        from.cols() == 0 ? 0 : std::sqrt((to - from).colwise().squaredNorm().maxCoeff());
+    const bool is_crude = kCrude * std::max(way, slack_) < longest_;
+    if (is_crude || !is_covered(from) || !is_covered(to)) {
+        search(from, to, std::max(slack_, kSlackOfWay * way));
+        longest_ = std::max(way, slack_);
     }
+}
+
+template <int Dim>
+void PathCandidates<Dim>::cover(const PositionsView<Dim>& positions) {
+    if (!is_covered(positions)) {
+        search(positions, positions, slack_);
+        longest_ = slack_;
+    }
+}
+
+template <int Dim>
+void PathCandidates<Dim>::search(const PositionsView<Dim>& from,
+                                 const PositionsView<Dim>& to,
+                                 double slack) {
+    const Eigen::Index count = from.cols();
     start_ = from;
     boxes_.resize(static_cast<std::size_t>(count));
     free_boxes_.resize(static_cast<std::size_t>(count));
@@ -96,9 +122,8 @@ void PathCandidates<Dim>::cover(const PositionsView<Dim>& from,
         }
         travel_[v] = std::sqrt(squared);
     }
-    longest_ = needed;
     update_trees();
-    search();
+    find_pairs();
     ++searches_;
 }
 
@@ -135,7 +160,7 @@ void PathCandidates<Dim>::update_trees() {
 }
 
 template <int Dim>
-void PathCandidates<Dim>::search() {
+void PathCandidates<Dim>::find_pairs() {
     pairs_.clear();
     const auto ridges_of = [](const Trees& trees) -> const BoxTree& {
         return Dim > 3 ? trees.ridges.tree() : trees.edges.tree();
@@ -187,13 +212,13 @@ std::vector<IndexPair> PathCandidates<Dim>::search(const Simplices<K>& first,
             std::swap(i, j);
         }
         // Boxes are crude: what counts is how near the simplices are now, and how far they can go.
-        const double most =
-            (reach_ + most_travel<K>(travel_, first, i) + most_travel<L>(travel_, second, j))
-            * kRoundUp;
+        const double way = most_travel<K>(travel_, first, i) + most_travel<L>(travel_, second, j);
+        const double most = (reach_ + way) * kRoundUp;
         const Corners<Dim, K> a = gather<Dim, K>(first, i, start_);
         const Corners<Dim, L> b = gather<Dim, L>(second, j, start_);
         if (!are_boxes_apart<Dim, K, L>(a, b, most * most)
-            && ClosestPointSearch<Dim, K, L>(a, b, most * most).run()) {
+            && (way > kShortWay * reach_
+                || ClosestPointSearch<Dim, K, L>(a, b, most * most).run())) {
             list.push_back({i, j});
         }
     };

@@ -38,15 +38,20 @@ public:
     /// @param is_held  One for each vertex of the scene.
     /// @param self     Whether bodies meet themselves.
     /// @param reach    m, > 0.
+    /// @param slack    m, >= 0: how far from their ways vertices may get, at least, before the next
+    ///                 search.
     PathCandidates(const std::vector<ContactBody<Dim>>& bodies,
                    std::vector<bool> is_held,
                    bool self,
-                   double reach);
+                   double reach,
+                   double slack);
 
-    /// Sees to it that pairs() hold for everything on the way between two positions.
-    ///
-    /// @param slack  m, >= 0: how far from that way vertices may get before the next search.
-    void cover(const PositionsView<Dim>& from, const PositionsView<Dim>& to, double slack);
+    /// Sees to it that pairs() hold for everything on the way between two positions, and are not many
+    /// more than that needs.
+    void cover(const PositionsView<Dim>& from, const PositionsView<Dim>& to);
+
+    /// Sees to it that pairs() hold at these positions.
+    void cover(const PositionsView<Dim>& positions);
 
     [[nodiscard]] const std::vector<CandidatePairs>& pairs() const { return pairs_; }
     [[nodiscard]] const std::vector<bool>& is_held() const { return is_held_; }
@@ -84,8 +89,9 @@ private:
     };
 
     [[nodiscard]] bool is_covered(const PositionsView<Dim>& positions) const;
+    void search(const PositionsView<Dim>& from, const PositionsView<Dim>& to, double slack);
     void update_trees();
-    void search();
+    void find_pairs();
     template <int Count>
     [[nodiscard]] std::vector<Box> hulls(const Simplices<Count>& simplices) const;
     template <int K, int L>
@@ -98,10 +104,11 @@ private:
     std::vector<bool> is_held_;
     bool self_;
     double reach_;
+    double slack_;
     Positions<Dim> start_;         // where the covered paths begin
     std::vector<Box> boxes_;       // around the path of each vertex, its slack and half the reach
     std::vector<Box> free_boxes_;  // the same without the reach: where a vertex may go
-    double longest_ = 0;           // motion with slack that candidates were searched for, m
+    double longest_ = 0;           // motion that candidates were searched for, m
     Eigen::VectorXd travel_;       // how far from start_ each vertex may get, m
     std::vector<Trees> trees_;
     std::vector<CandidatePairs> pairs_;

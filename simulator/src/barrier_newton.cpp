@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace pent::simulator {
@@ -19,6 +20,19 @@ constexpr double kTight = 0.01;
 // Held vertices that get no further than this part of their way, so many times in a row, are stuck.
 constexpr double kStuck = 1e-3;
 constexpr int kMostStuck = 10;
+
+// Newton's method has converged as well where a correction, taken whole, was below this many times its
+// tolerance of the distance of contact, and the unbalanced force is below as many times what it asks
+// for: two thousandths of either, by default.
+constexpr double kSettled = 20;
+
+// Filtered Hessians are too stiff where bodies slide along each other, so that energy still falls behind
+// a whole step. One at whose end the slope is above this part of that at its start goes on, to where
+// the slope would vanish if it changed evenly, at most so many times as far, and so many times.
+constexpr double kSteep = 0.35;
+constexpr double kMostStretch = 4;
+constexpr int kMostStretches = 4;
+constexpr double kLeastStretch = 1.3;  // anything less is not worth an evaluation
 
 // Held vertices have arrived when they are this part of the scene's extent from their place.
 constexpr double kArrived = 1e-14;
@@ -64,36 +78,86 @@ std::string stuck_message(const System<Dim>& system, const contact::StepLimit& l
     return message.str();
 }
 
-// Moves on from a state along a direction, as far as the energy falls; false if it does not.
+// Where Newton's method would go.
+template <int Dim>
+struct Direction {
+    BlockVector<Dim> dx;       // of the unknowns
+    Positions<Dim> positions;  // of all vertices, held ones too
+    double slope = 0;          // of phi, by dx
+};
+
+// Moves on from a state along a direction, as far as the energy falls.
 template <int Dim>
 class Mover {
 public:
     Mover(System<Dim>& system, const World<Dim>& world, const StepProblem<Dim>& problem)
         : system_(system), world_(world), problem_(problem) {}
 
-    bool move(const Positions<Dim>& direction,
-              double slope,
-              double factor,
-              bool is_free_to_rise,
-              BodyState<Dim>& state,
-              Potential<Dim>& phi) {
-        trial_.velocities = state.velocities;
+    // Returns how many times the direction was gone: `factor`, half of it and so on; more where
+    // `factor` is 1 and goes on falling; nothing if the energy does not fall.
+    std::optional<double> move(const Direction<Dim>& direction,
+                               double factor,
+                               bool is_free_to_rise,
+                               BodyState<Dim>& state,
+                               Potential<Dim>& phi) {
+        const Positions<Dim> from = state.positions;
         for (int k = 0; k < kMostBacktracks; ++k, factor /= 2) {
-            trial_.positions = state.positions + factor * direction;
-            system_.evaluate(trial_);
-            Potential<Dim> next = potential(system_, world_, problem_, trial_);
+            Potential<Dim> next = try_out(from, direction, factor, state);
             if (is_free_to_rise ? std::isfinite(next.value)
-                                : has_improved(phi, next, factor, slope)) {
+                                : has_improved(phi, next, factor, direction.slope)) {
                 std::swap(state, trial_);
                 phi = std::move(next);
+                if (factor == 1 && !is_free_to_rise) {
+                    factor = stretch(from, direction, state, phi);
+                }
                 system_.tell_move(state.positions, false);
-                return true;
+                return factor;
             }
         }
-        return false;
+        return std::nullopt;
     }
 
 private:
+    Potential<Dim> try_out(const Positions<Dim>& from,
+                           const Direction<Dim>& direction,
+                           double factor,
+                           const BodyState<Dim>& state) {
+        trial_.velocities = state.velocities;
+        trial_.positions = from + factor * direction.positions;
+        system_.evaluate(trial_);
+        return potential(system_, world_, problem_, trial_);
+    }
+
+    // Goes on from a whole step while the energy falls; returns how far in all.
+    double stretch(const Positions<Dim>& from,
+                   const Direction<Dim>& direction,
+                   BodyState<Dim>& state,
+                   Potential<Dim>& phi) {
+        double factor = 1;
+        for (int k = 0; k < kMostStretches; ++k) {
+            const double slope = phi.gradient.cwiseProduct(direction.dx).sum();
+            if (!(slope < kSteep * direction.slope)) {
+                break;
+            }
+            const double most = kMostStretch * factor;
+            const double bend = (slope - direction.slope) / factor;
+            const double wanted = bend > 0 ? std::min(most, -direction.slope / bend) : most;
+            const double limit =
+                system_.limit_step(from, from + wanted * direction.positions).fraction;
+            if (limit * wanted < kLeastStretch * factor) {
+                break;
+            }
+            Potential<Dim> next = try_out(from, direction, limit * wanted, state);
+            if (!(next.value < phi.value)) {
+                break;
+            }
+            std::swap(state, trial_);
+            phi = std::move(next);
+            factor = limit * wanted;
+        }
+        return factor;
+    }
+
     System<Dim>& system_;
     const World<Dim>& world_;
     const StepProblem<Dim>& problem_;
@@ -136,21 +200,28 @@ bool minimize_without_crossing(System<Dim>& system,
         report.newton_iterations += iteration > 0 ? 1 : 0;
         LinearStep<Dim> step = newton_step(system, problem, phi);
         step.held_shift = shift;
-        BlockVector<Dim> dx = BlockVector<Dim>::Zero(Dim, phi.gradient.cols());
-        if (!has_solved(system.solve(state, step, dx, report), report)) {
+        Direction<Dim> direction{BlockVector<Dim>::Zero(Dim, phi.gradient.cols()), shift, 0};
+        if (!has_solved(system.solve(state, step, direction.dx, report), report)) {
             return false;
         }
-        if (!is_carried && dx.cwiseAbs().maxCoeff() < invisible) {
+        const double correction = direction.dx.cwiseAbs().maxCoeff();
+        if (!is_carried && correction < invisible) {
             return true;
         }
-        Positions<Dim> direction = shift;
-        add_to_free(world, 1, dx, direction);
-        limit = system.limit_step(state.positions, state.positions + direction);
+        add_to_free(world, 1, direction.dx, direction.positions);
+        direction.slope = phi.gradient.cwiseProduct(direction.dx).sum();
+        limit = system.limit_step(state.positions, state.positions + direction.positions);
         const double gap = smallest_gap(state);
-        const double slope = phi.gradient.cwiseProduct(dx).sum();
-        if (!mover.move(direction, slope, limit.fraction, is_carried, state, phi)) {
+        const std::optional<double> factor =
+            mover.move(direction, limit.fraction, is_carried, state, phi);
+        if (!factor) {
             report.failure = "the line search found no decrease";
             return false;
+        }
+        if (!is_carried && *factor >= 1 && *factor * correction < kSettled * invisible
+            && phi.gradient.norm() <= kSettled * tolerance * start) {
+            report.unbalanced = std::max(report.unbalanced, phi.gradient.norm() / start);
+            return true;
         }
         if (is_carried) {
             shift = held_shift(world, problem, state.positions);

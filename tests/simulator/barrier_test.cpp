@@ -1,4 +1,4 @@
-#include "barrier_scenes.h"
+#include "stress_scenes.h"
 #include "support/messages.h"
 
 #include <pent/error.h>
@@ -32,14 +32,7 @@ TYPED_TEST_SUITE(BarrierTest, Dimensions);
 
 TYPED_TEST(BarrierTest, HundredBodyLengthsASecondDoNotTunnel) {
     constexpr int kDim = TypeParam::value;
-    BarrierScene<kDim> scene;
-    const Eigen::VectorXd unit = Eigen::VectorXd::Constant(kDim, 0.2);
-    // Each step is two bodies long: after the first, the bullet would be behind the target.
-    scene.scene.frames_per_second = 50;
-    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(0, 0));
-    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(-0.3, 0.03, 0.02)).velocity =
-        vector<kDim>(20, 0);
-    WatchedRun<kDim> run(scene);
+    WatchedRun<kDim> run(test::fast_impact<kDim>(1));
     run.run(10);
     expect_sound(run);
     EXPECT_GT(run.simulation().velocities(0).row(0).mean(), 1);  // the target was hit
@@ -47,41 +40,14 @@ TYPED_TEST(BarrierTest, HundredBodyLengthsASecondDoNotTunnel) {
 
 TYPED_TEST(BarrierTest, StackedNoodlesStayApart) {
     constexpr int kDim = TypeParam::value;
-    BarrierScene<kDim> scene;
-    scene.scene.gravity = vector<kDim>(0, -9.8);
-    scene.scene.obstacles.push_back(
-        {.shape = HalfSpaceObstacle{.normal = vector<kDim>(0, 1), .offset = 0}});
-    const Eigen::VectorXd along_x = vector<kDim>(0.9, 0.1, 0.1);
-    Eigen::VectorXd along_z = vector<kDim>(0.1, 0.1, 0.1);
-    along_z[2] = 0.9;
-    SimplexMesh<kDim> crosswise = box<kDim>(4, 1, 1, along_x);
-    crosswise.positions.row(0).swap(crosswise.positions.row(2));  // a mirror image: turn it back
-    crosswise.positions.row(0) *= -1;
-    scene.add(box<kDim>(4, 1, 1, along_x), vector<kDim>(0, 0.08));
-    scene.add(crosswise, vector<kDim>(0.02, 0.2, 0.01));
-    scene.add(box<kDim>(4, 1, 1, along_x), vector<kDim>(0.01, 0.32, 0.03));
-    WatchedRun<kDim> run(scene);
+    WatchedRun<kDim> run(test::stacked_noodles<kDim>(1));
     run.run(kDim == 3 ? 30 : 8);
     expect_sound(run);
 }
 
 TYPED_TEST(BarrierTest, NeedleGoesIntoAGapNarrowerThanItself) {
     constexpr int kDim = TypeParam::value;
-    BarrierScene<kDim> scene;
-    const Eigen::VectorXd block = vector<kDim>(0.3, 0.3, 0.4);
-    const Eigen::VectorXd everywhere = vector<kDim>(9, 9, 9);
-    // The gap is 0.1 wide, the soft needle 0.16, its tip 0.05.
-    for (const double x : {-0.2, 0.2}) {
-        scene.add(box<kDim>(1, 1, 1, block), vector<kDim>(x, 0), 1e7);
-        scene.hold(-everywhere, everywhere, vector<kDim>(0, 0));
-    }
-    SimplexMesh<kDim> needle = box<kDim>(1, 4, 1, vector<kDim>(0.16, 0.6, 0.16));
-    for (Eigen::Index v = 0; v < needle.vertex_count(); ++v) {
-        needle.positions(0, v) *= needle.positions(1, v) < -0.2 ? 0.3 : 1;
-    }
-    scene.add(needle, vector<kDim>(0, 0.48), 2e4);
-    scene.hold(vector<kDim>(-9, 0.77, -9), everywhere, vector<kDim>(0, -1.5));
-    WatchedRun<kDim> run(scene);
+    WatchedRun<kDim> run(test::needle_at_gap<kDim>(1));
     run.run(kDim == 3 ? 20 : 12);
     expect_sound(run);
     EXPECT_LT(run.simulation().positions(2).row(1).minCoeff(), 0.14);  // the tip is in the gap
@@ -89,53 +55,21 @@ TYPED_TEST(BarrierTest, NeedleGoesIntoAGapNarrowerThanItself) {
 
 TYPED_TEST(BarrierTest, HooksThatArePulledApartHold) {
     constexpr int kDim = TypeParam::value;
-    BarrierScene<kDim> scene;
-    const Eigen::VectorXd size = vector<kDim>(0.3, 0.3, 0.1);
-    SimplexMesh<kDim> hook = box<kDim>(3, 3, 1, size);
-    for (Eigen::Index v = 0; v < hook.vertex_count(); ++v) {
-        hook.positions(1, v) *= std::abs(hook.positions(1, v)) < 0.1 ? 1.4 : 1;  // a wider mouth
-    }
-    hook = test::without<kDim>(hook, {-0.05, -0.07}, {0.16, 0.07});
-    SimplexMesh<kDim> other = hook;
-    other.positions.row(0) *= -1;  // opens to the other side: turned over, not mirrored
-    other.positions.row(1) *= -1;
-    const Eigen::VectorXd everywhere = vector<kDim>(9, 9, 9);
-    scene.add(hook, vector<kDim>(0, 0));
-    scene.hold(-everywhere, vector<kDim>(-0.09, 9, 9), vector<kDim>(0, 0));
-    scene.add(other, vector<kDim>(0.11, 0.11, 0.005));
-    scene.hold(vector<kDim>(0.2, -9, -9), everywhere, vector<kDim>(0, 1), 0.15);
-    WatchedRun<kDim> run(scene);
+    WatchedRun<kDim> run(test::interlocked_hooks<kDim>(1));
     run.run(kDim == 3 ? 20 : 8);
     expect_sound(run);
 }
 
 TYPED_TEST(BarrierTest, StiffnessMayDifferAMillionfold) {
     constexpr int kDim = TypeParam::value;
-    BarrierScene<kDim> scene;
-    scene.scene.gravity = vector<kDim>(0, -9.8);
-    scene.scene.solver.precision = Precision::Double;
-    scene.scene.obstacles.push_back(
-        {.shape = HalfSpaceObstacle{.normal = vector<kDim>(0, 1), .offset = 0}});
-    const Eigen::VectorXd unit = Eigen::VectorXd::Constant(kDim, 0.2);
-    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(0, 0.115), 1e4);
-    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(0.03, 0.34, 0.02), 1e10);
-    WatchedRun<kDim> run(scene);
+    WatchedRun<kDim> run(test::million_to_one<kDim>(1));
     run.run(20);
     expect_sound(run);
 }
 
 TYPED_TEST(BarrierTest, SheetsOfOneLayerDoNotPassThroughEachOther) {
     constexpr int kDim = TypeParam::value;
-    BarrierScene<kDim> scene;
-    scene.scene.gravity = vector<kDim>(0, -9.8);
-    scene.scene.obstacles.push_back(
-        {.shape = BallObstacle{.center = vector<kDim>(0, -0.3), .radius = 0.25}});
-    const Eigen::VectorXd size = vector<kDim>(0.6, 0.01, 0.6);
-    const int cells = kDim == 3 ? 4 : 2;
-    scene.add(box<kDim>(cells, 1, cells, size), vector<kDim>(0, 0));
-    scene.add(box<kDim>(cells, 1, cells, size), vector<kDim>(0.02, 0.05, 0.01)).velocity =
-        vector<kDim>(0, -3);
-    WatchedRun<kDim> run(scene);
+    WatchedRun<kDim> run(test::thin_sheets<kDim>(1));
     run.run(kDim == 3 ? 20 : 4);
     expect_sound(run);
 }
@@ -200,6 +134,21 @@ TYPED_TEST(BarrierTest, StartThatCrossesIsRefusedWithItsPairs) {
     EXPECT_THROW(Simulation<kDim>(scene.scene, scene.meshes), CrossingError<kDim>);
     scene.scene.bodies[1].place.translate = vector<kDim>(0.21, 0);
     EXPECT_NO_THROW(Simulation<kDim>(scene.scene, scene.meshes));
+}
+
+TYPED_TEST(BarrierTest, HeldBodiesThatOverlapAreRefusedAsWell) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    const Eigen::VectorXd everywhere = vector<kDim>(9, 9, 9);
+    const Eigen::VectorXd unit = Eigen::VectorXd::Constant(kDim, 0.2);
+    for (const double x : {0.0, 0.15}) {
+        scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(x, 0.2 * x, 0.1 * x));
+        scene.hold(-everywhere, everywhere, vector<kDim>(0, 0));
+    }
+    EXPECT_NE(pent::test::error_of([&] {
+                  const Simulation<kDim> simulation(scene.scene, scene.meshes);
+              }).find("of 'a' goes through"),
+              std::string::npos);
 }
 
 TYPED_TEST(BarrierTest, MotionThatLeavesNoWayOutIsReportedWithItsPair) {

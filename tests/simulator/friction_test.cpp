@@ -102,6 +102,29 @@ TYPED_TEST(FrictionSlopeTest, EnergyIsOnlyLost) {
     }
 }
 
+// The same block on a soft slab that is held from below, in place of the half-space.
+template <int Dim>
+double speed_on_slab(double tangent) {
+    BarrierScene<Dim> scene = slope<Dim>(ContactModel::Barrier, tangent);
+    scene.scene.obstacles.clear();
+    scene.scene.bodies[0].place.translate[1] = 0.067;
+    const Eigen::VectorXd everywhere = vector<Dim>(9, 9, 9);
+    scene.add(box<Dim>(2, 1, 1, vector<Dim>(1.2, 0.1, 0.5)), vector<Dim>(0.3, -0.05), 1e6);
+    scene.hold(-everywhere, vector<Dim>(9, -0.09, 9), vector<Dim>(0, 0));
+    Simulation<Dim> simulation(scene.scene, scene.meshes);
+    for (int k = 0; k < 60; ++k) {
+        EXPECT_TRUE(simulation.step().is_accepted);
+    }
+    return simulation.velocities(0).row(0).mean();
+}
+
+TYPED_TEST(FrictionSlopeTest, BlockOnAnotherBodySticksAndSlidesAsWell) {
+    constexpr int kDim = TypeParam::value;
+    // The slab gives way a little, so that its top is not quite the plane that the angle is of.
+    EXPECT_LT(std::abs(speed_on_slab<kDim>(0.9 * kFriction)), 2e-3);
+    EXPECT_GT(speed_on_slab<kDim>(1.15 * kFriction), 0.1);
+}
+
 TYPED_TEST(FrictionSlopeTest, SingleLinearSolvesHaveItToo) {
     constexpr int kDim = TypeParam::value;
     const auto speed_after = [](double friction) {

@@ -39,7 +39,7 @@ struct Crossing {
 ///
 /// @param separation  m, >= 0: pairs have to be further apart than this and than rounding (1e-12 of the
 ///                    largest coordinate).
-/// @param is_held     One for each vertex of the scene: pairs of held vertices alone do not count.
+/// @param is_held     One for each vertex of the scene: held vertices alone may touch.
 /// @param self        Whether bodies meet themselves.
 /// @param most        No more than these are looked for, in order of bodies.
 template <int Dim>

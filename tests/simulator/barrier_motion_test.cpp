@@ -1,0 +1,149 @@
+#include "barrier_scenes.h"
+#include "support/temp_folder.h"
+
+#include <pent/pent_file.h>
+#include <pent/simulator/run.h>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+// The barrier with every integrator that takes it, with bodies that are moved from outside, and in runs.
+
+namespace pent::simulator {
+namespace {
+
+namespace fs = std::filesystem;
+using pent::test::TempFolder;
+using test::BarrierScene;
+using test::box;
+using test::vector;
+using test::WatchedRun;
+
+template <typename T>
+class BarrierMotionTest : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+TYPED_TEST_SUITE(BarrierMotionTest, Dimensions);
+
+template <int Dim>
+BarrierScene<Dim> collision(Integrator integrator) {
+    BarrierScene<Dim> scene;
+    scene.scene.solver.integrator = integrator;
+    const Eigen::VectorXd unit = Eigen::VectorXd::Constant(Dim, 0.2);
+    scene.add(box<Dim>(1, 1, 1, unit), vector<Dim>(0, 0)).velocity = vector<Dim>(1, 0);
+    scene.add(box<Dim>(1, 1, 1, unit), vector<Dim>(0.24, 0.01, 0.02)).velocity = vector<Dim>(-2, 0);
+    return scene;
+}
+
+template <int Dim>
+Eigen::VectorXd momentum(const Simulation<Dim>& simulation) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(Dim);
+    for (int body = 0; body < simulation.body_count(); ++body) {
+        sum += simulation.velocities(body) * simulation.masses(body);
+    }
+    return sum;
+}
+
+TYPED_TEST(BarrierMotionTest, Bdf2KeepsBodiesApartAndMomentum) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene = collision<kDim>(Integrator::Bdf2);
+    scene.scene.solver.newton_tolerance = 1e-8;
+    WatchedRun<kDim> run(scene);
+    const Eigen::VectorXd before = momentum(run.simulation());
+    run.run(12);
+    EXPECT_EQ(run.failure(), "");
+    EXPECT_EQ(run.crossings(), 0);
+    EXPECT_LT(run.smallest_distance(), 0.02);  // they met
+    EXPECT_TRUE(run.simulation().has_history());
+    // What Newton's method leaves unbalanced in a step is 1e-8 of the momentum in it.
+    EXPECT_LT((momentum(run.simulation()) - before).norm(), 1e-5 * before.norm());
+}
+
+TYPED_TEST(BarrierMotionTest, QuasistaticBlocksPressedTogetherAreInBalance) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    scene.scene.solver.integrator = Integrator::Quasistatic;
+    scene.scene.solver.newton_tolerance = 1e-6;
+    const Eigen::VectorXd everywhere = vector<kDim>(9, 9, 9);
+    const Eigen::VectorXd size = vector<kDim>(0.2, 0.2, 0.2);
+    scene.add(box<kDim>(1, 2, 1, size), vector<kDim>(0, 0));
+    scene.hold(-everywhere, vector<kDim>(9, -0.09, 9), vector<kDim>(0, 0));
+    scene.add(box<kDim>(1, 2, 1, size), vector<kDim>(0.03, 0.23, 0.02));
+    scene.hold(vector<kDim>(-9, 0.32, -9), everywhere, vector<kDim>(0, -1));
+    WatchedRun<kDim> run(scene);
+    run.run(6);  // 0.06 m down, twice the gap
+    EXPECT_EQ(run.failure(), "");
+    EXPECT_EQ(run.crossings(), 0);
+    EXPECT_LT(run.smallest_distance(), 0.02);
+    // All forces on what is free add up to nothing, next to what the bodies press each other with.
+    double pressed = 0;
+    double left = 0;
+    for (int body = 0; body < 2; ++body) {
+        pressed += run.simulation().contact_forces(body).rowwise().sum().norm() / 2;
+        const auto rest = run.simulation().mesh(body).positions;
+        for (Eigen::Index v = 0; v < rest.cols(); ++v) {
+            const bool is_held = body == 0 ? rest(1, v) < -0.09 : rest(1, v) > 0.32;
+            left = std::max(left, is_held ? 0.0 : run.simulation().forces(body).col(v).norm());
+        }
+    }
+    EXPECT_GT(pressed, 1);
+    EXPECT_LT(left, 1e-3 * pressed);
+}
+
+TYPED_TEST(BarrierMotionTest, KinematicBodyPushesAFreeOneAndIsNotPushed) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    const Eigen::VectorXd everywhere = vector<kDim>(9, 9, 9);
+    const Eigen::VectorXd unit = Eigen::VectorXd::Constant(kDim, 0.2);
+    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(0, 0));
+    scene.hold(-everywhere, everywhere, vector<kDim>(3, 0));
+    scene.add(box<kDim>(1, 1, 1, unit), vector<kDim>(0.24, 0.01, 0.02));
+    WatchedRun<kDim> run(scene);
+    const double start = run.simulation().positions(0)(0, 0);
+    run.run(12);
+    EXPECT_EQ(run.failure(), "");
+    EXPECT_EQ(run.crossings(), 0);
+    EXPECT_LT(run.smallest_distance(), 0.02);
+    EXPECT_NEAR(run.simulation().positions(0)(0, 0) - start, 3 * 0.12, 1e-12);
+    EXPECT_GT(run.simulation().velocities(1).row(0).mean(), 2);
+}
+
+std::string read_text(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+Scene written(BarrierScene<4> scene, const TempFolder& folder, int frames) {
+    for (std::size_t body = 0; body < scene.meshes.size(); ++body) {
+        const fs::path path = folder / scene.scene.bodies[body].mesh;
+        write_mesh(path, scene.meshes[body]);
+        scene.scene.bodies[body].mesh = path.string();
+    }
+    scene.scene.frames = frames;
+    return scene.scene;
+}
+
+TEST(RunWithBarrier, ResumesToTheSameBytes) {
+    for (const Integrator integrator : {Integrator::NewtonEuler, Integrator::Bdf2}) {
+        const TempFolder folder;
+        BarrierScene<4> apart = collision<4>(integrator);
+        apart.scene.contact->friction = 0.3;
+        const Scene scene = written(apart, folder, 6);
+        const RunReport whole = run(scene, {.folder = folder / "whole"});
+        ASSERT_EQ(whole.verdict, RunVerdict::Finished);
+        EXPECT_GT(whole.steps.back().contact.point_facet + whole.steps.back().contact.mixed, 0);
+        int asked = 0;
+        static_cast<void>(run(scene, {.folder = folder / "cut"},
+                              {.should_stop = [&] { return ++asked > 4; }, .on_frame = nullptr}));
+        const RunReport resumed =
+            run(scene, {.folder = folder / "cut", .resume = true, .threads = 2});
+        EXPECT_EQ(resumed.verdict, RunVerdict::Finished);
+        for (const char* file : {"frames/a_000006.pent", "frames/b_000006.pent"}) {
+            EXPECT_EQ(read_text(folder / "whole" / file), read_text(folder / "cut" / file)) << file;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace pent::simulator
