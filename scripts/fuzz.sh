@@ -17,7 +17,8 @@ cmake --build --preset fuzz
 
 readers=("$@")
 if [ ${#readers[@]} -eq 0 ]; then
-    mapfile -t readers < <(ls tests/fuzz/corpus)
+    # glTF is assimp's to read, in a process of its own that no fuzzer sees into; the tests replay its samples.
+    mapfile -t readers < <(ls tests/fuzz/corpus | grep -v gltf)
 fi
 mkdir -p build/fuzz/found
 broken=()

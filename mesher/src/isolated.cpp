@@ -32,16 +32,19 @@ struct Header {
     std::int64_t cells = 0;  // for an error, the length of its text
 };
 
+// Nothing has no address that fwrite() and fread() would take.
 template <typename T>
 bool write_all(std::FILE* file, const T* data, Eigen::Index count) {
-    return std::fwrite(data, sizeof(T), static_cast<std::size_t>(count), file)
-           == static_cast<std::size_t>(count);
+    return count == 0
+           || std::fwrite(data, sizeof(T), static_cast<std::size_t>(count), file)
+                  == static_cast<std::size_t>(count);
 }
 
 template <typename T>
 bool read_all(std::FILE* file, T* data, Eigen::Index count) {
-    return std::fread(data, sizeof(T), static_cast<std::size_t>(count), file)
-           == static_cast<std::size_t>(count);
+    return count == 0
+           || std::fread(data, sizeof(T), static_cast<std::size_t>(count), file)
+                  == static_cast<std::size_t>(count);
 }
 
 // Lowers a limit; the soft one alone, so that its signal tells what happened.

@@ -156,15 +156,15 @@ void try_profile(const fs::path& path) {
 
 const std::vector<Reader>& readers() {
     static const std::vector<Reader> all = {
-        {"pent", ".pent", try_pent},          {"pent_checksum", ".pent", try_pent_with_checksum},
+        {"pent", ".pent", try_pent},        {"pent_checksum", ".pent", try_pent_with_checksum},
         {"scene", ".toml", try_scene},
 #ifdef PENT_FUZZ_MESHER
-        {"obj", ".obj", try_surface},         {"off", ".off", try_surface},
-        {"ply", ".ply", try_surface},         {"stl", ".stl", try_surface},
-        {"gmsh", ".msh", try_tetrahedra},     {"medit", ".mesh", try_tetrahedra},
-        {"vtk", ".vtk", try_tetrahedra},      {"tobj", ".tobj", try_tetrahedra},
-        {"tetgen", ".pair", try_tetgen},      {"edges", ".edges", try_edges},
-        {"profile", ".profile", try_profile},
+        {"obj", ".obj", try_surface},       {"off", ".off", try_surface},
+        {"ply", ".ply", try_surface},       {"stl", ".stl", try_surface},
+        {"gltf", ".gltf", try_surface},     {"gmsh", ".msh", try_tetrahedra},
+        {"medit", ".mesh", try_tetrahedra}, {"vtk", ".vtk", try_tetrahedra},
+        {"tobj", ".tobj", try_tetrahedra},  {"tetgen", ".pair", try_tetgen},
+        {"edges", ".edges", try_edges},     {"profile", ".profile", try_profile},
 #endif
     };
     return all;
