@@ -204,7 +204,7 @@ bool minimize_without_crossing(System<Dim>& system,
         if (!has_solved(system.solve(state, step, direction.dx, report), report)) {
             return false;
         }
-        const double correction = direction.dx.cwiseAbs().maxCoeff();
+        const double correction = direction.dx.template lpNorm<Eigen::Infinity>();
         if (!is_carried && correction < invisible) {
             return true;
         }

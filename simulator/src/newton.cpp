@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pent::simulator {
 
@@ -10,11 +11,33 @@ namespace {
 constexpr int kMostIterations = 50;
 constexpr int kMostBacktracks = 30;
 // Where a vertex lies in a valley between two facets of another body, phi has a kink: its lowest point
-// is where the forces of both facets would have to act at once. Newton's method is there when a step
-// that had to be cut gains less than this part of what all of them have, and the force left over is
-// below this part of that at the start.
+// is where the forces of both facets would have to act at once. Newton's method is there when the force
+// left over is below this part of that at the start, and either a step that had to be cut gains less
+// than this part of what all of them have, or the force has not become less in so many iterations.
+constexpr double kKinkForce = 0.1;
 constexpr double kKinkGain = 1e-4;
-constexpr double kKinkForce = 0.05;
+constexpr int kKinkIterations = 8;
+
+// What views take from mixed pairs in contact is held, so their forces are not quite the derivative of
+// phi. Where the force becomes less, phi may therefore rise, by this part of what it has fallen so far.
+constexpr double kMostRise = 1e-2;
+
+// The state with the least unbalanced force that Newton's method has come by.
+template <int Dim>
+struct Best {
+    BodyState<Dim> state;
+    double force = std::numeric_limits<double>::infinity();
+    int age = 0;  // iterations since
+
+    void see(const BodyState<Dim>& now, double now_force) {
+        ++age;
+        if (now_force < force) {
+            state = now;
+            force = now_force;
+            age = 0;
+        }
+    }
+};
 
 }  // namespace
 
@@ -82,6 +105,15 @@ bool minimize(System<Dim>& system,
     system.evaluate(state);
     Potential<Dim> phi = potential(system, world, problem, state);
     BodyState<Dim> trial = state;
+    Best<Dim> best;  // kept in contact alone
+    const auto is_at_kink = [&] {
+        if (best.force > kKinkForce * start) {
+            return false;
+        }
+        std::swap(state, best.state);
+        report.unbalanced = std::max(report.unbalanced, best.force / start);
+        return true;
+    };
     for (int iteration = 0; iteration < kMostIterations; ++iteration) {
         if (!std::isfinite(phi.value)) {
             report.failure = "the energy grew beyond all bounds";
@@ -98,7 +130,7 @@ bool minimize(System<Dim>& system,
         if (!has_solved(system.solve(state, step, dx, report), report)) {
             return false;
         }
-        if (dx.cwiseAbs().maxCoeff() < kNegligible * extent) {
+        if (dx.template lpNorm<Eigen::Infinity>() < kNegligible * extent) {
             return true;
         }
         const double slope = phi.gradient.cwiseProduct(dx).sum();
@@ -110,21 +142,23 @@ bool minimize(System<Dim>& system,
             add_to_free(world, factor, dx, trial.positions);
             system.evaluate(trial);
             Potential<Dim> next = potential(system, world, problem, trial);
-            // What views take from mixed pairs in contact is held, so their forces are not quite the
-            // derivative of phi, and near balance phi alone may rise.
             is_taken = has_improved(phi, next, factor, slope)
-                       || (trial.energies.contact > 0 && has_less_force(phi, next, factor));
+                       || (trial.energies.contact > 0
+                           && next.value - phi.value <= kMostRise * (begin.value - phi.value)
+                           && has_less_force(phi, next, factor));
             if (is_taken) {
                 std::swap(state, trial);
                 phi = std::move(next);
             }
         }
+        if (state.energies.contact > 0) {
+            best.see(state, phi.gradient.norm());
+        }
         const bool is_cut =
             !is_taken || factor < 0.5;  // it was halved once more behind the last trial
-        if (is_cut && state.energies.contact > 0
-            && before - phi.value <= kKinkGain * (begin.value - phi.value)
-            && phi.gradient.norm() <= kKinkForce * start) {
-            report.unbalanced = std::max(report.unbalanced, phi.gradient.norm() / start);
+        const bool has_stalled =
+            is_cut && before - phi.value <= kKinkGain * (begin.value - phi.value);
+        if ((has_stalled || best.age >= kKinkIterations) && is_at_kink()) {
             return true;
         }
         if (!is_taken) {
@@ -133,7 +167,7 @@ bool minimize(System<Dim>& system,
         }
     }
     report.failure = "Newton's method did not reach its tolerance";
-    return false;
+    return is_at_kink();
 }
 
 #define PENT_INSTANTIATE(Dim)                                                                \
