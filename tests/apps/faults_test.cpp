@@ -281,5 +281,25 @@ TEST_F(Faults, DamagedMeshInTheRunFolderIsNamed) {
     expect_contains(outcome.err, {"run/meshes/bar.pent", "checksum"});
 }
 
+TEST_F(Faults, StartThatCrossesABarrierLeavesTheCellsThatAreInTheWay) {
+    write_scene(kFrames, R"(
+[[body]]
+name = "other"
+mesh = "bar.pent"
+place = { translate = [0.1, 0.3, 0.02, 0.03] }
+
+[contact]
+model = "barrier"
+)");
+    const Outcome outcome = simulate("run");
+    EXPECT_EQ(outcome.exit_code, 1);
+    expect_one_error_line(outcome, "pent-sim");
+    expect_contains(outcome.err, {"'bar'", "'other'", "run-crossings.pent"});
+    const SimplexMesh<4> offenders = read_mesh<4>(folder_ / "run-crossings.pent").mesh;
+    const SimplexMesh<4> bar = read_mesh<4>(folder_ / "bar.pent").mesh;
+    EXPECT_GT(offenders.cell_count(), 0);
+    EXPECT_LT(offenders.cell_count(), 2 * bar.cell_count());
+}
+
 }  // namespace
 }  // namespace pent
