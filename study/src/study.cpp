@@ -14,6 +14,7 @@
 #include <pent/study/study.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -47,7 +48,7 @@ Settings finest_mesh(const std::vector<Axis>& axes) {
     for (const Axis& axis : axes) {
         if (is_mesh_axis(axis.name)) {
             const auto number = [](const std::string& a, const std::string& b) {
-                return std::atof(a.c_str()) < std::atof(b.c_str());
+                return std::strtod(a.c_str(), nullptr) < std::strtod(b.c_str(), nullptr);
             };
             settings.push_back({axis.name, *std::ranges::max_element(axis.values, number)});
         }
