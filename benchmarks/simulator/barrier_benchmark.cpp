@@ -137,13 +137,7 @@ private:
     bool is_whole_ = true;
 };
 
-void compare(const Case& scene, int frames, int threads) {
-    Contender penalty(scene, ContactModel::Penalty, threads);
-    Contender barrier(scene, ContactModel::Barrier, threads);
-    for (int frame = 0; frame < frames; ++frame) {
-        penalty.take_frame();
-        barrier.take_frame();
-    }
+void print_row(const Case& scene, int frames, const Contender& penalty, const Contender& barrier) {
     Eigen::Index cells = 0;
     for (const SimplexMesh<4>& mesh : scene.meshes) {
         cells += mesh.cell_count();
@@ -156,6 +150,21 @@ void compare(const Case& scene, int frames, int threads) {
         barrier.clock() / penalty.clock(), barrier.processor() / penalty.processor(),
         penalty.is_whole() && barrier.is_whole() ? "" : "  (not all steps taken)");
     std::fflush(stdout);
+}
+
+// Four rows: after each quarter of the frames, of all up to there.
+void compare(const Case& scene, int frames, int threads) {
+    Contender penalty(scene, ContactModel::Penalty, threads);
+    Contender barrier(scene, ContactModel::Barrier, threads);
+    int quarter = 1;
+    for (int frame = 1; frame <= frames; ++frame) {
+        penalty.take_frame();
+        barrier.take_frame();
+        if (4 * frame >= quarter * frames) {
+            print_row(scene, frame, penalty, barrier);
+            quarter = 4 * frame / frames + 1;
+        }
+    }
 }
 
 }  // namespace
