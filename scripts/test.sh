@@ -4,8 +4,8 @@
 #
 #   scripts/test.sh [ARGUMENTS FOR CTEST]     for example: scripts/test.sh -R Slice
 #   scripts/test.sh --all                     then the same under the address and undefined-behavior
-#                                             sanitizers, and the threaded parts under the thread
-#                                             sanitizer (about an hour)
+#                                             sanitizers, and those with Thread in their name
+#                                             under the thread sanitizer (two cores: hours)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

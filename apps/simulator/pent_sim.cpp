@@ -75,6 +75,33 @@ void summarize_contact(Program& program, const RunReport& report) {
                                    {"deepest", deepest}};
 }
 
+// Elements that no force of theirs brings back, or that are inside out, at the end and on the way there.
+// Gives what to say beside the verdict.
+std::string summarize_defects(Program& program, const RunReport& report) {
+    const StepReport last = report.steps.empty() ? StepReport() : report.steps.back();
+    std::int64_t inverted_steps = 0;
+    for (const StepReport& step : report.steps) {
+        inverted_steps += step.inverted > 0 ? 1 : 0;
+    }
+    program.report()["collapsed"] = last.collapsed;
+    program.report()["inverted"] = last.inverted;
+    program.report()["inverted_steps"] = inverted_steps;
+    const std::string of_all = " of " + std::to_string(report.size.elements) + " elements ";
+    if (last.collapsed > 0) {
+        program.say(std::to_string(last.collapsed) + of_all
+                    + "have collapsed, to where the stable neo-Hookean energy holds them"
+                      " (docs/simulator.md, Limits)");
+    }
+    if (inverted_steps > 0) {
+        program.say(std::to_string(last.inverted) + of_all
+                    + "are inside out at the end, some at the end of "
+                    + std::to_string(inverted_steps) + " steps; smaller steps may help");
+    }
+    return last.collapsed > 0  ? " with collapsed elements"
+           : last.inverted > 0 ? " with inverted elements"
+                               : "";
+}
+
 void summarize(Program& program, const RunReport& report, const std::string& folder) {
     nlohmann::ordered_json bodies = nlohmann::ordered_json::array();
     for (std::size_t body = 0; body < report.bodies.size(); ++body) {
@@ -100,15 +127,8 @@ void summarize(Program& program, const RunReport& report, const std::string& fol
     program.report()["cells"] = report.size.cells;
     program.report()["bodies"] = bodies;
     summarize_contact(program, report);
-    const std::int64_t collapsed = report.steps.empty() ? 0 : report.steps.back().collapsed;
-    program.report()["collapsed"] = collapsed;
-    if (collapsed > 0) {
-        program.say(std::to_string(collapsed) + " of " + std::to_string(report.size.elements)
-                    + " elements have collapsed, to where the stable neo-Hookean energy holds them"
-                      " (docs/simulator.md, Limits)");
-    }
-    program.say(std::string(verdict_name(report.verdict))
-                + (collapsed > 0 ? " with collapsed elements: " : ": ")
+    const std::string defects = summarize_defects(program, report);
+    program.say(std::string(verdict_name(report.verdict)) + defects + ": "
                 + std::to_string(report.frames.size()) + " frames in " + folder + ", "
                 + std::to_string(report.steps.size()) + " steps, "
                 + pent::apps::readable_time(report.seconds));

@@ -2,11 +2,29 @@
 
 #include "crossing_error.h"
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
 #include <string>
 #include <utility>
 
 namespace pent::simulator {
+
+namespace {
+
+// Shortest side of the boxes around bodies at rest, m.
+template <int Dim>
+double thinnest(const World<Dim>& world) {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const SimplexMesh<Dim>& mesh : world.meshes) {
+        const Vector<Dim> sides =
+            mesh.positions.rowwise().maxCoeff() - mesh.positions.rowwise().minCoeff();
+        shortest = std::min(shortest, sides.minCoeff());
+    }
+    return shortest;
+}
+
+}  // namespace
 
 template <int Dim>
 Simulation<Dim>::State::State(const Scene& scene,
@@ -17,7 +35,8 @@ Simulation<Dim>::State::State(const Scene& scene,
       system_(scene, world_, options),
       sleepers_(scene, world_),
       asleep_(sleepers_.asleep()),
-      extent_((world_.rest.rowwise().maxCoeff() - world_.rest.rowwise().minCoeff()).norm()) {
+      extent_((world_.rest.rowwise().maxCoeff() - world_.rest.rowwise().minCoeff()).norm()),
+      thinnest_(thinnest(world_)) {
     current_.positions = world_.rest;
     current_.velocities = start_velocities(scene, world_);
     place_held(world_, 0, current_.positions, &current_.velocities);
@@ -99,7 +118,20 @@ std::string Simulation<Dim>::State::complaint() const {
         return "the elastic energy grew a hundred times; take smaller steps, or newton_euler, which"
                " comes back from far";
     }
-    return {};
+    return has_leapt() ? "in contact something moved by more than the extent of the thinnest body:"
+                         " bodies could pass through each other unseen; take smaller steps"
+                       : "";
+}
+
+// Whether penalties, which see only what is near or inside at the end of a step, can have missed something.
+template <int Dim>
+bool Simulation<Dim>::State::has_leapt() const {
+    if (!scene_.contact || scene_.contact->model != ContactModel::Penalty) {
+        return false;
+    }
+    const Positions<Dim> moves = next_.positions - current_.positions;
+    const Vector<Dim> mean = moves.rowwise().mean();
+    return (moves.colwise() - mean).colwise().norm().maxCoeff() > thinnest_;
 }
 
 // Throws unless the barrier finds nothing that crosses.

@@ -42,6 +42,7 @@ private:
     [[nodiscard]] StepProblem<Dim> make_problem(double time, double h) const;
     void set_velocities(const StepProblem<Dim>& problem, double time);
     [[nodiscard]] std::string complaint() const;
+    [[nodiscard]] bool has_leapt() const;
     [[nodiscard]] bool wake(const BodyState<Dim>& state, const StepProblem<Dim>& problem);
     void settle();
     void still(Positions<Dim>& velocities) const;
@@ -55,6 +56,7 @@ private:
     Sleepers<Dim> sleepers_;
     std::vector<bool> asleep_;  // bodies that the numbering leaves out
     double extent_;             // diagonal of the box around all bodies at rest, m
+    double thinnest_;           // shortest side of the boxes around bodies at rest, m
     BodyState<Dim> current_;
     BodyState<Dim> next_;
     History<Dim> history_;  // the state one step of full length ago, for BDF2
