@@ -5,7 +5,7 @@
 #   scripts/test.sh [ARGUMENTS FOR CTEST]     for example: scripts/test.sh -R Slice
 #   scripts/test.sh --all                     then the same under the address and undefined-behavior
 #                                             sanitizers, and those with Thread in their name
-#                                             under the thread sanitizer (two cores: hours)
+#                                             under the thread sanitizer (long: both build anew)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

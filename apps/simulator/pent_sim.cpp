@@ -1,6 +1,7 @@
 #include "common/program.h"
 #include "common/progress.h"
 
+#include <pent/formatted.h>
 #include <pent/simulator/explain.h>
 #include <pent/simulator/run.h>
 #include <pent/simulator/scene_file.h>
@@ -40,9 +41,7 @@ Verdict verdict_of(RunVerdict verdict) {
 }
 
 std::string percent(double fraction) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f%%", 100 * fraction);
-    return text;
+    return pent::formatted("%.1f%%", 100 * fraction);
 }
 
 // What touched in a run, and its share of the time; says nothing of a scene without contact.
@@ -65,10 +64,8 @@ void summarize_contact(Program& program, const RunReport& report) {
         program.say("contact: nothing has touched; without it the run would have been the same");
     }
     const double share = contact_seconds / seconds;
-    char depth[32];
-    std::snprintf(depth, sizeof depth, "%.3g", deepest);
     program.say("contact: " + percent(share) + " of the time; at most " + std::to_string(most)
-                + " pairs, deepest penetration " + depth + " m");
+                + " pairs, deepest penetration " + pent::formatted("%.3g m", deepest));
     program.report()["contact"] = {{"share_of_time", share},
                                    {"seconds", contact_seconds},
                                    {"most_pairs", most},

@@ -180,7 +180,13 @@ int main(int argc, char** argv) {
         const std::string_view option = argv[i];
         if (option.substr(0, 2) != "--") {
             paths.emplace_back(option);
-        } else if (i + 1 < argc) {
+        } else if (i + 1 == argc
+                   || (option != "--part" && option != "--frames" && option != "--threads")) {
+            std::fprintf(stderr,
+                         "usage: bench_barrier [--part FRACTION] [--frames N] [--threads N]"
+                         " [SCENE.toml ...]\n");
+            return 2;
+        } else {
             const char* value = argv[++i];
             part = option == "--part" ? std::atof(value) : part;
             frames = option == "--frames" ? std::atoi(value) : frames;
