@@ -3,6 +3,8 @@
 # runs every test.
 #
 #   scripts/test.sh [ARGUMENTS FOR CTEST]     for example: scripts/test.sh -R Slice
+#   scripts/test.sh --readers                 only the format and every reader of files under the address
+#                                             and undefined-behavior sanitizers, over damaged samples
 #   scripts/test.sh --all                     then the same under the address and undefined-behavior
 #                                             sanitizers, and those with Thread in their name
 #                                             under the thread sanitizer (long: both build anew)
@@ -16,10 +18,19 @@ run_preset() {  # PRESET [ARGUMENTS FOR CTEST]
 }
 
 scripts/setup.sh
-if [ "${1:-}" != --all ]; then
-    run_preset dev "$@"
-    exit
-fi
-run_preset dev
-run_preset asan
-run_preset tsan
+case ${1:-} in
+    --readers)
+        cmake --preset asan
+        cmake --build --preset asan --target format_test fuzz_corpus_test
+        build/asan/tests/format/format_test
+        build/asan/tests/fuzz/fuzz_corpus_test
+        ;;
+    --all)
+        run_preset dev
+        run_preset asan
+        run_preset tsan
+        ;;
+    *)
+        run_preset dev "$@"
+        ;;
+esac

@@ -60,6 +60,14 @@ std::string type_of(const toml::node& node) {
     }
 }
 
+// A message may quote what it found, and that may be the end of a line.
+std::string one_line(std::string_view text) {
+    std::string line(text);
+    std::replace_if(
+        line.begin(), line.end(), [](unsigned char c) { return c < ' '; }, ' ');
+    return line;
+}
+
 std::string quoted(std::string_view word) {
     return "\"" + std::string(word) + "\"";
 }
@@ -75,7 +83,7 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
     try {
         return toml::parse(text);
     } catch (const toml::parse_error& error) {
-        throw Error(at(file, error.source().begin) + std::string(error.description()));
+        throw Error(at(file, error.source().begin) + one_line(error.description()));
     } catch (const BrokenToml&) {
         throw Error(file
                     + ": is not TOML; expected lines of the form key = value and [table] lines");
