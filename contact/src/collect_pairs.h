@@ -6,6 +6,7 @@
 #include <pent/contact/near_pairs.h>
 
 #include <algorithm>
+#include <utility>
 
 // What queries for near pairs have in common.
 
@@ -44,6 +45,30 @@ void add_if_near(const Simplices<K>& first,
     if (closest == Closest::Interior ? search.run_interior() : search.run()) {
         pairs.pairs.push_back({i, j, search.best().distance_squared});
     }
+}
+
+/// Counts a pair of simplices whose boxes overlap, and adds it if it is nearer than the limit and no
+/// vertex is in both.
+///
+/// @param is_same_list  The simplices are those of one list: a pair then has the lower one first.
+template <int Dim, int K, int L>
+void visit_candidate(const Simplices<K>& first,
+                     std::uint32_t i,
+                     const Simplices<L>& second,
+                     std::uint32_t j,
+                     bool is_same_list,
+                     const PositionsView<Dim>& positions,
+                     double limit_squared,
+                     Closest closest,
+                     NearPairs& pairs) {
+    ++pairs.candidates;
+    if (share_a_vertex<K, L>(first, i, second, j)) {
+        return;
+    }
+    if (is_same_list && j < i) {
+        std::swap(i, j);
+    }
+    add_if_near<Dim, K, L>(first, i, second, j, positions, limit_squared, closest, pairs);
 }
 
 /// Collects what the pieces of work found, in one order.

@@ -89,15 +89,8 @@ NearPairs near_pairs(const SearchSet<K>& first,
             NearPairs& here = found[piece];
             BoxTree::for_each_overlap(
                 first.tree, second.tree, work[piece], [&](std::uint32_t i, std::uint32_t j) {
-                    ++here.candidates;
-                    if (share_a_vertex<K, L>(first.simplices, i, second.simplices, j)) {
-                        return;
-                    }
-                    if (is_same_list && j < i) {
-                        std::swap(i, j);
-                    }
-                    add_if_near<Dim, K, L>(first.simplices, i, second.simplices, j, positions,
-                                           limit, closest, here);
+                    visit_candidate<Dim, K, L>(first.simplices, i, second.simplices, j,
+                                               is_same_list, positions, limit, closest, here);
                 });
         },
         tbb::simple_partitioner());

@@ -110,28 +110,21 @@ NearPairs pairs_within(const PatchedSet<Dim, K>& first,
                        double distance,
                        double rest_distance,
                        Closest closest) {
+    const double limit = distance * distance;
     const bool is_same_list = &first.tree == &second.tree;
     const PatchWalk walk(first.tree, second.tree);
     const std::vector<Work> work = walk.split();
     std::vector<NearPairs> found(work.size());
-    const auto visit_pair = [&](std::uint32_t i, std::uint32_t j, NearPairs& here) {
-        ++here.candidates;
-        if (share_a_vertex<K, L>(first.simplices, i, second.simplices, j)) {
-            return;
-        }
-        if (is_same_list && j < i) {
-            std::swap(i, j);
-        }
-        add_if_near<Dim, K, L>(first.simplices, i, second.simplices, j, positions,
-                               distance * distance, closest, here);
-    };
     const auto visit_patches = [&](const Work& patches, NearPairs& here) {
         const auto& [a, b] = patches;
         if (!stay_apart<Dim>(first.motions[a.patch], second.motions[b.patch], rest_distance,
                              distance)) {
-            BoxTree::for_each_overlap(
-                first.tree, second.tree, {a.range, b.range, a.box, b.box},
-                [&](std::uint32_t i, std::uint32_t j) { visit_pair(i, j, here); });
+            BoxTree::for_each_overlap(first.tree, second.tree, {a.range, b.range, a.box, b.box},
+                                      [&](std::uint32_t i, std::uint32_t j) {
+                                          visit_candidate<Dim, K, L>(
+                                              first.simplices, i, second.simplices, j, is_same_list,
+                                              positions, limit, closest, here);
+                                      });
         }
     };
     tbb::parallel_for(

@@ -59,6 +59,19 @@ int patch_depth(std::size_t simplices) {
     return depth;
 }
 
+std::vector<BoxTree::Range> patch_ranges(const BoxTree& tree) {
+    std::vector<BoxTree::Range> ranges{tree.root()};
+    for (int depth = patch_depth(tree.size()); depth > 0; --depth) {
+        std::vector<BoxTree::Range> halves;
+        for (const BoxTree::Range& range : ranges) {
+            halves.push_back(range.left());
+            halves.push_back(range.right());
+        }
+        ranges.swap(halves);
+    }
+    return ranges;
+}
+
 template <int Dim>
 bool stay_apart(const PatchMotion<Dim>& first,
                 const PatchMotion<Dim>& second,
@@ -79,16 +92,7 @@ template <int Count>
 Patches<Dim>::Patches(const Simplices<Count>& simplices,
                       const BoxTree& tree,
                       const PositionsView<Dim>& rest) {
-    std::vector<BoxTree::Range> ranges{tree.root()};
-    for (int depth = patch_depth(tree.size()); depth > 0; --depth) {
-        std::vector<BoxTree::Range> halves;
-        for (const BoxTree::Range& range : ranges) {
-            halves.push_back(range.left());
-            halves.push_back(range.right());
-        }
-        ranges.swap(halves);
-    }
-    for (const BoxTree::Range& range : ranges) {
+    for (const BoxTree::Range& range : patch_ranges(tree)) {
         add(vertices_of<Count>(simplices, tree, range), rest);
     }
     patches_.emplace_back().begin = vertices_.size();

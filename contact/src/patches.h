@@ -34,7 +34,10 @@ template <int Dim>
 /// How many times a tree over so many simplices is halved to get patches.
 [[nodiscard]] int patch_depth(std::size_t simplices);
 
-/// The subtrees of a tree at patch_depth(), and how each has moved.
+/// The subtrees of a tree at patch_depth(), in the order of their leaves.
+[[nodiscard]] std::vector<BoxTree::Range> patch_ranges(const BoxTree& tree);
+
+/// How each patch of a tree, one of its patch_ranges(), has moved.
 template <int Dim>
 class Patches {
 public:

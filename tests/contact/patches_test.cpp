@@ -51,20 +51,6 @@ protected:
         }
     };
 
-    // Leaves of each patch, in the order of patches.
-    static std::vector<BoxTree::Range> ranges_of(const BoxTree& tree) {
-        std::vector<BoxTree::Range> ranges{tree.root()};
-        for (int depth = patch_depth(tree.size()); depth > 0; --depth) {
-            std::vector<BoxTree::Range> halves;
-            for (const BoxTree::Range& range : ranges) {
-                halves.push_back(range.left());
-                halves.push_back(range.right());
-            }
-            ranges = halves;
-        }
-        return ranges;
-    }
-
     // A bar rolled up to a circle of that radius, stretched by 1 on a line through its axis.
     static Positions<kD> rolled(const Positions<kD>& rest, double radius) {
         Positions<kD> positions = rest;
@@ -95,7 +81,7 @@ TYPED_TEST(PatchesTest, DeviateFromTheirMapsByNoMoreThanTheySay) {
     constexpr int kDim = TypeParam::value;
     typename TestFixture::Bar bar;
     const Positions<kDim>& rest = bar.scene.positions;
-    const auto ranges = TestFixture::ranges_of(bar.ridge_tree);
+    const auto ranges = patch_ranges(bar.ridge_tree);
     ASSERT_EQ(ranges.size(), bar.ridges.motions().size());
     for (const Positions<kDim>& positions : TestFixture::deformed(rest)) {
         bar.fit(positions);
@@ -152,8 +138,8 @@ TYPED_TEST(PatchesTest, StayApartOnlyWhereAllTheirPairsDo) {
     typename TestFixture::Bar bar;
     const Positions<kDim>& rest = bar.scene.positions;
     const Surface<kDim>& surface = bar.scene.surfaces[0];
-    const auto edge_ranges = TestFixture::ranges_of(bar.edge_tree);
-    const auto ridge_ranges = TestFixture::ranges_of(bar.ridge_tree);
+    const auto edge_ranges = patch_ranges(bar.edge_tree);
+    const auto ridge_ranges = patch_ranges(bar.ridge_tree);
     const double rest_distance = 0.5;
     const double distance = 0.25;
     int apart = 0;
