@@ -1,7 +1,12 @@
 #!/usr/bin/env bash
-# Builds with coverage counters, runs the tests, and says which lines none of them reached.
+# Builds with counters on every line, runs the tests, and says what none of them reached: a table of
+# the parts, the functions never called, and a page of every file.
 #
 #   scripts/coverage.sh [ARGUMENTS FOR CTEST]     the page is build/coverage/report/index.html
+#
+# Programs that tests start count as well, those that tests kill do not. Lines of code that exists
+# once for each dimension or number type count once. Left out are lines marked GCOVR_EXCL, with the
+# reason beside them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -9,11 +14,13 @@ command -v gcovr >/dev/null || { echo "coverage: needs gcovr: apt-get install gc
 cmake --preset coverage >/dev/null
 cmake --build --preset coverage
 find build/coverage -name '*.gcda' -delete
-ctest --preset coverage "$@" || echo "coverage: some tests failed; what they reached counts all the same"
-mkdir -p build/coverage/report
-gcovr --root . --object-directory build/coverage \
-    --filter '(format|mesher|contact|simulator|viewer|study|apps)/' \
+# LDFLAGS: the consumer of the installed package links libraries that count.
+LDFLAGS=--coverage ctest --preset coverage "$@" \
+    || echo "coverage: some tests failed; what they reached counts all the same"
+report=build/coverage/report
+mkdir -p $report
+gcovr -j "$(nproc)" --root . --filter '(format|mesher|contact|simulator|viewer|study|apps)/' \
     --exclude-unreachable-branches --exclude-throw-branches \
-    --html-details build/coverage/report/index.html --csv build/coverage/report/coverage.csv \
-    --print-summary build/coverage
-echo "coverage: build/coverage/report/index.html"
+    --html-details $report/index.html --json $report/coverage.json build/coverage
+python3 scripts/coverage_table.py $report/coverage.json
+echo "coverage: $report/index.html; uncovered lines of a part: python3 scripts/coverage_table.py $report/coverage.json PART"
