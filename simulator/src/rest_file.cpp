@@ -30,7 +30,8 @@ std::vector<BodyRest> read_rest(const std::filesystem::path& path,
         for (std::size_t body = 0; body < bodies.size(); ++body) {
             const Json& entry = json.at(bodies[body]);
             entry.at("is_asleep").get_to(rest[body].is_asleep);
-            entry.at("quiet_steps").get_to(rest[body].quiet_steps);
+            rest[body].quiet_steps =
+                entry.at("quiet_steps").get_ref<const Json::number_unsigned_t&>();
         }
         return rest;
     } catch (const nlohmann::json::exception&) {

@@ -96,7 +96,8 @@ void remove_temporaries(const fs::path& folder) {
 std::string isa_of_run(const fs::path& folder) {
     std::ifstream file(folder / "report.json");
     const auto report = nlohmann::json::parse(file, nullptr, false);
-    return report.is_object() ? report.value("isa", "") : "";
+    const auto isa = report.find("isa");
+    return isa != report.end() && isa->is_string() ? isa->get<std::string>() : "";
 }
 
 }  // namespace pent::simulator

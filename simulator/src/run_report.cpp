@@ -34,22 +34,28 @@ Json contact_json(const ContactSummary& contact) {
             {"seconds", contact.seconds}};
 }
 
+// A count: whole and not negative, where get_to() would round any number to one.
+template <typename Count>
+void read_count(const Json& json, const char* key, Count& count) {
+    count = static_cast<Count>(json.at(key).get_ref<const Json::number_unsigned_t&>());
+}
+
 ContactSummary parse_contact(const Json& json) {
     ContactSummary contact;
-    json.at("point_facet").get_to(contact.point_facet);
-    json.at("mixed").get_to(contact.mixed);
-    json.at("self").get_to(contact.self);
-    json.at("obstacle").get_to(contact.obstacle);
+    read_count(json, "point_facet", contact.point_facet);
+    read_count(json, "mixed", contact.mixed);
+    read_count(json, "self", contact.self);
+    read_count(json, "obstacle", contact.obstacle);
     json.at("deepest").get_to(contact.deepest);
     if (!json.at("smallest_distance").is_null()) {
         json.at("smallest_distance").get_to(contact.smallest_distance);
     }
-    json.at("searches").get_to(contact.searches);
-    json.at("candidates").get_to(contact.candidates);
-    json.at("obstacle_tests").get_to(contact.obstacle_tests);
-    json.at("friction").get_to(contact.friction);
-    json.at("trees_built").get_to(contact.trees_built);
-    json.at("trees_refit").get_to(contact.trees_refit);
+    read_count(json, "searches", contact.searches);
+    read_count(json, "candidates", contact.candidates);
+    read_count(json, "obstacle_tests", contact.obstacle_tests);
+    read_count(json, "friction", contact.friction);
+    read_count(json, "trees_built", contact.trees_built);
+    read_count(json, "trees_refit", contact.trees_refit);
     json.at("ccd_seconds").get_to(contact.ccd_seconds);
     json.at("stiffness").get_to(contact.stiffness);
     json.at("seconds").get_to(contact.seconds);
@@ -85,20 +91,20 @@ Json step_json(const StepReport& step) {
 StepReport parse_step(const Json& json) {
     StepReport step;
     step.is_accepted = true;
-    json.at("step").get_to(step.step);
+    read_count(json, "step", step.step);
     json.at("time").get_to(step.time);
-    json.at("substeps").get_to(step.substeps);
-    json.at("refused").get_to(step.refused);
-    json.at("newton_iterations").get_to(step.newton_iterations);
-    json.at("iterations").get_to(step.iterations);
-    json.at("asleep").get_to(step.asleep);
-    json.at("unknowns").get_to(step.unknowns);
-    json.at("hessians").get_to(step.hessians);
-    json.at("damping_hessians").get_to(step.damping_hessians);
+    read_count(json, "substeps", step.substeps);
+    read_count(json, "refused", step.refused);
+    read_count(json, "newton_iterations", step.newton_iterations);
+    read_count(json, "iterations", step.iterations);
+    read_count(json, "asleep", step.asleep);
+    read_count(json, "unknowns", step.unknowns);
+    read_count(json, "hessians", step.hessians);
+    read_count(json, "damping_hessians", step.damping_hessians);
     json.at("residual").get_to(step.residual);
     json.at("unbalanced").get_to(step.unbalanced);
-    json.at("inverted").get_to(step.inverted);
-    json.at("collapsed").get_to(step.collapsed);
+    read_count(json, "inverted", step.inverted);
+    read_count(json, "collapsed", step.collapsed);
     json.at("kinetic").get_to(step.energies.kinetic);
     json.at("elastic").get_to(step.energies.elastic);
     json.at("gravity").get_to(step.energies.gravity);
@@ -180,8 +186,8 @@ ReportHistory parse_history(const std::string& text,
         const Json json = Json::parse(text);
         for (const Json& entry : json.at("frames")) {
             FrameReport frame;
-            entry.at("frame").get_to(frame.frame);
-            entry.at("step").get_to(frame.step);
+            read_count(entry, "frame", frame.frame);
+            read_count(entry, "step", frame.step);
             entry.at("time").get_to(frame.time);
             for (const std::string& body : bodies) {
                 frame.non_rigid.push_back(entry.at("non_rigid").at(body).get<double>());

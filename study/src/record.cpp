@@ -31,6 +31,11 @@ Json to_json(const Errors& errors) {
             {"refused", errors.refused}};
 }
 
+// A count: whole and not negative, where numbers would be rounded to one.
+std::int64_t count_of(const Json& json) {
+    return static_cast<std::int64_t>(json.get_ref<const Json::number_unsigned_t&>());
+}
+
 Errors errors_from(const Json& json) {
     Errors errors;
     json.at("position").get_to(errors.position);
@@ -43,9 +48,9 @@ Errors errors_from(const Json& json) {
     json.at("angular_momentum_scale").get_to(errors.angular_momentum_scale);
     json.at("smallest_J").get_to(errors.smallest_J);
     json.at("deepest_penetration").get_to(errors.deepest_penetration);
-    json.at("iterations").get_to(errors.iterations);
-    json.at("newton_iterations").get_to(errors.newton_iterations);
-    json.at("refused").get_to(errors.refused);
+    errors.iterations = count_of(json.at("iterations"));
+    errors.newton_iterations = count_of(json.at("newton_iterations"));
+    errors.refused = count_of(json.at("refused"));
     return errors;
 }
 
@@ -112,7 +117,7 @@ std::optional<Record> read_record(const std::filesystem::path& path) {
         json.at("wall_seconds").get_to(record.wall_seconds);
         json.at("cpu_seconds").get_to(record.cpu_seconds);
         json.at("peak_bytes").get_to(record.peak_bytes);
-        json.at("meshes").get_to(record.meshes);
+        record.meshes = static_cast<std::uint32_t>(count_of(json.at("meshes")));
         json.at("scene").get_to(record.scene);
         json.at("reference").get_to(record.reference);
         record.errors = errors_from(json.at("errors"));

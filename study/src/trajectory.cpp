@@ -13,14 +13,21 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json read_report(const std::filesystem::path& folder) {
+// What `read` takes from the report of a run.
+template <typename Read>
+auto from_report(const std::filesystem::path& folder, const Read& read) {
     const std::filesystem::path path = folder / "report.json";
     std::ifstream file(path);
     try {
-        return Json::parse(file);
+        return read(Json::parse(file));
     } catch (const Json::exception& error) {
         throw Error(path.string() + ": not the report of a run (" + error.what() + ")");
     }
+}
+
+// A count: whole and not negative, where numbers would be rounded to one.
+std::int64_t count_of(const Json& json) {
+    return static_cast<std::int64_t>(json.get_ref<const Json::number_unsigned_t&>());
 }
 
 StepRecord read_step(const Json& json) {
@@ -31,15 +38,21 @@ StepRecord read_step(const Json& json) {
         json.at("obstacle").get<double>() + json.at("contact_energy").get<double>();
     step.total = step.internal + json.at("gravity").get<double>() + step.contact_energy;
     const Json& contact = json.at("contact");
-    step.has_contact = contact.at("point_facet").get<std::int64_t>()
-                           + contact.at("mixed").get<std::int64_t>()
-                           + contact.at("obstacle").get<std::int64_t>()
-                       > 0;
+    step.has_contact = count_of(contact.at("point_facet")) > 0 || count_of(contact.at("mixed")) > 0
+                       || count_of(contact.at("obstacle")) > 0;
     step.penetration = contact.at("deepest");
-    step.iterations = json.at("iterations");
-    step.newton_iterations = json.at("newton_iterations");
-    step.refused = json.at("refused");
+    step.iterations = count_of(json.at("iterations"));
+    step.newton_iterations = count_of(json.at("newton_iterations"));
+    step.refused = count_of(json.at("refused"));
     return step;
+}
+
+std::vector<StepRecord> read_steps(const Json& report) {
+    std::vector<StepRecord> steps;
+    for (const Json& step : report.at("steps")) {
+        steps.push_back(read_step(step));
+    }
+    return steps;
 }
 
 template <int Dim>
@@ -67,8 +80,9 @@ std::optional<RunVerdict> verdict_of(const std::filesystem::path& folder) {
     if (!std::filesystem::exists(folder / "report.json")) {
         return std::nullopt;
     }
-    const Json report = read_report(folder);
-    return RunVerdict{report.value("verdict", ""), report.value("message", "")};
+    return from_report(folder, [](const Json& report) {
+        return RunVerdict{report.value("verdict", ""), report.value("message", "")};
+    });
 }
 
 Trajectory::Trajectory(const simulator::Scene& scene, std::filesystem::path folder)
@@ -81,15 +95,7 @@ Trajectory::Trajectory(const simulator::Scene& scene, std::filesystem::path fold
     } else {
         read_meshes<4>(scene);
     }
-    const Json report = read_report(folder_);
-    try {
-        for (const Json& step : report.at("steps")) {
-            steps_.push_back(read_step(step));
-        }
-    } catch (const Json::exception& error) {
-        throw Error((folder_ / "report.json").string() + ": not the report of a run ("
-                    + error.what() + ")");
-    }
+    steps_ = from_report(folder_, read_steps);
 }
 
 template <int Dim>

@@ -1,6 +1,13 @@
 #include "readers.h"
 
 #include "crc32c.h"
+#include "rest_file.h"
+#include "resume.h"
+#include "run_report.h"
+#ifdef PENT_FUZZ_STUDY
+#include "record.h"
+#include "trajectory.h"
+#endif
 
 #include <pent/error.h>
 #include <pent/formatted.h>
@@ -18,9 +25,12 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <sys/mman.h>
 #include <unistd.h>
+#include <utility>
+#include <vector>
 
 namespace pent::fuzz {
 
@@ -116,6 +126,44 @@ void try_scene(const fs::path& path) {
             "a scene that is accepted survives being written and read");
 }
 
+// What a run that sleeps left to be resumed.
+void try_rest(const fs::path& path) {
+    const std::vector<std::string> bodies = {"bar", "block"};
+    const std::vector<simulator::BodyRest> rest = simulator::read_rest(path, bodies);
+    const fs::path copy = folder() / "copy.json";
+    simulator::write_rest(copy, bodies, rest);
+    require(simulator::read_rest(copy, bodies) == rest,
+            "what is known of rest survives being written and read");
+}
+
+// A report.json as a resumed run and a study read it.
+void try_report(const fs::path& path) {
+    constexpr int kLastFrame = 10;
+    constexpr std::uint64_t kLastStep = 20;
+    fs::copy_file(path, folder() / "report.json", fs::copy_options::overwrite_existing);
+    static_cast<void>(simulator::isa_of_run(folder()));
+#ifdef PENT_FUZZ_STUDY
+    static_cast<void>(study::verdict_of(folder()));
+    static_cast<void>(study::Trajectory(simulator::Scene(), folder()));  // no bodies: no meshes
+#endif
+    simulator::RunReport report;
+    report.bodies = {"bar"};
+    simulator::ReportHistory history = simulator::parse_history(
+        content(path), path.string(), report.bodies, kLastFrame, kLastStep);
+    report.frames = std::move(history.frames);
+    report.steps = std::move(history.steps);
+    static_cast<void>(simulator::report_text(report, "running", "", 1));
+}
+
+#ifdef PENT_FUZZ_STUDY
+void try_record(const fs::path& path) {
+    const std::optional<study::Record> record = study::read_record(path);
+    require(record.has_value(), "a file that is there is a record");
+    static_cast<void>(study::cost_of(*record, 1));
+    study::write_record(folder() / "copy.json", *record);
+}
+#endif
+
 #ifdef PENT_FUZZ_MESHER
 void try_surface(const fs::path& path) {
     const mesher::Surface surface = mesher::read_surface(path).surface;
@@ -157,7 +205,11 @@ void try_profile(const fs::path& path) {
 const std::vector<Reader>& readers() {
     static const std::vector<Reader> all = {
         {"pent", ".pent", try_pent},        {"pent_checksum", ".pent", try_pent_with_checksum},
-        {"scene", ".toml", try_scene},
+        {"scene", ".toml", try_scene},      {"rest", ".json", try_rest},
+        {"report", ".json", try_report},
+#ifdef PENT_FUZZ_STUDY
+        {"record", ".json", try_record},
+#endif
 #ifdef PENT_FUZZ_MESHER
         {"obj", ".obj", try_surface},       {"off", ".off", try_surface},
         {"ply", ".ply", try_surface},       {"stl", ".stl", try_surface},
