@@ -159,7 +159,52 @@ std::vector<Case> make_cases() {
     return all;
 }
 
+std::string corner_name(const Extreme& extreme) {
+    return formatted("poisson %g young %g density %g dt %g aspect %g ratio %g size %g",
+                     extreme.poisson, extreme.young, extreme.density, extreme.dt, extreme.aspect,
+                     extreme.ratio, extreme.size);
+}
+
+std::vector<Case> make_corners() {
+    std::vector<Case> all(1);
+    const auto both = [&](auto member, double low, double high) {
+        const std::vector<Case> before = std::move(all);
+        all.clear();
+        for (const double value : {low, high}) {
+            for (Case one : before) {
+                one.extreme.*member = value;
+                all.push_back(one);
+            }
+        }
+    };
+    both(&Extreme::poisson, -0.5, 0.33);
+    both(&Extreme::young, 1e3, 1e12);
+    both(&Extreme::density, 1, 1e5);
+    both(&Extreme::dt, 1e-5, 0.1);
+    both(&Extreme::aspect, 1e-2, 1e2);
+    both(&Extreme::ratio, 1, 1e6);
+    both(&Extreme::size, 1e-3, 1e3);
+    for (Case& one : all) {
+        Extreme& extreme = one.extreme;
+        if (extreme.ratio != 1) {
+            // Forces are compared with the largest of the scene, which the softer body's vanish beside.
+            extreme.newton_tolerance = 1e-10;
+        }
+        const double edge = extreme.size / extreme.cells * std::min(1.0, extreme.aspect);
+        const double speed = std::sqrt(extreme.young * extreme.ratio / extreme.density);
+        one.group = "corner";
+        one.name = corner_name(extreme);
+        one.is_inside = std::pow(speed * extreme.dt / edge, 2) <= 1e8;
+    }
+    return all;
+}
+
 }  // namespace
+
+const std::vector<Case>& corners() {
+    static const std::vector<Case> all = make_corners();
+    return all;
+}
 
 const std::vector<Case>& cases() {
     static const std::vector<Case> all = make_cases();

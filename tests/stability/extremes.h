@@ -23,6 +23,7 @@ struct Extreme {
     double gravity = 9.8;   ///< m/s^2.
     int cells = 2;          ///< Tesseracts along the body; 0 for a single pentachoron.
     int across = 1;         ///< Tesseracts along each of the other axes.
+    double newton_tolerance = 1e-6;
     int threads = 1;
 };
 
@@ -35,6 +36,10 @@ struct Case {
 
 /// Everything that is tried.
 [[nodiscard]] const std::vector<Case>& cases();
+
+/// The corners of the box, every number at one of its ends, all at once. Inside are those where the
+/// inertia of a vertex does not drown: stiffness times the square of the time step up to 1e8 masses.
+[[nodiscard]] const std::vector<Case>& corners();
 
 /// A body of a million pentachora: for the report alone, too slow for a test.
 [[nodiscard]] Case million();

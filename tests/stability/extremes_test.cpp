@@ -45,6 +45,24 @@ TEST_P(Extremes, AreRightWithinTheBoxAndNeverSilentlyWrong) {
     }
 }
 
+class Corners : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(All, Corners, testing::ValuesIn(corners()), [](const auto& one) {
+    return test_name(one.param.name);
+});
+
+// Inside: right in double. Float is asked for no more than a word.
+TEST_P(Corners, OfTheBoxAreRightUntilInertiaDrownsAndNeverSilentlyWrong) {
+    for (const Precision precision : kPrecisions) {
+        for (const Motion motion : kMotions) {
+            const Outcome outcome = run(GetParam().extreme, motion, precision);
+            EXPECT_NE(outcome.kind, Outcome::Kind::Wrong) << text(outcome);
+            if (GetParam().is_inside && precision == Precision::Double) {
+                EXPECT_EQ(outcome.kind, Outcome::Kind::Right) << text(outcome);
+            }
+        }
+    }
+}
+
 class Starts : public testing::TestWithParam<Start> {};
 INSTANTIATE_TEST_SUITE_P(All, Starts, testing::ValuesIn(starts()), [](const auto& one) {
     return test_name(one.param.name);

@@ -55,7 +55,7 @@ simulator::Scene scene_of(const Extreme& extreme, simulator::Precision precision
     }
     scene.solver.precision = precision;
     scene.solver.tolerance = 1e-6;
-    scene.solver.newton_tolerance = 1e-6;
+    scene.solver.newton_tolerance = extreme.newton_tolerance;
     scene.solver.max_iterations = 20'000;
     return scene;
 }

@@ -2,6 +2,7 @@
 
 #include "extremes.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -52,6 +53,40 @@ void write_numbers() {
     }
 }
 
+// "112 right, up to 1e-4; 16 reported".
+std::string counted(bool is_inside, Motion motion, Precision precision) {
+    Outcome worst;
+    int right = 0;
+    int reported = 0;
+    for (const Case& corner : corners()) {
+        if (corner.is_inside != is_inside) {
+            continue;
+        }
+        const Outcome outcome = run(corner.extreme, motion, precision);
+        if (outcome.kind == Outcome::Kind::Wrong) {
+            return "at " + corner.name + ": " + text(outcome);
+        }
+        const bool is_right = outcome.kind == Outcome::Kind::Right;
+        (is_right ? right : reported) += 1;
+        worst.error = std::max(worst.error, outcome.error);
+    }
+    return std::to_string(right) + " " + text(worst)
+           + (reported == 0 ? "" : "; " + std::to_string(reported) + " reported");
+}
+
+void write_corners() {
+    constexpr const char* kNames[] = {"fall", "fall by newton_euler", "turn", "load", "rest"};
+    heading("Corners", "motion", "corners");
+    for (const Motion motion : kMotions) {
+        for (const bool is_inside : {true, false}) {
+            const auto count = std::ranges::count(corners(), is_inside, &Case::is_inside);
+            row(is_inside ? kNames[static_cast<int>(motion)] : "", std::to_string(count),
+                is_inside ? "in" : "out",
+                [&](Precision precision) { return counted(is_inside, motion, precision); });
+        }
+    }
+}
+
 void write_starts() {
     heading("Starts", "integrator", "start");
     for (const auto& [name, integrator] : {std::pair("newton_euler", Integrator::NewtonEuler),
@@ -86,6 +121,7 @@ int main(int argc, char** argv) {
     std::ifstream introduction(argv[1]);
     std::cout << introduction.rdbuf();
     write_numbers();
+    write_corners();
     write_starts();
     write_touches();
     return 0;
