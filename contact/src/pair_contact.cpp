@@ -3,8 +3,6 @@
 #include "closest_point_search.h"
 #include "gather.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 
@@ -24,10 +22,6 @@ constexpr double kLeastView = 0.2;
 // there a neighboring pair, or a vertex and a facet, takes over. Wide, so that its forces along the
 // surfaces are small.
 constexpr double kBorder = 0.25;
-
-// Where the Gram determinant of the edges, over the product of their squares, is below this, they
-// are nearly parallel: closest points run along them at a touch, and tilts are held back.
-constexpr double kParallel = 1e-4;
 
 // What looks crossed within one body, but is this many distances of contact apart at rest or
 // nearer, is taken for the two sides of something thin.
@@ -87,58 +81,11 @@ bool is_culled(const PairSetting<Dim>& setting,
 
 // How a mixed pair fades with the least of its barycentric weights: 1 within, 0 at a border, with a
 // continuous slope.
-struct Fade {
-    double value = 0;
-    double slope = 0;  // by that weight
-    int which = 0;     // corner: of the first simplex, then of the second
-};
-
 template <int Dim, int K, int L>
-Fade fade_of(const ClosestPoints<Dim, K, L>& points) {
-    Fade fade;
-    Weights<Dim> weights;
-    weights << points.beta, points.alpha;
-    const double t = std::clamp(weights.minCoeff(&fade.which) / kBorder, 0.0, 1.0);
-    fade.value = t * t * (3 - 2 * t);
-    fade.slope = 6 * t * (1 - t) / kBorder;
-    return fade;
-}
-
-// Adds the gradient of energy * fade by way of the fade: the closest points solve E^T r = 0 with
-// r = x - y and E the edges, those of the second simplex reversed, which is differentiated.
-template <int Dim, int K, int L>
-void add_tilt(const Corners<Dim, K>& first,
-              const Corners<Dim, L>& second,
-              const ClosestPoints<Dim, K, L>& points,
-              const Fade& fade,
-              double energy,
-              Contact<Dim>& contact) {
-    constexpr int kN = Dim - 1;
-    Eigen::Matrix<double, Dim, kN> edges;
-    edges << first.template rightCols<K - 1>().colwise() - first.col(0),
-        (-second.template rightCols<L - 1>()).colwise() + second.col(0);
-    const Eigen::Matrix<double, kN, kN> gram = edges.transpose() * edges;
-    const double independence = gram.determinant() / gram.diagonal().prod();
-    if (!(independence > 0)) {
-        return;
-    }
-    // The weight in question as a function of the parameters, which leave out the first corners.
-    Eigen::Matrix<double, kN, 1> selected = Eigen::Matrix<double, kN, 1>::Zero();
-    if (fade.which == 0) {
-        selected.template head<K - 1>().setConstant(-1);
-    } else if (fade.which == K) {
-        selected.template tail<L - 1>().setConstant(-1);
-    } else {
-        selected[fade.which - (fade.which < K ? 1 : 2)] = 1;
-    }
-    const Eigen::Matrix<double, kN, 1> q = gram.inverse() * selected;
-    const double factor = -energy * fade.slope * std::min(1.0, independence / kParallel);
-    const double l = std::sqrt(points.distance_squared);
-    contact.response.gradient += factor * (edges * q);
-    contact.tilt_direction = points.difference / l;
-    contact.tilts << -q.template head<K - 1>().sum(), q.template head<K - 1>(),
-        q.template tail<L - 1>().sum(), -q.template tail<L - 1>();
-    contact.tilts *= factor * l;
+double fade_of(const ClosestPoints<Dim, K, L>& points) {
+    const double least = std::min(points.beta.minCoeff(), points.alpha.minCoeff());
+    const double t = std::clamp(least / kBorder, 0.0, 1.0);
+    return t * t * (3 - 2 * t);
 }
 
 template <int Dim, int K, int L>
@@ -207,8 +154,7 @@ std::optional<Contact<Dim>> local_contact(const PairSetting<Dim>& setting,
     const View<Dim> seen = view<Dim, K, L>(
         points, normal_at<Dim, K>(setting.normals, first, i, points.beta),
         normal_at<Dim, L>(setting.normals, second, j, points.alpha), kTouching * eps);
-    const Fade fade = K == 1 ? Fade{.value = 1} : fade_of<Dim, K, L>(points);
-    const double weight = seen.weight * fade.value;
+    const double weight = seen.weight * (K == 1 ? 1 : fade_of<Dim, K, L>(points));
     if (weight == 0
         || (setting.is_self() && is_culled<Dim, K, L>(setting, first, i, second, j, seen.side))) {
         return {};
@@ -219,11 +165,6 @@ std::optional<Contact<Dim>> local_contact(const PairSetting<Dim>& setting,
     contact.response = pair_response<Dim>(contact.distance, seen.direction,
                                           {eps, setting.options.stiffness, Reach::Fading}, weight,
                                           setting.options.filter);
-    if constexpr (K > 1) {
-        if (setting.options.tilt && fade.slope > 0 && points.distance_squared > 0) {
-            add_tilt<Dim, K, L>(a, b, points, fade, contact.response.energy / fade.value, contact);
-        }
-    }
     return contact;
 }
 

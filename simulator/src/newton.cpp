@@ -18,8 +18,8 @@ constexpr double kKinkForce = 0.1;
 constexpr double kKinkGain = 1e-4;
 constexpr int kKinkIterations = 8;
 
-// What views take from mixed pairs in contact is held, so their forces are not quite the derivative of
-// phi. Where the force becomes less, phi may therefore rise, by this part of what it has fallen so far.
+// The share of mixed pairs in contact is held, so their forces are not quite the derivative of phi. Where
+// the force becomes less, phi may therefore rise, by this part of what it has fallen so far.
 constexpr double kMostRise = 1e-2;
 
 // The state with the least unbalanced force that Newton's method has come by.

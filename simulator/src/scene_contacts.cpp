@@ -59,7 +59,6 @@ std::unique_ptr<contact::ContactFinder<Dim>> make_finder(const Scene& scene,
                                 .stiffness = contact.stiffness,
                                 .self = contact.self,
                                 .filter = contact.filter,
-                                .tilt = is_searched_often,
                                 .margin = is_searched_often ? kMargin * contact.distance : 0});
 }
 

@@ -27,9 +27,6 @@ struct ContactOptions {
     double stiffness = 0;  ///< k, N/m, > 0.
     bool self = false;     ///< Whether bodies meet themselves.
     Filter filter = Filter::Clamp;
-    /// Whether forces are the derivative of the energy, as its minimization needs: then mixed pairs that
-    /// fade are tilted. If not, the fading is held, as all weights are, and surfaces slide smoothly.
-    bool tilt = false;
     /// m, >= 0: pairs found are kept until a vertex has moved this far, so that evaluations at
     /// nearby positions (those of a Newton step) cost little; finding them costs more then. 0 keeps
     /// nothing. Contacts are the same either way.
@@ -46,28 +43,22 @@ enum class ContactKind : std::uint8_t {
 
 /// One pair of simplices in contact. The force on vertices[i] is
 ///
-///     -(weights[i] response.gradient + tilts[i] tilt_direction),
+///     -weights[i] response.gradient,
 ///
-/// the Hessian block of vertices i and j is weights[i] weights[j] response.hessian.
-///
-/// Tilts are those of mixed pairs that fade towards a border, with ContactOptions::tilt: the energy
-/// falls where the closest points move there, which turns both simplices. They sum to 0 over either.
+/// the Hessian block of vertices i and j is weights[i] weights[j] response.hessian. Weights are held, and
+/// so is the share of its energy that a mixed pair has, which fades towards a border and with its view.
 template <int Dim>
 struct Contact {
     std::array<std::uint32_t, Dim + 1> vertices{};  ///< Of the first simplex, then of the second.
     Weights<Dim> weights;
-    Weights<Dim> tilts = Weights<Dim>::Zero();         ///< N.
-    Vector<Dim> tilt_direction = Vector<Dim>::Zero();  ///< Unit length, or zero.
-    double distance = 0;                               ///< Signed, m; negative inside.
+    double distance = 0;  ///< Signed, m; negative inside.
     Response<Dim> response;
     ContactKind kind = ContactKind::PointFacet;
     std::int32_t first_body = 0;
     std::int32_t second_body = 0;
 
     /// Force on vertices[i], N.
-    [[nodiscard]] Vector<Dim> force(int i) const {
-        return -(weights[i] * response.gradient + tilts[i] * tilt_direction);
-    }
+    [[nodiscard]] Vector<Dim> force(int i) const { return -weights[i] * response.gradient; }
 };
 
 struct ContactReport {
