@@ -21,6 +21,7 @@ namespace {
 class Descriptor {
 public:
     explicit Descriptor(int number) : number_(number) {}
+    [[nodiscard]] int number() const { return number_; }
     ~Descriptor() { ::close(number_); }
     Descriptor(const Descriptor&) = delete;
     Descriptor& operator=(const Descriptor&) = delete;
@@ -28,19 +29,15 @@ public:
     Descriptor& operator=(Descriptor&&) = delete;
 
 private:
-    int number_;
+    int number_;  // or -1
 };
 
 }  // namespace
 
 InputFile read_input(const std::filesystem::path& path, std::size_t limit) {
-    const int number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (number < 0) {
-        fail(path, errno);
-    }
-    const Descriptor descriptor(number);
+    const Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     struct stat status = {};
-    if (::fstat(number, &status) != 0) {
+    if (descriptor.number() < 0 || ::fstat(descriptor.number(), &status) != 0) {
         fail(path, errno);
     }
     if (!S_ISREG(status.st_mode)) {
@@ -50,17 +47,15 @@ InputFile read_input(const std::filesystem::path& path, std::size_t limit) {
     const std::size_t wanted = std::min(limit, static_cast<std::size_t>(status.st_size));
     file.data = std::make_unique_for_overwrite<char[]>(wanted);
     while (file.bytes < wanted) {
-        const ssize_t got = ::read(number, file.data.get() + file.bytes, wanted - file.bytes);
-        if (got < 0 && errno == EINTR) {
-            continue;
-        }
-        if (got < 0) {
-            fail(path, errno);
+        const ssize_t got =
+            ::read(descriptor.number(), file.data.get() + file.bytes, wanted - file.bytes);
+        if (got < 0 && errno != EINTR) {
+            fail(path, errno);  // GCOVR_EXCL_LINE: a disk that breaks
         }
         if (got == 0) {
             break;  // the file became shorter while it was read; the header's counts will tell
         }
-        file.bytes += static_cast<std::size_t>(got);
+        file.bytes += static_cast<std::size_t>(std::max<ssize_t>(got, 0));
     }
     return file;
 }

@@ -55,10 +55,14 @@ protected:
         std::string bytes = good_;
         bytes.replace(body_ + offset, sizeof value,
                       std::string(reinterpret_cast<const char*>(&value), sizeof value));
-        const std::string body = bytes.substr(body_);
-        bytes.replace(bytes.find("crc32c ") + 7, 8,
-                      formatted("%08x", crc32c(body.data(), body.size())));
-        return bytes;
+        return with_checksum(bytes);
+    }
+
+    // The file with the checksum that its body has.
+    [[nodiscard]] static std::string with_checksum(std::string bytes) {
+        const std::string body = bytes.substr(bytes.find("end_header\n") + 11);
+        return bytes.replace(bytes.find("crc32c ") + 7, 8,
+                             formatted("%08x", crc32c(body.data(), body.size())));
     }
 
     test::TempFolder folder_;
@@ -224,6 +228,54 @@ TEST_F(DamagedFile, CommentTwice) {
                     {"line", "8 hexadecimal digits"});
 }
 
+TEST_F(DamagedFile, CommentBehindAnElement) {
+    expect_contains(message(header_with("property double x", "comment step 3\nproperty double x")),
+                    {"line 8", "'comment step 3'", "in front of the first element"});
+}
+
+TEST_F(DamagedFile, OptionalPropertyOfAnotherType) {
+    expect_contains(
+        message(with_checksum(header_with("end_header", "property double region\nend_header")
+                              + std::string(24 * 8, '\0'))),
+        {"property region of element pentachoron is double", "expected ushort"});
+}
+
+TEST_F(DamagedFile, UnknownElementsCutOff) {
+    const auto extra = [&](const std::string& element, const std::string& bytes) {
+        return with_checksum(header_with("end_header", "element extra 2\n" + element + "end_header")
+                             + bytes);
+    };
+    expect_contains(message(extra("", "")), {"element extra", "has no properties"});
+    // Two lists at least of their lengths' bytes; the first takes all of them.
+    const std::string list = "property list short int more\n";
+    expect_contains(message(extra(list, std::string("\0\0\1", 3))),
+                    {"element extra", "the header announces 2"});
+    expect_contains(message(extra(list, std::string("\0\0\1\0", 4))),
+                    {"extra 1", "the file ends within property more"});
+    expect_contains(message(extra(list, std::string("\1\0wxyz", 6))),
+                    {"extra 1", "the file ends here: it is truncated"});
+    expect_contains(message(extra(list, std::string("\xff\xff\0\0", 4))),
+                    {"extra 0", "the file ends within property more"});
+    expect_contains(message(extra(list, std::string("\0\0\0\0!", 5))),
+                    {"end of file", "1 bytes follow", "expected none"});
+}
+
+TEST_F(DamagedFile, PropertyThatIsNone) {
+    for (const std::string line : {"property list uchar v0", "property uint v0 v1"}) {
+        expect_contains(
+            message(header_with("property uint v0", line)),
+            {"'" + line + "'", "'property TYPE NAME' or 'property list TYPE TYPE NAME'"});
+    }
+    expect_contains(message(header_with("end_header", "property list float uint v9\nend_header")),
+                    {"list float", "a whole-number type for the length of a list"});
+    expect_contains(message(header_with("end_header", "property uint v0\nend_header")),
+                    {"'property uint v0'", "each property only once"});
+    expect_contains(message(header_with("element vertex", "property int a\nelement vertex")),
+                    {"'property int a'", "an element line in front"});
+    expect_contains(message(header_with("end_header", "property list uchar int more\nend_header")),
+                    {"pentachoron", "list property more", "fixed width"});
+}
+
 class DamagedAscii : public DamagedFile {
 protected:
     DamagedAscii() {
@@ -269,6 +321,34 @@ TEST_F(DamagedAscii, NotANumberIsNamedWhenThereIsNoChecksum) {
     const std::size_t at = bytes.find("comment crc32c");
     bytes.erase(at, bytes.find('\n', at) + 1 - at);
     expect_contains(message(bytes), {"vertex 0", "x is nan", "finite"});
+}
+
+TEST_F(DamagedAscii, UnknownElementsCutOff) {
+    const std::string announced =
+        header_with("end_header", "element extra 2\nproperty char a\nend_header");
+    expect_contains(message(announced + "1\n3 "), {"extra 1", "the file ends here"});
+    expect_contains(message(announced + "1\n2\n3\n"), {"end of file", "2 bytes follow"});
+}
+
+TEST_F(DamagedAscii, NumbersThatDoNotFitTheirType) {
+    const auto with_type = [&](const std::string& type, const std::string& number) {
+        std::string bytes =
+            header_with("property double w\n", "property double w\nproperty " + type + " a\n");
+        return bytes.replace(bytes.find('\n', bytes.find("end_header") + 11), 1,
+                             " " + number + "\n");
+    };
+    for (const auto& [type, number] : {std::pair("char", "128"),
+                                       {"uchar", "256"},
+                                       {"short", "-32769"},
+                                       {"ushort", "-1"},
+                                       {"int", "2147483648"},
+                                       {"uint", "4294967296"},
+                                       {"float", "1e39"},
+                                       {"double", "1e400"}}) {
+        expect_contains(
+            message(with_type(type, number)),
+            {"vertex 0", "a is '" + std::string(number) + "'", std::string("type ") + type});
+    }
 }
 
 TEST_F(DamagedAscii, WrongChecksum) {

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 namespace pent {
 namespace {
@@ -45,6 +46,34 @@ TEST(FrameFile, RoundTripIsBitExact) {
         EXPECT_EQ(read.time, frame.time);
         EXPECT_TRUE(read_info(folder / "f.pent").is_frame);
     }
+}
+
+TEST(FrameFile, HasTheNumberOfItsFrameInItsNameAndSortsByIt) {
+    EXPECT_EQ(frame_file_name("octopus", 42), "octopus_000042.pent");
+    EXPECT_LT(frame_file_name("a", 99), frame_file_name("a", 100));
+}
+
+TEST(FrameFile, NamesWhatIsWrongWithItsHeader) {
+    const test::TempFolder folder;
+    Frame<4> frame = sample();
+    for (const std::string name : {"", "two words", "a\nb"}) {
+        frame.mesh_name = name;
+        expect_contains(error_of([&] { write_frame(folder / "f.pent", frame); }),
+                        {"f.pent", "mesh name '" + name + "'", "without spaces"});
+    }
+    write_frame(folder / "f.pent", sample());
+    expect_contains(error_of([&] { (void)read_frame<3>(folder / "f.pent"); }),
+                    {"f.pent", "dimension 4", "expected 3"});
+    std::ostringstream text;
+    text << std::ifstream(folder / "f.pent", std::ios::binary).rdbuf();
+    const auto message = [&](const std::string& from, const std::string& to) {
+        std::string bytes = text.str();
+        bytes.replace(bytes.find(from), from.size(), to);
+        std::ofstream(folder / "f.pent", std::ios::binary) << bytes;
+        return error_of([&] { (void)read_frame<4>(folder / "f.pent"); });
+    };
+    expect_contains(message("comment time 4.1", "comment time inf"), {"a finite time"});
+    expect_contains(message("comment step 1230", "comment step many"), {"'comment step NUMBER'"});
 }
 
 TEST(FrameFile, VelocitiesAndContactForcesMayBeLeftOut) {

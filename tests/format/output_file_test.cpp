@@ -76,6 +76,27 @@ TEST(OutputFile, LeavesNothingBehindWhenSpaceRunsOut) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+TEST(OutputFile, SaysWhoseFolderItIs) {
+    // Nobody makes files there, whatever their rights.
+    if (!std::filesystem::is_directory("/sys/kernel")) {
+        GTEST_SKIP() << "no /sys";
+    }
+    expect_contains(error_of([] { write_text("/sys/kernel/a.txt", "x"); }),
+                    {"/sys/kernel/a.txt: cannot be written", "a folder that you may write to"});
+}
+
+TEST(OutputFile, LeavesAFolderThatTookItsNameMeanwhile) {
+    const test::TempFolder folder;
+    {
+        OutputFile file(folder / "a.txt");
+        file.write("x");
+        make_folder(folder / "a.txt");
+        expect_contains(error_of([&] { file.commit(); }), {"a.txt", "Is a directory"});
+    }
+    EXPECT_TRUE(std::filesystem::is_directory(folder / "a.txt"));
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
 TEST(MakeFolder, MakesParentsAndNamesWhatStandsInTheWay) {
     const test::TempFolder folder;
     make_folder(folder / "a/b/c");

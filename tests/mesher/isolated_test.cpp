@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <new>
 #include <stdexcept>
+#include <sys/resource.h>
 
 namespace pent::mesher {
 namespace {
@@ -40,6 +41,16 @@ TEST(RunIsolated, OutlivesWhatTheStepDoesNot) {
     test::expect_contains(message_of([]() -> Pieces<3> { std::abort(); }), {"it crashed (signal"});
     test::expect_contains(message_of([]() -> Pieces<3> { throw 7; }), {"it crashed (signal"});
     EXPECT_EQ(message_of([]() -> Pieces<3> { std::_Exit(0); }), "it gave no result");
+}
+
+TEST(RunIsolated, SaysWhenNoMoreFilesCanBeOpened) {
+    rlimit before = {};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    const rlimit none = {0, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+    const std::string message = message_of([] { return Pieces<3>(); });
+    ::setrlimit(RLIMIT_NOFILE, &before);
+    EXPECT_EQ(message, "it cannot be started: no pipe");
 }
 
 TEST(RunIsolated, EndsAStepAtItsLimits) {

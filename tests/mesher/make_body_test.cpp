@@ -80,6 +80,10 @@ TEST(MakeBody, RefusesWhatCannotBeExtruded) {
     test::expect_contains(message_for(request), {"3 components", "expected 4"});
     request.extrusion.direction = Eigen::Vector4d(0, 0, 1, 0);
     test::expect_contains(message_for(request), {"along w"});
+    request.extrusion = ExtrusionRequest();
+    request.extrusion.thickness = 0;
+    request.extrusion.round = true;
+    test::expect_contains(message_for(request), {"round body of height 0", "other than 0"});
 }
 
 TEST(MakeBody, MeetsATargetWithinTwoPercent) {
@@ -185,6 +189,16 @@ TEST(MakeBodyFromPlane, ExtrudesAFlatMeshAlongZ) {
     test::write_file(folder / "flat.obj", "v 0 0 5\nv 1 0 5\nv 1 1 6\nf 1 2 3\n");
     test::expect_contains(test::error_of([&] { static_cast<void>(make_body_from_plane(request)); }),
                           {"flat.obj", "one z"});
+}
+
+TEST(MakeBodyFromPlane, RefusesShapesOfDimensionFour) {
+    const test::TempFolder folder;
+    test::write_file(folder / "flat.obj", "v 0 0 5\nv 1 0 5\nv 1 1 5\nf 1 2 3\n");
+    BodyRequest request;
+    request.input = folder / "flat.obj";
+    request.extrusion.round = true;
+    test::expect_contains(test::error_of([&] { static_cast<void>(make_body_from_plane(request)); }),
+                          {"round bodies are for dimension 4"});
 }
 
 }  // namespace

@@ -139,6 +139,10 @@ TEST(ReadTetrahedra, RefusesDamageWithFileAndLine) {
     test::expect_contains(
         message_for("a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"),
         {"POLYDATA"});
+    test::expect_contains(message_for("a.vtk",
+                                      "# vtk DataFile Version 3.0\nt\nASCII\nCELLS 1 5\n4 0 1 2 3\n"
+                                      "CELL_TYPES 2\n10\n10\n"),
+                          {"line 6", "2 types of 1 cells"});
     test::expect_contains(message_for("a.xyz", ""), {".tobj"});
 }
 
