@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace pent {
@@ -70,6 +71,18 @@ std::uint32_t write_file(const std::filesystem::path& path, Header header, const
                                       std::uint64_t count,
                                       const std::vector<Column>& columns);
 
+/// One row of a matrix, which may be empty.
+template <typename Value, int Rows>
+[[nodiscard]] Column row_column(std::string name,
+                                PlyType type,
+                                const Eigen::Matrix<Value, Rows, Eigen::Dynamic>& values,
+                                int row) {
+    // Encoding only reads through the pointer; decoding is given arrays that are not const.
+    auto* data = const_cast<Value*>(values.data());
+    return {std::move(name), type, reinterpret_cast<char*>(data == nullptr ? data : data + row),
+            Rows * sizeof(Value)};
+}
+
 /// Columns `names` of type double over the rows of a matrix of positions or velocities.
 template <int Dim>
 [[nodiscard]] std::vector<Column> vector_columns(const Positions<Dim>& values,
@@ -77,10 +90,8 @@ template <int Dim>
     constexpr std::string_view kAxes = "xyzw";
     std::vector<Column> columns;
     for (int axis = 0; axis < Dim; ++axis) {
-        // Encoding only reads through the pointer; decoding is given arrays that are not const.
-        auto* data = const_cast<double*>(values.data()) + axis;
-        columns.push_back({std::string(prefix) + kAxes[axis], PlyType::Double,
-                           reinterpret_cast<char*>(data), Dim * sizeof(double)});
+        columns.push_back(
+            row_column(std::string(prefix) + kAxes[axis], PlyType::Double, values, axis));
     }
     return columns;
 }

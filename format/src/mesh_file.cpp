@@ -13,7 +13,7 @@ namespace {
 
 template <typename Value>
 Column array_column(std::string name, PlyType type, const std::vector<Value>& values) {
-    auto* data = const_cast<Value*>(values.data());  // as in vector_columns
+    auto* data = const_cast<Value*>(values.data());  // as in row_column
     return {std::move(name), type, reinterpret_cast<char*>(data), sizeof(Value)};
 }
 
@@ -33,9 +33,7 @@ template <int Dim>
 std::vector<Column> cell_columns(const SimplexMesh<Dim>& mesh) {
     std::vector<Column> columns;
     for (int k = 0; k <= Dim; ++k) {
-        auto* data = const_cast<std::uint32_t*>(mesh.cells.data()) + k;  // as in vector_columns
-        columns.push_back({"v" + std::to_string(k), PlyType::Uint, reinterpret_cast<char*>(data),
-                           (Dim + 1) * sizeof(std::uint32_t)});
+        columns.push_back(row_column("v" + std::to_string(k), PlyType::Uint, mesh.cells, k));
     }
     if (!mesh.regions.empty()) {
         columns.push_back(array_column("region", PlyType::Ushort, mesh.regions));
