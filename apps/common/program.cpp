@@ -5,6 +5,7 @@
 #include <pent/output_file.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -20,13 +21,13 @@ namespace pent::apps {
 
 namespace {
 
-// A signal handler can reach nothing but statics.
+// A signal handler can reach nothing but statics, and a watchdog reads this on a thread of its own.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
-volatile std::sig_atomic_t stop_signals = 0;
+std::atomic<int> stop_signals = 0;
+static_assert(std::atomic<int>::is_always_lock_free);  // nothing else is allowed in a handler
 
 void on_stop_signal(int signal) {
-    stop_signals = stop_signals + 1;
-    if (stop_signals > 1) {
+    if (++stop_signals > 1) {
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }
