@@ -1,6 +1,7 @@
 #include "axes.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/nearest_name.h>
 #include <pent/simulator/scene_file.h>
 
@@ -51,7 +52,9 @@ std::string replaced(const std::string& scene,
         const std::string start = key + " = ";
         if (is_inside && line.rfind(start, 0) == 0) {
             const bool is_text = line.size() > start.size() && line[start.size()] == '"';
-            line = start + (is_text ? '"' + value + '"' : value);
+            const std::size_t quotes = is_text ? 1 : 0;
+            line.resize(start.size());
+            line.append(quotes, '"').append(value).append(quotes, '"');
         }
         text += line + "\n";
     }
@@ -138,7 +141,7 @@ Axis parse_axis(const std::string& text) {
             throw Error("--vary " + text + ": one of the values is empty");
         }
         if (std::find(axis.values.begin(), axis.values.end(), value) != axis.values.end()) {
-            throw Error("--vary " + text + ": " + value + " is there twice");
+            throw Error(formatted("--vary %s: %s is there twice", text.c_str(), value.c_str()));
         }
         axis.values.push_back(value);
     }
