@@ -10,6 +10,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <string_view>
+#include <support/messages.h>
 
 namespace pent::viewer {
 namespace {
@@ -103,6 +106,48 @@ TEST(CornerNormals, OfAFineBallPointAwayFromItsCenter) {
     // The surface has facets about 0.25 across on a ball of radius 1: their normals lean by up to
     // half of that, an eighth of a radian, and averages over uneven neighborhoods no more.
     EXPECT_GT(worst, std::cos(0.2));
+}
+
+TEST(VertexValues, AreHeightsOverTheBaseSpaceForW) {
+    const SimplexMesh<4> mesh = test::jittered_box({1, 1, 1, 1}, 3);
+    Body<4> body;
+    body.name = "box";
+    body.mesh = mesh;
+    Frame<4> frame;
+    frame.positions = mesh.positions;
+    frame.frame = 7;
+    EXPECT_EQ(vertex_values<4>(body, frame, ColorBy::W), mesh.positions.row(3).transpose());
+    EXPECT_EQ(vertex_values<4>(body, frame, ColorBy::Body), Eigen::VectorXd::Zero(16));
+    pent::test::expect_contains(
+        pent::test::error_of([&] { (void)vertex_values<4>(body, frame, ColorBy::Force); }),
+        {"frame 7 of \"box\"", "no contact forces", "contact_forces = true"});
+    frame.contact_forces = mesh.positions;
+    EXPECT_EQ(vertex_values<4>(body, frame, ColorBy::Force), vertex_force<4>(frame));
+    // In three dimensions nothing has a height.
+    Frame<3> flat;
+    flat.positions = Positions<3>::Ones(3, 5);
+    EXPECT_EQ(vertex_values<3>(Body<3>(), flat, ColorBy::W), Eigen::VectorXd::Zero(5));
+}
+
+TEST(ColorBy, HasANameOfItsOwnAndATitleWithItsUnit) {
+    std::set<std::string_view> names;
+    std::set<std::string_view> titles;
+    for (const ColorBy by :
+         {ColorBy::Body, ColorBy::W, ColorBy::Speed, ColorBy::Strain, ColorBy::Force}) {
+        names.insert(name_of(by));
+        titles.insert(title_of(by));
+        EXPECT_EQ(title_of(by).empty(), by == ColorBy::Body);
+        EXPECT_TRUE(by == ColorBy::Body
+                    || title_of(by).find(name_of(by)) != std::string_view::npos);
+    }
+    EXPECT_EQ(names.size(), 5U);
+    EXPECT_EQ(titles.size(), 5U);
+}
+
+TEST(SuitableRange, OfHeightsHasTheLowestAndTheHighest) {
+    const ColorRange range = suitable_range(Eigen::Vector3d(-2, 5, 1), ColorBy::W);
+    EXPECT_EQ(range.low, -2);
+    EXPECT_EQ(range.high, 5);
 }
 
 TEST(SuitableRange, LeavesOutTheUpmostHundredth) {

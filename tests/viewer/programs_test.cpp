@@ -87,6 +87,7 @@ TEST_F(ViewerPrograms, RefuseBadInputInOneLine) {
     expect_refused("pent-slice", at("run") + out + " --normal 0,0,0,0", "normal");
     expect_refused("pent-slice", at("run") + out + " --normal 1,2", "expected four");
     expect_refused("pent-slice", at("run") + out + " --offset 1", "--normal");
+    expect_refused("pent-slice", at("run") + out + " --eye 3", "--project perspective");
     expect_refused("pent-render", at("run"), "nothing to make");
     expect_refused("pent-render", at("run") + " -o " + at("a.avi"), ".mp4 or .png");
     expect_refused("pent-render", at("run") + " -o " + at("a.png") + " --size 3", "--size");

@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <support/messages.h>
+#include <support/temp_folder.h>
 #include <tbb/global_control.h>
 
 namespace pent::viewer {
@@ -190,6 +192,17 @@ TEST(ContactSheet, LaysPicturesOutInRows) {
     EXPECT_EQ(red(4, 1), 200);
     EXPECT_EQ(red(1, 4), 200);
     EXPECT_EQ(red(4, 4), 0);  // no fourth picture
+}
+
+TEST(ContactSheet, OfNothingIsEmpty) {
+    EXPECT_EQ(contact_sheet({}, 2, 1, Color::Zero()).rgb.size(), 0U);
+}
+
+TEST(WritePng, RefusesAPictureWithoutPixels) {
+    const pent::test::TempFolder folder;
+    pent::test::expect_contains(
+        pent::test::error_of([&] { write_png(folder / "a.png", Image(0, 0)); }), {"a.png", "png"});
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 }  // namespace

@@ -75,6 +75,27 @@ TEST(OpenRun, RefusesAFrameInPlaceOfAMesh) {
     EXPECT_NE(error.find("is a frame"), std::string::npos) << error;
 }
 
+TEST(OpenRun, RefusesDimensionsThatCannotBeSeenTogether) {
+    const TempFolder folder;
+    write_mesh<2>(folder / "flat.pent", pent::test::kuhn_box<2>({1, 1}, {1, 1}));
+    std::string error = error_of([&] { (void)open_run(folder / "flat.pent"); });
+    EXPECT_NE(error.find("has dimension 2; expected 3 or 4"), std::string::npos) << error;
+    write_run(folder.path(), "a", {0});
+    write_mesh<3>(folder / "meshes/b.pent", pent::test::kuhn_box<3>({1, 1, 1}, {1, 1, 1}));
+    error = error_of([&] { (void)open_run(folder.path()); });
+    EXPECT_NE(error.find("b.pent: has dimension 3; expected 4 as the other bodies have"),
+              std::string::npos)
+        << error;
+}
+
+TEST(OpenRun, RefusesBodiesWithoutACommonFrame) {
+    const TempFolder folder;
+    write_run(folder.path(), "a", {0, 2});
+    write_run(folder.path(), "b", {1, 3});
+    const std::string error = error_of([&] { (void)open_run(folder.path()); });
+    EXPECT_NE(error.find("frames: no frame that all bodies have"), std::string::npos) << error;
+}
+
 TEST(LoadFrame, RefusesAFrameOfAnotherMesh) {
     const TempFolder folder;
     write_run(folder.path(), "a", {0});

@@ -127,6 +127,16 @@ TEST(WriteSurface, VtuStatesWhereEachArrayIs) {
     EXPECT_EQ(take<double>(bytes, first), surface.positions(0, 0));
 }
 
+TEST(WriteSurface, ObjHasColorsBehindPositions) {
+    const TempFolder folder;
+    Surface point;
+    point.positions = Eigen::Vector3d(1, 2, 3);
+    SurfaceExtras extras;
+    extras.colors = Eigen::Vector3f(1, 0, 1);
+    write_surface(folder / "a.obj", point, SurfaceFormat::Obj, extras);
+    EXPECT_EQ(bytes_of(folder / "a.obj"), "v 1 2 3 1 0 1\n");
+}
+
 TEST(WriteSurface, WithoutTrianglesIsStillAFile) {
     const TempFolder folder;
     for (const SurfaceFormat format :

@@ -9,14 +9,29 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
+#include <png.h>
 #include <sstream>
+#include <support/messages.h>
 #include <support/temp_folder.h>
 
 namespace pent::viewer {
 namespace {
 
+using pent::test::error_of;
+using pent::test::expect_contains;
 using pent::test::TempFolder;
 using test::write_run;
+
+Image read_png(const std::filesystem::path& path) {
+    png_image png = {};
+    png.version = PNG_IMAGE_VERSION;
+    EXPECT_NE(png_image_begin_read_from_file(&png, path.c_str()), 0) << png.message;
+    png.format = PNG_FORMAT_RGB;
+    Image image(static_cast<int>(png.width), static_cast<int>(png.height));
+    EXPECT_NE(png_image_finish_read(&png, nullptr, image.rgb.data(), 0, nullptr), 0) << png.message;
+    return image;
+}
 
 bool go_on(std::string_view /*what*/, std::int64_t /*done*/, std::int64_t /*total*/) {
     return true;
@@ -58,12 +73,30 @@ TEST(MakeSections, LetsTheLastRotationTakeSeveralAngles) {
     EXPECT_EQ(sections[3].plane.offset, 0.2);
 }
 
+TEST(MakeSections, NamesAHyperplaneByItsUnitNormal) {
+    Frame<4> frame;
+    frame.positions = Positions<4>::Identity(4, 4);
+    SectionOptions options;
+    options.normal = Eigen::Vector4d(0, 3, 0, 4);
+    options.offsets = {0.5};
+    EXPECT_EQ(make_sections<4>(options, std::span(&frame, 1))[0].label,
+              "(0, 0.6, 0, 0.8) . p = 0.5");
+}
+
 TEST(MakeSections, RefusesWhatContradictsItself) {
     const Frame<4> frame;
     SectionOptions both;
     both.normal = Eigen::Vector4d(1, 0, 0, 0);
     both.rotations = {{0, 3, 1}};
     EXPECT_THROW((void)make_sections<4>(both, std::span(&frame, 1)), Error);
+    SectionOptions endless;
+    endless.offsets = {0, std::numeric_limits<double>::infinity()};
+    expect_contains(error_of([&] { (void)make_sections<4>(endless, std::span(&frame, 1)); }),
+                    {"an offset that is not finite"});
+    SectionOptions angles;
+    angles.last_angles = {1, 2};
+    expect_contains(error_of([&] { (void)make_sections<4>(angles, std::span(&frame, 1)); }),
+                    {"angles without a rotation"});
     const Frame<3> flat;
     SectionOptions offset;
     offset.offsets = {0.5};
@@ -154,6 +187,67 @@ TEST(RenderRun, MakesPicturesSheetAndFolder) {
     EXPECT_GT(report.range.high, 0);
 }
 
+TEST(RenderRun, LaysASheetOfOneHyperplaneOutInASquare) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0, 1, 2, 3});
+    const RunFolder run = open_run(folder / "run");
+    RenderRunOptions options = small_pictures(run);
+    EXPECT_EQ(render_run(run, {.sheet = folder / "sheet.png"}, options, go_on).pictures, 4);
+    const Image sheet = read_png(folder / "sheet.png");
+    // Two by two pictures of 3/8 of 96 x 64 pixels and three gaps.
+    EXPECT_EQ(sheet.width - 2 * 36, sheet.height - 2 * 24);
+    EXPECT_LT(sheet.width, 3 * 36);
+}
+
+RenderRunOptions bare_picture(const RunFolder& run) {
+    RenderRunOptions options = small_pictures(run);
+    options.frames = {0};
+    options.has_caption = false;
+    options.has_floor = false;
+    return options;
+}
+
+TEST(RenderRun, ShowsAnOnionAsItsMiddleSliceAmongGhosts) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0});
+    const RunFolder run = open_run(folder / "run");
+    const auto picture_of = [&](std::vector<double> offsets) {
+        RenderRunOptions options = bare_picture(run);
+        options.is_onion = true;
+        options.sections.offsets = std::move(offsets);
+        EXPECT_EQ(render_run(run, {.picture = folder / "a.png"}, options, go_on).pictures, 1);
+        return read_png(folder / "a.png");
+    };
+    const Image alone = picture_of({0.5});
+    EXPECT_EQ(picture_of({-50, 0.5, 50}).rgb, alone.rgb);  // ghosts that meet nothing
+    EXPECT_NE(picture_of({0.2, 0.5, 0.8}).rgb, alone.rgb);
+}
+
+TEST(RenderRun, ShowsTheOutlineOfAPrismWhereItsSliceIs) {
+    const TempFolder folder;
+    write_mesh<4>(folder / "box.pent", pent::test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1}));
+    const RunFolder run = open_run(folder / "box.pent");
+    RenderRunOptions options = bare_picture(run);
+    const auto covered = [&] {
+        (void)render_run(run, {.picture = folder / "a.png"}, options, go_on);
+        const Image image = read_png(folder / "a.png");
+        int count = 0;
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = 0; x < image.width; ++x) {
+                // The background changes from top to bottom alone.
+                count += std::abs(image.pixel(x, y)[1] - image.pixel(0, y)[1]) > 2 ? 1 : 0;
+            }
+        }
+        return count;
+    };
+    const int slice = covered();
+    EXPECT_GT(slice, 200);
+    options.projection = ProjectionOptions();
+    EXPECT_NEAR(covered(), slice, 30);  // the same silhouette, but for pixels on its edge
+    options.sections.offsets = {50};
+    EXPECT_NEAR(covered(), slice, 30);  // the outline alone
+}
+
 TEST(RenderRun, MakesAMovieWhereFfmpegIs) {
     if (!Movie::is_possible()) {
         GTEST_SKIP() << "no ffmpeg";
@@ -192,6 +286,9 @@ TEST(RenderRun, SweepsTheHyperplaneAtEveryFrame) {
     EXPECT_EQ(render_run(run, {.folder = folder / "out"}, options, go_on).pictures, 6);
     EXPECT_EQ(count_files(folder / "out"), 6U);
     EXPECT_TRUE(std::filesystem::exists(folder / "out/000001_s02.png"));
+    expect_contains(
+        error_of([&] { (void)render_run(run, {.picture = folder / "a.png"}, options, go_on); }),
+        {"a.png", "one picture cannot hold a sweep"});
     options.is_onion = true;
     EXPECT_THROW((void)render_run(run, {.folder = folder / "out"}, options, go_on), Error);
 }

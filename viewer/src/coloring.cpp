@@ -21,9 +21,9 @@ std::string_view name_of(ColorBy by) {
         case ColorBy::Strain:
             return "strain";
         case ColorBy::Force:
-            return "force";
+            break;
     }
-    return "";
+    return "force";
 }
 
 std::string_view title_of(ColorBy by) {
@@ -37,9 +37,9 @@ std::string_view title_of(ColorBy by) {
         case ColorBy::Strain:
             return "strain";
         case ColorBy::Force:
-            return "contact force, N";
+            break;
     }
-    return "";
+    return "contact force, N";
 }
 
 ColorMap color_map_of(ColorBy by) {

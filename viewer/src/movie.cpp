@@ -4,6 +4,7 @@
 #include <pent/formatted.h>
 #include <pent/output_file.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -216,14 +217,11 @@ void Movie::add(const Image& picture) {
     std::size_t left = picture.rgb.size();
     while (left > 0) {
         const ssize_t sent = ::send(encoder_->input, data, left, MSG_NOSIGNAL);
-        if (sent < 0 && errno == EINTR) {
-            continue;
-        }
-        if (sent <= 0) {
+        if (sent < 0 && errno != EINTR) {
             encoder_->give_up();
         }
-        data += sent;
-        left -= static_cast<std::size_t>(sent);
+        data += std::max<ssize_t>(sent, 0);
+        left -= static_cast<std::size_t>(std::max<ssize_t>(sent, 0));
     }
 }
 

@@ -32,7 +32,9 @@ RayScene::RayScene(RTCDevice device,
     }
     rtcCommitScene(scene_.get());
     if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
+        // GCOVR_EXCL_START: short memory
         throw Error("picture: the ray tracer could not take the surfaces; is memory short?");
+        // GCOVR_EXCL_STOP
     }
 }
 

@@ -102,9 +102,9 @@ std::string extension(SurfaceFormat format) {
         case SurfaceFormat::Obj:
             return ".obj";
         case SurfaceFormat::Vtu:
-            return ".vtu";
+            break;
     }
-    return "";
+    return ".vtu";
 }
 
 void write_surface(const std::filesystem::path& path,

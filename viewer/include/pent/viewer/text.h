@@ -19,8 +19,8 @@ public:
     ~Font();
     Font(const Font&) = delete;
     Font& operator=(const Font&) = delete;
-    Font(Font&&) noexcept;
-    Font& operator=(Font&&) noexcept;
+    Font(Font&&) = delete;
+    Font& operator=(Font&&) = delete;
 
     /// Width of a line, in pixels.
     [[nodiscard]] int width(std::string_view line) const;
