@@ -58,7 +58,7 @@ void lower_limit(int resource, rlim_t value) {
 void prepare_child(const StepLimits& limits, pid_t parent) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) {
-        ::_exit(1);  // it ended before we could ask to end with it
+        ::_exit(1);  // GCOVR_EXCL_LINE: it ended before we could ask to end with it
     }
     std::signal(SIGINT, SIG_IGN);  // for the parent to decide
     std::signal(SIGTERM, SIG_IGN);
@@ -178,11 +178,11 @@ Pieces<Corners> run_isolated(const std::string& name,
     }
     const pid_t parent = ::getpid();
     const pid_t id = ::fork();
-    if (id < 0) {
+    if (id < 0) {  // GCOVR_EXCL_START: a machine that can have no more processes
         ::close(ends[0]);
         ::close(ends[1]);
         throw Error(name + " cannot be started: no process");
-    }
+    }  // GCOVR_EXCL_STOP
     if (id == 0) {
         prepare_child(limits, parent);
         answer<Corners>(::fdopen(ends[1], "wb"), name, step);

@@ -184,7 +184,9 @@ std::vector<std::uint32_t> number_points(const SimplexMesh<Dim>& mesh,
         if (first[place] == place) {
             first_places.push_back(place);
             if (next >= kUnnamed) {
+                // GCOVR_EXCL_START: a mesh of a hundred gigabytes
                 throw Error("a subdivision to more than 4294967295 vertices; use a smaller factor");
+                // GCOVR_EXCL_STOP
             }
             numbers[place] = static_cast<std::uint32_t>(next++);
         } else {

@@ -38,8 +38,9 @@ TextReader::TextReader(const std::filesystem::path& path, char comment)
     if (!file) {
         throw Error(name_ + ": cannot be opened: " + std::generic_category().message(errno));
     }
-    text_.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
-    if (file.bad()) {
+    try {
+        text_.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    } catch (const std::ios_base::failure&) {
         throw Error(name_ + ": cannot be read: " + std::generic_category().message(errno));
     }
 }

@@ -29,6 +29,7 @@ namespace {
 
 using pent::tetgen::Header;
 
+// What else may be thrown ends the process by a signal.
 [[noreturn]] void exit_on_throw() {
     try {
         throw;
@@ -36,8 +37,6 @@ using pent::tetgen::Header;
         ::_exit(pent::tetgen::kTetgenThrew + code);
     } catch (const std::bad_alloc&) {
         ::_exit(pent::tetgen::kOutOfMemory);
-    } catch (...) {
-        ::_exit(pent::tetgen::kTetgenThrew);
     }
 }
 

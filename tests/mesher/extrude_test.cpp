@@ -1,4 +1,5 @@
 #include "support/kuhn_box.h"
+#include "support/messages.h"
 
 #include <pent/facets.h>
 #include <pent/mesher/extrude.h>
@@ -151,6 +152,15 @@ TYPED_TEST(ExtrudeInDimension, ClosesItsEndsInPoints) {
             }
         }
     }
+}
+
+TEST(Extrude, RefusesMoreVerticesThanCanBeNumbered) {
+    SimplexMesh<3> base;
+    base.positions.setZero(3, 65536);
+    const std::vector<Layer<4>> layers = straight_layers<4>(Eigen::Vector4d::Unit(3), 65536);
+    test::expect_contains(
+        test::error_of([&] { static_cast<void>(extrude<4>(base, OrderedCells<3>(), layers)); }),
+        {"an extrusion to 4295032832 vertices", "at most 4294967295"});
 }
 
 TEST(StraightLayers, AreSymmetricToTheLastBit) {

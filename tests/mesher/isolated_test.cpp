@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <new>
 #include <stdexcept>
@@ -40,6 +41,11 @@ TEST(RunIsolated, HandsErrorsOnAndNamesTheStepInOthers) {
 TEST(RunIsolated, OutlivesWhatTheStepDoesNot) {
     test::expect_contains(message_of([]() -> Pieces<3> { std::abort(); }), {"it crashed (signal"});
     test::expect_contains(message_of([]() -> Pieces<3> { throw 7; }), {"it crashed (signal"});
+    EXPECT_EQ(message_of([]() -> Pieces<3> {
+                  ::raise(SIGKILL);
+                  return {};
+              }),
+              "it was killed; the machine may be out of memory");
     EXPECT_EQ(message_of([]() -> Pieces<3> { std::_Exit(0); }), "it gave no result");
 }
 

@@ -84,6 +84,30 @@ TEST(MakeBody, RefusesWhatCannotBeExtruded) {
     request.extrusion.thickness = 0;
     request.extrusion.round = true;
     test::expect_contains(message_for(request), {"round body of height 0", "other than 0"});
+    request.input = SphereShape{4, 1e-300};
+    test::expect_contains(message_for(request), {"the shape: ", "m across"});
+}
+
+TEST(MakeBody, OrdersVerticesForItsWorstCell) {
+    BodyRequest request = request_for("dirty/d_cube.off");
+    request.surface_triangles = 200;
+    request.extrusion.layers = 1;
+    request.extrusion.direction = Eigen::Vector4d(0.3, 0.2, -0.1, 0.2);
+    const Body<4> by_index = make_body(request);
+    request.extrusion.order = VertexOrder::Quality;
+    const Body<4> body = make_body(request);
+    EXPECT_NEAR(body.report.proof.volume, 0.2, 1e-14);
+    EXPECT_GE(body.report.quality.mean_ratio.min, by_index.report.quality.mean_ratio.min);
+    EXPECT_TRUE(body.mesh.cells != by_index.mesh.cells);
+}
+
+TEST(MakeBody, FollowsAProfile) {
+    const test::TempFolder folder;
+    test::write_file(folder / "cone.txt", "0 1\n3 0\n");
+    BodyRequest request = request_for("dirty/d_cube.off");
+    request.extrusion.profile = folder / "cone.txt";
+    const Body<4> cone = make_body(request);
+    EXPECT_NEAR(total_volume(cone.mesh), 3.0 / 4, 1e-14);  // base 1, height 3, over the dimension
 }
 
 TEST(MakeBody, MeetsATargetWithinTwoPercent) {

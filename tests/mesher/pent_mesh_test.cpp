@@ -52,6 +52,24 @@ TEST(PentMesh, ExtrudesAFlatMeshIn3D) {
     EXPECT_NE(run_program("pent-check " + out).out.find("dimension 3"), std::string::npos);
 }
 
+TEST(PentMesh, FindsItsWorkerWhereItIsInstalled) {
+    namespace fs = std::filesystem;
+    const test::TempFolder folder;
+    fs::create_directories(folder / "bin");
+    fs::create_directories(folder / "libexec/pent");
+    fs::copy_file(PENT_BIN "/pent-mesh", folder / "bin/pent-mesh");
+    const auto generator = [&] {
+        const std::string line = (folder / "bin/pent-mesh").string() + " " + kModels
+                                 + "/dirty/d_cube.off --quiet -o " + (folder / "cube.pent").string()
+                                 + " --json " + (folder / "report.json").string();
+        EXPECT_EQ(std::system(line.c_str()), 0);  // NOLINT(cert-env33-c)
+        return test::text_of(folder / "report.json");
+    };
+    test::expect_contains(generator(), {R"("generator": "CGAL Mesh_3")", "pent-tetgen: not found"});
+    fs::copy_file(PENT_BIN "/pent-tetgen", folder / "libexec/pent/pent-tetgen");
+    test::expect_contains(generator(), {R"("generator": "TetGen )"});
+}
+
 TEST(PentMesh, LeavesNothingBehindWhenItRefuses) {
     const test::TempFolder folder;
     const std::string out = (folder / "out.pent").string();

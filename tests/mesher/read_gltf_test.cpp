@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,10 @@ std::string bytes_of(const std::vector<T>& values) {
 }
 
 // A tetrahedron of four points (48 bytes) and twelve indices (24 bytes), moved by (10, 0, 0).
-std::string gltf(const std::vector<std::uint16_t>& indices, const std::string& primitive) {
-    const std::vector<float> points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0.5F};
+std::string gltf(const std::vector<std::uint16_t>& indices,
+                 const std::string& primitive,
+                 float height = 0.5F) {
+    const std::vector<float> points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, height};
     const std::string buffer = bytes_of(points) + bytes_of(indices);
     return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
  "nodes": [{"mesh": 0, "translation": [10, 0, 0]}],
@@ -84,6 +87,23 @@ TEST(ReadGltf, TakesTrianglesWithoutIndicesAndNoPointsOrLines) {
                           {"a.gltf", "no triangle"});
     test::expect_contains(message_for(gltf(kTetrahedron, R"("indices": 1, "mode": 1)")),
                           {"a.gltf", "no triangle"});
+}
+
+TEST(ReadGltf, PlacesNodesWithinNodes) {
+    std::string text = gltf(kTetrahedron, R"("indices": 1)");
+    const std::string node = R"("nodes": [{"mesh": 0, "translation": [10, 0, 0]}])";
+    text.replace(text.find(node), node.size(),
+                 R"("nodes": [{"scale": [2, 2, 2], "children": [1]},
+                              {"mesh": 0, "translation": [10, 0, 0]}])");
+    const SurfaceFile file = read_text(text);
+    EXPECT_DOUBLE_EQ(enclosed_volume(file.surface), 8 * 0.5 / 6);
+    EXPECT_EQ(file.surface.points.row(0).minCoeff(), 20);
+}
+
+TEST(ReadGltf, RefusesPointsThatAreNotFinite) {
+    test::expect_contains(
+        message_for(gltf(kTetrahedron, R"("indices": 1)", std::numeric_limits<float>::infinity())),
+        {"a.gltf", "not finite"});
 }
 
 TEST(ReadGltf, NamesTheFileOfWhatIsDamaged) {

@@ -91,6 +91,38 @@ TEST(ReadTetrahedra, ReadsCarriageReturnsAndCountsFromZero) {
     expect_two_corners(read_tetrahedra(folder / "a.node"));
 }
 
+TEST(ReadTetrahedra, LeavesOutMiddlesOfEdges) {
+    const test::TempFolder folder;
+    write_file(folder / "a.node", kNode);
+    write_file(folder / "a.ele", "2 10 1\n1 1 2 3 4 1 1 1 1 1 1 5\n2 1 5 3 4 1 1 1 1 1 1 6\n");
+    expect_two_corners(read_tetrahedra(folder / "a.ele"));
+    EXPECT_EQ(read_tetrahedra(folder / "a.ele").mesh.regions, (std::vector<std::uint16_t>{5, 6}));
+}
+
+TEST(ReadTetrahedra, RefusesDamageInEitherOfNodeAndEle) {
+    const test::TempFolder folder;
+    const auto message = [&](const std::string& node, const std::string& ele) {
+        write_file(folder / "a.node", node);
+        write_file(folder / "a.ele", ele);
+        return test::error_of([&] { static_cast<void>(read_tetrahedra(folder / "a.node")); });
+    };
+    test::expect_contains(message("", kEle), {"a.node", "the file ends here", "number of points"});
+    test::expect_contains(message("5 2 0 0\n", kEle), {"a.node: line 1", "dimension 2"});
+    test::expect_contains(message("2 3 0 0\n2 0 0 0\n", kEle),
+                          {"a.node: line 2", "point number 2", "expected 0 or 1"});
+    test::expect_contains(message("2 3 0 0\n1 0 0 0\n3 1 0 0\n", kEle),
+                          {"a.node: line 3", "point number 3", "expected 2"});
+    test::expect_contains(message(kNode, "2 5 0\n"), {"a.ele: line 1", "5 corners", "4 or 10"});
+    test::expect_contains(message(kNode, "2 4 0\n1 1 2 3 4\n"), {"a.ele", "the file ends here"});
+    std::filesystem::remove(folder / "a.ele");
+    test::expect_contains(
+        test::error_of([&] { static_cast<void>(read_tetrahedra(folder / "a.node")); }),
+        {"a.ele: cannot be opened: No such file"});
+    test::expect_contains(
+        test::error_of([&] { static_cast<void>(read_tetrahedra(folder / "b.mesh")); }),
+        {"b.mesh: no such file"});
+}
+
 TEST(ReadTetrahedra, KeepsLabelsAsRegions) {
     for (const auto& [name, text] :
          {std::pair("a.mesh", kMedit), {"a.msh", kGmsh2}, {"a.msh", kGmsh4}}) {
@@ -143,6 +175,19 @@ TEST(ReadTetrahedra, RefusesDamageWithFileAndLine) {
                                       "# vtk DataFile Version 3.0\nt\nASCII\nCELLS 1 5\n4 0 1 2 3\n"
                                       "CELL_TYPES 2\n10\n10\n"),
                           {"line 6", "2 types of 1 cells"});
+    test::expect_contains(
+        message_for("a.vtk",
+                    "# vtk DataFile Version 3.0\nt\nASCII\nPOINTS 1 float\n0 0 0\n"
+                    "CELLS 1 4\n3 0 0 0\nCELL_TYPES 1\n10\n"),
+        {"a.vtk", "a tetrahedron with 3 corners"});
+    test::expect_contains(message_for("a.vtk",
+                                      "# vtk DataFile Version 5.1\nt\nASCII\nCELLS 3 8\n"
+                                      "OFFSETS vtktypeint64\n0 9 8\n"),
+                          {"a.vtk: line 6", "offset 9 of 8"});
+    test::expect_contains(message_for("a.msh",
+                                      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n"
+                                      "$EndNodes\n$Elements\n1\n1 4 2 1 1 1 1 1 7\n$EndElements\n"),
+                          {"a.msh: line 10", "node 7", "not in the file"});
     test::expect_contains(message_for("a.xyz", ""), {".tobj"});
 }
 

@@ -1,3 +1,4 @@
+#include "repair_steps.h"
 #include "shapes.h"
 #include "support/messages.h"
 
@@ -56,6 +57,25 @@ TEST(Repair, UnitesBodiesThatCross) {
     EXPECT_EQ(repaired.after.components, 2);
     EXPECT_NEAR(enclosed_volume(orient(repaired.surface).surface), 2.875, 1e-12);
     EXPECT_LT(repaired.distance, 1e-15);
+}
+
+TEST(Repair, UnitesBodiesThatCrossWhicheverWayTheyTurn) {
+    // Two unit cubes that share an eighth, one of them inside out.
+    Surface turned = test::box_surface({0.5, 0.5, 0.5}, {1.5, 1.5, 1.5});
+    turned.triangles.row(0).swap(turned.triangles.row(1));
+    const Repaired repaired = repair(test::join(test::box_surface({0, 0, 0}, {1, 1, 1}), turned));
+    EXPECT_EQ(repaired.used, Repair::Light);
+    EXPECT_NEAR(enclosed_volume(orient(repaired.surface).surface), 1.875, 1e-12);
+}
+
+TEST(UniteCrossingComponents, LeavesWhatHasNoUnionAsItIs) {
+    Surface crossing_itself = test::box_surface({0, 0, 0}, {1, 1, 1});
+    crossing_itself.points.col(7) << 0.5, 0.5, -1;  // pulled through the bottom
+    EXPECT_EQ(unite_crossing_components(crossing_itself).triangles, crossing_itself.triangles);
+    // Boxes that share half an edge would be a body that touches itself.
+    const Surface touching = test::join(test::box_surface({0, 0, 0}, {1, 1, 1}),
+                                        test::box_surface({1, 1, 0.5}, {2, 2, 1.5}));
+    EXPECT_EQ(unite_crossing_components(touching).triangles, touching.triangles);
 }
 
 TEST(Repair, UnitesBodiesThatTouchInPartsOfTheirSides) {

@@ -1,4 +1,5 @@
 #include "shapes.h"
+#include "support/messages.h"
 
 #include <pent/error.h>
 #include <pent/mesher/resample.h>
@@ -6,8 +7,32 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace pent::mesher {
 namespace {
+
+// A torus of n x n squares, each cut in two.
+Surface torus(int n) {
+    Surface surface;
+    surface.points.resize(3, n * n);
+    surface.triangles.resize(3, 2 * n * n);
+    const double step = 2 * std::numbers::pi / n;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            const double rho = 3 + std::cos(step * j);
+            surface.points.col(i * n + j) << rho * std::cos(step * i), rho * std::sin(step * i),
+                std::sin(step * j);
+            const auto at = [&](int a, int b) {
+                return static_cast<std::uint32_t>(a % n * n + b % n);
+            };
+            surface.triangles.col(2 * (i * n + j)) << at(i, j), at(i + 1, j), at(i + 1, j + 1);
+            surface.triangles.col(2 * (i * n + j) + 1) << at(i, j), at(i + 1, j + 1), at(i, j + 1);
+        }
+    }
+    return surface;
+}
 
 TEST(Resample, RefinesToTheExactNumberWithoutChangingTheShape) {
     const Surface box = test::box_surface({0, 0, 0}, {1, 2, 3});
@@ -43,6 +68,19 @@ TEST(Resample, CoarsensAndStaysClean) {
 
 TEST(Resample, RefusesWhatCannotBe) {
     EXPECT_THROW(static_cast<void>(resample(test::box_surface({0, 0, 0}, {1, 1, 1}), 3)), Error);
+    // No torus has fewer than 14 triangles.
+    test::expect_contains(test::error_of([] { static_cast<void>(resample(torus(6), 8)); }),
+                          {"cannot be brought from 72 to 8 triangles", "ask for more triangles"});
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    test::expect_contains(
+        test::error_of([] { static_cast<void>(resample(torus(150), 40000, {.memory_mib = 1})); }),
+        {"cannot be brought from 45000 to 40000", "coarsening", "1 MiB of memory"});
+#endif
+    // At 1e16 coordinates are 2 apart: no point fits between the corners.
+    const double far = 1e16;
+    const Surface tiny = test::box_surface({far, far, far}, {far + 2, far + 2, far + 2});
+    test::expect_contains(test::error_of([&] { static_cast<void>(resample(tiny, 100)); }),
+                          {"cannot be refined to 100 triangles in double precision"});
 }
 
 }  // namespace

@@ -58,6 +58,13 @@ TEST(Sphere, IsACleanSurfaceOfUnitPoints) {
     EXPECT_NEAR(coarse / fine, 4, 0.1);
 }
 
+TEST(Sphere, RefusesFrequenciesOutOfRange) {
+    for (const int frequency : {0, 1001}) {
+        test::expect_contains(test::error_of([&] { static_cast<void>(sphere(frequency)); }),
+                              {"frequency " + std::to_string(frequency), "expected 1 to 1000"});
+    }
+}
+
 TEST(Ball, HasTheCountsOfTheNoodles) {
     const SimplexMesh<3> mesh = ball(4);
     EXPECT_EQ(mesh.vertex_count(), 163);

@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <limits>
+
 namespace pent::mesher {
 namespace {
 
@@ -98,6 +101,63 @@ TEST(ReadSurface, ReadsOffPlyAndStl) {
     EXPECT_EQ(stl.surface.point_count(), 4);
     EXPECT_EQ(stl.surface.triangle_count(), 2);
     EXPECT_DOUBLE_EQ(area(stl.surface), 1.0);
+}
+
+// The corner of the unit cube, as binary STL: normals are not read, so there are none.
+std::string binary_stl(float height) {
+    const std::array<std::array<float, 3>, 4> points = {
+        {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, height}}};
+    std::string bytes = "solid, as some programs begin binary files too";
+    bytes.resize(80, ' ');
+    bytes.append("\4\0\0\0", 4);
+    for (const auto& triangle : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}) {
+        bytes.append(12, '\0');
+        for (const int corner : triangle) {
+            bytes.append(reinterpret_cast<const char*>(points[corner].data()), 12);
+        }
+        bytes.append(2, '\0');
+    }
+    return bytes;
+}
+
+TEST(ReadStl, ReadsBinaryFiles) {
+    const SurfaceFile file = read_text("a.stl", binary_stl(1));
+    EXPECT_EQ(file.surface.point_count(), 4);
+    EXPECT_EQ(file.surface.triangle_count(), 4);
+    EXPECT_DOUBLE_EQ(enclosed_volume(file.surface), 1.0 / 6);
+    test::expect_contains(message_for("a.stl", binary_stl(std::numeric_limits<float>::infinity())),
+                          {"a.stl: triangle 1", "not finite"});
+}
+
+TEST(ReadStl, NamesLoopsThatAreNoTriangles) {
+    const std::string loop = "solid a\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n";
+    test::expect_contains(message_for("a.stl", loop + "endloop\n"),
+                          {"a.stl: line 5", "a loop of 2 vertices", "expected 3"});
+    test::expect_contains(message_for("a.stl", loop), {"a.stl", "ends within a loop"});
+}
+
+TEST(ReadOff, TakesCountsOnTheFirstLineAndNamesWhatIsWrong) {
+    const SurfaceFile file =
+        read_text("a.off", "COFF 3 1 0 # colors follow\n0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 2 9\n");
+    EXPECT_DOUBLE_EQ(area(file.surface), 0.5);
+    test::expect_contains(message_for("a.off", "OFF BINARY\n"), {"a.off: line 1", "binary OFF"});
+    test::expect_contains(message_for("a.off", "OFF\n1 1 0\n0 0 0\n2 0 0\n"),
+                          {"a.off: line 4", "a face with 2 corners", "expected 3 or more"});
+    test::expect_contains(message_for("a.off", "OFF\n2 1 0\n0 0 0\n"),
+                          {"a.off", "the file ends here; expected a point"});
+}
+
+TEST(ReadSurface, NamesWhatCannotBeRead) {
+    const test::TempFolder folder;
+    std::filesystem::create_directory(folder / "a.off");
+    test::expect_contains(
+        test::error_of([&] { static_cast<void>(read_surface(folder / "a.off")); }),
+        {"a.off: is a folder", "give a file"});
+    // The memory of a process is a file that opens, and cannot be read at its beginning.
+    std::filesystem::create_symlink("/proc/self/mem", folder / "b.off");
+    test::expect_contains(
+        test::error_of([&] { static_cast<void>(read_surface(folder / "b.off")); }),
+        {"b.off: cannot be read: Input/output error"});
 }
 
 TEST(ReadSurface, RefusesWhatOnlyLooksLikeAFile) {

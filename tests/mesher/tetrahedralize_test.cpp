@@ -1,5 +1,7 @@
+#include "../../mesher/tetgen_worker/protocol.h"
 #include "shapes.h"
 #include "support/messages.h"
+#include "support/temp_folder.h"
 
 #include <pent/error.h>
 #include <pent/facets.h>
@@ -7,6 +9,12 @@
 #include <pent/mesher/tetrahedralize.h>
 
 #include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sys/resource.h>
+#include <sys/wait.h>
 
 namespace pent::mesher {
 namespace {
@@ -81,6 +89,128 @@ TEST(Tetrahedralize, NamesAMissingOrWrongWorker) {
     test::expect_contains(message_for(box, wrong), {"answer cannot be read"});
     wrong.worker.clear();  // the test program has no worker beside it
     test::expect_contains(message_for(box, wrong), {"pent-tetgen: not found"});
+}
+
+// A worker in TetGen's place that does what this shell script does.
+TetrahedraOptions with_worker(const test::TempFolder& folder, const std::string& script) {
+    TetrahedraOptions result = options();
+    result.worker = folder / "worker";
+    test::write_file(folder / "worker", "#!/bin/sh\n" + script);
+    std::filesystem::permissions(folder / "worker", std::filesystem::perms::owner_all);
+    return result;
+}
+
+TEST(Tetrahedralize, ExplainsEveryWayAWorkerMayEnd) {
+    const test::TempFolder folder;
+    const Surface box = test::box_surface({0, 0, 0}, {1, 1, 1});
+    using namespace tetgen;
+    for (const auto& [code, words] : {std::pair<int, std::string>(kOutOfMemory, "MiB of memory"),
+                                      {kTetgenThrew + 1, "MiB of memory"},
+                                      {kTetgenThrew + 2, "an internal error"},
+                                      {kTetgenThrew + 3, "the surface intersects itself"},
+                                      {kTetgenThrew + 4, "too small for double precision"},
+                                      {kTetgenThrew + 5, "too close to each other"},
+                                      {kTetgenThrew + 10, "refused the surface"},
+                                      {kCannotWrite, "cannot write its answer"},
+                                      {77, "failed with code 77"}}) {
+        const TetrahedraOptions worker = with_worker(folder, "exit " + std::to_string(code) + "\n");
+        test::expect_contains(message_for(box, worker), {"TetGen pq", words});
+    }
+    test::expect_contains(message_for(box, with_worker(folder, "kill -11 $$\n")),
+                          {"TetGen pq", "crashed (signal 11)"});
+}
+
+// An answer of these tetrahedra, all in one region, for a worker to hand out.
+TetrahedraOptions with_answer(const test::TempFolder& folder,
+                              const Positions<3>& points,
+                              const Simplices<4>& tets) {
+    const tetgen::Header header{tetgen::kAnswerTag, static_cast<std::uint32_t>(points.cols()),
+                                static_cast<std::uint32_t>(tets.cols())};
+    const std::vector<double> regions(static_cast<std::size_t>(tets.cols()), 1.0);
+    std::ofstream file(folder / "answer", std::ios::binary);
+    const auto put = [&](const void* data, std::size_t bytes) {
+        file.write(static_cast<const char*>(data), static_cast<std::streamsize>(bytes));
+    };
+    put(&header, sizeof header);
+    put(points.data(), sizeof(double) * static_cast<std::size_t>(points.size()));
+    put(tets.data(), sizeof(std::uint32_t) * static_cast<std::size_t>(tets.size()));
+    put(regions.data(), sizeof(double) * regions.size());
+    return with_worker(folder, "cat " + (folder / "answer").string() + "\n");
+}
+
+TEST(Tetrahedralize, ProvesWhatTheWorkerAnswers) {
+    const test::TempFolder folder;
+    Surface corner;  // of the unit cube
+    corner.points.resize(3, 4);
+    corner.points << Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity();
+    corner.triangles.resize(3, 4);
+    corner.triangles << 0, 0, 1, 0, 2, 1, 2, 3, 1, 3, 3, 2;
+    Simplices<4> one(4, 1);
+    one << 0, 2, 1, 3;  // the wrong way around
+    const Tetrahedra turned = tetrahedralize(corner, with_answer(folder, corner.points, one));
+    EXPECT_DOUBLE_EQ(total_volume(turned.mesh), 1.0 / 6);
+
+    Positions<3> halves(3, 7);           // half the corner, and its mirror image behind the origin
+    halves << 0, 0.5, 0, 0, -0.5, 0, 0,  //
+        0, 0, 1, 0, 0, -1, 0,            //
+        0, 0, 0, 1, 0, 0, -1;
+    Simplices<4> two(4, 2);
+    two << 0, 0, 1, 1, 2, 2, 3, 3;
+    test::expect_contains(message_for(corner, with_answer(folder, halves.leftCols<4>(), two)),
+                          {"TetGen pq", "is not sound"});
+    two.col(1) << 0, 4, 5, 6;
+    test::expect_contains(message_for(corner, with_answer(folder, halves, two)),
+                          {"TetGen pq", "touches itself at 1 points"});
+}
+
+TEST(Tetrahedralize, SaysWhenItsFilesCannotBeWrittenOrItsWorkerNotBeWaitedFor) {
+    const Surface box = test::box_surface({0, 0, 0}, {1, 1, 1});
+    rlimit before = {};
+    ::getrlimit(RLIMIT_NOFILE, &before);
+    const rlimit none = {0, before.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &none);
+    const std::string no_file = message_for(box, options());
+    ::setrlimit(RLIMIT_NOFILE, &before);
+    test::expect_contains(no_file, {"cannot make a temporary file", "Too many open files"});
+
+    ::getrlimit(RLIMIT_FSIZE, &before);
+    const auto on_size = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small = {100, before.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+    const std::string no_room = message_for(box, options());
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, on_size);
+    test::expect_contains(no_room, {"cannot write a temporary file", "make room"});
+
+    const auto on_child = std::signal(SIGCHLD, SIG_IGN);  // nobody then keeps how a child ended
+    const std::string no_child = message_for(box, options());
+    std::signal(SIGCHLD, on_child);
+    test::expect_contains(no_child, {"pent-tetgen: cannot be waited for: No child processes"});
+}
+
+// The exit code of the worker itself.
+int worker_code(const std::string& arguments) {
+    const std::string line = PENT_TETGEN_WORKER " " + arguments + " 2>/dev/null";
+    return WEXITSTATUS(std::system(line.c_str()));  // NOLINT(cert-env33-c)
+}
+
+TEST(TetgenWorker, NamesWhatItCannotWorkWithByItsExitCode) {
+    const test::TempFolder folder;
+    EXPECT_EQ(worker_code(""), tetgen::kBadArguments);
+    EXPECT_EQ(worker_code("pq 1000 10 >&-"), tetgen::kCannotWrite);
+    const auto request = [&](std::uint32_t points, std::uint32_t triangles, std::size_t bytes) {
+        const tetgen::Header header{tetgen::kRequestTag, points, triangles};
+        std::string text(reinterpret_cast<const char*>(&header), sizeof header);
+        text.resize(sizeof header + bytes, '\0');
+        test::write_file(folder / "request", text);
+        return worker_code("pq 1000 10 <" + (folder / "request").string() + " >/dev/null");
+    };
+    EXPECT_EQ(worker_code("pq 1000 10 </dev/null >/dev/null"), tetgen::kBadRequest);
+    EXPECT_EQ(request(4, 0, 90), tetgen::kBadRequest);           // points cut off
+    EXPECT_EQ(request(4, 4, 4 * 24 + 40), tetgen::kBadRequest);  // triangles cut off
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    EXPECT_EQ(request(2'000'000'000, 0, 0), tetgen::kOutOfMemory);
+#endif
 }
 
 TEST(Tetrahedralize, EndsAWorkerThatPassesItsLimits) {
