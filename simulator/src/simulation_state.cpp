@@ -59,9 +59,9 @@ void Simulation<Dim>::State::set_body(int body,
                                       const Positions<Dim>& positions,
                                       const Positions<Dim>& velocities) {
     const Eigen::Index first = world_.first_vertex[static_cast<std::size_t>(body)];
-    BodyState<Dim>& state = current();
-    state.positions.middleCols(first, positions.cols()) = positions;
-    state.velocities.middleCols(first, velocities.cols()) = velocities;
+    // Bodies change places one by one: what lies between may cross, and is not looked at.
+    current_.positions.middleCols(first, positions.cols()) = positions;
+    current_.velocities.middleCols(first, velocities.cols()) = velocities;
     sleepers_.wake(body);
     is_stale_ = true;
 }
@@ -216,8 +216,8 @@ bool Simulation<Dim>::State::attempt(double time, double h, StepReport& report) 
     }
     set_velocities(problem, time + h);
     system_.evaluate(next_);
-    report.failure = complaint();
-    if (!report.failure.empty()) {
+    if (const std::string found = complaint(); !found.empty()) {
+        report.failure = found;
         return false;
     }
     // Newton's method has forces at the end of the step: what was run into there has to give way.
@@ -246,17 +246,9 @@ bool Simulation<Dim>::State::advance(double time, double h, int depth, StepRepor
 // What touches now, and the work of contact since this was last asked.
 template <int Dim>
 ContactSummary Simulation<Dim>::State::contact_summary() {
-    const ContactSummary work = system_.take_contact_work();
     ContactSummary summary = current_.contacts ? current_.contacts->summary : ContactSummary();
-    summary.searches = work.searches;
-    summary.candidates = work.candidates;
-    summary.obstacle_tests = work.obstacle_tests;
-    summary.friction = work.friction;
-    summary.trees_built = work.trees_built;
-    summary.trees_refit = work.trees_refit;
-    summary.ccd_seconds = work.ccd_seconds;
+    static_cast<ContactWork&>(summary) = system_.take_contact_work();
     summary.stiffness = system_.contacts().stiffness();
-    summary.seconds = work.seconds;
     return summary;
 }
 
@@ -272,7 +264,6 @@ StepReport Simulation<Dim>::State::step() {
         system_.workers().run([&] { return advance(time(), scene_.dt(), 0, report); });
     if (report.is_accepted) {
         ++steps_;
-        report.failure.clear();
         settle();
     } else {
         current_ = before;

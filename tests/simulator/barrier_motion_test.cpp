@@ -1,6 +1,7 @@
 #include "barrier_scenes.h"
 #include "support/temp_folder.h"
 
+#include <pent/error.h>
 #include <pent/pent_file.h>
 #include <pent/simulator/run.h>
 
@@ -122,6 +123,20 @@ Scene written(BarrierScene<4> scene, const TempFolder& folder, int frames) {
     }
     scene.scene.frames = frames;
     return scene.scene;
+}
+
+TYPED_TEST(BarrierMotionTest, BodiesMayBePutInEachOthersPlaces) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene = collision<kDim>(Integrator::NewtonEuler);
+    Simulation<kDim> simulation(scene.scene, scene.meshes);
+    const Positions<kDim> first = simulation.positions(0);
+    const Positions<kDim> second = simulation.positions(1);
+    const Positions<kDim> still = Positions<kDim>::Zero(kDim, first.cols());
+    simulation.set_state(0, second, still);  // into the other body
+    simulation.set_state(1, first, still);   // which goes away
+    EXPECT_EQ(simulation.positions(0), second);
+    simulation.set_state(1, second, still);
+    EXPECT_THROW(static_cast<void>(simulation.step()), Error);
 }
 
 TEST(RunWithBarrier, ResumesToTheSameBytes) {
