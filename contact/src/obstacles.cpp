@@ -67,10 +67,7 @@ Geometry<Dim> rim(const Bowl<Dim>& bowl, const Vector<Dim>& level, double height
         outward = (outward - bowl.up.dot(outward) * bowl.up).normalized();
     }
     const Vector<Dim> from_rim = height * bowl.up + (rho - bowl.radius) * outward;
-    const double distance = from_rim.norm();
-    if (distance == 0) {
-        return {.distance = 0, .normal = bowl.up};
-    }
+    const double distance = from_rim.stableNorm();  // above 0: the point is over the opening
     Geometry<Dim> result{.distance = distance, .normal = from_rim / distance};
     if (rho > 0) {
         result.tangent = (height * outward - (rho - bowl.radius) * bowl.up) / distance;

@@ -219,6 +219,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[scene]\ndimension = 5\n", "from 3 to 4"},
         Bad{"scene = 3\n", "expected a table"},
         Bad{"[[body]]\nname = \"a\"\n", "needs \"mesh\""},
+        Bad{"[[body]]\nname = 3\nmesh = \"a.pent\"\n", "\"name\" is 3; expected text in quotes"},
         Bad{"[[body]]\nname = \"a\"\nmash = \"a.pent\"\n", "found the unknown key \"mash\""},
         Bad{"[[body]]\nname = \"a b\"\nmesh = \"a.pent\"\n", "letters, digits"},
         Bad{"[[body]]\nname = \"../a\"\nmesh = \"a.pent\"\n", "letters, digits"},
@@ -243,6 +244,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{with("[[constraint]]\nbody = \"a\"\n"
                  "select = { ball = { center = [0,0,0,0], radius = 0 } }\n"),
             "above 0"},
+        Bad{with("[[constraint]]\nbody = \"a\"\n"
+                 "select = { layers = { first = 2, last = 1 } }\n"),
+            "\"last\" is before \"first\""},
         Bad{with("[[constraint]]\nbody = \"a\"\n"
                  "select = { half_space = { normal = [0,0,0,0] } }\n"),
             "expected a direction"},
