@@ -112,14 +112,21 @@ void summarize(Program& program, const RunReport& report, const std::string& fol
     }
     std::int64_t iterations = 0;
     std::int64_t refused = 0;
+    std::string failure;
     for (const StepReport& step : report.steps) {
         iterations += step.iterations;
         refused += step.refused;
+        failure = step.refused > 0 ? step.failure : failure;
+    }
+    if (refused > 0) {
+        program.say(std::to_string(refused)
+                    + " attempts at steps were cut in two, the last because " + failure);
     }
     program.report()["frames"] = report.frames.size();
     program.report()["steps"] = report.steps.size();
     program.report()["iterations"] = iterations;
     program.report()["refused"] = refused;
+    program.report()["failure"] = failure;
     program.report()["vertices"] = report.size.vertices;
     program.report()["cells"] = report.size.cells;
     program.report()["bodies"] = bodies;

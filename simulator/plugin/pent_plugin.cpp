@@ -172,7 +172,7 @@ int pent_step(pent_simulation* simulation, pent_step_report* report) {
             *report = c_report(step);
         }
         simulation->last_step = step;
-        last_error = step.failure;
+        last_error = step.is_accepted ? "" : step.failure;
         return step.is_accepted ? 0 : -1;
     });
 }

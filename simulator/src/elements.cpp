@@ -186,29 +186,31 @@ RunEnergy Elements<Dim>::add_forces(const Workers& workers,
 
 template <int Dim>
 template <typename Scalar>
-void Elements<Dim>::add_hessian(const Workers& workers,
-                                const Kernels<Dim>& kernels,
-                                const Positions<Dim>& positions,
-                                double scale,
-                                Filter filter,
-                                const Positions<Dim>& held_shift,
-                                BlockMatrix<Dim, Scalar>& matrix,
-                                BlockVector<Dim>& right) const {
+std::int64_t Elements<Dim>::add_hessian(const Workers& workers,
+                                        const Kernels<Dim>& kernels,
+                                        const Positions<Dim>& positions,
+                                        double scale,
+                                        Filter filter,
+                                        const Positions<Dim>& held_shift,
+                                        BlockMatrix<Dim, Scalar>& matrix,
+                                        BlockVector<Dim>& right) const {
     const HessianTarget<Scalar> target{.values = matrix.values(),
                                        .scale = scale,
                                        .filter = filter,
                                        .held_shift = held_shift.data(),
                                        .right = right.data()};
+    std::int64_t filtered = 0;
     for (const std::vector<int>& color : coloring_.colors) {
-        workers.for_each(static_cast<int>(color.size()), [&](int i) {
+        filtered += workers.sum(static_cast<int>(color.size()), [&](int i) {
             const ElementRun elements = run(color[static_cast<std::size_t>(i)]);
             if constexpr (sizeof(Scalar) == sizeof(float)) {
-                kernels.hessian_float(elements, positions.data(), target);
+                return kernels.hessian_float(elements, positions.data(), target);
             } else {
-                kernels.hessian_double(elements, positions.data(), target);
+                return kernels.hessian_double(elements, positions.data(), target);
             }
         });
     }
+    return filtered;
 }
 
 template <int Dim>
@@ -221,7 +223,7 @@ std::int64_t Elements<Dim>::bytes() const {
 template class Elements<3>;
 template class Elements<4>;
 #define PENT_INSTANTIATE(Dim, Scalar)                                               \
-    template void Elements<Dim>::add_hessian<Scalar>(                               \
+    template std::int64_t Elements<Dim>::add_hessian<Scalar>(                       \
         const Workers&, const Kernels<Dim>&, const Positions<Dim>&, double, Filter, \
         const Positions<Dim>&, BlockMatrix<Dim, Scalar>&, BlockVector<Dim>&) const;
 PENT_INSTANTIATE(3, float)

@@ -40,16 +40,16 @@ public:
                          Positions<Dim>& forces) const;
 
     /// Adds `scale` times the filtered Hessian to the matrix, and takes scale * K_fh held_shift off
-    /// `right`, the part of the held vertices.
+    /// `right`, the part of the held vertices. Returns how many elements the filter changed.
     template <typename Scalar>
-    void add_hessian(const Workers& workers,
-                     const Kernels<Dim>& kernels,
-                     const Positions<Dim>& positions,
-                     double scale,
-                     Filter filter,
-                     const Positions<Dim>& held_shift,
-                     BlockMatrix<Dim, Scalar>& matrix,
-                     BlockVector<Dim>& right) const;
+    std::int64_t add_hessian(const Workers& workers,
+                             const Kernels<Dim>& kernels,
+                             const Positions<Dim>& positions,
+                             double scale,
+                             Filter filter,
+                             const Positions<Dim>& held_shift,
+                             BlockMatrix<Dim, Scalar>& matrix,
+                             BlockVector<Dim>& right) const;
 
     [[nodiscard]] std::int64_t count() const { return count_; }
     [[nodiscard]] std::int64_t bytes() const;

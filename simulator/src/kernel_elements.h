@@ -160,6 +160,7 @@ struct RotatedHessian {
     Tensor<Real, Dim> keep;
     Tensor<Real, Dim> swap;
     Tensor<Real, Dim> beta;  // row a - 1: beta of corner a
+    Real is_filtered;        // 1 in lanes that the filter changed, else 0
 };
 
 template <typename Real, int Dim>
@@ -182,11 +183,12 @@ RotatedHessian<Real, Dim> rotated_hessian(const Tensor<Real, Dim>& F,
     RotatedHessian<Real, Dim> hessian;
     hessian.U = svd.U;
     hessian.beta = svd.turned_rest;
-    hessian.stretch = filtered(spectrum.stretch, filter);
+    hessian.is_filtered = Real(Number(0));
+    hessian.stretch = filtered(spectrum.stretch, filter, hessian.is_filtered);
     for (int i = 0; i < Dim; ++i) {
         for (int j = i + 1; j < Dim; ++j) {
-            const Real flip = filtered(spectrum.flip[i][j], filter);
-            const Real twist = filtered(spectrum.twist[i][j], filter);
+            const Real flip = filtered(spectrum.flip[i][j], filter, hessian.is_filtered);
+            const Real twist = filtered(spectrum.twist[i][j], filter, hessian.is_filtered);
             hessian.keep[i][j] = Real(Number(0.5)) * (twist + flip);
             hessian.keep[j][i] = hessian.keep[i][j];
             hessian.swap[i][j] = Real(Number(0.5)) * (flip - twist);
@@ -357,10 +359,24 @@ void prefetch_blocks(const Group<Dim>& group, const Scalar* values) {
     }
 }
 
+// How many of the first lanes are marked by 1.
+template <typename Real>
+int count_marked(const Real& marks, int lanes) {
+    using Number = typename Lanes<Real>::Number;
+    if (!Lanes<Real>::any(marks > Real(Number(0)))) {
+        return 0;
+    }
+    int count = 0;
+    for (int lane = 0; lane < lanes && lane < Lanes<Real>::kCount; ++lane) {
+        count += Lanes<Real>::lane(marks, lane) > Number(0) ? 1 : 0;
+    }
+    return count;
+}
+
 template <int Dim, typename Real, typename Scalar>
-void add_hessian(const ElementRun& run,
-                 const double* positions,
-                 const HessianTarget<Scalar>& target) {
+std::int64_t add_hessian(const ElementRun& run,
+                         const double* positions,
+                         const HessianTarget<Scalar>& target) {
     using Number = typename Lanes<Real>::Number;
     constexpr int kWidth = Lanes<Real>::kCount;
     const Moduli moduli = moduli_of(run);
@@ -368,6 +384,7 @@ void add_hessian(const ElementRun& run,
     const Real scale = Real(static_cast<Number>(target.scale));
     Edges<Dim> edges;
     BlockPack<Real, Dim> pack;
+    std::int64_t filtered_elements = 0;
     for (int g = 0; g < groups; ++g) {
         const Group<Dim> group = group_at<Dim>(run, g);
         prefetch_blocks(group, target.values);
@@ -380,13 +397,17 @@ void add_hessian(const ElementRun& run,
             const Tensor<Real, Dim> rest = load_rest<Real>(group, lane);
             const Real volume = Lanes<Real>::load(group.volume + lane);
             const Tensor<Real, Dim> F = deformation(edges, rest, lane);
-            hessian_blocks(rotated_hessian(F, rest, moduli, target.filter), scale * volume, pack);
+            const RotatedHessian<Real, Dim> hessian =
+                rotated_hessian(F, rest, moduli, target.filter);
+            filtered_elements += count_marked(hessian.is_filtered, group.elements - lane);
+            hessian_blocks(hessian, scale * volume, pack);
             scatter_blocks(pack, group, lane, target.values);
             if (has_held && target.held_shift != nullptr) {
                 scatter_held(pack, group, lane, run.free_unknowns, target);
             }
         }
     }
+    return filtered_elements;
 }
 
 }  // namespace

@@ -268,9 +268,15 @@ SignedSvd<Real, Dim> signed_svd(Tensor<Real, Dim> F, Tensor<Real, Dim> rest) {
 }
 
 /// max(value, 0), |value| or value.
+///
+/// @param changed  Set to 1 in lanes in which that is another value.
 template <typename Real>
-Real filtered(const Real& value, Filter filter) {
+Real filtered(const Real& value, Filter filter, Real& changed) {
     using L = Lanes<Real>;
+    if (filter != Filter::None) {
+        changed =
+            L::select(value < Real(typename L::Number(0)), Real(typename L::Number(1)), changed);
+    }
     switch (filter) {
         case Filter::Clamp:
             return L::max(value, Real(typename L::Number(0)));
@@ -282,14 +288,14 @@ Real filtered(const Real& value, Filter filter) {
     return value;
 }
 
-// Whether some lane of the symmetric matrix has a pivot below zero in L D L^T.
+// 1 in lanes in which the symmetric matrix has a pivot below zero in L D L^T, else 0.
 template <typename Real, int Dim>
-bool has_negative_pivot(Tensor<Real, Dim> A) {
+Real has_negative_pivot(Tensor<Real, Dim> A) {
     using L = Lanes<Real>;
     using Number = typename L::Number;
-    bool found = false;
+    Real found = Real(Number(0));
     for (int k = 0; k < Dim; ++k) {
-        found = found || L::any(!(A[k][k] >= Real(Number(0))));
+        found = L::select(A[k][k] >= Real(Number(0)), found, Real(Number(1)));
         const Real inverse = Real(Number(1)) / L::max(A[k][k], Real(Precise<Number>::kTiny));
         for (int i = k + 1; i < Dim; ++i) {
             const Real factor = A[i][k] * inverse;
@@ -304,15 +310,22 @@ bool has_negative_pivot(Tensor<Real, Dim> A) {
 /// The symmetric matrix with filtered eigenvalues; untouched if clamping has nothing to do.
 ///
 /// Eigenvectors by two-sided Jacobi [golub2013, 8.5].
+///
+/// @param changed  Set to 1 in lanes in which an eigenvalue was negative.
 template <typename Real, int Dim>
-Tensor<Real, Dim> filtered(const Tensor<Real, Dim>& matrix, Filter filter) {
+Tensor<Real, Dim> filtered(const Tensor<Real, Dim>& matrix, Filter filter, Real& changed) {
     using L = Lanes<Real>;
     using Number = typename L::Number;
-    if (filter == Filter::None || !has_negative_pivot(matrix)) {
+    if (filter == Filter::None) {
         return matrix;
     }
     const Real zero = Real(Number(0));
     const Real one = Real(Number(1));
+    const Real is_negative = has_negative_pivot(matrix);
+    if (!L::any(is_negative > zero)) {
+        return matrix;
+    }
+    changed = L::max(changed, is_negative);
     Tensor<Real, Dim> A = matrix;
     Tensor<Real, Dim> Q;
     Real scale = zero;
@@ -358,7 +371,7 @@ Tensor<Real, Dim> filtered(const Tensor<Real, Dim>& matrix, Filter filter) {
         for (int j = i; j < Dim; ++j) {
             Real sum = zero;
             for (int k = 0; k < Dim; ++k) {
-                sum += filtered(A[k][k], filter) * Q[i][k] * Q[j][k];
+                sum += filtered(A[k][k], filter, changed) * Q[i][k] * Q[j][k];
             }
             result[i][j] = sum;
             result[j][i] = sum;

@@ -69,12 +69,13 @@ struct Kernels {
     /// Adds -dPsi/dx of every element to `forces` (Dim x vertices) and returns the energy.
     RunEnergy (*forces)(const ElementRun& run, const double* positions, double* forces);
 
-    void (*hessian_float)(const ElementRun& run,
-                          const double* positions,
-                          const HessianTarget<float>& target);
-    void (*hessian_double)(const ElementRun& run,
-                           const double* positions,
-                           const HessianTarget<double>& target);
+    /// Adds the filtered Hessian of every element; returns how many of them the filter changed.
+    std::int64_t (*hessian_float)(const ElementRun& run,
+                                  const double* positions,
+                                  const HessianTarget<float>& target);
+    std::int64_t (*hessian_double)(const ElementRun& run,
+                                   const double* positions,
+                                   const HessianTarget<double>& target);
 
     /// y += A x for the blocks of the rows, in both triangles.
     void (*multiply_float)(const BlockRows<float>& rows, const double* x, double* y);

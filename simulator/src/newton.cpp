@@ -99,12 +99,17 @@ bool minimize(System<Dim>& system,
     system.evaluate(state);
     const Potential<Dim> begin = potential(system, world, problem, state);
     const double start = begin.gradient.norm();
-    if (!take_linear_step(system, world, problem, now, state.positions, report)) {
+    BodyState<Dim> trial = state;
+    if (!take_linear_step(system, world, problem, now, trial.positions, report)) {
         return false;
     }
-    system.evaluate(state);
-    Potential<Dim> phi = potential(system, world, problem, state);
-    BodyState<Dim> trial = state;
+    system.evaluate(trial);
+    Potential<Dim> phi = potential(system, world, problem, trial);
+    if (phi.value <= begin.value) {
+        std::swap(state, trial);
+    } else {
+        phi = begin;  // the linear step has gone too far; searches along lines begin where all is
+    }
     Best<Dim> best;  // kept in contact alone
     const auto is_at_kink = [&] {
         if (best.force > kKinkForce * start) {
@@ -166,8 +171,11 @@ bool minimize(System<Dim>& system,
             return false;
         }
     }
+    if (is_at_kink()) {
+        return true;
+    }
     report.failure = "Newton's method did not reach its tolerance";
-    return is_at_kink();
+    return false;
 }
 
 #define PENT_INSTANTIATE(Dim)                                                                \

@@ -67,11 +67,13 @@ Json step_json(const StepReport& step) {
             {"time", step.time},
             {"substeps", step.substeps},
             {"refused", step.refused},
+            {"failure", step.failure},
             {"newton_iterations", step.newton_iterations},
             {"iterations", step.iterations},
             {"asleep", step.asleep},
             {"unknowns", step.unknowns},
             {"hessians", step.hessians},
+            {"filtered", step.filtered},
             {"damping_hessians", step.damping_hessians},
             {"residual", step.residual},
             {"unbalanced", step.unbalanced},
@@ -95,11 +97,13 @@ StepReport parse_step(const Json& json) {
     json.at("time").get_to(step.time);
     read_count(json, "substeps", step.substeps);
     read_count(json, "refused", step.refused);
+    json.at("failure").get_to(step.failure);
     read_count(json, "newton_iterations", step.newton_iterations);
     read_count(json, "iterations", step.iterations);
     read_count(json, "asleep", step.asleep);
     read_count(json, "unknowns", step.unknowns);
     read_count(json, "hessians", step.hessians);
+    read_count(json, "filtered", step.filtered);
     read_count(json, "damping_hessians", step.damping_hessians);
     json.at("residual").get_to(step.residual);
     json.at("unbalanced").get_to(step.unbalanced);

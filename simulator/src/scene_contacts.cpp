@@ -1,7 +1,6 @@
 #include "scene_contacts.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace pent::simulator {
 
@@ -187,7 +186,6 @@ SceneContacts<Dim>::SceneContacts(const Scene& scene, const World<Dim>& world) {
 template <int Dim>
 ContactState<Dim> SceneContacts<Dim>::find(const Workers& workers,
                                            const Positions<Dim>& positions) {
-    const auto start = std::chrono::steady_clock::now();
     ContactState<Dim> state;
     contact::ContactReport report;
     workers.run([&] {
@@ -214,8 +212,6 @@ ContactState<Dim> SceneContacts<Dim>::find(const Workers& workers,
     if (!barrier_) {
         sum_up(report, state);
     }
-    state.summary.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return state;
 }
 

@@ -31,7 +31,7 @@ struct ContactState {
     contact::BarrierContacts<Dim> barrier;  ///< The pairs once more, as the barrier has them.
     Positions<Dim> barrier_forces;          ///< Dim x vertices, N; empty without a barrier.
     FrictionState<Dim> friction;
-    ContactSummary summary;      ///< Its counts and seconds are those of finding this state.
+    ContactSummary summary;      ///< Its work is that of finding this state, without seconds.
     double energy = 0;           ///< Of the pairs, J.
     double obstacle_energy = 0;  ///< J.
 

@@ -56,7 +56,8 @@ template <int Dim>
                                     Positions<Dim>& x,
                                     StepReport& report);
 
-/// Newton's method with line search, started by the linear step.
+/// Newton's method with line search. It begins with the linear step, which spreads the motion of held
+/// vertices over all; if phi is larger there than with every free vertex where it was, it begins here.
 ///
 /// Ends when the unbalanced force, the gradient of phi, is below SolverOptions::newton_tolerance
 /// times that at the start, or corrections are below 1e-10 of `extent`.

@@ -176,12 +176,7 @@ void System<Dim>::find_contacts(BodyState<Dim>& state) {
     state.energies.contact = found->energy;
     state.energies.obstacle = found->obstacle_energy;
     state.energies.friction = found->friction.energy;
-    contact_work_.searches += found->summary.searches;
-    contact_work_.candidates += found->summary.candidates;
-    contact_work_.obstacle_tests += found->summary.obstacle_tests;
-    contact_work_.friction += found->summary.friction;
-    contact_work_.trees_built += found->summary.trees_built;
-    contact_work_.trees_refit += found->summary.trees_refit;
+    contact_work_ += found->summary;
     contact_work_.seconds += watch.seconds();
     state.contacts = std::move(found);
 }
@@ -303,8 +298,9 @@ LinearSolveReport System<Dim>::solve_with(BlockMatrix<Dim, Scalar>& matrix,
                                           StepReport& report) {
     const Stopwatch assembly;
     matrix.set_zero(workers_);
-    elements_.add_hessian(workers_, *kernels_, state.positions, step.elastic_factor, filter,
-                          step.held_shift, matrix, step.right);
+    report.filtered +=
+        elements_.add_hessian(workers_, *kernels_, state.positions, step.elastic_factor, filter,
+                              step.held_shift, matrix, step.right);
     if (has_lost_inertia(matrix, step.mass_factor)) {
         LinearSolveReport lost;
         lost.has_lost_inertia = true;

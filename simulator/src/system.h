@@ -109,8 +109,8 @@ public:
     /// Gives the barrier a stiffness, N/m, and evaluates the state with it.
     void set_barrier_stiffness(double stiffness, BodyState<Dim>& state);
 
-    /// Searches, trees and seconds of contact since the last call.
-    [[nodiscard]] ContactSummary take_contact_work() { return std::exchange(contact_work_, {}); }
+    /// What contact cost since the last call.
+    [[nodiscard]] ContactWork take_contact_work() { return std::exchange(contact_work_, {}); }
 
     [[nodiscard]] const SceneContacts<Dim>& contacts() const { return contacts_; }
     [[nodiscard]] const Damping& damping() const { return damping_; }
@@ -166,7 +166,7 @@ private:
     Frozen frozen_;
     SceneContacts<Dim> contacts_;
     std::function<void(const Eigen::MatrixXd&, bool)> on_move_;
-    ContactSummary contact_work_;  // since it was last taken; counts of contacts are not used
+    ContactWork contact_work_;                 // since it was last taken
     std::vector<std::uint32_t> column_start_;  // columns the preconditioner solves together
     Aggregates aggregates_;                    // for the coarse space, if there is one
     std::unique_ptr<BlockMatrix<Dim, float>> float_matrix_;

@@ -96,6 +96,29 @@ TEST(Filter, TakesNoSecondAssemblyWhereNothingIsNegative) {
     }
 }
 
+// The first step of a cube that is `stretch` times as large as at rest, short enough for every filter.
+StepReport step_stretched(Filter filter, double stretch) {
+    Scene scene = test::box_scene<4>();
+    scene.frames_per_second = 3000;
+    scene.solver.filter = filter;
+    Simulation<4> simulation(scene, {cube<4>()});
+    simulation.set_state(0, stretch * simulation.positions(0), simulation.velocities(0));
+    StepReport report = simulation.step();
+    EXPECT_TRUE(report.is_accepted) << report.failure;
+    EXPECT_EQ(report.hessians, kElements);
+    return report;
+}
+
+// Of a simplex 0.7 times as large the twists are negative, mu (1 - 0.49) + (lambda + mu)(0.24 - 1) 0.49;
+// of one 1.02 times as large nothing is.
+TEST(Filter, ChangesNoElementWhereItIsOffAndThoseWithNegativeEigenvaluesWhereItIsOn) {
+    EXPECT_EQ(step_stretched(Filter::None, 0.7).filtered, 0);
+    for (const Filter filter : {Filter::Clamp, Filter::Absolute}) {
+        EXPECT_EQ(step_stretched(filter, 0.7).filtered, kElements);
+        EXPECT_EQ(step_stretched(filter, 1.02).filtered, 0);
+    }
+}
+
 TEST(History, IsKeptForBdf2Alone) {
     Scene scene = test::box_scene<4>();
     for (const Integrator integrator :

@@ -351,6 +351,39 @@ TEST(FailedStep, SucceedsInHalvesWhereThoseAreEasier) {
     EXPECT_TRUE(report.is_accepted);
     EXPECT_GE(report.substeps, 2);
     EXPECT_DOUBLE_EQ(halved.time(), scene.dt());
+    EXPECT_NE(report.failure.find("the linear solver did not reach"), std::string::npos);
+}
+
+// Sum of 1/2 m |v - before|^2, J.
+double kinetic_energy(const Simulation<4>& simulation, const Positions<4>& before) {
+    return 0.5
+           * (simulation.velocities(0) - before).colwise().squaredNorm().dot(simulation.masses(0));
+}
+
+// Of backward Euler it is h^2 (1/2 |v - v0|_M^2 + E): no more behind a step than with all where it was,
+// from however far the linear step that the search begins with may have leapt.
+TEST(NewtonsMethod, NeverEndsAboveWhereTheStepBegan) {
+    Scene scene = box_scene<4>();
+    scene.solver.integrator = Integrator::NewtonEuler;
+    for (const double frames_per_second : {1000.0, 30.0, 3.0}) {
+        for (const double stretch : {0.05, 0.5, 2.0, 6.0}) {
+            scene.frames_per_second = frames_per_second;
+            Simulation<4> simulation(scene, {bar(3)});
+            Positions<4> positions = simulation.positions(0);
+            positions.row(0) *= stretch;
+            positions.row(2) *= -1;  // inside out
+            Positions<4> velocities = 0.3 * positions;
+            velocities.row(1).swap(velocities.row(3));
+            simulation.set_state(0, positions, velocities);
+            const Energies before = simulation.energies();
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.is_accepted) << report.failure;
+            ASSERT_EQ(report.substeps, 1) << frames_per_second << ' ' << stretch;
+            EXPECT_LE(kinetic_energy(simulation, velocities) + report.energies.elastic,
+                      before.kinetic + before.elastic)
+                << frames_per_second << ' ' << stretch;
+        }
+    }
 }
 
 TEST(SetState, RefusesWhatIsNotFinite) {

@@ -91,9 +91,10 @@ Outcome step_all(simulator::Simulation<4>& simulation, int steps) {
             return {.kind = Outcome::Kind::Wrong, .error = NAN, .reason = {}};
         }
         if (!report.is_accepted || report.refused > 0) {
-            return {.kind = Outcome::Kind::Reported,
-                    .error = 0,
-                    .reason = report.is_accepted ? "steps had to be cut" : report.failure};
+            return {
+                .kind = Outcome::Kind::Reported,
+                .error = 0,
+                .reason = report.failure + (report.is_accepted ? ", in a step that was cut" : "")};
         }
     }
     return {};

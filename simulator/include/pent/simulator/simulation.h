@@ -55,9 +55,32 @@ struct Energies {
     [[nodiscard]] double total() const { return kinetic + elastic + gravity + obstacle + contact; }
 };
 
-/// What touches at the end of a step, and what contact cost in it. All zero without [contact] and
-/// [[obstacle]].
-struct ContactSummary {
+/// What contact cost in a step. All zero without [contact] and [[obstacle]].
+struct ContactWork {
+    std::int64_t searches = 0;        ///< How often contacts were asked for.
+    std::int64_t candidates = 0;      ///< Pairs of boxes that overlapped.
+    std::int64_t obstacle_tests = 0;  ///< Distances of vertices to obstacles.
+    std::int64_t friction = 0;        ///< Contacts whose friction was computed.
+    std::int64_t trees_built = 0;
+    std::int64_t trees_refit = 0;
+    double ccd_seconds = 0;  ///< Of `seconds`: how far steps may go without a crossing.
+    double seconds = 0;      ///< Finding contacts, their forces and their part of the matrix.
+
+    ContactWork& operator+=(const ContactWork& other) {
+        searches += other.searches;
+        candidates += other.candidates;
+        obstacle_tests += other.obstacle_tests;
+        friction += other.friction;
+        trees_built += other.trees_built;
+        trees_refit += other.trees_refit;
+        ccd_seconds += other.ccd_seconds;
+        seconds += other.seconds;
+        return *this;
+    }
+};
+
+/// What touches at the end of a step, and what contact cost in it.
+struct ContactSummary : ContactWork {
     std::int64_t point_facet = 0;  ///< Vertices in contact with a facet.
     std::int64_t mixed = 0;        ///< Edges with triangles; in three dimensions with edges.
     std::int64_t self = 0;         ///< Of both kinds, those within one body.
@@ -66,15 +89,7 @@ struct ContactSummary {
     double smallest_distance =
         std::numeric_limits<double>::infinity();  ///< Least signed distance in contact, m;
                                                   ///< infinite where nothing touches.
-    std::int64_t searches = 0;                    ///< How often contacts were asked for.
-    std::int64_t candidates = 0;                  ///< Pairs of boxes that overlapped.
-    std::int64_t obstacle_tests = 0;              ///< Distances of vertices to obstacles.
-    std::int64_t friction = 0;                    ///< Contacts whose friction was computed.
-    std::int64_t trees_built = 0;
-    std::int64_t trees_refit = 0;
-    double ccd_seconds = 0;  ///< Of `seconds`: how far steps may go without a crossing.
-    double stiffness = 0;    ///< Of the barrier at the end, N/m; 0 without one.
-    double seconds = 0;      ///< Finding contacts, their forces and their part of the matrix.
+    double stiffness = 0;  ///< Of the barrier at the end, N/m; 0 without one.
 };
 
 /// Whether a body sleeps, and what it takes to decide that; see Sleep.
@@ -87,11 +102,10 @@ struct BodyRest {
 
 /// What one step did.
 struct StepReport {
-    std::uint64_t step = 0;  ///< Steps taken so far, this one included.
-    double time = 0;         ///< At its end, s.
-    bool is_accepted =
-        false;  ///< If not, the state is that before the step, and `failure` says why.
-    std::string failure;
+    std::uint64_t step = 0;     ///< Steps taken so far, this one included.
+    double time = 0;            ///< At its end, s.
+    bool is_accepted = false;   ///< If not, the state is that before the step.
+    std::string failure;        ///< Why the last attempt was thrown away; empty if none was.
     int substeps = 0;           ///< 1, or more where the step had to be cut.
     int refused = 0;            ///< Attempts that were thrown away.
     int newton_iterations = 0;  ///< After the first, linear step; 0 for LinearEuler.
@@ -99,6 +113,7 @@ struct StepReport {
     int asleep = 0;             ///< Bodies that sleep at the end.
     std::int64_t unknowns = 0;  ///< Scalars solved for, in all linear solves.
     std::int64_t hessians = 0;  ///< Of elements that were assembled, in all.
+    std::int64_t filtered = 0;  ///< Of those, the ones that Filter changed: none with Filter::None.
     std::int64_t damping_hessians =
         0;                  ///< The same for Rayleigh damping with a tangent of its own.
     double residual = 0;    ///< Largest |b - A x| / |b|, computed from x.
@@ -174,7 +189,8 @@ public:
 
     /// Puts a body where it was, for a resumed run or a host's own start. Held vertices follow their
     /// motion from the next step on, whatever is said here. Throws an Error unless both arrays are
-    /// finite and Dim x vertices.
+    /// finite and Dim x vertices. What a barrier does not allow is found when something of the new state
+    /// is first asked for, so that bodies may change places: put all of them before asking.
     void set_state(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
 
     /// What BDF2 looks back to: the state one step ago. False after a step that was cut in two, and
