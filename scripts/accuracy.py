@@ -14,16 +14,16 @@ from read_pent import read_pent  # noqa: E402
 
 DTS = ("1/30", "1/60", "1/120")
 PRESETS = ("fast", "balanced", "accurate")
+VARY_PRESETS = ["preset=" + ",".join(PRESETS), "dt=" + ",".join(DTS)]
 REPEATS = 3
-# With contact the motion has kinks: the reference takes smaller steps.
-STUDIES = (
-    ("bar", 30, []),
-    ("beam", 8, []),
-    ("octopus", 8, []),
-    ("alien", 8, []),
-    ("drop", 15, ["--reference-halvings", "4"]),
-    ("collision", 15, ["--reference-halvings", "4"]),
+# Scene, frames, halvings of the reference. Contacts come and go within milliseconds: it takes smaller steps.
+STUDIES = (("bar", 30, 2), ("beam", 8, 2), ("octopus", 8, 2), ("alien", 8, 2), ("drop", 15, 4), ("collision", 15, 5))
+# What the presets leave to one setting alone, on the beam: integrator, dt, halvings to the same reference.
+SETTINGS = (
+    ("linear_euler", "1/30", 4, ["tolerance=1e-1,1e-2,1e-4"]),
+    ("bdf2", "1/60", 3, ["newton_tolerance=1e-2,1e-4,1e-7", "precision=float,double"]),
 )
+LEVELS = ("10%", "5%", "2%", "1%")
 CELLS = (2, 4, 8)
 POISSONS = (0, 0.28, 0.32)
 
@@ -32,17 +32,22 @@ def run(programs, name, *arguments):
     subprocess.run([os.path.join(programs, name), *arguments, "--quiet"], check=True)
 
 
-def study(programs, out, page, scene, frames, options):
+def study(programs, out, scene, frames, halvings, vary):
+    """What pent-study finds; references that are in the folder of the scene are used again."""
     folder = os.path.join(out, scene)
-    print("accuracy:", scene, flush=True)
-    run(programs, "pent-study", f"data/study/{scene}.toml", "-o", folder, "--frames", str(frames),
-        "--threads", "1", "--repeat", str(REPEATS), "--vary", "preset=" + ",".join(PRESETS), "--vary", "dt=" + ",".join(DTS),
-        *options)
-    images = os.path.join(os.path.dirname(page), "images")
-    shutil.copy(os.path.join(folder, "frontier.png"),
-                os.path.join(images, f"accuracy-{scene}.png"))
+    axes = [word for axis in vary for word in ("--vary", axis)]
+    run(programs, "pent-study", f"data/study/{scene}.toml", "-o", folder, "--frames", str(frames), "--threads", "1",
+        "--repeat", str(REPEATS), "--reference-halvings", str(halvings), *axes)
     with open(os.path.join(folder, "study.json"), encoding="utf-8") as file:
         return json.load(file)
+
+
+def study_presets(programs, out, page, scene, frames, halvings):
+    print("accuracy:", scene, flush=True)
+    report = study(programs, out, scene, frames, halvings, VARY_PRESETS)
+    shutil.copy(os.path.join(out, scene, "frontier.png"),
+                os.path.join(os.path.dirname(page), "images", f"accuracy-{scene}.png"))
+    return report
 
 
 def bend(programs, out, cells, poisson):
@@ -100,75 +105,97 @@ def percent(fraction):
     return f"{100 * fraction:.0f}%" if fraction >= 1 else f"{100 * fraction:.2g}%"
 
 
+def table(head, rows):
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def cost_and_error(result, bar, digits):
+    if result["verdict"] != "finished":
+        return result["verdict"]
+    error = result["errors"]["position"]
+    text = "below " + percent(bar) if error < bar else f"{100 * error:.{digits}g}%"
+    return f"{result['cost']['seconds_per_frame']:.2g} s, {text}"
+
+
 def presets_table(studies):
     """Seconds per frame and error of each preset, scene by scene."""
-    lines = ["| scene | cells | dt | " + " | ".join(PRESETS) + " | reference |",
-             "| --- | --- | --- |" + " --- |" * (len(PRESETS) + 1)]
+    rows = []
     for scene, report in studies:
         reference = report["reference"]
         bar = reference["error_bar"]
         for dt in DTS:
-            cells = []
-            for preset in PRESETS:
-                for result in report["results"]:
-                    if result["settings"] == {"preset": preset, "dt": dt}:
-                        cost = result["cost"]["seconds_per_frame"]
-                        error = result["errors"]["position"]
-                        text = "below " + percent(bar) if error < bar else percent(error)
-                        cells.append(f"{cost:.2g} s, {text}" if result["verdict"] == "finished"
-                                     else result["verdict"])
-            head = (f"| {scene} | {report['cells']} |" if dt == DTS[0] else "| | |")
-            tail = ""
-            if dt == DTS[0]:
-                order = f"order {reference['order']:.2g}" if reference["is_converged"] else \
-                    "not converged"
-                tail = (f"{reference['cost']['seconds_per_frame']:.2g} s, {order},"
-                        f" error bar {percent(bar)}")
-            lines.append(f"{head} {dt} | " + " | ".join(cells) + f" | {tail} |")
-    return "\n".join(lines)
+            cells = [cost_and_error(result, bar, 2) for preset in PRESETS for result in report["results"]
+                     if result["settings"] == {"preset": preset, "dt": dt}]
+            order = f"order {reference['order']:.2g}" if reference["is_converged"] else "not converged"
+            is_first = dt == DTS[0]
+            rows.append([scene if is_first else "", str(report["cells"]) if is_first else "", dt, *cells,
+                         f"{reference['cost']['seconds_per_frame']:.2g} s, {order}, error bar {percent(bar)}"
+                         if is_first else ""])
+    return table(["scene", "cells", "dt", *PRESETS, "reference"], rows)
+
+
+def cheapest_table(studies):
+    """The cheapest settings within some errors, as pent-study says them."""
+    rows = []
+    for scene, report in studies:
+        found = dict(sentence[len("within "):].split(": ", 1) for sentence in report["sentences"])
+        settings = [found[level].split(",")[0] if level in found else "none" for level in LEVELS]
+        rows.append([scene, *(text.replace("preset=", "").replace("dt=", "").replace("none of these settings", "none")
+                              for text in settings)])
+    return table(["scene", *("within " + level for level in LEVELS)], rows)
+
+
+def settings_table(programs, out):
+    """The error of the beam where one setting of its solver changes."""
+    rows = []
+    frames = dict((scene, frames) for scene, frames, _ in STUDIES)["beam"]
+    for integrator, dt, halvings, axes in SETTINGS:
+        print("accuracy: beam,", integrator, flush=True)
+        report = study(programs, out, "beam", frames, halvings, ["integrator=" + integrator, "dt=" + dt, *axes])
+        for result in report["results"]:
+            settings = result["settings"]
+            others = " ".join(f"{axis}={value}" for axis, value in settings.items() if axis not in ("integrator", "dt"))
+            rows.append([f"`{integrator}`", dt, others, cost_and_error(result, report["reference"]["error_bar"], 4)])
+    return table(["integrator", "dt", "setting", "cost and error"], rows)
+
+
+def contact_row(scene, settings, dt, errors):
+    return [scene, settings, dt, percent(errors["energy"]), percent(errors["contact_energy"]), percent(errors["center"]),
+            f"{errors['deepest_penetration']:.2g}"]
 
 
 def contact_table(studies):
-    """What still converges behind the first contact."""
-    lines = ["| scene | preset | dt | energy | contact energy | center | deepest, m |",
-             "| --- | --- | --- | --- | --- | --- | --- |"]
+    """What still converges behind the first contact; first, how far the reference itself is from that."""
+    rows = []
     for scene, report in studies:
-        if report["reference"]["has_contact"]:
-            for result in report["results"]:
-                errors = result["errors"]
-                settings = result["settings"]
-                if result["verdict"] == "finished":
-                    lines.append(
-                        f"| {scene} | {settings['preset']} | {settings['dt']} |"
-                        f" {percent(errors['energy'])} | {percent(errors['contact_energy'])} |"
-                        f" {percent(errors['center'])} | {errors['deepest_penetration']:.2g} |")
-    return "\n".join(lines)
+        reference = report["reference"]
+        if reference["has_contact"]:
+            rows.append(contact_row(scene, "reference", f"{reference['dt'][-2]:.2g} s", reference["last"]))
+            rows += [contact_row(scene, result["settings"]["preset"], result["settings"]["dt"], result["errors"])
+                     for result in report["results"] if result["verdict"] == "finished"]
+    return table(["scene", "preset", "dt", "energy", "contact energy", "center", "deepest, m"], rows)
 
 
 def locking_table(programs, out):
-    lines = ["| cells thick | " + " | ".join(f"nu = {p}" for p in POISSONS) + " |",
-             "| --- |" + " --- |" * len(POISSONS)]
-    for cells in CELLS:
-        bends = [f"{100 * bend(programs, out, cells, p):.0f}%" for p in POISSONS]
-        lines.append(f"| {cells} | " + " | ".join(bends) + " |")
-    return "\n".join(lines)
+    rows = [[str(cells), *(f"{100 * bend(programs, out, cells, p):.0f}%" for p in POISSONS)] for cells in CELLS]
+    return table(["cells thick", *(f"nu = {p}" for p in POISSONS)], rows)
 
 
 def main():
     programs, out, page = sys.argv[1:]
     os.makedirs(out, exist_ok=True)
     where = machine(out)
-    studies = [(scene, study(programs, out, page, scene, frames, options))
-               for scene, frames, options in STUDIES]
+    studies = [(scene, study_presets(programs, out, page, scene, frames, halvings))
+               for scene, frames, halvings in STUDIES]
+    times = "single runs" if REPEATS == 1 else f"medians of {REPEATS} runs that alternate"
+    plots = "\n\n".join(f"![Error against time, {scene}](images/accuracy-{scene}.png)" for scene, _ in studies)
     with open("data/study/accuracy.md.in", encoding="utf-8") as template:
         text = template.read()
-    times = "single runs" if REPEATS == 1 else f"medians of {REPEATS} runs that alternate"
-    text = text.replace("@TIMES@", times).replace("@MACHINE@", where)
-    text = text.replace("@PRESETS@", presets_table(studies))
-    text = text.replace("@CONTACT@", contact_table(studies))
-    text = text.replace("@LOCKING@", locking_table(programs, out))
-    text = text.replace("@PLOTS@", "\n\n".join(
-        f"![Error against time, {scene}](images/accuracy-{scene}.png)" for scene, _ in studies))
+    for name, value in (("TIMES", times), ("MACHINE", where), ("PRESETS", presets_table(studies)),
+                        ("CHEAPEST", cheapest_table(studies)), ("SETTINGS", settings_table(programs, out)),
+                        ("CONTACT", contact_table(studies)), ("LOCKING", locking_table(programs, out)), ("PLOTS", plots)):
+        text = text.replace(f"@{name}@", value)
     with open(page, "w", encoding="utf-8") as file:
         file.write(text)
     print("accuracy:", page)

@@ -2,7 +2,7 @@
 # What the presets cost and what error they make: studies the scenes of data/study and writes
 # docs/accuracy.md with its plots. What was measured before is not measured again.
 #
-#   scripts/accuracy.sh [OUTPUT FOLDER]      default: out/accuracy; half an hour on a quiet machine
+#   scripts/accuracy.sh [OUTPUT FOLDER]      default: out/accuracy; some minutes on a quiet machine
 set -euo pipefail
 out=$(realpath -m "${1:-$(dirname "$0")/../out/accuracy}")
 cd "$(dirname "$0")/.."

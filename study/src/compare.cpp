@@ -42,8 +42,8 @@ void compare_steps(const Trajectory& run,
     const double from = window.has_contact && window.end < end ? window.end : 0;
     errors.energy = relative(mean_behind(run.steps(), from, internal),
                              mean_behind(reference.steps(), from, internal));
-    errors.contact_energy = relative(mean_behind(run.steps(), from, contact),
-                                     mean_behind(reference.steps(), from, contact));
+    errors.contact_energy =
+        relative(mean_behind(run.steps(), 0, contact), mean_behind(reference.steps(), 0, contact));
     if (!run.steps().empty()) {
         errors.energy_drift = run.steps().back().total - run.steps().front().total;
     }

@@ -72,6 +72,7 @@ Json to_json(const Settings& settings) {
 Json to_json(const ReferenceReport& reference) {
     return {{"dt", reference.dt},
             {"difference", reference.difference},
+            {"last", to_json(reference.last)},
             {"order", reference.order},
             {"error_bar", reference.error_bar},
             {"is_converged", reference.is_converged},

@@ -225,9 +225,9 @@ void Study::run_reference() {
     ReferenceReport& report = report_.reference;
     window_ = window_of(*levels.back(), scene_.frames_per_second);
     for (std::size_t level = 0; level + 1 < levels.size(); ++level) {
-        report.difference.push_back(
-            compare(*levels[level], *levels[level + 1], {}, window_, scene_.frames_per_second)
-                .position);
+        report.last =
+            compare(*levels[level], *levels[level + 1], {}, window_, scene_.frames_per_second);
+        report.difference.push_back(report.last.position);
     }
     const std::size_t last = report.difference.size() - 1;
     const Convergence convergence =

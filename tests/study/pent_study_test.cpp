@@ -160,6 +160,8 @@ TEST(RunStudy, VariesTheModelOfContactAndRefusesWhatDoesNotGoTogether) {
     EXPECT_TRUE(report.reference.has_contact);
     // 0.2 s behind the first contact, where a has gone 0.01 of the 0.05 m between them.
     EXPECT_NEAR(report.reference.window, 0.21, 1.0 / 120);
+    EXPECT_EQ(report.reference.last.position, report.reference.difference.back());
+    EXPECT_LT(report.reference.last.contact_energy, report.results[0].errors.contact_energy);
     for (const std::size_t i : {0U, 1U, 3U}) {
         EXPECT_EQ(report.results[i].verdict, "finished") << report.results[i].message;
     }

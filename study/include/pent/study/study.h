@@ -62,7 +62,8 @@ struct Errors {
     double center = 0;      ///< Distance of the centers of mass at the end, over that motion.
     double energy = 0;      ///< Kinetic and elastic energy behind the window, its mean over time;
                             ///< relative to that of the reference. Without contact: over all.
-    double contact_energy = 0;  ///< The same for the energy stored in contacts; 0 without contact.
+    double contact_energy = 0;  ///< The same for the energy stored in contacts, over all time; 0
+                                ///< without contact.
     double energy_drift = 0;    ///< Total energy at the end less that at the start, J.
     std::vector<double>
         angular_momentum;               ///< In each plane (xy, xz, xw, yz, ...) about the center of
@@ -88,6 +89,7 @@ struct Result {
 struct ReferenceReport {
     std::vector<double> dt;          ///< s, from coarse to fine.
     std::vector<double> difference;  ///< Each level less the next finer one, as Errors::position.
+    Errors last;                     ///< Of the last level but one, against the finest.
     double order = 0;                ///< Observed from the last three levels.
     double error_bar = 0;            ///< Estimated error of the finest level, as Errors::position.
     bool is_converged = false;       ///< Differences fall, at an order of at least 0.5.
