@@ -50,20 +50,30 @@ bool is_same(const BarrierContact<Dim>& a, const BarrierContact<Dim>& b) {
            && a.first_body == b.first_body;
 }
 
-// One contact for all pairs with the same nearest faces, in ascending order.
+// The contact of one pair of simplices, and which pair: the list, and the places in it.
 template <int Dim>
-std::vector<BarrierContact<Dim>> merged(const std::vector<BarrierContact<Dim>>& contacts) {
-    std::vector<std::uint32_t> order(contacts.size());
+struct Found {
+    BarrierContact<Dim> contact;
+    std::array<std::uint32_t, 3> pair;
+};
+
+// One contact for all pairs with the same nearest faces, in ascending order. Their distances differ by
+// rounding: that of the first pair counts, whatever order they were found in.
+template <int Dim>
+std::vector<BarrierContact<Dim>> merged(const std::vector<Found<Dim>>& found) {
+    std::vector<std::uint32_t> order(found.size());
     std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return is_before<Dim>(contacts[a], contacts[b]);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return is_before<Dim>(found[a].contact, found[b].contact)
+               || (!is_before<Dim>(found[b].contact, found[a].contact)
+                   && found[a].pair < found[b].pair);
     });
     std::vector<BarrierContact<Dim>> kept;
     for (const std::uint32_t i : order) {
-        if (!kept.empty() && is_same(kept.back(), contacts[i])) {
-            kept.back().multiplicity += contacts[i].multiplicity;
+        if (!kept.empty() && is_same(kept.back(), found[i].contact)) {
+            ++kept.back().multiplicity;
         } else {
-            kept.push_back(contacts[i]);
+            kept.push_back(found[i].contact);
         }
     }
     return kept;
@@ -75,14 +85,17 @@ public:
     Search(const BarrierSetting<Dim>& setting, const PositionsView<Dim>& positions)
         : setting_(setting),
           positions_(positions),
-          reach_(setting.options.distance + setting.options.separation) {}
+          reach_(setting.options.distance + setting.options.separation),
+          travel_(setting.candidates.travel(positions, positions)) {}
 
     BarrierContacts<Dim> run() {
-        setting_.for_each_list(
-            [this](const auto& pairs, const auto& first, const auto& second,
-                   const std::array<int, 2>& bodies) { append(pairs, first, second, bodies); });
+        setting_.for_each_list([this](const auto& list, const auto& first, const auto& second,
+                                      const std::array<int, 2>& bodies) {
+            this->append(list, first, second, bodies);
+            ++lists_;
+        });
         append_obstacles();
-        contacts_.pairs = merged(contacts_.pairs);
+        contacts_.pairs = merged(found_);
         sum_up();
         return std::move(contacts_);
     }
@@ -173,15 +186,20 @@ private:
     }
 
     template <int K, int L>
-    void append(const std::vector<IndexPair>& pairs,
+    void append(const CandidateList& list,
                 const Simplices<K>& first,
                 const Simplices<L>& second,
                 const std::array<int, 2>& bodies) {
-        std::vector<std::vector<BarrierContact<Dim>>> found((pairs.size() + kChunk - 1) / kChunk);
+        const Sieve<K, L> sieve(list, first, second, travel_, reach_);
+        std::vector<std::vector<Found<Dim>>> found((sieve.size() + kChunk - 1) / kChunk);
         tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t chunk) {
-            const std::size_t end = std::min((chunk + 1) * kChunk, pairs.size());
+            const std::size_t end = std::min((chunk + 1) * kChunk, sieve.size());
             for (std::size_t k = chunk * kChunk; k < end; ++k) {
-                const auto [i, j] = pairs[k];
+                if (!sieve.passes(k)) {
+                    continue;
+                }
+                const std::uint32_t i = list.pairs[k].first;
+                const std::uint32_t j = list.pairs[k].second;
                 const Corners<Dim, K> a = gather<Dim, K>(first, i, positions_);
                 const Corners<Dim, L> b = gather<Dim, L>(second, j, positions_);
                 if (are_boxes_apart<Dim, K, L>(a, b, reach_ * reach_)) {
@@ -200,15 +218,16 @@ private:
                     threshold = parallel_threshold<K, L>(first, i, second, j, a, b);
                 }
                 found[chunk].push_back(
-                    threshold > 0 ? make_mollified<K, L>(search.best(), of_first, of_second, bodies,
-                                                         threshold)
-                                  : make_contact<K, L>(search.best(), of_first, of_second, bodies));
+                    {threshold > 0 ? make_mollified<K, L>(search.best(), of_first, of_second,
+                                                          bodies, threshold)
+                                   : make_contact<K, L>(search.best(), of_first, of_second, bodies),
+                     {lists_, i, j}});
             }
         });
         for (const auto& part : found) {
-            contacts_.pairs.insert(contacts_.pairs.end(), part.begin(), part.end());
+            found_.insert(found_.end(), part.begin(), part.end());
         }
-        contacts_.report.candidates += static_cast<std::int64_t>(pairs.size());
+        contacts_.report.candidates += static_cast<std::int64_t>(sieve.size());
     }
 
     void append_obstacles() {
@@ -241,7 +260,7 @@ private:
             BarrierContact<Dim> contact = make_contact<1, Dim>(
                 search.best(), &kFixedPoint, facets.col(facet).data(), {-1 - obstacle, body});
             contact.separation = separation;
-            contacts_.pairs.push_back(contact);
+            found_.push_back({contact, {lists_, static_cast<std::uint32_t>(obstacle), facet}});
         });
     }
 
@@ -263,6 +282,9 @@ private:
     const BarrierSetting<Dim>& setting_;
     const PositionsView<Dim>& positions_;
     double reach_;
+    Travel travel_;
+    std::uint32_t lists_ = 0;  // that have been looked at
+    std::vector<Found<Dim>> found_;
     BarrierContacts<Dim> contacts_;
 };
 

@@ -13,8 +13,9 @@ namespace pent::contact {
 
 namespace {
 
-// Candidates hold at least until a vertex has left its path by this part of the distance of contact.
-constexpr double kSlack = 0.1;
+// Candidates hold at least until a vertex has left its path by this part of the distance of contact. More
+// makes searches fewer and dearer; at twice as much and at half of it they cost as much in all.
+constexpr double kSlack = 0.25;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

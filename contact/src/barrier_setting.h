@@ -19,8 +19,8 @@ struct BarrierSetting {
     const Positions<Dim>& rest;
     const PathCandidates<Dim>& candidates;
 
-    /// Calls visit(pairs, first, second, bodies) for each list of candidates: index pairs, the lists of
-    /// simplices that they are places in, and the bodies that these belong to.
+    /// Calls visit(list, first, second, bodies) for each list of candidates: the list, the lists of
+    /// simplices that its pairs are places in, and the bodies that these belong to.
     template <typename Visit>
     void for_each_list(const Visit& visit) const {
         for (const CandidatePairs& pairs : candidates.pairs()) {

@@ -11,8 +11,7 @@ namespace pent::contact {
 
 namespace {
 
-// What stops the advances: a gap near enough to what has to be kept, or their number.
-constexpr double kGapReached = 2 * kGapKept;
+// Stops the advances where the gap does not.
 constexpr int kMostAdvances = 10'000;
 
 // How long the two simplices stay `target` apart along u. Every two corners are on their sides for
@@ -65,11 +64,7 @@ double safe_fraction(const Corners<Dim, K>& first,
     const Corners<Dim, L> b_start = b;
     // Paths that keep apart by what has to be left of any gap need no closest points.
     const double always = clearance.separation + kGapKept * clearance.distance;
-    Corners<Dim, 2 * K> a_path;
-    Corners<Dim, 2 * L> b_path;
-    a_path << a, a + first_path;
-    b_path << b, b + second_path;
-    if (are_boxes_apart<Dim, 2 * K, 2 * L>(a_path, b_path, always * always)) {
+    if (are_paths_apart<Dim, K, L>(a, a + first_path, b, b + second_path, always * always)) {
         return limit;
     }
     double near_gap = 0;  // what counts of the gap at the start

@@ -12,44 +12,35 @@ namespace pent::contact {
 
 namespace {
 
-// Candidates of a motion this many times as long as what is asked for are searched anew: there are many
-// more of them than are of use.
+// Candidates of a motion this many times as long as what is asked for are many more than are of use.
 constexpr double kCrude = 3;
 
-// The slack around long ways is this part of them. Newton's method goes less far from one iteration to
-// the next, so candidates of the first hold for some that follow.
+// The slack around long ways is this part of them: Newton's method goes less far from one iteration to the
+// next, so candidates of the first hold for some that follow.
 constexpr double kSlackOfWay = 0.25;
 
-// Where vertices can go less far than this times the reach, candidates are those whose distance is
-// within it. Beyond, nearly all whose boxes are near enough would be, and distances cost more.
-constexpr double kShortWay = 1;
+// Distances are measured up to this many times the reach: while no vertex has gone farther than 0.3 times
+// the reach from there, no other pair can be within it.
+constexpr double kMeasured = 1.6;
 
-// The narrow test allows for rounding: candidates have to be a superset.
+// Tests allow for rounding: candidates have to be a superset.
 constexpr double kRoundUp = 1 + 1e-9;
 
 template <int Count>
-double most_travel(const Eigen::VectorXd& travel,
-                   const Simplices<Count>& simplices,
-                   Eigen::Index i) {
+double most_of(const Eigen::VectorXd& values, const Simplices<Count>& simplices, Eigen::Index i) {
     double most = 0;
     for (int a = 0; a < Count; ++a) {
-        most = std::max(most, travel[simplices(a, i)]);
+        most = std::max(most, values[simplices(a, i)]);
     }
     return most;
 }
 
-template <int Dim>
-bool is_inside(const Vector<Dim>& point, const Box& box) {
-    bool is_inside = true;
-    for (int axis = 0; axis < Dim; ++axis) {
-        is_inside &= static_cast<double>(box.low[axis]) <= point[axis]
-                     && point[axis] <= static_cast<double>(box.high[axis]);
-    }
-    return is_inside;
+float rounded_down(double value) {
+    return static_cast<float>(value * (1 - 1e-7));
 }
 
-bool is_before(const IndexPair& a, const IndexPair& b) {
-    return a.first != b.first ? a.first < b.first : a.second < b.second;
+float rounded_up(double value) {
+    return static_cast<float>(value * (1 + 1e-7));
 }
 
 }  // namespace
@@ -64,63 +55,77 @@ PathCandidates<Dim>::PathCandidates(const std::vector<ContactBody<Dim>>& bodies,
       is_held_(std::move(is_held)),
       self_(self),
       reach_(reach),
-      slack_(slack),
+      least_slack_(slack),
       trees_(bodies.size()) {}
 
+// The time at which the paths are next to the positions in the sense of least squares is as good as any.
 template <int Dim>
 bool PathCandidates<Dim>::is_covered(const PositionsView<Dim>& positions) const {
     if (positions.cols() != start_.cols() || searches_ == 0) {
         return false;
     }
+    const double squared = (end_ - start_).squaredNorm();
+    const double along = (positions - start_).cwiseProduct(end_ - start_).sum();
+    const double t = squared > 0 ? std::clamp(along / squared, 0.0, 1.0) : 0;
     for (Eigen::Index v = 0; v < positions.cols(); ++v) {
-        if (!is_inside<Dim>(positions.col(v), free_boxes_[static_cast<std::size_t>(v)])) {
+        const Vector<Dim> aside = positions.col(v) - ((1 - t) * start_.col(v) + t * end_.col(v));
+        if (!(aside.squaredNorm() <= slack_[v] * slack_[v])) {
             return false;
         }
     }
     return true;
 }
 
+// Whether a motion needs few of the candidates, and distances measured elsewhere do not tell which.
+template <int Dim>
+bool PathCandidates<Dim>::is_crude(const PositionsView<Dim>& from, double way) const {
+    const double unmeasured = 0.5 * (kMeasured - 1) * reach_;
+    return kCrude * std::max(way, least_slack_) < longest_
+           && (from - end_).colwise().squaredNorm().maxCoeff() > unmeasured * unmeasured;
+}
+
 template <int Dim>
 void PathCandidates<Dim>::cover(const PositionsView<Dim>& from, const PositionsView<Dim>& to) {
     const double way =
         from.cols() == 0 ? 0 : std::sqrt((to - from).colwise().squaredNorm().maxCoeff());
-    const bool is_crude = kCrude * std::max(way, slack_) < longest_;
-    if (is_crude || !is_covered(from) || !is_covered(to)) {
-        search(from, to, std::max(slack_, kSlackOfWay * way));
-        longest_ = std::max(way, slack_);
+    if (!is_covered(from) || !is_covered(to) || is_crude(from, way)) {
+        search(from, to);
+        longest_ = std::max(way, least_slack_);
     }
 }
 
 template <int Dim>
 void PathCandidates<Dim>::cover(const PositionsView<Dim>& positions) {
     if (!is_covered(positions)) {
-        search(positions, positions, slack_);
-        longest_ = slack_;
+        search(positions, positions);
+        longest_ = least_slack_;
     }
 }
 
 template <int Dim>
-void PathCandidates<Dim>::search(const PositionsView<Dim>& from,
-                                 const PositionsView<Dim>& to,
-                                 double slack) {
-    const Eigen::Index count = from.cols();
+Travel PathCandidates<Dim>::travel(const PositionsView<Dim>& from,
+                                   const PositionsView<Dim>& to) const {
+    Travel travel{Eigen::VectorXf(from.cols())};
+    for (Eigen::Index v = 0; v < from.cols(); ++v) {
+        const double squared = std::max((from.col(v) - end_.col(v)).squaredNorm(),
+                                        (to.col(v) - end_.col(v)).squaredNorm());
+        travel.of_vertex[v] = rounded_up(std::sqrt(squared));
+        travel.most = std::max(travel.most, travel.of_vertex[v]);
+    }
+    return travel;
+}
+
+template <int Dim>
+void PathCandidates<Dim>::search(const PositionsView<Dim>& from, const PositionsView<Dim>& to) {
     start_ = from;
-    boxes_.resize(static_cast<std::size_t>(count));
-    free_boxes_.resize(static_cast<std::size_t>(count));
-    travel_.resize(count);
-    for (Eigen::Index v = 0; v < count; ++v) {
+    end_ = to;
+    way_ = (to - from).colwise().norm();
+    slack_ = (kSlackOfWay * way_).cwiseMax(least_slack_);
+    boxes_.resize(static_cast<std::size_t>(from.cols()));
+    for (Eigen::Index v = 0; v < from.cols(); ++v) {
         Eigen::Matrix<double, Dim, 2> path;
         path << from.col(v), to.col(v);
-        const auto i = static_cast<std::size_t>(v);
-        boxes_[i] = box_around<Dim, 2>(path, slack + 0.5 * reach_);
-        free_boxes_[i] = box_around<Dim, 2>(path, slack);
-        double squared = 0;
-        for (int axis = 0; axis < Dim; ++axis) {
-            const double below = from(axis, v) - static_cast<double>(free_boxes_[i].low[axis]);
-            const double above = static_cast<double>(free_boxes_[i].high[axis]) - from(axis, v);
-            squared += std::max(below * below, above * above);
-        }
-        travel_[v] = std::sqrt(squared);
+        boxes_[static_cast<std::size_t>(v)] = box_around<Dim, 2>(path, slack_[v] + 0.5 * reach_);
     }
     update_trees();
     find_pairs();
@@ -197,29 +202,40 @@ void PathCandidates<Dim>::find_pairs() {
 
 template <int Dim>
 template <int K, int L>
-std::vector<IndexPair> PathCandidates<Dim>::search(const Simplices<K>& first,
-                                                   const BoxTree& first_tree,
-                                                   const Simplices<L>& second,
-                                                   const BoxTree& second_tree) const {
+CandidateList PathCandidates<Dim>::search(const Simplices<K>& first,
+                                          const BoxTree& first_tree,
+                                          const Simplices<L>& second,
+                                          const BoxTree& second_tree) const {
+    struct Found {
+        std::vector<Candidate> known;  // distances
+        std::vector<Candidate> others;
+    };
     const bool is_same_list = &first_tree == &second_tree;
+    const double measured = kMeasured * reach_;
     const std::vector<BoxTree::Work> work = BoxTree::split(first_tree, second_tree, kPieces);
-    std::vector<std::vector<IndexPair>> found(work.size());
-    const auto add = [&](std::uint32_t i, std::uint32_t j, std::vector<IndexPair>& list) {
+    std::vector<Found> found(work.size());
+    const auto add = [&](std::uint32_t i, std::uint32_t j, Found& list) {
         if (share_a_vertex<K, L>(first, i, second, j)) {
             return;
         }
         if (is_same_list && j < i) {
             std::swap(i, j);
         }
-        // Boxes are crude: what counts is how near the simplices are now, and how far they can go.
-        const double way = most_travel<K>(travel_, first, i) + most_travel<L>(travel_, second, j);
-        const double most = (reach_ + way) * kRoundUp;
-        const Corners<Dim, K> a = gather<Dim, K>(first, i, start_);
-        const Corners<Dim, L> b = gather<Dim, L>(second, j, start_);
-        if (!are_boxes_apart<Dim, K, L>(a, b, most * most)
-            && (way > kShortWay * reach_
-                || ClosestPointSearch<Dim, K, L>(a, b, most * most).run())) {
-            list.push_back({i, j});
+        // Boxes around whole paths are crude: what counts is how near the two come at any one time.
+        const double apart =
+            (reach_ + most_of<K>(slack_, first, i) + most_of<L>(slack_, second, j)) * kRoundUp;
+        const Corners<Dim, K> a = gather<Dim, K>(first, i, end_);
+        const Corners<Dim, L> b = gather<Dim, L>(second, j, end_);
+        if (are_paths_apart<Dim, K, L>(gather<Dim, K>(first, i, start_), a,
+                                       gather<Dim, L>(second, j, start_), b, apart * apart)) {
+            return;
+        }
+        ClosestPointSearch<Dim, K, L> search(a, b, measured * measured);
+        const bool is_known =
+            !are_boxes_apart<Dim, K, L>(a, b, measured * measured) && search.run();
+        const double distance = is_known ? std::sqrt(search.best().distance_squared) : measured;
+        if (distance < apart + most_of<K>(way_, first, i) + most_of<L>(way_, second, j)) {
+            (is_known ? list.known : list.others).push_back({i, j, rounded_down(distance)});
         }
     };
     tbb::parallel_for(
@@ -230,11 +246,14 @@ std::vector<IndexPair> PathCandidates<Dim>::search(const Simplices<K>& first,
                 [&](std::uint32_t i, std::uint32_t j) { add(i, j, found[piece]); });
         },
         tbb::simple_partitioner());
-    std::vector<IndexPair> all;
-    for (const std::vector<IndexPair>& list : found) {
-        all.insert(all.end(), list.begin(), list.end());
+    CandidateList all;
+    for (const Found& list : found) {
+        all.pairs.insert(all.pairs.end(), list.known.begin(), list.known.end());
     }
-    std::sort(all.begin(), all.end(), is_before);
+    all.known_count = all.pairs.size();
+    for (const Found& list : found) {
+        all.pairs.insert(all.pairs.end(), list.others.begin(), list.others.end());
+    }
     return all;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "candidates.h"
 #include "fitted_tree.h"
 
 #include <pent/contact/contacts.h>
@@ -9,28 +10,15 @@
 
 namespace pent::contact {
 
-/// Places of two simplices in the lists of their surfaces.
-struct IndexPair {
-    std::uint32_t first = 0;
-    std::uint32_t second = 0;
-};
-
-/// What of two bodies (or of one and itself) can come near, each list ascending.
-struct CandidatePairs {
-    int first_body = 0;
-    int second_body = 0;
-    std::vector<IndexPair> points_first;   ///< Vertices of the first, facets of the second.
-    std::vector<IndexPair> points_second;  ///< The other way round; none within one body.
-    std::vector<IndexPair> mixed_first;    ///< Edges of the first, ridges of the second.
-    std::vector<IndexPair> mixed_second;   ///< The other way round; in R^4 between two bodies.
-};
-
 /// The pairs of simplices that can come within a reach of each other while vertices move along
 /// straight paths. Pairs that share a vertex are left out.
 ///
-/// Every vertex has a box around its path and some slack; a pair whose boxes are further apart than
-/// the reach is no candidate. So candidates hold for all motions that stay in the boxes, and are
-/// searched again only when a vertex leaves its own, or when much shorter motions are asked for.
+/// Vertices may leave their paths by some slack: candidates hold for all positions that have every vertex
+/// that near to where its path is at one and the same time. Only for others are they searched again, or
+/// when much shorter motions are asked for elsewhere.
+///
+/// Each candidate knows how far apart it was where the paths end, which is where Newton's method goes on:
+/// a Sieve holds most of them back there.
 template <int Dim>
 class PathCandidates {
 public:
@@ -54,6 +42,10 @@ public:
     void cover(const PositionsView<Dim>& positions);
 
     [[nodiscard]] const std::vector<CandidatePairs>& pairs() const { return pairs_; }
+
+    /// Of the vertices on the way between two positions. After cover().
+    [[nodiscard]] Travel travel(const PositionsView<Dim>& from, const PositionsView<Dim>& to) const;
+
     [[nodiscard]] const std::vector<bool>& is_held() const { return is_held_; }
 
     /// Whether all corners of a simplex are held.
@@ -89,27 +81,29 @@ private:
     };
 
     [[nodiscard]] bool is_covered(const PositionsView<Dim>& positions) const;
-    void search(const PositionsView<Dim>& from, const PositionsView<Dim>& to, double slack);
+    [[nodiscard]] bool is_crude(const PositionsView<Dim>& from, double way) const;
+    void search(const PositionsView<Dim>& from, const PositionsView<Dim>& to);
     void update_trees();
     void find_pairs();
     template <int Count>
     [[nodiscard]] std::vector<Box> hulls(const Simplices<Count>& simplices) const;
     template <int K, int L>
-    [[nodiscard]] std::vector<IndexPair> search(const Simplices<K>& first,
-                                                const BoxTree& first_tree,
-                                                const Simplices<L>& second,
-                                                const BoxTree& second_tree) const;
+    [[nodiscard]] CandidateList search(const Simplices<K>& first,
+                                       const BoxTree& first_tree,
+                                       const Simplices<L>& second,
+                                       const BoxTree& second_tree) const;
 
     const std::vector<ContactBody<Dim>>& bodies_;
     std::vector<bool> is_held_;
     bool self_;
     double reach_;
-    double slack_;
-    Positions<Dim> start_;         // where the covered paths begin
-    std::vector<Box> boxes_;       // around the path of each vertex, its slack and half the reach
-    std::vector<Box> free_boxes_;  // the same without the reach: where a vertex may go
-    double longest_ = 0;           // motion that candidates were searched for, m
-    Eigen::VectorXd travel_;       // how far from start_ each vertex may get, m
+    double least_slack_;
+    Positions<Dim> start_;    // where the covered paths begin
+    Positions<Dim> end_;      // and end: where distances are measured
+    Eigen::VectorXd way_;     // how long the path of each vertex is, m
+    Eigen::VectorXd slack_;   // how far each vertex may leave its path, m
+    double longest_ = 0;      // motion that candidates were searched for, m
+    std::vector<Box> boxes_;  // around the path of each vertex, its slack and half the reach
     std::vector<Trees> trees_;
     std::vector<CandidatePairs> pairs_;
     std::int64_t searches_ = 0;

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <tbb/parallel_for.h>
+#include <tuple>
 
 namespace pent::contact {
 
@@ -20,36 +21,45 @@ public:
     Limiter(const BarrierSetting<Dim>& setting,
             const PositionsView<Dim>& from,
             const PositionsView<Dim>& to)
-        : setting_(setting), from_(from), motion_(to - from) {}
+        : setting_(setting),
+          from_(from),
+          motion_(to - from),
+          travel_(setting.candidates.travel(from, to)) {}
 
     StepLimit run() {
-        setting_.for_each_list(
-            [this](const auto& pairs, const auto& first, const auto& second,
-                   const std::array<int, 2>& bodies) { shorten(pairs, first, second, bodies); });
+        setting_.for_each_list([this](const auto& list, const auto& first, const auto& second,
+                                      const std::array<int, 2>& bodies) {
+            this->shorten(list, first, second, bodies);
+        });
         shorten_by_obstacles();
         return std::move(limit_);
     }
 
 private:
-    // Takes the least fraction of all pairs; of equals the first.
+    // Takes the least fraction of all pairs; of equals the first pair.
     template <int K, int L>
-    void shorten(const std::vector<IndexPair>& pairs,
+    void shorten(const CandidateList& list,
                  const Simplices<K>& first,
                  const Simplices<L>& second,
                  const std::array<int, 2>& bodies) {
-        struct Best {
-            double fraction = 1;
-            std::size_t pair = 0;
-        };
+        using Best = std::tuple<double, std::uint32_t, std::uint32_t>;  // fraction and pair
         const Clearance clearance{setting_.options.separation, setting_.options.distance};
-        std::vector<Best> best((pairs.size() + kChunk - 1) / kChunk);
+        // A pair that stays beyond this distance stops no motion.
+        const Sieve<K, L> sieve(list, first, second, travel_,
+                                clearance.separation + kGapReached * clearance.distance);
+        std::vector<Best> best((sieve.size() + kChunk - 1) / kChunk, Best{1, 0, 0});
         std::atomic<double> least = limit_.fraction;  // a bound that only saves work
         tbb::parallel_for(std::size_t{0}, best.size(), [&](std::size_t chunk) {
             Best& here = best[chunk];
-            const std::size_t end = std::min((chunk + 1) * kChunk, pairs.size());
+            const std::size_t end = std::min((chunk + 1) * kChunk, sieve.size());
             for (std::size_t k = chunk * kChunk; k < end; ++k) {
-                const auto [i, j] = pairs[k];
-                const double bound = std::min(least.load(std::memory_order_relaxed), here.fraction);
+                if (!sieve.passes(k)) {
+                    continue;
+                }
+                const std::uint32_t i = list.pairs[k].first;
+                const std::uint32_t j = list.pairs[k].second;
+                const double bound =
+                    std::min(least.load(std::memory_order_relaxed), std::get<0>(here));
                 const Corners<Dim, K> a_motion = gather<Dim, K>(first, i, motion_);
                 const Corners<Dim, L> b_motion = gather<Dim, L>(second, j, motion_);
                 const Vector<Dim> together = a_motion.col(0);
@@ -60,8 +70,8 @@ private:
                 const double fraction = safe_fraction<Dim, K, L>(
                     gather<Dim, K>(first, i, from_), a_motion, gather<Dim, L>(second, j, from_),
                     b_motion, clearance, std::nextafter(bound, 2.0));
-                if (fraction < here.fraction) {
-                    here = {fraction, k};
+                if (Best{fraction, i, j} < here) {
+                    here = {fraction, i, j};
                     double seen = least.load(std::memory_order_relaxed);
                     while (fraction < seen
                            && !least.compare_exchange_weak(seen, fraction,
@@ -70,17 +80,16 @@ private:
                 }
             }
         });
-        for (const Best& found : best) {
-            if (found.fraction < limit_.fraction) {
-                limit_.fraction = found.fraction;
-                const auto [i, j] = pairs[found.pair];
-                limit_.limiting = {CrossingKind::Touching,
-                                   bodies[0],
-                                   bodies[1],
-                                   {first.col(i).data(), first.col(i).data() + K},
-                                   {second.col(j).data(), second.col(j).data() + L},
-                                   0};
-            }
+        const auto of_all = std::min_element(best.begin(), best.end());
+        if (of_all != best.end() && std::get<0>(*of_all) < limit_.fraction) {
+            const auto [fraction, i, j] = *of_all;
+            limit_ = {fraction,
+                      {CrossingKind::Touching,
+                       bodies[0],
+                       bodies[1],
+                       {first.col(i).data(), first.col(i).data() + K},
+                       {second.col(j).data(), second.col(j).data() + L},
+                       0}};
         }
     }
 
@@ -121,6 +130,7 @@ private:
     const BarrierSetting<Dim>& setting_;
     const PositionsView<Dim>& from_;
     const Positions<Dim> motion_;
+    const Travel travel_;
     StepLimit limit_;
 };
 

@@ -23,6 +23,9 @@ namespace pent::contact {
 /// The part of the gap at the start that is always left.
 inline constexpr double kGapKept = 0.1;
 
+/// Of gaps below this part of that at the start a motion may be stopped.
+inline constexpr double kGapReached = 2 * kGapKept;
+
 /// How much room a motion has to leave.
 struct Clearance {
     double separation = 0;  ///< m, >= 0: a distance that is never reached.
