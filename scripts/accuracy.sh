@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What the presets cost and what error they make: studies the scenes of data/study and writes
-# docs/accuracy.md with its plots. What was measured before is not measured again.
+# docs/accuracy.md with its plots. Goes on where it was interrupted; what another build of the programs measured
+# has to be removed, or given another folder.
 #
 #   scripts/accuracy.sh [OUTPUT FOLDER]      default: out/accuracy; some minutes on a quiet machine
 set -euo pipefail

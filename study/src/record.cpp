@@ -6,6 +6,8 @@
 #include <pent/output_file.h>
 
 #include <fstream>
+#include <iomanip>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -90,6 +92,21 @@ Cost cost_of(const Record& record, int frames) {
     cost.peak_bytes = median(record.peak_bytes);
     cost.seconds_per_frame = cost.wall_seconds / frames;
     return cost;
+}
+
+std::string read_text(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+std::string fingerprint(const std::filesystem::path& program) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const char byte : read_text(program)) {
+        hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+    }
+    std::ostringstream text;
+    text << std::hex << std::setw(16) << std::setfill('0') << hash;
+    return text.str();
 }
 
 void write_record(const std::filesystem::path& path, const Record& record) {

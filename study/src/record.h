@@ -30,6 +30,12 @@ void write_record(const std::filesystem::path& path, const Record& record);
 /// Nothing if there is no such file. Throws an Error if it is something else.
 [[nodiscard]] std::optional<Record> read_record(const std::filesystem::path& path);
 
+/// All bytes of a file; none if it cannot be read.
+[[nodiscard]] std::string read_text(const std::filesystem::path& path);
+
+/// What tells one build of a program from another: 16 hexadecimal digits of its bytes (FNV-1a).
+[[nodiscard]] std::string fingerprint(const std::filesystem::path& program);
+
 /// Text of study.json and study.csv.
 [[nodiscard]] std::string study_json(const StudyReport& report, const std::string& created_by);
 [[nodiscard]] std::string study_csv(const StudyReport& report);

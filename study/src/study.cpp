@@ -15,8 +15,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 
@@ -29,11 +27,6 @@ using simulator::Scene;
 
 /// Thrown to leave a study that was asked to stop.
 struct Stopped {};
-
-std::string read_text(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 Scene shortened(Scene scene, int frames) {
     if (frames > 0) {
@@ -98,6 +91,7 @@ public:
 
 private:
     void open_folder();
+    void claim(const char* file, const std::string& text, const char* other) const;
     void run_reference();
     void run_level(const Scene& scene, const fs::path& folder);
     void run_combinations();
@@ -140,23 +134,29 @@ void Study::tell(const std::string& next) {
     ++runs_done_;
 }
 
-// The folder is of this scene, or new.
+// The folder is of this scene, by this program, or new.
 void Study::open_folder() {
     make_folder(options_.folder);
-    const fs::path path = options_.folder / "scene.toml";
-    const std::string text = simulator::scene_text(scene_);
     if (options_.force) {
-        for (const char* part : {"runs", "references", "meshes"}) {
+        for (const char* part : {"runs", "references", "meshes", "scene.toml", "program.txt"}) {
             fs::remove_all(options_.folder / part);
         }
-    } else if (fs::exists(path) && read_text(path) != text) {
-        throw Error(options_.folder.string()
-                    + ": holds the study of another scene; use another folder or --force");
     }
-    write_text(path, text);
+    claim("scene.toml", simulator::scene_text(scene_), "of another scene");
+    claim("program.txt", fingerprint(options_.programs / "pent-sim") + "\n", "by another pent-sim");
     for (const char* part : {"runs", "references"}) {
         make_folder(options_.folder / part);
     }
+}
+
+// Says in a file of the folder what it is of, unless it is of something else.
+void Study::claim(const char* file, const std::string& text, const char* other) const {
+    const fs::path path = options_.folder / file;
+    if (fs::exists(path) && read_text(path) != text) {
+        throw Error(options_.folder.string() + ": holds a study " + other
+                    + "; use another folder or --force");
+    }
+    write_text(path, text);
 }
 
 ChildOutcome Study::simulate(const Scene& scene, const fs::path& folder, bool resume) {

@@ -85,6 +85,19 @@ TEST(RunStudy, RefusesTheFolderOfAnotherScene) {
     EXPECT_NO_THROW(static_cast<void>(run_study(options)));
 }
 
+TEST(RunStudy, RefusesTheFolderThatAnotherProgramMeasuredFor) {
+    const TempFolder folder;
+    StudyOptions options = bar_study(folder, {"dt=1/30"});
+    std::filesystem::create_directory(options.folder);
+    std::ofstream(options.folder / "program.txt") << "0123456789abcdef\n";
+    expect_contains(pent::test::error_of([&] { static_cast<void>(run_study(options)); }),
+                    {"another pent-sim", "--force"});
+    options.force = true;
+    EXPECT_NO_THROW(static_cast<void>(run_study(options)));
+    options.force = false;
+    EXPECT_NO_THROW(static_cast<void>(run_study(options)));
+}
+
 TEST(RunStudy, ReportsSettingsThatDiverge) {
     const TempFolder folder;
     const StudyReport report =

@@ -39,6 +39,18 @@ TEST(Record, IsNothingWhereThereIsNoFileAndAnErrorWhereThereIsAnother) {
         {"bad.json", "remove"});
 }
 
+// Test vectors of the authors of FNV: nothing, "a", "foobar".
+TEST(Fingerprint, IsFnv1aOfAllBytes) {
+    const pent::test::TempFolder folder;
+    const auto of = [&](const std::string& bytes) {
+        std::ofstream(folder / "program", std::ios::binary) << bytes;
+        return fingerprint(folder / "program");
+    };
+    EXPECT_EQ(of(""), "cbf29ce484222325");
+    EXPECT_EQ(of("a"), "af63dc4c8601ec8c");
+    EXPECT_EQ(of("foobar"), "85944171f73967e8");
+}
+
 TEST(StudyCsv, HasAsManyFieldsInEveryLineAsInItsHead) {
     StudyReport report;
     report.results.resize(2);
