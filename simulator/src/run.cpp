@@ -395,9 +395,9 @@ std::string_view verdict_name(RunVerdict verdict) {
         case RunVerdict::Stopped:
             return "stopped";
         case RunVerdict::Diverged:
-            return "diverged";
+            break;
     }
-    return "";
+    return "diverged";
 }
 
 }  // namespace pent::simulator

@@ -2,7 +2,9 @@
 
 #include <pent/simulator/scene.h>
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <string_view>
 #include <vector>
 
@@ -95,15 +97,13 @@ template <typename Table>
     return words;
 }
 
-/// The word for a value.
+/// The word for a value, which is in the table.
 template <typename Table, typename Value>
 [[nodiscard]] std::string_view word_of(const Table& table, Value value) {
-    for (const auto& name : table) {
-        if (name.value == value) {
-            return name.word;
-        }
-    }
-    return "";
+    const auto found = std::find_if(table.begin(), table.end(),
+                                    [&](const auto& name) { return name.value == value; });
+    assert(found != table.end());
+    return found->word;
 }
 
 }  // namespace pent::simulator

@@ -2,6 +2,7 @@
 
 #include <pent/simulator/scene_file.h>
 
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -12,9 +13,7 @@ namespace {
 
 // Shortest text that reads back as the same double; TOML wants a digit on both sides of the point.
 std::string number(double value) {
-    if (std::isinf(value)) {
-        return value > 0 ? "inf" : "-inf";
-    }
+    assert(std::isfinite(value));
     char digits[32];
     const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
     std::string text(digits, end);

@@ -82,5 +82,88 @@ TEST(PentSim, SaysNothingOfElementsThatAreNot) {
     EXPECT_EQ(outcome.out.find("cut"), std::string::npos);
 }
 
+// A cube that falls, beside another one a meter away.
+class FallingCubes : public testing::Test {
+protected:
+    FallingCubes() {
+        write_mesh(folder_ / "cube.pent", test::kuhn_box<3>({1, 1, 1}, {0.5, 0.5, 0.5}));
+        std::ofstream(folder_ / "fall.toml") << R"([scene]
+dimension = 3
+gravity = [0, -9.8, 0]
+frames = 3
+
+[[body]]
+name = "a"
+mesh = "cube.pent"
+
+[[body]]
+name = "b"
+mesh = "cube.pent"
+place = { translate = [1.5, 0, 0] }
+
+[contact]
+distance = 0.04
+)";
+    }
+
+    [[nodiscard]] std::string path(const std::string& name) const {
+        return (folder_ / name).string();
+    }
+
+    test::TempFolder folder_;
+};
+
+TEST_F(FallingCubes, NeverTouchAndPentSimSaysSo) {
+    const Outcome outcome =
+        test::run_program("pent-sim " + path("fall.toml") + " -o " + path("run"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    expect_contains(outcome.out, {"contact: nothing has touched", "at most 0 pairs"});
+}
+
+TEST_F(FallingCubes, AreExplainedWithoutBeingRun) {
+    const Outcome outcome = test::run_program("pent-sim " + path("fall.toml") + " --explain --json "
+                                              + path("report.json"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto report = nlohmann::json::parse(test::text_of(folder_ / "report.json"));
+    EXPECT_EQ(report.at("verdict"), "finished");
+    double bytes = 0;
+    for (const auto& term : report.at("terms")) {
+        expect_contains(outcome.out, {term.at("name").get<std::string>()});
+        bytes += term.at("bytes").get<double>();
+    }
+    EXPECT_GT(bytes, 0);
+    EXPECT_FALSE(report.at("advice").empty());  // the contact has nothing to do
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 3);
+}
+
+TEST_F(FallingCubes, NeedAFolderToRunIn) {
+    const Outcome outcome = test::run_program("pent-sim " + path("fall.toml"));
+    EXPECT_EQ(outcome.exit_code, 2);
+    test::expect_one_error_line(outcome, "pent-sim");
+    expect_contains(outcome.err, {"--output"});
+}
+
+TEST_F(FallingCubes, DivergeWithAVerdictWhenNoIterationsAreAllowed) {
+    std::ofstream(folder_ / "fall.toml", std::ios::app)
+        << "[solver]\nmax_iterations = 1\ntolerance = 1e-12\nmax_halvings = 0\n";
+    const Outcome outcome = test::run_program("pent-sim " + path("fall.toml") + " -o " + path("run")
+                                              + " --json " + path("report.json"));
+    EXPECT_EQ(outcome.exit_code, 3);
+    test::expect_one_error_line(outcome, "pent-sim");
+    const auto report = nlohmann::json::parse(test::text_of(folder_ / "report.json"));
+    EXPECT_EQ(report.at("verdict"), "diverged");
+    expect_contains(outcome.err, {"diverged at " + report.at("message").get<std::string>()});
+}
+
+TEST_F(FallingCubes, ShowTheirProgressOnOneLineOfATerminal) {
+    if (std::system("command -v script >/dev/null") != 0) {  // NOLINT(cert-env33-c)
+        GTEST_SKIP() << "no script to make a terminal";
+    }
+    const std::string line = "script -qec '" PENT_BIN "/pent-sim " + path("fall.toml") + " -o "
+                             + path("run") + "' /dev/null >" + path("seen") + " </dev/null";
+    ASSERT_EQ(std::system(line.c_str()), 0);  // NOLINT(cert-env33-c)
+    expect_contains(test::text_of(folder_ / "seen"), {"\rframe 3 of 3", "\x1b[K\r\n"});
+}
+
 }  // namespace
 }  // namespace pent

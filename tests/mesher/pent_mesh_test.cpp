@@ -1,8 +1,14 @@
 #include "apps/run_program.h"
 #include "shapes.h"
+#include "support/kuhn_box.h"
 #include "support/messages.h"
 
+#include <pent/pent_file.h>
+
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
 
 namespace pent {
 namespace {
@@ -94,6 +100,55 @@ TEST(PentMesh, GivesUpAfterItsTimeLimit) {
                           {R"("verdict": "refused")", "not done after 1 s", R"("seconds": 1)"});
 }
 
+TEST(PentMesh, StopsAtCtrlCWithAVerdictOfItsOwn) {
+    const test::TempFolder folder;
+    const Outcome outcome = run_program(
+        "pent-mesh " + kModels + "/octopus_5246f.obj --edge-length 0.005 -o "
+            + (folder / "out.pent").string() + " --json " + (folder / "report.json").string(),
+        "timeout --preserve-status --signal=INT 0.5");
+    EXPECT_EQ(outcome.exit_code, 3);
+    test::expect_one_error_line(outcome, "pent-mesh");
+    test::expect_contains(outcome.err, {"stopped as asked", "no mesh was written"});
+    test::expect_contains(test::text_of(folder / "report.json"), {R"("verdict": "stopped")"});
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.pent"));
+}
+
+TEST(PentMesh, SaysWhatItMended) {
+    const test::TempFolder folder;
+    const std::string out = " --layers 1 -o " + (folder / "out.pent").string();
+    test::expect_contains(run_program("pent-mesh " + kModels + "/dirty/d_open.off" + out).out,
+                          {"found      ", "3 border edges", "mended     lightly"});
+    test::expect_contains(run_program("pent-mesh " + kModels + "/dirty/d_flipped.off" + out).out,
+                          {"corrected  ", "1 triangles turned over"});
+}
+
+TEST(PentMesh, TakesShapesDirectionsAndLimits) {
+    const test::TempFolder folder;
+    const std::string out = (folder / "out.pent").string();
+    // A ball of radius 2 from a surface, of 20 triangles: an icosahedron, leaning over by x.
+    const Outcome ball = run_program(
+        "pent-mesh --sphere 1 --size 2 --extrude 1,0,0,3 --layers 1"
+        " --memory-limit 20000 -o "
+        + out);
+    ASSERT_EQ(ball.exit_code, 0) << ball.err;
+    const SimplexMesh<4> mesh = read_mesh<4>(out).mesh;
+    const double edge = 2 / std::sin(2 * std::numbers::pi / 5);  // of the icosahedron
+    EXPECT_NEAR(total_volume(mesh), 3 * 5 * (3 + std::sqrt(5.0)) / 12 * std::pow(edge, 3), 1e-9);
+}
+
+TEST(PentMesh, SaysWhatToDoWhenMemoryRunsOut) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitizers reserve terabytes";
+#endif
+    const test::TempFolder folder;
+    const Outcome outcome =
+        run_program("pent-mesh --box 200,200,200,20 -o " + (folder / "out.pent").string(),
+                    "ulimit -v 1000000;");
+    EXPECT_EQ(outcome.exit_code, 1);
+    test::expect_one_error_line(outcome, "pent-mesh");
+    test::expect_contains(outcome.err, {"out of memory", "ask for fewer cells"});
+}
+
 TEST(PentMesh, WantsExactlyOneInput) {
     EXPECT_EQ(run_program("pent-mesh -o out.pent").exit_code, 2);
     EXPECT_EQ(run_program("pent-mesh a.obj --ball 4 -o out.pent").exit_code, 2);
@@ -105,6 +160,61 @@ TEST(PentCheck, ProvesTheTables) {
     const Outcome outcome = run_program("pent-check");
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_NE(outcome.out.find("finished: all proved"), std::string::npos);
+}
+
+TEST(PentCheck, SaysWhenItsReportCannotBeWritten) {
+    const Outcome sound = run_program("pent-check --json /no/such/folder/report.json");
+    EXPECT_EQ(sound.exit_code, 1);
+    test::expect_one_error_line(sound, "pent-check");
+    test::expect_contains(sound.err, {"/no/such/folder/report.json", "cannot be written"});
+    // What is wrong with the input is more to the point.
+    const Outcome missing = run_program("pent-check none.pent --json /no/such/folder/report.json");
+    EXPECT_EQ(missing.exit_code, 1);
+    test::expect_one_error_line(missing, "pent-check");
+    test::expect_contains(missing.err, {"none.pent"});
+}
+
+TEST(PentCheck, TakesOneFile) {
+    const Outcome outcome = run_program("pent-check a.pent b.pent");
+    EXPECT_EQ(outcome.exit_code, 2);
+    test::expect_one_error_line(outcome, "pent-check");
+}
+
+TEST(PentCheck, TellsFramesAndDimensions) {
+    const test::TempFolder folder;
+    const std::string out = (folder / "a.pent").string();
+    write_mesh(out, test::kuhn_box<2>({1, 1}, {1, 1}));
+    test::expect_contains(run_program("pent-check " + out).out, {"dimension 2", "is sound"});
+    Frame<3> frame;
+    frame.positions = Positions<3>::Zero(3, 5);
+    frame.mesh_name = "body.pent";
+    frame.frame = 7;
+    frame.step = 70;
+    frame.time = 0.5;
+    write_frame(out, frame);
+    test::expect_contains(run_program("pent-check " + out).out,
+                          {"7 of body.pent, step 70, 0.5 s, 5 vertices", "is sound"});
+}
+
+TEST(PentCheck, NamesCellsThatDoNotFitAndPartsThatTouch) {
+    const test::TempFolder folder;
+    const std::string out = (folder / "a.pent").string();
+    SimplexMesh<3> mesh;
+    mesh.positions.resize(3, 7);  // the corner of a cube and its mirror image behind the origin
+    mesh.positions << Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(),
+        -Eigen::Matrix3d::Identity();
+    mesh.cells.resize(4, 2);
+    mesh.cells << 0, 0, 1, 4, 2, 6, 3, 5;
+    write_mesh(out, mesh);
+    const Outcome touching = run_program("pent-check " + out);
+    EXPECT_EQ(touching.exit_code, 1);
+    test::expect_contains(touching.err, {"not a manifold at 1 vertices (first: 0)"});
+    mesh.cells.col(1) = mesh.cells.col(0);
+    write_mesh(out, mesh);
+    const Outcome doubled = run_program("pent-check " + out);
+    EXPECT_EQ(doubled.exit_code, 1);
+    test::expect_one_error_line(doubled, "pent-check");
+    test::expect_contains(doubled.err, {"a.pent: "});
 }
 
 TEST(PentCheck, RefusesADamagedFile) {

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+#include <string>
+
 namespace pent::simulator {
 namespace {
 
@@ -38,6 +42,32 @@ TEST(EigenProofs, NameTheStatesWhereTheRotationIsNotUnique) {
             EXPECT_EQ(entry.modes, 1);
         }
     }
+}
+
+TEST(EigenProof, OfTwoHasTheWorstOfEachAndAllTheirStates) {
+    EigenProof a = prove_eigensystem(Model::Arap, 4);
+    const EigenProof b = prove_eigensystem(Invariant::I1, 5);
+    const EigenProof alone = a;
+    a.merge(b);
+    EXPECT_EQ(a.dim, 5);
+    EXPECT_EQ(a.states, alone.states + b.states);
+    EXPECT_EQ(a.modes, alone.modes + b.modes);
+    EXPECT_EQ(a.values, std::max(alone.values, b.values));
+    EXPECT_EQ(a.residual, std::max(alone.residual, b.residual));
+    ASSERT_EQ(a.undefined.size(), 2U);  // the same two states, each with a mode more
+    EXPECT_EQ(a.undefined[0].modes, 2);
+    EigenProof none;
+    none.merge(b);
+    EXPECT_EQ(none.undefined.size(), b.undefined.size());
+}
+
+TEST(EigenFunctions, HaveNamesOfTheirOwn) {
+    std::set<std::string> names;
+    for (const EigenFunction& function : eigen_functions()) {
+        names.insert(eigen_function_name(function));
+    }
+    EXPECT_EQ(names.size(), eigen_functions().size());
+    EXPECT_EQ(names.count(""), 0U);
 }
 
 // A proof must fail for what is wrong: one eigenvalue off, or one eigenmatrix.

@@ -1,6 +1,8 @@
+#include "contact_scenes.h"
 #include "elastic_box.h"
 #include "rigid_fit.h"
 #include "scenes.h"
+#include "support/messages.h"
 
 #include <pent/error.h>
 #include <pent/simulator/energy.h>
@@ -389,6 +391,27 @@ TEST(DirectSolver, TakesTheStepsOfConjugateGradients) {
     }
     // Newton's method stops at 1e-9 of the unbalanced force.
     EXPECT_LT((iterated.positions(0) - direct.positions(0)).norm(), 1e-7);
+}
+
+TEST(DirectSolver, TakesTheStepsOfConjugateGradientsThroughContactToo) {
+    Scene scene = test::two_cubes<3>(0.02);  // within the distance: the cubes push each other
+    scene.solver.tolerance = 1e-10;
+    const std::vector<SimplexMesh<3>> meshes(2, test::cube<3>());
+    Simulation<3> iterated(scene, meshes);
+    scene.solver.linear = LinearSolver::Direct;
+    Simulation<3> direct(scene, meshes);
+    ASSERT_TRUE(iterated.step().is_accepted);
+    const StepReport report = direct.step();
+    ASSERT_TRUE(report.is_accepted);
+    EXPECT_GT(report.contact.point_facet, 0);
+    const double moved = (direct.positions(1) - meshes[1].positions).norm();
+    EXPECT_LT((iterated.positions(1) - direct.positions(1)).norm(), 1e-8 * moved);
+}
+
+TEST(Simulation, WantsAMeshForEveryBody) {
+    pent::test::expect_contains(
+        pent::test::error_of([] { Simulation<3>(test::two_cubes<3>(0.1), {test::cube<3>()}); }),
+        {"the scene has 2 bodies", "got 1"});
 }
 
 TEST(DirectSolver, IsRefusedWhereItWouldTakeMinutes) {

@@ -181,6 +181,19 @@ TEST(SceneText, IsReadBackAsTheSameScene) {
     }
 }
 
+TEST(SceneText, KeepsEveryCharacterOfARecipe) {
+    const Scene scene = parse(with("recipe = \"a\\u0001 \\\"b\\\" \\\\ \\u007f\"\n"));
+    EXPECT_EQ(scene.bodies[0].recipe, "a\x01 \"b\" \\ \x7f");
+    EXPECT_EQ(parse(scene_text(scene)).bodies[0].recipe, scene.bodies[0].recipe);
+}
+
+TEST(ParseScene, TakesACoarserToleranceForTheFastPreset) {
+    const auto tolerance = [](const std::string& preset) {
+        return parse(with("[solver]\npreset = \"" + preset + "\"\n")).solver.tolerance;
+    };
+    EXPECT_GT(tolerance("fast"), tolerance("balanced"));
+}
+
 TEST(ParseSceneErrors, NameTheNearestKeyAtItsPlace) {
     EXPECT_EQ(error_of("[scene]\ngraviti = [0, 0, 0, 0]\n[[body]]\nname='a'\nmesh='a.pent'\n"),
               "scene.toml:2:1: unknown key \"graviti\" in \"scene\"; did you mean \"gravity\"?");
@@ -219,6 +232,14 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[scene]\ndimension = 5\n", "from 3 to 4"},
         Bad{"scene = 3\n", "expected a table"},
         Bad{"[[body]]\nname = \"a\"\n", "needs \"mesh\""},
+        Bad{"[[body]]\nname = [1]\n", "\"name\" is an array; expected text in quotes"},
+        Bad{"[[body]]\nname = {}\n", "\"name\" is a table; expected text in quotes"},
+        Bad{"[[body]]\nname = true\n", "\"name\" is true; expected text in quotes"},
+        Bad{"[[body]]\nname = 2026-01-01\n", "\"name\" is a date or time; expected text"},
+        Bad{"body = 3\n", "\"body\" is 3; expected a list of tables"},
+        Bad{"body = [3]\n", "\"body\" has the entry 3; expected a table"},
+        Bad{with("material = { young = \"soft\" }\n"),
+            "the text \"soft\"; expected a number above 0"},
         Bad{"[[body]]\nname = 3\nmesh = \"a.pent\"\n", "\"name\" is 3; expected text in quotes"},
         Bad{"[[body]]\nname = \"a\"\nmash = \"a.pent\"\n", "found the unknown key \"mash\""},
         Bad{"[[body]]\nname = \"a b\"\nmesh = \"a.pent\"\n", "letters, digits"},
@@ -244,6 +265,12 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{with("[[constraint]]\nbody = \"a\"\n"
                  "select = { ball = { center = [0,0,0,0], radius = 0 } }\n"),
             "above 0"},
+        Bad{with("[[constraint]]\nbody = \"a\"\n"
+                 "select = { layers = { last = 1 } }\n"),
+            "needs \"first\""},
+        Bad{with("[[constraint]]\nbody = \"a\"\n"
+                 "select = { box = { low = [0, 0, 2, 0], high = [1, 1, 1, 1] } }\n"),
+            "\"low\" is above \"high\""},
         Bad{with("[[constraint]]\nbody = \"a\"\n"
                  "select = { layers = { first = 2, last = 1 } }\n"),
             "\"last\" is before \"first\""},

@@ -67,6 +67,25 @@ TEST_F(ViewerPrograms, RenderAPictureOfTheLastFrame) {
     EXPECT_TRUE(std::filesystem::exists(folder / "a.png"));
 }
 
+TEST_F(ViewerPrograms, TakeTheRangeOfColorsAndThePlaceOfTheEyeAsTold) {
+    const std::string color = " --size 64x48 --color speed -o ";
+    ASSERT_EQ(
+        run_program("pent-render " + at("run") + color + at("a.png") + " --range 0,2").exit_code,
+        0);
+    ASSERT_EQ(
+        run_program("pent-render " + at("run") + color + at("b.png") + " --range 0,9").exit_code,
+        0);
+    EXPECT_NE(pent::test::text_of(folder / "a.png"), pent::test::text_of(folder / "b.png"));
+    const std::string outline = "pent-slice " + at("run") + " --frames 0 --project perspective -o ";
+    ASSERT_EQ(run_program(outline + at("near") + " --eye 5").exit_code, 0);
+    ASSERT_EQ(run_program(outline + at("far") + " --eye 50").exit_code, 0);
+    const auto outline_in = [&](const std::string& name) {
+        return pent::test::text_of(folder / (name + "/a_outline_000000.ply"));
+    };
+    EXPECT_NE(outline_in("near"), "");
+    EXPECT_NE(outline_in("near"), outline_in("far"));
+}
+
 TEST_F(ViewerPrograms, FallBackToPicturesWithoutFfmpeg) {
     const Outcome outcome = run_program(
         "pent-render " + at("run") + " --size 64x48 -o " + at("a.mp4"), "PATH=/nonexistent");
@@ -91,6 +110,7 @@ TEST_F(ViewerPrograms, RefuseBadInputInOneLine) {
     expect_refused("pent-render", at("run"), "nothing to make");
     expect_refused("pent-render", at("run") + " -o " + at("a.avi"), ".mp4 or .png");
     expect_refused("pent-render", at("run") + " -o " + at("a.png") + " --size 3", "--size");
+    expect_refused("pent-render", at("run") + " -o " + at("a.png") + " --size 64xq", "--size");
     expect_refused("pent-render", at("run") + " --sheet " + at("a.jpg"), ".png");
     expect_refused("pent-render", at("run") + " -o " + at("a.png") + " --range 2,1", "--range");
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
