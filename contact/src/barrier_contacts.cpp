@@ -171,12 +171,12 @@ private:
 
     // c0 of a mixed pair, or 0 where it is not nearly parallel.
     template <int K, int L>
-    double parallel_threshold(const Simplices<K>& first,
-                              std::uint32_t i,
-                              const Simplices<L>& second,
-                              std::uint32_t j,
-                              const Corners<Dim, K>& a,
-                              const Corners<Dim, L>& b) const {
+    [[nodiscard]] double parallel_threshold(const Simplices<K>& first,
+                                            std::uint32_t i,
+                                            const Simplices<L>& second,
+                                            std::uint32_t j,
+                                            const Corners<Dim, K>& a,
+                                            const Corners<Dim, L>& b) const {
         const double threshold =
             kParallel * spanned_squared<Dim, K>(gather<Dim, K>(first, i, setting_.rest))
             * spanned_squared<Dim, L>(gather<Dim, L>(second, j, setting_.rest));

@@ -80,7 +80,8 @@ public:
 private:
     [[nodiscard]] bool is_beyond(const Candidate& pair, float travel) const {
         constexpr double kRoundUp = 1 + 1e-6;  // floats have been added
-        return double{pair.distance} > (distance_ + double{travel}) * kRoundUp;
+        return static_cast<double>(pair.distance)
+               > (distance_ + static_cast<double>(travel)) * kRoundUp;
     }
 
     const CandidateList& list_;
