@@ -6,7 +6,7 @@
 
 extern "C" {
 
-// NOLINTBEGIN(bugprone-reserved-identifier): names of libgcov and of the linker
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming): names of libgcov and of the linker
 void __gcov_dump();
 [[noreturn]] void __real__exit(int code);
 [[noreturn]] void __wrap__exit(int code);
@@ -30,5 +30,5 @@ void __wrap__exit(int code) {
 void __wrap__Exit(int code) {
     __wrap__exit(code);
 }
-// NOLINTEND(bugprone-reserved-identifier)
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 }

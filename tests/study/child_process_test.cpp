@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
 namespace pent::study {
 namespace {
 
@@ -48,6 +50,16 @@ TEST(RunChild, EndsTheChildWhenAsked) {
     const ChildOutcome outcome = shell("exec sleep 20", [] { return true; });
     EXPECT_LT(outcome.wall_seconds, 10);
     EXPECT_EQ(outcome.exit_code, -1);
+}
+
+TEST(RunChild, SaysWhenNoMoreFilesCanBeOpened) {
+    rlimit before = {};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    const rlimit none = {0, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+    const std::string message = pent::test::error_of([] { static_cast<void>(shell("exit 0")); });
+    ::setrlimit(RLIMIT_NOFILE, &before);
+    pent::test::expect_contains(message, {"cannot make a temporary file", "make room"});
 }
 
 TEST(RunChild, SaysWhichProgramIsMissing) {

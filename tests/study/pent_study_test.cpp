@@ -238,6 +238,31 @@ preset = "accurate"
     EXPECT_TRUE(std::filesystem::exists(chosen.bodies[0].mesh)) << chosen.bodies[0].mesh;
 }
 
+TEST(RunStudy, RefusesOptionsOutOfRange) {
+    for (const StudyOptions& options :
+         {StudyOptions{.repeats = 0}, StudyOptions{.reference_halvings = 1},
+          StudyOptions{.reference_halvings = 9}, StudyOptions{.threads = 0}}) {
+        expect_contains(pent::test::error_of([&] { static_cast<void>(run_study(options)); }),
+                        {"at least 1 repetition", "2 to 8 halvings", "at least 1 thread"});
+    }
+}
+
+TEST(RunStudy, NamesTheBodyWhoseRecipeMakesNoMesh) {
+    if (!std::filesystem::exists(PENT_BIN "/pent-mesh")) {
+        GTEST_SKIP() << "built without the mesher";
+    }
+    const TempFolder folder;
+    std::ofstream(folder / "ball.toml") << "[[body]]\nname = \"ball\"\nmesh = \"ball.pent\"\n"
+                                           "recipe = \"--bal 1\"\n";
+    const StudyOptions options{.scene = folder / "ball.toml",
+                               .folder = folder / "study",
+                               .vary = {"layers=1,2"},
+                               .repeats = 1,
+                               .programs = PENT_BIN};
+    expect_contains(pent::test::error_of([&] { static_cast<void>(run_study(options)); }),
+                    {"the recipe of \"ball\" does not make a mesh", "--bal"});
+}
+
 TEST(PentStudy, ChoosesTheMostAccurateSettingsWithinABudget) {
     const TempFolder folder;
     const std::string command = "pent-study " + test::write_bar(folder).string() + " -o "
