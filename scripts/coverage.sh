@@ -6,7 +6,8 @@
 #
 # Programs that tests start count as well, those that tests kill or start as another user do not. Lines
 # of code that exists once for each dimension or number type count once. Left out are lines marked
-# GCOVR_EXCL, with the reason beside them.
+# GCOVR_EXCL, with the reason beside them. Functions of one line that the compiler puts into their callers
+# before it counts are said to be never called although they are.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -245,6 +245,17 @@ TEST_F(Faults, DamagedFrameIsNamedAndItsRemovalLetsTheRunGoOn) {
     expect_same_frames("whole", "run");
 }
 
+TEST_F(Faults, RunWithoutAnyFrameHasNothingToGoOnFrom) {
+    make_half();
+    for (int i = 0; i <= kFrames / 2; ++i) {
+        ASSERT_TRUE(fs::remove(frame("run", i)));
+    }
+    const Outcome outcome = simulate("run", "--resume");
+    EXPECT_EQ(outcome.exit_code, 1);
+    expect_one_error_line(outcome, "pent-sim");
+    expect_contains(outcome.err, {path("run"), "no whole frame to resume from", "--force"});
+}
+
 TEST_F(Faults, FrameOfAnotherMomentOrMeshIsRefused) {
     make_half();
     const std::string last = frame("run", kFrames / 2);

@@ -226,6 +226,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[scene]\nframes = \"ten\"\n", "the text \"ten\""},
         Bad{"[scene]\nframes_per_second = 0\n", "a number above 0"},
         Bad{"[scene]\nframes_per_second = nan\n", "a number above 0"},
+        Bad{"[scene]\ngravity = 3\n", "\"gravity\" is 3; expected 4 numbers"},
         Bad{"[scene]\ngravity = [0, -9.8, 0]\n", "3 entries; expected 4 numbers"},
         Bad{"[scene]\ngravity = [0, -9.8, 0, \"x\"]\n", "the entry the text \"x\""},
         Bad{"[scene]\ngravity = [0, -9.8, 0, inf]\n", "4 numbers"},
