@@ -65,9 +65,8 @@ public:
                              const Vector<Dim>& center,
                              double radius,
                              const Visit& visit) const {
-        const Corners<Dim, 1> point = center;
         trees_[body].facets.tree().for_each_overlap(
-            box_around<Dim, 1>(point, radius + 0.5 * reach_), visit);
+            box_around<Dim, 1>(center, radius + 0.5 * reach_), visit);
     }
 
     [[nodiscard]] std::int64_t searches() const { return searches_; }  ///< So far.

@@ -52,10 +52,10 @@ protected:
 
     // Pairs nearer than a distance, by looking at all.
     template <int K, int L>
-    Pairs near(const Simplices<K>& first,
-               const Simplices<L>& second,
-               const Positions<kSpace>& x,
-               double distance) const {
+    [[nodiscard]] Pairs near(const Simplices<K>& first,
+                             const Simplices<L>& second,
+                             const Positions<kSpace>& x,
+                             double distance) const {
         Pairs pairs;
         for (std::uint32_t i = 0; i < first.cols(); ++i) {
             for (std::uint32_t j = 0; j < second.cols(); ++j) {
