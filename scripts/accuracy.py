@@ -161,7 +161,7 @@ def settings_table(programs, out):
 
 
 def contact_row(scene, settings, dt, errors):
-    return [scene, settings, dt, percent(errors["energy"]), percent(errors["contact_energy"]), percent(errors["center"]),
+    return [scene, settings, dt, percent(errors["energy"]), percent(errors["contact_work"]), percent(errors["center"]),
             f"{errors['deepest_penetration']:.2g}"]
 
 
@@ -174,7 +174,7 @@ def contact_table(studies):
             rows.append(contact_row(scene, "reference", f"{reference['dt'][-2]:.2g} s", reference["last"]))
             rows += [contact_row(scene, result["settings"]["preset"], result["settings"]["dt"], result["errors"])
                      for result in report["results"] if result["verdict"] == "finished"]
-    return table(["scene", "preset", "dt", "energy", "contact energy", "center", "deepest, m"], rows)
+    return table(["scene", "preset", "dt", "energy", "contact work", "center", "deepest, m"], rows)
 
 
 def locking_table(programs, out):

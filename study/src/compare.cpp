@@ -37,13 +37,11 @@ void compare_steps(const Trajectory& run,
                    const Window& window,
                    Errors& errors) {
     const auto internal = [](const StepRecord& step) { return step.internal; };
-    const auto contact = [](const StepRecord& step) { return step.contact_energy; };
     const double end = reference.steps().empty() ? 0 : reference.steps().back().time;
     const double from = window.has_contact && window.end < end ? window.end : 0;
     errors.energy = relative(mean_behind(run.steps(), from, internal),
                              mean_behind(reference.steps(), from, internal));
-    errors.contact_energy =
-        relative(mean_behind(run.steps(), 0, contact), mean_behind(reference.steps(), 0, contact));
+    errors.contact_work = relative(contact_work(run.steps()), contact_work(reference.steps()));
     if (!run.steps().empty()) {
         errors.energy_drift = run.steps().back().total - run.steps().front().total;
     }
@@ -56,6 +54,16 @@ void compare_steps(const Trajectory& run,
 }
 
 }  // namespace
+
+double contact_work(const std::vector<StepRecord>& steps) {
+    double work = 0;
+    double before = 0;
+    for (const StepRecord& step : steps) {
+        work += std::max(0.0, step.contact_energy - before);
+        before = step.contact_energy;
+    }
+    return work;
+}
 
 Window window_of(const Trajectory& reference, double frames_per_second) {
     const double end = reference.frames() / frames_per_second;

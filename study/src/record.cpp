@@ -22,7 +22,7 @@ Json to_json(const Errors& errors) {
             {"position_m", errors.position_m},
             {"center", errors.center},
             {"energy", errors.energy},
-            {"contact_energy", errors.contact_energy},
+            {"contact_work", errors.contact_work},
             {"energy_drift", errors.energy_drift},
             {"angular_momentum", errors.angular_momentum},
             {"angular_momentum_scale", errors.angular_momentum_scale},
@@ -44,7 +44,7 @@ Errors errors_from(const Json& json) {
     json.at("position_m").get_to(errors.position_m);
     json.at("center").get_to(errors.center);
     json.at("energy").get_to(errors.energy);
-    json.at("contact_energy").get_to(errors.contact_energy);
+    json.at("contact_work").get_to(errors.contact_work);
     json.at("energy_drift").get_to(errors.energy_drift);
     json.at("angular_momentum").get_to(errors.angular_momentum);
     json.at("angular_momentum_scale").get_to(errors.angular_momentum_scale);
@@ -175,7 +175,7 @@ std::string study_csv(const StudyReport& report) {
         csv << setting.axis << ',';
     }
     csv << "verdict,wall_seconds,cpu_seconds,peak_bytes,seconds_per_frame,position_error,"
-           "position_error_m,center_error,energy_error,contact_energy_error,energy_drift_J,"
+           "position_error_m,center_error,energy_error,contact_work_error,energy_drift_J,"
            "angular_momentum_error,smallest_J,deepest_penetration_m,iterations,"
            "newton_iterations,refused,is_on_frontier\n";
     for (std::size_t i = 0; i < report.results.size(); ++i) {
@@ -192,7 +192,7 @@ std::string study_csv(const StudyReport& report) {
         csv << result.verdict << ',' << result.cost.wall_seconds << ',' << result.cost.cpu_seconds
             << ',' << result.cost.peak_bytes << ',' << result.cost.seconds_per_frame << ','
             << errors.position << ',' << errors.position_m << ',' << errors.center << ','
-            << errors.energy << ',' << errors.contact_energy << ',' << errors.energy_drift << ','
+            << errors.energy << ',' << errors.contact_work << ',' << errors.energy_drift << ','
             << (errors.angular_momentum_scale > 0 ? twist / errors.angular_momentum_scale : twist)
             << ',' << errors.smallest_J << ',' << errors.deepest_penetration << ','
             << errors.iterations << ',' << errors.newton_iterations << ',' << errors.refused << ','

@@ -38,6 +38,18 @@ TEST(AngularMomentum, OfASpinInOnePlaneIsInThatPlaneAlone) {
     }
 }
 
+// Two bodies that meet and part put in and take out 3 J; then one comes to rest on 2 J, by way of 5.
+TEST(ContactWork, IsTheSumOfAllRisesOfTheEnergyInContacts) {
+    std::vector<StepRecord> steps;
+    for (const double energy : {0.0, 1.0, 3.0, 2.0, 0.0, 0.0, 5.0, 1.0, 2.0, 2.0}) {
+        steps.push_back({.contact_energy = energy});
+    }
+    EXPECT_DOUBLE_EQ(contact_work(steps), 3 + 5 + 1);
+    steps.front().contact_energy = 4;  // there from the first step on: put in during that step
+    EXPECT_DOUBLE_EQ(contact_work(steps), 4 + 2 + 5 + 1);
+    EXPECT_EQ(contact_work({}), 0);
+}
+
 TEST(Convergence, OfErrorsThatFallAsAPowerGivesTheOrderAndTheErrorOfTheFinest) {
     for (const double order : {1.0, 2.0, 3.5}) {
         const auto error = [&](int level) { return 0.4 * std::pow(0.5, order * level); };

@@ -174,14 +174,14 @@ TEST(RunStudy, VariesTheModelOfContactAndRefusesWhatDoesNotGoTogether) {
     // 0.2 s behind the first contact, where a has gone 0.01 of the 0.05 m between them.
     EXPECT_NEAR(report.reference.window, 0.21, 1.0 / 120);
     EXPECT_EQ(report.reference.last.position, report.reference.difference.back());
-    EXPECT_LT(report.reference.last.contact_energy, report.results[0].errors.contact_energy);
+    EXPECT_LT(report.reference.last.contact_work, report.results[0].errors.contact_work);
     for (const std::size_t i : {0U, 1U, 3U}) {
         EXPECT_EQ(report.results[i].verdict, "finished") << report.results[i].message;
     }
     EXPECT_EQ(report.results[2].verdict, "refused");  // barrier with linear_euler
     expect_contains(report.results[2].message, {"barrier", "newton_euler"});
     EXPECT_EQ(report.results[3].errors.deepest_penetration, 0);
-    EXPECT_GT(report.results[3].errors.contact_energy, 0);
+    EXPECT_GT(report.results[3].errors.contact_work, 0);
     const std::string csv = text_of(folder / "study/study.csv");
     EXPECT_EQ(std::ranges::count(csv, '\n'), 5);
 }

@@ -58,13 +58,13 @@ struct Cost {
 struct Errors {
     double position = 0;  ///< Largest mass-weighted RMS distance at a common time up to the end of
                           ///< the window, over the largest RMS motion of the reference there.
-    double position_m = 0;  ///< The same distance in m.
-    double center = 0;      ///< Distance of the centers of mass at the end, over that motion.
-    double energy = 0;      ///< Kinetic and elastic energy behind the window, its mean over time;
-                            ///< relative to that of the reference. Without contact: over all.
-    double contact_energy = 0;  ///< The same for the energy stored in contacts, over all time; 0
-                                ///< without contact.
-    double energy_drift = 0;    ///< Total energy at the end less that at the start, J.
+    double position_m = 0;    ///< The same distance in m.
+    double center = 0;        ///< Distance of the centers of mass at the end, over that motion.
+    double energy = 0;        ///< Kinetic and elastic energy behind the window, its mean over time;
+                              ///< relative to that of the reference. Without contact: over all.
+    double contact_work = 0;  ///< Work done against contacts and obstacles, over all time; relative
+                              ///< to that of the reference. 0 without contact.
+    double energy_drift = 0;  ///< Total energy at the end less that at the start, J.
     std::vector<double>
         angular_momentum;               ///< In each plane (xy, xz, xw, yz, ...) about the center of
                                         ///< mass: largest difference from the reference at a common
