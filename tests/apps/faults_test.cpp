@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::expect_contains;
 using test::expect_one_error_line;
+using test::interrupt_at;
 using test::Outcome;
 using test::run_program;
 using test::text_of;
@@ -143,7 +144,7 @@ TEST_F(Faults, RunKilledAtAnyMomentGoesOnToTheSameBytesAndLosesNoFrame) {
 
 TEST_F(Faults, InterruptEndsAtTheNextStepWithAVerdictAndCanBeResumed) {
     write_scene(2000);  // far longer than it gets
-    const Outcome stopped = simulate("run", "", "timeout -s INT --preserve-status 0.5");
+    const Outcome stopped = simulate("run", "", interrupt_at(frame("run", 3)));
     EXPECT_EQ(stopped.exit_code, 3) << stopped.err;
     EXPECT_TRUE(stopped.err.empty()) << stopped.err;
     expect_contains(stopped.out, {"stopped"});

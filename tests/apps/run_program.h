@@ -37,6 +37,14 @@ inline std::string text_of(const std::filesystem::path& path) {
             text_of(folder / "err")};
 }
 
+/// What to put before a command so that Ctrl-C ends it as soon as a file exists.
+[[nodiscard]] inline std::string interrupt_at(const std::filesystem::path& file) {
+    // Shells let what they start in the background ignore Ctrl-C.
+    return "interrupt() { env --default-signal=INT \"$@\" & "
+           "while [ ! -e " + file.string() + " ] && kill -0 $!; do sleep 0.01; done; "
+           "kill -INT $!; wait $!; }; interrupt";
+}
+
 /// Expects one line on stderr that begins with the program's name.
 inline void expect_one_error_line(const Outcome& outcome, const std::string& program) {
     EXPECT_EQ(outcome.err.rfind(program + ": ", 0), 0U) << outcome.err;
