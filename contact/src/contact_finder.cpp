@@ -85,7 +85,6 @@ public:
         return lines;
     }
 
-    [[nodiscard]] const std::vector<ContactBody<Dim>>& bodies() const { return bodies_; }
     [[nodiscard]] const ContactOptions& options() const { return options_; }
     [[nodiscard]] std::int64_t bytes() const {
         std::int64_t sum = search_.bytes();
@@ -272,11 +271,6 @@ std::vector<std::string> ContactFinder<Dim>::warnings() const {
 template <int Dim>
 std::int64_t ContactFinder<Dim>::bytes() const {
     return state_->bytes();
-}
-
-template <int Dim>
-const std::vector<ContactBody<Dim>>& ContactFinder<Dim>::bodies() const {
-    return state_->bodies();
 }
 
 template <int Dim>

@@ -253,8 +253,8 @@ Trial<Dim>::Trial(const Scene& of, int threads)
             }
         }
     }
-    size = simulation.size();
     step = simulation.step();
+    size = simulation.size();
 }
 
 template <int Dim>

@@ -388,9 +388,13 @@ SimulationSize System<Dim>::size() const {
     size.free_vertices = world_->numbering.free_count();
     size.elements = elements_.count();
     size.matrix_blocks = pattern_.blocks();
-    const std::int64_t scalar = float_matrix_ ? sizeof(float) : sizeof(double);
+    // Where float has turned out too coarse there are both.
+    const std::int64_t scalar =
+        (float_matrix_ ? sizeof(float) : 0) + (double_matrix_ ? sizeof(double) : 0);
     const std::int64_t block =
         Dim * Dim * scalar + static_cast<std::int64_t>(sizeof(std::uint32_t));
+    const std::int64_t tangent_block =
+        damping_tangent_ ? std::int64_t{Dim * Dim * sizeof(double)} : 0;
     // Per vertex: positions, velocities, forces and their copies; per unknown: the solver's.
     constexpr std::int64_t kVertexVectors = 8;
     constexpr std::int64_t kUnknownVectors = 6;
@@ -398,6 +402,7 @@ SimulationSize System<Dim>::size() const {
     size.matrix_bytes = size.matrix_blocks * block;
     size.contact_bytes = contacts_.bytes();
     size.bytes = size.element_bytes + size.contact_bytes + size.matrix_bytes
+                 + size.matrix_blocks * tangent_block
                  + static_cast<std::int64_t>(sizeof(double)) * Dim
                        * (kVertexVectors * size.vertices + kUnknownVectors * size.free_vertices);
     return size;

@@ -166,6 +166,21 @@ TYPED_TEST(BarrierFinderTest, DependsOnPositionsAloneNotOnHistoryOrThreads) {
     }
 }
 
+TYPED_TEST(BarrierFinderTest, FindsTheSameWhereItIsMovedTo) {
+    constexpr int kDim = TypeParam::value;
+    const Positions<kDim>& x = this->scene_.positions;
+    auto stays = this->finder();
+    auto made = this->finder();
+    BarrierFinder<kDim> moved = std::move(made);
+    const double energy = stays.energy(stays.find(x), x, 1);
+    EXPECT_GT(energy, 0);
+    EXPECT_EQ(moved.energy(moved.find(x), x, 1), energy);
+    auto assigned = this->finder({.distance = 0.3});
+    EXPECT_NE(assigned.energy(assigned.find(x), x, 1), energy);
+    assigned = std::move(moved);
+    EXPECT_EQ(assigned.energy(assigned.find(x), x, 1), energy);
+}
+
 TYPED_TEST(BarrierFinderTest, StepLimitIsTheLeastOfAllPairs) {
     constexpr int kDim = TypeParam::value;
     auto finder = this->finder();

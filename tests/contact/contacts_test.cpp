@@ -183,6 +183,19 @@ TYPED_TEST(ContactsTest, ForcesOfVerticesAndFacetsAreDerivativesOfTheirEnergy) {
     }
 }
 
+TYPED_TEST(ContactsTest, FinderFindsTheSameWhereItIsMovedTo) {
+    constexpr int kDim = TypeParam::value;
+    const test::Scene<kDim> scene = TestFixture::face_to_face(0.05);
+    ContactFinder<kDim> made(bodies_of(scene), scene.positions, kOptions);
+    ContactFinder<kDim> moved = std::move(made);
+    expect_identical(moved.find(scene.positions), contacts_of(scene));
+    ContactOptions wide = kOptions;
+    wide.distance *= 2;
+    ContactFinder<kDim> assigned(bodies_of(scene), scene.positions, wide);
+    assigned = std::move(moved);
+    expect_identical(assigned.find(scene.positions), contacts_of(scene));
+}
+
 // The share of a mixed pair changes where faces slide along each other, and with it the energy; as it is
 // held, no pair within two flat faces pushes along them, whichever way its edges run.
 TYPED_TEST(ContactsTest, FlatFacesPushAlongTheirNormalAlone) {

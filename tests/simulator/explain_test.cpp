@@ -98,6 +98,22 @@ TEST(Explain, CountsTheMemoryOfATermOnce) {
     EXPECT_LE(seconds, explanation.seconds_per_step);
 }
 
+// A step of 1/30 s over many cells' worth of sound: a float matrix would drown the masses.
+TEST(Explain, CountsTheDoubleMatrixThatStandsInForTheFloatOne) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    const Explanation soft = explain(scene, 1);
+    for (Body& body : scene.bodies) {
+        body.material.lame = lame_from_young(4, 1e12, 0.28);
+    }
+    const Explanation stiff = explain(scene, 1);
+    constexpr std::int64_t kFloatBlock = 16 * 4 + 4;  // and an index
+    const std::int64_t blocks = term(soft, "linear solver").bytes / kFloatBlock;
+    EXPECT_EQ(term(soft, "linear solver").bytes, blocks * kFloatBlock);
+    EXPECT_EQ(term(stiff, "linear solver").bytes, blocks * (kFloatBlock + 16 * 8));
+    EXPECT_EQ(stiff.bytes - soft.bytes, blocks * 16 * 8);
+}
+
 TEST(Explain, TellsThePartsOfTheBarrierAndOfDampingWithNewtonsMethod) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 2.01);

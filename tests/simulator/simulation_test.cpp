@@ -394,6 +394,24 @@ TEST(SetState, RefusesWhatIsNotFinite) {
     EXPECT_THROW(simulation.set_state(0, positions, velocities), Error);
 }
 
+TEST(Simulation, GoesOnWhereItIsMovedTo) {
+    const Scene scene = swinging_bar();
+    Simulation<4> stays(scene, {bar()});
+    Simulation<4> moves(scene, {bar()});
+    ASSERT_TRUE(stays.step().is_accepted);
+    ASSERT_TRUE(moves.step().is_accepted);
+    std::vector<Simulation<4>> list;
+    list.push_back(std::move(moves));
+    ASSERT_TRUE(stays.step().is_accepted);
+    ASSERT_TRUE(list[0].step().is_accepted);
+    Simulation<4> assigned(scene, {bar()});
+    assigned = std::move(list[0]);
+    ASSERT_TRUE(stays.step().is_accepted);
+    ASSERT_TRUE(assigned.step().is_accepted);
+    EXPECT_EQ(assigned.step_count(), 3U);
+    EXPECT_EQ(Positions<4>(assigned.positions(0)), Positions<4>(stays.positions(0)));
+}
+
 TEST(Simulation, ContinuesToTheBitFromASavedState) {
     const Scene scene = swinging_bar();
     Simulation<4> first(scene, {bar()});

@@ -127,7 +127,6 @@ public:
     /// Memory of surfaces, trees and kept pairs.
     [[nodiscard]] std::int64_t bytes() const;
 
-    [[nodiscard]] const std::vector<ContactBody<Dim>>& bodies() const;
     [[nodiscard]] const ContactOptions& options() const;
 
 private:
