@@ -38,6 +38,12 @@ function(pent_add_library name)
   add_library(pent::${name} ALIAS pent_${name})
   target_sources(pent_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${arg_HEADERS})
   target_compile_features(pent_${name} PUBLIC cxx_std_20)
+  # A host built for wider registers (-march=native) would have Eigen align, and free, its arrays in another way
+  # than these libraries do.
+  target_compile_definitions(pent_${name} INTERFACE $<INSTALL_INTERFACE:EIGEN_MAX_ALIGN_BYTES=16>)
+  if(NOT PENT_SANITIZE MATCHES address)  # under which Eigen does not trust malloc
+    target_compile_definitions(pent_${name} INTERFACE $<INSTALL_INTERFACE:EIGEN_MALLOC_ALREADY_ALIGNED=1>)
+  endif()
   set_target_properties(pent_${name} PROPERTIES EXPORT_NAME ${name} CXX_EXTENSIONS OFF
     POSITION_INDEPENDENT_CODE ON VERIFY_INTERFACE_HEADER_SETS ON)
   target_link_libraries(pent_${name} PUBLIC ${arg_DEPS}
