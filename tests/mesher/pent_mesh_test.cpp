@@ -89,6 +89,7 @@ TEST(PentMesh, LeavesNothingBehindWhenItRefuses) {
 
 TEST(PentMesh, GivesUpAfterItsTimeLimit) {
     const test::TempFolder folder;
+    // In the foreground: else the signal comes twice, and the second ends the program at once.
     const Outcome outcome = run_program(
         "pent-mesh " + kModels + "/octopus_5246f.obj --edge-length 0.005 --time-limit 1 -o "
         + (folder / "out.pent").string() + " --json " + (folder / "report.json").string());
@@ -102,10 +103,11 @@ TEST(PentMesh, GivesUpAfterItsTimeLimit) {
 
 TEST(PentMesh, StopsAtCtrlCWithAVerdictOfItsOwn) {
     const test::TempFolder folder;
+    // In the foreground: else the signal comes twice, and the second ends the program at once.
     const Outcome outcome = run_program(
         "pent-mesh " + kModels + "/octopus_5246f.obj --edge-length 0.005 -o "
             + (folder / "out.pent").string() + " --json " + (folder / "report.json").string(),
-        "timeout --preserve-status --signal=INT 0.5");
+        "timeout --foreground --preserve-status --signal=INT 0.5");
     EXPECT_EQ(outcome.exit_code, 3);
     test::expect_one_error_line(outcome, "pent-mesh");
     test::expect_contains(outcome.err, {"stopped as asked", "no mesh was written"});
