@@ -1,6 +1,7 @@
 #include "record.h"
 
 #include "frontier.h"
+#include "json_count.h"
 
 #include <pent/error.h>
 #include <pent/output_file.h>
@@ -31,11 +32,6 @@ Json to_json(const Errors& errors) {
             {"iterations", errors.iterations},
             {"newton_iterations", errors.newton_iterations},
             {"refused", errors.refused}};
-}
-
-// A count: whole and not negative, where numbers would be rounded to one.
-std::int64_t count_of(const Json& json) {
-    return static_cast<std::int64_t>(json.get_ref<const Json::number_unsigned_t&>());
 }
 
 Errors errors_from(const Json& json) {

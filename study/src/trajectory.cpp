@@ -1,5 +1,7 @@
 #include "trajectory.h"
 
+#include "json_count.h"
+
 #include <pent/error.h>
 #include <pent/pent_file.h>
 
@@ -23,11 +25,6 @@ auto from_report(const std::filesystem::path& folder, const Read& read) {
     } catch (const Json::exception& error) {
         throw Error(path.string() + ": not the report of a run (" + error.what() + ")");
     }
-}
-
-// A count: whole and not negative, where numbers would be rounded to one.
-std::int64_t count_of(const Json& json) {
-    return static_cast<std::int64_t>(json.get_ref<const Json::number_unsigned_t&>());
 }
 
 StepRecord read_step(const Json& json) {
