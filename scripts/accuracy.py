@@ -24,7 +24,11 @@ SETTINGS = (
     ("bdf2", "1/60", 3, ["newton_tolerance=1e-2,1e-4,1e-7", "precision=float,double"]),
 )
 LEVELS = ("10%", "5%", "2%", "1%")
-CELLS = (2, 4, 8)
+ELEMENTS = ("linear", "smoothed")
+# What the mesh costs in accuracy: a beam one cell thick, and its edges cut into so many.
+SUBDIVISIONS = (1, 2, 3, 4, 6)
+COARSEST = 96  # cells
+CELLS = (1, 2, 4, 8)
 POISSONS = (0, 0.28, 0.32)
 
 
@@ -42,19 +46,19 @@ def study(programs, out, scene, frames, halvings, vary):
         return json.load(file)
 
 
-def study_presets(programs, out, page, scene, frames, halvings):
+def study_and_plot(programs, out, page, scene, frames, halvings, vary):
     print("accuracy:", scene, flush=True)
-    report = study(programs, out, scene, frames, halvings, VARY_PRESETS)
+    report = study(programs, out, scene, frames, halvings, vary)
     shutil.copy(os.path.join(out, scene, "frontier.png"),
                 os.path.join(os.path.dirname(page), "images", f"accuracy-{scene}.png"))
     return report
 
 
-def bend(programs, out, cells, poisson):
+def bend(programs, out, elements, cells, poisson):
     """Deflection of a beam under its own weight over that of Timoshenko's theory."""
     length, width, young = 4.0, 1.0, 1e6
     density, gravity = 1.0, 1.0
-    name = os.path.join(out, f"beam-{cells}-{poisson}")
+    name = os.path.join(out, f"beam-{elements}-{cells}-{poisson}")
     run(programs, "pent-mesh", "--box", f"{4 * cells},{cells},{cells},1", "--size",
         f"{length},{width},{width},0.25", "-o", name + ".pent")
     with open(name + ".toml", "w", encoding="utf-8") as scene:
@@ -70,6 +74,7 @@ body = "beam"
 select = {{ half_space = {{ normal = [1, 0, 0, 0], offset = {-length / 2 + 1e-6} }} }}
 [solver]
 integrator = "quasistatic"
+elements = "{elements}"
 precision = "double"
 tolerance = 1e-8
 newton_tolerance = 1e-6
@@ -178,23 +183,39 @@ def contact_table(studies):
 
 
 def locking_table(programs, out):
-    rows = [[str(cells), *(f"{100 * bend(programs, out, cells, p):.0f}%" for p in POISSONS)] for cells in CELLS]
-    return table(["cells thick", *(f"nu = {p}" for p in POISSONS)], rows)
+    rows = [[str(cells), *(f"{100 * bend(programs, out, elements, cells, poisson):.0f}%"
+                           for elements in ELEMENTS for poisson in POISSONS)] for cells in CELLS]
+    return table(["cells thick", *(f"{elements}, nu = {poisson}" for elements in ELEMENTS for poisson in POISSONS)], rows)
+
+
+def elements_table(report):
+    """Seconds per frame and error of each kind of elements, mesh by mesh."""
+    bar = report["reference"]["error_bar"]
+    rows = []
+    for level in SUBDIVISIONS[:-1]:  # the finest is that of the reference
+        cells = [cost_and_error(result, bar, 2) for elements in ELEMENTS for result in report["results"]
+                 if result["settings"] == {"elements": elements, "subdivide": str(level)}]
+        rows.append([str(level), str(COARSEST * level**4), *cells])
+    return table(["cells thick", "cells", *ELEMENTS], rows)
 
 
 def main():
     programs, out, page = sys.argv[1:]
     os.makedirs(out, exist_ok=True)
     where = machine(out)
-    studies = [(scene, study_presets(programs, out, page, scene, frames, halvings))
+    studies = [(scene, study_and_plot(programs, out, page, scene, frames, halvings, VARY_PRESETS))
                for scene, frames, halvings in STUDIES]
+    kinds = study_and_plot(programs, out, page, "bend", 10, 2,
+                           ["elements=" + ",".join(ELEMENTS), "subdivide=" + ",".join(map(str, SUBDIVISIONS))])
     times = "single runs" if REPEATS == 1 else f"medians of {REPEATS} runs that alternate"
     plots = "\n\n".join(f"![Error against time, {scene}](images/accuracy-{scene}.png)" for scene, _ in studies)
     with open("data/study/accuracy.md.in", encoding="utf-8") as template:
         text = template.read()
     for name, value in (("TIMES", times), ("MACHINE", where), ("PRESETS", presets_table(studies)),
                         ("CHEAPEST", cheapest_table(studies)), ("SETTINGS", settings_table(programs, out)),
-                        ("CONTACT", contact_table(studies)), ("LOCKING", locking_table(programs, out)), ("PLOTS", plots)):
+                        ("CONTACT", contact_table(studies)), ("LOCKING", locking_table(programs, out)),
+                        ("FINEST", f"{COARSEST * SUBDIVISIONS[-1]**4:,}"),
+                        ("ELEMENTS", elements_table(kinds)), ("PLOTS", plots)):
         text = text.replace(f"@{name}@", value)
     with open(page, "w", encoding="utf-8") as file:
         file.write(text)

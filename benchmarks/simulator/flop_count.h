@@ -1,8 +1,10 @@
 #pragma once
 
+#include <pent/simulator/solver_options.h>
+
 namespace pent::simulator::bench {
 
-/// Operations (additions, multiplications, divisions, roots) that the kernels take for one pentachoron of
+/// Operations (additions, multiplications, divisions, roots) that the kernels take for one element of
 /// stable neo-Hookean material, counted by running them on a number that counts.
 struct FlopCount {
     double forces = 0;   ///< In double.
@@ -10,6 +12,6 @@ struct FlopCount {
 };
 
 /// The mean over a box of 4D cells whose vertices have moved by a tenth of an edge.
-[[nodiscard]] FlopCount count_flops();
+[[nodiscard]] FlopCount count_flops(ElementKind kind);
 
 }  // namespace pent::simulator::bench

@@ -39,7 +39,7 @@ Sparse both_triangles(const BlockMatrix<4, float>& matrix) {
 
 // What the kernels of a report work on.
 struct Bench {
-    ShakenBeam beam{bench::beam()};
+    ShakenBeam beam;
     StepWork work;
     BlockMatrix<4, float> scratch{beam.pattern};
     BlockMatrix<4, double> wide_scratch{beam.pattern};
@@ -52,7 +52,7 @@ struct Bench {
     Aggregates aggregates;
     std::unique_ptr<Preconditioner<4>> preconditioner;
 
-    Bench() {
+    explicit Bench(ElementKind kind) : beam(bench::beam(), kind) {
         constexpr float kMass = 0.1F;  // kg: 1000 kg/m^4 times 0.1^4 m^4
         const Workers workers(1);
         beam.assemble(workers, kernels<4>(best_isa()), matrix);
@@ -61,15 +61,18 @@ struct Bench {
             at_unknowns.col(row) =
                 beam.positions.col(beam.numbering.vertex_of_unknown[static_cast<std::size_t>(row)]);
         }
-        sparse = both_triangles(matrix);
+        if (kind == ElementKind::Linear) {
+            sparse = both_triangles(matrix);
+        }
         const std::vector<std::uint32_t> bodies(static_cast<std::size_t>(matrix.rows()), 0);
         aggregates = make_aggregates<4>(at_unknowns, bodies);
         preconditioner = make_preconditioner(workers);
         work.size.vertices = beam.mesh.vertex_count();
         work.size.free_vertices = matrix.rows();
         work.size.elements = beam.elements->count();
+        work.size.element_bytes = beam.elements->bytes();
         work.size.matrix_blocks = beam.pattern.blocks();
-        work.flops = count_flops();
+        work.flops = count_flops(kind);
         work.aggregates = aggregates.count();
     }
 
@@ -201,7 +204,7 @@ Case setup_case(const SharedBench& bench, int threads) {
 }  // namespace
 
 std::vector<Case> kernel_cases(int threads) {
-    const auto bench = std::make_shared<Bench>();
+    const auto bench = std::make_shared<Bench>(ElementKind::Linear);
     std::vector<Case> cases;
     for (const Isa isa : {Isa::Scalar, Isa::Baseline, Isa::Avx2, Isa::Avx512}) {
         if (is_supported(isa)) {
@@ -215,6 +218,16 @@ std::vector<Case> kernel_cases(int threads) {
         cases.push_back(product_case(bench, t));
         cases.push_back(setup_case(bench, t));
         cases.push_back(apply_case(bench, t));
+    }
+    // Per edge, of which a beam has fewer than cells, and with four times the blocks.
+    const auto smoothed = std::make_shared<Bench>(ElementKind::Smoothed);
+    for (const int t : {1, threads}) {
+        cases.push_back(hessian_case(smoothed, smoothed->scratch, best_isa(), t));
+        cases.back().name = "smoothed: " + cases.back().name;
+        cases.back().oracle = nullptr;
+        cases.push_back(product_case(smoothed, t));
+        cases.back().name = "smoothed: " + cases.back().name;
+        cases.back().oracle = nullptr;
     }
     return cases;
 }

@@ -18,7 +18,7 @@ struct ShakenBeam {
     std::unique_ptr<Elements<4>> elements;
     Positions<4> positions;
 
-    explicit ShakenBeam(SimplexMesh<4> box);
+    explicit ShakenBeam(SimplexMesh<4> box, ElementKind kind = ElementKind::Linear);
 
     /// Sets the matrix to h^2 K, h = 1/30 s, as a step does.
     template <typename Scalar>

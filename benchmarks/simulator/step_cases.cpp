@@ -71,7 +71,7 @@ Case beam_case(const std::string& name, const Scene& scene, double thickness, in
     const SimplexMesh<4> mesh = beam(thickness);
     const auto replay = std::make_shared<Replay<4>>(scene, mesh, threads, kFrame);
     const std::vector<std::uint32_t> bodies(static_cast<std::size_t>(mesh.vertex_count()), 0);
-    const StepWork work{replay->size(), count_flops(),
+    const StepWork work{replay->size(), count_flops(ElementKind::Linear),
                         make_aggregates<4>(mesh.positions, bodies).count()};
     Case c{.name = name, .threads = threads};
     c.run = [replay] { return replay->step(); };

@@ -19,12 +19,10 @@ Work StepWork::forces() const {
 }
 
 Work StepWork::hessian() const {
-    const auto elements = static_cast<double>(size.elements);
-    // Rest shape, corners, unknowns, and the place of each block.
-    constexpr double kElement = 17 * sizeof(double) + (5 + 5 + 15) * sizeof(std::uint32_t);
     // A block is set to zero, read and written.
-    return {.float_flops = elements * flops.hessian,
-            .bytes = elements * kElement + 3 * kBlock * static_cast<double>(size.matrix_blocks)};
+    return {.float_flops = static_cast<double>(size.elements) * flops.hessian,
+            .bytes = static_cast<double>(size.element_bytes)
+                     + 3 * kBlock * static_cast<double>(size.matrix_blocks)};
 }
 
 Work StepWork::setup() const {

@@ -27,28 +27,28 @@ void color_rows(BlockPattern& pattern) {
         });
 }
 
-template <int Dim>
-BlockPattern make_pattern(const Simplices<Dim + 1>& cells, const Numbering& numbering) {
+namespace {
+
+// @param for_each_pair  Calls its argument with each pair of vertices that share an element, both ways
+//                       round, as often as it likes.
+template <typename ForEachPair>
+BlockPattern make_pattern_of(const Numbering& numbering, const ForEachPair& for_each_pair) {
     const std::uint32_t free_count = numbering.free_count();
-    const auto for_each_pair = [&](const auto& visit) {
-        for (Eigen::Index cell = 0; cell < cells.cols(); ++cell) {
-            for (int a = 0; a <= Dim; ++a) {
-                const std::uint32_t row = numbering.unknown_of_vertex[cells(a, cell)];
-                for (int b = 0; b <= Dim; ++b) {
-                    const std::uint32_t column = numbering.unknown_of_vertex[cells(b, cell)];
-                    if (row < column && column < free_count) {
-                        visit(row, column);
-                    }
-                }
+    const auto for_each_block = [&](const auto& visit) {
+        for_each_pair([&](std::uint32_t a, std::uint32_t b) {
+            const std::uint32_t row = numbering.unknown_of_vertex[a];
+            const std::uint32_t column = numbering.unknown_of_vertex[b];
+            if (row < column && column < free_count) {
+                visit(row, column);
             }
-        }
+        });
     };
     std::vector<std::int64_t> start(free_count + 1, 0);
-    for_each_pair([&](std::uint32_t row, std::uint32_t /*column*/) { ++start[row + 1]; });
+    for_each_block([&](std::uint32_t row, std::uint32_t /*column*/) { ++start[row + 1]; });
     std::partial_sum(start.begin(), start.end(), start.begin());
     std::vector<std::uint32_t> found(static_cast<std::size_t>(start.back()));
     std::vector<std::int64_t> next(start.begin(), start.end() - 1);
-    for_each_pair([&](std::uint32_t row, std::uint32_t column) {
+    for_each_block([&](std::uint32_t row, std::uint32_t column) {
         found[static_cast<std::size_t>(next[row]++)] = column;
     });
     BlockPattern pattern;
@@ -66,7 +66,42 @@ BlockPattern make_pattern(const Simplices<Dim + 1>& cells, const Numbering& numb
     return pattern;
 }
 
+}  // namespace
+
+template <int Dim>
+BlockPattern make_pattern(const Simplices<Dim + 1>& cells, const Numbering& numbering) {
+    return make_pattern_of(numbering, [&](const auto& visit) {
+        for (Eigen::Index cell = 0; cell < cells.cols(); ++cell) {
+            for (int a = 0; a <= Dim; ++a) {
+                for (int b = 0; b <= Dim; ++b) {
+                    visit(cells(a, cell), cells(b, cell));
+                }
+            }
+        }
+    });
+}
+
+template <int Dim>
+BlockPattern make_pattern(const std::vector<SmoothingDomains<Dim>>& domains,
+                          const Numbering& numbering) {
+    return make_pattern_of(numbering, [&](const auto& visit) {
+        for (const SmoothingDomains<Dim>& of_body : domains) {
+            for (std::size_t domain = 0; domain + 1 < of_body.start.size(); ++domain) {
+                for (std::int64_t a = of_body.start[domain]; a < of_body.start[domain + 1]; ++a) {
+                    for (std::int64_t b = of_body.start[domain]; b < of_body.start[domain + 1];
+                         ++b) {
+                        visit(of_body.corners[static_cast<std::size_t>(a)],
+                              of_body.corners[static_cast<std::size_t>(b)]);
+                    }
+                }
+            }
+        }
+    });
+}
+
 template BlockPattern make_pattern<3>(const Simplices<4>&, const Numbering&);
 template BlockPattern make_pattern<4>(const Simplices<5>&, const Numbering&);
+template BlockPattern make_pattern<3>(const std::vector<SmoothingDomains<3>>&, const Numbering&);
+template BlockPattern make_pattern<4>(const std::vector<SmoothingDomains<4>>&, const Numbering&);
 
 }  // namespace pent::simulator

@@ -2,6 +2,7 @@
 
 #include "coloring.h"
 #include "numbering.h"
+#include "smoothing.h"
 
 #include <pent/simplex_mesh.h>
 
@@ -36,6 +37,13 @@ void color_rows(BlockPattern& pattern);
 /// Blocks of all pairs of free vertices that share a cell.
 template <int Dim>
 [[nodiscard]] BlockPattern make_pattern(const Simplices<Dim + 1>& cells,
+                                        const Numbering& numbering);
+
+/// Blocks of all pairs of free vertices that share a smoothing domain.
+///
+/// @param domains  One a body.
+template <int Dim>
+[[nodiscard]] BlockPattern make_pattern(const std::vector<SmoothingDomains<Dim>>& domains,
                                         const Numbering& numbering);
 
 }  // namespace pent::simulator

@@ -6,8 +6,8 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <array>
 #include <limits>
+#include <utility>
 
 namespace pent::simulator {
 
@@ -16,42 +16,32 @@ namespace {
 constexpr int kChunkElements = 512;  // a multiple of kGroup
 static_assert(kChunkElements % kGroup == 0);
 
-template <int Dim>
-using Corners = std::array<std::uint32_t, Dim + 1>;
+// Domains are grouped by their number of corners within so many that are close in memory.
+constexpr std::size_t kNearElements = std::size_t{8} * kChunkElements;
 
-// The corners of a cell by increasing unknown.
-template <int Dim>
-Corners<Dim> sorted_corners(const Simplices<Dim + 1>& cells,
-                            Eigen::Index cell,
-                            const Numbering& numbering) {
-    Corners<Dim> corners;
-    for (int a = 0; a <= Dim; ++a) {
-        corners[static_cast<std::size_t>(a)] = cells(a, cell);
-    }
-    std::sort(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return numbering.unknown_of_vertex[a] < numbering.unknown_of_vertex[b];
-    });
-    return corners;
-}
-
-// Cells of a range with a free corner, by their lowest unknown, so that neighbors are close.
-template <int Dim>
-std::vector<Eigen::Index> elastic_cells(const Simplices<Dim + 1>& cells,
-                                        const CellRange& range,
-                                        const Numbering& numbering) {
+// Elements with a free corner by their lowest unknown, so that neighbors are close.
+//
+// @param corners_of  Calls its second argument with the corners of an element.
+template <typename CornersOf>
+std::vector<Eigen::Index> elastic_elements(Eigen::Index begin,
+                                           Eigen::Index end,
+                                           const Numbering& numbering,
+                                           const CornersOf& corners_of) {
     std::vector<std::pair<std::uint32_t, Eigen::Index>> keyed;
-    for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
-        const std::uint32_t lowest =
-            numbering.unknown_of_vertex[sorted_corners<Dim>(cells, cell, numbering)[0]];
+    for (Eigen::Index element = begin; element < end; ++element) {
+        std::uint32_t lowest = std::numeric_limits<std::uint32_t>::max();
+        corners_of(element, [&](std::uint32_t corner) {
+            lowest = std::min(lowest, numbering.unknown_of_vertex[corner]);
+        });
         if (lowest < numbering.free_count()) {
-            keyed.emplace_back(lowest, cell);
+            keyed.emplace_back(lowest, element);
         }
     }
     std::sort(keyed.begin(), keyed.end());
     std::vector<Eigen::Index> chosen;
     chosen.reserve(keyed.size());
-    for (const auto& [lowest, cell] : keyed) {
-        chosen.push_back(cell);
+    for (const auto& [lowest, element] : keyed) {
+        chosen.push_back(element);
     }
     return chosen;
 }
@@ -59,92 +49,191 @@ std::vector<Eigen::Index> elastic_cells(const Simplices<Dim + 1>& cells,
 }  // namespace
 
 template <int Dim>
-Elements<Dim>::Elements(const Positions<Dim>& rest,
-                        const Simplices<Dim + 1>& cells,
-                        const std::vector<CellRange>& ranges,
-                        const Numbering& numbering,
-                        const BlockPattern& pattern)
+Elements<Dim>::Elements(const Numbering& numbering, const BlockPattern& pattern)
     : free_unknowns_(numbering.free_count()) {
     if (pattern.blocks() > std::numeric_limits<std::int32_t>::max()) {
         throw Error("the mesh has " + std::to_string(pattern.blocks())
                     + " matrix blocks; at most 2147483647 can be simulated");
     }
-    for (const CellRange& range : ranges) {
-        const double scale = collapse_scale(range.material, Dim);
-        const std::vector<Eigen::Index> chosen = elastic_cells<Dim>(cells, range, numbering);
-        count_ += static_cast<std::int64_t>(chosen.size());
-        for (std::size_t first = 0; first < chosen.size(); first += kChunkElements) {
-            const std::size_t last = std::min(first + kChunkElements, chosen.size());
-            const auto group =
-                static_cast<std::int64_t>(rest_.size() / (std::size_t{Dim * Dim + 1} * kGroup));
-            chunks_.push_back(
-                {group, static_cast<int>(last - first), range.material, Dim * scale * scale});
-            append(rest, cells,
-                   {chosen.begin() + static_cast<std::ptrdiff_t>(first),
-                    chosen.begin() + static_cast<std::ptrdiff_t>(last)},
-                   numbering, pattern);
-        }
-    }
-    coloring_ = color_chunks(
-        static_cast<int>(chunks_.size()), rest.cols(), [&](int chunk, const auto& touch) {
-            const Chunk& c = chunks_[static_cast<std::size_t>(chunk)];
-            const int groups = (c.elements + kGroup - 1) / kGroup;
-            const std::int64_t first = c.first_group * (Dim + 1) * kGroup;
-            const std::int64_t last = first + std::int64_t{groups} * (Dim + 1) * kGroup;
-            for (std::int64_t i = first; i < last; ++i) {
-                touch(vertices_[static_cast<std::size_t>(i)]);
-            }
-        });
 }
 
 template <int Dim>
-void Elements<Dim>::append(const Positions<Dim>& rest,
-                           const Simplices<Dim + 1>& cells,
-                           const std::vector<Eigen::Index>& chosen,
-                           const Numbering& numbering,
-                           const BlockPattern& pattern) {
-    constexpr std::size_t kRestRows = Dim * Dim + 1;
-    const std::size_t groups = (chosen.size() + kGroup - 1) / kGroup;
-    for (std::size_t group = 0; group < groups; ++group) {
-        const std::size_t rest_at = rest_.size();
-        const std::size_t corners_at = vertices_.size();
-        const std::size_t blocks_at = blocks_.size();
-        rest_.resize(rest_at + kRestRows * kGroup);
-        vertices_.resize(corners_at + (Dim + 1) * kGroup);
-        unknowns_.resize(corners_at + (Dim + 1) * kGroup);
-        blocks_.resize(blocks_at + kPairs<Dim> * kGroup, -1);
-        for (std::size_t lane = 0; lane < kGroup; ++lane) {
-            const std::size_t element = group * kGroup + lane;
-            const bool is_padding = element >= chosen.size();
-            const Eigen::Index cell = chosen[is_padding ? chosen.size() - 1 : element];
-            const Corners<Dim> corners = sorted_corners<Dim>(cells, cell, numbering);
-            Eigen::Matrix<double, Dim, Dim> Dm;
-            for (int a = 0; a < Dim; ++a) {
-                Dm.col(a) =
-                    rest.col(corners[static_cast<std::size_t>(a) + 1]) - rest.col(corners[0]);
+Elements<Dim>::Elements(const Positions<Dim>& rest,
+                        const Simplices<Dim + 1>& cells,
+                        const std::vector<CellRange>& ranges,
+                        const Numbering& numbering,
+                        const BlockPattern& pattern)
+    : Elements(numbering, pattern) {
+    const auto make = [&](Eigen::Index cell, Element& element) {
+        element.corners.assign(cells.col(cell).begin(), cells.col(cell).end());
+        std::sort(element.corners.begin(), element.corners.end(),
+                  [&](std::uint32_t a, std::uint32_t b) {
+                      return numbering.unknown_of_vertex[a] < numbering.unknown_of_vertex[b];
+                  });
+        Eigen::Matrix<double, Dim, Dim> Dm;
+        for (int a = 0; a < Dim; ++a) {
+            Dm.col(a) = rest.col(element.corners[static_cast<std::size_t>(a) + 1])
+                        - rest.col(element.corners[0]);
+        }
+        element.gradients.resize(Dim, Dim + 1);
+        element.gradients.template rightCols<Dim>() = Dm.inverse().transpose();
+        element.volume = cell_volume<Dim>(rest, cells, cell);
+    };
+    for (const CellRange& range : ranges) {
+        const std::vector<Eigen::Index> chosen = elastic_elements(
+            range.begin, range.end, numbering, [&](Eigen::Index cell, const auto& visit) {
+                std::for_each(cells.col(cell).begin(), cells.col(cell).end(), visit);
+            });
+        for (std::size_t first = 0; first < chosen.size(); first += kChunkElements) {
+            append(chosen, first, std::min(first + kChunkElements, chosen.size()), Dim + 1,
+                   range.material, make, numbering, pattern);
+        }
+    }
+    color(numbering.unknown_of_vertex.size());
+}
+
+template <int Dim>
+Elements<Dim>::Elements(const std::vector<SmoothingDomains<Dim>>& domains,
+                        const std::vector<CellRange>& ranges,
+                        const Numbering& numbering,
+                        const BlockPattern& pattern)
+    : Elements(numbering, pattern) {
+    for (std::size_t body = 0; body < domains.size(); ++body) {
+        const SmoothingDomains<Dim>& of_body = domains[body];
+        const auto corner_count = [&](Eigen::Index domain) {
+            const auto d = static_cast<std::size_t>(domain);
+            return static_cast<int>(of_body.start[d + 1] - of_body.start[d]);
+        };
+        const auto make = [&](Eigen::Index domain, Element& element) {
+            const Eigen::Index start = of_body.start[static_cast<std::size_t>(domain)];
+            std::vector<std::pair<std::uint32_t, Eigen::Index>> keyed;
+            for (Eigen::Index i = start; i < start + corner_count(domain); ++i) {
+                const std::uint32_t corner = of_body.corners[static_cast<std::size_t>(i)];
+                keyed.emplace_back(numbering.unknown_of_vertex[corner], i);
             }
-            const Eigen::Matrix<double, Dim, Dim> inverse = Dm.inverse();
-            for (int i = 0; i < Dim * Dim; ++i) {
-                rest_[rest_at + static_cast<std::size_t>(i) * kGroup + lane] =
-                    inverse(i / Dim, i % Dim);
+            std::sort(keyed.begin(), keyed.end());
+            element.corners.clear();
+            element.gradients.resize(Dim, static_cast<Eigen::Index>(keyed.size()));
+            for (const auto& [unknown, i] : keyed) {
+                element.gradients.col(static_cast<Eigen::Index>(element.corners.size())) =
+                    of_body.gradients.col(i);
+                element.corners.push_back(of_body.corners[static_cast<std::size_t>(i)]);
             }
-            rest_[rest_at + std::size_t{Dim * Dim} * kGroup + lane] =
-                is_padding ? 0 : cell_volume<Dim>(rest, cells, cell);
-            std::size_t pair = 0;
-            for (std::size_t a = 0; a <= Dim; ++a) {
-                const std::uint32_t row = numbering.unknown_of_vertex[corners[a]];
-                vertices_[corners_at + a * kGroup + lane] = corners[a];
-                unknowns_[corners_at + a * kGroup + lane] = row;
-                for (std::size_t b = a; b <= Dim; ++b, ++pair) {
-                    const std::uint32_t column = numbering.unknown_of_vertex[corners[b]];
-                    if (column < numbering.free_count()) {
-                        blocks_[blocks_at + pair * kGroup + lane] =
-                            static_cast<std::int32_t>(pattern.find(row, column));
-                    }
-                }
+            element.volume = of_body.volumes[static_cast<std::size_t>(domain)];
+        };
+        std::vector<Eigen::Index> chosen = elastic_elements(
+            0, of_body.count(), numbering, [&](Eigen::Index domain, const auto& visit) {
+                const auto first =
+                    of_body.corners.begin() + of_body.start[static_cast<std::size_t>(domain)];
+                std::for_each(first, first + corner_count(domain), visit);
+            });
+        for (std::size_t near = 0; near < chosen.size(); near += kNearElements) {
+            const std::size_t end = std::min(near + kNearElements, chosen.size());
+            std::stable_sort(
+                chosen.begin() + static_cast<std::ptrdiff_t>(near),
+                chosen.begin() + static_cast<std::ptrdiff_t>(end),
+                [&](Eigen::Index a, Eigen::Index b) { return corner_count(a) < corner_count(b); });
+            for (std::size_t first = near; first < end; first += kChunkElements) {
+                const std::size_t last = std::min(first + kChunkElements, end);
+                append(chosen, first, last, corner_count(chosen[last - 1]), ranges[body].material,
+                       make, numbering, pattern);
             }
         }
     }
+    color(numbering.unknown_of_vertex.size());
+}
+
+template <int Dim>
+template <typename Make>
+void Elements<Dim>::append(const std::vector<Eigen::Index>& chosen,
+                           std::size_t first,
+                           std::size_t last,
+                           int corners,
+                           const Material& material,
+                           const Make& make,
+                           const Numbering& numbering,
+                           const BlockPattern& pattern) {
+    const double scale = collapse_scale(material, Dim);
+    const Chunk chunk{.elements = static_cast<int>(last - first),
+                      .corners = corners,
+                      .material = material,
+                      .collapse_norm = Dim * scale * scale,
+                      .first_rest = rest_.size(),
+                      .first_corner = vertices_.size(),
+                      .first_block = blocks_.size()};
+    const std::size_t lanes = (last - first + kGroup - 1) / kGroup * kGroup;
+    const auto n = static_cast<std::size_t>(corners);
+    rest_.resize(rest_.size() + ((n - 1) * Dim + 1) * lanes);
+    vertices_.resize(vertices_.size() + n * lanes);
+    unknowns_.resize(unknowns_.size() + n * lanes);
+    blocks_.resize(blocks_.size() + static_cast<std::size_t>(pairs_of(corners)) * lanes, -1);
+    Element element;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        if (first + lane < last) {
+            make(chosen[first + lane], element);
+        } else {
+            element.volume = 0;  // padding
+        }
+        set_lane(element, chunk, lane, numbering, pattern);
+    }
+    chunks_.push_back(chunk);
+    count_ += chunk.elements;
+}
+
+template <int Dim>
+void Elements<Dim>::set_lane(const Element& element,
+                             const Chunk& chunk,
+                             std::size_t lane,
+                             const Numbering& numbering,
+                             const BlockPattern& pattern) {
+    const auto n = static_cast<std::size_t>(chunk.corners);
+    const std::size_t group = lane / kGroup * kGroup;
+    // Entry `row` of the lane in an array that has so many rows a group.
+    const auto at = [&](std::size_t begin, std::size_t rows, std::size_t row) {
+        return begin + group * rows + row * kGroup + lane % kGroup;
+    };
+    const std::size_t rest_rows = (n - 1) * Dim + 1;
+    const std::size_t pairs = n * (n + 1) / 2;
+    std::size_t pair = 0;
+    for (std::size_t a = 0; a < n; ++a) {
+        const bool is_there = a < element.corners.size();
+        const std::uint32_t vertex = element.corners[is_there ? a : 0];
+        const std::uint32_t row = numbering.unknown_of_vertex[vertex];
+        vertices_[at(chunk.first_corner, n, a)] = vertex;
+        unknowns_[at(chunk.first_corner, n, a)] = row;
+        for (std::size_t i = 0; a > 0 && i < Dim; ++i) {
+            rest_[at(chunk.first_rest, rest_rows, (a - 1) * Dim + i)] =
+                is_there
+                    ? element.gradients(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a))
+                    : 0;
+        }
+        for (std::size_t b = a; b < n; ++b, ++pair) {
+            if (b >= element.corners.size()) {
+                continue;
+            }
+            const std::uint32_t column = numbering.unknown_of_vertex[element.corners[b]];
+            if (column < numbering.free_count()) {
+                blocks_[at(chunk.first_block, pairs, pair)] =
+                    static_cast<std::int32_t>(pattern.find(row, column));
+            }
+        }
+    }
+    rest_[at(chunk.first_rest, rest_rows, rest_rows - 1)] = element.volume;
+}
+
+template <int Dim>
+void Elements<Dim>::color(std::size_t vertices) {
+    coloring_ = color_chunks(static_cast<int>(chunks_.size()), static_cast<std::int64_t>(vertices),
+                             [&](int chunk, const auto& touch) {
+                                 const auto c = static_cast<std::size_t>(chunk);
+                                 const std::size_t first = chunks_[c].first_corner;
+                                 const std::size_t last = c + 1 < chunks_.size()
+                                                              ? chunks_[c + 1].first_corner
+                                                              : vertices_.size();
+                                 for (std::size_t i = first; i < last; ++i) {
+                                     touch(vertices_[i]);
+                                 }
+                             });
 }
 
 template <int Dim>
@@ -155,10 +244,11 @@ ElementRun Elements<Dim>::run(int chunk) const {
             .lambda = c.material.lame.lambda,
             .collapse_norm = c.collapse_norm,
             .elements = c.elements,
-            .rest = rest_.data() + c.first_group * (Dim * Dim + 1) * kGroup,
-            .vertices = vertices_.data() + c.first_group * (Dim + 1) * kGroup,
-            .unknowns = unknowns_.data() + c.first_group * (Dim + 1) * kGroup,
-            .blocks = blocks_.data() + c.first_group * kPairs<Dim> * kGroup,
+            .corners = c.corners,
+            .rest = rest_.data() + c.first_rest,
+            .vertices = vertices_.data() + c.first_corner,
+            .unknowns = unknowns_.data() + c.first_corner,
+            .blocks = blocks_.data() + c.first_block,
             .free_unknowns = free_unknowns_};
 }
 

@@ -3,10 +3,12 @@
 #include "block_matrix.h"
 #include "kernels.h"
 #include "parallel.h"
+#include "smoothing.h"
 
 #include <pent/simplex_mesh.h>
 #include <pent/simulator/scene.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,7 +21,8 @@ struct CellRange {
     Material material;
 };
 
-/// The elastic elements of all bodies: cells with at least one free vertex, laid out for kernels.
+/// The elastic elements of all bodies, those with at least one free vertex, laid out for kernels: cells, or
+/// the domains of smoothed cells.
 template <int Dim>
 class Elements {
 public:
@@ -29,6 +32,12 @@ public:
     /// @param pattern  Of the matrix that hessian() fills.
     Elements(const Positions<Dim>& rest,
              const Simplices<Dim + 1>& cells,
+             const std::vector<CellRange>& ranges,
+             const Numbering& numbering,
+             const BlockPattern& pattern);
+
+    /// @param domains  One a body, and so are the ranges, of which the materials count.
+    Elements(const std::vector<SmoothingDomains<Dim>>& domains,
              const std::vector<CellRange>& ranges,
              const Numbering& numbering,
              const BlockPattern& pattern);
@@ -55,19 +64,42 @@ public:
     [[nodiscard]] std::int64_t bytes() const;
 
 private:
-    void append(const Positions<Dim>& rest,
-                const Simplices<Dim + 1>& cells,
-                const std::vector<Eigen::Index>& chosen,
-                const Numbering& numbering,
-                const BlockPattern& pattern);
-    [[nodiscard]] ElementRun run(int chunk) const;
+    // One element, its corners by increasing unknown.
+    struct Element {
+        std::vector<std::uint32_t> corners;
+        Positions<Dim> gradients;  // a column each
+        double volume = 0;
+    };
 
+    // Elements of one body and, but for padding, as many corners.
     struct Chunk {
-        std::int64_t first_group = 0;
         int elements = 0;
+        int corners = 0;
         Material material;
         double collapse_norm = 0;
+        std::size_t first_rest = 0;  // where its rows begin in the arrays
+        std::size_t first_corner = 0;
+        std::size_t first_block = 0;
     };
+
+    Elements(const Numbering& numbering, const BlockPattern& pattern);
+
+    template <typename Make>
+    void append(const std::vector<Eigen::Index>& chosen,
+                std::size_t first,
+                std::size_t last,
+                int corners,
+                const Material& material,
+                const Make& make,
+                const Numbering& numbering,
+                const BlockPattern& pattern);
+    void set_lane(const Element& element,
+                  const Chunk& chunk,
+                  std::size_t lane,
+                  const Numbering& numbering,
+                  const BlockPattern& pattern);
+    void color(std::size_t vertices);
+    [[nodiscard]] ElementRun run(int chunk) const;
 
     std::vector<double> rest_;
     std::vector<std::uint32_t> vertices_;

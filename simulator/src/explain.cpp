@@ -54,6 +54,9 @@ private:
     void add_off(const std::string& name, const std::string& why) {
         add({.name = name, .is_on = false, .why = why});
     }
+    [[nodiscard]] std::int64_t cells_of(std::size_t body) const {
+        return trial_.simulation.mesh(static_cast<int>(body)).cell_count();
+    }
     [[nodiscard]] bool has_barrier() const {
         return scene_.contact && scene_.contact->model == ContactModel::Barrier;
     }
@@ -73,6 +76,10 @@ private:
     }
 
     void elasticity() {
+        std::int64_t all_cells = 0;  // of bodies that are solved for
+        for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+            all_cells += trial_.is_kinematic(i) ? 0 : cells_of(i);
+        }
         for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
             const Body& body = scene_.bodies[i];
             const std::string name = "elasticity of " + body.name;
@@ -81,19 +88,18 @@ private:
                 continue;
             }
             const YoungPoisson young = young_from_lame(Dim, body.material.lame);
-            const std::int64_t cells = trial_.simulation.mesh(static_cast<int>(i)).cell_count();
-            const double share = static_cast<double>(cells)
-                                 / static_cast<double>(std::max<std::int64_t>(size_.elements, 1));
+            const double share = static_cast<double>(cells_of(i)) / static_cast<double>(all_cells);
             add({.name = name,
                  .is_on = true,
                  .why = std::string(word_of(kModels, body.material.model))
                         + formatted(", young %.4g Pa, poisson %.3g, ", young.young, young.poisson)
-                        + std::to_string(cells) + " cells, filter "
+                        + std::to_string(cells_of(i)) + " cells, "
+                        + std::string(word_of(kElementKinds, scene_.solver.elements)) + ", filter "
                         + std::string(word_of(kFilters, scene_.solver.filter)),
                  .unknowns = Dim * trial_.free_vertices[i],
-                 .bytes = static_cast<std::int64_t>(std::min(1.0, share)
-                                                    * static_cast<double>(size_.element_bytes)),
-                 .seconds = std::min(1.0, share) * step_.assembly_seconds});
+                 .bytes =
+                     static_cast<std::int64_t>(share * static_cast<double>(size_.element_bytes)),
+                 .seconds = share * step_.assembly_seconds});
         }
     }
 

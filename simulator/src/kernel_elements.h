@@ -21,18 +21,23 @@ struct Group {
     const std::uint32_t* vertices;
     const std::uint32_t* unknowns;
     const std::int32_t* blocks;
+    int corners;   // of every element
     int elements;  // lanes in use
 };
 
 template <int Dim>
 Group<Dim> group_at(const ElementRun& run, int group) {
-    const double* rest = run.rest + static_cast<std::int64_t>(group) * (Dim * Dim + 1) * kGroup;
+    const std::int64_t first = std::int64_t{group} * kGroup;
+    const std::int64_t gradient_rows = std::int64_t{Dim} * (run.corners - 1);
+    const std::int64_t pairs = std::int64_t{run.corners} * (run.corners + 1) / 2;
+    const double* rest = run.rest + first * (gradient_rows + 1);
     const int left = run.elements - group * kGroup;
     return {rest,
-            rest + std::int64_t{Dim} * Dim * kGroup,
-            run.vertices + static_cast<std::int64_t>(group) * (Dim + 1) * kGroup,
-            run.unknowns + static_cast<std::int64_t>(group) * (Dim + 1) * kGroup,
-            run.blocks + static_cast<std::int64_t>(group) * kPairs<Dim> * kGroup,
+            rest + gradient_rows * kGroup,
+            run.vertices + first * run.corners,
+            run.unknowns + first * run.corners,
+            run.blocks + first * pairs,
+            run.corners,
             left < kGroup ? left : kGroup};
 }
 

@@ -2,6 +2,7 @@
 
 #include "kernel_elements.h"
 #include "kernel_rows.h"
+#include "kernel_smoothed.h"
 
 // The table of kernels of one instruction set, from its packs of floats and of doubles.
 
@@ -17,12 +18,26 @@ constexpr auto choose_multiply() {
     }
 }
 
+template <int Dim, typename Real>
+RunEnergy add_forces_of(const ElementRun& run, const double* positions, double* forces) {
+    return run.corners == Dim + 1 ? add_forces<Dim, Real>(run, positions, forces)
+                                  : add_smoothed_forces<Dim, Real>(run, positions, forces);
+}
+
+template <int Dim, typename Real, typename Scalar>
+std::int64_t add_hessian_of(const ElementRun& run,
+                            const double* positions,
+                            const HessianTarget<Scalar>& target) {
+    return run.corners == Dim + 1 ? add_hessian<Dim, Real>(run, positions, target)
+                                  : add_smoothed_hessian<Dim, Real>(run, positions, target);
+}
+
 template <int Dim, typename FloatPack, typename DoublePack>
 constexpr Kernels<Dim> kernel_table() {
     constexpr bool kIsVectorized = Lanes<DoublePack>::kCount > 1;
-    return {.forces = &add_forces<Dim, DoublePack>,
-            .hessian_float = &add_hessian<Dim, FloatPack, float>,
-            .hessian_double = &add_hessian<Dim, DoublePack, double>,
+    return {.forces = &add_forces_of<Dim, DoublePack>,
+            .hessian_float = &add_hessian_of<Dim, FloatPack, float>,
+            .hessian_double = &add_hessian_of<Dim, DoublePack, double>,
             .multiply_float = choose_multiply<Dim, float, kIsVectorized>(),
             .multiply_double = choose_multiply<Dim, double, kIsVectorized>()};
 }

@@ -16,24 +16,36 @@ namespace pent::simulator {
 /// Elements are stored in groups of this many, one element a lane, whatever the vector width.
 inline constexpr int kGroup = 16;
 
-/// Blocks of the upper triangle of an element matrix: pairs a <= b of its Dim + 1 corners.
-template <int Dim>
-inline constexpr int kPairs = (Dim + 1) * (Dim + 2) / 2;
+/// Blocks of the upper triangle of an element matrix: pairs a <= b of its corners.
+constexpr int pairs_of(int corners) {
+    return corners * (corners + 1) / 2;
+}
 
-/// A run of element groups of one material. Arrays are [group][row][lane].
+/// The same for a simplex.
+template <int Dim>
+inline constexpr int kPairs = pairs_of(Dim + 1);
+
+/// A run of element groups of one material and one number of corners. Arrays are [group][row][lane].
 ///
-/// The corners of an element are in increasing order of their unknown, held ones last. Lanes behind
-/// the last element of a run repeat a real element with volume 0 and are not scattered.
+/// An element deforms by F = sum over its corners of x_a g_a^T, with rest gradients g_a that add up to
+/// zero: a simplex has Dim + 1 of them, a smoothing domain may have more. The corners are in increasing
+/// order of their unknown, held ones last; an element with fewer than the others repeats its
+/// first, with zeros for gradients. Lanes behind the last element of a run repeat a real element with
+/// volume 0 and are not scattered.
 struct ElementRun {
     Model model = Model::StableNeoHookean;
-    double mu = 0;                 ///< Pa, of linear elasticity.
-    double lambda = 0;             ///< Pa, of linear elasticity.
-    double collapse_norm = 0;      ///< An element with |F|^2 below has collapsed; 0: none can.
-    int elements = 0;              ///< Elements in the run; groups = ceil(elements / kGroup).
-    const double* rest = nullptr;  ///< Dim * Dim + 1 rows: inverse of Dm (row by row), rest volume.
-    const std::uint32_t* vertices = nullptr;  ///< Dim + 1 rows.
-    const std::uint32_t* unknowns = nullptr;  ///< Dim + 1 rows; >= free_unknowns where held.
-    const std::int32_t* blocks = nullptr;  ///< kPairs rows: index of the matrix block, -1 for none.
+    double mu = 0;             ///< Pa, of linear elasticity.
+    double lambda = 0;         ///< Pa, of linear elasticity.
+    double collapse_norm = 0;  ///< An element with |F|^2 below has collapsed; 0: none can.
+    int elements = 0;          ///< Elements in the run; groups = ceil(elements / kGroup).
+    int corners = 0;           ///< Of every element, at least Dim + 1.
+    const double* rest =
+        nullptr;  ///< (corners - 1) * Dim + 1 rows: the gradients of all corners but
+                  ///< the first, of a simplex the inverse of Dm; rest volume.
+    const std::uint32_t* vertices = nullptr;  ///< `corners` rows.
+    const std::uint32_t* unknowns = nullptr;  ///< `corners` rows; >= free_unknowns where held.
+    const std::int32_t* blocks =
+        nullptr;  ///< pairs_of(corners) rows: index of the matrix block, -1 for none.
     std::uint32_t free_unknowns = 0;
 };
 

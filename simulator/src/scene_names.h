@@ -29,6 +29,10 @@ inline constexpr std::array kIntegrators = {
     Name<Integrator>{Integrator::Bdf2, "bdf2"},
     Name<Integrator>{Integrator::Quasistatic, "quasistatic"},
 };
+inline constexpr std::array kElementKinds = {
+    Name<ElementKind>{ElementKind::Linear, "linear"},
+    Name<ElementKind>{ElementKind::Smoothed, "smoothed"},
+};
 inline constexpr std::array kFilters = {
     Name<Filter>{Filter::Clamp, "clamp"},
     Name<Filter>{Filter::Absolute, "absolute"},

@@ -228,6 +228,9 @@ SolverOptions read_solver(TableReader reader) {
     solver.integrator = kIntegrators[reader.choice("integrator", names_of(kIntegrators),
                                                    place_of(kIntegrators, solver.integrator))]
                             .value;
+    solver.elements = kElementKinds[reader.choice("elements", names_of(kElementKinds),
+                                                  place_of(kElementKinds, solver.elements))]
+                          .value;
     solver.filter =
         kFilters[reader.choice("filter", names_of(kFilters), place_of(kFilters, solver.filter))]
             .value;

@@ -183,6 +183,7 @@ std::string output_text(const Output& output) {
 
 std::string solver_text(const SolverOptions& solver) {
     return "\n[solver]\n" + line("integrator", in_quotes(word_of(kIntegrators, solver.integrator)))
+           + line("elements", in_quotes(word_of(kElementKinds, solver.elements)))
            + line("filter", in_quotes(word_of(kFilters, solver.filter)))
            + line("linear", in_quotes(word_of(kLinearSolvers, solver.linear)))
            + line("preconditioner", in_quotes(word_of(kPreconditioners, solver.preconditioner)))

@@ -74,8 +74,7 @@ System<Dim>::System(const Scene& scene, const World<Dim>& world, const Simulatio
       workers_(options.threads),
       isa_(choose_isa(options.isa)),
       kernels_(&kernels<Dim>(isa_)),
-      pattern_(make_pattern<Dim>(world.cells, world.numbering)),
-      elements_(world.rest, world.cells, world.ranges, world.numbering, pattern_),
+      layout_(lay_out(world.numbering)),
       contacts_(scene, world),
       on_move_(options.on_move) {
     const std::uint32_t unknowns = world.numbering.free_count();
@@ -85,6 +84,23 @@ System<Dim>::System(const Scene& scene, const World<Dim>& world, const Simulatio
                     + std::to_string(unknowns) + ": use \"cg\"");
     }
     set_up_solver();
+}
+
+template <int Dim>
+typename System<Dim>::Layout System<Dim>::lay_out(const Numbering& numbering) const {
+    const World<Dim>& world = *world_;
+    if (options_.elements == ElementKind::Linear) {
+        BlockPattern pattern = make_pattern<Dim>(world.cells, numbering);
+        Elements<Dim> elements(world.rest, world.cells, world.ranges, numbering, pattern);
+        return {std::move(pattern), std::move(elements)};
+    }
+    std::vector<SmoothingDomains<Dim>> domains;
+    for (const CellRange& range : world.ranges) {
+        domains.push_back(smoothing_domains<Dim>(world.rest, world.cells, range.begin, range.end));
+    }
+    BlockPattern pattern = make_pattern<Dim>(domains, numbering);
+    Elements<Dim> elements(domains, world.ranges, numbering, pattern);
+    return {std::move(pattern), std::move(elements)};
 }
 
 template <int Dim>
@@ -111,26 +127,23 @@ void System<Dim>::set_up_solver() {
     float_matrix_.reset();
     double_matrix_.reset();
     if (options_.precision == Precision::Float) {
-        float_matrix_ = std::make_unique<BlockMatrix<Dim, float>>(pattern_);
+        float_matrix_ = std::make_unique<BlockMatrix<Dim, float>>(layout_.pattern);
     } else {
-        double_matrix_ = std::make_unique<BlockMatrix<Dim, double>>(pattern_);
+        double_matrix_ = std::make_unique<BlockMatrix<Dim, double>>(layout_.pattern);
     }
 }
 
 template <int Dim>
 void System<Dim>::renumber(const std::vector<bool>& asleep, const Positions<Dim>& positions) {
-    const auto lay_out = [&](const Numbering& numbering) {
-        pattern_ = make_pattern<Dim>(world_->cells, numbering);
-        elements_ = Elements<Dim>(world_->rest, world_->cells, world_->ranges, numbering, pattern_);
-    };
     damping_tangent_.reset();
     frozen_ = {};
     if (std::ranges::find(asleep, true) != asleep.end()) {
-        lay_out(number_bodies(*world_, asleep));
+        layout_ = lay_out(number_bodies(*world_, asleep));
         frozen_.forces.setZero(Dim, positions.cols());
-        frozen_.energy = elements_.add_forces(workers_, *kernels_, positions, frozen_.forces);
+        frozen_.energy =
+            layout_.elements.add_forces(workers_, *kernels_, positions, frozen_.forces);
     }
-    lay_out(world_->numbering);
+    layout_ = lay_out(world_->numbering);
     set_up_solver();
 }
 
@@ -152,7 +165,7 @@ void System<Dim>::evaluate(BodyState<Dim>& state) {
         return sum;
     });
     const RunEnergy elastic =
-        elements_.add_forces(workers_, *kernels_, state.positions, state.forces);
+        layout_.elements.add_forces(workers_, *kernels_, state.positions, state.forces);
     if (frozen_.forces.cols() > 0) {
         state.forces += frozen_.forces;
     }
@@ -299,8 +312,8 @@ LinearSolveReport System<Dim>::solve_with(BlockMatrix<Dim, Scalar>& matrix,
     const Stopwatch assembly;
     matrix.set_zero(workers_);
     report.filtered +=
-        elements_.add_hessian(workers_, *kernels_, state.positions, step.elastic_factor, filter,
-                              step.held_shift, matrix, step.right);
+        layout_.elements.add_hessian(workers_, *kernels_, state.positions, step.elastic_factor,
+                                     filter, step.held_shift, matrix, step.right);
     if (has_lost_inertia(matrix, step.mass_factor)) {
         LinearSolveReport lost;
         lost.has_lost_inertia = true;
@@ -310,7 +323,7 @@ LinearSolveReport System<Dim>::solve_with(BlockMatrix<Dim, Scalar>& matrix,
     if (step.damping_factor > 0) {
         matrix.add_scaled(workers_, step.damping_factor, *damping_tangent_);
     }
-    report.hessians += elements_.count();
+    report.hessians += layout_.elements.count();
     report.unknowns += Dim * matrix.rows();
     report.assembly_seconds += assembly.seconds();
     const std::unique_ptr<CouplingMatrix<Dim, Scalar>> coupling = add_contacts(state, step, matrix);
@@ -344,7 +357,7 @@ LinearSolveReport System<Dim>::solve(const BodyState<Dim>& state,
                 return solved;
             }
             if (!double_matrix_) {
-                double_matrix_ = std::make_unique<BlockMatrix<Dim, double>>(pattern_);
+                double_matrix_ = std::make_unique<BlockMatrix<Dim, double>>(layout_.pattern);
             }
         }
         return solve_with(*double_matrix_, state, filter, step, dx, report);
@@ -363,14 +376,14 @@ void System<Dim>::set_damping_tangent(const Positions<Dim>& positions,
                                       const Positions<Dim>& held_travel,
                                       StepReport& report) {
     if (!damping_tangent_) {
-        damping_tangent_ = std::make_unique<BlockMatrix<Dim, double>>(pattern_);
+        damping_tangent_ = std::make_unique<BlockMatrix<Dim, double>>(layout_.pattern);
     }
     damping_tangent_->set_zero(workers_);
-    held_damping_.setZero(Dim, pattern_.rows());
-    elements_.add_hessian(workers_, *kernels_, positions, 1, options_.filter, held_travel,
-                          *damping_tangent_, held_damping_);
+    held_damping_.setZero(Dim, layout_.pattern.rows());
+    layout_.elements.add_hessian(workers_, *kernels_, positions, 1, options_.filter, held_travel,
+                                 *damping_tangent_, held_damping_);
     held_damping_ = -held_damping_;
-    report.damping_hessians += elements_.count();
+    report.damping_hessians += layout_.elements.count();
 }
 
 template <int Dim>
@@ -386,8 +399,8 @@ SimulationSize System<Dim>::size() const {
     size.vertices = world_->vertex_count();
     size.cells = world_->cells.cols();
     size.free_vertices = world_->numbering.free_count();
-    size.elements = elements_.count();
-    size.matrix_blocks = pattern_.blocks();
+    size.elements = layout_.elements.count();
+    size.matrix_blocks = layout_.pattern.blocks();
     // Where float has turned out too coarse there are both.
     const std::int64_t scalar =
         (float_matrix_ ? sizeof(float) : 0) + (double_matrix_ ? sizeof(double) : 0);
@@ -398,7 +411,7 @@ SimulationSize System<Dim>::size() const {
     // Per vertex: positions, velocities, forces and their copies; per unknown: the solver's.
     constexpr std::int64_t kVertexVectors = 8;
     constexpr std::int64_t kUnknownVectors = 6;
-    size.element_bytes = elements_.bytes();
+    size.element_bytes = layout_.elements.bytes();
     size.matrix_bytes = size.matrix_blocks * block;
     size.contact_bytes = contacts_.bytes();
     size.bytes = size.element_bytes + size.contact_bytes + size.matrix_bytes

@@ -127,6 +127,13 @@ private:
         RunEnergy energy;
     };
 
+    /// Elastic elements and the matrix they fill.
+    struct Layout {
+        BlockPattern pattern;
+        Elements<Dim> elements;
+    };
+
+    [[nodiscard]] Layout lay_out(const Numbering& numbering) const;
     void set_up_solver();
     void find_contacts(BodyState<Dim>& state);
     template <typename Scalar>
@@ -161,8 +168,7 @@ private:
     Workers workers_;
     Isa isa_;
     const Kernels<Dim>* kernels_;
-    BlockPattern pattern_;
-    Elements<Dim> elements_;
+    Layout layout_;
     Frozen frozen_;
     SceneContacts<Dim> contacts_;
     std::function<void(const Eigen::MatrixXd&, bool)> on_move_;

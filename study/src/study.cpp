@@ -50,9 +50,13 @@ Settings finest_mesh(const std::vector<Axis>& axes) {
 }
 
 // As accurate as the program can be at a given dt. What Newton's method leaves of the momentum of a step
-// may add up over all of them, so it is little.
-simulator::SolverOptions reference_solver(const Scene& scene) {
+// may add up over all of them, so it is little. Of several kinds of elements it has those that do not lock.
+simulator::SolverOptions reference_solver(const Scene& scene, const std::vector<Axis>& axes) {
     simulator::SolverOptions exact = scene.solver;
+    const auto elements = std::ranges::find(axes, "elements", &Axis::name);
+    if (elements != axes.end() && std::ranges::count(elements->values, "smoothed") > 0) {
+        exact.elements = simulator::ElementKind::Smoothed;
+    }
     exact.precision = simulator::Precision::Double;
     exact.tolerance = 1e-8;
     exact.newton_tolerance = 1e-7;
@@ -200,7 +204,7 @@ void Study::run_reference() {
     if (base.solver.integrator != simulator::Integrator::Quasistatic) {
         base = with_settings(base, {{"integrator", options_.reference_integrator}});
     }
-    base.solver = reference_solver(base);
+    base.solver = reference_solver(base, axes_);
     for (const Axis& axis : axes_) {
         for (const std::string& value : axis.values) {
             if (axis.name == "dt") {

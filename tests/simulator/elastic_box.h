@@ -22,7 +22,9 @@ struct ElasticBox {
     std::unique_ptr<Elements<Dim>> elements;
     Positions<Dim> positions;
 
-    explicit ElasticBox(const Material& material, const std::vector<std::uint32_t>& held = {})
+    explicit ElasticBox(const Material& material,
+                        const std::vector<std::uint32_t>& held = {},
+                        ElementKind kind = ElementKind::Linear)
         : mesh(pent::test::kuhn_box<Dim>(counts(), sizes())) {
         std::vector<bool> is_held(static_cast<std::size_t>(mesh.vertex_count()), false);
         for (const std::uint32_t vertex : held) {
@@ -33,10 +35,17 @@ struct ElasticBox {
             columns.push_back(v);
         }
         numbering = number_unknowns<Dim>(mesh.cells, is_held, columns, columns);
-        pattern = make_pattern<Dim>(mesh.cells, numbering);
         const std::vector<CellRange> ranges = {{0, mesh.cell_count(), material}};
-        elements =
-            std::make_unique<Elements<Dim>>(mesh.positions, mesh.cells, ranges, numbering, pattern);
+        if (kind == ElementKind::Linear) {
+            pattern = make_pattern<Dim>(mesh.cells, numbering);
+            elements = std::make_unique<Elements<Dim>>(mesh.positions, mesh.cells, ranges,
+                                                       numbering, pattern);
+        } else {
+            const std::vector<SmoothingDomains<Dim>> domains = {
+                smoothing_domains<Dim>(mesh.positions, mesh.cells, 0, mesh.cell_count())};
+            pattern = make_pattern<Dim>(domains, numbering);
+            elements = std::make_unique<Elements<Dim>>(domains, ranges, numbering, pattern);
+        }
         positions = mesh.positions;
     }
 

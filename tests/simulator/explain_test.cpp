@@ -156,6 +156,26 @@ TEST(Explain, WarnsOfLockingOfThinBodiesAndOfIdleTerms) {
                             "falls, 11.1 m"});  // 2/2 (100/30)^2
 }
 
+// Smoothed elements lock where there is one cell, or poisson is near the limit of 1/3; not from four on.
+TEST(Explain, NamesSmoothedElementsWhereTheyHelp) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    scene.bodies.pop_back();
+    const std::string mesh = (folder / "thick.pent").string();
+    write_mesh(mesh, pent::test::kuhn_box<4>({4, 4, 4, 4}, {1, 1, 1, 1}));
+    const auto says = [&](ElementKind kind) {
+        scene.solver.elements = kind;
+        return advice(explain(scene, 1));
+    };
+    expect_contains(says(ElementKind::Linear), {"take elements = \"smoothed\""});
+    expect_contains(says(ElementKind::Smoothed), {"even smoothed elements lock", "49%"});
+    scene.bodies[0].mesh = mesh;
+    expect_contains(says(ElementKind::Linear), {"4 to 5 cells thick", "72%"});
+    EXPECT_EQ(says(ElementKind::Smoothed).find("lock"), std::string::npos);
+    scene.bodies[0].material.lame = lame_from_young(4, 1e5, 0.33);
+    expect_contains(says(ElementKind::Smoothed), {"even smoothed elements lock", "88%"});
+}
+
 TEST(Explain, WarnsOfTurnsTooFarForALinearStep) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 5);

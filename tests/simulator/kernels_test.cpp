@@ -21,6 +21,61 @@ Material soft(Model model) {
     return {.model = model, .lame = {.lambda = 1.3, .mu = 0.7}};
 }
 
+// What an element adds to: a cell, or all cells at an edge, of which it has the mean deformation
+// gradient. Row v of `gradients` is the rest gradient of vertex v.
+struct ReferenceElement {
+    double volume = 0;
+    MatrixXd gradients;
+};
+
+template <int Dim>
+ReferenceElement cell_element(const SimplexMesh<Dim>& mesh, Eigen::Index cell) {
+    MatrixXd Dm(Dim, Dim);
+    for (int a = 0; a < Dim; ++a) {
+        Dm.col(a) =
+            mesh.positions.col(mesh.cells(a + 1, cell)) - mesh.positions.col(mesh.cells(0, cell));
+    }
+    const MatrixXd inverse = Dm.inverse();
+    ReferenceElement element{cell_volume<Dim>(mesh.positions, mesh.cells, cell),
+                             MatrixXd::Zero(mesh.vertex_count(), Dim)};
+    for (int a = 0; a < Dim; ++a) {
+        element.gradients.row(mesh.cells(a + 1, cell)) = inverse.row(a);
+        element.gradients.row(mesh.cells(0, cell)) -= inverse.row(a);
+    }
+    return element;
+}
+
+template <int Dim>
+std::vector<ReferenceElement> reference_elements(const SimplexMesh<Dim>& mesh, ElementKind kind) {
+    std::vector<ReferenceElement> cells;
+    for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+        cells.push_back(cell_element<Dim>(mesh, cell));
+    }
+    if (kind == ElementKind::Linear) {
+        return cells;
+    }
+    std::vector<ReferenceElement> edges;
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        for (std::uint32_t u = 0; u < v; ++u) {
+            ReferenceElement edge{0, MatrixXd::Zero(mesh.vertex_count(), Dim)};
+            for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+                if ((mesh.cells.col(cell).array() == u).any()
+                    && (mesh.cells.col(cell).array() == v).any()) {
+                    const ReferenceElement& part = cells[static_cast<std::size_t>(cell)];
+                    edge.volume += part.volume;
+                    edge.gradients += part.volume * part.gradients;
+                }
+            }
+            if (edge.volume > 0) {
+                edge.gradients /= edge.volume;
+                edge.volume /= Dim * (Dim + 1) / 2;  // the edges of a cell have a share each
+                edges.push_back(edge);
+            }
+        }
+    }
+    return edges;
+}
+
 // Energy, forces and stiffness element by element from energy.h: slow and plain.
 template <int Dim>
 struct Reference {
@@ -28,33 +83,22 @@ struct Reference {
     Positions<Dim> forces;
     MatrixXd stiffness;
 
-    Reference(const ElasticBox<Dim>& box, const Material& material, Filter filter) {
-        const SimplexMesh<Dim>& mesh = box.mesh;
+    Reference(const ElasticBox<Dim>& box,
+              const Material& material,
+              Filter filter,
+              ElementKind kind) {
+        const Eigen::Index vertices = box.mesh.vertex_count();
         const auto unknowns = static_cast<Eigen::Index>(box.numbering.free_count());
-        forces.setZero(Dim, mesh.vertex_count());
+        forces.setZero(Dim, vertices);
         stiffness.setZero(Dim * unknowns, Dim * unknowns);
-        for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
-            MatrixXd Dm(Dim, Dim);
-            MatrixXd Ds(Dim, Dim);
-            for (int a = 0; a < Dim; ++a) {
-                const auto corner = mesh.cells(a + 1, cell);
-                const auto origin = mesh.cells(0, cell);
-                Dm.col(a) = mesh.positions.col(corner) - mesh.positions.col(origin);
-                Ds.col(a) = box.positions.col(corner) - box.positions.col(origin);
-            }
-            MatrixXd gradients(Dim + 1, Dim);  // row a: rest gradient of corner a
-            gradients.bottomRows(Dim) = Dm.inverse();
-            gradients.row(0) = -gradients.bottomRows(Dim).colwise().sum();
-            const MatrixXd F = Ds * gradients.bottomRows(Dim);
-            const double volume = cell_volume<Dim>(mesh.positions, mesh.cells, cell);
-            energy += volume * energy_density(material, F);
-            const MatrixXd P = stress(material, F);
+        for (const ReferenceElement& element : reference_elements<Dim>(box.mesh, kind)) {
+            const MatrixXd F = box.positions * element.gradients;
+            energy += element.volume * energy_density(material, F);
+            forces -= element.volume * stress(material, F) * element.gradients.transpose();
             const HessianFrame H = filtered(hessian(material, F), filter);
-            for (int a = 0; a <= Dim; ++a) {
-                const auto vertex_a = mesh.cells(a, cell);
-                forces.col(vertex_a) -= volume * P * gradients.row(a).transpose();
-                for (int b = 0; b <= Dim; ++b) {
-                    add_block(box, H, gradients, volume, vertex_a, mesh.cells(b, cell), a, b);
+            for (std::uint32_t a = 0; a < vertices; ++a) {
+                for (std::uint32_t b = 0; b < vertices; ++b) {
+                    add_block(box, H, element, a, b);
                 }
             }
         }
@@ -62,32 +106,30 @@ struct Reference {
 
     void add_block(const ElasticBox<Dim>& box,
                    const HessianFrame& H,
-                   const MatrixXd& gradients,
-                   double volume,
-                   std::uint32_t vertex_a,
-                   std::uint32_t vertex_b,
-                   int a,
-                   int b) {
-        if (!box.numbering.is_free(vertex_a) || !box.numbering.is_free(vertex_b)) {
+                   const ReferenceElement& element,
+                   std::uint32_t a,
+                   std::uint32_t b) {
+        if (!box.numbering.is_free(a) || !box.numbering.is_free(b)
+            || element.gradients.row(a).isZero(0) || element.gradients.row(b).isZero(0)) {
             return;
         }
-        const Eigen::Index row = Dim * box.numbering.unknown_of_vertex[vertex_a];
-        const Eigen::Index column = Dim * box.numbering.unknown_of_vertex[vertex_b];
+        const Eigen::Index row = Dim * box.numbering.unknown_of_vertex[a];
+        const Eigen::Index column = Dim * box.numbering.unknown_of_vertex[b];
         for (int j = 0; j < Dim; ++j) {
-            const MatrixXd dF = MatrixXd::Identity(Dim, Dim).col(j) * gradients.row(b);
+            const MatrixXd dF = MatrixXd::Identity(Dim, Dim).col(j) * element.gradients.row(b);
             stiffness.block(row, column + j, Dim, 1) +=
-                volume * apply(H, dF) * gradients.row(a).transpose();
+                element.volume * apply(H, dF) * element.gradients.row(a).transpose();
         }
     }
 };
 
 template <int Dim>
-void expect_kernels_match_reference(const Material& material, double scramble) {
+void expect_kernels_match_reference(const Material& material, ElementKind kind, double scramble) {
     const std::vector<std::uint32_t> held = {0, 3};
-    ElasticBox<Dim> box(material, held);
+    ElasticBox<Dim> box(material, held, kind);
     box.scramble(scramble, 7);
     for (const Filter filter : {Filter::Clamp, Filter::Absolute, Filter::None}) {
-        const Reference<Dim> reference(box, material, filter);
+        const Reference<Dim> reference(box, material, filter, kind);
         const double stiff = reference.stiffness.norm();
         for (const Isa isa : supported_isas()) {
             Positions<Dim> forces;
@@ -104,32 +146,52 @@ void expect_kernels_match_reference(const Material& material, double scramble) {
     }
 }
 
-class KernelModels : public testing::TestWithParam<Model> {};
-INSTANTIATE_TEST_SUITE_P(All, KernelModels, testing::ValuesIn(kAllModels));
+struct KernelCase {
+    Model model;
+    ElementKind kind;
+};
+
+std::vector<KernelCase> kernel_cases() {
+    std::vector<KernelCase> cases;
+    for (const Model model : kAllModels) {
+        cases.push_back({model, ElementKind::Linear});
+        cases.push_back({model, ElementKind::Smoothed});
+    }
+    return cases;
+}
+
+class KernelModels : public testing::TestWithParam<KernelCase> {
+protected:
+    [[nodiscard]] static Material material() { return soft(GetParam().model); }
+    [[nodiscard]] static ElementKind kind() { return GetParam().kind; }
+};
+INSTANTIATE_TEST_SUITE_P(All, KernelModels, testing::ValuesIn(kernel_cases()), [](const auto& all) {
+    return std::string(all.param.kind == ElementKind::Linear ? "Linear" : "Smoothed")
+           + std::to_string(static_cast<int>(all.param.model));
+});
 
 TEST_P(KernelModels, MatchTheReferenceNearRest) {
-    expect_kernels_match_reference<3>(soft(GetParam()), 0.02);
-    expect_kernels_match_reference<4>(soft(GetParam()), 0.02);
+    expect_kernels_match_reference<3>(material(), kind(), 0.02);
+    expect_kernels_match_reference<4>(material(), kind(), 0.02);
 }
 
 TEST_P(KernelModels, MatchTheReferenceWithInvertedElements) {
-    expect_kernels_match_reference<3>(soft(GetParam()), 0.4);
-    expect_kernels_match_reference<4>(soft(GetParam()), 0.4);
+    expect_kernels_match_reference<3>(material(), kind(), 0.4);
+    expect_kernels_match_reference<4>(material(), kind(), 0.4);
 }
 
 TEST_P(KernelModels, MatchTheReferenceExactlyAtRest) {
-    expect_kernels_match_reference<3>(soft(GetParam()), 0);
-    expect_kernels_match_reference<4>(soft(GetParam()), 0);
+    expect_kernels_match_reference<3>(material(), kind(), 0);
+    expect_kernels_match_reference<4>(material(), kind(), 0);
 }
 
 // A body pressed flat has det F = 0 everywhere: singular vectors of the zero value are made up.
 TEST(FlattenedBody, HasTheHessianOfTheReference) {
-    for (const Model model :
-         {Model::StableNeoHookean, Model::StVenantKirchhoff, Model::Linear, Model::Arap}) {
-        ElasticBox<4> box(soft(model));
+    for (const auto& [model, kind] : kernel_cases()) {
+        ElasticBox<4> box(soft(model), {}, kind);
         box.scramble(0.05, 3);
         box.positions.row(3).setZero();
-        const Reference<4> reference(box, soft(model), Filter::Clamp);
+        const Reference<4> reference(box, soft(model), Filter::Clamp, kind);
         for (const Isa isa : supported_isas()) {
             const MatrixXd K = box.stiffness<double>(isa, Filter::Clamp);
             EXPECT_LT((K - reference.stiffness).norm(), 1e-9 * reference.stiffness.norm());
@@ -140,7 +202,7 @@ TEST(FlattenedBody, HasTheHessianOfTheReference) {
 }
 
 TEST_P(KernelModels, AreFiniteInACollapsedBody) {
-    ElasticBox<4> box(soft(GetParam()));
+    ElasticBox<4> box(material(), {}, kind());
     box.positions.setZero();
     for (const Isa isa : supported_isas()) {
         Positions<4> forces;
@@ -152,7 +214,7 @@ TEST_P(KernelModels, AreFiniteInACollapsedBody) {
 }
 
 TEST_P(KernelModels, HaveForcesEqualToTheDifferenceOfEnergy) {
-    ElasticBox<4> box(soft(GetParam()));
+    ElasticBox<4> box(material(), {}, kind());
     box.scramble(0.1, 5);
     Positions<4> forces;
     Positions<4> unused;
@@ -165,31 +227,44 @@ TEST_P(KernelModels, HaveForcesEqualToTheDifferenceOfEnergy) {
 }
 
 TEST_P(KernelModels, HaveForcesAndTorquesThatCancelInEveryPlane) {
-    ElasticBox<4> box(soft(GetParam()));
+    ElasticBox<4> box(material(), {}, kind());
     box.scramble(0.2, 6);
     Positions<4> forces;
     static_cast<void>(box.forces(best_isa(), box.positions, forces));
     EXPECT_LT(forces.rowwise().sum().norm(), 1e-12 * forces.norm());
-    if (GetParam() != Model::Linear) {  // which is not invariant under rotations
+    if (GetParam().model != Model::Linear) {  // which is not invariant under rotations
         const Eigen::Matrix4d moment = box.positions * forces.transpose();
         EXPECT_LT((moment - moment.transpose()).norm(), 1e-11 * moment.norm());
     }
 }
 
-TEST(InvertedElements, AreCounted) {
-    ElasticBox<4> box(soft(Model::StableNeoHookean));
+class KernelKinds : public testing::TestWithParam<ElementKind> {};
+INSTANTIATE_TEST_SUITE_P(All,
+                         KernelKinds,
+                         testing::Values(ElementKind::Linear, ElementKind::Smoothed));
+
+TEST_P(KernelKinds, CountInvertedElements) {
+    ElasticBox<4> box(soft(Model::StableNeoHookean), {}, GetParam());
     Positions<4> forces;
     EXPECT_EQ(box.forces(Isa::Baseline, box.positions, forces).inverted, 0);
     box.positions.row(0) *= -1;
-    EXPECT_EQ(box.forces(Isa::Baseline, box.positions, forces).inverted, box.mesh.cell_count());
+    EXPECT_EQ(box.forces(Isa::Baseline, box.positions, forces).inverted, box.elements->count());
+}
+
+TEST_P(KernelKinds, CountCollapsedElements) {
+    ElasticBox<4> box(soft(Model::StableNeoHookean), {}, GetParam());
+    Positions<4> forces;
+    EXPECT_EQ(box.forces(best_isa(), box.positions, forces).collapsed, 0);
+    box.positions *= 1e-3;
+    EXPECT_EQ(box.forces(best_isa(), box.positions, forces).collapsed, box.elements->count());
 }
 
 // The columns of held vertices go to the right side: K_fh shift, from the full matrix of a free box.
-TEST(HeldVertices, TakeTheirColumnsToTheRightSide) {
+TEST_P(KernelKinds, TakeColumnsOfHeldVerticesToTheRightSide) {
     const Material material = soft(Model::StableNeoHookean);
     const std::vector<std::uint32_t> held = {1, 4, 9};
-    ElasticBox<4> free_box(material);
-    ElasticBox<4> box(material, held);
+    ElasticBox<4> free_box(material, {}, GetParam());
+    ElasticBox<4> box(material, held, GetParam());
     free_box.scramble(0.1, 8);
     box.positions = free_box.positions;
     Positions<4> shift = Positions<4>::Zero(4, box.mesh.vertex_count());

@@ -71,6 +71,7 @@ speed = 0.002
 
 [solver]
 preset = "accurate"
+elements = "smoothed"
 filter = "absolute"
 max_halvings = 3
 
@@ -138,6 +139,7 @@ TEST(ParseScene, ReadsEveryKey) {
     EXPECT_EQ(scene.sleep->speed, 0.002);
     EXPECT_EQ(scene.sleep->time, 0.5);
     EXPECT_EQ(scene.solver.integrator, Integrator::Bdf2);
+    EXPECT_EQ(scene.solver.elements, ElementKind::Smoothed);
     EXPECT_EQ(scene.solver.filter, Filter::Absolute);
     EXPECT_EQ(scene.solver.max_halvings, 3);
 }
@@ -296,6 +298,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{with("[contact]\nself = 1\n"), "\"self\" is 1; expected true or false"},
         Bad{with("[output]\ncontact_force = true\n"), "did you mean \"contact_forces\"?"},
         Bad{with("[solver]\nintegrator = \"rk4\"\n"), "\"linear_euler\""},
+        Bad{with("[solver]\nelements = \"quadratic\"\n"), "\"smoothed\""},
         Bad{with("[solver]\ntolerance = 1\n"), "below 1"},
         Bad{with("[damping]\nmass = -1\n"), "at least 0"},
         Bad{with("[sleep]\ntime = 0\n"), "above 0"},

@@ -24,6 +24,7 @@ struct Extreme {
     int cells = 2;          ///< Tesseracts along the body; 0 for a single pentachoron.
     int across = 1;         ///< Tesseracts along each of the other axes.
     double newton_tolerance = 1e-6;
+    simulator::ElementKind elements = simulator::ElementKind::Linear;
     int threads = 1;
 };
 

@@ -12,6 +12,26 @@ namespace {
 using simulator::Precision;
 constexpr Precision kPrecisions[] = {Precision::Float, Precision::Double};
 
+// What every case is run with.
+struct Asked {
+    Precision precision;
+    simulator::ElementKind elements;
+    Motion motion;
+};
+
+std::vector<Asked> all_asked() {
+    std::vector<Asked> all;
+    for (const Precision precision : kPrecisions) {
+        for (const auto elements :
+             {simulator::ElementKind::Linear, simulator::ElementKind::Smoothed}) {
+            for (const Motion motion : kMotions) {
+                all.push_back({precision, elements, motion});
+            }
+        }
+    }
+    return all;
+}
+
 class Extremes : public testing::TestWithParam<Case> {};
 
 std::string test_name(const std::string& text) {
@@ -32,15 +52,15 @@ INSTANTIATE_TEST_SUITE_P(All, Extremes, testing::ValuesIn(cases()), [](const aut
 
 // Inside the box: right. Outside: right, or refused or reported with a reason.
 TEST_P(Extremes, AreRightWithinTheBoxAndNeverSilentlyWrong) {
-    for (const Precision precision : kPrecisions) {
-        for (const Motion motion : kMotions) {
-            const Outcome outcome = run(GetParam().extreme, motion, precision);
-            EXPECT_NE(outcome.kind, Outcome::Kind::Wrong) << text(outcome);
-            if (GetParam().is_inside) {
-                EXPECT_EQ(outcome.kind, Outcome::Kind::Right) << text(outcome);
-            } else if (outcome.kind != Outcome::Kind::Right) {
-                EXPECT_FALSE(outcome.reason.empty());
-            }
+    for (const Asked& asked : all_asked()) {
+        Extreme extreme = GetParam().extreme;
+        extreme.elements = asked.elements;
+        const Outcome outcome = run(extreme, asked.motion, asked.precision);
+        EXPECT_NE(outcome.kind, Outcome::Kind::Wrong) << text(outcome);
+        if (GetParam().is_inside) {
+            EXPECT_EQ(outcome.kind, Outcome::Kind::Right) << text(outcome);
+        } else if (outcome.kind != Outcome::Kind::Right) {
+            EXPECT_FALSE(outcome.reason.empty());
         }
     }
 }
@@ -52,13 +72,13 @@ INSTANTIATE_TEST_SUITE_P(All, Corners, testing::ValuesIn(corners()), [](const au
 
 // Inside: right in double. Float is asked for no more than a word.
 TEST_P(Corners, OfTheBoxAreRightUntilInertiaDrownsAndNeverSilentlyWrong) {
-    for (const Precision precision : kPrecisions) {
-        for (const Motion motion : kMotions) {
-            const Outcome outcome = run(GetParam().extreme, motion, precision);
-            EXPECT_NE(outcome.kind, Outcome::Kind::Wrong) << text(outcome);
-            if (GetParam().is_inside && precision == Precision::Double) {
-                EXPECT_EQ(outcome.kind, Outcome::Kind::Right) << text(outcome);
-            }
+    for (const Asked& asked : all_asked()) {
+        Extreme extreme = GetParam().extreme;
+        extreme.elements = asked.elements;
+        const Outcome outcome = run(extreme, asked.motion, asked.precision);
+        EXPECT_NE(outcome.kind, Outcome::Kind::Wrong) << text(outcome);
+        if (GetParam().is_inside && asked.precision == Precision::Double) {
+            EXPECT_EQ(outcome.kind, Outcome::Kind::Right) << text(outcome);
         }
     }
 }

@@ -53,6 +53,7 @@ simulator::Scene scene_of(const Extreme& extreme, simulator::Precision precision
         scene.bodies.push_back(body_of(other, "other"));
         scene.bodies.back().place.translate[1] += 3 * extreme.size;
     }
+    scene.solver.elements = extreme.elements;
     scene.solver.precision = precision;
     scene.solver.tolerance = 1e-6;
     scene.solver.newton_tolerance = extreme.newton_tolerance;
@@ -85,8 +86,9 @@ bool is_finite(const simulator::Simulation<4>& simulation) {
 }
 
 Outcome step_all(simulator::Simulation<4>& simulation, int steps) {
+    simulator::StepReport report;
     for (int i = 0; i < steps; ++i) {
-        const simulator::StepReport report = simulation.step();
+        report = simulation.step();
         if (!is_finite(simulation)) {
             return {.kind = Outcome::Kind::Wrong, .error = NAN, .reason = {}};
         }
@@ -96,6 +98,11 @@ Outcome step_all(simulator::Simulation<4>& simulation, int steps) {
                 .error = 0,
                 .reason = report.failure + (report.is_accepted ? ", in a step that was cut" : "")};
         }
+    }
+    if (report.inverted > 0) {
+        return {.kind = Outcome::Kind::Reported,
+                .error = 0,
+                .reason = std::to_string(report.inverted) + " inverted elements"};
     }
     return {};
 }

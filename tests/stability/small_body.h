@@ -24,8 +24,8 @@ void hold_ends(simulator::Scene& scene,
 /// Whether positions and velocities of all bodies are finite.
 [[nodiscard]] bool is_finite(const simulator::Simulation<4>& simulation);
 
-/// Takes steps to the end. Right, or Reported from the first that was not taken as told; Wrong if
-/// what a step leaves is not finite.
+/// Takes steps to the end. Right, or Reported from the first that was not taken as told, or with elements
+/// that are inverted at the end; Wrong if what a step leaves is not finite.
 [[nodiscard]] Outcome step_all(simulator::Simulation<4>& simulation, int steps);
 
 /// Right if the error is within bound(), else Wrong.

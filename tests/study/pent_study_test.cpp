@@ -239,6 +239,40 @@ preset = "accurate"
     EXPECT_TRUE(std::filesystem::exists(chosen.bodies[0].mesh)) << chosen.bodies[0].mesh;
 }
 
+// Both kinds of elements have the same limit; on a coarse mesh the smoothed ones are nearer to it.
+TEST(RunStudy, MeasuresKindsOfElementsAgainstThatWhichDoesNotLock) {
+    if (!std::filesystem::exists(PENT_BIN "/pent-mesh")) {
+        GTEST_SKIP() << "built without the mesher";
+    }
+    const TempFolder folder;
+    std::ofstream(folder / "beam.toml") << R"([scene]
+gravity = [0, -9.8, 0, 0]
+frames = 10
+[[body]]
+name = "beam"
+mesh = "beam.pent"
+recipe = "--box 4,1,1,1 --size 4,1,1,1"
+[[constraint]]
+body = "beam"
+select = { half_space = { normal = [1, 0, 0, 0], offset = -1.99 } }
+[solver]
+preset = "accurate"
+)";
+    const StudyReport report =
+        run_study({.scene = folder / "beam.toml",
+                   .folder = folder / "study",
+                   .vary = {"elements=linear,smoothed", "subdivide=1,2", "dt=1/60"},
+                   .repeats = 1,
+                   .programs = PENT_BIN});
+    ASSERT_EQ(report.results.size(), 4U);
+    const auto error = [&](std::size_t i) { return report.results[i].errors.position; };
+    EXPECT_GT(error(0), error(1));      // linear: the finer mesh
+    EXPECT_GT(error(2), error(3));      // smoothed
+    EXPECT_LT(error(2), error(0));      // coarse: smoothed instead of linear
+    EXPECT_LT(error(3), error(1) / 3);  // fine: that of the reference itself but for its steps
+    expect_contains(text_of(folder / "study/references/steps-8.toml"), {"elements = \"smoothed\""});
+}
+
 TEST(RunStudy, RefusesOptionsOutOfRange) {
     for (const StudyOptions& options :
          {StudyOptions{.repeats = 0}, StudyOptions{.reference_halvings = 1},

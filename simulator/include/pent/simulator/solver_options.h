@@ -12,6 +12,12 @@ enum class Integrator {
     Quasistatic,  ///< Equilibrium at every step, no inertia; every body must be held.
 };
 
+/// What the energy of a body is the sum over; docs/simulator.md compares them.
+enum class ElementKind {
+    Linear,    ///< The cells of its mesh: fast, too stiff in bending where few cells are across.
+    Smoothed,  ///< Neighborhoods of edges, by the mean of their cells: does not lock in bending.
+};
+
 /// What becomes of the negative eigenvalues of Hessians, of elements as of contacts.
 using contact::Filter;
 
@@ -26,6 +32,7 @@ enum class Precision { Float, Double };
 
 struct SolverOptions {
     Integrator integrator = Integrator::LinearEuler;
+    ElementKind elements = ElementKind::Linear;
     Filter filter = Filter::Clamp;
     LinearSolver linear = LinearSolver::Iterative;
     PreconditionerKind preconditioner = PreconditionerKind::RigidModes;

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <pent/simplex_mesh.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pent::simulator {
+
+/// The domains of edge-based smoothed finite elements [liu2009, cazes2013], one around every edge of
+/// a mesh of linear simplices.
+///
+/// A domain has an equal share of the volume of each cell at its edge, and the mean of their deformation
+/// gradients, weighted by those shares: F = sum over corners of x_a g_a^T. The energy is that of the
+/// material at F, times the volume. Unlike that of cells it does not lock in bending, and it has
+/// no zero-energy motions but the rigid ones.
+template <int Dim>
+struct SmoothingDomains {
+    std::vector<std::int64_t> start = {0};  ///< Corners of domain d: [start[d], start[d + 1]).
+    std::vector<std::uint32_t> corners;     ///< Increasing within a domain.
+    Positions<Dim> gradients;               ///< A column for each corner, 1/m; they add up to zero.
+    std::vector<double> volumes;            ///< m^Dim.
+
+    [[nodiscard]] Eigen::Index count() const { return static_cast<Eigen::Index>(volumes.size()); }
+};
+
+/// The domains of the cells in [begin, end), in the order of their edges.
+///
+/// @param rest   Dim x vertices, m.
+/// @param cells  Positively oriented.
+template <int Dim>
+[[nodiscard]] SmoothingDomains<Dim> smoothing_domains(const Positions<Dim>& rest,
+                                                      const Simplices<Dim + 1>& cells,
+                                                      Eigen::Index begin,
+                                                      Eigen::Index end);
+
+}  // namespace pent::simulator
