@@ -360,7 +360,7 @@ template <int Dim, typename Scalar>
 void prefetch_blocks(const Group<Dim>& group, const Scalar* values) {
     for (int i = 0; i < kPairs<Dim> * kGroup; ++i) {
         const std::int64_t block = group.blocks[i] < 0 ? 0 : group.blocks[i];
-        __builtin_prefetch(values + block * std::int64_t{Dim * Dim}, 1);
+        __builtin_prefetch(values + block * Dim * Dim, 1);
     }
 }
 

@@ -212,7 +212,7 @@ void prefetch_row(const Group<Dim>& group, int a, int lane, int lanes, const Sca
     for (int b = a; b < group.corners; ++b, blocks += kGroup) {
         for (int l = 0; l < lanes; ++l) {
             const std::int64_t block = blocks[l] < 0 ? 0 : blocks[l];
-            __builtin_prefetch(values + block * std::int64_t{Dim * Dim}, 1);
+            __builtin_prefetch(values + block * Dim * Dim, 1);
         }
     }
 }

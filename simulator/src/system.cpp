@@ -404,10 +404,10 @@ SimulationSize System<Dim>::size() const {
     // Where float has turned out too coarse there are both.
     const std::int64_t scalar =
         (float_matrix_ ? sizeof(float) : 0) + (double_matrix_ ? sizeof(double) : 0);
-    const std::int64_t block =
-        Dim * Dim * scalar + static_cast<std::int64_t>(sizeof(std::uint32_t));
+    constexpr std::int64_t kEntries = std::int64_t{Dim} * Dim;
+    const std::int64_t block = kEntries * scalar + static_cast<std::int64_t>(sizeof(std::uint32_t));
     const std::int64_t tangent_block =
-        damping_tangent_ ? std::int64_t{Dim * Dim * sizeof(double)} : 0;
+        damping_tangent_ ? kEntries * static_cast<std::int64_t>(sizeof(double)) : 0;
     // Per vertex: positions, velocities, forces and their copies; per unknown: the solver's.
     constexpr std::int64_t kVertexVectors = 8;
     constexpr std::int64_t kUnknownVectors = 6;

@@ -64,7 +64,7 @@ struct ElasticBox {
 
     /// Filtered stiffness matrix of the free vertices, dense, unknowns in their own order.
     template <typename Scalar>
-    Eigen::MatrixXd stiffness(Isa isa, Filter filter) const {
+    [[nodiscard]] Eigen::MatrixXd stiffness(Isa isa, Filter filter) const {
         BlockMatrix<Dim, Scalar> matrix(pattern);
         const Positions<Dim> still = Positions<Dim>::Zero(Dim, positions.cols());
         BlockVector<Dim> right = BlockVector<Dim>::Zero(Dim, pattern.rows());

@@ -54,6 +54,7 @@ std::vector<ReferenceElement> reference_elements(const SimplexMesh<Dim>& mesh, E
     if (kind == ElementKind::Linear) {
         return cells;
     }
+    constexpr int kEdges = Dim * (Dim + 1) / 2;  // of a cell, which have a share each
     std::vector<ReferenceElement> edges;
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         for (std::uint32_t u = 0; u < v; ++u) {
@@ -68,7 +69,7 @@ std::vector<ReferenceElement> reference_elements(const SimplexMesh<Dim>& mesh, E
             }
             if (edge.volume > 0) {
                 edge.gradients /= edge.volume;
-                edge.volume /= Dim * (Dim + 1) / 2;  // the edges of a cell have a share each
+                edge.volume /= kEdges;
                 edges.push_back(edge);
             }
         }
@@ -284,7 +285,7 @@ TEST_P(KernelKinds, TakeColumnsOfHeldVerticesToTheRightSide) {
                                   shift, matrix, right);
         for (std::uint32_t u = 0; u < box.numbering.free_count(); ++u) {
             const std::uint32_t vertex = box.numbering.vertex_of_unknown[u];
-            const Eigen::Index at = 4 * free_box.numbering.unknown_of_vertex[vertex];
+            const Eigen::Index at = Eigen::Index{4} * free_box.numbering.unknown_of_vertex[vertex];
             EXPECT_LT((right.col(u) + pulled.segment<4>(at)).norm(), 1e-10 * pulled.norm());
         }
     }
