@@ -83,19 +83,18 @@ std::string summarize_defects(Program& program, const RunReport& report) {
     program.report()["collapsed"] = last.collapsed;
     program.report()["inverted"] = last.inverted;
     program.report()["inverted_steps"] = inverted_steps;
-    const std::string of_all = " of " + std::to_string(report.size.elements) + " elements ";
     if (last.collapsed > 0) {
-        program.say(std::to_string(last.collapsed) + of_all
-                    + "have collapsed, to where the stable neo-Hookean energy holds them"
+        program.say(std::to_string(last.collapsed) + " of " + std::to_string(report.size.elements)
+                    + " elements have collapsed, to where the stable neo-Hookean energy holds them"
                       " (docs/simulator.md, Limits)");
     }
     if (inverted_steps > 0) {
-        program.say(std::to_string(last.inverted) + of_all
-                    + "are inside out at the end, some at the end of "
+        program.say(std::to_string(last.inverted) + " of " + std::to_string(report.size.cells)
+                    + " cells are inside out at the end, some at the end of "
                     + std::to_string(inverted_steps) + " steps; smaller steps may help");
     }
     return last.collapsed > 0  ? " with collapsed elements"
-           : last.inverted > 0 ? " with inverted elements"
+           : last.inverted > 0 ? " with inverted cells"
                                : "";
 }
 

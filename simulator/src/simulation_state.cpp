@@ -273,7 +273,7 @@ StepReport Simulation<Dim>::State::step() {
     report.step = steps_;
     report.time = time();
     report.asleep = sleepers_.count();
-    report.inverted = current_.inverted;
+    report.inverted = system_.count_inverted(current_);
     report.collapsed = current_.collapsed;
     report.energies = current_.energies;
     report.contact = contact_summary();

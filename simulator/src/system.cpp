@@ -14,6 +14,7 @@ namespace pent::simulator {
 namespace {
 
 constexpr Eigen::Index kChunkVertices = 1024;
+constexpr Eigen::Index kChunkCells = 1024;
 
 class Stopwatch {
 public:
@@ -175,6 +176,24 @@ void System<Dim>::evaluate(BodyState<Dim>& state) {
     state.inverted = elastic.inverted + frozen_.energy.inverted;
     state.collapsed = elastic.collapsed + frozen_.energy.collapsed;
     find_contacts(state);
+}
+
+template <int Dim>
+std::int64_t System<Dim>::count_inverted(const BodyState<Dim>& state) const {
+    if (options_.elements == ElementKind::Linear) {
+        return state.inverted;
+    }
+    const Simplices<Dim + 1>& cells = world_->cells;
+    const auto chunks = static_cast<int>((cells.cols() + kChunkCells - 1) / kChunkCells);
+    return workers_.sum(chunks, [&](int chunk) {
+        const Eigen::Index begin = chunk * kChunkCells;
+        const Eigen::Index end = std::min(begin + kChunkCells, cells.cols());
+        std::int64_t inverted = 0;
+        for (Eigen::Index cell = begin; cell < end; ++cell) {
+            inverted += cell_volume<Dim>(state.positions, cells, cell) > 0 ? 0 : 1;
+        }
+        return inverted;
+    });
 }
 
 template <int Dim>

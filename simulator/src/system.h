@@ -29,8 +29,8 @@ struct BodyState {
     /// copies of the state share it.
     std::shared_ptr<const ContactState<Dim>> contacts;
     Energies energies;
-    std::int64_t inverted = 0;
-    std::int64_t collapsed = 0;
+    std::int64_t inverted = 0;   ///< Elements.
+    std::int64_t collapsed = 0;  ///< Elements.
 
     [[nodiscard]] bool is_finite() const {
         return positions.allFinite() && velocities.allFinite() && forces.allFinite();
@@ -94,6 +94,10 @@ public:
     /// Starts a step of length h (s) from an evaluated state: friction acts from there on, and is in its
     /// forces afterwards.
     void begin_step(BodyState<Dim>& now, bool is_linear, double h);
+
+    /// Cells that are inside out in a state that has been evaluated. Smoothed elements may not be where
+    /// one of their cells is.
+    [[nodiscard]] std::int64_t count_inverted(const BodyState<Dim>& state) const;
 
     /// How far a step may go before something crosses; all of it without a barrier.
     [[nodiscard]] contact::StepLimit limit_step(const Positions<Dim>& from,

@@ -56,8 +56,8 @@ TEST(PentSim, SaysThatElementsAreInsideOut) {
     EXPECT_GT(inverted, 0);  // the two ends alone have the signed volume of a bar inside out
     EXPECT_GT(report.at("inverted_steps"), 2);
     expect_contains(outcome.out,
-                    {std::to_string(inverted) + " of 12 elements are inside out at the end",
-                     "finished with inverted elements"});
+                    {std::to_string(inverted) + " of 12 cells are inside out at the end",
+                     "finished with inverted cells"});
 }
 
 TEST(PentSim, SaysWhyStepsWereCut) {

@@ -256,6 +256,26 @@ TEST(Elements, AreCellsOrEdgesAndNeverBoth) {
     EXPECT_EQ(smoothed.step().hessians, edge_count(mesh));
 }
 
+// An edge is not inside out where one of its cells is; the report counts cells.
+TEST(SmoothedBody, ReportsEveryCellThatIsInsideOut) {
+    Scene scene = swinging_bar(ElementKind::Smoothed);
+    scene.frames_per_second = 1e6;  // so that a step hardly moves anything
+    Simulation<4> simulation(scene, {test::bar()}, {.threads = 2});
+    const SimplexMesh<4>& mesh = simulation.mesh(0);
+    EXPECT_EQ(simulation.step().inverted, 0);
+    Positions<4> positions = mesh.positions;
+    positions.col(mesh.vertex_count() / 2) += Eigen::Vector4d(0.3, -0.3, 0, 0);
+    simulation.set_state(0, positions, Positions<4>::Zero(4, mesh.vertex_count()));
+    const StepReport report = simulation.step();
+    ASSERT_TRUE(report.is_accepted);
+    std::int64_t inverted = 0;
+    for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+        inverted += cell_volume<4>(simulation.positions(0), mesh.cells, cell) > 0 ? 0 : 1;
+    }
+    EXPECT_GT(inverted, 0);
+    EXPECT_EQ(report.inverted, inverted);
+}
+
 // A body that falls asleep is laid out anew, and so are those that stay awake.
 TEST(SmoothedBodies, ThatMeetKeepTheirMomentumAndSleepWhenAtRest) {
     Scene scene = test::two_cubes<4>(0.1);

@@ -102,7 +102,7 @@ Outcome step_all(simulator::Simulation<4>& simulation, int steps) {
     if (report.inverted > 0) {
         return {.kind = Outcome::Kind::Reported,
                 .error = 0,
-                .reason = std::to_string(report.inverted) + " inverted elements"};
+                .reason = std::to_string(report.inverted) + " inverted cells"};
     }
     return {};
 }

@@ -85,8 +85,8 @@ Outcome run(const Start& start, simulator::Integrator integrator, Precision prec
         if (report.collapsed + report.inverted > 0) {
             return {.kind = Outcome::Kind::Reported,
                     .error = 0,
-                    .reason = std::to_string(report.collapsed) + " collapsed and "
-                              + std::to_string(report.inverted) + " inverted elements"};
+                    .reason = std::to_string(report.collapsed) + " collapsed elements and "
+                              + std::to_string(report.inverted) + " inverted cells"};
         }
         const Positions<4> positions = simulation.positions(0);
         return judge((positions - rest).cwiseAbs().maxCoeff() / extreme.size, precision);

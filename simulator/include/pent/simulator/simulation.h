@@ -120,7 +120,7 @@ struct StepReport {
     double residual = 0;    ///< Largest |b - A x| / |b|, computed from x.
     double unbalanced = 0;  ///< Largest unbalanced force at the end of a Newton step over that at
                             ///< its start; above newton_tolerance at kinks and barriers alone.
-    std::int64_t inverted = 0;  ///< Elements with J <= 0 at the end.
+    std::int64_t inverted = 0;  ///< Cells with J <= 0 at the end.
     std::int64_t collapsed =
         0;              ///< Elements in the false minimum at the end; see collapse_scale().
     Energies energies;  ///< At the end.
