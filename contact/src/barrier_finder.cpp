@@ -234,11 +234,6 @@ const BarrierOptions& BarrierFinder<Dim>::options() const {
     return state_->options();
 }
 
-template <int Dim>
-std::int64_t BarrierFinder<Dim>::searches() const {
-    return state_->candidates().searches();
-}
-
 template class BarrierFinder<3>;
 template class BarrierFinder<4>;
 

@@ -81,8 +81,10 @@ bool PairSearch<Dim>::is_kept_valid(const PositionsView<Dim>& positions) const {
 template <int Dim>
 void PairSearch<Dim>::drop_what_is_too_much() {
     if (count_pairs(pairs_) > kMostKept) {
+        // GCOVR_EXCL_START: millions of pairs
         searched_at_.resize(Dim, 0);
         std::vector<BodyPair>().swap(pairs_);
+        // GCOVR_EXCL_STOP
     }
 }
 

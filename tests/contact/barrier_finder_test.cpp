@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <tbb/task_arena.h>
 
 namespace pent::contact {
@@ -135,6 +136,47 @@ TYPED_TEST(BarrierFinderTest, ForcesAreTheNegativeDifferencesOfTheEnergy) {
     }
 }
 
+TYPED_TEST(BarrierFinderTest, HessiansAreTheNegativeDifferencesOfTheForces) {
+    constexpr int kDim = TypeParam::value;
+    Vector<kDim> center = Vector<kDim>::Constant(0.45);
+    center[kDim - 1] = -0.35;
+    auto finder = this->finder(
+        this->kOptions, {Ball<kDim>{center, 0.2}, HalfSpace<kDim>{Vector<kDim>::Unit(1), -0.1}});
+    const Positions<kDim>& x = this->scene_.positions;
+    const auto forces_at = [&](const Positions<kDim>& y) {
+        Positions<kDim> forces = Positions<kDim>::Zero(kDim, y.cols());
+        finder.add_forces(finder.find(y), y, this->kStiffness, forces);
+        return forces;
+    };
+    Positions<kDim> way = Positions<kDim>::Zero(kDim, x.cols());
+    test::shake<kDim>(way, 1, 6);
+    Positions<kDim> product = Positions<kDim>::Zero(kDim, x.cols());
+    const BarrierContacts<kDim> contacts = finder.find(x);
+    EXPECT_FALSE(contacts.vertices.empty());
+    for (const VertexContact& contact : contacts.vertices) {
+        product.col(contact.vertex) +=
+            finder.hessian(contact, x, this->kStiffness, Filter::None) * way.col(contact.vertex);
+    }
+    for (const BarrierContact<kDim>& contact : contacts.pairs) {
+        StencilVector<kDim> local = StencilVector<kDim>::Zero();
+        for (int i = 0; i < contact.faces.count; ++i) {
+            if (contact.vertices[i] != kFixedPoint) {
+                local.template segment<kDim>(kDim * i) = way.col(contact.vertices[i]);
+            }
+        }
+        local = (finder.hessian(contact, x, this->kStiffness, Filter::None) * local).eval();
+        for (int i = 0; i < contact.faces.count; ++i) {
+            if (contact.vertices[i] != kFixedPoint) {
+                product.col(contact.vertices[i]) += local.template segment<kDim>(kDim * i);
+            }
+        }
+    }
+    const double h = 1e-7;
+    const Positions<kDim> difference = (forces_at(x - h * way) - forces_at(x + h * way)) / (2 * h);
+    // Truncation (h / gap)^2, rounding 1e-16 / h; strata that change within h.
+    EXPECT_LT((product - difference).norm(), 1e-5 * difference.norm());
+}
+
 TYPED_TEST(BarrierFinderTest, DependsOnPositionsAloneNotOnHistoryOrThreads) {
     constexpr int kDim = TypeParam::value;
     auto used = this->finder();
@@ -258,6 +300,26 @@ TYPED_TEST(BarrierFinderTest, LeavesHeldVerticesAlone) {
         std::vector<bool>(static_cast<std::size_t>(this->rest_.cols()), true), this->rest_,
         this->kOptions);
     EXPECT_EQ(finder.find(this->scene_.positions).report.contacts, 0);
+}
+
+TYPED_TEST(BarrierFinderTest, ObstaclesLeaveBodiesAloneThatAreMovedFromOutside) {
+    constexpr int kDim = TypeParam::value;
+    std::vector<ContactBody<kDim>> bodies = bodies_of(this->scene_);
+    Vector<kDim> center = Vector<kDim>::Constant(0.45);
+    center[kDim - 1] = -0.3;
+    for (const bool is_kinematic : {false, true}) {
+        bodies[0].is_kinematic = is_kinematic;  // the other one is far from both obstacles
+        BarrierFinder<kDim> finder(
+            bodies, {Ball<kDim>{center, 0.2}, HalfSpace<kDim>{Vector<kDim>::Unit(1), -0.1}},
+            std::vector<bool>(static_cast<std::size_t>(this->rest_.cols())), this->rest_,
+            this->kOptions);
+        const BarrierContacts<kDim> contacts = finder.find(this->scene_.positions);
+        EXPECT_EQ(contacts.vertices.empty(), is_kinematic);
+        EXPECT_EQ(std::ranges::none_of(
+                      contacts.pairs,
+                      [](const BarrierContact<kDim>& pair) { return pair.first_body < 0; }),
+                  is_kinematic);
+    }
 }
 
 TEST(BarrierOptions, OutOfRangeAreRefused) {

@@ -206,6 +206,28 @@ TYPED_TEST(PairBarrierTest, FilterIsTheOneOnAllEigenvalues) {
     }
 }
 
+// The weights cannot be told to move along an edge of one face and a parallel one of the other.
+TYPED_TEST(PairBarrierTest, HessianOfParallelEdgesIsThatWithOneOfThem) {
+    constexpr int kDim = TypeParam::value;
+    const Corners<kDim, 2> edge = this->template corners<2>();
+    Corners<kDim, kDim - 1> ridge = this->template corners<kDim - 1>();
+    ridge.col(1) = ridge.col(0) + 0.7 * (edge.col(1) - edge.col(0));
+    const Stencil<kDim> points = this->template stencil<2, kDim - 1>(edge, ridge);
+    NearestFaces<kDim> faces = this->template faces_at<2, kDim - 1>(points);
+    const Barrier barrier{1.5 * faces.distance, 1, 0};
+    constexpr std::uint8_t kAll = (1U << (kDim + 1)) - 1;
+    constexpr std::uint8_t kSecondOfRidge = 1U << 3;
+    for (const Filter filter : {Filter::None, Filter::Clamp, Filter::Absolute}) {
+        faces.active = kAll;
+        const StencilMatrix<kDim> both =
+            pair_barrier_hessian<kDim>(points, faces, barrier, {}, filter);
+        faces.active = kAll - kSecondOfRidge;
+        EXPECT_EQ(both, pair_barrier_hessian<kDim>(points, faces, barrier, {}, filter));
+        EXPECT_GT(both.norm(), 0);
+        EXPECT_TRUE(both.allFinite());
+    }
+}
+
 TYPED_TEST(PairBarrierTest, ForceIsContinuousWhereTheNearestFaceChanges) {
     constexpr int kDim = TypeParam::value;
     // A point that walks over a facet and beyond all its borders.

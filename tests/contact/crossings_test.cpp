@@ -147,6 +147,24 @@ TYPED_TEST(CrossingsTest, WithObstaclesAreReported) {
     EXPECT_TRUE(crossings_of<kDim>(scene, false, {Ball<kDim>{center, 0.05}}).empty());
 }
 
+TYPED_TEST(CrossingsTest, WithObstaclesAreNoneOfBodiesThatAreMovedFromOutside) {
+    constexpr int kDim = TypeParam::value;
+    test::Scene<kDim> scene;
+    scene.add(test::cube<kDim>(1), Vector<kDim>::Zero());
+    std::vector<ContactBody<kDim>> bodies = bodies_of(scene);
+    const std::vector<bool> is_held(static_cast<std::size_t>(scene.positions.cols()));
+    for (const bool is_kinematic : {false, true}) {
+        bodies[0].is_kinematic = is_kinematic;
+        for (const Obstacle<kDim>& obstacle :
+             {Obstacle<kDim>(HalfSpace<kDim>{Vector<kDim>::Unit(1), 0.5}),
+              Obstacle<kDim>(Ball<kDim>{Vector<kDim>::Zero(), 0.2})}) {
+            EXPECT_EQ(find_crossings<kDim>(bodies, {obstacle}, is_held, scene.positions, 0, false)
+                          .empty(),
+                      is_kinematic);
+        }
+    }
+}
+
 TYPED_TEST(CrossingsTest, SweepOfTheCheckerSeesWhatPassesWithinAStep) {
     constexpr int kDim = TypeParam::value;
     test::Scene<kDim> scene;

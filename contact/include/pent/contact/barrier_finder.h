@@ -138,8 +138,6 @@ public:
     [[nodiscard]] const std::vector<Obstacle<Dim>>& obstacles() const;
     [[nodiscard]] const BarrierOptions& options() const;
 
-    [[nodiscard]] std::int64_t searches() const;  ///< Of candidates, so far.
-
 private:
     class State;
     std::unique_ptr<State> state_;
