@@ -171,6 +171,36 @@ TYPED_TEST(BarrierTest, MotionThatLeavesNoWayOutIsReportedWithItsPair) {
     EXPECT_EQ(run.crossings(), 0);
 }
 
+TYPED_TEST(BarrierTest, EnergyThatIsNotANumberIsAFailureOfTheStep) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    scene.scene.solver.max_halvings = 0;
+    scene.add(box<kDim>(1, 1, 1, Eigen::VectorXd::Constant(kDim, 0.2)), vector<kDim>(0, 0))
+        .velocity = vector<kDim>(1e160, 0);
+    Simulation<kDim> simulation(scene.scene, scene.meshes);
+    const Positions<kDim> before = simulation.positions(0);
+    const StepReport report = simulation.step();
+    EXPECT_FALSE(report.is_accepted);
+    EXPECT_EQ(report.failure, "the energy grew beyond all bounds");
+    EXPECT_EQ(Positions<kDim>(simulation.positions(0)), before);
+}
+
+// The forces of something so soft are small next to its masses, but its energy is not a number even a
+// trillionth of the way along.
+TYPED_TEST(BarrierTest, MotionThatIsFarTooFarIsAFailureOfTheStep) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    scene.scene.solver.max_halvings = 0;
+    scene.add(box<kDim>(1, 1, 1, Eigen::VectorXd::Constant(kDim, 0.2)), vector<kDim>(0, 0), 1e-60);
+    scene.hold(vector<kDim>(-9, -9, -9), vector<kDim>(0, 9, 9), vector<kDim>(0, 1e202));
+    Simulation<kDim> simulation(scene.scene, scene.meshes);
+    const Positions<kDim> before = simulation.positions(0);
+    const StepReport report = simulation.step();
+    EXPECT_FALSE(report.is_accepted);
+    EXPECT_EQ(report.failure, "the line search found no decrease");
+    EXPECT_EQ(Positions<kDim>(simulation.positions(0)), before);
+}
+
 TEST(Barrier, NeedsAnIntegratorThatIterates) {
     BarrierScene<3> scene;
     scene.add(box<3>(1, 1, 1, Eigen::VectorXd::Constant(3, 0.2)), vector<3>(0, 0));

@@ -130,6 +130,51 @@ TEST(Explain, TellsThePartsOfTheBarrierAndOfDampingWithNewtonsMethod) {
     EXPECT_EQ(advice(explanation).find("could go"), std::string::npos);
 }
 
+TEST(Explain, HasNoInertiaWhereEveryStepIsAnEquilibrium) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    scene.bodies.pop_back();
+    scene.solver.integrator = Integrator::Quasistatic;
+    scene.constraints = {test::hold(
+        HalfSpaceSelection{.normal = Eigen::Vector4d(1, 0, 0, 0), .offset = 0.1}, test::still(4))};
+    const Explanation explanation = explain(scene, 1);
+    EXPECT_FALSE(term(explanation, "inertia").is_on);
+    expect_contains(term(explanation, "inertia").why, {"quasistatic", "equilibrium"});
+    EXPECT_TRUE(term(explanation, "elasticity of box").is_on);
+}
+
+TEST(Explain, GivesTheCostOfContactToTheFirstKindThatIsOn) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    scene.bodies.pop_back();
+    scene.contact = Contact{.self = true};
+    const Explanation explanation = explain(scene, 1);
+    EXPECT_FALSE(term(explanation, "contact between bodies").is_on);
+    EXPECT_GT(term(explanation, "contact within bodies").bytes, 0);
+    EXPECT_GT(term(explanation, "contact within bodies").seconds, 0);
+}
+
+TEST(Explain, SaysThatTheFirstStepFailsAndWhy) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    scene.gravity[1] = -9.8;
+    scene.constraints = {test::hold(
+        HalfSpaceSelection{.normal = Eigen::Vector4d(1, 0, 0, 0), .offset = 0.1}, test::still(4))};
+    EXPECT_EQ(advice(explain(scene, 1)).find("the first step fails"), std::string::npos);
+    scene.solver.max_iterations = 1;
+    scene.solver.tolerance = 1e-12;
+    expect_contains(advice(explain(scene, 1)),
+                    {"the first step fails: the linear solver did not reach its tolerance"});
+}
+
+TEST(Explain, RepeatsTheWarningsOfTheSimulation) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    scene.contact = Contact{.distance = 1};
+    expect_contains(advice(explain(scene, 1)),
+                    {"contact distance 1 m is more than half of the mean surface edge"});
+}
+
 TEST(Explain, SaysThatContactBetweenBodiesFarApartCouldGo) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 5);
@@ -206,6 +251,21 @@ TEST(Explain, SaysWhatContactObstaclesAndSleepHaveNothingToDo) {
     for (const char* idle : {"nothing to do", "could go", "sleep.time"}) {
         EXPECT_EQ(lines.find(idle), std::string::npos) << idle;
     }
+}
+
+TEST(Explain, SaysThatNothingPushesBodiesThatAreHeldEverywhere) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    scene.contact = Contact{};
+    scene.constraints = {test::hold(EverythingSelection{}, test::still(4)),
+                         test::hold(EverythingSelection{}, test::still(4))};
+    scene.constraints[1].body = "other";
+    expect_contains(advice(explain(scene, 1)),
+                    {"[contact] has nothing to do: all bodies are held everywhere"});
+    scene.obstacles = {
+        {.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d::UnitY(), .offset = -1}}};
+    expect_contains(advice(explain(scene, 1)),
+                    {"[[obstacle]] has nothing to do: all bodies are held everywhere"});
 }
 
 TEST(Explain, WarnsOfBodiesTooFastForASoftContact) {

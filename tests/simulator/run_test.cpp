@@ -1,4 +1,5 @@
 #include "scenes.h"
+#include "support/messages.h"
 #include "support/temp_folder.h"
 
 #include <pent/error.h>
@@ -105,6 +106,49 @@ TEST_P(Integrators, StopWhenAskedAndResumeToTheSameBytes) {
         EXPECT_EQ(read_text(folder / "whole/frames" / frame),
                   read_text(folder / "cut/frames" / frame));
     }
+}
+
+TEST(Run, RemovesWhatAKilledRunLeftHalfWrittenWhenItIsResumed) {
+    const TempFolder folder;
+    const Scene scene = falling_bar(folder, 1);
+    static_cast<void>(run(scene, {.folder = folder / "run"}));
+    const fs::path half = folder / "run/frames/.box_000002.pent.4711.tmp";
+    const fs::path own = folder / "run/frames/.mine";
+    std::ofstream(half) << "PENT";
+    std::ofstream(own) << "mine";
+    static_cast<void>(run(scene, {.folder = folder / "run", .resume = true}));
+    EXPECT_FALSE(fs::exists(half));
+    EXPECT_TRUE(fs::exists(own));
+}
+
+// BDF2 needs the step before, and that is kept for the last two frames only.
+TEST(Run, RefusesToResumeFromAFrameWhoseStepBeforeIsNotKept) {
+    const TempFolder folder;
+    Scene scene = falling_bar(folder, 4);
+    scene.solver.integrator = Integrator::Bdf2;
+    static_cast<void>(run(scene, {.folder = folder / "run"}));
+    for (const char* frame : {"box_000003.pent", "box_000004.pent"}) {
+        fs::remove(folder / "run/frames" / frame);
+    }
+    EXPECT_NE(pent::test::error_of([&] {
+                  static_cast<void>(run(scene, {.folder = folder / "run", .resume = true}));
+              }).find("box_000002.pent: is not kept so far back"),
+              std::string::npos);
+}
+
+TEST(Run, PutsTheWarningsOfTheSimulationIntoItsReport) {
+    const TempFolder folder;
+    Scene scene = falling_bar(folder, 1);
+    scene.contact = Contact{.distance = 0.2, .self = true};
+    std::vector<std::string> told;
+    const RunReport report =
+        run(scene, {.folder = folder / "run"},
+            {.should_stop = nullptr,
+             .on_frame = nullptr,
+             .on_warning = [&](const std::string& warning) { told.push_back(warning); }});
+    ASSERT_EQ(report.warnings.size(), 1U);
+    EXPECT_EQ(told, report.warnings);
+    EXPECT_NE(read_text(folder / "run/report.json").find(report.warnings[0]), std::string::npos);
 }
 
 TEST(Run, RefusesToResumeAnotherScene) {

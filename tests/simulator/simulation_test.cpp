@@ -1,4 +1,5 @@
 #include "scenes.h"
+#include "support/messages.h"
 
 #include <pent/error.h>
 #include <pent/simulator/simulation.h>
@@ -352,6 +353,28 @@ TEST(FailedStep, SucceedsInHalvesWhereThoseAreEasier) {
     EXPECT_GE(report.substeps, 2);
     EXPECT_DOUBLE_EQ(halved.time(), scene.dt());
     EXPECT_NE(report.failure.find("the linear solver did not reach"), std::string::npos);
+}
+
+TEST(CheckScene, NamesTheBodyWhoseMaterialIsOutOfRange) {
+    Scene scene = box_scene<4>();
+    scene.bodies[0].material.density = 0;
+    pent::test::expect_contains(pent::test::error_of([&] { check(scene); }),
+                                {"body \"box\": the density is 0", "more than 0"});
+}
+
+// Of so little mass that the linear solver copes, while squares of the way to go are beyond all numbers.
+TEST(FailedStep, IsOneWhoseEnergyIsNotANumber) {
+    Scene scene = box_scene<4>();
+    scene.solver.integrator = Integrator::NewtonEuler;
+    scene.solver.precision = Precision::Double;
+    scene.solver.max_halvings = 0;
+    scene.bodies[0].material.density = 1e-20;
+    scene.bodies[0].material.lame = lame_from_young(4, 1e-18, 0.28);
+    scene.bodies[0].velocity = Eigen::Vector4d(1e165, 0, 0, 0);
+    Simulation<4> simulation(scene, {bar(2)});
+    const StepReport report = simulation.step();
+    EXPECT_FALSE(report.is_accepted);
+    EXPECT_EQ(report.failure, "the energy grew beyond all bounds");
 }
 
 // Sum of 1/2 m |v - before|^2, J.
