@@ -92,5 +92,16 @@ TEST(FrontierPlot, HasADotForEveryFinishedResultWithinThePicture) {
     pent::test::expect_contains(svg(plot), {"a &amp; b &lt;c>.toml", "wall-clock seconds"});
 }
 
+TEST(FrontierPlot, OfNothingMeasuredIsAnEmptyFrame) {
+    const Drawing plot = frontier_plot({});
+    EXPECT_TRUE(plot.discs.empty());
+    for (const Line& line : plot.lines) {
+        for (const Point& end : {line.from, line.to}) {
+            EXPECT_TRUE(end.x >= 0 && end.x <= plot.width && end.y >= 0 && end.y <= plot.height)
+                << end.x << ", " << end.y;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace pent::study

@@ -99,6 +99,60 @@ TEST(RunStudy, RefusesTheFolderThatAnotherProgramMeasuredFor) {
     EXPECT_NO_THROW(static_cast<void>(run_study(options)));
 }
 
+TEST(RunStudy, StudiesOnlySoManyFramesAndMeasuresEachSettingAsOftenAsAsked) {
+    const TempFolder folder;
+    StudyOptions options = bar_study(folder, {"dt=1/30"});
+    options.frames = 2;
+    options.repeats = 2;
+    int total = 0;
+    const StudyReport report =
+        run_study(options, {.on_run = [&](int, int runs, const std::string&) { total = runs; }});
+    EXPECT_EQ(report.frames, 2);
+    EXPECT_EQ(report.scene_frames, 4);
+    EXPECT_DOUBLE_EQ(report.reference.window, 2.0 / 30);
+    EXPECT_EQ(total, 3 + 2);  // three levels of the reference
+    const auto record = nlohmann::json::parse(text_of(folder / "study/runs/dt-1_30.json"));
+    EXPECT_EQ(record.at("wall_seconds").size(), 2U);
+    EXPECT_FALSE(std::filesystem::exists(folder / "study/runs/dt-1_30"));  // measured and gone
+}
+
+TEST(RunStudy, RefusesAnAxisThatIsVariedTwice) {
+    const TempFolder folder;
+    const StudyOptions options = bar_study(folder, {"dt=1/30", "integrator=bdf2", "dt=1/60"});
+    expect_contains(pent::test::error_of([&] { static_cast<void>(run_study(options)); }),
+                    {"--vary dt=1/60", "dt is varied twice"});
+    EXPECT_FALSE(std::filesystem::exists(folder / "study"));
+}
+
+TEST(RunStudy, AskedToStopAtOnceRunsNothing) {
+    const TempFolder folder;
+    int told = 0;
+    const StudyReport report = run_study(bar_study(folder, {"dt=1/30"}),
+                                         {.should_stop = [] { return true; },
+                                          .on_run = [&](int, int, const std::string&) { ++told; }});
+    EXPECT_TRUE(report.is_stopped);
+    EXPECT_EQ(told, 0);
+    EXPECT_TRUE(std::filesystem::is_empty(folder / "study/references"));
+}
+
+TEST(RunStudy, RefusesAReferenceOfAnotherMeshThanItsFrames) {
+    const TempFolder folder;
+    const StudyOptions options = bar_study(folder, {"dt=1/30"});
+    int started = 0;
+    static_cast<void>(
+        run_study(options, {.should_stop = [&] { return started > 2; },  // in the third level
+                            .on_run = [&](int, int, const std::string&) { ++started; }}));
+    const auto last = folder / "study/references/steps-2/frames/bar_000004.pent";
+    Frame<4> frame = read_frame<4>(last);
+    const Eigen::Index vertices = frame.positions.cols();
+    frame.positions.conservativeResize(4, vertices - 1);
+    frame.velocities.conservativeResize(4, vertices - 1);
+    write_frame(last, frame);
+    expect_contains(pent::test::error_of([&] { static_cast<void>(run_study(options)); }),
+                    {last.string(), "has " + std::to_string(vertices - 1) + " vertices",
+                     "expected " + std::to_string(vertices)});
+}
+
 TEST(RunStudy, ReportsSettingsThatDiverge) {
     const TempFolder folder;
     const StudyReport report =
@@ -126,6 +180,16 @@ TEST(PentStudy, ChoosesSettingsAndWritesASceneThatRuns) {
     const auto json = nlohmann::json::parse(text_of(folder / "study.json"));
     EXPECT_EQ(json.at("verdict"), "finished");
     EXPECT_EQ(json.at("runs"), 2);
+}
+
+TEST(PentStudy, SaysWhySettingsDidNotFinish) {
+    const TempFolder folder;
+    const Outcome outcome = run_program(
+        "pent-study " + test::write_bar(folder).string() + " -o " + (folder / "study").string()
+        + " --vary max_iterations=1 --vary max_halvings=0 --vary dt=1/30 --repeat 1");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    expect_contains(outcome.out, {"max_iterations=1 max_halvings=0 dt=1/30: diverged: ",
+                                  "did not reach its tolerance"});
 }
 
 TEST(PentStudy, SaysInOneLineWhatItDoesNotUnderstand) {
@@ -185,6 +249,21 @@ TEST(RunStudy, VariesTheModelOfContactAndRefusesWhatDoesNotGoTogether) {
     EXPECT_GT(report.results[3].errors.contact_work, 0);
     const std::string csv = text_of(folder / "study/study.csv");
     EXPECT_EQ(std::ranges::count(csv, '\n'), 5);
+}
+
+TEST(RunStudy, SaysWhyAReferenceDoesNotRunToItsEnd) {
+    const TempFolder folder;
+    const std::filesystem::path scene = write_collision(folder);
+    std::string text = text_of(scene);
+    text.replace(text.find("[0.55,"), 6, "[0.45,");  // one cube in the other
+    std::ofstream(scene) << text << "model = \"barrier\"\n[solver]\nintegrator = \"bdf2\"\n";
+    const StudyOptions options{.scene = scene,
+                               .folder = folder / "study",
+                               .vary = {"dt=1/30"},
+                               .repeats = 1,
+                               .programs = PENT_BIN};
+    expect_contains(pent::test::error_of([&] { static_cast<void>(run_study(options)); }),
+                    {"the reference (bdf2, dt = 0.0333 s) does not run to its end", "pent-sim: "});
 }
 
 TEST(RunStudy, VariesTheSettingsOfTheLinearSolver) {
@@ -271,6 +350,27 @@ preset = "accurate"
     EXPECT_LT(error(2), error(0));      // coarse: smoothed instead of linear
     EXPECT_LT(error(3), error(1) / 3);  // fine: that of the reference itself but for its steps
     expect_contains(text_of(folder / "study/references/steps-8.toml"), {"elements = \"smoothed\""});
+}
+
+TEST(RunStudy, RefusesLevelsOfDifferentShape) {
+    const TempFolder folder;
+    const std::filesystem::path scene =
+        test::write_bar(folder, "[solver]\npreset = \"accurate\"\n");
+    std::string text = text_of(scene);
+    text.replace(text.find("[[constraint"), 0, "recipe = \"--no-need-to-make-it\"\n");
+    std::ofstream(scene) << text;
+    const std::filesystem::path meshes = folder / "study/meshes";
+    std::filesystem::create_directories(meshes);
+    using pent::test::kuhn_box;
+    write_mesh(meshes / "bar.layers-1.pent", kuhn_box<4>({2, 1, 1, 1}, {2, 0.5, 0.5, 0.5}));
+    write_mesh(meshes / "bar.layers-2.pent", kuhn_box<4>({2, 1, 1, 1}, {1, 0.5, 0.5, 0.5}));
+    const StudyOptions options{.scene = scene,
+                               .folder = folder / "study",
+                               .vary = {"layers=1,2"},
+                               .repeats = 1,
+                               .programs = PENT_BIN};
+    expect_contains(pent::test::error_of([&] { static_cast<void>(run_study(options)); }),
+                    {"different shapes", "of one body"});
 }
 
 TEST(RunStudy, RefusesOptionsOutOfRange) {
