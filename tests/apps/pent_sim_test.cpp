@@ -120,6 +120,16 @@ TEST_F(FallingCubes, NeverTouchAndPentSimSaysSo) {
     expect_contains(outcome.out, {"contact: nothing has touched", "at most 0 pairs"});
 }
 
+TEST_F(FallingCubes, AreWarnedOfADistanceOfContactNearTheLengthOfTheirEdges) {
+    std::string text = test::text_of(folder_ / "fall.toml");
+    text.replace(text.find("distance = 0.04"), 15, "distance = 0.4");
+    std::ofstream(folder_ / "fall.toml") << text;
+    const Outcome outcome =
+        test::run_program("pent-sim " + path("fall.toml") + " -o " + path("run"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    expect_contains(outcome.out, {"warning: contact distance 0.4 m", "of body 'a'", "of body 'b'"});
+}
+
 TEST_F(FallingCubes, AreExplainedWithoutBeingRun) {
     const Outcome outcome = test::run_program("pent-sim " + path("fall.toml") + " --explain --json "
                                               + path("report.json"));

@@ -139,6 +139,13 @@ TEST(Repair, RefusesWhatHasNoInside) {
     test::expect_contains(message_for(tilted, Repair::Wrap), {"in a plane"});
 }
 
+TEST(NameOf, TellsWaysOfMendingApart) {
+    EXPECT_EQ(name_of(Repair::None), "none");
+    EXPECT_EQ(name_of(Repair::Light), "light");
+    EXPECT_EQ(name_of(Repair::Wrap), "wrap");
+    EXPECT_EQ(name_of(Repair::Auto), "auto");
+}
+
 TEST(Repair, DoesNoMoreThanAllowed) {
     test::expect_contains(message_for(model("dirty/d_open.off"), Repair::None),
                           {"3 border edges", "mended"});

@@ -67,6 +67,23 @@ TEST_F(ViewerPrograms, RenderAPictureOfTheLastFrame) {
     EXPECT_TRUE(std::filesystem::exists(folder / "a.png"));
 }
 
+TEST_F(ViewerPrograms, ExportForcesOfContactWithTheBoundaryWhereFramesHaveThem) {
+    const std::string command =
+        "pent-slice " + at("run") + " --frames 2 --boundary --format vtu -o ";
+    const auto has_force = [&](const std::string& out) {
+        const Outcome outcome = run_program(command + at(out));
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return pent::test::text_of(folder / out / "a_boundary_000002.vtu").find("\"force\"")
+               != std::string::npos;
+    };
+    EXPECT_FALSE(has_force("without"));
+    const std::filesystem::path path = folder / "run/frames/a_000002.pent";
+    Frame<4> frame = read_frame<4>(path);
+    frame.contact_forces = frame.velocities;
+    write_frame(path, frame);
+    EXPECT_TRUE(has_force("with"));
+}
+
 TEST_F(ViewerPrograms, TakeTheRangeOfColorsAndThePlaceOfTheEyeAsTold) {
     const std::string color = " --size 64x48 --color speed -o ";
     ASSERT_EQ(
@@ -84,6 +101,17 @@ TEST_F(ViewerPrograms, TakeTheRangeOfColorsAndThePlaceOfTheEyeAsTold) {
     };
     EXPECT_NE(outline_in("near"), "");
     EXPECT_NE(outline_in("near"), outline_in("far"));
+}
+
+TEST_F(ViewerPrograms, RenderAMovieWithFfmpeg) {
+    if (std::system("command -v ffmpeg >/dev/null 2>&1") != 0) {  // NOLINT(cert-env33-c)
+        GTEST_SKIP() << "no ffmpeg";
+    }
+    const Outcome outcome =
+        run_program("pent-render " + at("run") + " --size 64x48 -o " + at("a.mp4"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(pent::test::text_of(folder / "a.mp4").substr(4, 4), "ftyp");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a_pictures"));
 }
 
 TEST_F(ViewerPrograms, FallBackToPicturesWithoutFfmpeg) {

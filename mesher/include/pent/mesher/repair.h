@@ -42,7 +42,7 @@ struct Repaired {
 /// do not suffice.
 [[nodiscard]] Repaired repair(const Surface& surface, const RepairOptions& options = {});
 
-/// "none", "light" or "wrap".
+/// "none", "light", "wrap" or "auto".
 [[nodiscard]] std::string name_of(Repair repair);
 
 }  // namespace pent::mesher

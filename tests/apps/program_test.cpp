@@ -1,0 +1,44 @@
+#include "common/program.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <stdexcept>
+
+namespace pent::apps {
+namespace {
+
+constexpr std::array<const char*, 3> kCommand = {"pent-try", "--json", "/no/such/folder/a.json"};
+
+Program program() {
+    return {"pent-try", "Tries things", "pent-try"};
+}
+
+// As libraries of others throw them.
+TEST(Program, SaysTheErrorOfSeveralLinesInOne) {
+    Program tried = program();
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(
+        tried.run(1, kCommand.data(), []() -> Verdict { throw std::runtime_error("no\nway\n\n"); }),
+        1);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "pent-try: no way\n");
+}
+
+TEST(Program, IsRefusedWhereItsReportCannotBeWritten) {
+    Program tried = program();
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(tried.run(3, kCommand.data(), [] { return Verdict::Finished; }), 1);
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("/no/such/folder"), std::string::npos);
+}
+
+TEST(Program, AbandonedSaysSoAndThatItsReportCannotBeWritten) {
+    Program tried = program();
+    EXPECT_EXIT(static_cast<void>(tried.run(
+                    3, kCommand.data(),
+                    [&]() -> Verdict { tried.abandon(Verdict::Stopped, "stopped as asked"); })),
+                testing::ExitedWithCode(3),
+                "pent-try: stopped as asked\npent-try: /no/such/folder");
+}
+
+}  // namespace
+}  // namespace pent::apps
