@@ -48,6 +48,27 @@ integrator = "newton_euler"
     return nlohmann::json::parse(test::text_of(folder / "all"));
 }
 
+// A run that goes on from a frame in which everything is at one point: no force is left to undo that.
+TEST(PentSim, SaysThatElementsHaveCollapsed) {
+    const pent::test::TempFolder folder;
+    write_mesh(folder / "box.pent", pent::test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1}));
+    const auto run = [&](int frames, const char* how) {
+        std::ofstream(folder / "box.toml") << "[scene]\nframes = " << frames
+                                           << "\n[[body]]\nname = \"box\"\nmesh = \"box.pent\"\n";
+        return test::run_program("pent-sim " + (folder / "box.toml").string() + " -o "
+                                 + (folder / "run").string() + how);
+    };
+    ASSERT_EQ(run(1, "").exit_code, 0);
+    const auto path = folder / "run/frames/box_000001.pent";
+    Frame<4> frame = read_frame<4>(path);
+    frame.positions.setZero();
+    write_frame(path, frame);
+    const Outcome outcome = run(2, " --resume");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    expect_contains(outcome.out,
+                    {"24 of 24 elements have collapsed", "finished with collapsed elements"});
+}
+
 TEST(PentSim, SaysThatElementsAreInsideOut) {
     Outcome outcome;
     const nlohmann::json report = push_through(-2, "", outcome);  // the ends have changed sides

@@ -119,6 +119,26 @@ TEST(Filter, ChangesNoElementWhereItIsOffAndThoseWithNegativeEigenvaluesWhereItI
     }
 }
 
+// Long steps leave the masses no say: conjugate gradients meet a direction of negative curvature.
+TEST(Filter, IsClampWhereTheMatrixIsNotPositiveDefiniteWithoutIt) {
+    Scene scene = test::box_scene<4>();
+    Positions<4> of_clamp;
+    for (const Filter filter : {Filter::Clamp, Filter::None}) {
+        scene.solver.filter = filter;
+        Simulation<4> simulation(scene, {cube<4>()});
+        simulation.set_state(0, 0.7 * simulation.positions(0), simulation.velocities(0));
+        const StepReport report = simulation.step();
+        ASSERT_TRUE(report.is_accepted) << report.failure;
+        if (filter == Filter::Clamp) {
+            of_clamp = simulation.positions(0);
+            EXPECT_EQ(report.hessians, kElements);
+        } else {
+            EXPECT_EQ(report.hessians, 2 * kElements);
+            EXPECT_EQ(Positions<4>(simulation.positions(0)), of_clamp);
+        }
+    }
+}
+
 TEST(History, IsKeptForBdf2Alone) {
     Scene scene = test::box_scene<4>();
     for (const Integrator integrator :
