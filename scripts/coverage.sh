@@ -6,8 +6,8 @@
 #
 # Programs that tests start count as well, those that tests kill or start as another user do not. Lines
 # of code that exists once for each dimension or number type count once. Left out are lines marked
-# GCOVR_EXCL, with the reason beside them. The compiler puts functions into their callers after it has begun
-# to count (-fno-early-inlining), not before; a few of templates are said to be never called all the same.
+# GCOVR_EXCL, with the reason beside them. Functions of one line that the compiler puts into their callers
+# before it counts are said to be never called although they are.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
