@@ -2,6 +2,8 @@
 
 #include "support/temp_folder.h"
 
+#include <gtest/gtest.h>
+
 #include <cstdlib>
 #include <fstream>
 #include <sstream>

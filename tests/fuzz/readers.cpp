@@ -4,6 +4,7 @@
 #include "rest_file.h"
 #include "resume.h"
 #include "run_report.h"
+#include "support/temp_folder.h"
 #ifdef PENT_FUZZ_STUDY
 #include "record.h"
 #include "trajectory.h"
@@ -27,8 +28,6 @@
 #include <iterator>
 #include <optional>
 #include <string>
-#include <sys/mman.h>
-#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -48,16 +47,8 @@ void require(bool holds, const char* law) {
 
 // A folder of this process in memory, for readers that look at the ending of a name.
 const fs::path& folder() {
-    static const fs::path path = [] {
-        std::string name = "/dev/shm/pent-fuzz-XXXXXX";
-        require(::mkdtemp(name.data()) != nullptr, "a folder in /dev/shm can be made");
-        std::atexit([] {
-            std::error_code ignored;
-            fs::remove_all(path, ignored);
-        });
-        return fs::path(name);
-    }();
-    return path;
+    static const test::TempFolder folder("/dev/shm");
+    return folder.path();
 }
 
 std::string content(const fs::path& path) {

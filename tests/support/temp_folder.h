@@ -1,20 +1,21 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <system_error>
 
 namespace pent::test {
 
 /// A new empty folder for one test, removed with everything in it at the end.
 class TempFolder {
 public:
-    TempFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "pent-test-XXXXXX").string();
+    explicit TempFolder(
+        const std::filesystem::path& parent = std::filesystem::temp_directory_path()) {
+        std::string name = (parent / "pent-test-XXXXXX").string();
         if (::mkdtemp(name.data()) == nullptr) {
-            ADD_FAILURE() << "cannot make a temporary folder like " << name;
+            throw std::system_error(errno, std::generic_category(), name);
         }
         path_ = name;
     }
