@@ -9,16 +9,10 @@ ShakenBeam::ShakenBeam(SimplexMesh<4> box, ElementKind kind)
     const std::vector<bool> is_held(mesh.columns.size(), false);
     numbering = number_unknowns<4>(mesh.cells, is_held, mesh.columns, mesh.layers);
     const std::vector<CellRange> ranges = {{0, mesh.cell_count(), material}};
-    if (kind == ElementKind::Linear) {
-        pattern = make_pattern<4>(mesh.cells, numbering);
-        elements =
-            std::make_unique<Elements<4>>(mesh.positions, mesh.cells, ranges, numbering, pattern);
-    } else {
-        const std::vector<SmoothingDomains<4>> domains = {
-            smoothing_domains<4>(mesh.positions, mesh.cells, 0, mesh.cell_count())};
-        pattern = make_pattern<4>(domains, numbering);
-        elements = std::make_unique<Elements<4>>(domains, ranges, numbering, pattern);
-    }
+    ElementLayout<4> layout =
+        lay_out_elements<4>(mesh.positions, mesh.cells, ranges, numbering, kind);
+    pattern = std::move(layout.pattern);
+    elements = std::make_unique<Elements<4>>(std::move(layout.elements));
     std::mt19937 random(1);
     std::normal_distribution<double> normal(0, 0.01);
     positions = mesh.positions.unaryExpr([&](double x) { return x + normal(random); });

@@ -27,7 +27,7 @@ struct Locking {
     double at_032;
 };
 constexpr Locking kLinear[] = {{1, 0.27, 0.20, 0.12}, {2, 0.57, 0.43, 0.25}, {4, 0.84, 0.72, 0.52}};
-constexpr Locking kSmoothed[] = {{1, 0.64, 0.49, 0.30}, {2, 0.96, 0.83, 0.66}, {4, 1, 0.94, 0.88}};
+constexpr Locking kSmoothed[] = {{1, 0.64, 0.49, 0.30}, {2, 0.96, 0.83, 0.67}, {4, 1, 0.94, 0.88}};
 
 // More bend than this is right.
 constexpr double kBends = 0.9;

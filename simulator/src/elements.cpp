@@ -312,6 +312,34 @@ std::int64_t Elements<Dim>::bytes() const {
                                            * sizeof(std::uint32_t));
 }
 
+template <int Dim>
+ElementLayout<Dim> lay_out_elements(const Positions<Dim>& rest,
+                                    const Simplices<Dim + 1>& cells,
+                                    const std::vector<CellRange>& ranges,
+                                    const Numbering& numbering,
+                                    ElementKind kind) {
+    if (kind == ElementKind::Linear) {
+        BlockPattern pattern = make_pattern<Dim>(cells, numbering);
+        Elements<Dim> elements(rest, cells, ranges, numbering, pattern);
+        return {std::move(pattern), std::move(elements)};
+    }
+    std::vector<SmoothingDomains<Dim>> domains;
+    for (const CellRange& range : ranges) {
+        domains.push_back(smoothing_domains<Dim>(rest, cells, range.begin, range.end));
+    }
+    BlockPattern pattern = make_pattern<Dim>(domains, numbering);
+    Elements<Dim> elements(domains, ranges, numbering, pattern);
+    return {std::move(pattern), std::move(elements)};
+}
+
+#define PENT_INSTANTIATE(Dim)                                                                      \
+    template ElementLayout<Dim> lay_out_elements(const Positions<Dim>&, const Simplices<Dim + 1>&, \
+                                                 const std::vector<CellRange>&, const Numbering&,  \
+                                                 ElementKind);
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
+
 template class Elements<3>;
 template class Elements<4>;
 #define PENT_INSTANTIATE(Dim, Scalar)                                               \

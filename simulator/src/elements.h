@@ -111,4 +111,19 @@ private:
     std::int64_t count_ = 0;
 };
 
+/// Elastic elements and the pattern of the matrix they fill.
+template <int Dim>
+struct ElementLayout {
+    BlockPattern pattern;
+    Elements<Dim> elements;
+};
+
+/// Lays out elements of one kind; parameters as for the constructors of Elements.
+template <int Dim>
+[[nodiscard]] ElementLayout<Dim> lay_out_elements(const Positions<Dim>& rest,
+                                                  const Simplices<Dim + 1>& cells,
+                                                  const std::vector<CellRange>& ranges,
+                                                  const Numbering& numbering,
+                                                  ElementKind kind);
+
 }  // namespace pent::simulator

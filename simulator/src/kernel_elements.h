@@ -92,6 +92,28 @@ Tensor<Real, Dim> deformation(const Edges<Dim>& edges, const Tensor<Real, Dim>& 
     return F;
 }
 
+// Energies of a group and what tells inverted and collapsed elements: [lane].
+struct GroupEnergies {
+    alignas(64) double energy[kGroup];
+    alignas(64) double det[kGroup];
+    alignas(64) double norm[kGroup];
+
+    template <typename Real, int Dim>
+    void store(const Stress<Real, Dim>& stress, const Real& volume, int lane) {
+        Lanes<Real>::store(volume * stress.energy, energy + lane);
+        Lanes<Real>::store(stress.det, det + lane);
+        Lanes<Real>::store(stress.norm, norm + lane);
+    }
+
+    void add_to(RunEnergy& total, int elements, double collapse_norm) const {
+        for (int lane = 0; lane < elements; ++lane) {
+            total.energy += energy[lane];
+            total.inverted += det[lane] > 0 ? 0 : 1;
+            total.collapsed += norm[lane] < collapse_norm ? 1 : 0;
+        }
+    }
+};
+
 template <int Dim, typename Real>
 RunEnergy add_forces(const ElementRun& run, const double* positions, double* forces) {
     constexpr int kWidth = Lanes<Real>::kCount;
@@ -100,9 +122,7 @@ RunEnergy add_forces(const ElementRun& run, const double* positions, double* for
     RunEnergy total;
     Edges<Dim> edges;
     alignas(64) double force[Dim + 1][Dim][kGroup];
-    alignas(64) double energy[kGroup];
-    alignas(64) double det[kGroup];
-    alignas(64) double norm[kGroup];
+    GroupEnergies energies;
     for (int g = 0; g < groups; ++g) {
         const Group<Dim> group = group_at<Dim>(run, g);
         gather_edges(group, positions, edges);
@@ -123,14 +143,10 @@ RunEnergy add_forces(const ElementRun& run, const double* positions, double* for
                 }
                 Lanes<Real>::store(rest_of_corners, force[0][i] + lane);
             }
-            Lanes<Real>::store(volume * stress.energy, energy + lane);
-            Lanes<Real>::store(stress.det, det + lane);
-            Lanes<Real>::store(stress.norm, norm + lane);
+            energies.store(stress, volume, lane);
         }
+        energies.add_to(total, group.elements, run.collapse_norm);
         for (int lane = 0; lane < group.elements; ++lane) {
-            total.energy += energy[lane];
-            total.inverted += det[lane] > 0 ? 0 : 1;
-            total.collapsed += norm[lane] < run.collapse_norm ? 1 : 0;
             for (int a = 0; a <= Dim; ++a) {
                 double* sum = forces + std::int64_t{Dim} * group.vertices[a * kGroup + lane];
                 for (int i = 0; i < Dim; ++i) {

@@ -113,9 +113,7 @@ RunEnergy add_smoothed_forces(const ElementRun& run, const double* positions, do
     RunEnergy total;
     GroupTensor<Real, Dim> F;
     GroupTensor<Real, Dim> pull;
-    alignas(64) double energy[kGroup];
-    alignas(64) double det[kGroup];
-    alignas(64) double norm[kGroup];
+    GroupEnergies energies;
     for (int g = 0; g < groups; ++g) {
         const Group<Dim> group = group_at<Dim>(run, g);
         deform_group(group, positions, F);
@@ -128,16 +126,10 @@ RunEnergy add_smoothed_forces(const ElementRun& run, const double* positions, do
                     pull.of_pack[pack][i][j] = volume * stress.P[i][j];
                 }
             }
-            Lanes<Real>::store(volume * stress.energy, energy + lane);
-            Lanes<Real>::store(stress.det, det + lane);
-            Lanes<Real>::store(stress.norm, norm + lane);
+            energies.store(stress, volume, lane);
         }
         scatter_pull(group, pull, forces);
-        for (int lane = 0; lane < group.elements; ++lane) {
-            total.energy += energy[lane];
-            total.inverted += det[lane] > 0 ? 0 : 1;
-            total.collapsed += norm[lane] < run.collapse_norm ? 1 : 0;
-        }
+        energies.add_to(total, group.elements, run.collapse_norm);
     }
     return total;
 }

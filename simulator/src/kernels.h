@@ -16,7 +16,8 @@ namespace pent::simulator {
 /// Elements are stored in groups of this many, one element a lane, whatever the vector width.
 inline constexpr int kGroup = 16;
 
-/// Blocks of the upper triangle of an element matrix: pairs a <= b of its corners.
+/// Blocks of the upper triangle of an element matrix: pairs a <= b of its corners. In kernels at compile time
+/// alone, see above.
 constexpr int pairs_of(int corners) {
     return corners * (corners + 1) / 2;
 }

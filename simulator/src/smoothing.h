@@ -12,8 +12,8 @@ namespace pent::simulator {
 ///
 /// A domain has an equal share of the volume of each cell at its edge, and the mean of their deformation
 /// gradients, weighted by those shares: F = sum over corners of x_a g_a^T. The energy is that of the
-/// material at F, times the volume. Unlike that of cells it does not lock in bending, and it has
-/// no zero-energy motions but the rigid ones.
+/// material at F, times the volume. It locks far less in bending than that of cells, and has no zero-energy
+/// motions but the rigid ones.
 template <int Dim>
 struct SmoothingDomains {
     std::vector<std::int64_t> start = {0};  ///< Corners of domain d: [start[d], start[d + 1]).

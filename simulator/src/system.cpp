@@ -90,20 +90,9 @@ System<Dim>::System(const Scene& scene, const World<Dim>& world, const Simulatio
 }
 
 template <int Dim>
-typename System<Dim>::Layout System<Dim>::lay_out(const Numbering& numbering) const {
-    const World<Dim>& world = *world_;
-    if (options_.elements == ElementKind::Linear) {
-        BlockPattern pattern = make_pattern<Dim>(world.cells, numbering);
-        Elements<Dim> elements(world.rest, world.cells, world.ranges, numbering, pattern);
-        return {std::move(pattern), std::move(elements)};
-    }
-    std::vector<SmoothingDomains<Dim>> domains;
-    for (const CellRange& range : world.ranges) {
-        domains.push_back(smoothing_domains<Dim>(world.rest, world.cells, range.begin, range.end));
-    }
-    BlockPattern pattern = make_pattern<Dim>(domains, numbering);
-    Elements<Dim> elements(domains, world.ranges, numbering, pattern);
-    return {std::move(pattern), std::move(elements)};
+ElementLayout<Dim> System<Dim>::lay_out(const Numbering& numbering) const {
+    return lay_out_elements<Dim>(world_->rest, world_->cells, world_->ranges, numbering,
+                                 options_.elements);
 }
 
 template <int Dim>

@@ -131,13 +131,7 @@ private:
         RunEnergy energy;
     };
 
-    /// Elastic elements and the matrix they fill.
-    struct Layout {
-        BlockPattern pattern;
-        Elements<Dim> elements;
-    };
-
-    [[nodiscard]] Layout lay_out(const Numbering& numbering) const;
+    [[nodiscard]] ElementLayout<Dim> lay_out(const Numbering& numbering) const;
     void set_up_solver();
     void find_contacts(BodyState<Dim>& state);
     template <typename Scalar>
@@ -172,7 +166,7 @@ private:
     Workers workers_;
     Isa isa_;
     const Kernels<Dim>* kernels_;
-    Layout layout_;
+    ElementLayout<Dim> layout_;
     Frozen frozen_;
     SceneContacts<Dim> contacts_;
     std::function<void(const Eigen::MatrixXd&, bool)> on_move_;

@@ -36,16 +36,10 @@ struct ElasticBox {
         }
         numbering = number_unknowns<Dim>(mesh.cells, is_held, columns, columns);
         const std::vector<CellRange> ranges = {{0, mesh.cell_count(), material}};
-        if (kind == ElementKind::Linear) {
-            pattern = make_pattern<Dim>(mesh.cells, numbering);
-            elements = std::make_unique<Elements<Dim>>(mesh.positions, mesh.cells, ranges,
-                                                       numbering, pattern);
-        } else {
-            const std::vector<SmoothingDomains<Dim>> domains = {
-                smoothing_domains<Dim>(mesh.positions, mesh.cells, 0, mesh.cell_count())};
-            pattern = make_pattern<Dim>(domains, numbering);
-            elements = std::make_unique<Elements<Dim>>(domains, ranges, numbering, pattern);
-        }
+        ElementLayout<Dim> layout =
+            lay_out_elements<Dim>(mesh.positions, mesh.cells, ranges, numbering, kind);
+        pattern = std::move(layout.pattern);
+        elements = std::make_unique<Elements<Dim>>(std::move(layout.elements));
         positions = mesh.positions;
     }
 

@@ -213,12 +213,13 @@ TEST(Explain, NamesSmoothedElementsWhereTheyHelp) {
         return advice(explain(scene, 1));
     };
     expect_contains(says(ElementKind::Linear), {"take elements = \"smoothed\""});
-    expect_contains(says(ElementKind::Smoothed), {"even smoothed elements lock", "49%"});
+    expect_contains(says(ElementKind::Smoothed), {"even smoothed elements lock"});
     scene.bodies[0].mesh = mesh;
-    expect_contains(says(ElementKind::Linear), {"4 to 5 cells thick", "72%"});
+    expect_contains(says(ElementKind::Linear),
+                    {"4 to 5 cells thick", "take elements = \"smoothed\""});
     EXPECT_EQ(says(ElementKind::Smoothed).find("lock"), std::string::npos);
     scene.bodies[0].material.lame = lame_from_young(4, 1e5, 0.33);
-    expect_contains(says(ElementKind::Smoothed), {"even smoothed elements lock", "88%"});
+    expect_contains(says(ElementKind::Smoothed), {"even smoothed elements lock"});
 }
 
 TEST(Explain, WarnsOfTurnsTooFarForALinearStep) {

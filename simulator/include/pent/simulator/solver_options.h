@@ -15,7 +15,7 @@ enum class Integrator {
 /// What the energy of a body is the sum over; docs/simulator.md compares them.
 enum class ElementKind {
     Linear,    ///< The cells of its mesh: fast, too stiff in bending where few cells are across.
-    Smoothed,  ///< Neighborhoods of edges, by the mean of their cells: does not lock in bending.
+    Smoothed,  ///< Neighborhoods of edges, by the mean of their cells: for what bends.
 };
 
 /// What becomes of the negative eigenvalues of Hessians, of elements as of contacts.
