@@ -1,40 +1,70 @@
 #include "resume.h"
 
 #include <pent/error.h>
+#include <pent/simulator/scene_file.h>
 
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace pent::simulator {
 
 namespace fs = std::filesystem;
 
-void check_same_scene(const fs::path& scene_file, const std::string& text) {
-    std::ifstream before(scene_file);
-    std::istringstream now(text);
-    std::string old_line;
-    std::string new_line;
-    const auto next = [](std::istream& lines, std::string& line) {
+namespace {
+
+// The first line in which two scenes differ but for the number of frames, of each; none: no line.
+std::optional<std::pair<std::string, std::string>> difference(const std::string& a,
+                                                              const std::string& b) {
+    std::istringstream lines_of_a(a);
+    std::istringstream lines_of_b(b);
+    std::pair<std::string, std::string> lines;
+    const auto next = [](std::istream& text, std::string& line) {
         do {
-            if (!std::getline(lines, line)) {
+            if (!std::getline(text, line)) {
                 line = "(its end)";
                 return false;
             }
         } while (line.rfind("frames = ", 0) == 0);
         return true;
     };
-    bool is_old = true;
-    bool is_new = true;
-    while (is_old && is_new) {
-        is_old = next(before, old_line);
-        is_new = next(now, new_line);
-        if (old_line != new_line) {
-            throw Error(scene_file.string() + ": is another scene than the one given: it has "
-                        + old_line + " where that has " + new_line
-                        + "; only the number of frames may change; use --force to start again");
+    bool is_in_a = true;
+    bool is_in_b = true;
+    while (is_in_a && is_in_b) {
+        is_in_a = next(lines_of_a, lines.first);
+        is_in_b = next(lines_of_b, lines.second);
+        if (lines.first != lines.second) {
+            return lines;
         }
+    }
+    return std::nullopt;
+}
+
+// As this program writes it: another may have begun the run that did not know every key yet.
+std::string written_again(const std::string& scene, const std::string& name) {
+    try {
+        return scene_text(parse_scene(scene, name, ""));
+    } catch (const Error& error) {
+        throw Error(error.what() + std::string("; use --force to start again"));
+    }
+}
+
+}  // namespace
+
+void check_same_scene(const fs::path& scene_file, const std::string& text) {
+    std::ifstream file(scene_file, std::ios::binary);
+    const std::string before{std::istreambuf_iterator<char>(file), {}};
+    if (!difference(before, text)) {
+        return;
+    }
+    if (const auto lines = difference(written_again(before, scene_file.string()), text)) {
+        throw Error(scene_file.string() + ": is another scene than the one given: it has "
+                    + lines->first + " where that has " + lines->second
+                    + "; only the number of frames may change; use --force to start again");
     }
 }
 

@@ -11,7 +11,7 @@ namespace pent::simulator {
 /// What a run folder must be to go on with the run in it. Each throws an Error that names the file and
 /// says what to do.
 
-/// The scene of the folder is this one, but for the number of frames.
+/// The scene of the folder is this one, but for the number of frames. Keys that it lacks have their defaults.
 ///
 /// @param text  As scene_text() gives it.
 void check_same_scene(const std::filesystem::path& scene_file, const std::string& text);
