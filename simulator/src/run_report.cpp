@@ -177,7 +177,8 @@ std::string report_text(const RunReport& report,
     for (const StepReport& step : report.steps) {
         json["steps"].push_back(step_json(step));
     }
-    return json.dump(1) + "\n";
+    // Messages name files, whose names may have bytes that are not UTF-8.
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 ReportHistory parse_history(const std::string& text,

@@ -18,6 +18,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Paths may have bytes that are not UTF-8.
+std::string text_of(const Json& json) {
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 Json to_json(const Errors& errors) {
     return {{"position", errors.position},
             {"position_m", errors.position_m},
@@ -115,7 +120,7 @@ void write_record(const std::filesystem::path& path, const Record& record) {
                        {"meshes", record.meshes},
                        {"scene", record.scene},
                        {"reference", record.reference}};
-    write_text(path, json.dump(1) + "\n");
+    write_text(path, text_of(json));
 }
 
 std::optional<Record> read_record(const std::filesystem::path& path) {
@@ -161,7 +166,7 @@ std::string study_json(const StudyReport& report, const std::string& created_by)
     }
     json["frontier"] = report.frontier;
     json["sentences"] = report.sentences;
-    return json.dump(1) + "\n";
+    return text_of(json);
 }
 
 std::string study_csv(const StudyReport& report) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,20 @@ TEST_P(EveryProgram, NamesAMissingInput) {
     expect_one_error_line(outcome, GetParam());
     expect_contains(outcome.err, {"missing.pent"});
     EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
+}
+
+TEST_P(EveryProgram, WritesAReportOfAFileWhoseNameIsNotUtf8) {
+    const test::TempFolder folder;
+    const std::string report = (folder / "report.json").string();
+    const std::string output =
+        GetParam() == "pent-check" ? "" : " -o " + (folder / "out.png").string();
+    const Outcome outcome = run_program(GetParam() + " " + (folder / "missing\xff.pent").string()
+                                        + output + " --json " + report);
+    EXPECT_EQ(outcome.exit_code, 1);
+    expect_one_error_line(outcome, GetParam());
+    const auto json = nlohmann::json::parse(test::text_of(report));  // throws unless all is UTF-8
+    EXPECT_NE(json.at("error").get<std::string>().find("missing\xef\xbf\xbd.pent"),
+              std::string::npos);
 }
 
 std::string test_name(const testing::TestParamInfo<std::string>& program) {

@@ -30,6 +30,12 @@ TEST(Record, IsReadBackAsItWasWritten) {
     EXPECT_DOUBLE_EQ(cost_of(*back, 10).seconds_per_frame, 1.0 / 30);
 }
 
+TEST(Record, MayNameFilesWhoseNamesAreNotUtf8) {
+    const pent::test::TempFolder folder;
+    write_record(folder / "r.json", {.message = "a\xff.pent: is damaged"});
+    EXPECT_EQ(read_record(folder / "r.json")->message, "a\xef\xbf\xbd.pent: is damaged");
+}
+
 TEST(Record, IsNothingWhereThereIsNoFileAndAnErrorWhereThereIsAnother) {
     const pent::test::TempFolder folder;
     EXPECT_FALSE(read_record(folder / "none.json"));
