@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.."
 seconds=${1:-60}
 shift || true
 [[ $seconds =~ ^[0-9]+$ ]] || { echo "fuzz: expected seconds, not \"$seconds\": scripts/fuzz.sh [SECONDS [READER...]]" >&2; exit 2; }
-command -v clang++ >/dev/null || { echo "fuzz: needs clang++: apt-get install clang" >&2; exit 1; }
+scripts/setup.sh --tools
 cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz
 

@@ -6,9 +6,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-for tool in clang-format clang-tidy; do
-    command -v "$tool" >/dev/null || { echo "lint: needs $tool: apt-get install $tool" >&2; exit 1; }
-done
+scripts/setup.sh --tools
 git ls-files '*.h' '*.cpp' '*.c' | xargs clang-format --dry-run --Werror
 cmake --preset dev >/dev/null
 cmake --build --preset dev --target all_verify_interface_header_sets

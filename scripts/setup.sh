@@ -2,10 +2,21 @@
 # Installs the Debian packages that Pentimento is built with, those that are missing.
 #
 #   scripts/setup.sh            what building, testing and the demo need
+#   scripts/setup.sh --tools    also what lint.sh, coverage.sh and fuzz.sh need
 #   scripts/setup.sh --check    only say what is missing; exit code 1 if anything is
 #
 # Works as root or with sudo. Safe to run again: when nothing is missing it does nothing.
 set -euo pipefail
+
+with_tools=false
+only_check=false
+for argument in "$@"; do
+    case $argument in
+        --tools) with_tools=true ;;
+        --check) only_check=true ;;
+        *) echo "setup: unknown argument $argument; expected --tools or --check" >&2; exit 2 ;;
+    esac
+done
 
 packages=(
     g++ cmake ninja-build         # build
@@ -23,6 +34,13 @@ packages=(
     ffmpeg                        # movies
     python3 python3-numpy         # the numpy reader, the table of paper.sh
 )
+if $with_tools; then
+    packages+=(
+        clang-format clang-tidy           # lint.sh
+        gcovr                             # coverage.sh
+        clang libclang-rt-14-dev llvm     # fuzz.sh: libFuzzer, names in what its sanitizers find
+    )
+fi
 
 is_installed() {
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
@@ -49,7 +67,7 @@ if [ ${#missing[@]} -eq 0 ]; then
     echo "setup: all ${#packages[@]} packages are installed"
     exit 0
 fi
-if [ "${1:-}" = --check ]; then
+if $only_check; then
     echo "setup: missing: ${missing[*]}"
     exit 1
 fi
