@@ -6,12 +6,12 @@
 #
 # Programs that tests start count as well, those that tests kill or start as another user do not. Lines
 # of code that exists once for each dimension or number type count once. Left out are lines marked
-# GCOVR_EXCL, with the reason beside them. Functions of one line that the compiler puts into their callers
-# before it counts are said to be never called although they are.
+# GCOVR_EXCL, with the reason beside them. The compiler puts functions into their callers after it has begun
+# to count (-fno-early-inlining), not before; a few of templates are said to be never called all the same.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-command -v gcovr >/dev/null || { echo "coverage: needs gcovr: apt-get install gcovr" >&2; exit 1; }
+scripts/setup.sh --tools
 cmake --preset coverage >/dev/null
 find build/coverage -name '*.gcda' -delete
 cmake --build --preset coverage
@@ -19,6 +19,7 @@ ctest --preset coverage "$@" \
     || echo "coverage: some tests failed; what they reached counts all the same"
 report=build/coverage/report
 mkdir -p $report
+trap 'rm -f ./*.gcov' EXIT  # gcovr leaves them when it is interrupted
 gcovr -j "$(nproc)" --root . --filter '(format|mesher|contact|simulator|viewer|study|apps)/' \
     --exclude-unreachable-branches --exclude-throw-branches \
     --html-details $report/index.html --json $report/coverage.json build/coverage

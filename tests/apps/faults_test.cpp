@@ -125,8 +125,8 @@ TEST_F(Faults, RunKilledAtAnyMomentGoesOnToTheSameBytesAndLosesNoFrame) {
     int kills = 0;
     int frames = 0;
     for (int attempt = 0; attempt < 5; ++attempt) {
-        const std::string timeout =
-            "timeout -s KILL " + std::to_string(share(random) * whole.count());
+        const std::string timeout = std::string(test::kUncounted) + "timeout -s KILL "
+                                    + std::to_string(share(random) * whole.count());
         // A run killed before its first frame has nothing to resume and is started again.
         const Outcome outcome = simulate("run", frames > 0 ? "--resume" : "--force", timeout);
         kills += outcome.exit_code != 0 ? 1 : 0;
@@ -160,7 +160,7 @@ TEST_F(Faults, InterruptEndsAtTheNextStepWithAVerdictAndCanBeResumed) {
 
 // A limit on the size of files stands for a full disk: report.json, at its end, is larger than any other.
 TEST_F(Faults, FullDiskIsOneLineAndTheRunGoesOnWhenThereIsRoom) {
-    const Outcome full = simulate("run", "", "prlimit --fsize=40000");
+    const Outcome full = simulate("run", "", test::full_disk(40000));
     EXPECT_EQ(full.exit_code, 1);
     expect_one_error_line(full, "pent-sim");
     expect_contains(full.err, {"report.json", "cannot be written"});
@@ -230,6 +230,29 @@ TEST_F(Faults, AnyOtherChangeOfTheSceneIsRefused) {
     expect_contains(outcome.err, {"run/scene.toml", "tolerance", "--force"});
     EXPECT_EQ(text_of(folder_ / "run/report.json"), before);
     EXPECT_EQ(count_frames("run"), kFrames / 2 + 1);
+}
+
+// As if an older program, which did not know the key, had begun the run.
+TEST_F(Faults, KeyThatTheSceneOfTheRunLacksHasItsDefault) {
+    make_half();
+    std::string scene = text_of(folder_ / "run/scene.toml");
+    const std::string key = "elements = \"linear\"\n";
+    ASSERT_NE(scene.find(key), std::string::npos);
+    scene.erase(scene.find(key), key.size());
+    std::ofstream(folder_ / "run/scene.toml") << scene;
+    ASSERT_EQ(simulate("run", "--resume").exit_code, 0);
+    ASSERT_EQ(simulate("whole").exit_code, 0);
+    expect_same_frames("whole", "run");
+    EXPECT_EQ(text_of(folder_ / "run/scene.toml"), text_of(folder_ / "whole/scene.toml"));
+}
+
+TEST_F(Faults, DamagedSceneOfTheRunIsNamed) {
+    make_half();
+    std::ofstream(folder_ / "run/scene.toml") << "[scene\n";
+    const Outcome outcome = simulate("run", "--resume");
+    EXPECT_EQ(outcome.exit_code, 1);
+    expect_one_error_line(outcome, "pent-sim");
+    expect_contains(outcome.err, {"run/scene.toml:1:", "--force"});
 }
 
 TEST_F(Faults, DamagedFrameIsNamedAndItsRemovalLetsTheRunGoOn) {

@@ -27,7 +27,7 @@ inline std::string text_of(const std::filesystem::path& path) {
 /// Runs one of our programs by the shell.
 ///
 /// @param command  As typed, beginning with the program's name.
-/// @param before   Shell commands in front, as in "ulimit -f 1;".
+/// @param before   What to put in front, as in "ulimit -v 1000000;".
 [[nodiscard]] inline Outcome run_program(const std::string& command,
                                          const std::string& before = "") {
     const TempFolder folder;
@@ -37,6 +37,15 @@ inline std::string text_of(const std::filesystem::path& path) {
     const int status = std::system(line.c_str());  // NOLINT(cert-env33-c)
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / "out"),
             text_of(folder / "err")};
+}
+
+/// What to put before a command that writes its files by halves, by a limit or a kill: counts of coverage
+/// are written into files, too, and would damage those of other runs.
+inline constexpr const char* kUncounted = "env GCOV_PREFIX=/dev/null GCOV_ERROR_FILE=/dev/null ";
+
+/// What to put before a command so that no file of over so many bytes can be written, as on a full disk.
+[[nodiscard]] inline std::string full_disk(int bytes) {
+    return std::string(kUncounted) + "prlimit --fsize=" + std::to_string(bytes);
 }
 
 /// What to put before a command so that Ctrl-C ends it as soon as a file exists.

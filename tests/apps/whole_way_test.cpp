@@ -204,7 +204,7 @@ TEST_F(WholeWay, SlicesAndPicturesComeOut) {
 // A limit on file size stands for a full disk: the same calls fail, in the same place.
 TEST_F(WholeWay, FullDiskIsOneLineAndLeavesNothingHalfWritten) {
     make_mesh();
-    const std::string limit = "ulimit -f 8;";  // 4 or 8 KiB, by the shell
+    const std::string limit = test::full_disk(4096);
     const Outcome mesh = run_program(
         "pent-mesh " + path("ball.obj") + " -o " + path("full.pent") + " --thickness 0.6", limit);
     EXPECT_EQ(mesh.exit_code, 1);

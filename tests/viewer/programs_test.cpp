@@ -151,8 +151,7 @@ TEST_F(ViewerPrograms, RefuseUnknownColorsAndFormatsAsWrongUsage) {
 }
 
 TEST_F(ViewerPrograms, LeaveNothingBehindOnAFullDisk) {
-    // Files of over 1 KiB cannot be written; SIGXFSZ is ignored as by anyone who wants an error.
-    const std::string full = "trap '' XFSZ; ulimit -f 1;";
+    const std::string full = pent::test::full_disk(1024);
     expect_refused("pent-slice", at("run") + " -o " + at("out"), "cannot be written", full);
     expect_refused("pent-render", at("run") + " -o " + at("b.png"), "cannot be written", full);
     EXPECT_FALSE(std::filesystem::exists(folder / "b.png"));
@@ -163,8 +162,8 @@ TEST_F(ViewerPrograms, LeaveNoMovieOnAFullDisk) {
     if (std::system("command -v ffmpeg >/dev/null 2>&1") != 0) {  // NOLINT(cert-env33-c)
         GTEST_SKIP() << "no ffmpeg";
     }
-    const Outcome outcome = run_program("pent-render " + at("run") + " -o " + at("a.mp4"),
-                                        "trap '' XFSZ; ulimit -f 4;");
+    const Outcome outcome =
+        run_program("pent-render " + at("run") + " -o " + at("a.mp4"), pent::test::full_disk(4096));
     EXPECT_EQ(outcome.exit_code, 1);
     expect_one_error_line(outcome, "pent-render");
     EXPECT_FALSE(std::filesystem::exists(folder / "a.mp4"));
