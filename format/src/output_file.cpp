@@ -47,11 +47,19 @@ std::filesystem::path temporary_for(const std::filesystem::path& path) {
 
 }  // namespace
 
-OutputFile::OutputFile(std::filesystem::path path)
-    : path_(std::move(path)), temporary_(temporary_for(path_)) {
-    if (path_.filename().empty() || std::filesystem::is_directory(path_)) {
+OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)), target_(path_) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path_, ignored);
+    if (path_.filename().empty() || fs::is_directory(status)) {
         fail(path_, EISDIR);
     }
+    if (fs::is_regular_file(status) && fs::is_symlink(path_, ignored)) {
+        target_ = fs::canonical(path_);
+    }
+    // A file must not take the place of a device or a pipe.
+    const bool is_stream = fs::exists(status) && !fs::is_regular_file(status);
+    temporary_ = is_stream ? target_ : temporary_for(target_);
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (descriptor_ < 0) {
         fail(path_, errno);
@@ -62,7 +70,7 @@ OutputFile::~OutputFile() {
     if (descriptor_ >= 0) {
         ::close(descriptor_);
     }
-    if (!temporary_.empty()) {
+    if (!temporary_.empty() && temporary_ != target_) {
         ::unlink(temporary_.c_str());
     }
 }
@@ -88,7 +96,7 @@ void OutputFile::close() {
 
 void OutputFile::commit() {
     close();
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0) {
+    if (temporary_ != target_ && ::rename(temporary_.c_str(), target_.c_str()) != 0) {
         fail(path_, errno);
     }
     temporary_.clear();

@@ -11,6 +11,8 @@
 #include <fstream>
 #include <string>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
 
 namespace pent {
@@ -46,6 +48,41 @@ TEST(OutputFile, LeavesTheOldFileAndNothingElseWhenGivenUp) {
     }
     EXPECT_EQ(text_of(folder / "a.txt"), "old");
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(OutputFile, KeepsALinkAndWritesWhatItLeadsTo) {
+    const test::TempFolder folder;
+    make_folder(folder / "far");
+    write_text(folder / "far/a.txt", "old");
+    std::filesystem::create_symlink("far/a.txt", folder / "link");
+    write_text(folder / "link", "new");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_EQ(text_of(folder / "far/a.txt"), "new");
+    std::filesystem::remove(folder / "far/a.txt");
+    write_text(folder / "link", "newer");  // leads nowhere: a file takes its place
+    EXPECT_EQ(text_of(folder / "link"), "newer");
+}
+
+TEST(OutputFile, NeverTakesThePlaceOfADevice) {
+    const test::TempFolder folder;
+    std::filesystem::create_symlink("/dev/null", folder / "null");
+    write_text(folder / "null", "nothing");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "null"));
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+    std::filesystem::create_symlink("/dev/full", folder / "full");
+    expect_contains(error_of([&] { write_text(folder / "full", "x"); }),
+                    {"full: cannot be written", "No space left", "free some space"});
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST(OutputFile, IsWhatTheReaderOfAPipeGets) {
+    const test::TempFolder folder;
+    const std::filesystem::path pipe = folder / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    std::thread writer([&] { write_text(pipe, "through"); });
+    EXPECT_EQ(text_of(pipe), "through");
+    writer.join();
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 TEST(OutputFile, SaysWhatToDoWhenItsFolderIsMissing) {

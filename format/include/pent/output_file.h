@@ -9,7 +9,8 @@ namespace pent {
 /// A file that appears under its name whole or not at all.
 ///
 /// Bytes go to `.NAME.PID.tmp` in the same folder; commit() renames it. Without commit() the
-/// temporary file is removed. Every function throws an Error that names the path, what failed
+/// temporary file is removed. A link stays, and what it leads to is written. Devices and pipes, as
+/// /dev/stdout, are written to at once. Every function throws an Error that names the path, what failed
 /// (no such folder, permission, disk full) and what to do.
 class OutputFile {
 public:
@@ -32,8 +33,9 @@ public:
 private:
     void close();
 
-    std::filesystem::path path_;
-    std::filesystem::path temporary_;
+    std::filesystem::path path_;       // as given, for messages
+    std::filesystem::path target_;     // what is to have the bytes
+    std::filesystem::path temporary_;  // what has them; the target, if no file; empty at the end
     int descriptor_ = -1;
 };
 
