@@ -124,6 +124,15 @@ int Program::fail(const std::string& message) {
     return exit_code(Verdict::Refused);
 }
 
+int Program::end(int code) {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) {
+        return code;
+    }
+    const int refused =
+        fail("standard output: cannot be written; free some space or print elsewhere");
+    return code != 0 ? code : refused;
+}
+
 void Program::write_report(Verdict verdict, const std::string& error) {
     if (common_.json.empty()) {
         return;
@@ -158,7 +167,7 @@ int Program::run(int argc, const char* const* argv, const std::function<Verdict(
     try {
         cli_.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help and --version
-        return cli_.exit(success);
+        return end(cli_.exit(success));
     } catch (const CLI::ParseError& error) {
         const std::string unknown = unknown_option(cli_);
         fail((unknown.empty() ? error.what() : unknown) + " (see " + name_ + " --help)");
@@ -186,7 +195,7 @@ int Program::run(int argc, const char* const* argv, const std::function<Verdict(
             return fail(report_error.what());
         }
     }
-    return error.empty() ? exit_code(verdict) : fail(error);
+    return end(error.empty() ? exit_code(verdict) : fail(error));
 }
 
 }  // namespace pent::apps

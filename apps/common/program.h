@@ -55,6 +55,7 @@ public:
 
 private:
     int fail(const std::string& message);
+    int end(int code);  // this, but not 0 if what was printed has not arrived
     void write_report(Verdict verdict, const std::string& error);
 
     std::string name_;

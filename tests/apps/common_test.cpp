@@ -37,6 +37,15 @@ TEST_P(EveryProgram, ShowsHelpWithAnExampleThatItParses) {
                                   "--quiet", "--json"});
 }
 
+TEST_P(EveryProgram, SaysThatWhatItPrintsDoesNotArrive) {
+    const test::TempFolder folder;
+    const std::string err = (folder / "err").string();
+    const std::string line = PENT_BIN "/" + GetParam() + " --help >/dev/full 2>" + err;
+    EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 1);  // NOLINT(cert-env33-c)
+    EXPECT_EQ(test::text_of(err), GetParam() + ": standard output: cannot be written;"
+                                  " free some space or print elsewhere\n");
+}
+
 TEST_P(EveryProgram, SaysItsVersion) {
     const Outcome outcome = run_program(GetParam() + " --version");
     EXPECT_EQ(outcome.exit_code, 0);
