@@ -105,7 +105,7 @@ struct SelectionWriter {
 std::string selections(const std::vector<Selection>& select) {
     for (const Selection& selection : select) {
         if (std::holds_alternative<EverythingSelection>(selection)) {
-            return in_quotes("everything");
+            return SelectionWriter{}(EverythingSelection{});  // whatever else there is
         }
     }
     return list(select, [](const Selection& selection) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <new>
 #include <stdexcept>
 
 namespace pent::apps {
@@ -22,6 +23,13 @@ TEST(Program, SaysTheErrorOfSeveralLinesInOne) {
         tried.run(1, kCommand.data(), []() -> Verdict { throw std::runtime_error("no\nway\n\n"); }),
         1);
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "pent-try: no way\n");
+}
+
+TEST(Program, SaysThatMemoryRanOut) {
+    Program tried = program();
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(tried.run(1, kCommand.data(), []() -> Verdict { throw std::bad_alloc(); }), 1);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "pent-try: out of memory\n");
 }
 
 TEST(Program, IsRefusedWhereItsReportCannotBeWritten) {

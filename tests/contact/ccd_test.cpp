@@ -170,6 +170,21 @@ TYPED_TEST(CcdTest, KeepsPointsOutOfObstacles) {
     }
 }
 
+// Past the top of a ball so near that ten thousand advances do not get by: as far as is safe, no farther.
+TYPED_TEST(CcdTest, GivesUpSafelyWhereItWouldTakeTooLong) {
+    constexpr int kDim = TypeParam::value;
+    constexpr double kGap = 1e-9;
+    const Obstacle<kDim> ball = Ball<kDim>{Vector<kDim>::Zero(), 1};
+    const Vector<kDim> point = (1 + kGap) * Vector<kDim>::Unit(1);
+    const Vector<kDim> motion = 3 * Vector<kDim>::Unit(0);
+    const double t = safe_fraction<kDim>(ball, point, motion);
+    EXPECT_GT(3 * t, 1000 * kGap);
+    EXPECT_LT(t, 1);
+    for (int s = 0; s <= 100; ++s) {
+        ASSERT_GE(signed_distance<kDim>(ball, point + 0.01 * s * t * motion), kGapKept * kGap);
+    }
+}
+
 TYPED_TEST(CcdTest, SlidesAlongAWallInOneStep) {
     constexpr int kDim = TypeParam::value;
     const Vector<kDim> up = Vector<kDim>::Unit(1);

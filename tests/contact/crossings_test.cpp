@@ -5,6 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+#include <set>
+#include <vector>
+
 namespace pent::contact {
 namespace {
 
@@ -129,6 +134,34 @@ TYPED_TEST(CrossingsTest, WithinABodyAreFoundIfAsked) {
     scene.positions.col(0) = Vector<kDim>::LinSpaced(1.43, 2.57);
     EXPECT_TRUE(crossings_of<kDim>(scene, false).empty());
     EXPECT_GT(count(crossings_of<kDim>(scene, true), CrossingKind::Through), 0);
+}
+
+TYPED_TEST(CrossingsTest, WithinABodyAreTheSameInWhateverOrderItsCellsAre) {
+    constexpr int kDim = TypeParam::value;
+    using Simplex = std::vector<std::uint32_t>;
+    const auto pairs_of = [](SimplexMesh<kDim> mesh) {
+        mesh.positions.col(0) = Vector<kDim>::LinSpaced(1.43, 2.57);
+        test::Scene<kDim> scene;
+        scene.add(mesh, Vector<kDim>::Zero());
+        std::set<std::set<Simplex>> pairs;
+        for (Crossing crossing : crossings_of<kDim>(scene, true)) {
+            std::ranges::sort(crossing.first);
+            std::ranges::sort(crossing.second);
+            pairs.insert({crossing.first, crossing.second});
+        }
+        return pairs;
+    };
+    SimplexMesh<kDim> mesh = test::cube<kDim>(2);
+    const std::set<std::set<Simplex>> pairs = pairs_of(mesh);
+    EXPECT_FALSE(pairs.empty());
+    std::mt19937 random(8);
+    for (int i = 0; i < 5; ++i) {
+        Eigen::PermutationMatrix<Eigen::Dynamic> order(mesh.cells.cols());
+        order.setIdentity();
+        std::shuffle(order.indices().begin(), order.indices().end(), random);
+        mesh.cells = (mesh.cells * order).eval();
+        EXPECT_EQ(pairs_of(mesh), pairs);
+    }
 }
 
 TYPED_TEST(CrossingsTest, WithObstaclesAreReported) {

@@ -193,6 +193,32 @@ TYPED_TEST(ContactLaws, KeepEverythingInTheBowlAndBringItToRest) {
     }
 }
 
+// Nothing pulls, but it is thrown: it bounces about and stays within.
+TYPED_TEST(ContactLaws, KeepABodyInItsCavity) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = two_cubes<kDim>(0.1);
+    scene.bodies.pop_back();
+    scene.frames_per_second = 60;
+    const Eigen::VectorXd middle = cube<kDim>().positions.rowwise().mean();
+    scene.bodies[0].velocity = 3 * Eigen::VectorXd::Unit(kDim, 1);
+    const double radius =
+        1.5 * (cube<kDim>().positions.colwise() - middle).colwise().norm().maxCoeff();
+    scene.obstacles = {{.shape = CavityObstacle{.center = middle, .radius = radius},
+                        .distance = 0.05,
+                        .stiffness = 1e5}};
+    Simulation<kDim> simulation(scene, {cube<kDim>()});
+    int bounces = 0;
+    bool rose = true;
+    for (int i = 0; i < 120; ++i) {
+        ASSERT_TRUE(simulation.step().is_accepted);
+        ASSERT_LT((simulation.positions(0).colwise() - middle).colwise().norm().maxCoeff(), radius);
+        const bool rises = mean_velocity(simulation, 0)[1] > 0;
+        bounces += rises != rose ? 1 : 0;
+        rose = rises;
+    }
+    EXPECT_GE(bounces, 2);
+}
+
 TYPED_TEST(ContactLaws, LetAHeldMeshPushAFreeBody) {
     constexpr int kDim = TypeParam::value;
     for (const Integrator integrator : kMoving) {

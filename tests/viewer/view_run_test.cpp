@@ -276,6 +276,28 @@ TEST(RenderRun, LeavesNoMovieWhenStopped) {
     EXPECT_EQ(count_files(folder.path()), 1U);
 }
 
+// Asked before every frame that is looked at and every picture of a sheet.
+TEST(RenderRun, LeavesNoSheetWheneverItIsStopped) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0, 1, 2});
+    const RunFolder run = open_run(folder / "run");
+    RenderRunOptions options = small_pictures(run);
+    options.sheet_frames = 2;
+    bool is_complete = false;
+    int stops = 0;
+    while (!is_complete) {
+        int asked = 0;
+        const RenderRunReport report = render_run(
+            run, {.sheet = folder / "sheet.png"}, options,
+            [&](std::string_view, std::int64_t, std::int64_t) { return asked++ != stops; });
+        // The last times it is told, not asked: all is done.
+        is_complete = report.is_complete;
+        EXPECT_EQ(std::filesystem::exists(folder / "sheet.png"), is_complete);
+        ++stops;
+    }
+    EXPECT_GE(stops, 3);
+}
+
 TEST(RenderRun, SweepsTheHyperplaneAtEveryFrame) {
     const TempFolder folder;
     write_run(folder / "run", "a", {0, 1});
