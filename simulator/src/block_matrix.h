@@ -15,7 +15,7 @@ namespace pent::simulator {
 /// Starts arrays at cache lines, so that no 4 x 4 block of floats lies across two.
 template <typename Value>
 struct LineAllocator {
-    using value_type = Value;
+    using value_type = Value;  // NOLINT(readability-identifier-naming): as allocators must
     static constexpr std::align_val_t kLine{64};
 
     LineAllocator() = default;
@@ -44,7 +44,7 @@ template <int Dim, typename Scalar>
 class BlockMatrix {
 public:
     using Block = Eigen::Matrix<Scalar, Dim, Dim>;
-    static constexpr std::int64_t kEntries = Dim * Dim;
+    static constexpr std::int64_t kEntries = std::int64_t{Dim} * Dim;
 
     explicit BlockMatrix(const BlockPattern& pattern)
         : pattern_(&pattern), values_(static_cast<std::size_t>(pattern.blocks() * kEntries), 0) {}

@@ -238,7 +238,8 @@ bool System<Dim>::has_lost_inertia(const BlockMatrix<Dim, Scalar>& matrix, doubl
     if (factor == 0) {
         return false;  // statics
     }
-    constexpr double kMostRatio = 1e-2 / double{std::numeric_limits<Scalar>::epsilon()};
+    constexpr double kMostRatio =
+        1e-2 / static_cast<double>(std::numeric_limits<Scalar>::epsilon());
     const auto rows = static_cast<std::int64_t>(world_->numbering.free_count());
     const auto chunks = static_cast<int>((rows + kChunkVertices - 1) / kChunkVertices);
     return workers_.sum(chunks, [&](int chunk) {

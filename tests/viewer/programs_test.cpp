@@ -15,9 +15,9 @@ using pent::test::TempFolder;
 
 class ViewerPrograms : public testing::Test {
 protected:
-    ViewerPrograms() { test::write_run(folder / "run", "a", {0, 1, 2}); }
+    ViewerPrograms() { test::write_run(folder_ / "run", "a", {0, 1, 2}); }
 
-    [[nodiscard]] std::string at(const std::string& name) const { return (folder / name).string(); }
+    [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
 
     // Expects exit code 1 with one line on stderr that has `part` in it.
     void expect_refused(const std::string& program,
@@ -30,7 +30,7 @@ protected:
         EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
     }
 
-    TempFolder folder;
+    TempFolder folder_;
 };
 
 TEST_F(ViewerPrograms, SliceARunInTheWaysShownInTheHelp) {
@@ -54,8 +54,8 @@ TEST_F(ViewerPrograms, WriteTheSameBytesForAnyNumberOfThreads) {
         const Outcome outcome = run_program(command);
         ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     }
-    for (const auto& entry : std::filesystem::directory_iterator(folder / "out1")) {
-        const std::filesystem::path other = folder / "out3" / entry.path().filename();
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "out1")) {
+        const std::filesystem::path other = folder_ / "out3" / entry.path().filename();
         EXPECT_EQ(pent::test::text_of(entry.path()), pent::test::text_of(other)) << other;
     }
 }
@@ -64,7 +64,7 @@ TEST_F(ViewerPrograms, RenderAPictureOfTheLastFrame) {
     const Outcome outcome =
         run_program("pent-render " + at("run") + " --size 64x48 -o " + at("a.png"));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_TRUE(std::filesystem::exists(folder / "a.png"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "a.png"));
 }
 
 TEST_F(ViewerPrograms, ExportForcesOfContactWithTheBoundaryWhereFramesHaveThem) {
@@ -73,11 +73,11 @@ TEST_F(ViewerPrograms, ExportForcesOfContactWithTheBoundaryWhereFramesHaveThem) 
     const auto has_force = [&](const std::string& out) {
         const Outcome outcome = run_program(command + at(out));
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        return pent::test::text_of(folder / out / "a_boundary_000002.vtu").find("\"force\"")
+        return pent::test::text_of(folder_ / out / "a_boundary_000002.vtu").find("\"force\"")
                != std::string::npos;
     };
     EXPECT_FALSE(has_force("without"));
-    const std::filesystem::path path = folder / "run/frames/a_000002.pent";
+    const std::filesystem::path path = folder_ / "run/frames/a_000002.pent";
     Frame<4> frame = read_frame<4>(path);
     frame.contact_forces = frame.velocities;
     write_frame(path, frame);
@@ -92,12 +92,12 @@ TEST_F(ViewerPrograms, TakeTheRangeOfColorsAndThePlaceOfTheEyeAsTold) {
     ASSERT_EQ(
         run_program("pent-render " + at("run") + color + at("b.png") + " --range 0,9").exit_code,
         0);
-    EXPECT_NE(pent::test::text_of(folder / "a.png"), pent::test::text_of(folder / "b.png"));
+    EXPECT_NE(pent::test::text_of(folder_ / "a.png"), pent::test::text_of(folder_ / "b.png"));
     const std::string outline = "pent-slice " + at("run") + " --frames 0 --project perspective -o ";
     ASSERT_EQ(run_program(outline + at("near") + " --eye 5").exit_code, 0);
     ASSERT_EQ(run_program(outline + at("far") + " --eye 50").exit_code, 0);
     const auto outline_in = [&](const std::string& name) {
-        return pent::test::text_of(folder / (name + "/a_outline_000000.ply"));
+        return pent::test::text_of(folder_ / (name + "/a_outline_000000.ply"));
     };
     EXPECT_NE(outline_in("near"), "");
     EXPECT_NE(outline_in("near"), outline_in("far"));
@@ -110,8 +110,8 @@ TEST_F(ViewerPrograms, RenderAMovieWithFfmpeg) {
     const Outcome outcome =
         run_program("pent-render " + at("run") + " --size 64x48 -o " + at("a.mp4"));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_EQ(pent::test::text_of(folder / "a.mp4").substr(4, 4), "ftyp");
-    EXPECT_FALSE(std::filesystem::exists(folder / "a_pictures"));
+    EXPECT_EQ(pent::test::text_of(folder_ / "a.mp4").substr(4, 4), "ftyp");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "a_pictures"));
 }
 
 TEST_F(ViewerPrograms, FallBackToPicturesWithoutFfmpeg) {
@@ -119,7 +119,7 @@ TEST_F(ViewerPrograms, FallBackToPicturesWithoutFfmpeg) {
         "pent-render " + at("run") + " --size 64x48 -o " + at("a.mp4"), "PATH=/nonexistent");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("no ffmpeg"), std::string::npos) << outcome.out;
-    EXPECT_TRUE(std::filesystem::exists(folder / "a_pictures/000002.png"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "a_pictures/000002.png"));
 }
 
 TEST_F(ViewerPrograms, RefuseBadInputInOneLine) {
@@ -141,7 +141,7 @@ TEST_F(ViewerPrograms, RefuseBadInputInOneLine) {
     expect_refused("pent-render", at("run") + " -o " + at("a.png") + " --size 64xq", "--size");
     expect_refused("pent-render", at("run") + " --sheet " + at("a.jpg"), ".png");
     expect_refused("pent-render", at("run") + " -o " + at("a.png") + " --range 2,1", "--range");
-    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
 TEST_F(ViewerPrograms, RefuseUnknownColorsAndFormatsAsWrongUsage) {
@@ -154,8 +154,8 @@ TEST_F(ViewerPrograms, LeaveNothingBehindOnAFullDisk) {
     const std::string full = pent::test::full_disk(1024);
     expect_refused("pent-slice", at("run") + " -o " + at("out"), "cannot be written", full);
     expect_refused("pent-render", at("run") + " -o " + at("b.png"), "cannot be written", full);
-    EXPECT_FALSE(std::filesystem::exists(folder / "b.png"));
-    EXPECT_TRUE(std::filesystem::is_empty(folder / "out"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "b.png"));
+    EXPECT_TRUE(std::filesystem::is_empty(folder_ / "out"));
 }
 
 TEST_F(ViewerPrograms, LeaveNoMovieOnAFullDisk) {
@@ -166,7 +166,7 @@ TEST_F(ViewerPrograms, LeaveNoMovieOnAFullDisk) {
         run_program("pent-render " + at("run") + " -o " + at("a.mp4"), pent::test::full_disk(4096));
     EXPECT_EQ(outcome.exit_code, 1);
     expect_one_error_line(outcome, "pent-render");
-    EXPECT_FALSE(std::filesystem::exists(folder / "a.mp4"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "a.mp4"));
 }
 
 }  // namespace

@@ -66,8 +66,8 @@ public:
     struct Work {
         Range first;
         Range second;
-        Box first_box;
-        Box second_box;
+        Box first_box{};
+        Box second_box{};
     };
 
     BoxTree() = default;
