@@ -11,22 +11,29 @@
 namespace pent::apps {
 
 Watchdog::Watchdog(Program& program, double seconds)
-    : program_(program), thread_([this, seconds] { watch(seconds); }) {}
+    : program_(program), thread_([this, seconds] { watch(seconds); }) {
+    // Steps of the mesher are forks. One that is made while a thread starts may inherit a lock that nobody
+    // will ever open: allocators of sanitizers have such locks.
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return is_watching_; });
+}
 
 Watchdog::~Watchdog() {
     {
         const std::lock_guard lock(mutex_);
         is_released_ = true;
     }
-    released_.notify_one();
+    changed_.notify_one();
     thread_.join();
 }
 
 void Watchdog::watch(double seconds) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     std::unique_lock lock(mutex_);
-    while (!released_.wait_for(lock, std::chrono::milliseconds(100),
-                               [this] { return is_released_; })) {
+    is_watching_ = true;
+    changed_.notify_one();
+    while (
+        !changed_.wait_for(lock, std::chrono::milliseconds(100), [this] { return is_released_; })) {
         if (stop_requested()) {
             program_.abandon(Verdict::Stopped, "stopped as asked; no mesh was written");
         }

@@ -27,7 +27,8 @@ private:
 
     Program& program_;
     std::mutex mutex_;
-    std::condition_variable released_;
+    std::condition_variable changed_;
+    bool is_watching_ = false;
     bool is_released_ = false;
     std::thread thread_;
 };
