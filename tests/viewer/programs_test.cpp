@@ -17,7 +17,9 @@ class ViewerPrograms : public testing::Test {
 protected:
     ViewerPrograms() { test::write_run(folder_ / "run", "a", {0, 1, 2}); }
 
-    [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
+    [[nodiscard]] std::string at(const std::string& name) const {
+        return (folder_ / name).string();
+    }
 
     // Expects exit code 1 with one line on stderr that has `part` in it.
     void expect_refused(const std::string& program,
