@@ -148,9 +148,9 @@ void Program::write_report(Verdict verdict, const std::string& error) {
         json["error"] = error;
     }
     json.update(report_);
-    const auto not_utf8 =
-        nlohmann::ordered_json::error_handler_t::replace;  // paths may be anything
-    write_text(common_.json, json.dump(2, ' ', false, not_utf8) + "\n");
+    // Paths may have bytes that are not UTF-8.
+    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    write_text(common_.json, json.dump(2, ' ', false, replace) + "\n");
 }
 
 void Program::abandon(Verdict verdict, const std::string& error) {

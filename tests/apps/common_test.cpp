@@ -73,12 +73,18 @@ TEST_P(EveryProgram, RefusesThreadsOutOfRange) {
     }
 }
 
+Outcome run_on_missing(const std::string& program,
+                       const test::TempFolder& folder,
+                       const std::string& name,
+                       const std::string& options = "") {
+    const std::string output =
+        program == "pent-check" ? "" : " -o " + (folder / "out.png").string();
+    return run_program(program + " " + (folder / name).string() + output + options);
+}
+
 TEST_P(EveryProgram, NamesAMissingInput) {
     const test::TempFolder folder;
-    const std::string input = (folder / "missing.pent").string();
-    const std::string output =
-        GetParam() == "pent-check" ? "" : " -o " + (folder / "out.png").string();
-    const Outcome outcome = run_program(GetParam() + " " + input + output);
+    const Outcome outcome = run_on_missing(GetParam(), folder, "missing.pent");
     EXPECT_EQ(outcome.exit_code, 1);
     expect_one_error_line(outcome, GetParam());
     expect_contains(outcome.err, {"missing.pent"});
@@ -88,10 +94,8 @@ TEST_P(EveryProgram, NamesAMissingInput) {
 TEST_P(EveryProgram, WritesAReportOfAFileWhoseNameIsNotUtf8) {
     const test::TempFolder folder;
     const std::string report = (folder / "report.json").string();
-    const std::string output =
-        GetParam() == "pent-check" ? "" : " -o " + (folder / "out.png").string();
-    const Outcome outcome = run_program(GetParam() + " " + (folder / "missing\xff.pent").string()
-                                        + output + " --json " + report);
+    const Outcome outcome =
+        run_on_missing(GetParam(), folder, "missing\xff.pent", " --json " + report);
     EXPECT_EQ(outcome.exit_code, 1);
     expect_one_error_line(outcome, GetParam());
     const auto json = nlohmann::json::parse(test::text_of(report));  // throws unless all is UTF-8

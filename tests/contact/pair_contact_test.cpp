@@ -7,8 +7,7 @@
 namespace pent::contact {
 namespace {
 
-// A point over the standard facet, which lies in the hyperplane of all axes but the last, and corner for
-// corner is `size` m along them.
+// A point over a facet whose corners are the origin and, on each axis but the last, the point `size` m along.
 template <int Dim>
 std::optional<Contact<Dim>> contact_at(double height, double size, bool is_inside = false) {
     Positions<Dim> positions = Positions<Dim>::Zero(Dim, Dim + 1);
