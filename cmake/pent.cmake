@@ -25,9 +25,6 @@ if(PENT_COVERAGE)
   target_compile_features(pent_count_at_exit PRIVATE cxx_std_20)
   target_link_libraries(pent_build_flags INTERFACE $<BUILD_INTERFACE:pent_count_at_exit>)
 endif()
-if(PENT_SANITIZE STREQUAL thread)
-  target_include_directories(pent_build_flags INTERFACE ${CMAKE_CURRENT_LIST_DIR}/tsan)
-endif()
 
 # pent_add_library(NAME HEADERS <public> SOURCES <files> DEPS <public targets>
 #                  PRIVATE_DEPS <targets>)

@@ -3,6 +3,7 @@
 #include <pent/error.h>
 #include <pent/nearest_name.h>
 #include <pent/output_file.h>
+#include <pent/parallel.h>
 
 #include <algorithm>
 #include <atomic>
@@ -12,7 +13,6 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
-#include <tbb/global_control.h>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -176,13 +176,11 @@ int Program::run(int argc, const char* const* argv, const std::function<Verdict(
     std::signal(SIGINT, on_stop_signal);
     std::signal(SIGTERM, on_stop_signal);
     std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size then is an error of write()
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(common_.threads));
     start_ = std::chrono::steady_clock::now();
     Verdict verdict = Verdict::Refused;
     std::string error;
     try {
-        verdict = body();
+        verdict = Workers(common_.threads).run(body);
     } catch (const std::bad_alloc&) {
         error = "out of memory";
     } catch (const std::exception& exception) {

@@ -42,7 +42,7 @@ public:
     /// One line for the user on stdout, unless --quiet.
     void say(const std::string& line) const;
 
-    /// Parses, runs the body with oneTBB limited to --threads, reports, and returns the exit code.
+    /// Parses, runs the body with --threads workers, reports, and returns the exit code.
     ///
     /// An Error (or any other exception) that leaves the body becomes one line on stderr and
     /// exit code 1. SIGINT and SIGTERM set stop_requested() once; a second one ends the program.

@@ -136,5 +136,3 @@ BENCHMARK(BM_PointTetrahedronSelf)->Unit(benchmark::kMillisecond)->UseRealTime()
 
 }  // namespace
 }  // namespace pent::contact
-
-BENCHMARK_MAIN();

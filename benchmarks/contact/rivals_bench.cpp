@@ -7,13 +7,13 @@
 #include "hug.h"
 
 #include <pent/contact/near_pairs.h>
+#include <pent/parallel.h>
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <chrono>
 #include <limits>
-#include <tbb/task_arena.h>
 
 #ifdef PENT_BENCH_CGAL
 #include <CGAL/box_intersection_d.h>
@@ -62,13 +62,13 @@ void compare(benchmark::State& state, const Boxes& boxes, const Rival& rival) {
     using Clock = std::chrono::steady_clock;
     BoxTree edges(boxes.edges);
     BoxTree triangles(boxes.triangles);
-    tbb::task_arena one_thread(1);
+    const Workers one_thread(1);
     double ours = std::numeric_limits<double>::infinity();
     double theirs = ours;
     for (auto _ : state) {
         const auto start = Clock::now();
         const std::int64_t found =
-            one_thread.execute([&] { return count_by_trees(boxes, edges, triangles); });
+            one_thread.run([&] { return count_by_trees(boxes, edges, triangles); });
         const auto middle = Clock::now();
         const std::int64_t expected = rival(boxes.edges, boxes.triangles);
         const auto end = Clock::now();

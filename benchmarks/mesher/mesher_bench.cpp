@@ -10,9 +10,11 @@
 #include <pent/mesher/prove.h>
 #include <pent/mesher/quality.h>
 #include <pent/mesher/shapes.h>
+#include <pent/parallel.h>
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -21,6 +23,7 @@
 #include <memory>
 #include <string>
 #include <sys/resource.h>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -211,7 +214,8 @@ int main(int argc, char** argv) {
         return 1;
     }
     Collector times;
-    benchmark::RunSpecifiedBenchmarks(&times);
+    const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    pent::Workers(cores).run([&] { benchmark::RunSpecifiedBenchmarks(&times); });
     print_ratios(times, peak_bytes);
     return 0;
 }

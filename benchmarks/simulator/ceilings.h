@@ -1,7 +1,8 @@
 #pragma once
 
 #include "kernels.h"
-#include "parallel.h"
+
+#include <pent/parallel.h>
 
 namespace pent::simulator::bench {
 

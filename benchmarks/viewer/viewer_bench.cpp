@@ -106,5 +106,3 @@ BENCHMARK(render_100k_triangles_720p)->Unit(benchmark::kMillisecond)->UseRealTim
 
 }  // namespace
 }  // namespace pent::viewer
-
-BENCHMARK_MAIN();

@@ -3,13 +3,14 @@
 #include "closest_point_search.h"
 #include "gather.h"
 
+#include <pent/parallel.h>
+
 #include <Eigen/LU>
 
 #include <array>
 #include <bit>
 #include <cmath>
 #include <numeric>
-#include <tbb/parallel_for.h>
 
 namespace pent::contact {
 
@@ -192,7 +193,7 @@ private:
                 const std::array<int, 2>& bodies) {
         const Sieve<K, L> sieve(list, first, second, travel_, reach_);
         std::vector<std::vector<Found<Dim>>> found((sieve.size() + kChunk - 1) / kChunk);
-        tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t chunk) {
+        parallel_for(found.size(), [&](std::size_t chunk) {
             const std::size_t end = std::min((chunk + 1) * kChunk, sieve.size());
             for (std::size_t k = chunk * kChunk; k < end; ++k) {
                 if (!sieve.passes(k)) {

@@ -1,12 +1,12 @@
 #include "pent/contact/box_tree.h"
 
+#include <pent/parallel.h>
+
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 namespace pent::contact {
 
@@ -121,7 +121,7 @@ Box box_around(const Eigen::Matrix<double, Dim, Count>& points, double margin) {
 
 BoxTree::BoxTree(std::span<const Box> boxes) {
     std::vector<Item> items(boxes.size());
-    tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t i) {
+    parallel_for(boxes.size(), kSerial, [&](std::size_t i) {
         for (int axis = 0; axis < 4; ++axis) {
             items[i].center[axis] = boxes[i].low[axis] + boxes[i].high[axis];
         }
@@ -169,7 +169,7 @@ void BoxTree::sort_items(std::span<Item> items) {
         sort_items(left);
         sort_items(right);
     } else {
-        tbb::parallel_invoke([&] { sort_items(left); }, [&] { sort_items(right); });
+        parallel_invoke([&] { sort_items(left); }, [&] { sort_items(right); });
     }
 }
 
@@ -192,8 +192,8 @@ Box BoxTree::fit(const Range& range, std::span<const Box> boxes, double& cost) {
     } else {
         double left_cost = 0;
         double right_cost = 0;
-        tbb::parallel_invoke([&] { node.left = fit(range.left(), boxes, left_cost); },
-                             [&] { node.right = fit(range.right(), boxes, right_cost); });
+        parallel_invoke([&] { node.left = fit(range.left(), boxes, left_cost); },
+                        [&] { node.right = fit(range.right(), boxes, right_cost); });
         cost += left_cost + right_cost;
     }
     const Box box = hull(node.left, node.right);

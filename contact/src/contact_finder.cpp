@@ -1,10 +1,11 @@
 #include "pair_contact.h"
 #include "pair_search.h"
 
+#include <pent/parallel.h>
+
 #include <algorithm>
 #include <chrono>
 #include <sstream>
-#include <tbb/parallel_for.h>
 
 namespace pent::contact {
 
@@ -17,7 +18,7 @@ constexpr std::size_t kChunk = 512;
 template <int Dim, typename Add>
 void append_chunks(std::size_t count, const Add& add, std::vector<Contact<Dim>>& contacts) {
     std::vector<std::vector<Contact<Dim>>> found((count + kChunk - 1) / kChunk);
-    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t chunk) {
+    parallel_for(found.size(), [&](std::size_t chunk) {
         const std::size_t end = std::min((chunk + 1) * kChunk, count);
         for (std::size_t i = chunk * kChunk; i < end; ++i) {
             add(i, found[chunk]);

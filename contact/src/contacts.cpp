@@ -1,11 +1,11 @@
 #include "pent/contact/contacts.h"
 
 #include <pent/error.h>
+#include <pent/parallel.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <tbb/parallel_for.h>
 
 namespace pent::contact {
 
@@ -49,7 +49,7 @@ std::vector<ObstacleContact<Dim>> find_obstacle_contacts(
     Filter filter) {
     const std::size_t chunks = (vertices.size() + kChunk - 1) / kChunk;
     std::vector<std::vector<ObstacleContact<Dim>>> found(chunks * obstacles.size());
-    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t piece) {
+    parallel_for(found.size(), [&](std::size_t piece) {
         const std::size_t which = piece / chunks;
         const PenaltyObstacle<Dim>& obstacle = obstacles[which];
         const std::size_t begin = piece % chunks * kChunk;

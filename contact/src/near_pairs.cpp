@@ -2,10 +2,9 @@
 
 #include "collect_pairs.h"
 
+#include <pent/parallel.h>
+
 #include <limits>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
-#include <tbb/partitioner.h>
 
 namespace pent::contact {
 
@@ -49,8 +48,8 @@ private:
             visit(range.left(), left);
             visit(range.right(), right);
         } else {
-            tbb::parallel_invoke([&, &half = left] { visit(range.left(), half); },
-                                 [&, &half = right] { visit(range.right(), half); });
+            parallel_invoke([&, &half = left] { visit(range.left(), half); },
+                            [&, &half = right] { visit(range.right(), half); });
         }
     }
 
@@ -83,17 +82,14 @@ NearPairs near_pairs(const SearchSet<K>& first,
     const bool is_same_list = &first.tree == &second.tree;
     const std::vector<BoxTree::Work> work = BoxTree::split(first.tree, second.tree, kPieces);
     std::vector<NearPairs> found(work.size());
-    tbb::parallel_for(
-        std::size_t{0}, work.size(),
-        [&](std::size_t piece) {
-            NearPairs& here = found[piece];
-            BoxTree::for_each_overlap(
-                first.tree, second.tree, work[piece], [&](std::uint32_t i, std::uint32_t j) {
-                    visit_candidate<Dim, K, L>(first.simplices, i, second.simplices, j,
-                                               is_same_list, positions, limit, closest, here);
-                });
-        },
-        tbb::simple_partitioner());
+    parallel_for(work.size(), [&](std::size_t piece) {
+        NearPairs& here = found[piece];
+        BoxTree::for_each_overlap(
+            first.tree, second.tree, work[piece], [&](std::uint32_t i, std::uint32_t j) {
+                visit_candidate<Dim, K, L>(first.simplices, i, second.simplices, j, is_same_list,
+                                           positions, limit, closest, here);
+            });
+    });
     return merge(found);
 }
 
@@ -106,7 +102,7 @@ NearPairs still_near_pairs(const NearPairs& before,
                            Closest closest) {
     constexpr std::size_t kChunk = 1024;
     std::vector<NearPairs> found((before.pairs.size() + kChunk - 1) / kChunk);
-    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t chunk) {
+    parallel_for(found.size(), [&](std::size_t chunk) {
         const std::size_t end = std::min((chunk + 1) * kChunk, before.pairs.size());
         for (std::size_t k = chunk * kChunk; k < end; ++k) {
             add_if_near<Dim, K, L>(first, before.pairs[k].first, second, before.pairs[k].second,

@@ -2,9 +2,9 @@
 
 #include "collect_pairs.h"
 
+#include <pent/parallel.h>
+
 #include <array>
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
 
 namespace pent::contact {
 
@@ -127,13 +127,10 @@ NearPairs pairs_within(const PatchedSet<Dim, K>& first,
                                       });
         }
     };
-    tbb::parallel_for(
-        std::size_t{0}, work.size(),
-        [&](std::size_t piece) {
-            walk.for_each_patches(
-                work[piece], [&](const Work& patches) { visit_patches(patches, found[piece]); });
-        },
-        tbb::simple_partitioner());
+    parallel_for(work.size(), [&](std::size_t piece) {
+        walk.for_each_patches(work[piece],
+                              [&](const Work& patches) { visit_patches(patches, found[piece]); });
+    });
     return merge(found);
 }
 

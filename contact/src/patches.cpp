@@ -1,10 +1,11 @@
 #include "patches.h"
 
+#include <pent/parallel.h>
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
 
 namespace pent::contact {
 
@@ -133,8 +134,9 @@ void Patches<Dim>::add(const std::vector<std::uint32_t>& vertices, const Positio
 
 template <int Dim>
 void Patches<Dim>::fit(const PositionsView<Dim>& positions) {
-    tbb::parallel_for(std::size_t{0}, motions_.size(),
-                      [&](std::size_t patch) { motions_[patch] = fit(patch, positions); });
+    constexpr int kChunk = 64;
+    parallel_for(motions_.size(), kChunk,
+                 [&](std::size_t patch) { motions_[patch] = fit(patch, positions); });
 }
 
 template <int Dim>

@@ -3,10 +3,10 @@
 #include "apart.h"
 #include "collect_pairs.h"
 
+#include <pent/parallel.h>
+
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
 
 namespace pent::contact {
 
@@ -135,19 +135,15 @@ void PathCandidates<Dim>::search(const PositionsView<Dim>& from, const Positions
 template <int Dim>
 template <int Count>
 std::vector<Box> PathCandidates<Dim>::hulls(const Simplices<Count>& simplices) const {
-    constexpr Eigen::Index kChunk = 4096;
+    constexpr int kChunk = 4096;
     std::vector<Box> hulls(static_cast<std::size_t>(simplices.cols()));
-    tbb::parallel_for(Eigen::Index{0}, (simplices.cols() + kChunk - 1) / kChunk,
-                      [&](Eigen::Index c) {
-                          for (Eigen::Index i = c * kChunk;
-                               i < std::min((c + 1) * kChunk, simplices.cols()); ++i) {
-                              Box box = boxes_[simplices(0, i)];
-                              for (int corner = 1; corner < Count; ++corner) {
-                                  box = hull(box, boxes_[simplices(corner, i)]);
-                              }
-                              hulls[static_cast<std::size_t>(i)] = box;
-                          }
-                      });
+    parallel_for(simplices.cols(), kChunk, [&](Eigen::Index i) {
+        Box box = boxes_[simplices(0, i)];
+        for (int corner = 1; corner < Count; ++corner) {
+            box = hull(box, boxes_[simplices(corner, i)]);
+        }
+        hulls[static_cast<std::size_t>(i)] = box;
+    });
     return hulls;
 }
 
@@ -238,14 +234,11 @@ CandidateList PathCandidates<Dim>::search(const Simplices<K>& first,
             (is_known ? list.known : list.others).push_back({i, j, rounded_down(distance)});
         }
     };
-    tbb::parallel_for(
-        std::size_t{0}, work.size(),
-        [&](std::size_t piece) {
-            BoxTree::for_each_overlap(
-                first_tree, second_tree, work[piece],
-                [&](std::uint32_t i, std::uint32_t j) { add(i, j, found[piece]); });
-        },
-        tbb::simple_partitioner());
+    parallel_for(work.size(), [&](std::size_t piece) {
+        BoxTree::for_each_overlap(
+            first_tree, second_tree, work[piece],
+            [&](std::uint32_t i, std::uint32_t j) { add(i, j, found[piece]); });
+    });
     CandidateList all;
     for (const Found& list : found) {
         all.pairs.insert(all.pairs.end(), list.known.begin(), list.known.end());

@@ -2,11 +2,11 @@
 #include "gather.h"
 
 #include <pent/contact/ccd.h>
+#include <pent/parallel.h>
 
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <tbb/parallel_for.h>
 #include <tuple>
 
 namespace pent::contact {
@@ -49,7 +49,7 @@ private:
                                 clearance.separation + kGapReached * clearance.distance);
         std::vector<Best> best((sieve.size() + kChunk - 1) / kChunk, Best{1, 0, 0});
         std::atomic<double> least = limit_.fraction;  // a bound that only saves work
-        tbb::parallel_for(std::size_t{0}, best.size(), [&](std::size_t chunk) {
+        parallel_for(best.size(), [&](std::size_t chunk) {
             Best& here = best[chunk];
             const std::size_t end = std::min((chunk + 1) * kChunk, sieve.size());
             for (std::size_t k = chunk * kChunk; k < end; ++k) {

@@ -3,15 +3,18 @@
 #include "gather.h"
 
 #include <pent/facets.h>
+#include <pent/parallel.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <tbb/parallel_for.h>
 
 namespace pent::contact {
 
 namespace {
+
+// Normals and boxes of one thread at a time.
+constexpr int kChunk = 1024;
 
 // All faces with Count corners of the facets, each once, corners and faces ascending.
 template <int Dim, int Count>
@@ -229,11 +232,11 @@ Vector<Dim> facet_normal(const Corners<Dim, Dim>& corners) {
 template <int Dim>
 Positions<Dim> vertex_normals(const Surface<Dim>& surface, const PositionsView<Dim>& positions) {
     Positions<Dim> of_facets(Dim, surface.facets.cols());
-    tbb::parallel_for(Eigen::Index{0}, of_facets.cols(), [&](Eigen::Index f) {
+    parallel_for(of_facets.cols(), kChunk, [&](Eigen::Index f) {
         of_facets.col(f) = facet_normal<Dim>(gather<Dim, Dim>(surface.facets, f, positions));
     });
     Positions<Dim> normals(Dim, surface.vertices.cols());
-    tbb::parallel_for(Eigen::Index{0}, normals.cols(), [&](Eigen::Index i) {
+    parallel_for(normals.cols(), kChunk, [&](Eigen::Index i) {
         Vector<Dim> sum = Vector<Dim>::Zero();
         for (std::uint32_t k = surface.facet_begin[i]; k < surface.facet_begin[i + 1]; ++k) {
             sum += of_facets.col(surface.facet_of[k]);
@@ -248,7 +251,7 @@ std::vector<Box> boxes_around(const Simplices<Count>& simplices,
                               const PositionsView<Dim>& positions,
                               double margin) {
     std::vector<Box> boxes(static_cast<std::size_t>(simplices.cols()));
-    tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t i) {
+    parallel_for(boxes.size(), kChunk, [&](std::size_t i) {
         boxes[i] = box_around<Dim, Count>(
             gather<Dim, Count>(simplices, static_cast<Eigen::Index>(i), positions), margin);
     });

@@ -1,5 +1,6 @@
 #include <pent/formatted.h>
 #include <pent/mesher/quality.h>
+#include <pent/parallel.h>
 
 #include <Eigen/LU>
 
@@ -8,8 +9,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 namespace pent::mesher {
 
@@ -168,16 +167,13 @@ template <int Dim>
 QualityReport measure_quality(const SimplexMesh<Dim>& mesh) {
     const Reference<Dim> reference;
     std::vector<CellQuality> cells(mesh.cell_count());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 4096),
-                      [&](const auto& range) {
-                          for (std::size_t cell = range.begin(); cell < range.end(); ++cell) {
-                              Eigen::Matrix<double, Dim, Dim + 1> corners;
-                              for (int i = 0; i <= Dim; ++i) {
-                                  corners.col(i) = mesh.positions.col(mesh.cells(i, cell));
-                              }
-                              cells[cell] = measure<Dim>(corners, reference);
-                          }
-                      });
+    parallel_for(cells.size(), kLightChunk, [&](std::size_t cell) {
+        Eigen::Matrix<double, Dim, Dim + 1> corners;
+        for (int i = 0; i <= Dim; ++i) {
+            corners.col(i) = mesh.positions.col(mesh.cells(i, cell));
+        }
+        cells[cell] = measure<Dim>(corners, reference);
+    });
     QualityReport report;
     report.mean_ratio = spread_of(cells, &CellQuality::mean_ratio);
     report.condition = spread_of(cells, &CellQuality::condition);

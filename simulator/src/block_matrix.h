@@ -2,7 +2,8 @@
 
 #include "block_pattern.h"
 #include "kernels.h"
-#include "parallel.h"
+
+#include <pent/parallel.h>
 
 #include <Eigen/Core>
 

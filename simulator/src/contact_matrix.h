@@ -2,8 +2,9 @@
 
 #include "block_matrix.h"
 #include "numbering.h"
-#include "parallel.h"
 #include "scene_contacts.h"
+
+#include <pent/parallel.h>
 
 #include <memory>
 

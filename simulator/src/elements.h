@@ -2,9 +2,9 @@
 
 #include "block_matrix.h"
 #include "kernels.h"
-#include "parallel.h"
 #include "smoothing.h"
 
+#include <pent/parallel.h>
 #include <pent/simplex_mesh.h>
 #include <pent/simulator/scene.h>
 

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "lagged_friction.h"
-#include "parallel.h"
 #include "world.h"
 
 #include <pent/contact/barrier_finder.h>
 #include <pent/contact/contacts.h>
+#include <pent/parallel.h>
 #include <pent/simulator/simulation.h>
 
 #include <array>

@@ -12,7 +12,8 @@ template <int Dim>
 Simulation<Dim>::Simulation(const Scene& scene,
                             std::vector<SimplexMesh<Dim>> meshes,
                             const SimulationOptions& options)
-    : state_(std::make_unique<State>(scene, std::move(meshes), options)) {}
+    : state_(workers_of(options).run(
+        [&] { return std::make_unique<State>(scene, std::move(meshes), options); })) {}
 
 template <int Dim>
 Simulation<Dim>::~Simulation() = default;

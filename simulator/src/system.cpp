@@ -74,7 +74,7 @@ System<Dim>::System(const Scene& scene, const World<Dim>& world, const Simulatio
       options_(scene.solver),
       gravity_(scene.gravity),
       damping_(scene.damping.value_or(Damping{})),
-      workers_(options.threads),
+      workers_(workers_of(options)),
       isa_(choose_isa(options.isa)),
       kernels_(&kernels<Dim>(isa_)),
       layout_(lay_out(world.numbering)),

@@ -4,12 +4,12 @@
 #include "conjugate_gradients.h"
 #include "contact_matrix.h"
 #include "elements.h"
-#include "parallel.h"
 #include "preconditioner.h"
 #include "rotation.h"
 #include "scene_contacts.h"
 #include "world.h"
 
+#include <pent/parallel.h>
 #include <pent/simulator/simulation.h>
 
 #include <functional>
@@ -56,6 +56,11 @@ struct LinearStep {
 };
 
 /// The physics of a scene, apart from time: forces, energies, matrices, solves.
+/// The host's task system, or threads of ours.
+[[nodiscard]] inline Workers workers_of(const SimulationOptions& options) {
+    return options.tasks ? Workers(*options.tasks) : Workers(options.threads);
+}
+
 template <int Dim>
 class System {
 public:

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <tbb/task_arena.h>
+#include <support/host_tasks.h>
 
 namespace pent::contact {
 namespace {
@@ -188,8 +188,7 @@ TYPED_TEST(BarrierFinderTest, DependsOnPositionsAloneNotOnHistoryOrThreads) {
     Positions<kDim> to = x;
     to.leftCols(this->scene_.begin[1]).row(0).array() += 0.3;
     for (const int threads : {1, 3}) {
-        tbb::task_arena arena(threads);
-        arena.execute([&] {
+        Workers(pent::test::host_tasks(threads)).run([&] {
             auto fresh = this->finder();
             const BarrierContacts<kDim> a = used.find(x);
             const BarrierContacts<kDim> b = fresh.find(x);

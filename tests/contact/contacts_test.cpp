@@ -9,8 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
+#include <support/host_tasks.h>
 
 namespace pent::contact {
 namespace {
@@ -254,11 +253,9 @@ TYPED_TEST(ContactsTest, AreTheSameForAnyNumberOfThreads) {
     constexpr int kDim = TypeParam::value;
     const test::Scene<kDim> scene = TestFixture::face_to_face(0.02);
     Contacts<kDim> expected;
-    // More threads than this machine may have cores.
-    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
     for (const int threads : {1, 2, 3, 8}) {
-        tbb::task_arena arena(threads);
-        const Contacts<kDim> contacts = arena.execute([&] { return contacts_of(scene); });
+        const Contacts<kDim> contacts =
+            Workers(pent::test::host_tasks(threads)).run([&] { return contacts_of(scene); });
         if (threads == 1) {
             expected = contacts;
         }

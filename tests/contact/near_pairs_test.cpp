@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
+#include <support/host_tasks.h>
 #include <vector>
 
 namespace pent::contact {
@@ -127,11 +126,8 @@ TYPED_TEST(NearPairsTest, AreTheSameForAnyNumberOfThreads) {
     const auto& a = this->scene_.surfaces[0];
     const auto& b = this->scene_.surfaces[1];
     std::vector<NearPair> expected;
-    // More threads than this machine may have cores.
-    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
     for (const int threads : {1, 2, 3, 8}) {
-        tbb::task_arena arena(threads);
-        arena.execute([&] {
+        Workers(pent::test::host_tasks(threads)).run([&] {
             const BoxTree edges(boxes_around<kDim, 2>(a.edges, this->scene_.positions, 0.1));
             const BoxTree ridges(
                 boxes_around<kDim, kDim - 1>(b.ridges, this->scene_.positions, 0.1));

@@ -9,8 +9,7 @@
 
 #include <cmath>
 #include <set>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
+#include <support/host_tasks.h>
 
 namespace pent::contact {
 namespace {
@@ -195,12 +194,9 @@ TYPED_TEST(SelfContactsTest, AreTheSameForAnyNumberOfThreads) {
     const test::Scene<kDim> scene = TestFixture::bar();
     const ContactOptions options{.distance = kEps, .stiffness = 1000, .self = true};
     const Positions<kDim> positions = TestFixture::ring(scene.positions);
-    // More threads than this machine may have cores.
-    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
     std::vector<Contact<kDim>> expected;
     for (const int threads : {1, 2, 3, 8}) {
-        tbb::task_arena arena(threads);
-        const auto found = arena.execute([&] {
+        const auto found = Workers(pent::test::host_tasks(threads)).run([&] {
             return ContactFinder<kDim>({{"bar", scene.surfaces[0], false}}, scene.positions,
                                        options)
                 .find(positions)

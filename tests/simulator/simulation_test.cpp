@@ -7,7 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <tbb/global_control.h>
+#include <support/host_tasks.h>
+#include <utility>
 
 namespace pent::simulator {
 namespace {
@@ -212,8 +213,8 @@ Scene swinging_bar() {
 }
 
 // All bits of positions and velocities after some steps.
-std::vector<double> state_after(int steps, int threads, const Scene& scene, int length) {
-    Simulation<4> simulation(scene, {bar(length)}, {.threads = threads, .isa = ""});
+std::vector<double> state_after(int steps, TaskSystem tasks, const Scene& scene, int length) {
+    Simulation<4> simulation(scene, {bar(length)}, {.tasks = std::move(tasks)});
     for (int i = 0; i < steps; ++i) {
         EXPECT_TRUE(simulation.step().is_accepted);
     }
@@ -225,11 +226,12 @@ std::vector<double> state_after(int steps, int threads, const Scene& scene, int 
 }
 
 TEST(Simulation, IsTheSameToTheBitForAnyNumberOfThreads) {
-    // More threads than cores, so that 8 means 8.
-    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
-    const std::vector<double> one = state_after(3, 1, swinging_bar(), 80);  // 30,720 cells
+    const std::vector<double> one =
+        state_after(3, own_task_system(1), swinging_bar(), 80);  // 30,720 cells
+    EXPECT_EQ(state_after(3, own_task_system(2), swinging_bar(), 80), one);
     for (const int threads : {2, 3, 8}) {
-        EXPECT_EQ(state_after(3, threads, swinging_bar(), 80), one) << threads << " threads";
+        EXPECT_EQ(state_after(3, pent::test::host_tasks(threads), swinging_bar(), 80), one)
+            << threads << " threads of a host";
     }
 }
 

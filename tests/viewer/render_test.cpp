@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <support/host_tasks.h>
 #include <support/messages.h>
 #include <support/temp_folder.h>
-#include <tbb/global_control.h>
 
 namespace pent::viewer {
 namespace {
@@ -95,9 +95,10 @@ TEST(Render, DarkensTheFloorUnderABody) {
 TEST(Render, IsTheSameForOneAndTwoThreads) {
     const RenderObject object = gray_box(1);
     const Image reference = render(object);
-    for (const std::size_t threads : {1, 2}) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        EXPECT_EQ(render(object).rgb, reference.rgb);
+    for (const int threads : {1, 2}) {
+        const Image image =
+            Workers(pent::test::host_tasks(threads)).run([&] { return render(object); });
+        EXPECT_EQ(image.rgb, reference.rgb);
     }
 }
 

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tbb/global_control.h>
+#include <support/host_tasks.h>
 #include <vector>
 
 namespace pent::viewer {
@@ -191,9 +191,10 @@ TEST(Slice, IsTheSameToTheBitForAnyNumberOfThreads) {
     const SimplexMesh<4> mesh = jittered_box({6, 6, 6, 6}, 13);
     const Boundary<4> boundary = make_boundary(mesh, "mesh");
     const Surface reference = slice(boundary, mesh.positions, hyperplane_at(0.31));
-    for (const std::size_t threads : {1, 2, 3}) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        const Surface surface = slice(boundary, mesh.positions, hyperplane_at(0.31));
+    for (const int threads : {1, 2, 3}) {
+        const Surface surface = Workers(pent::test::host_tasks(threads)).run([&] {
+            return slice(boundary, mesh.positions, hyperplane_at(0.31));
+        });
         EXPECT_EQ(surface.positions, reference.positions);
         EXPECT_EQ(surface.triangles, reference.triangles);
         EXPECT_EQ(surface.facets, reference.facets);

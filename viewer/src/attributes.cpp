@@ -1,6 +1,6 @@
 #include "pent/viewer/attributes.h"
 
-#include "parallel.h"
+#include <pent/parallel.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -93,7 +93,7 @@ template <int Dim>
 Eigen::VectorXd vertex_strain(const SimplexMesh<Dim>& rest, const Positions<Dim>& positions) {
     Eigen::VectorXd volumes(rest.cell_count());
     Eigen::VectorXd strains(rest.cell_count());
-    parallel_for_each(rest.cell_count(), [&](Eigen::Index c) {
+    parallel_for(rest.cell_count(), kLightChunk, [&](Eigen::Index c) {
         const Square<Dim> at_rest = edge_matrix<Dim>(rest.positions, rest.cells.col(c));
         const Square<Dim> inverse = at_rest.inverse();
         const Square<Dim> F = edge_matrix<Dim>(positions, rest.cells.col(c)) * inverse;
@@ -127,12 +127,12 @@ Positions<3> corner_normals(const Surface& surface,
                             const Eigen::Matrix<double, 3, Dim>& axes,
                             double crease) {
     Eigen::Matrix<double, Dim, Eigen::Dynamic> normals(Dim, boundary.facets.cols());
-    parallel_for_each(boundary.facets.cols(), [&](Eigen::Index f) {
+    parallel_for(boundary.facets.cols(), kLightChunk, [&](Eigen::Index f) {
         normals.col(f) = facet_normal<Dim>(positions, boundary.facets.col(f));
     });
     const double crease_cosine = std::cos(crease);
     Positions<3> result(3, 3 * surface.triangle_count());
-    parallel_for_each(surface.triangle_count(), [&](Eigen::Index t) {
+    parallel_for(surface.triangle_count(), kLightChunk, [&](Eigen::Index t) {
         const std::uint32_t facet = surface.facets[t];
         const Eigen::Vector3<std::uint32_t> triangle = surface.triangles.col(t);
         for (int k = 0; k < 3; ++k) {

@@ -1,9 +1,8 @@
 #include "pent/viewer/project.h"
 
-#include "parallel.h"
-
 #include <pent/error.h>
 #include <pent/facets.h>
+#include <pent/parallel.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -23,7 +22,7 @@ namespace {
 // have the same sign, as all of the body is in front of the eye.
 std::vector<std::uint32_t> facing_facets(const Boundary<4>& boundary, const Positions<3>& images) {
     std::vector<char> is_facing(static_cast<std::size_t>(boundary.facets.cols()));
-    parallel_for_each(boundary.facets.cols(), [&](Eigen::Index f) {
+    parallel_for(boundary.facets.cols(), kLightChunk, [&](Eigen::Index f) {
         Eigen::Matrix3d edges;
         for (int k = 0; k < 3; ++k) {
             edges.col(k) =

@@ -4,13 +4,12 @@
 #include "ray_scene.h"
 
 #include <pent/error.h>
+#include <pent/parallel.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <vector>
 
 namespace pent::viewer {
@@ -104,14 +103,12 @@ public:
 private:
     template <typename Action>
     void for_each_pixel(const Action& action) const {
-        tbb::parallel_for(tbb::blocked_range<int>(0, options_.height, 4),
-                          [&](const tbb::blocked_range<int>& rows) {
-                              for (int y = rows.begin(); y != rows.end(); ++y) {
-                                  for (int x = 0; x < options_.width; ++x) {
-                                      action(x, y);
-                                  }
-                              }
-                          });
+        constexpr int kRows = 4;
+        parallel_for(options_.height, kRows, [&](int y) {
+            for (int x = 0; x < options_.width; ++x) {
+                action(x, y);
+            }
+        });
     }
 
     [[nodiscard]] std::size_t index(int x, int y) const {

@@ -1,6 +1,6 @@
 #include "pent/viewer/slice.h"
 
-#include "parallel.h"
+#include <pent/parallel.h>
 
 #include <array>
 #include <cstdint>
@@ -71,13 +71,14 @@ std::vector<std::uint32_t> cut_edges(const Boundary<4>& boundary,
         return (heights[edges(0, e)] < 0) != (heights[edges(1, e)] < 0);
     };
     std::vector<std::uint32_t> numbers(static_cast<std::size_t>(edges.cols()));
-    parallel_for_each(edges.cols(), [&](Eigen::Index e) { numbers[e] = is_cut(e) ? 1 : 0; });
+    parallel_for(edges.cols(), kLightChunk,
+                 [&](Eigen::Index e) { numbers[e] = is_cut(e) ? 1 : 0; });
     const std::uint32_t vertices = exclusive_sum(numbers);
     surface.positions.resize(3, vertices);
     surface.ends.resize(2, vertices);
     surface.weights.resize(vertices);
     const Eigen::Matrix<double, 3, 4> axes = hyperplane.frame.topRows<3>();
-    parallel_for_each(edges.cols(), [&](Eigen::Index e) {
+    parallel_for(edges.cols(), kLightChunk, [&](Eigen::Index e) {
         if (!is_cut(e)) {
             return;
         }
@@ -99,7 +100,7 @@ std::vector<std::uint32_t> cut_edges(const Boundary<4>& boundary,
 Eigen::VectorXd distances(const Positions<4>& positions, const Hyperplane& hyperplane) {
     const Eigen::RowVector4d normal = hyperplane.frame.row(3);
     Eigen::VectorXd heights(positions.cols());
-    parallel_for_each(positions.cols(), [&](Eigen::Index v) {
+    parallel_for(positions.cols(), kLightChunk, [&](Eigen::Index v) {
         heights[v] = normal.dot(positions.col(v)) - hyperplane.offset;
     });
     return heights;
@@ -114,14 +115,14 @@ Surface slice(const Boundary<4>& boundary,
         cut_edges(boundary, positions, hyperplane, heights, surface);
 
     std::vector<std::uint32_t> first(static_cast<std::size_t>(boundary.facets.cols()));
-    parallel_for_each(boundary.facets.cols(), [&](Eigen::Index f) {
+    parallel_for(boundary.facets.cols(), kLightChunk, [&](Eigen::Index f) {
         const TetCut& cut = kTetCuts[mask_above(boundary.facets.col(f), heights)];
         first[f] = static_cast<std::uint32_t>(cut.triangles);
     });
     const std::uint32_t triangles = exclusive_sum(first);
     surface.triangles.resize(3, triangles);
     surface.facets.resize(triangles);
-    parallel_for_each(boundary.facets.cols(), [&](Eigen::Index f) {
+    parallel_for(boundary.facets.cols(), kLightChunk, [&](Eigen::Index f) {
         const TetCut& cut = kTetCuts[mask_above(boundary.facets.col(f), heights)];
         for (int t = 0; t < cut.triangles; ++t) {
             const std::uint32_t triangle = first[f] + static_cast<std::uint32_t>(t);

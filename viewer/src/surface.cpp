@@ -1,6 +1,6 @@
 #include "pent/viewer/surface.h"
 
-#include "parallel.h"
+#include <pent/parallel.h>
 
 #include <algorithm>
 #include <limits>
@@ -106,7 +106,7 @@ Surface rebuilt(const Surface& surface,
 
 Eigen::VectorXd interpolate(const Surface& surface, const Eigen::VectorXd& values) {
     Eigen::VectorXd result(surface.vertex_count());
-    parallel_for_each(surface.vertex_count(), [&](Eigen::Index v) {
+    parallel_for(surface.vertex_count(), kLightChunk, [&](Eigen::Index v) {
         const double t = surface.weights[v];
         result[v] = (1.0 - t) * values[surface.ends(0, v)] + t * values[surface.ends(1, v)];
     });

@@ -76,7 +76,7 @@ struct StepLimit {
 /// bowls repel vertices; a ball repels facets, since a facet can cut it where no vertex does.
 ///
 /// Results depend on positions alone: not on threads, nor on earlier calls. Threads are those of
-/// the caller's oneTBB arena.
+/// workers_here().
 template <int Dim>
 class BarrierFinder {
 public:

@@ -100,7 +100,7 @@ void add_forces(const std::vector<Contact<Dim>>& contacts, Positions<Dim>& force
 ///   sides of something thin) are no contacts.
 ///
 /// The result depends on the positions alone: not on threads, nor on earlier calls. Threads are
-/// those of the caller's oneTBB arena.
+/// those of workers_here().
 template <int Dim>
 class ContactFinder {
 public:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/parallel.h>
 #include <pent/simplex_mesh.h>
 #include <pent/simulator/scene.h>
 
@@ -7,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +24,8 @@ namespace pent::simulator {
 
 struct SimulationOptions {
     int threads = 1;  ///< At least 1. Results do not depend on it.
+    std::optional<TaskSystem> tasks =
+        {};  ///< The host's, in place of `threads` of ours. Results do not depend on it.
     std::string isa =
         {};  ///< "scalar", "baseline", "avx2" or "avx512"; empty for the best there is.
     /// Told, with a barrier, of the path that a step takes: all positions (Dim x vertices, m) where it
