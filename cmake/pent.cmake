@@ -1,5 +1,12 @@
 # Flags and functions shared by all our targets.
 
+# Files of wider instruction sets, which are chosen at run time.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  set(PENT_X86 ON)
+  set(PENT_AVX2 -mavx2 -mfma)
+  set(PENT_AVX512 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mfma)
+endif()
+
 add_library(pent_build_flags INTERFACE)  # our own code only; not seen by users of the package
 target_compile_options(pent_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion

@@ -99,11 +99,10 @@ private:
 }  // namespace
 
 Box hull(const Box& a, const Box& b) {
-    Box box{};
-    for (int axis = 0; axis < 4; ++axis) {
-        box.low[axis] = std::min(a.low[axis], b.low[axis]);
-        box.high[axis] = std::max(a.high[axis], b.high[axis]);
-    }
+    using Four = Pack<float, 4>;
+    Box box;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled here
+    min(Four::load_aligned(b.low), Four::load_aligned(a.low)).store(box.low);
+    max(Four::load_aligned(b.high), Four::load_aligned(a.high)).store(box.high);
     return box;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <experimental/simd>
+#include <pent/simd.h>
 
 // What the kernels need of a number, for one number and for a pack of numbers (one a lane).
 //
@@ -12,31 +12,24 @@ namespace {  // NOLINT(google-build-namespaces): see above
 
 template <typename Real>
 struct Lanes {
-    static constexpr int kCount = static_cast<int>(Real::size());
-    using Number = typename Real::value_type;
-    using Mask = typename Real::mask_type;
+    static constexpr int kCount = Real::kCount;
+    using Number = typename Real::Value;
+    using Mask = typename Real::Truth;
 
-    static Real load(const double* from) {
-        const std::experimental::fixed_size_simd<double, kCount> wide(
-            from, std::experimental::element_aligned);
-        return std::experimental::static_simd_cast<Real>(wide);
-    }
-    static void store(const Real& value, Number* to) {
-        value.copy_to(to, std::experimental::element_aligned);
-    }
+    static Real load(const double* from) { return Real::load(from); }
+    static void store(const Real& value, Number* to) { value.store(to); }
     static Real select(const Mask& mask, const Real& yes, const Real& no) {
-        Real value = no;
-        std::experimental::where(mask, value) = yes;
-        return value;
+        return pent::select(mask, yes, no);
     }
-    static bool any(const Mask& mask) { return std::experimental::any_of(mask); }
-    static Real root(const Real& value) { return std::experimental::sqrt(value); }
-    static Real abs(const Real& value) { return std::experimental::abs(value); }
-    static Real max(const Real& a, const Real& b) { return std::experimental::max(a, b); }
-    static Number lane(const Real& value, int i) { return value[static_cast<std::size_t>(i)]; }
-    static void set_lane(Real& value, int i, Number number) {
-        value[static_cast<std::size_t>(i)] = number;
+    static bool any(const Mask& mask) { return pent::any(mask); }
+    static Real root(const Real& value) { return pent::sqrt(value); }
+    static Real abs(const Real& value) { return pent::abs(value); }
+    static Real max(const Real& a, const Real& b) { return pent::max(a, b); }
+    static Real multiply_add(const Real& a, const Real& b, const Real& c) {
+        return pent::multiply_add(a, b, c);
     }
+    static Number lane(const Real& value, int i) { return value.lanes[i]; }
+    static void set_lane(Real& value, int i, Number number) { value.lanes[i] = number; }
 };
 
 template <typename Scalar>
@@ -58,6 +51,7 @@ struct OneLane {
     }
     static Scalar abs(Scalar value) { return value < 0 ? -value : value; }
     static Scalar max(Scalar a, Scalar b) { return a < b ? b : a; }
+    static Scalar multiply_add(Scalar a, Scalar b, Scalar c) { return a * b + c; }
     static Scalar lane(Scalar value, int /*i*/) { return value; }
     static void set_lane(Scalar& value, int /*i*/, Scalar number) { value = number; }
 };
@@ -66,6 +60,17 @@ template <>
 struct Lanes<float> : OneLane<float> {};
 template <>
 struct Lanes<double> : OneLane<double> {};
+
+// The pack that fills a register of the instruction set that this file is compiled for.
+#if defined(__AVX512F__)
+constexpr int kRegisterBytes = 64;
+#elif defined(__AVX__)
+constexpr int kRegisterBytes = 32;
+#else
+constexpr int kRegisterBytes = 16;
+#endif
+template <typename Scalar>
+using Widest = Pack<Scalar, kRegisterBytes / static_cast<int>(sizeof(Scalar))>;
 
 }  // namespace
 }  // namespace pent::simulator

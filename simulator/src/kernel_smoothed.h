@@ -173,8 +173,9 @@ CornerHessian<Real, Dim> corner_hessian(const EnergyHessian<Real, Dim>& hessian,
             for (int j = 0; j < Dim; ++j) {
                 Real sum = gradient.at[0] * hessian.at[0][m][i][j];
                 for (int l = 1; l < Dim; ++l) {
-                    sum +=
-                        gradient.at[l] * (l <= m ? hessian.at[l][m][i][j] : hessian.at[m][l][j][i]);
+                    sum = Lanes<Real>::multiply_add(
+                        gradient.at[l], l <= m ? hessian.at[l][m][i][j] : hessian.at[m][l][j][i],
+                        sum);
                 }
                 result.at[m][i][j] = sum;
             }

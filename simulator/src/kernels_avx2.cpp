@@ -4,14 +4,12 @@
 namespace pent::simulator {
 
 const Kernels<3>& kernels_3_avx2() {
-    static constexpr Kernels<3> kTable = kernel_table<3, std::experimental::native_simd<float>,
-                                                      std::experimental::native_simd<double>>();
+    static constexpr Kernels<3> kTable = kernel_table<3, Widest<float>, Widest<double>>();
     return kTable;
 }
 
 const Kernels<4>& kernels_4_avx2() {
-    static constexpr Kernels<4> kTable = kernel_table<4, std::experimental::native_simd<float>,
-                                                      std::experimental::native_simd<double>>();
+    static constexpr Kernels<4> kTable = kernel_table<4, Widest<float>, Widest<double>>();
     return kTable;
 }
 

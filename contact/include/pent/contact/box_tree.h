@@ -1,12 +1,12 @@
 #pragma once
 
 #include <pent/contact/closest_points.h>
+#include <pent/simd.h>
 
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cstdint>
-#include <experimental/simd>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,19 +19,11 @@ struct alignas(16) Box {
     float high[4];  // NOLINT(modernize-avoid-c-arrays)
 };
 
-namespace detail {
-using FourFloats = std::experimental::simd<float, std::experimental::simd_abi::deduce_t<float, 4>>;
-}
-
 /// Whether two boxes have a point in common. Never true for a box with a NaN.
 [[nodiscard, gnu::always_inline]] inline bool overlap(const Box& a, const Box& b) {
-    using detail::FourFloats;
-    const std::experimental::overaligned_tag<16> aligned;
-    const FourFloats a_low(a.low, aligned);
-    const FourFloats a_high(a.high, aligned);
-    const FourFloats b_low(b.low, aligned);
-    const FourFloats b_high(b.high, aligned);
-    return std::experimental::all_of(a_low <= b_high && b_low <= a_high);
+    using Four = Pack<float, 4>;
+    return all(Four::load_aligned(a.low) <= Four::load_aligned(b.high)
+               && Four::load_aligned(b.low) <= Four::load_aligned(a.high));
 }
 
 /// The smallest box around both.
