@@ -3,18 +3,21 @@
 #
 #   scripts/setup.sh            what building, testing and the demo need
 #   scripts/setup.sh --tools    also what lint.sh, coverage.sh and fuzz.sh need
+#   scripts/setup.sh --portable also what test.sh --portable needs: clang, libc++, the sources of GoogleTest
 #   scripts/setup.sh --check    only say what is missing; exit code 1 if anything is
 #
 # Works as root or with sudo. Safe to run again: when nothing is missing it does nothing.
 set -euo pipefail
 
 with_tools=false
+with_portable=false
 only_check=false
 for argument in "$@"; do
     case $argument in
         --tools) with_tools=true ;;
+        --portable) with_portable=true ;;
         --check) only_check=true ;;
-        *) echo "setup: unknown argument $argument; expected --tools or --check" >&2; exit 2 ;;
+        *) echo "setup: unknown argument $argument; expected --tools, --portable or --check" >&2; exit 2 ;;
     esac
 done
 
@@ -29,7 +32,6 @@ packages=(
     libassimp-dev libtet1.5-dev   # mesher: surface files, TetGen
     libembree-dev libpng-dev      # viewer: ray tracer, pictures
     libfreetype-dev fonts-dejavu-core  # viewer: captions
-    libxsimd-dev                  # simulator: vectorized kernels
     libgtest-dev libbenchmark-dev # tests and benchmarks
     ffmpeg                        # movies
     python3 python3-numpy         # the numpy reader, the table of paper.sh
@@ -39,6 +41,13 @@ if $with_tools; then
         clang-format clang-tidy           # lint.sh
         gcovr                             # coverage.sh
         clang libclang-rt-14-dev llvm     # fuzz.sh: libFuzzer, names in what its sanitizers find
+    )
+fi
+
+if $with_portable; then
+    packages+=(
+        clang libc++-dev libc++abi-dev    # another compiler, another C++ library
+        googletest                        # compiled for that library
     )
 fi
 

@@ -6,8 +6,9 @@
 #   scripts/test.sh --readers                 only the format and every reader of files under the address
 #                                             and undefined-behavior sanitizers, over damaged samples
 #   scripts/test.sh --threads                 only the parts that use threads, under the thread sanitizer
+#   scripts/test.sh --portable                the libraries with clang++, libc++ and without threads
 #   scripts/test.sh --all                     every test, every test under the address and undefined-behavior
-#                                             sanitizers, and --threads (long: each builds anew)
+#                                             sanitizers, --threads and --portable (long: each builds anew)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -33,6 +34,11 @@ run_threads() {
     run_preset tsan
 }
 
+run_portable() {
+    scripts/setup.sh --portable
+    run_preset portable
+}
+
 launcher=()
 scripts/setup.sh
 case ${1:-} in
@@ -47,10 +53,14 @@ case ${1:-} in
     --threads)
         run_threads
         ;;
+    --portable)
+        run_portable
+        ;;
     --all)
         run_preset dev
         run_preset asan
         run_threads
+        run_portable
         ;;
     *)
         run_preset dev "$@"

@@ -3,8 +3,8 @@
 #include "common/program.h"
 
 #include <pent/error.h>
+#include <pent/real_text.h>
 
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -27,7 +27,7 @@ double to_number(const std::string& text, const std::string& what) {
     double number = 0;
     const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
     const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(begin, end, number);
+    const auto [stop, error] = real_from_chars(begin, end, number);
     if (error != std::errc() || stop != end || !std::isfinite(number)) {
         throw Error(what + ": found \"" + text + "\"; expected a number");
     }

@@ -5,6 +5,7 @@
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/output_file.h>
+#include <pent/real_text.h>
 
 #include <array>
 #include <charconv>
@@ -43,7 +44,9 @@ void append_number(std::string& text, const char* data) {
     std::memcpy(&value, data, sizeof value);
     std::array<char, 32> digits{};
     std::to_chars_result result{};
-    if constexpr (sizeof(Value) == 1) {
+    if constexpr (std::is_floating_point_v<Value>) {
+        result = real_to_chars(digits.data(), digits.data() + digits.size(), value);
+    } else if constexpr (sizeof(Value) == 1) {
         result = std::to_chars(digits.data(), digits.data() + digits.size(), int{value});
     } else {
         result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
@@ -80,7 +83,9 @@ auto with_type(PlyType type, Visit&& visit) {
 const char* parse_number(const char* at, const char* end, PlyType type, char* target) {
     return with_type(type, [&](auto value) -> const char* {
         std::from_chars_result result{};
-        if constexpr (sizeof value == 1) {
+        if constexpr (std::is_floating_point_v<decltype(value)>) {
+            result = real_from_chars(at, end, value);
+        } else if constexpr (sizeof value == 1) {
             int wide = 0;
             result = std::from_chars(at, end, wide);
             value = static_cast<decltype(value)>(wide);

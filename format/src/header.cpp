@@ -2,6 +2,7 @@
 
 #include <pent/error.h>
 #include <pent/formatted.h>
+#include <pent/real_text.h>
 
 #include <algorithm>
 #include <array>
@@ -55,7 +56,7 @@ std::optional<Number> number(std::string_view word, int base = 10) {
     Number value{};
     std::from_chars_result result{};
     if constexpr (std::is_floating_point_v<Number>) {
-        result = std::from_chars(word.data(), word.data() + word.size(), value);
+        result = real_from_chars(word.data(), word.data() + word.size(), value);
     } else {
         result = std::from_chars(word.data(), word.data() + word.size(), value, base);
     }
@@ -345,7 +346,7 @@ private:
 
 std::string shortest(double value) {
     std::array<char, 32> text{};
-    const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
+    const auto result = real_to_chars(text.data(), text.data() + text.size(), value);
     return {text.data(), result.ptr};
 }
 

@@ -45,7 +45,7 @@ InputFile read_input(const std::filesystem::path& path, std::size_t limit) {
     }
     InputFile file;
     const std::size_t wanted = std::min(limit, static_cast<std::size_t>(status.st_size));
-    file.data = std::make_unique_for_overwrite<char[]>(wanted);
+    file.data.reset(new char[wanted]);  // not set to zero: the file fills it
     while (file.bytes < wanted) {
         const ssize_t got =
             ::read(descriptor.number(), file.data.get() + file.bytes, wanted - file.bytes);

@@ -213,11 +213,12 @@ private:
     }
 
     [[nodiscard]] bool is_anything_moving() const {
-        const bool is_driven =
-            std::ranges::any_of(scene_.constraints, [](const Constraint& constraint) {
-                return std::ranges::any_of(constraint.motion, [](const Motion& motion) {
-                    return !motion.translate.isZero(0) || !motion.rotate.empty();
-                });
+        const bool is_driven = std::any_of(
+            scene_.constraints.begin(), scene_.constraints.end(), [](const Constraint& constraint) {
+                return std::any_of(constraint.motion.begin(), constraint.motion.end(),
+                                   [](const Motion& motion) {
+                                       return !motion.translate.isZero(0) || !motion.rotate.empty();
+                                   });
             });
         return is_driven || trial_.step.energies.kinetic > 0;
     }

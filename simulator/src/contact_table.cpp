@@ -1,8 +1,7 @@
 #include "contact_table.h"
 
 #include <pent/contact/contacts.h>
-
-#include <charconv>
+#include <pent/real_text.h>
 
 namespace pent::simulator {
 
@@ -10,7 +9,7 @@ namespace {
 
 void add(std::string& text, double value) {
     char digits[32];
-    const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
+    const auto [end, error] = real_to_chars(digits, digits + sizeof digits, value);
     text.append(1, ',').append(digits, end);
 }
 

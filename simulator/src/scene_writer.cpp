@@ -1,9 +1,9 @@
 #include "scene_names.h"
 
+#include <pent/real_text.h>
 #include <pent/simulator/scene_file.h>
 
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <string>
 
@@ -15,7 +15,7 @@ namespace {
 std::string number(double value) {
     assert(std::isfinite(value));
     char digits[32];
-    const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
+    const auto [end, error] = real_to_chars(digits, digits + sizeof digits, value);
     std::string text(digits, end);
     if (text.find_first_of(".e") == std::string::npos) {
         text += ".0";
