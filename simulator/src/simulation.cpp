@@ -162,10 +162,11 @@ const std::vector<BodyRest>& Simulation<Dim>::rest() const {
 template <int Dim>
 void Simulation<Dim>::set_rest(const std::vector<BodyRest>& rest) {
     const bool can_sleep = state_->scene().sleep.has_value();
-    const bool is_right = rest.size() == state_->rest().size()
-                          && (can_sleep || std::ranges::all_of(rest, [](const BodyRest& body) {
-                                  return body == BodyRest();
-                              }));
+    const bool is_right =
+        rest.size() == state_->rest().size()
+        && (can_sleep || std::all_of(rest.begin(), rest.end(), [](const BodyRest& body) {
+                return body == BodyRest();
+            }));
     if (!is_right) {
         throw Error("the rest of " + std::to_string(rest.size()) + " bodies was given; expected "
                     + std::to_string(state_->rest().size())

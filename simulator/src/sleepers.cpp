@@ -66,8 +66,8 @@ Sleepers<Dim>::Sleepers(const Scene& scene, const World<Dim>& world)
 
 template <int Dim>
 int Sleepers<Dim>::count() const {
-    return static_cast<int>(
-        std::ranges::count_if(rest_, [](const BodyRest& rest) { return rest.is_asleep; }));
+    return static_cast<int>(std::count_if(rest_.begin(), rest_.end(),
+                                          [](const BodyRest& rest) { return rest.is_asleep; }));
 }
 
 template <int Dim>

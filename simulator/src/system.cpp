@@ -129,7 +129,7 @@ template <int Dim>
 void System<Dim>::renumber(const std::vector<bool>& asleep, const Positions<Dim>& positions) {
     damping_tangent_.reset();
     frozen_ = {};
-    if (std::ranges::find(asleep, true) != asleep.end()) {
+    if (std::find(asleep.begin(), asleep.end(), true) != asleep.end()) {
         layout_ = lay_out(number_bodies(*world_, asleep));
         frozen_.forces.setZero(Dim, positions.cols());
         frozen_.energy =

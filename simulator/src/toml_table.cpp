@@ -68,7 +68,7 @@ std::string one_line(std::string_view text) {
     return line;
 }
 
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
     return "\"" + std::string(word) + "\"";
 }
 
@@ -76,7 +76,7 @@ std::string quoted(std::string_view word) {
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
     const std::string best = nearest_name(word, candidates);
-    return best.empty() ? "" : "; did you mean " + quoted(best) + "?";
+    return best.empty() ? "" : "; did you mean " + in_quotes(best) + "?";
 }
 
 toml::table parse_toml(std::string_view text, const std::string& file) {
@@ -118,8 +118,9 @@ void TableReader::fail_missing(std::string_view key, std::string_view type) cons
             unknown.emplace_back(present.str());
         }
     }
-    fail("", name_ + " needs " + quoted(key) + " (" + std::string(type) + ")"
-                 + (unknown.empty() ? "" : "; found the unknown key " + quoted(unknown.front())));
+    fail("",
+         name_ + " needs " + in_quotes(key) + " (" + std::string(type) + ")"
+             + (unknown.empty() ? "" : "; found the unknown key " + in_quotes(unknown.front())));
 }
 
 double TableReader::number(std::string_view key,
@@ -134,7 +135,7 @@ double TableReader::number(std::string_view key,
     }
     const std::optional<double> value = node->value<double>();
     if (!node->is_number() || !value || !is_within(range, *value)) {
-        fail(key, quoted(key) + " is " + type_of(*node) + "; expected " + readable(range));
+        fail(key, in_quotes(key) + " is " + type_of(*node) + "; expected " + readable(range));
     }
     return *value;
 }
@@ -154,7 +155,7 @@ std::int64_t TableReader::integer(std::string_view key,
     }
     if (!node->is_integer() || node->as_integer()->get() < low
         || node->as_integer()->get() > high) {
-        fail(key, quoted(key) + " is " + type_of(*node) + "; expected " + expected);
+        fail(key, in_quotes(key) + " is " + type_of(*node) + "; expected " + expected);
     }
     return node->as_integer()->get();
 }
@@ -165,7 +166,7 @@ bool TableReader::flag(std::string_view key, bool fallback) {
         return fallback;
     }
     if (!node->is_boolean()) {
-        fail(key, quoted(key) + " is " + type_of(*node) + "; expected true or false");
+        fail(key, in_quotes(key) + " is " + type_of(*node) + "; expected true or false");
     }
     return node->as_boolean()->get();
 }
@@ -176,7 +177,7 @@ std::string TableReader::text(std::string_view key) {
         fail_missing(key, "text");
     }
     if (!node->is_string()) {
-        fail(key, quoted(key) + " is " + type_of(*node) + "; expected text in quotes");
+        fail(key, in_quotes(key) + " is " + type_of(*node) + "; expected text in quotes");
     }
     return node->as_string()->get();
 }
@@ -194,10 +195,10 @@ Eigen::VectorXd TableReader::vector(std::string_view key,
     }
     const toml::array* array = node->as_array();
     if (array == nullptr) {
-        fail(key, quoted(key) + " is " + type_of(*node) + "; expected " + expected);
+        fail(key, in_quotes(key) + " is " + type_of(*node) + "; expected " + expected);
     }
     if (array->size() != static_cast<std::size_t>(length)) {
-        fail(key, quoted(key) + " has " + std::to_string(array->size()) + " entries; expected "
+        fail(key, in_quotes(key) + " has " + std::to_string(array->size()) + " entries; expected "
                       + expected + " (the scene's dimension is " + std::to_string(length) + ")");
     }
     Eigen::VectorXd vector(length);
@@ -205,7 +206,8 @@ Eigen::VectorXd TableReader::vector(std::string_view key,
         const toml::node& entry = *array->get(static_cast<std::size_t>(axis));
         const std::optional<double> value = entry.value<double>();
         if (!entry.is_number() || !value || !std::isfinite(*value)) {
-            fail(key, quoted(key) + " has the entry " + type_of(entry) + "; expected " + expected);
+            fail(key,
+                 in_quotes(key) + " has the entry " + type_of(entry) + "; expected " + expected);
         }
         vector[axis] = *value;
     }
@@ -223,9 +225,9 @@ std::size_t TableReader::choice(std::string_view key,
     if (found == names.end()) {
         std::string list;
         for (const std::string_view name : names) {
-            list += (list.empty() ? "" : ", ") + quoted(name);
+            list += (list.empty() ? "" : ", ") + in_quotes(name);
         }
-        fail(key, quoted(key) + " is " + quoted(value) + "; expected "
+        fail(key, in_quotes(key) + " is " + in_quotes(value) + "; expected "
                       + (names.size() > 1 ? "one of " : "") + list
                       + did_you_mean(value, {names.begin(), names.end()}));
     }
@@ -235,9 +237,9 @@ std::size_t TableReader::choice(std::string_view key,
 TableReader TableReader::table(std::string_view key) {
     const toml::node* node = find(key);
     if (!node->is_table()) {
-        fail(key, quoted(key) + " is " + type_of(*node) + "; expected a table");
+        fail(key, in_quotes(key) + " is " + type_of(*node) + "; expected a table");
     }
-    return {*node->as_table(), quoted(key), file_};
+    return {*node->as_table(), in_quotes(key), file_};
 }
 
 std::vector<TableReader> TableReader::tables(std::string_view key) {
@@ -251,13 +253,13 @@ std::vector<TableReader> TableReader::tables(std::string_view key) {
     }
     const toml::array* array = find(key)->as_array();
     if (array == nullptr) {
-        fail(key, quoted(key) + " is " + type_of(*find(key)) + "; expected a list of tables");
+        fail(key, in_quotes(key) + " is " + type_of(*find(key)) + "; expected a list of tables");
     }
     for (const toml::node& entry : *array) {
         if (!entry.is_table()) {
-            fail(key, quoted(key) + " has the entry " + type_of(entry) + "; expected a table");
+            fail(key, in_quotes(key) + " has the entry " + type_of(entry) + "; expected a table");
         }
-        readers.emplace_back(*entry.as_table(), quoted(key), file_);
+        readers.emplace_back(*entry.as_table(), in_quotes(key), file_);
     }
     return readers;
 }
@@ -286,15 +288,15 @@ bool TableReader::is_text(std::string_view key) {
 
 void TableReader::refuse(std::string_view key, std::string_view reason) {
     if (has(key)) {
-        fail(key, quoted(key) + " " + std::string(reason));
+        fail(key, in_quotes(key) + " " + std::string(reason));
     }
 }
 
 void TableReader::finish() const {
     for (const auto& [key, node] : *table_) {
         if (std::find(known_.begin(), known_.end(), key.str()) == known_.end()) {
-            throw Error(at(file_, key.source().begin) + "unknown key " + quoted(key.str()) + " in "
-                        + name_ + did_you_mean(key.str(), known_));
+            throw Error(at(file_, key.source().begin) + "unknown key " + in_quotes(key.str())
+                        + " in " + name_ + did_you_mean(key.str(), known_));
         }
     }
 }

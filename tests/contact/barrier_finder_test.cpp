@@ -314,10 +314,10 @@ TYPED_TEST(BarrierFinderTest, ObstaclesLeaveBodiesAloneThatAreMovedFromOutside) 
             this->kOptions);
         const BarrierContacts<kDim> contacts = finder.find(this->scene_.positions);
         EXPECT_EQ(contacts.vertices.empty(), is_kinematic);
-        EXPECT_EQ(std::ranges::none_of(
-                      contacts.pairs,
-                      [](const BarrierContact<kDim>& pair) { return pair.first_body < 0; }),
-                  is_kinematic);
+        EXPECT_EQ(
+            std::none_of(contacts.pairs.begin(), contacts.pairs.end(),
+                         [](const BarrierContact<kDim>& pair) { return pair.first_body < 0; }),
+            is_kinematic);
     }
 }
 

@@ -205,10 +205,11 @@ TYPED_TEST(ContactsTest, FlatFacesPushAlongTheirNormalAlone) {
         const double top = scene.positions.row(1).head(scene.begin[1]).maxCoeff();
         int within = 0;
         for (const Contact<kDim>& contact : contacts_of(scene).pairs) {
-            const bool is_within = std::ranges::all_of(contact.vertices, [&](std::uint32_t vertex) {
-                const double above = scene.positions(1, vertex) - top;
-                return above > -1e-12 && above < kGap + 1e-12;
-            });
+            const bool is_within = std::all_of(
+                contact.vertices.begin(), contact.vertices.end(), [&](std::uint32_t vertex) {
+                    const double above = scene.positions(1, vertex) - top;
+                    return above > -1e-12 && above < kGap + 1e-12;
+                });
             if (contact.kind == ContactKind::Mixed && is_within) {
                 ++within;
                 for (int i = 0; i <= kDim; ++i) {

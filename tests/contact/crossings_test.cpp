@@ -145,8 +145,8 @@ TYPED_TEST(CrossingsTest, WithinABodyAreTheSameInWhateverOrderItsCellsAre) {
         scene.add(mesh, Vector<kDim>::Zero());
         std::set<std::set<Simplex>> pairs;
         for (Crossing crossing : crossings_of<kDim>(scene, true)) {
-            std::ranges::sort(crossing.first);
-            std::ranges::sort(crossing.second);
+            std::sort(crossing.first.begin(), crossing.first.end());
+            std::sort(crossing.second.begin(), crossing.second.end());
             pairs.insert({crossing.first, crossing.second});
         }
         return pairs;

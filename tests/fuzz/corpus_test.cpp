@@ -29,7 +29,7 @@ std::vector<std::string> samples(const Reader& reader) {
     for (const auto& entry : fs::directory_iterator(fs::path(PENT_FUZZ_CORPUS) / reader.name)) {
         paths.push_back(entry.path());
     }
-    std::ranges::sort(paths);
+    std::sort(paths.begin(), paths.end());
     std::vector<std::string> contents;
     for (const fs::path& path : paths) {
         std::ifstream file(path, std::ios::binary);

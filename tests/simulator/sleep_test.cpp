@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -304,7 +305,8 @@ TEST(RunWithSleep, ResumesToTheSameBytes) {
         scene.frames = 15;
         scene.sleep = Sleep{.speed = 1e-3, .time = 0.03};
         const RunReport whole = run(scene, {.folder = folder / "whole"});
-        EXPECT_TRUE(std::ranges::any_of(whole.steps, [](const auto& s) { return s.asleep == 1; }));
+        EXPECT_TRUE(std::any_of(whole.steps.begin(), whole.steps.end(),
+                                [](const auto& s) { return s.asleep == 1; }));
         for (const int stop : {2, 4, 12}) {
             int asked = 0;
             const fs::path cut = folder / ("cut" + std::to_string(stop));

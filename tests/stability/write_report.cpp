@@ -79,7 +79,9 @@ void write_corners() {
     heading("Corners", "motion", "corners");
     for (const Motion motion : kMotions) {
         for (const bool is_inside : {true, false}) {
-            const auto count = std::ranges::count(corners(), is_inside, &Case::is_inside);
+            const auto count =
+                std::count_if(corners().begin(), corners().end(),
+                              [&](const Case& one) { return one.is_inside == is_inside; });
             row(is_inside ? kNames[static_cast<int>(motion)] : "", std::to_string(count),
                 is_inside ? "in" : "out",
                 [&](Precision precision) { return counted(is_inside, motion, precision); });
