@@ -52,6 +52,7 @@ struct Lanes<Counted<Scalar>> {
     static Real root(Real value) { return Real::counted(One::root(value.value)); }
     static Real abs(Real value) { return Real(One::abs(value.value)); }
     static Real max(Real a, Real b) { return Real(One::max(a.value, b.value)); }
+    static Real multiply_add(Real a, Real b, Real c) { return a * b + c; }
     static Scalar lane(Real value, int /*i*/) { return value.value; }
     static void set_lane(Real& value, int /*i*/, Scalar number) { value = Real(number); }
 };
