@@ -53,6 +53,20 @@ void say_surface(const Program& program, const BodyReport& report) {
     }
 }
 
+void say_cells(const Program& program, const BodyReport& report) {
+    if (!report.cut.empty()) {
+        program.say("cut        " + report.cut);
+    }
+    if (report.curved_cells > 0) {
+        program.say(formatted("straight   %lld cell%s of higher order, by their corners alone",
+                              static_cast<Long>(report.curved_cells),
+                              report.curved_cells == 1 ? "" : "s"));
+    }
+    if (!report.left_out.empty()) {
+        program.say("left out   " + report.left_out + ": of fewer than three dimensions");
+    }
+}
+
 void say_base(const Program& program, const BodyReport& report, int dim) {
     if (report.layers == 0) {
         return;
@@ -99,6 +113,8 @@ nlohmann::ordered_json to_json(const BodyReport& report, std::int64_t vertices) 
                        {"repair_distance", report.repair_distance},
                        {"merged_points", report.merged_points},
                        {"flipped_triangles", report.flipped_triangles}};
+    json["cells"] = {
+        {"cut", report.cut}, {"left_out", report.left_out}, {"curved", report.curved_cells}};
     json["base"] = {{"generator", report.generator}, {"failures", report.failures},
                     {"fillings", report.fillings},   {"vertices", report.base_vertices},
                     {"cells", report.base_cells},    {"volume", report.base_volume},
@@ -145,6 +161,7 @@ void make_and_write(Program& program, const MeshArguments& arguments) {
             pent::mesher::quality_svg(body.report.quality, arguments.output.filename().string()));
     }
     say_surface(program, body.report);
+    say_cells(program, body.report);
     say_base(program, body.report, Dim);
     say_body(program, body.report, body.mesh.vertex_count(), Dim);
     if (arguments.show_quality) {

@@ -315,6 +315,9 @@ SimplexMesh<3> read_base(const BodyRequest& request, BodyReport& report, Clock& 
         throw Error(name_of_input(request)
                     + ": the tetrahedra do not fit together: " + describe_faults(proof, 3));
     }
+    report.cut = std::move(file.cut);
+    report.left_out = std::move(file.left_out);
+    report.curved_cells = file.curved_cells;
     report.generator = file.turned_cells > 0
                            ? "as read, " + std::to_string(file.turned_cells) + " turned over"
                            : "as read";

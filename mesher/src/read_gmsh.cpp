@@ -1,36 +1,86 @@
+#include "number_reader.h"
 #include "tet_readers.h"
-#include "text_reader.h"
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace pent::mesher {
 
 namespace {
 
-constexpr std::int64_t kTetrahedron = 4;  // Gmsh's number for the type
-constexpr std::int64_t kTetrahedron10 = 11;
+// Gmsh's number for a type of elements, what it is, and how many nodes it has. In all of them the
+// corners come first.
+struct ElementType {
+    std::int64_t number;
+    CellKind kind;
+    std::int64_t nodes;
+};
 
-std::int64_t next_integer(TextReader& text) {
-    return text.integer(text.next_word("a whole number"), "a whole number");
-}
+constexpr std::array kTypes = {
+    ElementType{1, CellKind::Line, 2},
+    ElementType{2, CellKind::Triangle, 3},
+    ElementType{3, CellKind::Quadrilateral, 4},
+    ElementType{4, CellKind::Tetrahedron, 4},
+    ElementType{5, CellKind::Hexahedron, 8},
+    ElementType{6, CellKind::Prism, 6},
+    ElementType{7, CellKind::Pyramid, 5},
+    ElementType{8, CellKind::Line, 3},
+    ElementType{9, CellKind::Triangle, 6},
+    ElementType{10, CellKind::Quadrilateral, 9},
+    ElementType{11, CellKind::Tetrahedron, 10},
+    ElementType{12, CellKind::Hexahedron, 27},
+    ElementType{13, CellKind::Prism, 18},
+    ElementType{14, CellKind::Pyramid, 14},
+    ElementType{15, CellKind::Point, 1},
+    ElementType{16, CellKind::Quadrilateral, 8},
+    ElementType{17, CellKind::Hexahedron, 20},
+    ElementType{18, CellKind::Prism, 15},
+    ElementType{19, CellKind::Pyramid, 13},
+    ElementType{20, CellKind::Triangle, 9},
+    ElementType{21, CellKind::Triangle, 10},
+    ElementType{22, CellKind::Triangle, 12},
+    ElementType{23, CellKind::Triangle, 15},
+    ElementType{24, CellKind::Triangle, 15},
+    ElementType{25, CellKind::Triangle, 21},
+    ElementType{26, CellKind::Line, 4},
+    ElementType{27, CellKind::Line, 5},
+    ElementType{28, CellKind::Line, 6},
+    ElementType{29, CellKind::Tetrahedron, 20},
+    ElementType{30, CellKind::Tetrahedron, 35},
+    ElementType{31, CellKind::Tetrahedron, 56},
+    ElementType{36, CellKind::Quadrilateral, 16},
+    ElementType{37, CellKind::Quadrilateral, 25},
+    ElementType{38, CellKind::Quadrilateral, 36},
+    ElementType{90, CellKind::Prism, 40},
+    ElementType{91, CellKind::Prism, 75},
+    ElementType{92, CellKind::Hexahedron, 64},
+    ElementType{93, CellKind::Hexahedron, 125},
+    ElementType{94, CellKind::Hexahedron, 216},
+    ElementType{106, CellKind::Prism, 126},
+    ElementType{118, CellKind::Pyramid, 30},
+    ElementType{119, CellKind::Pyramid, 55},
+    ElementType{120, CellKind::Pyramid, 91},
+};
 
-std::int64_t next_count(TextReader& text) {
-    return text.count(text.next_word("a count"), "a count");
-}
-
-Eigen::Vector3d next_point(TextReader& text) {
-    Eigen::Vector3d point;
-    for (double& coordinate : point) {
-        coordinate = text.number(text.next_word("a coordinate"), "a coordinate");
+const ElementType& type_of(const TextReader& text, std::int64_t number) {
+    for (const ElementType& type : kTypes) {
+        if (type.number == number) {
+            return type;
+        }
     }
-    return point;
+    text.fail("elements of Gmsh's type " + std::to_string(number)
+              + "; expected lines, triangles, quadrilaterals, tetrahedra, hexahedra, prisms and"
+                " pyramids up to order 5");
 }
 
 // Nodes have numbers of their own, in any order and with gaps.
 class Nodes {
 public:
-    explicit Nodes(TetSoup& soup) : soup_(soup) {}
+    explicit Nodes(CellSoup& soup) : soup_(soup) {}
 
     void add(const TextReader& text, std::int64_t number, const Eigen::Vector3d& point) {
         const auto name = static_cast<std::uint32_t>(soup_.points.size());
@@ -49,128 +99,187 @@ public:
     }
 
 private:
-    TetSoup& soup_;
+    CellSoup& soup_;
     std::map<std::int64_t, std::uint32_t> names_;
 };
 
-bool is_tetrahedron(std::int64_t type) {
-    return type == kTetrahedron || type == kTetrahedron10;
-}
-
-// The four corners come first, also in elements of higher order.
-void add_tet(TextReader& text, const Nodes& nodes, std::int64_t label, TetSoup& soup) {
-    std::array<std::uint32_t, 4> tet{};
-    for (std::uint32_t& corner : tet) {
-        corner = nodes.name(text, text.integer(text.word(), "a node"));
+// Reads sections of either version, which differ in their order and in the size of whole numbers.
+class GmshReader {
+public:
+    explicit GmshReader(const std::filesystem::path& path)
+        : text_(path, '\0'), numbers_(text_, Encoding::Text), nodes_(soup_) {
+        soup_.has_labels = true;
     }
-    soup.tets.push_back(tet);
-    soup.labels.push_back(label);
-}
 
-void read_nodes_2(TextReader& text, Nodes& nodes) {
-    const std::int64_t count = next_count(text);
-    for (std::int64_t i = 0; i < count; ++i) {
-        const std::int64_t number = next_integer(text);
-        const Eigen::Vector3d point = next_point(text);
-        nodes.add(text, number, point);
+    CellSoup read() {
+        while (text_.next_line()) {
+            const std::string section(text_.word());
+            if (section == "$MeshFormat") {
+                read_format();
+            } else if (version_ == 0) {
+                text_.fail("no $MeshFormat at the start; expected a Gmsh file");
+            } else if (section == "$Nodes") {
+                version_ == 2 ? read_nodes_2() : read_nodes_4();
+            } else if (section == "$Elements") {
+                version_ == 2 ? read_elements_2() : read_elements_4();
+            } else if (section.starts_with("$") && !section.starts_with("$End")) {
+                skip_section("$End" + section.substr(1));
+            }
+        }
+        return std::move(soup_);
     }
-}
 
-void read_elements_2(TextReader& text, const Nodes& nodes, TetSoup& soup) {
-    const std::int64_t count = next_count(text);
-    for (std::int64_t i = 0; i < count; ++i) {
-        static_cast<void>(next_integer(text));  // the element's number
-        const std::int64_t type = text.integer(text.word(), "the type of an element");
-        const std::int64_t tags = text.count(text.word(), "the number of tags");
+private:
+    void read_format() {
+        const double version = text_.number(text_.next_word("a version"), "a version");
+        if (version != 2.2 && version != 4.1) {
+            text_.fail("Gmsh version " + std::to_string(version) + "; expected 2.2 or 4.1");
+        }
+        version_ = version == 2.2 ? 2 : 4;
+        const std::int64_t is_binary = text_.integer(text_.word(), "0 for text or 1 for binary");
+        const std::int64_t size = text_.integer(text_.word(), "the size of numbers");
+        if (is_binary == 0) {
+            return;
+        }
+        if (size != 8) {
+            text_.fail("numbers of " + std::to_string(size) + " bytes; expected 8");
+        }
+        // A one, by which the order of bytes shows.
+        constexpr std::int64_t kSwapped = 1 << 24;
+        numbers_.set_encoding(Encoding::LittleEndian);
+        const std::int64_t one = number();
+        if (one == kSwapped) {
+            numbers_.set_encoding(Encoding::BigEndian);
+        } else if (one != 1) {
+            text_.fail("found " + std::to_string(one) + ", expected the number 1 of a binary file");
+        }
+    }
+
+    // Some sections of a binary file are no lines.
+    void skip_section(const std::string& end) {
+        const std::size_t at = text_.rest().find(end);
+        if (at == std::string_view::npos) {
+            text_.fail("the file ends here; expected " + end);
+        }
+        static_cast<void>(text_.take_bytes(at, end));
+    }
+
+    // In a text an element is a line; a row that is too long or too short shows here.
+    void end_row() {
+        if (numbers_.is_text() && !text_.word().empty()) {
+            text_.fail("more words or fewer than the element before has");
+        }
+    }
+
+    std::int64_t number() { return numbers_.whole<std::int32_t>("a whole number"); }
+    std::int64_t count() { return numbers_.count<std::int32_t>("a count"); }
+    std::int64_t long_number() { return numbers_.whole<std::uint64_t>("a whole number"); }
+    std::int64_t long_count() { return numbers_.count<std::uint64_t>("a count"); }
+
+    void read_nodes_2() {
+        const std::int64_t count = text_.count(text_.next_word("a count"), "the number of nodes");
+        for (std::int64_t i = 0; i < count; ++i) {
+            const std::int64_t name = number();
+            nodes_.add(text_, name, numbers_.point<double>());
+        }
+    }
+
+    void read_elements_2() {
+        const std::int64_t count =
+            text_.count(text_.next_word("a count"), "the number of elements");
+        std::int64_t done = 0;
+        while (done < count) {
+            if (numbers_.is_text()) {
+                static_cast<void>(number());  // of the element
+                const ElementType& type = type_of(text_, number());
+                read_element_2(type, this->count());
+                end_row();
+                ++done;
+                continue;
+            }
+            const ElementType& type = type_of(text_, number());
+            const std::int64_t following = this->count();
+            const std::int64_t tags = this->count();
+            for (std::int64_t i = 0; i < following; ++i) {
+                static_cast<void>(number());
+                read_element_2(type, tags);
+            }
+            done += std::max<std::int64_t>(following, 1);  // an end for damaged files, too
+        }
+    }
+
+    void read_element_2(const ElementType& type, std::int64_t tags) {
         std::int64_t label = 0;
         for (std::int64_t tag = 0; tag < tags; ++tag) {
-            const std::int64_t value = text.integer(text.word(), "a tag");
+            const std::int64_t value = number();
             label = tag == 0 ? value : label;
         }
-        if (is_tetrahedron(type)) {
-            add_tet(text, nodes, label, soup);
-        } else {
-            text.skip_line();
-        }
+        read_cell(type, label, [this] { return number(); });
     }
-}
 
-void read_nodes_4(TextReader& text, Nodes& nodes) {
-    const std::int64_t blocks = next_count(text);
-    static_cast<void>(next_count(text));    // nodes in all
-    static_cast<void>(next_integer(text));  // lowest and highest number
-    static_cast<void>(next_integer(text));
-    for (std::int64_t block = 0; block < blocks; ++block) {
-        static_cast<void>(next_integer(text));  // dimension and number of the entity
-        static_cast<void>(next_integer(text));
-        const bool is_parametric = next_integer(text) != 0;
-        const std::int64_t count = next_count(text);
-        std::vector<std::int64_t> numbers;
-        for (std::int64_t i = 0; i < count; ++i) {
-            numbers.push_back(next_integer(text));
-        }
-        for (const std::int64_t number : numbers) {
-            nodes.add(text, number, next_point(text));
-            if (is_parametric) {
-                text.skip_line();
+    void read_nodes_4() {
+        const std::int64_t blocks = long_count();
+        static_cast<void>(long_count());   // nodes in all
+        static_cast<void>(long_number());  // lowest and highest number
+        static_cast<void>(long_number());
+        for (std::int64_t block = 0; block < blocks; ++block) {
+            const std::int64_t dimension = number();
+            static_cast<void>(number());  // of the entity
+            const std::int64_t parameters = number() != 0 ? dimension : 0;
+            const std::int64_t count = long_count();
+            std::vector<std::int64_t> names;
+            for (std::int64_t i = 0; i < count; ++i) {
+                names.push_back(long_number());
+            }
+            for (const std::int64_t name : names) {
+                nodes_.add(text_, name, numbers_.point<double>());
+                for (std::int64_t i = 0; i < parameters; ++i) {
+                    static_cast<void>(numbers_.real<double>("a parameter"));
+                }
             }
         }
     }
-}
 
-void read_elements_4(TextReader& text, const Nodes& nodes, TetSoup& soup) {
-    const std::int64_t blocks = next_count(text);
-    static_cast<void>(next_count(text));  // elements in all
-    static_cast<void>(next_integer(text));
-    static_cast<void>(next_integer(text));
-    for (std::int64_t block = 0; block < blocks; ++block) {
-        static_cast<void>(next_integer(text));  // dimension
-        const std::int64_t entity = next_integer(text);
-        const std::int64_t type = next_integer(text);
-        const std::int64_t count = next_count(text);
-        for (std::int64_t i = 0; i < count; ++i) {
-            static_cast<void>(next_integer(text));  // the element's number
-            if (is_tetrahedron(type)) {
-                add_tet(text, nodes, entity, soup);
+    void read_elements_4() {
+        const std::int64_t blocks = long_count();
+        static_cast<void>(long_count());  // elements in all
+        static_cast<void>(long_number());
+        static_cast<void>(long_number());
+        for (std::int64_t block = 0; block < blocks; ++block) {
+            static_cast<void>(number());  // dimension
+            const std::int64_t entity = number();
+            const ElementType& type = type_of(text_, number());
+            const std::int64_t count = long_count();
+            for (std::int64_t i = 0; i < count; ++i) {
+                static_cast<void>(long_number());  // of the element
+                read_cell(type, entity, [this] { return long_number(); });
+                end_row();
             }
-            text.skip_line();
         }
     }
-}
 
-// The version, 2 or 4.
-std::int64_t read_format(TextReader& text) {
-    const double version = text.number(text.next_word("a version"), "a version");
-    const std::int64_t is_binary = next_integer(text);
-    if (is_binary != 0) {
-        text.fail("a binary Gmsh file; expected text (gmsh -bin 0)");
+    template <typename Next>
+    void read_cell(const ElementType& type, std::int64_t label, Next next) {
+        cell_.clear();
+        for (std::int64_t i = 0; i < type.nodes; ++i) {
+            const std::int64_t node = next();
+            cell_.push_back(dimension_of(type.kind) == 3 ? nodes_.name(text_, node) : 0);
+        }
+        soup_.add(type.kind, cell_, label);
     }
-    if (version != 2.2 && version != 4.1) {
-        text.fail("Gmsh version " + std::to_string(version) + "; expected 2.2 or 4.1");
-    }
-    return version == 2.2 ? 2 : 4;
-}
+
+    TextReader text_;
+    NumberReader numbers_;
+    CellSoup soup_;
+    Nodes nodes_;
+    std::vector<std::uint32_t> cell_;
+    std::int64_t version_ = 0;  // 2 or 4
+};
 
 }  // namespace
 
-TetSoup read_gmsh(const std::filesystem::path& path) {
-    TextReader text(path, '\0');
-    TetSoup soup;
-    Nodes nodes(soup);
-    std::int64_t version = 0;
-    while (text.next_line()) {
-        const std::string_view section = text.word();
-        if (section == "$MeshFormat") {
-            version = read_format(text);
-        } else if (section == "$Nodes" && version != 0) {
-            version == 2 ? read_nodes_2(text, nodes) : read_nodes_4(text, nodes);
-        } else if (section == "$Elements" && version != 0) {
-            version == 2 ? read_elements_2(text, nodes, soup) : read_elements_4(text, nodes, soup);
-        } else if (version == 0) {
-            text.fail("no $MeshFormat at the start; expected a Gmsh file");
-        }
-    }
-    return soup;
+CellSoup read_gmsh(const std::filesystem::path& path) {
+    return GmshReader(path).read();
 }
 
 }  // namespace pent::mesher

@@ -1,31 +1,59 @@
 #include "tet_readers.h"
 #include "text_reader.h"
 
-#include <map>
+#include <array>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace pent::mesher {
 
 namespace {
 
-// Whole numbers in a line of each section that is skipped.
-const std::map<std::string_view, int>& skipped_sections() {
-    static const std::map<std::string_view, int> sections = {{"Edges", 3},
-                                                             {"Triangles", 4},
-                                                             {"Quadrilaterals", 5},
-                                                             {"Hexahedra", 9},
-                                                             {"Corners", 1},
-                                                             {"Ridges", 1},
-                                                             {"RequiredVertices", 1},
-                                                             {"RequiredEdges", 1},
-                                                             {"RequiredTriangles", 1},
-                                                             {"Prisms", 7},
-                                                             {"Pyramids", 6},
-                                                             {"Normals", 3},
-                                                             {"NormalAtVertices", 2},
-                                                             {"Tangents", 3},
-                                                             {"TangentAtVertices", 2}};
-    return sections;
+// A section of numbers: what each of its lines is, if it is a cell, and how many whole numbers it has
+// beside a label at the end.
+struct Section {
+    std::string_view name;
+    std::optional<CellKind> kind;
+    int numbers;
+    bool has_label = true;
+};
+
+// In cells of higher order the corners come first.
+constexpr std::array kSections = {
+    Section{"Tetrahedra", CellKind::Tetrahedron, 4},
+    Section{"Pyramids", CellKind::Pyramid, 5},
+    Section{"Prisms", CellKind::Prism, 6},
+    Section{"Pentahedra", CellKind::Prism, 6},
+    Section{"Hexahedra", CellKind::Hexahedron, 8},
+    Section{"TetrahedraP2", CellKind::Tetrahedron, 10},
+    Section{"PyramidsP2", CellKind::Pyramid, 14},
+    Section{"PrismsP2", CellKind::Prism, 18},
+    Section{"HexahedraQ2", CellKind::Hexahedron, 27},
+    Section{"Triangles", CellKind::Triangle, 3},
+    Section{"TrianglesP2", CellKind::Triangle, 6},
+    Section{"Quadrilaterals", CellKind::Quadrilateral, 4},
+    Section{"QuadrilateralsQ2", CellKind::Quadrilateral, 9},
+    Section{"Edges", CellKind::Line, 2},
+    Section{"EdgesP2", CellKind::Line, 3},
+    Section{"Corners", std::nullopt, 1, false},
+    Section{"Ridges", std::nullopt, 1, false},
+    Section{"RequiredVertices", std::nullopt, 1, false},
+    Section{"RequiredEdges", std::nullopt, 1, false},
+    Section{"RequiredTriangles", std::nullopt, 1, false},
+    Section{"Normals", std::nullopt, 3, false},
+    Section{"NormalAtVertices", std::nullopt, 2, false},
+    Section{"Tangents", std::nullopt, 3, false},
+    Section{"TangentAtVertices", std::nullopt, 2, false},
+};
+
+const Section* find_section(std::string_view name) {
+    for (const Section& section : kSections) {
+        if (section.name == name) {
+            return &section;
+        }
+    }
+    return nullptr;
 }
 
 double next_number(TextReader& text) {
@@ -36,7 +64,7 @@ std::int64_t next_integer(TextReader& text) {
     return text.integer(text.next_word("a whole number"), "a whole number");
 }
 
-void read_vertices(TextReader& text, TetSoup& soup) {
+void read_vertices(TextReader& text, CellSoup& soup) {
     const std::int64_t count = text.count(text.next_word("a count"), "the number of vertices");
     for (std::int64_t i = 0; i < count; ++i) {
         Eigen::Vector3d point;
@@ -48,28 +76,36 @@ void read_vertices(TextReader& text, TetSoup& soup) {
     }
 }
 
-void read_cells(TextReader& text, TetSoup& soup) {
-    const std::int64_t count = text.count(text.next_word("a count"), "the number of tetrahedra");
+void read_section(TextReader& text, const Section& section, CellSoup& soup) {
+    const std::int64_t count = text.count(text.next_word("a count"), "a count");
+    const bool is_read = section.kind && dimension_of(*section.kind) == 3;
+    std::vector<std::uint32_t> nodes(section.numbers, 0);
     for (std::int64_t i = 0; i < count; ++i) {
-        std::array<std::uint32_t, 4> tet{};
-        for (std::uint32_t& corner : tet) {
-            corner =
-                text.index(next_integer(text) - 1, static_cast<std::int64_t>(soup.points.size()));
+        for (std::uint32_t& node : nodes) {
+            if (is_read) {
+                node = text.index(next_integer(text) - 1,
+                                  static_cast<std::int64_t>(soup.points.size()));
+            } else {
+                static_cast<void>(text.next_word("a number"));
+            }
         }
-        soup.tets.push_back(tet);
-        soup.labels.push_back(next_integer(text));
+        const std::int64_t label = section.has_label ? next_integer(text) : 0;
+        if (section.kind) {
+            soup.add(*section.kind, nodes, label);
+        }
     }
 }
 
 }  // namespace
 
-TetSoup read_medit(const std::filesystem::path& path) {
+CellSoup read_medit(const std::filesystem::path& path) {
     TextReader text(path);
     if (!text.next_line() || text.word() != "MeshVersionFormatted") {
         text.fail("no MeshVersionFormatted at the start; expected a Medit file as text");
     }
     static_cast<void>(next_integer(text));
-    TetSoup soup;
+    CellSoup soup;
+    soup.has_labels = true;
     while (true) {
         std::string_view keyword = text.word();
         if (keyword.empty()) {
@@ -78,7 +114,6 @@ TetSoup read_medit(const std::filesystem::path& path) {
             }
             keyword = text.word();
         }
-        const auto skipped = skipped_sections().find(keyword);
         if (keyword == "Dimension") {
             const std::int64_t dimension = next_integer(text);
             if (dimension != 3) {
@@ -86,13 +121,8 @@ TetSoup read_medit(const std::filesystem::path& path) {
             }
         } else if (keyword == "Vertices") {
             read_vertices(text, soup);
-        } else if (keyword == "Tetrahedra") {
-            read_cells(text, soup);
-        } else if (skipped != skipped_sections().end()) {
-            const std::int64_t count = text.count(text.next_word("a count"), "a count");
-            for (std::int64_t i = 0; i < count * skipped->second; ++i) {
-                static_cast<void>(text.next_word("a number"));
-            }
+        } else if (const Section* section = find_section(keyword)) {
+            read_section(text, *section, soup);
         } else if (keyword == "End") {
             return soup;
         } else {

@@ -1,20 +1,16 @@
+#include "number_reader.h"
 #include "surface_readers.h"
-#include "text_reader.h"
 
 #include <pent/error.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <vector>
 
 namespace pent::mesher {
 
 namespace {
-
-static_assert(std::endian::native == std::endian::little);
 
 enum class Type { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
 
@@ -46,8 +42,6 @@ struct Element {
     std::int64_t count = 0;
     std::vector<Property> properties;
 };
-
-enum class Encoding { Text, LittleEndian, BigEndian };
 
 struct Header {
     Encoding encoding = Encoding::Text;
@@ -123,30 +117,27 @@ Header read_header(TextReader& text) {
 // Values one after the other, from text or bytes.
 class Values {
 public:
-    Values(TextReader& text, Encoding encoding)
-        : text_(text), encoding_(encoding), bytes_(text.rest()) {}
+    Values(TextReader& text, Encoding encoding) : text_(text), numbers_(text, encoding) {}
 
     double next(Type type) {
-        if (encoding_ == Encoding::Text) {
-            return text_.number(text_.next_word("a value"), "a value");
-        }
+        constexpr std::string_view kExpected = "a value";
         switch (type) {
             case Type::Int8:
-                return take<std::int8_t>();
+                return numbers_.real<std::int8_t>(kExpected);
             case Type::Uint8:
-                return take<std::uint8_t>();
+                return numbers_.real<std::uint8_t>(kExpected);
             case Type::Int16:
-                return take<std::int16_t>();
+                return numbers_.real<std::int16_t>(kExpected);
             case Type::Uint16:
-                return take<std::uint16_t>();
+                return numbers_.real<std::uint16_t>(kExpected);
             case Type::Int32:
-                return take<std::int32_t>();
+                return numbers_.real<std::int32_t>(kExpected);
             case Type::Uint32:
-                return take<std::uint32_t>();
+                return numbers_.real<std::uint32_t>(kExpected);
             case Type::Float32:
-                return double{take<float>()};
+                return numbers_.real<float>(kExpected);
             case Type::Float64:
-                return take<double>();
+                return numbers_.real<double>(kExpected);
         }
         return 0;
     }
@@ -161,33 +152,11 @@ public:
         return static_cast<std::int64_t>(value);
     }
 
-    [[noreturn]] void fail(const std::string& message) const {
-        if (encoding_ == Encoding::Text) {
-            text_.fail(message);
-        }
-        throw Error(text_.name() + ": " + std::to_string(at_)
-                    + " bytes behind the header: " + message);
-    }
+    [[noreturn]] void fail(const std::string& message) const { text_.fail(message); }
 
 private:
-    template <typename T>
-    T take() {
-        if (bytes_.size() - at_ < sizeof(T)) {
-            fail("the file ends here; expected a value");
-        }
-        std::array<char, sizeof(T)> raw{};
-        std::memcpy(raw.data(), bytes_.data() + at_, sizeof(T));
-        if (encoding_ == Encoding::BigEndian) {
-            std::reverse(raw.begin(), raw.end());
-        }
-        at_ += sizeof(T);
-        return std::bit_cast<T>(raw);
-    }
-
     TextReader& text_;
-    Encoding encoding_;
-    std::string_view bytes_;
-    std::size_t at_ = 0;
+    NumberReader numbers_;
 };
 
 void read_vertex(const Element& element, Values& values, SoupBuilder& builder) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace pent::mesher {
 
@@ -16,7 +17,7 @@ void next_line(TextReader& text, const char* expected) {
 }
 
 // Points are numbered from 0 or 1: by the number of the first one.
-std::int64_t read_nodes(TextReader& text, TetSoup& soup) {
+std::int64_t read_nodes(TextReader& text, CellSoup& soup) {
     next_line(text, "the number of points");
     const std::int64_t points = text.count(text.word(), "the number of points");
     const std::int64_t dimension = text.integer(text.word(), "the dimension");
@@ -39,7 +40,7 @@ std::int64_t read_nodes(TextReader& text, TetSoup& soup) {
     return first;
 }
 
-void read_elements(TextReader& text, std::int64_t first, TetSoup& soup) {
+void read_elements(TextReader& text, std::int64_t first, CellSoup& soup) {
     next_line(text, "the number of tetrahedra");
     const std::int64_t tets = text.count(text.word(), "the number of tetrahedra");
     const std::int64_t corners = text.integer(text.word(), "the number of corners");
@@ -50,29 +51,24 @@ void read_elements(TextReader& text, std::int64_t first, TetSoup& soup) {
         text.fail(std::to_string(corners) + " corners; expected 4 or 10");
     }
     const auto points = static_cast<std::int64_t>(soup.points.size());
+    std::vector<std::uint32_t> nodes(corners);  // those beyond the fourth are middles of edges
+    soup.has_labels = attributes > 0;
     for (std::int64_t i = 0; i < tets; ++i) {
         next_line(text, "a tetrahedron");
         static_cast<void>(text.integer(text.word(), "the number of a tetrahedron"));
-        std::array<std::uint32_t, 4> tet{};
-        for (std::uint32_t& corner : tet) {
+        for (std::uint32_t& node : nodes) {
             const std::int64_t number = text.integer(text.word(), "a corner");
-            corner = text.index(number - first, points);
+            node = text.index(number - first, points);
         }
-        soup.tets.push_back(tet);
-        for (std::int64_t extra = 4; extra < corners; ++extra) {
-            static_cast<void>(text.word());  // middles of edges
-        }
-        if (attributes > 0) {
-            const double label = text.number(text.word(), "an attribute");
-            soup.labels.push_back(std::llround(std::clamp(label, -1.0, 1e9)));
-        }
+        const double label = attributes > 0 ? text.number(text.word(), "an attribute") : 0;
+        soup.add(CellKind::Tetrahedron, nodes, std::llround(std::clamp(label, -1.0, 1e9)));
     }
 }
 
 }  // namespace
 
-TetSoup read_tetgen(const std::filesystem::path& path) {
-    TetSoup soup;
+CellSoup read_tetgen(const std::filesystem::path& path) {
+    CellSoup soup;
     TextReader nodes(std::filesystem::path(path).replace_extension(".node"));
     const std::int64_t first = read_nodes(nodes, soup);
     TextReader elements(std::filesystem::path(path).replace_extension(".ele"));

@@ -1,3 +1,4 @@
+#include "cut_cells.h"
 #include "tet_readers.h"
 
 #include <pent/error.h>
@@ -13,7 +14,7 @@ namespace pent::mesher {
 
 namespace {
 
-using Reader = TetSoup (*)(const std::filesystem::path&);
+using Reader = CellSoup (*)(const std::filesystem::path&);
 
 constexpr std::array<std::pair<std::string_view, Reader>, 6> kReaders = {{{".node", read_tetgen},
                                                                           {".ele", read_tetgen},
@@ -55,13 +56,19 @@ TetrahedraFile read_tetrahedra(const std::filesystem::path& path) {
     if (reader == nullptr) {
         throw Error(name + ": tetrahedra are in .node and .ele, .mesh, .msh, .vtk or .tobj files");
     }
-    const TetSoup soup = reader(path);
-    if (soup.tets.empty()) {
-        throw Error(name + ": no tetrahedron in it");
-    }
+    const CellSoup soup = reader(path);
+    const CutCells cut = cut_cells(soup, name);
     TetrahedraFile file;
+    file.cut = cut.cut;
+    file.left_out = list_counts(soup.counts, CellKind::Triangle, CellKind::Point);
+    file.curved_cells = soup.curved_cells;
+    file.turned_cells = cut.turned_cells;
+    if (cut.tets.empty()) {
+        throw Error(name + ": no tetrahedron in it nor another cell of three dimensions"
+                    + (file.left_out.empty() ? "" : ", but " + file.left_out));
+    }
     std::vector<std::uint32_t> names(soup.points.size(), 0);
-    for (const auto& tet : soup.tets) {
+    for (const auto& tet : cut.tets) {
         for (const std::uint32_t corner : tet) {
             names[corner] = 1;
         }
@@ -73,20 +80,16 @@ TetrahedraFile read_tetrahedra(const std::filesystem::path& path) {
     }
     file.unused_points = static_cast<std::int64_t>(soup.points.size()) - used;
     file.mesh.positions.resize(3, used);
-    file.mesh.cells.resize(4, static_cast<Eigen::Index>(soup.tets.size()));
-    for (std::size_t t = 0; t < soup.tets.size(); ++t) {
+    file.mesh.cells.resize(4, static_cast<Eigen::Index>(cut.tets.size()));
+    for (std::size_t t = 0; t < cut.tets.size(); ++t) {
         const auto cell = static_cast<Eigen::Index>(t);
         for (int i = 0; i < 4; ++i) {
-            const std::uint32_t point = soup.tets[t][i];
+            const std::uint32_t point = cut.tets[t][i];
             file.mesh.cells(i, cell) = names[point];
             file.mesh.positions.col(names[point]) = soup.points[point];
         }
-        if (cell_volume<3>(file.mesh.positions, file.mesh.cells, cell) < 0) {
-            std::swap(file.mesh.cells(2, cell), file.mesh.cells(3, cell));
-            ++file.turned_cells;
-        }
     }
-    for (const std::int64_t label : soup.labels) {
+    for (const std::int64_t label : cut.labels) {
         file.mesh.regions.push_back(region_of(label, name));
     }
     validate(file.mesh, name);

@@ -1,12 +1,15 @@
 #include "tet_readers.h"
 #include "text_reader.h"
 
+#include <array>
+#include <string>
+
 namespace pent::mesher {
 
 // HOBAK: "v x y z" and "t a b c d" lines, 0-based.
-TetSoup read_tobj(const std::filesystem::path& path) {
+CellSoup read_tobj(const std::filesystem::path& path) {
     TextReader text(path);
-    TetSoup soup;
+    CellSoup soup;
     while (text.next_line()) {
         const std::string_view keyword = text.word();
         if (keyword == "v") {
@@ -16,7 +19,7 @@ TetSoup read_tobj(const std::filesystem::path& path) {
             for (std::uint32_t& corner : tet) {
                 corner = text.index(text.word(), static_cast<std::int64_t>(soup.points.size()));
             }
-            soup.tets.push_back(tet);
+            soup.add(CellKind::Tetrahedron, tet);
         } else {
             text.fail("\"" + std::string(keyword) + "\"; expected a line of v or t");
         }

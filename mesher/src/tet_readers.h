@@ -1,25 +1,18 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "cells.h"
 
-#include <array>
-#include <cstdint>
 #include <filesystem>
-#include <vector>
 
 namespace pent::mesher {
 
-/// Points and tetrahedra as a file lists them; corners are indices of points.
-struct TetSoup {
-    std::vector<Eigen::Vector3d> points;
-    std::vector<std::array<std::uint32_t, 4>> tets;
-    std::vector<std::int64_t> labels;  ///< One a tetrahedron, or empty.
-};
+/// Readers of one format each. Every one throws an Error that names file and line (or byte) for what is
+/// damaged, and allocates no more than the size of the file bears out.
 
-[[nodiscard]] TetSoup read_tetgen(const std::filesystem::path& path);
-[[nodiscard]] TetSoup read_medit(const std::filesystem::path& path);
-[[nodiscard]] TetSoup read_gmsh(const std::filesystem::path& path);
-[[nodiscard]] TetSoup read_vtk(const std::filesystem::path& path);
-[[nodiscard]] TetSoup read_tobj(const std::filesystem::path& path);
+[[nodiscard]] CellSoup read_tetgen(const std::filesystem::path& path);
+[[nodiscard]] CellSoup read_medit(const std::filesystem::path& path);
+[[nodiscard]] CellSoup read_gmsh(const std::filesystem::path& path);
+[[nodiscard]] CellSoup read_vtk(const std::filesystem::path& path);
+[[nodiscard]] CellSoup read_tobj(const std::filesystem::path& path);
 
 }  // namespace pent::mesher

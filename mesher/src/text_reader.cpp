@@ -2,9 +2,11 @@
 
 #include <pent/error.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <system_error>
 
@@ -30,16 +32,23 @@ std::string quoted(std::string_view word) {
 
 TextReader::TextReader(const std::filesystem::path& path, char comment)
     : name_(path.string()), comment_(comment) {
+    const bool is_standard_input = name_ == kStandardInput;
     std::error_code error;
-    if (std::filesystem::is_directory(path, error)) {
+    if (is_standard_input) {
+        name_ = "standard input";
+    } else if (std::filesystem::is_directory(path, error)) {
         throw Error(name_ + ": is a folder; give a file");
     }
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        throw Error(name_ + ": cannot be opened: " + std::generic_category().message(errno));
+    std::ifstream file;
+    if (!is_standard_input) {
+        file.open(path, std::ios::binary);
+        if (!file) {
+            throw Error(name_ + ": cannot be opened: " + std::generic_category().message(errno));
+        }
     }
+    std::istream& input = is_standard_input ? std::cin : file;
     try {
-        text_.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+        text_.assign(std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>());
     } catch (const std::ios_base::failure&) {
         throw Error(name_ + ": cannot be read: " + std::generic_category().message(errno));
     }
@@ -52,6 +61,7 @@ void TextReader::take_line() {
     end_ = at_ + (comment_ == '\0' ? line.size() : std::min(line.find(comment_), line.size()));
     next_ = end + 1;
     ++line_number_;
+    is_in_bytes_ = false;
     skip_space();
 }
 
@@ -139,7 +149,10 @@ std::uint32_t TextReader::index(std::int64_t value, std::int64_t end) const {
 }
 
 std::int64_t TextReader::count(std::string_view word, std::string_view expected) const {
-    const std::int64_t value = integer(word, expected);
+    return count(integer(word, expected), expected);
+}
+
+std::int64_t TextReader::count(std::int64_t value, std::string_view expected) const {
     if (value < 0 || value > size()) {
         fail(std::to_string(value) + " as " + std::string(expected) + " in a file of "
              + std::to_string(size()) + " bytes");
@@ -155,8 +168,24 @@ std::string_view TextReader::rest() const {
     return std::string_view(text_).substr(std::min(next_, text_.size()));
 }
 
+std::string_view TextReader::take_bytes(std::size_t count, std::string_view expected) {
+    const std::string_view behind = rest();
+    is_in_bytes_ = true;
+    at_ = end_;
+    if (behind.size() < count) {
+        fail("the file ends here; expected " + std::string(expected));
+    }
+    const std::string_view taken = behind.substr(0, count);
+    line_number_ += std::count(taken.begin(), taken.end(), '\n');
+    next_ += count;
+    return taken;
+}
+
 void TextReader::fail(const std::string& message) const {
-    throw Error(name_ + ": line " + std::to_string(line_number_) + ": " + message);
+    throw Error(
+        name_ + ": "
+        + (is_in_bytes_ ? "byte " + std::to_string(next_) : "line " + std::to_string(line_number_))
+        + ": " + message);
 }
 
 }  // namespace pent::mesher

@@ -9,12 +9,16 @@
 
 namespace pent::mesher {
 
+/// The name that stands for standard input.
+inline constexpr std::string_view kStandardInput = "-";
+
 /// A text file, handed out by lines and words; every error names the file and the line.
 ///
 /// Words are split at spaces and tabs. A backslash at the end of a line joins it with the next one.
+/// Between lines there may be bytes that are no text; behind these, errors name the byte.
 class TextReader {
 public:
-    /// Reads the whole file. Throws an Error if that fails.
+    /// Reads the whole file, or standard input. Throws an Error if that fails.
     /// @param comment  The rest of a line from this character on is skipped; '\0' for no comments.
     explicit TextReader(const std::filesystem::path& path, char comment = '#');
 
@@ -41,6 +45,7 @@ public:
 
     /// A word as a number of things in the file, each of a byte or more: at most its size.
     [[nodiscard]] std::int64_t count(std::string_view word, std::string_view expected) const;
+    [[nodiscard]] std::int64_t count(std::int64_t value, std::string_view expected) const;
 
     [[nodiscard]] std::uint32_t index(std::int64_t value, std::int64_t end) const;
 
@@ -53,7 +58,11 @@ public:
     /// What follows the current line.
     [[nodiscard]] std::string_view rest() const;
 
-    /// Throws an Error "file: line n: message".
+    /// Takes the next bytes behind the current line, which is over then.
+    /// Throws an Error if there are fewer.
+    [[nodiscard]] std::string_view take_bytes(std::size_t count, std::string_view expected);
+
+    /// Throws an Error "file: line n: message", or "file: byte n: message" within bytes.
     [[noreturn]] void fail(const std::string& message) const;
 
     /// Bytes in the file: an upper bound for every count in it.
@@ -72,6 +81,7 @@ private:
     std::size_t at_ = 0;    // first character of what is left of the current line
     std::size_t end_ = 0;   // behind the current line's last one
     std::int64_t line_number_ = 0;
+    bool is_in_bytes_ = false;
 };
 
 }  // namespace pent::mesher

@@ -48,6 +48,26 @@ TEST(PentMesh, SaysWhatItMadeAndWhere) {
     EXPECT_EQ(run_program("pent-check " + out).exit_code, 0);
 }
 
+TEST(PentMesh, SaysWhichCellsItCutAndLeftOut) {
+    const test::TempFolder folder;
+    // A tetrahedron with middles of its edges, a prism at its side, a triangle.
+    test::write_file(folder / "mixed.mesh",
+                     "MeshVersionFormatted 2\nDimension 3\nVertices 7\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+                     "0 0 1 0\n0 0 -1 0\n1 0 -1 0\n0 1 -1 0\nTetrahedraP2 1\n"
+                     "1 2 3 4 1 1 1 1 1 1 0\nPrisms 1\n5 6 7 1 2 3 0\nTriangles 1\n5 7 6 0\nEnd\n");
+    const Outcome outcome = run_program("pent-mesh " + (folder / "mixed.mesh").string()
+                                        + " --thickness 1 -o " + (folder / "mixed.pent").string()
+                                        + " --json " + (folder / "report.json").string());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    test::expect_contains(outcome.out,
+                          {"cut        1 prism into 3 tetrahedra\n",
+                           "straight   1 cell of higher order, by their corners alone\n",
+                           "left out   1 triangle: of fewer than three dimensions\n"});
+    test::expect_contains(
+        test::text_of(folder / "report.json"),
+        {R"("cut": "1 prism into 3 tetrahedra")", R"("left_out": "1 triangle")", R"("curved": 1)"});
+}
+
 TEST(PentMesh, ExtrudesAFlatMeshIn3D) {
     const test::TempFolder folder;
     test::write_file(folder / "flat.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");

@@ -95,7 +95,7 @@ TEST(ReadPly, NamesWhereABinaryFileEnds) {
     const std::size_t body = whole.find("end_header\n") + 11;
     for (std::size_t length = body; length < whole.size(); length += 3) {
         test::expect_contains(message_for(whole.substr(0, length)),
-                              {"a.ply: ", " bytes behind the header: the file ends here"});
+                              {"a.ply: byte ", ": the file ends here"});
     }
 }
 
@@ -138,7 +138,8 @@ TEST(ReadPly, NamesValuesThatAreWrong) {
     infinite.replace(infinite.find("end_header\n") + 11, 4,
                      raw(std::numeric_limits<float>::infinity(), false));
     test::expect_contains(message_for(infinite),
-                          {"16 bytes behind the header", "vertex 0", "not finite"});
+                          {"byte " + std::to_string(infinite.find("end_header\n") + 11 + 16),
+                           "vertex 0", "not finite"});
 }
 
 }  // namespace

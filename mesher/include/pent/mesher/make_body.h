@@ -83,11 +83,14 @@ struct BodyReport {
     std::int64_t flipped_triangles = 0;
     std::int64_t components = 0;
     std::int64_t cavities = 0;
-    Repair repair = Repair::None;  ///< How the surface was mended, if it had to be.
-    double repair_distance = 0;    ///< From the mended surface to the one read, m.
-    SurfaceReport surface_read;    ///< Before.
-    SurfaceReport surface;         ///< Of the surface that was filled.
-    double surface_area = 0;       ///< m^2.
+    std::string cut;                ///< Cells of a tet mesh that were cut, see TetrahedraFile.
+    std::string left_out;           ///< Its cells of fewer dimensions.
+    std::int64_t curved_cells = 0;  ///< Its cells of higher order, of which the corners were taken.
+    Repair repair = Repair::None;   ///< How the surface was mended, if it had to be.
+    double repair_distance = 0;     ///< From the mended surface to the one read, m.
+    SurfaceReport surface_read;     ///< Before.
+    SurfaceReport surface;          ///< Of the surface that was filled.
+    double surface_area = 0;        ///< m^2.
 
     std::string generator;  ///< What made the base cells, as in "TetGen pq1.414Y".
     std::string failures;   ///< Of steps and generators tried in vain; empty if there were none.

@@ -2,7 +2,9 @@
 
 #include <pent/simplex_mesh.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace pent::mesher {
 
@@ -14,12 +16,16 @@ struct TetrahedraFile {
     SimplexMesh<3> mesh;             ///< Positively oriented; regions where the file has labels.
     std::int64_t turned_cells = 0;   ///< Cells that were negative in the file.
     std::int64_t unused_points = 0;  ///< Points without a tetrahedron, left out.
+    std::string cut;  ///< Other cells and what they became, as in "2 hexahedra into 12 tetrahedra".
+    std::string left_out;           ///< Cells of fewer dimensions, as in "12 triangles, 3 lines".
+    std::int64_t curved_cells = 0;  ///< Cells of higher order, of which the corners are taken.
 };
 
-/// Reads a tet mesh: TetGen .node or .ele (either name; both files), Medit .mesh, Gmsh .msh 2.2 and
-/// 4.1, legacy VTK .vtk, HOBAK .tobj; all as text. Cells of other kinds are skipped.
+/// Reads a tet mesh: TetGen .node or .ele (either name; both files), Medit .mesh, HOBAK .tobj as text,
+/// Gmsh .msh 2.2 and 4.1 and legacy VTK .vtk as text or binary.
 ///
-/// Throws an Error that names file and line for what is damaged, and one for a mesh that does not
+/// Pyramids, prisms and hexahedra are cut into tetrahedra such that neighbors agree; other cells of
+/// three dimensions are refused. Throws an Error that names file and line for what is damaged, and one for a mesh that does not
 /// pass validate(). Allocates no more than the size of the file bears out.
 [[nodiscard]] TetrahedraFile read_tetrahedra(const std::filesystem::path& path);
 
