@@ -72,6 +72,26 @@ std::string one_line(std::string text) {
     return text;
 }
 
+// What an option wants whose value is no number: "--layers: found "many", expected a whole number", or ""
+// if another option is meant.
+std::string misread_value(const CLI::App& cli, const CLI::ConversionError& error) {
+    const std::string text = error.what();  // "Could not convert: --layers = many"
+    for (const CLI::Option* option : cli.get_options()) {
+        const std::string before = option->get_name() + " = ";
+        const std::size_t at = text.find(before);
+        if (at == std::string::npos) {
+            continue;
+        }
+        const std::string type = option->get_type_name();
+        const auto is_of = [&](const char* name) { return type.find(name) != std::string::npos; };
+        return option->get_name() + ": found \"" + text.substr(at + before.size()) + "\", expected "
+               + (is_of("UINT") || is_of("INT") ? "a whole number"
+                  : is_of("FLOAT")              ? "a number"
+                                                : type);
+    }
+    return "";
+}
+
 // "unknown option --layer; did you mean --layers?", or "" if every option is known.
 std::string unknown_option(const CLI::App& cli) {
     for (const std::string& word : cli.remaining()) {
@@ -153,6 +173,16 @@ void Program::write_report(Verdict verdict, const std::string& error) {
     write_text(common_.json, json.dump(2, ' ', false, replace) + "\n");
 }
 
+void Program::require_apart(const std::vector<NamedFile>& inputs,
+                            const std::vector<NamedFile>& outputs) {
+    apps::require_apart(inputs, outputs);
+    std::vector<NamedFile> others = inputs;
+    others.insert(others.end(), outputs.begin(), outputs.end());
+    const NamedFile report{"--json", std::exchange(common_.json, std::string())};
+    apps::require_apart(others, {report});
+    common_.json = report.path.string();
+}
+
 void Program::abandon(Verdict verdict, const std::string& error) {
     fail(error);
     try {
@@ -169,8 +199,12 @@ int Program::run(int argc, const char* const* argv, const std::function<Verdict(
     } catch (const CLI::Success& success) {  // --help and --version
         return end(cli_.exit(success));
     } catch (const CLI::ParseError& error) {
-        const std::string unknown = unknown_option(cli_);
-        fail((unknown.empty() ? error.what() : unknown) + " (see " + name_ + " --help)");
+        std::string reason = unknown_option(cli_);
+        if (const auto* misread = dynamic_cast<const CLI::ConversionError*>(&error);
+            reason.empty() && misread != nullptr) {
+            reason = misread_value(cli_, *misread);
+        }
+        fail((reason.empty() ? error.what() : reason) + " (see " + name_ + " --help)");
         return 2;
     }
     std::signal(SIGINT, on_stop_signal);

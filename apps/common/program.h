@@ -1,10 +1,13 @@
 #pragma once
 
+#include "same_file.h"
+
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace pent::apps {
 
@@ -41,6 +44,10 @@ public:
 
     /// One line for the user on stdout, unless --quiet.
     void say(const std::string& line) const;
+
+    /// As the free function, with the --json report among the outputs; where it is the one that would
+    /// do harm, no report is written. For the start of the body.
+    void require_apart(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
     /// Parses, runs the body with --threads workers, reports, and returns the exit code.
     ///
