@@ -2,6 +2,8 @@
 
 #include "eigen_table.h"
 
+#include "common/heartbeat.h"
+
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/simulator/eigen_proof.h>
@@ -46,7 +48,9 @@ EigenProof prove(Program& program,
                  const char* range) {
     const std::string name = eigen_function_name(function);
     EigenProof all;
+    pent::apps::Heartbeat heartbeat(program.common().quiet);
     for (const int dim : dimensions) {
+        heartbeat.begin(formatted("%s in dimension %d", name.c_str(), dim));
         const EigenProof proof = prove_eigensystem(function, dim);
         program.report()["eigensystems"].push_back(to_json(name, proof));
         all.merge(proof);

@@ -2,8 +2,11 @@
 
 #include "mesh_options.h"
 
+#include <pent/error.h>
+
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
 namespace pent::apps {
@@ -27,24 +30,68 @@ CLI::Option* choose(CLI::Option* option,
         ->option_text(text + " [" + choices.front().first + "]");
 }
 
+std::vector<CLI::Option*> add_shapes(CLI::Option_group& input, MeshArguments& arguments) {
+    CLI::Option* sphere =
+        input.add_option("--sphere", arguments.sphere, "A surface of 20 N^2 triangles")
+            ->check(CLI::Range(1, 1000))
+            ->type_name("N");
+    CLI::Option* ball =
+        input
+            .add_option("--ball", arguments.ball, "20 N^2 tetrahedra around the center of a sphere")
+            ->check(CLI::Range(1, 1000))
+            ->type_name("N");
+    CLI::Option* box =
+        input
+            .add_option("--box", arguments.box,
+                        "Tesseracts along x,y,z,w, or cubes along x,y,z; this is not extruded")
+            ->delimiter(',')
+            ->expected(3, 4)
+            ->type_name("X,Y,Z[,W]");
+    return {sphere, ball, box};
+}
+
+// How a file is to be read, and where the body goes.
+void add_placement(CLI::App& cli,
+                   MeshArguments& arguments,
+                   const std::vector<CLI::Option*>& shapes) {
+    const auto group = "Input";
+    CLI::Option* format =
+        cli.add_option("--format", arguments.request.format,
+                       "Read the input as this, whatever its name; needed for standard input")
+            ->check(CLI::IsMember({"obj", "off", "ply", "stl", "mesh", "msh", "vtk", "tobj"},
+                                  CLI::ignore_case))
+            ->option_text("obj|off|ply|stl|mesh|msh|vtk|tobj")
+            ->group(group);
+    CLI::Option* unit =
+        choose<double>(cli.add_option("--unit", arguments.unit, "Unit of the file's coordinates"),
+                       {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}})
+            ->group(group);
+    CLI::Option* scale =
+        cli.add_option("--scale", arguments.scale, "Multiply the file's coordinates by this")
+            ->check(CLI::PositiveNumber)
+            ->group(group);
+    for (CLI::Option* shape : shapes) {
+        format->excludes(shape);
+        unit->excludes(shape);
+        scale->excludes(shape);
+    }
+    cli.add_option("--translate", arguments.translation, "Move the body by x,y,z or x,y,z,w (m)")
+        ->delimiter(',')
+        ->expected(3, 4)
+        ->type_name("X,Y,Z[,W]")
+        ->group(group);
+}
+
 void add_input(CLI::App& cli, MeshArguments& arguments) {
     CLI::Option_group* input = cli.add_option_group("Input", "One of these");
     input
         ->add_option("input", arguments.input,
                      "A surface (.obj .off .ply .stl .gltf .glb) or tetrahedra (.node/.ele .mesh "
-                     ".msh .vtk .tobj)")
+                     ".msh .vtk .tobj); - for standard input")
         ->type_name("FILE");
-    input->add_option("--sphere", arguments.sphere, "A surface of 20 N^2 triangles")
-        ->check(CLI::Range(1, 1000))
-        ->type_name("N");
-    input->add_option("--ball", arguments.ball, "20 N^2 tetrahedra around the center of a sphere")
-        ->check(CLI::Range(1, 1000))
-        ->type_name("N");
-    input->add_option("--box", arguments.box, "Tesseracts along x,y,z,w; this is not extruded")
-        ->delimiter(',')
-        ->expected(4)
-        ->type_name("X,Y,Z,W");
+    const std::vector<CLI::Option*> shapes = add_shapes(*input, arguments);
     input->require_option(1);
+    add_placement(cli, arguments, shapes);
     cli.add_option("--size", arguments.size,
                    "Radius of a sphere or ball, edge or edges x,y,z,w of a box (m)")
         ->delimiter(',')
@@ -171,13 +218,26 @@ decltype(mesher::BodyRequest::input) input_of(const MeshArguments& arguments) {
     if (arguments.box.empty()) {
         return arguments.input;
     }
-    mesher::BoxShape box;
-    box.cut = arguments.cut;
-    for (std::size_t axis = 0; axis < 4; ++axis) {
-        box.count[axis] = arguments.box[axis];
-        box.size[axis] = arguments.size[std::min(axis, arguments.size.size() - 1)];
+    mesher::BoxShape box{arguments.box, {}, arguments.cut};
+    for (std::size_t axis = 0; axis < arguments.box.size(); ++axis) {
+        box.size.push_back(arguments.size[std::min(axis, arguments.size.size() - 1)]);
     }
     return box;
+}
+
+// Devices and pipes take what comes.
+void require_pent_file(const std::filesystem::path& output) {
+    std::error_code ignored;
+    const std::filesystem::file_status status = std::filesystem::status(output, ignored);
+    const bool is_device = std::filesystem::exists(status)
+                           && !std::filesystem::is_regular_file(status)
+                           && !std::filesystem::is_directory(status);
+    if (!is_device && output.extension() != ".pent") {
+        std::filesystem::path wanted = output;
+        throw Error(output.string()
+                    + ": a mesh is a .pent file; expected a name that ends in it, as -o "
+                    + wanted.replace_extension(".pent").string());
+    }
 }
 
 }  // namespace
@@ -187,8 +247,10 @@ void add_options(CLI::App& cli, MeshArguments& arguments) {
     cli.add_option("-o,--output", arguments.output, "Where the mesh goes, a .pent file")
         ->required()
         ->type_name("FILE");
-    cli.add_option("--dim", arguments.dim,
-                   "Dimension of the mesh: 4, or 3 to extrude a flat triangle mesh along z")
+    cli.add_option(
+           "--dim", arguments.dim,
+           "Dimension of the mesh: 4; or 3 for tetrahedra as they are, the inside of a surface,"
+           " or a flat triangle mesh extruded along z")
         ->check(CLI::IsMember({3, 4}))
         ->capture_default_str();
     cli.add_flag("--ascii", arguments.ascii, "Write text instead of binary");
@@ -205,6 +267,8 @@ void add_options(CLI::App& cli, MeshArguments& arguments) {
     cli.add_option("--memory-limit", arguments.memory_limit,
                    "Use no more memory than this (MiB); default: the machine's")
         ->check(CLI::PositiveNumber);
+    cli.add_flag("--yes", arguments.yes,
+                 "Go ahead without asking where millions of cells, or minutes, are to be expected");
     add_surface(cli, arguments.request);
     add_resolution(cli, arguments);
     add_extrusion(cli, arguments);
@@ -212,7 +276,11 @@ void add_options(CLI::App& cli, MeshArguments& arguments) {
 
 void complete(const CLI::App& cli, MeshArguments& arguments) {
     mesher::BodyRequest& request = arguments.request;
+    require_pent_file(arguments.output);
     request.input = input_of(arguments);
+    request.scale = arguments.scale * arguments.unit;
+    request.translation = Eigen::Map<const Eigen::VectorXd>(
+        arguments.translation.data(), static_cast<Eigen::Index>(arguments.translation.size()));
     request.tetrahedra.keep_surface = !arguments.subdivide_surface;
     if (cli.count("--thickness") > 0) {
         request.extrusion.thickness = arguments.thickness;

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <vector>
 
 namespace pent::apps {
 
@@ -20,7 +21,12 @@ struct MeshArguments {
     double step_limit = 300;          ///< s, for each step that may run away.
     double memory_limit = 0;          ///< MiB; 0: the machine's.
 
+    bool yes = false;  ///< Not to be asked about large bodies.
+
     std::filesystem::path input;
+    double unit = 1;  ///< m.
+    double scale = 1;
+    std::vector<double> translation;  ///< m.
     int sphere = 0;
     int ball = 0;
     std::vector<int> box;
@@ -36,7 +42,7 @@ struct MeshArguments {
 /// Adds every option of pent-mesh but the common ones.
 void add_options(CLI::App& cli, MeshArguments& arguments);
 
-/// Fills the request from the other fields, after parsing.
+/// Fills the request from the other fields, after parsing. Throws an Error if the output is no .pent file.
 void complete(const CLI::App& cli, MeshArguments& arguments);
 
 }  // namespace pent::apps

@@ -4,6 +4,8 @@
 
 #include <pent/formatted.h>
 
+#include <vector>
+
 namespace pent::apps {
 
 namespace {
@@ -16,6 +18,33 @@ nlohmann::ordered_json to_json(const mesher::Spread& spread) {
 }
 
 }  // namespace
+
+template <int Dim>
+std::string box_line(const Positions<Dim>& positions) {
+    const Eigen::Matrix<double, Dim, 1> low = positions.rowwise().minCoeff();
+    const Eigen::Matrix<double, Dim, 1> high = positions.rowwise().maxCoeff();
+    std::string line = "box       ";
+    for (int axis = 0; axis < Dim; ++axis) {
+        line += formatted("%s %c %.6g to %.6g", axis == 0 ? "" : ",", "xyzw"[axis], low[axis],
+                          high[axis]);
+    }
+    return line + " m";
+}
+
+template <int Dim>
+nlohmann::ordered_json box_json(const Positions<Dim>& positions) {
+    const Eigen::Matrix<double, Dim, 1> low = positions.rowwise().minCoeff();
+    const Eigen::Matrix<double, Dim, 1> high = positions.rowwise().maxCoeff();
+    return {{"low", std::vector<double>(low.data(), low.data() + Dim)},
+            {"high", std::vector<double>(high.data(), high.data() + Dim)}};
+}
+
+template std::string box_line<2>(const Positions<2>&);
+template std::string box_line<3>(const Positions<3>&);
+template std::string box_line<4>(const Positions<4>&);
+template nlohmann::ordered_json box_json<2>(const Positions<2>&);
+template nlohmann::ordered_json box_json<3>(const Positions<3>&);
+template nlohmann::ordered_json box_json<4>(const Positions<4>&);
 
 std::string quality_line(const mesher::QualityReport& report) {
     return formatted("mean ratio min %.3f mean %.3f, condition of Dm mean %.3g max %.3g",

@@ -1,11 +1,20 @@
 #pragma once
 
 #include <pent/mesher/quality.h>
+#include <pent/simplex_mesh.h>
 
 #include <nlohmann/json.hpp>
 #include <string>
 
 namespace pent::apps {
+
+/// "box        x -1 to 1, y 0 to 2, z 0 to 1 m": the box around all vertices.
+template <int Dim>
+[[nodiscard]] std::string box_line(const Positions<Dim>& positions);
+
+/// The same, as {"low": [...], "high": [...]}.
+template <int Dim>
+[[nodiscard]] nlohmann::ordered_json box_json(const Positions<Dim>& positions);
 
 /// One line with the figures that matter most.
 [[nodiscard]] std::string quality_line(const mesher::QualityReport& report);

@@ -2,6 +2,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "common/heartbeat.h"
 #include "common/program.h"
 #include "eigen_table.h"
 #include "mesh_text.h"
@@ -74,14 +75,34 @@ void prove_tables(Program& program) {
 }
 
 template <int Dim>
-void check_mesh(Program& program, const std::filesystem::path& path) {
-    const pent::MeshFile<Dim> file = pent::read_mesh<Dim>(path);
-    const pent::mesher::Proof proof = pent::mesher::prove(file.mesh);
-    if (!proof.holds()) {
-        throw pent::Error(path.string() + ": " + pent::mesher::describe_faults(proof, Dim));
+struct Checked {
+    pent::MeshFile<Dim> file;
+    pent::mesher::Proof proof;
+    pent::mesher::LinkReport links;
+    pent::mesher::QualityReport quality;
+};
+
+template <int Dim>
+Checked<Dim> check(const std::filesystem::path& path, bool quiet) {
+    pent::apps::Heartbeat heartbeat(quiet);
+    Checked<Dim> checked;
+    heartbeat.begin("read");
+    checked.file = pent::read_mesh<Dim>(path);
+    heartbeat.begin("facets");
+    checked.proof = pent::mesher::prove(checked.file.mesh);
+    if (!checked.proof.holds()) {
+        throw pent::Error(path.string() + ": " + pent::mesher::describe_faults(checked.proof, Dim));
     }
-    const pent::mesher::LinkReport links = pent::mesher::check_links(file.mesh);
-    const pent::mesher::QualityReport quality = pent::mesher::measure_quality(file.mesh);
+    heartbeat.begin("links");
+    checked.links = pent::mesher::check_links(checked.file.mesh);
+    heartbeat.begin("quality");
+    checked.quality = pent::mesher::measure_quality(checked.file.mesh);
+    return checked;
+}
+
+template <int Dim>
+void check_mesh(Program& program, const std::filesystem::path& path) {
+    const auto [file, proof, links, quality] = check<Dim>(path, program.common().quiet);
     program.say(formatted("file       dimension %d, %s, by %s, crc32c %08x", Dim,
                           file.info.encoding == pent::Encoding::Ascii ? "ascii" : "binary",
                           file.info.created_by.c_str(), file.info.crc32c));
@@ -89,6 +110,7 @@ void check_mesh(Program& program, const std::filesystem::path& path) {
                           static_cast<Long>(file.mesh.vertex_count()),
                           static_cast<Long>(proof.cells), pent::cell_name_plural(Dim).data(),
                           proof.volume, Dim));
+    program.say(pent::apps::box_line<Dim>(file.mesh.positions));
     program.say(formatted(
         "facets     %lld inner ones match, boundary of %lld is closed and oriented",
         static_cast<Long>(proof.interior_facets), static_cast<Long>(proof.boundary_facets)));
@@ -105,7 +127,8 @@ void check_mesh(Program& program, const std::filesystem::path& path) {
                                 {"boundary_volume", proof.boundary_volume},
                                 {"boundary_vertices", links.boundary_vertices},
                                 {"faulty_links", links.faulty},
-                                {"unused_vertices", links.unused_vertices}};
+                                {"unused_vertices", links.unused_vertices},
+                                {"box", pent::apps::box_json<Dim>(file.mesh.positions)}};
     program.report()["quality"] = pent::apps::to_json(quality);
     if (links.faulty + links.unused_vertices > 0) {
         throw pent::Error(
@@ -125,9 +148,14 @@ void check_frame(Program& program, const std::filesystem::path& path) {
                           static_cast<Long>(frame.frame), frame.mesh_name.c_str(),
                           static_cast<Long>(frame.step), frame.time,
                           static_cast<Long>(frame.positions.cols())));
-    program.report()["frame"] = {{"dimension", Dim},     {"mesh", frame.mesh_name},
-                                 {"frame", frame.frame}, {"step", frame.step},
-                                 {"time", frame.time},   {"vertices", frame.positions.cols()}};
+    program.say(pent::apps::box_line<Dim>(frame.positions));
+    program.report()["frame"] = {{"dimension", Dim},
+                                 {"mesh", frame.mesh_name},
+                                 {"frame", frame.frame},
+                                 {"step", frame.step},
+                                 {"time", frame.time},
+                                 {"vertices", frame.positions.cols()},
+                                 {"box", pent::apps::box_json<Dim>(frame.positions)}};
     program.say("finished: " + path.string() + " is sound");
 }
 
@@ -164,6 +192,7 @@ int main(int argc, char** argv) {
                   "Prove the eigensystems of the elastic energies, in dimensions 2 to 100")
         ->excludes(file);
     return program.run(argc, argv, [&] {
+        program.require_apart({{"the input", path}}, {});
         if (eigen) {
             prove_eigensystems(program);  // GCOVR_EXCL_LINE: takes longer than a test may
         } else {

@@ -2,7 +2,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "common/heartbeat.h"
 #include "common/program.h"
+#include "common/progress.h"
 #include "mesh_options.h"
 #include "mesh_text.h"
 #include "watchdog.h"
@@ -14,14 +16,18 @@
 #include <pent/pent_file.h>
 
 #include <cmath>
+#include <filesystem>
 #include <new>
+#include <vector>
 
 namespace {
 
 using pent::formatted;
 using pent::apps::MeshArguments;
+using pent::apps::NamedFile;
 using pent::apps::Program;
 using pent::mesher::BodyReport;
+using pent::mesher::ExpectedSize;
 using pent::mesher::Repair;
 using Long = long long;  // NOLINT(google-runtime-int): printf's type
 
@@ -80,11 +86,15 @@ void say_base(const Program& program, const BodyReport& report, int dim) {
                           "xyzw"[dim - 1], report.layers, report.layers == 1 ? "" : "s"));
 }
 
-void say_body(const Program& program, const BodyReport& report, std::int64_t vertices, int dim) {
+template <int Dim>
+void say_body(const Program& program, const pent::mesher::Body<Dim>& body) {
+    const BodyReport& report = body.report;
     const pent::mesher::Proof& proof = report.proof;
     program.say(formatted("body       %lld vertices, %lld %s, %.10g m^%d",
-                          static_cast<Long>(vertices), static_cast<Long>(proof.cells),
-                          pent::cell_name_plural(dim).data(), proof.volume, dim));
+                          static_cast<Long>(body.mesh.vertex_count()),
+                          static_cast<Long>(proof.cells), pent::cell_name_plural(Dim).data(),
+                          proof.volume, Dim));
+    program.say(pent::apps::box_line<Dim>(body.mesh.positions));
     program.say(formatted(
         "proved     %lld inner facets match, boundary of %lld facets closed, "
         "volume as expected to %.1e",
@@ -101,7 +111,9 @@ void say_stages(const Program& program, const BodyReport& report) {
     program.say(stages);
 }
 
-nlohmann::ordered_json to_json(const BodyReport& report, std::int64_t vertices) {
+template <int Dim>
+nlohmann::ordered_json to_json(const pent::mesher::Body<Dim>& body) {
+    const BodyReport& report = body.report;
     nlohmann::ordered_json json;
     json["surface"] = {{"points", report.surface.points},
                        {"triangles", report.surface.triangles},
@@ -123,14 +135,15 @@ nlohmann::ordered_json to_json(const BodyReport& report, std::int64_t vertices) 
         {"direction", std::vector<double>(report.direction.data(),
                                           report.direction.data() + report.direction.size())},
         {"layers", report.layers}};
-    json["mesh"] = {{"vertices", vertices},
+    json["mesh"] = {{"vertices", body.mesh.vertex_count()},
                     {"cells", report.proof.cells},
                     {"interior_facets", report.proof.interior_facets},
                     {"boundary_facets", report.proof.boundary_facets},
                     {"volume", report.proof.volume},
                     {"expected_volume", report.proof.expected_volume},
                     {"boundary_volume", report.proof.boundary_volume},
-                    {"volume_tolerance", report.proof.tolerance}};
+                    {"volume_tolerance", report.proof.tolerance},
+                    {"box", pent::apps::box_json<Dim>(body.mesh.positions)}};
     json["quality"] = pent::apps::to_json(report.quality);
     for (const pent::mesher::Stage& stage : report.stages) {
         nlohmann::ordered_json& seconds = json["stage_seconds"][stage.name];
@@ -139,20 +152,62 @@ nlohmann::ordered_json to_json(const BodyReport& report, std::int64_t vertices) 
     return json;
 }
 
+// "3200", "1.25 million", "4.35 billion".
+std::string readable_count(double count) {
+    if (count < 1e6) {
+        return formatted("%.0f", count);
+    }
+    return count < 1e9 ? formatted("%.3g million", count / 1e6)
+                       : formatted("%.4g billion", count / 1e9);
+}
+
+// Large bodies, and long work, only where they are meant.
+void ask_about_size(const Program& program, bool yes, const ExpectedSize& size, int dim) {
+    constexpr double kManyCells = 5e6;
+    constexpr double kLong = 60;  // s
+    if (size.cells <= kManyCells && size.seconds <= kLong) {
+        return;
+    }
+    const std::string layers = size.layers > 0
+                                   ? formatted(" (%s cells of the base in %d layers)",
+                                               readable_count(size.base_cells).c_str(), size.layers)
+                                   : "";
+    const std::string text = "about " + readable_count(size.cells) + " "
+                             + std::string(pent::cell_name_plural(dim)) + layers + ", and about "
+                             + pent::apps::readable_time(size.seconds) + " of work";
+    if (!yes) {
+        throw pent::Error("this would make " + text
+                          + "; ask for less by --edge-length, --surface-triangles, --layers or"
+                            " --target-pentachora, or for all of it by --yes");
+    }
+    program.say("expected   " + text);
+}
+
 template <int Dim>
-pent::mesher::Body<Dim> make(Program& program, const MeshArguments& arguments) {
+pent::mesher::Body<Dim> make(Program& program,
+                             const MeshArguments& arguments,
+                             pent::apps::Heartbeat& heartbeat) {
     const pent::apps::Watchdog watchdog(program, arguments.time_limit);
+    pent::mesher::BodyRequest request = arguments.request;
+    request.on_stage = [&](const std::string& stage) { heartbeat.begin(stage); };
+    request.on_size = [&](const ExpectedSize& size) {
+        ask_about_size(program, arguments.yes, size, Dim);
+    };
     if constexpr (Dim == 4) {
-        return pent::mesher::make_body(arguments.request);
+        return pent::mesher::make_body(request);
     } else {
-        return pent::mesher::make_body_from_plane(arguments.request);
+        return pent::mesher::make_solid(request);
     }
 }
 
 template <int Dim>
-void make_and_write(Program& program, const MeshArguments& arguments) {
-    const pent::mesher::Body<Dim> body = make<Dim>(program, arguments);
+void write(const Program& program,
+           const MeshArguments& arguments,
+           const pent::mesher::Body<Dim>& body) {
     const auto encoding = arguments.ascii ? pent::Encoding::Ascii : pent::Encoding::Binary;
+    if (arguments.output.has_parent_path()) {
+        pent::make_folder(arguments.output.parent_path());
+    }
     pent::write_mesh(arguments.output, body.mesh,
                      {.encoding = encoding, .created_by = program.name_and_version()});
     if (!arguments.histogram.empty()) {
@@ -160,17 +215,45 @@ void make_and_write(Program& program, const MeshArguments& arguments) {
             arguments.histogram,
             pent::mesher::quality_svg(body.report.quality, arguments.output.filename().string()));
     }
+}
+
+template <int Dim>
+void make_and_write(Program& program, const MeshArguments& arguments) {
+    pent::mesher::Body<Dim> body;
+    {
+        pent::apps::Heartbeat heartbeat(program.common().quiet);
+        body = make<Dim>(program, arguments, heartbeat);
+        heartbeat.begin("write");
+        write<Dim>(program, arguments, body);
+    }
     say_surface(program, body.report);
     say_cells(program, body.report);
     say_base(program, body.report, Dim);
-    say_body(program, body.report, body.mesh.vertex_count(), Dim);
+    say_body<Dim>(program, body);
     if (arguments.show_quality) {
         program.say(pent::mesher::quality_text(body.report.quality));
     }
     say_stages(program, body.report);
-    program.report().update(to_json(body.report, body.mesh.vertex_count()));
+    program.report().update(to_json<Dim>(body));
     program.report()["output"] = arguments.output.string();
     program.say("finished: " + arguments.output.string());
+}
+
+// Files that are read; of TetGen's pair both.
+std::vector<NamedFile> inputs_of(const MeshArguments& arguments) {
+    std::vector<NamedFile> inputs = {
+        {"--profile", arguments.request.extrusion.profile},
+        {"--edge-directions", arguments.request.extrusion.edge_directions}};
+    if (arguments.input != "-") {
+        inputs.push_back({"the input", arguments.input});
+    }
+    const std::filesystem::path ending = arguments.input.extension();
+    if (ending == ".node" || ending == ".ele") {
+        std::filesystem::path other = arguments.input;
+        inputs.push_back(
+            {"its other half", other.replace_extension(ending == ".node" ? ".ele" : ".node")});
+    }
+    return inputs;
 }
 
 }  // namespace
@@ -178,12 +261,14 @@ void make_and_write(Program& program, const MeshArguments& arguments) {
 int main(int argc, char** argv) {
     Program program("pent-mesh",
                     "Makes a pentachoral mesh of a closed surface: fills it with tetrahedra and "
-                    "extrudes them along w.",
+                    "extrudes them along w. With --dim 3 the tetrahedra are the mesh.",
                     "pent-mesh octopus.obj -o octopus.pent --thickness 0.5");
     MeshArguments arguments;
     pent::apps::add_options(program.options(), arguments);
     return program.run(argc, argv, [&] {
         pent::apps::complete(program.options(), arguments);
+        program.require_apart(inputs_of(arguments),
+                              {{"-o", arguments.output}, {"--histogram", arguments.histogram}});
         pent::apps::limit_memory(arguments.memory_limit);
         try {
             arguments.dim == 4 ? make_and_write<4>(program, arguments)

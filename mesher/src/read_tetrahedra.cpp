@@ -1,4 +1,5 @@
 #include "cut_cells.h"
+#include "file_format.h"
 #include "tet_readers.h"
 
 #include <pent/error.h>
@@ -23,8 +24,8 @@ constexpr std::array<std::pair<std::string_view, Reader>, 6> kReaders = {{{".nod
                                                                           {".vtk", read_vtk},
                                                                           {".tobj", read_tobj}}};
 
-Reader reader_for(const std::filesystem::path& path) {
-    const std::string ending = path.extension().string();
+Reader reader_for(const std::filesystem::path& path, const std::string& format) {
+    const std::string ending = format_of(path, format);
     for (const auto& [known, reader] : kReaders) {
         if (ending == known) {
             return reader;
@@ -43,16 +44,14 @@ std::uint16_t region_of(std::int64_t label, const std::string& name) {
 
 }  // namespace
 
-bool is_tetrahedra_file(const std::filesystem::path& path) {
-    return reader_for(path) != nullptr;
+bool is_tetrahedra_file(const std::filesystem::path& path, const std::string& format) {
+    return reader_for(path, format) != nullptr;
 }
 
-TetrahedraFile read_tetrahedra(const std::filesystem::path& path) {
-    const std::string name = path.string();
-    if (!std::filesystem::exists(path)) {
-        throw Error(name + ": no such file");
-    }
-    const Reader reader = reader_for(path);
+TetrahedraFile read_tetrahedra(const std::filesystem::path& path, const std::string& format) {
+    const std::string name = input_name(path);
+    require_file(path);
+    const Reader reader = reader_for(path, format);
     if (reader == nullptr) {
         throw Error(name + ": tetrahedra are in .node and .ele, .mesh, .msh, .vtk or .tobj files");
     }

@@ -1,8 +1,8 @@
 #include "isolated.h"
 #include "repair_steps.h"
+#include "size_limits.h"
 
 #include <pent/error.h>
-#include <pent/formatted.h>
 #include <pent/mesher/repair.h>
 
 #include <Eigen/Eigenvalues>
@@ -21,17 +21,6 @@ bool is_flat(const Positions<3>& points) {
     const Eigen::Vector3d normal = solver.eigenvectors().col(0);
     const Eigen::VectorXd heights = arms.transpose() * normal;
     return heights.maxCoeff() - heights.minCoeff() <= 1e-12 * diagonal(points);
-}
-
-// Hypervolumes, sums of them and their squares stay finite and above 0 in between.
-void check_size(const Positions<3>& points) {
-    constexpr double kSmallest = 1e-30;
-    constexpr double kLargest = 1e30;
-    const double size = diagonal(points);
-    if (!(size >= kSmallest && size <= kLargest)) {
-        throw Error(formatted("the surface is %.3g m across; expected %g to %g m: scale it first",
-                              size, kSmallest, kLargest));
-    }
 }
 
 bool is_usable(const SurfaceReport& report) {
@@ -123,16 +112,19 @@ Repaired try_wrap(const Surface& closed,
     }
     // GCOVR_EXCL_START: behind wraps that take a minute
     throw Error("no wrap within " + std::to_string(options.wrap_distance)
-                + " of the diagonal was found around the surface; allow a larger distance");
+                + " of the diagonal was found around the surface; allow a larger distance"
+                      " (--wrap-distance)");
     // GCOVR_EXCL_STOP
 }
 
 }  // namespace
 
 Repaired repair(const Surface& surface, const RepairOptions& options) {
-    check_size(surface.points);
+    require_usual_size(surface.points, "the surface");
     if (is_flat(surface.points)) {
-        throw Error("all points of the surface lie in a plane; it encloses no volume");
+        throw Error(
+            "all points of the surface lie in a plane; it encloses no volume (with one z for all,"
+            " --dim 3 extrudes it along z)");
     }
     const SurfaceReport report = check_surface(surface);
     if (is_usable(report) && options.repair != Repair::Wrap) {
@@ -143,7 +135,8 @@ Repaired repair(const Surface& surface, const RepairOptions& options) {
         return unchanged;
     }
     if (options.repair == Repair::None) {
-        throw Error("not the boundary of a body: " + describe(report) + "; let it be mended");
+        throw Error("not the boundary of a body: " + describe(report)
+                    + "; let it be mended (--repair auto)");
     }
     std::string failures;
     const Surface closed = without_holes(surface, options, failures);
@@ -156,7 +149,9 @@ Repaired repair(const Surface& surface, const RepairOptions& options) {
         if (options.repair == Repair::Light) {
             throw Error("light mending is not enough: " + describe(light.after)
                         + (failures.empty() ? "" : "; " + failures)
-                        + "; before: " + describe(report) + "; allow a wrap");
+                        + "; before: " + describe(report)
+                        + "; try a wrap, a new surface around it (--repair wrap, or auto), or mend"
+                          " it by hand");
         }
     }
     Repaired wrapped = try_wrap(closed, options, report);

@@ -1,13 +1,13 @@
+#include "file_format.h"
 #include "surface_readers.h"
 
 #include <pent/error.h>
-#include <pent/mesher/surface.h>
+#include <pent/mesher/read_surface.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -44,18 +44,9 @@ std::vector<std::uint32_t> first_at_same_place(const Positions<3>& points) {
     return first;
 }
 
-std::string ending(const std::filesystem::path& path) {
-    std::string text = path.extension().string();
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
-TriangleSoup read_soup(const std::filesystem::path& path) {
-    if (!std::filesystem::exists(path)) {
-        throw Error(path.string() + ": no such file");
-    }
-    const std::string format = ending(path);
+TriangleSoup read_soup(const std::filesystem::path& path, const std::string& given) {
+    require_file(path);
+    const std::string format = format_of(path, given);
     constexpr std::array<
         std::pair<std::string_view, TriangleSoup (*)(const std::filesystem::path&)>, 6>
         kReaders = {{{".obj", read_obj},
@@ -69,8 +60,10 @@ TriangleSoup read_soup(const std::filesystem::path& path) {
             return read(path);
         }
     }
-    throw Error(path.string() + ": a name that ends in \"" + format
-                + "\"; surfaces end in .obj, .off, .ply, .stl, .gltf or .glb");
+    throw Error(input_name(path) + ": "
+                + (format.empty() ? "a name without an ending" : "a name that ends in \"" + format + "\"")
+                + "; surfaces end in .obj, .off, .ply, .stl, .gltf or .glb, tetrahedra in .node, .ele,"
+                  " .mesh, .msh, .vtk or .tobj; for others, and standard input, give the format");
 }
 
 }  // namespace
@@ -104,12 +97,16 @@ SurfaceFile weld(const Positions<3>& points, const Simplices<3>& triangles) {
     return file;
 }
 
-SurfaceFile read_surface(const std::filesystem::path& path) {
-    const TriangleSoup soup = read_soup(path);
+SurfaceFile read_surface(const std::filesystem::path& path, const std::string& format) {
+    const TriangleSoup soup = read_soup(path, format);
     if (soup.triangles.cols() == 0) {
-        throw Error(path.string() + ": no triangle in it; expected a surface");
+        throw Error(input_name(path) + ": no triangle in it; expected a surface");
     }
     return weld(soup.points, soup.triangles);
+}
+
+SurfaceFile read_surface(const std::filesystem::path& path) {
+    return read_surface(path, {});
 }
 
 double area(const Surface& surface) {

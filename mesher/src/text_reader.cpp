@@ -1,5 +1,7 @@
 #include "text_reader.h"
 
+#include "file_format.h"
+
 #include <pent/error.h>
 
 #include <algorithm>
@@ -31,16 +33,11 @@ std::string quoted(std::string_view word) {
 }  // namespace
 
 TextReader::TextReader(const std::filesystem::path& path, char comment)
-    : name_(path.string()), comment_(comment) {
-    const bool is_standard_input = name_ == kStandardInput;
-    std::error_code error;
-    if (is_standard_input) {
-        name_ = "standard input";
-    } else if (std::filesystem::is_directory(path, error)) {
-        throw Error(name_ + ": is a folder; give a file");
-    }
+    : name_(input_name(path)), comment_(comment) {
+    const bool is_standard_input = path.string() == kStandardInput;
     std::ifstream file;
     if (!is_standard_input) {
+        refuse_folder(path);
         file.open(path, std::ios::binary);
         if (!file) {
             throw Error(name_ + ": cannot be opened: " + std::generic_category().message(errno));

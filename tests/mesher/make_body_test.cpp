@@ -2,9 +2,14 @@
 #include "support/messages.h"
 #include "support/temp_folder.h"
 
+#include <pent/error.h>
 #include <pent/mesher/make_body.h>
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
 
 namespace pent::mesher {
 namespace {
@@ -121,6 +126,25 @@ TEST(MakeBody, MeetsATargetWithinTwoPercent) {
     }
 }
 
+TEST(MakeBody, MeetsATargetWhateverTheLayersAre) {
+    const test::TempFolder folder;
+    test::write_file(folder / "cone.txt", "0 1\n1 0.8\n2 0.5\n3 0\n");
+    BodyRequest request = request_for("octopus_5246f.obj");
+    request.target_cells = 200000;
+    const auto expect_met = [&] {
+        EXPECT_NEAR(static_cast<double>(make_body(request).mesh.cell_count()), 200000, 4000);
+    };
+    request.extrusion.round = true;
+    expect_met();
+    request.extrusion.round = false;
+    request.extrusion.profile = folder / "cone.txt";
+    expect_met();
+    request.extrusion = ExtrusionRequest();
+    request.extrusion.layers = 1;
+    request.subdivide = 2;
+    expect_met();
+}
+
 TEST(MakeBody, AimsAtAnEdgeLength) {
     BodyRequest request = request_for("octopus_5246f.obj");
     request.edge_length = 0.2;
@@ -178,6 +202,7 @@ TEST(MakeBody, MakesShapesWithoutAFile) {
     EXPECT_TRUE(hyperball.report.proof.holds());
     EXPECT_EQ(hyperball.mesh.positions.row(3).maxCoeff(), 2);
 
+    request.extrusion = ExtrusionRequest();
     request.input = BoxShape{{4, 1, 1, 1}, {4, 1, 1, 1}, CubeCut::Corners};
     request.subdivide = 2;
     const Body<4> box = make_body(request);
@@ -200,28 +225,126 @@ TEST(MakeBody, MendsOrRefusesEveryDirtyModel) {
     }
 }
 
-TEST(MakeBodyFromPlane, ExtrudesAFlatMeshAlongZ) {
+TEST(MakeSolid, ExtrudesAFlatMeshAlongZ) {
     const test::TempFolder folder;
     test::write_file(folder / "flat.obj", "v 0 0 5\nv 1 0 5\nv 1 1 5\nv 0 1 5\nf 1 2 3\nf 1 4 3\n");
     BodyRequest request;
     request.input = folder / "flat.obj";
     request.extrusion.thickness = 2;
     request.extrusion.layers = 4;
-    const Body<3> body = make_body_from_plane(request);
+    const Body<3> body = make_solid(request);
     EXPECT_EQ(body.mesh.cell_count(), 2 * 3 * 4);
     EXPECT_NEAR(body.report.proof.volume, 2, 1e-14);
+    request.extrusion = ExtrusionRequest();
     test::write_file(folder / "flat.obj", "v 0 0 5\nv 1 0 5\nv 1 1 6\nf 1 2 3\n");
-    test::expect_contains(test::error_of([&] { static_cast<void>(make_body_from_plane(request)); }),
-                          {"flat.obj", "one z"});
+    test::expect_contains(test::error_of([&] { static_cast<void>(make_solid(request)); }),
+                          {"flat.obj", "lie in a plane", "one z"});
 }
 
-TEST(MakeBodyFromPlane, RefusesShapesOfDimensionFour) {
+TEST(MakeSolid, FillsAClosedSurface) {
+    BodyRequest request = request_for("dirty/d_cube.off");
+    const Body<3> cube = make_solid(request);
+    EXPECT_NEAR(cube.report.proof.volume, 1, 1e-14);
+    EXPECT_EQ(cube.report.proof.boundary_facets, 12);
+    EXPECT_EQ(cube.report.layers, 0);
+    request.edge_length = 0.2;
+    EXPECT_NEAR(make_solid(request).report.base_edge, 0.2, 0.07);
+}
+
+TEST(MakeSolid, TakesTetrahedraBallsAndBoxesAsTheyAre) {
+    const test::TempFolder folder;
+    test::write_file(folder / "a.tobj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 1 0 2 3\n");
+    BodyRequest request;
+    request.input = folder / "a.tobj";
+    EXPECT_EQ(make_solid(request).mesh.cell_count(), 1);
+    request.input = BallShape{3, 2};
+    EXPECT_EQ(make_solid(request).mesh.cell_count(), 180);
+    request.input = BoxShape{{2, 1, 1}, {4, 2, 2}, CubeCut::Paths};
+    const Body<3> box = make_solid(request);
+    EXPECT_EQ(box.mesh.cell_count(), 12);
+    EXPECT_NEAR(box.report.proof.volume, 16, 1e-13);
+    EXPECT_EQ(box.mesh.positions.row(0).minCoeff(), -2);
+    request.input = BoxShape();  // of four axes
+    test::expect_contains(test::error_of([&] { static_cast<void>(make_solid(request)); }),
+                          {"a box of 4 axes; expected 3"});
+}
+
+TEST(MakeBody, RefusesWhatItWouldLeaveUnheeded) {
+    const auto messages = [](const BodyRequest& request) {
+        return test::error_of([&] { static_cast<void>(make_solid(request)); });
+    };
+    BodyRequest request = request_for("dirty/d_cube.off");
+    request.extrusion.layers = 2;
+    test::expect_contains(messages(request), {"d_cube.off: it is the body already", "leave out"});
+    request.extrusion = ExtrusionRequest();
+    request.target_cells = 1000;
+    test::expect_contains(messages(request), {"a number of pentachora is for bodies of four"});
+    request = BodyRequest();
+    request.input = BallShape{2, 1};
+    request.edge_length = 0.1;
+    test::expect_contains(messages(request), {"the shape: it is cells already", "leave out"});
+    test::expect_contains(message_for(request), {"the shape: it is cells already"});
+    request = BodyRequest();
+    request.input = BoxShape();
+    request.extrusion.thickness = 1;
+    test::expect_contains(message_for(request), {"the shape: it is the body already"});
+}
+
+TEST(MakeBody, ScalesTheFileAndMovesTheBody) {
+    const test::TempFolder folder;
+    BodyRequest request = request_for("dirty/d_cube.off");
+    request.scale = 2;
+    request.translation = Eigen::Vector4d(10, 20, 30, 40);
+    request.extrusion.thickness = 3;  // m, whatever the scale of the file
+    const Body<4> plain = make_body(request_for("dirty/d_cube.off"));
+    const Body<4> body = make_body(request);
+    EXPECT_NEAR(body.report.proof.volume, 8 * 3, 1e-12);
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_DOUBLE_EQ(body.mesh.positions.row(axis).minCoeff(),
+                         2 * plain.mesh.positions.row(axis).minCoeff() + 10 * (axis + 1));
+    }
+    EXPECT_DOUBLE_EQ(body.mesh.positions.row(3).maxCoeff(), 41.5);
+    test::write_file(folder / "a.tobj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2 3\n");
+    BodyRequest tiny;
+    tiny.input = folder / "a.tobj";
+    tiny.scale = 1e-200;
+    test::expect_contains(message_for(tiny), {"a.tobj: the mesh is", "m across", "scale it"});
+    request.translation = Eigen::Vector2d(1, 1);
+    test::expect_contains(message_for(request), {"a translation of 2 components", "3 or 4"});
+    request.translation = Eigen::VectorXd();
+    request.scale = 0;
+    test::expect_contains(message_for(request), {"a scale of 0", "above 0"});
+}
+
+TEST(MakeBody, AnnouncesStagesAndHowLargeItWillBe) {
+    BodyRequest request = request_for("dirty/d_cube.off");
+    std::vector<std::string> stages;
+    std::vector<ExpectedSize> sizes;
+    request.edge_length = 0.05;
+    request.on_stage = [&](const std::string& stage) { stages.push_back(stage); };
+    request.on_size = [&](const ExpectedSize& size) { sizes.push_back(size); };
+    const Body<4> body = make_body(request);
+    EXPECT_EQ(stages, (std::vector<std::string>{"read", "mend", "fill", "order", "extrude", "prove",
+                                                "quality"}));
+    ASSERT_EQ(sizes.size(), 2U);
+    // An estimate before filling, the number behind it.
+    EXPECT_NEAR(std::log2(sizes[0].cells / static_cast<double>(body.mesh.cell_count())), 0, 1);
+    EXPECT_EQ(sizes[1].cells, static_cast<double>(body.mesh.cell_count()));
+    EXPECT_EQ(sizes[1].layers, body.report.layers);
+    // Whoever is told may say no, and no wrap is tried instead.
+    request.on_size = [&](const ExpectedSize&) { throw Error("too large"); };
+    stages.clear();
+    EXPECT_EQ(message_for(request), "too large");
+    EXPECT_EQ(stages, (std::vector<std::string>{"read", "mend"}));
+}
+
+TEST(MakeSolid, RefusesShapesOfDimensionFour) {
     const test::TempFolder folder;
     test::write_file(folder / "flat.obj", "v 0 0 5\nv 1 0 5\nv 1 1 5\nf 1 2 3\n");
     BodyRequest request;
     request.input = folder / "flat.obj";
     request.extrusion.round = true;
-    test::expect_contains(test::error_of([&] { static_cast<void>(make_body_from_plane(request)); }),
+    test::expect_contains(test::error_of([&] { static_cast<void>(make_solid(request)); }),
                           {"round bodies are for dimension 4"});
 }
 

@@ -8,7 +8,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace pent {
 namespace {
@@ -78,6 +82,158 @@ TEST(PentMesh, ExtrudesAFlatMeshIn3D) {
     EXPECT_NE(run_program("pent-check " + out).out.find("dimension 3"), std::string::npos);
 }
 
+TEST(PentMesh, MakesBodiesOfThreeDimensions) {
+    const test::TempFolder folder;
+    const std::string out = " --dim 3 -o " + (folder / "a.pent").string();
+    test::write_file(folder / "corner.msh",
+                     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"
+                     "4 0 0 1\n$EndNodes\n$Elements\n1\n1 4 0 1 2 3 4\n$EndElements\n");
+    const std::vector<std::pair<std::string, std::string>> wanted = {
+        {(folder / "corner.msh").string(), "1 tetrahedra, 0.1666666667 m^3"},
+        {kModels + "/dirty/d_cube.off", "6 tetrahedra, 1 m^3"},
+        {"--ball 3", "180 tetrahedra"},
+        {"--box 2,2,2 --size 1", "48 tetrahedra, 1 m^3"}};
+    for (const auto& [input, said] : wanted) {
+        const Outcome outcome = run_program("pent-mesh " + input + out);
+        EXPECT_EQ(outcome.exit_code, 0) << input << ": " << outcome.err;
+        test::expect_contains(outcome.out, {said, "proved "});
+        test::expect_contains(run_program("pent-check " + (folder / "a.pent").string()).out,
+                              {"dimension 3", said, "is sound"});
+    }
+}
+
+TEST(PentMesh, TakesUnitsScaleAndPlaceAndSaysTheBoxAround) {
+    const test::TempFolder folder;
+    const std::string out = (folder / "a.pent").string();
+    const std::string cube = "pent-mesh " + kModels + "/dirty/d_cube.off --dim 3 -o " + out;
+    const std::string moved = "box        x 10 to 10.5, y 0 to 0.5, z -1 to -0.5 m\n";
+    test::expect_contains(run_program(cube + " --unit mm --scale 500 --translate 10,0,-1").out,
+                          {moved});
+    test::expect_contains(run_program("pent-check " + out).out, {moved});
+    test::expect_contains(
+        run_program(cube + " --unit cm --json " + (folder / "r.json").string()).out,
+        {"x 0 to 0.01, y 0 to 0.01, z 0 to 0.01 m"});
+    test::expect_contains(test::text_of(folder / "r.json"), {R"("high": [)", "0.01"});
+    EXPECT_EQ(run_program("pent-mesh --ball 2 --unit mm -o " + out).exit_code, 2);
+    EXPECT_EQ(run_program(cube + " --scale -1").exit_code, 2);
+    EXPECT_EQ(run_program(cube + " --translate 1,2").exit_code, 2);
+}
+
+TEST(PentMesh, ReadsStandardInput) {
+    const test::TempFolder folder;
+    const std::string to_a = " -o " + (folder / "a.pent").string();
+    const auto piped = [&](const std::string& file, const std::string& options) {
+        const std::string line = "cat " + file + " | " PENT_BIN "/pent-mesh - " + options + to_a
+                                 + " >" + (folder / "out").string() + " 2>&1";
+        static_cast<void>(std::system(line.c_str()));  // NOLINT(cert-env33-c)
+        return test::text_of(folder / "out");
+    };
+    test::expect_contains(piped(kModels + "/dirty/d_cube.off", "--format off"), {"finished: "});
+    test::expect_contains(piped(kModels + "/dirty/d_cube.off", ""),
+                          {"pent-mesh: standard input: ", "give the format"});
+    test::write_file(folder / "a.tobj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2\n");
+    test::expect_contains(piped((folder / "a.tobj").string(), "--format tobj"),
+                          {"pent-mesh: standard input: line 5: "});
+    test::expect_contains(piped(kModels + "/dirty/d_cube.off", "--format glb"),
+                          {"--format", "obj"});
+}
+
+TEST(PentMesh, NeverWritesWhereItReads) {
+    namespace fs = std::filesystem;
+    const test::TempFolder folder;
+    const fs::path cube = folder / "cube.off";
+    fs::copy_file(kModels + "/dirty/d_cube.off", cube);
+    const std::string before = test::text_of(cube);
+    fs::create_symlink(cube, folder / "link.pent");
+    fs::create_hard_link(cube, folder / "hard.pent");
+    test::write_file(folder / "lean.txt", "0 1\n1 1\n");
+    const std::string start = "pent-mesh " + cube.string() + " -o ";
+    const std::string good = start + (folder / "a.pent").string();
+    for (const std::string& command :
+         {start + (folder / "link.pent").string(), start + (folder / "hard.pent").string(),
+          good + " --json " + cube.string(), good + " --histogram " + cube.string(),
+          good + " --json " + (folder / "a.pent").string(),
+          good + " --profile " + (folder / "lean.txt").string() + " --json "
+              + (folder / "lean.txt").string()}) {
+        const Outcome outcome = run_program(command);
+        EXPECT_EQ(outcome.exit_code, 1) << command;
+        test::expect_one_error_line(outcome, "pent-mesh");
+        test::expect_contains(outcome.err, {" is the same file as ", "give it another name"});
+        EXPECT_FALSE(fs::exists(folder / "a.pent"));
+    }
+    EXPECT_EQ(test::text_of(cube), before);
+    EXPECT_EQ(test::text_of(folder / "lean.txt"), "0 1\n1 1\n");
+}
+
+TEST(PentMesh, WritesPentFilesIntoFoldersThatItMakes) {
+    const test::TempFolder folder;
+    const Outcome other = run_program("pent-mesh --ball 1 -o " + (folder / "x.obj").string());
+    EXPECT_EQ(other.exit_code, 1);
+    test::expect_one_error_line(other, "pent-mesh");
+    test::expect_contains(other.err, {"x.obj: a mesh is a .pent file", "x.pent"});
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    const std::string out = (folder / "new" / "sub" / "x.pent").string();
+    EXPECT_EQ(run_program("pent-mesh --ball 1 --layers 1 -o " + out).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::exists(out));
+    EXPECT_EQ(run_program("pent-mesh --ball 1 --layers 1 -o /dev/null").exit_code, 0);
+}
+
+TEST(PentMesh, AsksBeforeItMakesMillionsOfCells) {
+    const test::TempFolder folder;
+    const std::string out = " -o " + (folder / "a.pent").string();
+    const std::string octopus = "pent-mesh " + kModels + "/octopus_5246f.obj";
+    for (const std::string& command :
+         {octopus + " --edge-length 0.01", octopus + " --layers 100000",
+          std::string("pent-mesh --ball 4 --layers 10000"),
+          std::string("pent-mesh --box 100,100,10,10"),
+          std::string("pent-mesh --ball 1 --layers 1 --subdivide 64")}) {
+        const Outcome outcome = run_program(command + out);
+        EXPECT_EQ(outcome.exit_code, 1) << command;
+        test::expect_one_error_line(outcome, "pent-mesh");
+        test::expect_contains(outcome.err,
+                              {"this would make about ", "illion pentachora", " of work", "--yes"});
+        EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    }
+}
+
+TEST(PentMesh, SaysWhatAValueShouldHaveBeen) {
+    const auto message = [](const std::string& option) {
+        const Outcome outcome = run_program("pent-mesh --ball 1 -o a.pent " + option);
+        EXPECT_EQ(outcome.exit_code, 2) << option;
+        return outcome.err;
+    };
+    test::expect_contains(message("--thickness abc"),
+                          {R"(--thickness: found "abc", expected a number)"});
+    test::expect_contains(message("--scale twice"), {"--scale", "twice"});
+    test::expect_contains(message("--layers many"), {"--layers", "many", "1 to 1000000"});
+}
+
+TEST(PentMesh, SaysWhatToTryWhereLightMendingIsNotEnough) {
+    const test::TempFolder folder;
+    // Two cubes that share one corner: closed, but no boundary of one body there.
+    const Outcome outcome =
+        run_program("pent-mesh " + kModels + "/dirty/d_sharevertex.off --repair light -o "
+                    + (folder / "a.pent").string());
+    EXPECT_EQ(outcome.exit_code, 1);
+    test::expect_contains(outcome.err, {"light mending is not enough", "--repair wrap"});
+}
+
+TEST(PentMesh, SaysInItsOwnWordsWhyNoFileHasSuchAName) {
+    const std::string name(300, 'x');
+    for (const std::string& line :
+         {"pent-mesh " + name + ".obj -o a.pent", "pent-mesh " + name + ".msh -o a.pent",
+          "pent-mesh --ball 1 --profile " + name + " -o a.pent", "pent-check " + name,
+          "pent-mesh --ball 1 --layers 1 -o " + name + ".pent",
+          "pent-mesh --ball 1 --edge-directions " + name + " -o a.pent"}) {
+        const Outcome outcome = run_program(line);
+        EXPECT_EQ(outcome.exit_code, 1);
+        const std::string program = line.substr(0, line.find(' '));
+        test::expect_one_error_line(outcome, program);
+        EXPECT_EQ(outcome.err.find("filesystem error"), std::string::npos) << outcome.err;
+        test::expect_contains(outcome.err, {"File name too long"});
+    }
+}
+
 TEST(PentMesh, FindsItsWorkerWhereItIsInstalled) {
     namespace fs = std::filesystem;
     const test::TempFolder folder;
@@ -111,7 +267,7 @@ TEST(PentMesh, GivesUpAfterItsTimeLimit) {
     const test::TempFolder folder;
     // In the foreground: else the signal comes twice, and the second ends the program at once.
     const Outcome outcome = run_program(
-        "pent-mesh " + kModels + "/octopus_5246f.obj --edge-length 0.005 --time-limit 1 -o "
+        "pent-mesh " + kModels + "/octopus_5246f.obj --yes --edge-length 0.005 --time-limit 1 -o "
         + (folder / "out.pent").string() + " --json " + (folder / "report.json").string());
     EXPECT_EQ(outcome.exit_code, 1);
     test::expect_one_error_line(outcome, "pent-mesh");
@@ -125,7 +281,7 @@ TEST(PentMesh, StopsAtCtrlCWithAVerdictOfItsOwn) {
     const test::TempFolder folder;
     // In the foreground: else the signal comes twice, and the second ends the program at once.
     const Outcome outcome = run_program(
-        "pent-mesh " + kModels + "/octopus_5246f.obj --edge-length 0.005 -o "
+        "pent-mesh " + kModels + "/octopus_5246f.obj --yes --edge-length 0.005 -o "
             + (folder / "out.pent").string() + " --json " + (folder / "report.json").string(),
         "timeout --foreground --preserve-status --signal=INT 0.5");
     EXPECT_EQ(outcome.exit_code, 3);
@@ -164,7 +320,7 @@ TEST(PentMesh, SaysWhatToDoWhenMemoryRunsOut) {
 #endif
     const test::TempFolder folder;
     const Outcome outcome =
-        run_program("pent-mesh --box 200,200,200,20 -o " + (folder / "out.pent").string(),
+        run_program("pent-mesh --yes --box 200,200,200,20 -o " + (folder / "out.pent").string(),
                     "ulimit -v 1000000;");
     EXPECT_EQ(outcome.exit_code, 1);
     test::expect_one_error_line(outcome, "pent-mesh");
@@ -194,6 +350,17 @@ TEST(PentCheck, SaysWhenItsReportCannotBeWritten) {
     EXPECT_EQ(missing.exit_code, 1);
     test::expect_one_error_line(missing, "pent-check");
     test::expect_contains(missing.err, {"none.pent"});
+}
+
+TEST(PentCheck, NeverWritesItsReportOverTheFile) {
+    const test::TempFolder folder;
+    const std::string out = (folder / "a.pent").string();
+    write_mesh(out, test::kuhn_box<2>({1, 1}, {1, 1}));
+    const std::string before = test::text_of(out);
+    const Outcome outcome = run_program("pent-check " + out + " --json " + out);
+    EXPECT_EQ(outcome.exit_code, 1);
+    test::expect_contains(outcome.err, {"--json is the same file as the input"});
+    EXPECT_TRUE(test::text_of(out) == before);
 }
 
 TEST(PentCheck, TakesOneFile) {

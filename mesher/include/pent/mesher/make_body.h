@@ -10,9 +10,9 @@
 #include <pent/mesher/surface_check.h>
 #include <pent/mesher/tetrahedralize.h>
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -30,8 +30,8 @@ struct BallShape {
     double radius = 1;  ///< m.
 };
 struct BoxShape {
-    std::array<int, 4> count = {1, 1, 1, 1};    ///< Tesseracts along x y z w.
-    std::array<double, 4> size = {1, 1, 1, 1};  ///< m; centered at the origin.
+    std::vector<int> count = {1, 1, 1, 1};    ///< Cubes along each axis of the body.
+    std::vector<double> size = {1, 1, 1, 1};  ///< m; centered at the origin.
     CubeCut cut = CubeCut::Paths;
 };
 
@@ -52,16 +52,33 @@ struct ExtrusionRequest {
     std::filesystem::path edge_directions;  ///< File of directed edges, instead of an order.
 };
 
+/// How large a body will be, before the work that depends on it.
+struct ExpectedSize {
+    double cells = 0;
+    double base_cells = 0;
+    int layers = 0;      ///< 0: not extruded.
+    double seconds = 0;  ///< Very roughly, of one core.
+};
+
 /// What pent-mesh is asked for.
 struct BodyRequest {
     /// A file with a surface or a tet mesh (see read_surface, read_tetrahedra), or a shape.
+    /// The path "-" is standard input.
     std::variant<std::filesystem::path, SphereShape, BallShape, BoxShape> input;
+    std::string format;           ///< Of the file, as in "obj"; empty: by the ending of its name.
+    double scale = 1;             ///< Coordinates in the file times this are m; above 0.
+    Eigen::VectorXd translation;  ///< Of the body at the end, m; 3 or all components, or none.
     RepairOptions repair;
     std::int64_t surface_triangles = 0;  ///< To refine or coarsen the surface to; 0: as it is.
     double edge_length = 0;         ///< To aim at, on the surface and inside, m; 0: as it comes.
     std::int64_t target_cells = 0;  ///< To aim at in the body, within 2%; 0: as it comes.
     TetrahedraOptions tetrahedra;   ///< Its edge_length is for the inside alone.
     ExtrusionRequest extrusion;
+    /// Called when a stage of the work begins, as in "fill".
+    std::function<void(const std::string& stage)> on_stage;
+    /// Called with an estimate before a surface is filled, and with the number before cells are made,
+    /// unless target_cells asks for one. May throw to stop the work.
+    std::function<void(const ExpectedSize&)> on_size;
     int subdivide = 1;  ///< Every edge of the body is cut in this many parts, see subdivide().
 
     /// Sets what every step that may crash or run away is allowed.
@@ -120,11 +137,12 @@ struct Body {
 /// If a surface that was clean or lightly mended cannot be filled, and a wrap is allowed, its wrap
 /// is. An edge length beyond that of the surface coarsens it. Throws an Error if the surface cannot be
 /// made clean, with what, how many and where; if a stage fails; or if the result does not pass
-/// prove().
+/// prove(); or if something is asked for that the input does not need, as layers of a box.
 [[nodiscard]] Body<4> make_body(const BodyRequest& request);
 
-/// Makes a tetrahedral body from a flat triangle mesh: all z are equal, and become the base of the
-/// extrusion along z. Throws as make_body() does.
-[[nodiscard]] Body<3> make_body_from_plane(const BodyRequest& request);
+/// Makes a tetrahedral body: of a surface (read, mend, resample, fill, prove), of a tet mesh, a ball or a
+/// box as they are, or of a flat triangle mesh, where all z are equal: the base of an extrusion along z.
+/// Throws as make_body() does.
+[[nodiscard]] Body<3> make_solid(const BodyRequest& request);
 
 }  // namespace pent::mesher

@@ -8,8 +8,10 @@
 
 namespace pent::mesher {
 
-/// Whether the name ends like that of a file with tetrahedra.
-[[nodiscard]] bool is_tetrahedra_file(const std::filesystem::path& path);
+/// Whether the name ends like that of a file with tetrahedra, or the format, as in "msh", is one of
+/// theirs.
+[[nodiscard]] bool is_tetrahedra_file(const std::filesystem::path& path,
+                                      const std::string& format = {});
 
 /// A tet mesh as a file has it, and what was done to read it.
 struct TetrahedraFile {
@@ -24,9 +26,11 @@ struct TetrahedraFile {
 /// Reads a tet mesh: TetGen .node or .ele (either name; both files), Medit .mesh, HOBAK .tobj as text,
 /// Gmsh .msh 2.2 and 4.1 and legacy VTK .vtk as text or binary.
 ///
+/// All but TetGen's are read from standard input, too, by the path "-".
 /// Pyramids, prisms and hexahedra are cut into tetrahedra such that neighbors agree; other cells of
 /// three dimensions are refused. Throws an Error that names file and line for what is damaged, and one for a mesh that does not
 /// pass validate(). Allocates no more than the size of the file bears out.
-[[nodiscard]] TetrahedraFile read_tetrahedra(const std::filesystem::path& path);
+[[nodiscard]] TetrahedraFile read_tetrahedra(const std::filesystem::path& path,
+                                             const std::string& format = {});
 
 }  // namespace pent::mesher

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "stage_clock.h"
+
+#include <pent/mesher/make_body.h>
+#include <pent/mesher/surface.h>
+
+#include <functional>
+#include <string>
+
+namespace pent::mesher {
+
+/// What errors call the input: a path, "standard input" or "the shape".
+[[nodiscard]] std::string name_of_input(const BodyRequest& request);
+
+/// Whether the input is tetrahedra already, and not a surface to be filled.
+[[nodiscard]] bool has_tetrahedra(const BodyRequest& request);
+
+/// The surface that a file has, scaled, or a sphere.
+[[nodiscard]] SurfaceFile surface_of(const BodyRequest& request);
+
+/// The tetrahedra that a file has, scaled, or a ball. Throws an Error if they do not fit together.
+[[nodiscard]] SimplexMesh<3> read_base(const BodyRequest& request,
+                                       BodyReport& report,
+                                       StageClock& clock);
+
+/// How a surface is filled that is sound.
+using Fill = std::function<Tetrahedra(const Surface& surface, Surface& filled)>;
+
+/// Mends a surface, and fills it; if a wrap is allowed and filling fails, fills its wrap.
+/// @param before_filling  Is given the surface that is to be filled; may throw.
+[[nodiscard]] SimplexMesh<3> fill_base(const SurfaceFile& file,
+                                       const BodyRequest& request,
+                                       const std::function<void(const Surface&)>& before_filling,
+                                       const Fill& fill,
+                                       BodyReport& report,
+                                       StageClock& clock);
+
+/// Resamples a surface if an edge length or a number of triangles is asked for, and fills it.
+[[nodiscard]] Tetrahedra fill_at(const Surface& surface,
+                                 double edge_length,
+                                 const BodyRequest& request,
+                                 Surface& filled);
+
+/// About how many tetrahedra fill_at() will make, and in how many seconds.
+struct FillEstimate {
+    double tetrahedra = 0;
+    double seconds = 0;
+    double edge = 0;  ///< Mean length, m.
+};
+[[nodiscard]] FillEstimate estimate_filling(const Surface& surface, const BodyRequest& request);
+
+/// Tetrahedra over what regular ones of the same edge would number, as TetGen has it.
+inline constexpr double kCrowding = 1.3;
+
+}  // namespace pent::mesher

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <pent/mesher/make_body.h>
+
+#include <vector>
+
+namespace pent::mesher {
+
+/// What an extrusion needs to know of its base.
+struct BaseSize {
+    double largest_side = 0;  ///< Of the bounding box, m.
+    double volume = 0;        ///< m^(Dim - 1).
+    double edge = 0;          ///< Mean length, m.
+};
+
+template <int Dim>
+[[nodiscard]] double largest_side(const Positions<Dim>& positions) {
+    return (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).maxCoeff();
+}
+
+/// The whole straight extrusion that is asked for, m. Throws an Error unless it is finite and leads out
+/// of the base.
+template <int Dim>
+[[nodiscard]] Eigen::Matrix<double, Dim, 1> extrusion_direction(const ExtrusionRequest& request,
+                                                                double largest_side);
+
+/// Along which length layers are counted, m: that of the extrusion, or of half a meridian of a round body.
+/// Throws an Error as extrusion_direction() does.
+[[nodiscard]] double extrusion_length(const ExtrusionRequest& request, double largest_side);
+
+/// The layers that are asked for, and what is known of the volume they enclose.
+template <int Dim>
+struct Layers {
+    std::vector<Layer<Dim>> layers;
+    double volume = 0;  ///< m^Dim, or 0 where it is not known.
+
+    /// Cells over one of the base: a prism's for every slab, but one where an end is a point.
+    [[nodiscard]] double cells_over() const {
+        const int points = (layers.front().is_point() ? 1 : 0) + (layers.back().is_point() ? 1 : 0);
+        return Dim * (static_cast<double>(layers.size()) - 1 - points) + points;
+    }
+};
+template <int Dim>
+[[nodiscard]] Layers<Dim> requested_layers(const ExtrusionRequest& request, const BaseSize& base);
+
+}  // namespace pent::mesher
