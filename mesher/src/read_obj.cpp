@@ -40,6 +40,10 @@ TriangleSoup read_obj(const std::filesystem::path& path) {
             builder.add_point(text.point());
         } else if (keyword == "f") {
             builder.add_polygon(read_polygon(text, builder.point_count()));
+        } else if (keyword == "surf" || keyword == "bsp" || keyword == "bzp" || keyword == "cdp"
+                   || keyword == "con") {
+            text.fail("a free-form surface (" + std::string(keyword)
+                      + "); expected polygons: write the file as a mesh");
         }
     }
     return builder.soup();

@@ -26,15 +26,33 @@ std::vector<std::uint32_t> read_polygon(TextReader& text, std::int64_t points) {
     return polygon;
 }
 
+// The keyword is OFF behind letters for what each line of a point has: texture (ST), color (C), normal (N),
+// which all stand behind its coordinates; but 4 and n say that there are more coordinates than three.
+void check_keyword(const TextReader& text, std::string_view keyword) {
+    if (!keyword.ends_with("OFF")) {
+        text.fail("no OFF at the start; expected a file in OFF format");
+    }
+    std::string_view letters = keyword.substr(0, keyword.size() - 3);
+    for (const std::string_view known : {"ST", "C", "N"}) {
+        letters.remove_prefix(letters.starts_with(known) ? known.size() : 0);
+    }
+    if (letters == "4" || letters == "n" || letters == "4n") {
+        text.fail(std::string(keyword)
+                  + ": points that have not three coordinates; expected OFF, COFF, NOFF or STOFF,"
+                    " in space");
+    }
+    if (!letters.empty()) {
+        text.fail("no OFF at the start; expected a file in OFF format");
+    }
+}
+
 }  // namespace
 
 TriangleSoup read_off(const std::filesystem::path& path) {
     TextReader text(path);
     next_line(text, "OFF");
     const std::string_view keyword = text.word();
-    if (keyword.size() < 3 || keyword.substr(keyword.size() - 3) != "OFF") {
-        text.fail("no OFF at the start; expected a file in OFF format");
-    }
+    check_keyword(text, keyword);
     std::string_view first = text.word();
     if (first.empty()) {
         next_line(text, "the numbers of points, faces and edges");

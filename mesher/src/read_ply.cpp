@@ -217,6 +217,9 @@ TriangleSoup read_ply(const std::filesystem::path& path) {
         if (element.properties.empty()) {
             continue;  // rows without a byte: nothing to read, whatever their number
         }
+        if (element.name == "tristrips") {
+            values.fail("triangles in strips; expected faces: write the file with faces");
+        }
         for (std::int64_t row = 0; row < element.count; ++row) {
             if (element.name == "vertex") {
                 read_vertex(element, values, builder);

@@ -18,14 +18,23 @@ static_assert(std::endian::native == std::endian::little, "binary STL is little-
 constexpr std::size_t kHeader = 84;    // 80 bytes of text and the number of triangles
 constexpr std::size_t kTriangle = 50;  // a normal, three points, two bytes of attributes
 
-// Binary files may start with "solid" as well: their length tells.
-bool is_binary(std::string_view bytes) {
-    if (bytes.size() < kHeader) {
-        return false;
-    }
+// The length that a binary file has by its header.
+std::size_t binary_length(std::string_view bytes) {
     std::uint32_t triangles = 0;
     std::memcpy(&triangles, bytes.data() + kHeader - sizeof triangles, sizeof triangles);
-    return bytes.size() == kHeader + kTriangle * triangles;
+    return kHeader + kTriangle * std::size_t{triangles};
+}
+
+// Binary files may start with "solid" as well: their length tells.
+bool is_binary(std::string_view bytes) {
+    return bytes.size() >= kHeader && bytes.size() == binary_length(bytes);
+}
+
+// Whether a file that has another length than its header says is binary nevertheless.
+bool has_binary_header(std::string_view bytes) {
+    return bytes.size() >= kHeader
+           && (!bytes.starts_with("solid")
+               || bytes.substr(0, kHeader).find('\0') != std::string_view::npos);
 }
 
 void add_last_triangle(SoupBuilder& builder) {
@@ -53,10 +62,11 @@ TriangleSoup read_binary(std::string_view bytes, const std::string& name) {
 
 TriangleSoup read_text(TextReader& text) {
     if (!text.next_line() || text.word() != "solid") {
-        text.fail("no \"solid\" at the start, and not the length of a binary STL file");
+        text.fail("no \"solid\" at the start, and too short to be binary; expected an STL file");
     }
     SoupBuilder builder;
     std::int64_t corners = 0;  // of the loop that is open
+    bool is_open = true;       // from solid to endsolid
     while (text.next_line()) {
         const std::string_view keyword = text.word();
         if (keyword == "vertex") {
@@ -68,10 +78,12 @@ TriangleSoup read_text(TextReader& text) {
             }
             add_last_triangle(builder);
             corners = 0;
+        } else if (keyword == "solid" || keyword == "endsolid") {
+            is_open = keyword == "solid";
         }
     }
-    if (corners != 0) {
-        text.fail("the file ends within a loop");
+    if (is_open) {
+        text.fail("the file ends before \"endsolid\"; it may have been cut off, write it again");
     }
     return builder.soup();
 }
@@ -80,7 +92,19 @@ TriangleSoup read_text(TextReader& text) {
 
 TriangleSoup read_stl(const std::filesystem::path& path) {
     TextReader text(path, '\0');
-    return is_binary(text.rest()) ? read_binary(text.rest(), text.name()) : read_text(text);
+    const std::string_view bytes = text.rest();
+    if (is_binary(bytes)) {
+        return read_binary(bytes, text.name());
+    }
+    if (has_binary_header(bytes)) {
+        const std::size_t length = binary_length(bytes);
+        throw Error(text.name() + ": " + std::to_string(bytes.size())
+                    + " bytes; expected " + std::to_string(length) + " for the "
+                    + std::to_string((length - kHeader) / kTriangle)
+                    + " triangles that a binary STL file announces; it may have been cut off,"
+                      " write it again");
+    }
+    return read_text(text);
 }
 
 }  // namespace pent::mesher

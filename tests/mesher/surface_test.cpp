@@ -3,7 +3,7 @@
 #include "support/temp_folder.h"
 
 #include <pent/error.h>
-#include <pent/mesher/surface.h>
+#include <pent/mesher/read_surface.h>
 
 #include <gtest/gtest.h>
 
@@ -133,7 +133,49 @@ TEST(ReadStl, NamesLoopsThatAreNoTriangles) {
     const std::string loop = "solid a\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n";
     test::expect_contains(message_for("a.stl", loop + "endloop\n"),
                           {"a.stl: line 5", "a loop of 2 vertices", "expected 3"});
-    test::expect_contains(message_for("a.stl", loop), {"a.stl", "ends within a loop"});
+    test::expect_contains(message_for("a.stl", loop),
+                          {"a.stl", "the file ends before \"endsolid\"", "cut off"});
+}
+
+TEST(ReadStl, SaysWhatATruncatedFileShouldHaveBeen) {
+    const std::string whole = binary_stl(1);
+    test::expect_contains(message_for("a.stl", whole.substr(0, whole.size() - 50)),
+                          {"a.stl: " + std::to_string(whole.size() - 50) + " bytes; expected "
+                               + std::to_string(whole.size()) + " for the 4 triangles",
+                           "cut off"});
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        EXPECT_NE(message_for("a.stl", whole.substr(0, length)), "") << length;
+    }
+    // A text that ends between two triangles is no smaller body.
+    const std::string facet =
+        "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+        "0\nendloop\nendfacet\n";
+    test::expect_contains(message_for("a.stl", "solid a\n" + facet), {"endsolid"});
+    EXPECT_EQ(
+        read_text("a.stl", "solid a\n" + facet + "endsolid a\nsolid b\n" + facet + "endsolid b\n")
+            .surface.triangle_count(),
+        2);
+}
+
+TEST(ReadObj, RefusesFreeFormSurfaces) {
+    test::expect_contains(
+        message_for("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nsurf 0 1 0 1 1 2\n"),
+        {"a.obj: line 5", "a free-form surface (surf)", "expected polygons"});
+}
+
+TEST(ReadOff, RefusesPointsThatAreNotInSpace) {
+    const std::string points = " 3 1 0\n0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2\n";
+    for (const char* keyword : {"4OFF", "nOFF", "4nOFF", "STCN4OFF"}) {
+        test::expect_contains(
+            message_for("a.off", keyword + points),
+            {"a.off: line 1", std::string(keyword) + ": points that have not three"});
+    }
+    for (const char* keyword : {"xOFF", "NCOFF", "OFFS", "CCOFF"}) {
+        test::expect_contains(message_for("a.off", keyword + points), {"a.off: line 1", "no OFF"});
+    }
+    for (const char* keyword : {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCNOFF"}) {
+        EXPECT_EQ(read_text("a.off", keyword + points).surface.triangle_count(), 1) << keyword;
+    }
 }
 
 TEST(ReadOff, TakesCountsOnTheFirstLineAndNamesWhatIsWrong) {
@@ -158,6 +200,22 @@ TEST(ReadSurface, NamesWhatCannotBeRead) {
     test::expect_contains(
         test::error_of([&] { static_cast<void>(read_surface(folder / "b.off")); }),
         {"b.off: cannot be read: Input/output error"});
+}
+
+TEST(ReadSurface, TakesTheFormatThatIsGivenOverTheName) {
+    const test::TempFolder folder;
+    test::write_file(folder / "corner.txt", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    EXPECT_EQ(read_surface(folder / "corner.txt", "off").surface.triangle_count(), 1);
+    EXPECT_EQ(read_surface(folder / "corner.txt", "OFF").surface.triangle_count(), 1);
+    test::expect_contains(
+        test::error_of([&] { static_cast<void>(read_surface(folder / "corner.txt")); }),
+        {"a name that ends in \".txt\"", ".glb", ".tobj", "give the format"});
+}
+
+TEST(ReadSurface, SaysInItsOwnWordsWhyNoFileHasSuchAName) {
+    const std::string name = std::string(300, 'x') + ".obj";
+    EXPECT_EQ(test::error_of([&] { static_cast<void>(read_surface(name)); }),
+              name + ": cannot be opened: File name too long");
 }
 
 TEST(ReadSurface, RefusesWhatOnlyLooksLikeAFile) {
