@@ -4,6 +4,7 @@
 #include <pent/nearest_name.h>
 #include <pent/output_file.h>
 #include <pent/parallel.h>
+#include <pent/printable.h>
 
 #include <algorithm>
 #include <atomic>
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <thread>
 #include <utility>
@@ -133,14 +135,14 @@ std::string Program::name_and_version() const {
 
 void Program::say(const std::string& line) const {
     if (!common_.quiet) {
-        std::printf("%s\n", line.c_str());
+        std::printf("%s\n", printable(line).c_str());
         std::fflush(stdout);
     }
 }
 
 int Program::fail(const std::string& message) {
     std::fflush(stdout);
-    std::fprintf(stderr, "%s: %s\n", name_.c_str(), one_line(message).c_str());
+    std::fprintf(stderr, "%s: %s\n", name_.c_str(), printable(one_line(message)).c_str());
     return exit_code(Verdict::Refused);
 }
 
@@ -217,6 +219,8 @@ int Program::run(int argc, const char* const* argv, const std::function<Verdict(
         verdict = Workers(common_.threads).run(body);
     } catch (const std::bad_alloc&) {
         error = "out of memory";
+    } catch (const std::filesystem::filesystem_error& failure) {
+        error = failure.path1().string() + ": " + failure.code().message();
     } catch (const std::exception& exception) {
         error = one_line(exception.what());
     }

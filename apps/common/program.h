@@ -56,8 +56,8 @@ public:
     [[nodiscard]] int run(int argc, const char* const* argv, const std::function<Verdict()>& body);
 
     /// Ends the program at once with the line on stderr, the report and the exit code that run()
-    /// would give for it. For another thread, while the body is stuck in a library: nothing else may
-    /// use the program meanwhile.
+    /// would give for it. For another thread, while the body is stuck in a library: nothing else
+    /// may use the program meanwhile.
     [[noreturn]] void abandon(Verdict verdict, const std::string& error);
 
 private:

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -44,6 +45,14 @@ std::string percent(double fraction) {
     return pent::formatted("%.1f%%", 100 * fraction);
 }
 
+std::int64_t count_refused(const RunReport& report) {
+    std::int64_t refused = 0;
+    for (const StepReport& step : report.steps) {
+        refused += step.refused;
+    }
+    return refused;
+}
+
 // What touched in a run, and its share of the time; says nothing of a scene without contact.
 void summarize_contact(Program& program, const RunReport& report) {
     double seconds = 0;
@@ -60,8 +69,12 @@ void summarize_contact(Program& program, const RunReport& report) {
     if (contact_seconds == 0) {
         return;
     }
-    if (most == 0) {
+    if (most == 0 && count_refused(report) == 0) {
         program.say("contact: nothing has touched; without it the run would have been the same");
+    } else if (most == 0) {
+        program.say(
+            "contact: nothing touches at the end of a step, but steps were cut: there it may"
+            " have acted");
     }
     const double share = contact_seconds / seconds;
     program.say("contact: " + percent(share) + " of the time; at most " + std::to_string(most)
@@ -72,8 +85,8 @@ void summarize_contact(Program& program, const RunReport& report) {
                                    {"deepest", deepest}};
 }
 
-// Elements that no force of theirs brings back, or that are inside out, at the end and on the way there.
-// Gives what to say beside the verdict.
+// Elements that no force of theirs brings back, or that are inside out, at the end and on the way
+// there. Gives what to say beside the verdict.
 std::string summarize_defects(Program& program, const RunReport& report) {
     const StepReport last = report.steps.empty() ? StepReport() : report.steps.back();
     std::int64_t inverted_steps = 0;
@@ -89,13 +102,36 @@ std::string summarize_defects(Program& program, const RunReport& report) {
                       " (docs/simulator.md, Limits)");
     }
     if (inverted_steps > 0) {
-        program.say(std::to_string(last.inverted) + " of " + std::to_string(report.size.cells)
-                    + " cells are inside out at the end, some at the end of "
-                    + std::to_string(inverted_steps) + " steps; smaller steps may help");
+        const std::string steps = std::to_string(inverted_steps)
+                                  + (inverted_steps == 1 ? " step" : " steps") + " of "
+                                  + std::to_string(report.steps.size());
+        program.say(last.inverted > 0
+                        ? std::to_string(last.inverted) + " of " + std::to_string(report.size.cells)
+                              + " cells are inside out at the end, and some were behind " + steps
+                              + ": pressed or turned too hard; smaller steps or less force may help"
+                        : "no cell is inside out at the end, but some were behind " + steps);
     }
     return last.collapsed > 0  ? " with collapsed elements"
            : last.inverted > 0 ? " with inverted cells"
                                : "";
+}
+
+// "40 steps"; a run of version 0.1.0 that was killed has lost the statistics of some.
+std::string steps_text(const RunReport& report) {
+    const std::uint64_t steps = report.steps.empty() ? 0 : report.steps.back().step;
+    const std::uint64_t lost = steps - report.steps.size();
+    return std::to_string(steps) + " steps"
+           + (lost > 0 ? " (nothing is known of " + std::to_string(lost) + ")" : "");
+}
+
+// " in 3 parts, of which 1 died"; nothing for a run in one go.
+std::string parts_text(const RunReport& report) {
+    if (report.parts.size() < 2) {
+        return "";
+    }
+    const auto died = std::ranges::count(report.parts, "died", &pent::simulator::RunPart::verdict);
+    return " in " + std::to_string(report.parts.size()) + " parts"
+           + (died > 0 ? ", of which " + std::to_string(died) + " died" : "");
 }
 
 void summarize(Program& program, const RunReport& report, const std::string& folder) {
@@ -110,17 +146,17 @@ void summarize(Program& program, const RunReport& report, const std::string& fol
         bodies.push_back({{"name", report.bodies[body]}, {"non_rigid_max", most}});
     }
     std::int64_t iterations = 0;
-    std::int64_t refused = 0;
+    const std::int64_t refused = count_refused(report);
     std::string failure;
     for (const StepReport& step : report.steps) {
         iterations += step.iterations;
-        refused += step.refused;
         failure = step.refused > 0 ? step.failure : failure;
     }
     if (refused > 0) {
         program.say(std::to_string(refused)
                     + " attempts at steps were cut in two, the last because " + failure);
     }
+    program.report()["parts"] = report.parts.size();
     program.report()["frames"] = report.frames.size();
     program.report()["steps"] = report.steps.size();
     program.report()["iterations"] = iterations;
@@ -130,11 +166,16 @@ void summarize(Program& program, const RunReport& report, const std::string& fol
     program.report()["cells"] = report.size.cells;
     program.report()["bodies"] = bodies;
     summarize_contact(program, report);
-    const std::string defects = summarize_defects(program, report);
+    std::string defects = summarize_defects(program, report);
+    if (!report.penetration.empty()) {
+        program.say(report.penetration);
+        program.report()["penetration"] = report.penetration;
+        defects += defects.empty() ? " with deep penetration" : " and deep penetration";
+    }
     program.say(std::string(verdict_name(report.verdict)) + defects + ": "
                 + std::to_string(report.frames.size()) + " frames in " + folder + ", "
-                + std::to_string(report.steps.size()) + " steps, "
-                + pent::apps::readable_time(report.seconds));
+                + steps_text(report) + ", " + pent::apps::readable_time(report.seconds)
+                + parts_text(report));
 }
 
 Verdict explain_scene(Program& program, const pent::simulator::Scene& scene) {
@@ -156,8 +197,21 @@ Verdict explain_scene(Program& program, const pent::simulator::Scene& scene) {
     return Verdict::Finished;
 }
 
+// Throws an Error if the --json report would replace the scene or one of its meshes, the scene first: a report
+// says why it could not be read.
+pent::simulator::Scene read_inputs(Program& program, const std::string& path) {
+    std::vector<pent::apps::NamedFile> inputs = {{"the scene", path}};
+    program.require_apart(inputs, {});
+    pent::simulator::Scene scene = pent::simulator::read_scene(path);
+    for (const pent::simulator::Body& body : scene.bodies) {
+        inputs.push_back({"the mesh of \"" + body.name + "\"", body.mesh});
+    }
+    program.require_apart(inputs, {});
+    return scene;
+}
+
 Verdict simulate(Program& program, const Arguments& arguments) {
-    const pent::simulator::Scene scene = pent::simulator::read_scene(arguments.scene);
+    const pent::simulator::Scene scene = read_inputs(program, arguments.scene);
     if (arguments.explain) {
         return explain_scene(program, scene);
     }
@@ -170,9 +224,11 @@ Verdict simulate(Program& program, const Arguments& arguments) {
         }
     };
     callbacks.on_warning = [&](const std::string& line) { program.say("warning: " + line); };
+    callbacks.on_resume = [&](const std::string& line) { program.say(line); };
     const RunReport report = run(scene,
                                  {.folder = arguments.output,
                                   .force = arguments.force,
+                                  .scene_file = arguments.scene,
                                   .resume = arguments.resume,
                                   .threads = program.common().threads,
                                   .isa = arguments.isa,

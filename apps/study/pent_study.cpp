@@ -4,11 +4,13 @@
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/output_file.h>
+#include <pent/simulator/scene_file.h>
 #include <pent/study/study.h>
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -77,7 +79,19 @@ const Result* chosen_by(const Arguments& arguments, const StudyReport& report) {
     return chosen;
 }
 
+// Throws an Error if an option says to write what the study reads.
+void require_apart(Program& program, const Arguments& arguments) {
+    const fs::path& scene = arguments.study.scene;
+    std::vector<pent::apps::NamedFile> inputs = {{"the scene", scene}};
+    program.require_apart(inputs, {});
+    for (const pent::simulator::Body& body : pent::simulator::read_scene(scene).bodies) {
+        inputs.push_back({"the mesh of \"" + body.name + "\"", body.mesh});
+    }
+    program.require_apart(inputs, {{"--write-scene", arguments.write_scene}});
+}
+
 Verdict study(Program& program, Arguments& arguments) {
+    require_apart(program, arguments);
     arguments.study.threads = program.common().threads;
     arguments.study.created_by = program.name_and_version();
     arguments.study.programs = fs::read_symlink("/proc/self/exe").parent_path();
@@ -150,7 +164,8 @@ int main(int argc, char** argv) {
     options.add_option("--reference-integrator", arguments.study.reference_integrator,
                        "Of the reference; linear_euler where Newton's method does not get through");
     options.add_flag("--keep-runs", arguments.study.keep_runs, "Keep the frames of all runs");
-    options.add_flag("--force", arguments.study.force, "Throw away what is in the folder");
+    options.add_flag("--force", arguments.study.force,
+                     "Throw away the study that is in the folder");
     CLI::Option* error = options
                              .add_option("--error", arguments.error_percent,
                                          "Choose the fastest settings within this error (percent)")

@@ -1,7 +1,6 @@
 #include "body.h"
 
-#include "crc32c.h"
-
+#include <pent/crc32c.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/output_file.h>

@@ -1,5 +1,6 @@
 #include "header.h"
 
+#include <pent/crc32c.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/real_text.h>
@@ -33,8 +34,8 @@ constexpr std::array<TypeName, 8> kTypes = {{
 }};
 
 // Comments with a meaning; others are ignored.
-constexpr std::array<std::string_view, 8> kComments = {"pent", "dimension", "created_by", "crc32c",
-                                                       "mesh", "frame",     "step",       "time"};
+constexpr std::array<std::string_view, 9> kComments = {
+    "pent", "dimension", "created_by", "crc32c", "header_crc32c", "mesh", "frame", "step", "time"};
 
 constexpr std::uint64_t kMostVertices = 0xFFFFFFFFU;  // indices are 32 bits wide
 
@@ -110,6 +111,7 @@ public:
             }
         }
         header_.body = at_;
+        check_checksum();
         check_elements();
         return header_;
     }
@@ -186,6 +188,9 @@ private:
         } else if (key == "crc32c") {
             header_.info.crc32c = parse_crc(words, 2, line);
             header_.has_checksum = true;
+        } else if (key == "header_crc32c") {
+            checksum_ = parse_crc(words, 2, line);
+            checksum_begin_ = static_cast<std::size_t>(line.data() - bytes_.data());
         } else if (key == "mesh") {
             header_.info.is_frame = true;
             header_.mesh_crc = parse_crc(words, 3, line);
@@ -208,7 +213,7 @@ private:
         const bool has_form = words.size() == word + 1 && words[word].size() == 8;
         const auto value = has_form ? number<std::uint32_t>(words[word], 16) : std::nullopt;
         if (!value) {
-            fail(line, std::string("'comment ") + (word == 2 ? "crc32c" : "mesh NAME")
+            fail(line, std::string("'comment ") + (word == 2 ? std::string(words[1]) : "mesh NAME")
                            + " XXXXXXXX' with 8 hexadecimal digits");
         }
         return *value;
@@ -270,6 +275,21 @@ private:
             }
         }
         header_.elements.back().properties.push_back(std::move(property));
+    }
+
+    // Of every byte but the line that has it; files of version 0.1.0 have none.
+    void check_checksum() const {
+        if (!checksum_) {
+            return;
+        }
+        const std::string_view before = bytes_.substr(0, checksum_begin_);
+        const std::size_t next = bytes_.find('\n', checksum_begin_) + 1;
+        const std::uint32_t found =
+            crc32c(bytes_.data() + next, header_.body - next, crc32c(before.data(), before.size()));
+        if (found != *checksum_) {
+            fail_header("its checksum is " + formatted("%08x", found) + ", the header says "
+                        + formatted("%08x", *checksum_) + ": it was changed since it was written");
+        }
     }
 
     [[noreturn]] void fail_header(const std::string& what) const {
@@ -341,6 +361,8 @@ private:
     std::size_t at_ = 0;
     int line_ = 0;
     Header header_;
+    std::optional<std::uint32_t> checksum_;  // of the header
+    std::size_t checksum_begin_ = 0;         // of the line that has it
     std::set<std::string> seen_;
 };
 
@@ -365,10 +387,13 @@ Header parse_header(std::string_view bytes, const std::filesystem::path& path) {
 }
 
 std::string format_header(const Header& header) {
+    std::string created_by = header.info.created_by;
+    std::replace_if(
+        created_by.begin(), created_by.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
     std::string text = "ply\nformat ";
     text += header.info.encoding == Encoding::Ascii ? "ascii" : "binary_little_endian";
     text += " 1.0\ncomment pent 1.0\ncomment dimension " + std::to_string(header.info.dimension);
-    text += "\ncomment created_by " + header.info.created_by;
+    text += "\ncomment created_by " + created_by;
     if (header.info.is_frame) {
         text += "\ncomment mesh " + header.mesh_name + " " + formatted("%08x", header.mesh_crc);
         text += "\ncomment frame " + std::to_string(header.frame);
@@ -376,13 +401,18 @@ std::string format_header(const Header& header) {
         text += "\ncomment time " + shortest(header.time);
     }
     text += "\ncomment crc32c " + formatted("%08x", header.info.crc32c) + "\n";
+    std::string elements;
     for (const PlyElement& element : header.elements) {
-        text += "element " + element.name + " " + std::to_string(element.count) + "\n";
+        elements += "element " + element.name + " " + std::to_string(element.count) + "\n";
         for (const PlyProperty& property : element.properties) {
-            text += "property " + std::string(name_of(property.type)) + " " + property.name + "\n";
+            elements +=
+                "property " + std::string(name_of(property.type)) + " " + property.name + "\n";
         }
     }
-    return text + "end_header\n";
+    elements += "end_header\n";
+    const std::uint32_t sum =
+        crc32c(elements.data(), elements.size(), crc32c(text.data(), text.size()));
+    return text + "comment header_crc32c " + formatted("%08x", sum) + "\n" + elements;
 }
 
 }  // namespace pent

@@ -4,7 +4,6 @@
 #include <pent/error.h>
 #include <pent/pent_file.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace pent {
@@ -41,12 +40,6 @@ std::vector<Column> cell_columns(const SimplexMesh<Dim>& mesh) {
     return columns;
 }
 
-std::string plain_line(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    return text;
-}
-
 }  // namespace
 
 FileInfo read_info(const std::filesystem::path& path) {
@@ -67,7 +60,7 @@ std::uint32_t write_mesh(const std::filesystem::path& path,
     Header header;
     header.info.dimension = Dim;
     header.info.encoding = options.encoding;
-    header.info.created_by = plain_line(options.created_by);
+    header.info.created_by = options.created_by;
     header.elements = {make_element("vertex", vertex_count, vertices),
                        make_element(cell_name(Dim), cell_count, cells)};
     std::string body;

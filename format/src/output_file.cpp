@@ -39,6 +39,20 @@ std::string advice(int error) {
                 + "; " + advice(error));
 }
 
+// 0, or what went wrong.
+int write_all(int descriptor, const void* data, std::size_t bytes) {
+    const char* at = static_cast<const char*>(data);
+    while (bytes > 0) {
+        const ssize_t written = ::write(descriptor, at, bytes);
+        if (written < 0 && errno != EINTR) {
+            return errno;
+        }
+        at += std::max<ssize_t>(written, 0);
+        bytes -= static_cast<std::size_t>(std::max<ssize_t>(written, 0));
+    }
+    return 0;
+}
+
 std::filesystem::path temporary_for(const std::filesystem::path& path) {
     const std::string name =
         "." + path.filename().string() + "." + std::to_string(::getpid()) + ".tmp";
@@ -76,14 +90,8 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::write(const void* data, std::size_t bytes) {
-    const char* at = static_cast<const char*>(data);
-    while (bytes > 0) {
-        const ssize_t written = ::write(descriptor_, at, bytes);
-        if (written < 0 && errno != EINTR) {
-            fail(path_, errno);
-        }
-        at += std::max<ssize_t>(written, 0);
-        bytes -= static_cast<std::size_t>(std::max<ssize_t>(written, 0));
+    if (const int error = write_all(descriptor_, data, bytes); error != 0) {
+        fail(path_, error);
     }
 }
 
@@ -106,6 +114,17 @@ void write_text(const std::filesystem::path& path, std::string_view text) {
     OutputFile file(path);
     file.write(text);
     file.commit();
+}
+
+void append_text(const std::filesystem::path& path, std::string_view text) {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor < 0) {
+        fail(path, errno);
+    }
+    const int error = write_all(descriptor, text.data(), text.size());
+    if (::close(descriptor) != 0 || error != 0) {
+        fail(path, error != 0 ? error : errno);
+    }
 }
 
 void make_folder(const std::filesystem::path& path) {

@@ -1,16 +1,17 @@
 #include "advice.h"
 
+#include "doubts.h"
 #include "selection.h"
 
 #include <pent/facets.h>
 #include <pent/formatted.h>
-#include <pent/pent_file.h>
 #include <pent/simulator/explain.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace pent::simulator {
 
@@ -43,15 +44,6 @@ double bend(ElementKind elements, int cells, double poisson) {
 }
 
 template <int Dim>
-std::vector<SimplexMesh<Dim>> meshes_of(const Scene& scene) {
-    std::vector<SimplexMesh<Dim>> meshes;
-    for (const Body& body : scene.bodies) {
-        meshes.push_back(read_mesh<Dim>(body.mesh).mesh);
-    }
-    return meshes;
-}
-
-template <int Dim>
 class Adviser {
 public:
     explicit Adviser(const Trial<Dim>& trial)
@@ -61,8 +53,10 @@ public:
         if (!trial_.step.is_accepted) {
             advise("the first step fails: " + trial_.step.failure);
         }
-        for (const std::string& warning : trial_.simulation.warnings()) {
-            advise(warning);
+        for (const auto& lines : {trial_.meshes.warnings, trial_.simulation.warnings(),
+                                  doubts_of_units(scene_, trial_.simulation), trial_.overlaps,
+                                  soft_contacts(scene_, trial_.simulation)}) {
+            lines_.insert(lines_.end(), lines.begin(), lines.end());
         }
         on_bending();
         on_falling();
@@ -257,7 +251,10 @@ private:
 
 template <int Dim>
 Trial<Dim>::Trial(const Scene& of, int threads)
-    : scene(of), simulation(of, meshes_of<Dim>(of), {.threads = threads}) {
+    : scene(of),
+      meshes(read_meshes<Dim>(of)),
+      simulation(of, std::move(meshes.meshes), {.threads = threads}),
+      overlaps(overlaps_at_start(of, simulation)) {
     for (std::size_t body = 0; body < of.bodies.size(); ++body) {
         const auto i = static_cast<int>(body);
         const auto positions = simulation.positions(i);

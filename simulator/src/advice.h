@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene_meshes.h"
+
 #include <pent/simulator/simulation.h>
 
 #include <Eigen/Geometry>
@@ -18,7 +20,9 @@ struct Trial {
     Trial(const Scene& of, int threads);
 
     const Scene& scene;
+    SceneMeshes<Dim> meshes;  ///< Its warnings; the simulation has the meshes.
     Simulation<Dim> simulation;
+    std::vector<std::string> overlaps;        ///< What overlaps at the start, a line each.
     std::vector<std::int64_t> free_vertices;  ///< One a body: those that are not held.
     std::vector<Box> start;                   ///< One a body, around it at the start.
     StepReport step;

@@ -1,22 +1,24 @@
 #pragma once
 
 #include <pent/pent_file.h>
+#include <pent/simulator/simulation.h>
+#include <pent/simulator/state_blocks.h>
 
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace pent::simulator {
 
-/// What a run folder must be to go on with the run in it. Each throws an Error that names the file and
-/// says what to do.
+/// What a run folder must be to go on with the run in it. Each throws an Error that names the file
+/// and says what to do.
 
-/// The scene of the folder is this one, but for the number of frames. Keys that it lacks have their defaults.
-///
-/// @param text  As scene_text() gives it.
-void check_same_scene(const std::filesystem::path& scene_file, const std::string& text);
+/// The scene of the folder is this one, but for the number of frames and for where its meshes are.
+/// Keys that it lacks have their defaults.
+void check_same_scene(const std::filesystem::path& scene_file, const Scene& scene);
 
-/// The mesh of the folder is this one, to the bit. Gives its checksum.
+/// The mesh of the folder is this one, to the bit, labels included. Gives its checksum.
 template <int Dim>
 [[nodiscard]] std::uint32_t check_same_mesh(const std::filesystem::path& mesh_file,
                                             const SimplexMesh<Dim>& mesh);
@@ -28,11 +30,30 @@ template <int Dim>
                                         std::uint64_t frame,
                                         std::uint64_t step);
 
-/// Removes what a killed run left half written.
-void remove_temporaries(const std::filesystem::path& folder);
+/// What a simulation carries from step to step beside positions and velocities: which bodies sleep,
+/// and for BDF2 the state one step before.
+///
+/// @param bodies  Their names.
+template <int Dim>
+[[nodiscard]] StateBlocks carried_state(const Simulation<Dim>& simulation,
+                                        const std::vector<std::string>& bodies);
 
-/// The instruction set of the run in the folder: frames agree to the bit on one only. Empty if there is no
-/// report.
-[[nodiscard]] std::string isa_of_run(const std::filesystem::path& folder);
+/// Gives back what carried_state() gave; call it after set_state(). Throws an Error if it does not
+/// fit.
+template <int Dim>
+void restore_carried_state(const StateBlocks& blocks,
+                           const std::vector<std::string>& bodies,
+                           Simulation<Dim>& simulation);
+
+/// The same of a run without a journal, as version 0.1.0 left it: JSON that says who sleeps, and
+/// frame files with the state one step before.
+///
+/// @param mesh_crcs  Checksums of the meshes, one a body.
+template <int Dim>
+[[nodiscard]] StateBlocks carried_state_of_old_run(const std::filesystem::path& folder,
+                                                   const std::vector<std::string>& bodies,
+                                                   const std::vector<std::uint32_t>& mesh_crcs,
+                                                   const Scene& scene,
+                                                   int frame);
 
 }  // namespace pent::simulator

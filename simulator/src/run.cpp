@@ -1,12 +1,17 @@
+#include "checkpoint_file.h"
 #include "contact_table.h"
-#include "rest_file.h"
+#include "doubts.h"
+#include "earlier_run.h"
+#include "journal.h"
 #include "resume.h"
 #include "rigid_fit.h"
+#include "run_files.h"
 #include "run_report.h"
+#include "scene_meshes.h"
 
 #include <pent/error.h>
-#include <pent/formatted.h>
 #include <pent/output_file.h>
+#include <pent/output_folder.h>
 #include <pent/pent_file.h>
 #include <pent/simulator/crossing_error.h>
 #include <pent/simulator/run.h>
@@ -14,9 +19,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
-#include <iterator>
 #include <optional>
+#include <utility>
 
 namespace pent::simulator {
 
@@ -27,11 +31,6 @@ using Clock = std::chrono::steady_clock;
 
 // Between two writings of report.json while a run goes on.
 constexpr double kReportSeconds = 10;
-
-std::string read_text(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 // The scene as written in the run folder: mesh paths relative to that folder.
 Scene relocated(const Scene& scene, const fs::path& folder) {
@@ -45,102 +44,120 @@ Scene relocated(const Scene& scene, const fs::path& folder) {
 template <int Dim>
 class Run {
 public:
-    Run(const Scene& scene, const RunOptions& options, const RunCallbacks& callbacks)
+    // @param before  Of the run that is to be resumed.
+    Run(const Scene& scene,
+        const RunOptions& options,
+        const RunCallbacks& callbacks,
+        Journal before)
         : scene_(scene),
           options_(options),
           callbacks_(callbacks),
-          scene_text_(scene_text(relocated(scene, options.folder))),
-          simulation_(scene, read_meshes(), {.threads = options.threads, .isa = options.isa}) {
+          before_(std::move(before)),
+          folder_(options.folder, kRunFolder),
+          meshes_(read_meshes<Dim>(scene)),
+          simulation_(
+              scene, std::move(meshes_.meshes), {.threads = options.threads, .isa = options.isa}) {
         report_.size = simulation_.size();
+        report_.thinnest = thinnest_side(simulation_);
         report_.isa = simulation_.isa();
-        report_.warnings = simulation_.warnings();
-        for (const Body& body : scene.bodies) {
-            report_.bodies.push_back(body.name);
+        report_.warnings = std::move(meshes_.warnings);
+        for (const auto& lines : {simulation_.warnings(), doubts_of_units(scene, simulation_),
+                                  overlaps_at_start(scene, simulation_)}) {
+            report_.warnings.insert(report_.warnings.end(), lines.begin(), lines.end());
         }
+        report_.bodies = names_of_bodies(scene);
     }
 
     RunReport operator()();
 
 private:
-    [[nodiscard]] std::vector<SimplexMesh<Dim>> read_meshes() const;
-    [[nodiscard]] fs::path mesh_path(const std::string& body) const {
-        return options_.folder / "meshes" / (body + ".pent");
-    }
-    [[nodiscard]] fs::path frame_path(const std::string& body, int frame) const {
-        return numbered("frames", body, frame);
-    }
-    [[nodiscard]] fs::path checkpoint_path(const std::string& body, int frame) const {
-        return numbered("checkpoint", body, frame);
-    }
+    using Bodies = std::vector<Frame<Dim>>;
+
+    [[nodiscard]] fs::path path(const std::string& name) const { return options_.folder / name; }
     [[nodiscard]] std::uint64_t step_of(int frame) const {
         return static_cast<std::uint64_t>(frame)
                * static_cast<std::uint64_t>(scene_.steps_per_frame);
     }
-    [[nodiscard]] fs::path numbered(const char* part, const std::string& body, int frame) const;
+    [[nodiscard]] double seconds() const {
+        return std::chrono::duration<double>(Clock::now() - start_).count();
+    }
     void start_folder();
+    void write_scene();
+    void begin_part(int frame);
     void write_meshes();
-    int resume_folder();
-    [[nodiscard]] std::optional<std::vector<Frame<Dim>>> read_frames(int frame) const;
+    void adopt_old_run(int last_frame);
+    [[nodiscard]] int resume_folder();
+    [[nodiscard]] int last_known_frame() const;
+    [[nodiscard]] std::optional<Bodies> read_frames(int frame) const;
+    [[nodiscard]] StateBlocks carried_state_at(int frame) const;
+    void complete_history(int last_frame);
+    void tell_resume(int frame) const;
     void write_frame_files(int frame);
-    [[nodiscard]] fs::path rest_path(int frame) const;
-    void write_checkpoint(int frame);
-    void remove_checkpoint(int frame);
-    void resume_history(int frame);
-    [[nodiscard]] Frame<Dim> frame_file(int body, int frame) const;
+    [[nodiscard]] Frame<Dim> frame_header(int body, int frame) const;
     [[nodiscard]] FrameReport measure(int frame) const;
     bool step_to_frame(int frame);
-    void write_report(std::string_view verdict);
+    void write_report();
 
     const Scene& scene_;
     const RunOptions& options_;
     const RunCallbacks& callbacks_;
-    std::string scene_text_;
+    Journal before_;
+    OutputFolder folder_;
+    SceneMeshes<Dim> meshes_;  // empty once the simulation has them
     Simulation<Dim> simulation_;
     std::vector<std::uint32_t> mesh_crcs_;
+    std::string lines_;  // of the journal, to be written with the next frame
     RunReport report_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point last_report_ = start_;
 };
 
 template <int Dim>
-std::vector<SimplexMesh<Dim>> Run<Dim>::read_meshes() const {
-    std::vector<SimplexMesh<Dim>> meshes;
-    for (const Body& body : scene_.bodies) {
-        meshes.push_back(read_mesh<Dim>(body.mesh).mesh);
-    }
-    return meshes;
-}
-
-template <int Dim>
-fs::path Run<Dim>::numbered(const char* part, const std::string& body, int frame) const {
-    return options_.folder / part / frame_file_name(body, frame);
-}
-
-template <int Dim>
 void Run<Dim>::start_folder() {
-    const fs::path& folder = options_.folder;
-    std::error_code ignored;
-    if (fs::exists(folder, ignored) && !fs::is_empty(folder, ignored)) {
-        if (!options_.force) {
-            throw Error(folder.string()
-                        + ": is not empty; use another folder, --resume to go on with the run in"
-                          " it, or --force to replace it");
-        }
-        for (const char* part :
-             {"frames", "meshes", "contacts", "checkpoint", "report.json", "scene.toml"}) {
-            fs::remove_all(folder / part, ignored);
-        }
+    folder_.refuse_foreign();
+    if (!folder_.has_list()) {
+        return;
     }
-    make_folder(folder / "frames");
-    make_folder(folder / "meshes");
-    write_text(folder / "scene.toml", scene_text_);
+    if (!options_.force) {
+        throw Error(options_.folder.string()
+                    + ": holds a run; use another folder, --resume to go on with that run, or"
+                      " --force to replace it");
+    }
+    std::vector<fs::path> inputs;
+    if (!options_.scene_file.empty()) {
+        inputs.push_back(options_.scene_file);
+    }
+    for (const Body& body : scene_.bodies) {
+        inputs.emplace_back(body.mesh);
+    }
+    folder_.clear(inputs);
+}
+
+// The scene that is being run stays as its author wrote it, wherever it is.
+template <int Dim>
+void Run<Dim>::write_scene() {
+    const fs::path file = folder_.claim(kSceneFile);
+    std::error_code ignored;
+    if (!fs::equivalent(options_.scene_file, file, ignored)) {
+        write_text(file, scene_text(relocated(scene_, options_.folder)));
+    }
+}
+
+template <int Dim>
+void Run<Dim>::begin_part(int frame) {
+    report_.parts.push_back({.created_by = options_.created_by,
+                             .threads = options_.threads,
+                             .isa = report_.isa,
+                             .first_frame = frame,
+                             .last_frame = frame});
+    append_text(folder_.claim(kJournalFile), part_line(report_.parts.back()));
 }
 
 template <int Dim>
 void Run<Dim>::write_meshes() {
     for (int body = 0; body < simulation_.body_count(); ++body) {
         const std::string& name = report_.bodies[static_cast<std::size_t>(body)];
-        mesh_crcs_.push_back(write_mesh(mesh_path(name), simulation_.mesh(body),
+        mesh_crcs_.push_back(write_mesh(folder_.claim(mesh_file(name)), simulation_.mesh(body),
                                         {.created_by = options_.created_by}));
     }
 }
@@ -148,31 +165,114 @@ void Run<Dim>::write_meshes() {
 // All bodies at one frame, if every file is there and whole.
 template <int Dim>
 std::optional<std::vector<Frame<Dim>>> Run<Dim>::read_frames(int frame) const {
-    std::vector<Frame<Dim>> frames;
+    Bodies frames;
     for (const std::string& name : report_.bodies) {
-        if (!fs::exists(frame_path(name, frame))) {
+        const fs::path file = path(frame_file(name, frame));
+        if (!fs::exists(file)) {
             return std::nullopt;
         }
-        frames.push_back(read_own_frame<Dim>(frame_path(name, frame), mesh_crcs_[frames.size()],
+        frames.push_back(read_own_frame<Dim>(file, mesh_crcs_[frames.size()],
                                              static_cast<std::uint64_t>(frame), step_of(frame)));
     }
     return frames;
 }
 
+// Version 0.1.0 kept no list of its files: what has their names in a folder of this scene and these
+// meshes is one of them.
+template <int Dim>
+void Run<Dim>::adopt_old_run(int last_frame) {
+    std::vector<std::string> names = {kSceneFile, kReportFile};
+    for (const std::string& body : report_.bodies) {
+        names.push_back(mesh_file(body));
+        for (int frame = 0; frame <= last_frame; ++frame) {
+            names.push_back(frame_file(body, frame));
+            names.push_back("checkpoint/" + frame_file_name(body, frame));
+        }
+    }
+    for (int frame = 0; frame <= last_frame; ++frame) {
+        names.push_back(contacts_file(frame));
+        names.push_back(formatted("checkpoint/rest_%06d.json", frame));
+    }
+    for (const std::string& name : names) {
+        if (fs::exists(path(name))) {
+            folder_.adopt(name);
+        }
+    }
+}
+
+// Nothing behind it can be whole: a frame is in the journal before its files are written.
+template <int Dim>
+int Run<Dim>::last_known_frame() const {
+    const int known = !before_.frames.empty() ? before_.frames.back().frame : 0;
+    return folder_.has_list() ? known : std::max(known, scene_.frames);
+}
+
+template <int Dim>
+StateBlocks Run<Dim>::carried_state_at(int frame) const {
+    if (!folder_.has_list()) {
+        return carried_state_of_old_run<Dim>(options_.folder, report_.bodies, mesh_crcs_, scene_,
+                                             frame);
+    }
+    const auto& frames = before_.frames;
+    const auto found = std::find_if(frames.begin(), frames.end(), [&](const FrameReport& report) {
+        return report.frame == frame;
+    });
+    const auto place = static_cast<std::size_t>(found - frames.begin());
+    return found != frames.end() && before_.has_checkpoint[place] ? read_checkpoint(
+               path(checkpoint_file(frame)), static_cast<std::uint64_t>(frame), step_of(frame))
+                                                                  : StateBlocks();
+}
+
+// Measures frames that the journal does not have: a run of version 0.1.0 that was killed lost the
+// statistics of its last seconds.
+template <int Dim>
+void Run<Dim>::complete_history(int last_frame) {
+    before_.cut(last_frame);
+    for (int frame = 0; frame <= last_frame; ++frame) {
+        const auto place = static_cast<std::size_t>(frame);
+        if (place < before_.frames.size() && before_.frames[place].frame == frame) {
+            continue;
+        }
+        const std::optional<Bodies> files = read_frames(frame);
+        if (!files) {
+            throw Error(path(frame_file(report_.bodies[0], frame)).string()
+                        + ": is missing, and the run has no statistics of it; put it back, or use"
+                          " --force to start again");
+        }
+        FrameReport report{
+            .frame = frame, .step = step_of(frame), .time = files->front().time, .non_rigid = {}};
+        for (int body = 0; body < simulation_.body_count(); ++body) {
+            report.non_rigid.push_back(non_rigid<Dim>(
+                simulation_.mesh(body).positions,
+                (*files)[static_cast<std::size_t>(body)].positions, simulation_.masses(body)));
+        }
+        before_.frames.insert(before_.frames.begin() + frame, std::move(report));
+        before_.has_checkpoint.insert(before_.has_checkpoint.begin() + frame, false);
+    }
+}
+
+template <int Dim>
+void Run<Dim>::tell_resume(int frame) const {
+    if (!callbacks_.on_resume || before_.parts.empty()) {
+        return;
+    }
+    const RunPart& last = before_.parts.back();
+    const std::string where = "frame " + std::to_string(frame);
+    callbacks_.on_resume(last.verdict == "died"
+                             ? "the run had died (it was killed or crashed) behind " + where
+                                   + "; it goes on from there"
+                             : "the run had " + last.verdict + "; it goes on from " + where);
+}
+
 // Puts the simulation at the last whole frame of the folder, and gives its number.
 template <int Dim>
 int Run<Dim>::resume_folder() {
-    const fs::path scene_path = options_.folder / "scene.toml";
-    if (!fs::exists(scene_path)) {
-        throw Error(options_.folder.string() + ": holds no run to resume (no scene.toml)");
-    }
-    check_same_scene(scene_path, scene_text_);
     for (int body = 0; body < simulation_.body_count(); ++body) {
         const std::string& name = report_.bodies[static_cast<std::size_t>(body)];
-        mesh_crcs_.push_back(check_same_mesh<Dim>(mesh_path(name), simulation_.mesh(body)));
+        mesh_crcs_.push_back(check_same_mesh<Dim>(path(mesh_file(name)), simulation_.mesh(body)));
     }
-    int frame = scene_.frames;
-    std::optional<std::vector<Frame<Dim>>> frames = read_frames(frame);
+    int frame = last_known_frame();
+    std::optional<Bodies> frames = read_frames(frame);
     while (!frames && frame > 0) {
         frames = read_frames(--frame);
     }
@@ -184,19 +284,24 @@ int Run<Dim>::resume_folder() {
         const Frame<Dim>& state = (*frames)[static_cast<std::size_t>(body)];
         simulation_.set_state(body, state.positions, state.velocities);
     }
-    const std::uint64_t step = frames->front().step;
-    simulation_.set_step_count(step);
-    resume_history(frame);
-    if (scene_.sleep) {
-        simulation_.set_rest(read_rest(rest_path(frame), report_.bodies));
+    simulation_.set_step_count(frames->front().step);
+    const StateBlocks carried = carried_state_at(frame);
+    restore_carried_state(carried, report_.bodies, simulation_);
+    complete_history(frame);
+    tell_resume(frame);
+    if (!folder_.has_list()) {
+        adopt_old_run(frame);
     }
-    const fs::path report_path = options_.folder / "report.json";
-    if (fs::exists(report_path)) {
-        ReportHistory history = parse_history(read_text(report_path), report_path.string(),
-                                              report_.bodies, frame, step);
-        report_.frames = std::move(history.frames);
-        report_.steps = std::move(history.steps);
+    folder_.remove_temporaries();
+    if (!carried.is_empty()) {  // that of an old run is in other files
+        write_checkpoint(folder_.claim(checkpoint_file(frame)), static_cast<std::uint64_t>(frame),
+                         step_of(frame), carried);
+        before_.has_checkpoint.back() = true;
     }
+    write_text(folder_.claim(kJournalFile), journal_text(before_, report_.bodies));
+    report_.parts = std::move(before_.parts);
+    report_.frames = std::move(before_.frames);
+    report_.steps = std::move(before_.steps);
     return frame;
 }
 
@@ -215,7 +320,7 @@ FrameReport Run<Dim>::measure(int frame) const {
 }
 
 template <int Dim>
-Frame<Dim> Run<Dim>::frame_file(int body, int frame) const {
+Frame<Dim> Run<Dim>::frame_header(int body, int frame) const {
     Frame<Dim> file;
     file.mesh_name = report_.bodies[static_cast<std::size_t>(body)] + ".pent";
     file.mesh_crc = mesh_crcs_[static_cast<std::size_t>(body)];
@@ -225,80 +330,34 @@ Frame<Dim> Run<Dim>::frame_file(int body, int frame) const {
     return file;
 }
 
-// What a frame does not hold: who sleeps, and for BDF2 the state one step before.
-template <int Dim>
-void Run<Dim>::write_checkpoint(int frame) {
-    if (scene_.sleep || simulation_.has_history()) {
-        make_folder(options_.folder / "checkpoint");
-    }
-    if (scene_.sleep) {
-        write_rest(rest_path(frame), report_.bodies, simulation_.rest());
-    }
-    if (!simulation_.has_history()) {
-        return;
-    }
-    for (int body = 0; body < simulation_.body_count(); ++body) {
-        Frame<Dim> file = frame_file(body, frame);
-        file.positions = simulation_.previous_positions(body);
-        file.velocities = simulation_.previous_velocities(body);
-        write_frame(checkpoint_path(report_.bodies[static_cast<std::size_t>(body)], frame), file,
-                    {.created_by = options_.created_by});
-    }
-}
-
-template <int Dim>
-fs::path Run<Dim>::rest_path(int frame) const {
-    return fs::path(numbered("checkpoint", "rest", frame)).replace_extension(".json");
-}
-
-template <int Dim>
-void Run<Dim>::remove_checkpoint(int frame) {
-    std::error_code ignored;
-    fs::remove(rest_path(frame), ignored);
-    for (const std::string& body : report_.bodies) {
-        fs::remove(checkpoint_path(body, frame), ignored);
-    }
-}
-
-template <int Dim>
-void Run<Dim>::resume_history(int frame) {
-    for (int body = 0; body < simulation_.body_count(); ++body) {
-        const auto i = static_cast<std::size_t>(body);
-        const fs::path path = checkpoint_path(report_.bodies[i], frame);
-        if (!fs::exists(path)) {
-            if (fs::exists(checkpoint_path(report_.bodies[i], frame + 2))) {
-                throw Error(path.string() + ": is not kept so far back; put the later frames back, or"
-                                            " use --force to start again");
-            }
-            return;  // there was none: the step before was the first, or cut in two
-        }
-        const Frame<Dim> before = read_own_frame<Dim>(
-            path, mesh_crcs_[i], static_cast<std::uint64_t>(frame), step_of(frame));
-        simulation_.set_history(body, before.positions, before.velocities);
-    }
-}
-
-// Two checkpoints are kept: should the last frame be damaged, the one before is there to resume from.
+// Two checkpoints are kept: should the last frame be damaged, the one before is there to resume
+// from.
 template <int Dim>
 void Run<Dim>::write_frame_files(int frame) {
-    write_checkpoint(frame);
+    const StateBlocks carried = carried_state(simulation_, report_.bodies);
+    report_.frames.push_back(measure(frame));
+    report_.parts.back().last_frame = frame;
+    lines_ += frame_line(report_.frames.back(), report_.bodies, !carried.is_empty(), seconds());
+    append_text(path(kJournalFile), std::exchange(lines_, ""));
+    if (!carried.is_empty()) {
+        write_checkpoint(folder_.claim(checkpoint_file(frame)), static_cast<std::uint64_t>(frame),
+                         simulation_.step_count(), carried);
+    }
     for (int body = 0; body < simulation_.body_count(); ++body) {
-        Frame<Dim> file = frame_file(body, frame);
+        Frame<Dim> file = frame_header(body, frame);
         file.positions = simulation_.positions(body);
         file.velocities = simulation_.velocities(body);
         if (scene_.output.contact_forces) {
             file.contact_forces = simulation_.contact_forces(body);
         }
-        write_frame(frame_path(report_.bodies[static_cast<std::size_t>(body)], frame), file,
+        const std::string& name = report_.bodies[static_cast<std::size_t>(body)];
+        write_frame(folder_.claim(frame_file(name, frame)), file,
                     {.created_by = options_.created_by});
     }
     if (scene_.output.contact_pairs) {
-        make_folder(options_.folder / "contacts");
-        write_text(options_.folder / "contacts" / formatted("%06d.csv", frame),
-                   contact_table(simulation_, report_.bodies));
+        write_text(folder_.claim(contacts_file(frame)), contact_table(simulation_, report_.bodies));
     }
-    remove_checkpoint(frame - 2);
-    report_.frames.push_back(measure(frame));
+    folder_.remove(checkpoint_file(frame - 2));
     if (callbacks_.on_frame) {
         callbacks_.on_frame(report_.frames.back(),
                             report_.steps.empty() ? StepReport{} : report_.steps.back());
@@ -318,22 +377,25 @@ bool Run<Dim>::step_to_frame(int frame) {
             report_.verdict = RunVerdict::Diverged;
             report_.message = "step " + std::to_string(simulation_.step_count() + 1) + ": "
                               + step.failure + ", also in steps cut "
-                              + std::to_string(scene_.solver.max_halvings)
-                              + " times; try more steps_per_frame, stiffer or slower motion, or"
-                                " solver.max_iterations";
+                              + std::to_string(scene_.solver.max_halvings) + " times; "
+                              + remedy(step.failure, doubts_of_units(scene_, simulation_));
             return false;
         }
         report_.steps.push_back(step);
+        lines_ += step_line(step);
     }
     return true;
 }
 
 template <int Dim>
-void Run<Dim>::write_report(std::string_view verdict) {
+void Run<Dim>::write_report() {
     last_report_ = Clock::now();
-    report_.seconds = std::chrono::duration<double>(last_report_ - start_).count();
-    write_text(options_.folder / "report.json",
-               report_text(report_, verdict, options_.created_by, options_.threads));
+    report_.parts.back().seconds = seconds();
+    report_.seconds = 0;
+    for (const RunPart& part : report_.parts) {
+        report_.seconds += part.seconds;
+    }
+    write_text(folder_.claim(kReportFile), report_text(report_));
 }
 
 template <int Dim>
@@ -344,32 +406,46 @@ RunReport Run<Dim>::operator()() {
     int frame = 0;
     if (options_.resume) {
         frame = resume_folder();
-        remove_temporaries(options_.folder);
-        write_text(options_.folder / "scene.toml", scene_text_);
+        begin_part(frame);
+        write_scene();
     } else {
         start_folder();
+        begin_part(0);
+        write_scene();
         write_meshes();
         write_frame_files(0);
     }
-    write_report("running");
+    write_report();
     while (frame < scene_.frames && step_to_frame(frame + 1)) {
         write_frame_files(++frame);
         if (std::chrono::duration<double>(Clock::now() - last_report_).count() > kReportSeconds) {
-            write_report("running");  // GCOVR_EXCL_LINE: of runs longer than a test may be
+            write_report();  // GCOVR_EXCL_LINE: of runs longer than a test may be
         }
     }
-    write_report(verdict_name(report_.verdict));
+    report_.parts.back().verdict = verdict_name(report_.verdict);
+    report_.penetration = deep_penetration(scene_, report_);
+    write_report();
+    append_text(path(kJournalFile), end_line(report_.parts.back()));
     return std::move(report_);
 }
 
 // A scene that its barrier refuses leaves the cells that are in each other's way beside the folder.
 template <int Dim>
 RunReport run_in(const Scene& scene, const RunOptions& options, const RunCallbacks& callbacks) {
+    RunOptions chosen = options;
+    Journal before;
+    if (options.resume) {
+        before = read_earlier_parts(scene, options.folder);
+    }
+    if (options.isa.empty() && !before.parts.empty()) {
+        chosen.isa = before.parts.back().isa;  // frames agree to the bit on one only
+    }
     try {
-        return Run<Dim>(scene, options, callbacks)();
+        return Run<Dim>(scene, chosen, callbacks, std::move(before))();
     } catch (const CrossingError<Dim>& error) {
-        const std::string path = options.folder.string() + "-crossings.pent";
-        write_mesh<Dim>(path, error.offenders(), {.created_by = options.created_by});
+        const std::string created_by = options.created_by + ", cells that cross";
+        const std::string path = crossings_path(options.folder, created_by).string();
+        write_mesh<Dim>(path, error.offenders(), {.created_by = created_by});
         throw Error(std::string(error.what()) + "; " + path + " has the cells");
     }
 }
@@ -378,14 +454,8 @@ RunReport run_in(const Scene& scene, const RunOptions& options, const RunCallbac
 
 RunReport run(const Scene& scene, const RunOptions& options, const RunCallbacks& callbacks) {
     check(scene);
-    RunOptions chosen = options;
-    if (options.resume && options.isa.empty()) {
-        chosen.isa = isa_of_run(options.folder);
-    }
-    if (scene.dimension == 3) {
-        return run_in<3>(scene, chosen, callbacks);
-    }
-    return run_in<4>(scene, chosen, callbacks);
+    return scene.dimension == 3 ? run_in<3>(scene, options, callbacks)
+                                : run_in<4>(scene, options, callbacks);
 }
 
 std::string_view verdict_name(RunVerdict verdict) {

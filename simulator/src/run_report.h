@@ -6,25 +6,19 @@
 
 namespace pent::simulator {
 
-/// The text of report.json.
-///
-/// @param verdict  As a run ended, or "running".
-[[nodiscard]] std::string report_text(const RunReport& report,
-                                      std::string_view verdict,
-                                      const std::string& created_by,
-                                      int threads);
+/// The text of report.json. Its verdict is that of the last part.
+[[nodiscard]] std::string report_text(const RunReport& report);
 
-/// Frames and steps of an earlier report.json, up to the given frame and step.
-///
-/// Throws an Error that names `name` if the text is not such a report.
+/// What the report.json of a run without a journal, as version 0.1.0 left it, knows of the run.
 struct ReportHistory {
     std::vector<FrameReport> frames;
     std::vector<StepReport> steps;
+    RunPart part;
 };
+
+/// Throws an Error that names `name` if the text is not such a report.
 [[nodiscard]] ReportHistory parse_history(const std::string& text,
                                           const std::string& name,
-                                          const std::vector<std::string>& bodies,
-                                          int last_frame,
-                                          std::uint64_t last_step);
+                                          const std::vector<std::string>& bodies);
 
 }  // namespace pent::simulator

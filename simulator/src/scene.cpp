@@ -1,3 +1,6 @@
+#include "number_bounds.h"
+#include "scene_checks.h"
+
 #include <pent/error.h>
 #include <pent/simulator/scene.h>
 
@@ -33,23 +36,27 @@ void check_plane(const Plane& plane, int dimension, const std::string& what) {
 void check_spins(const std::vector<Spin>& spins, int dimension, const std::string& what) {
     for (const Spin& spin : spins) {
         check_plane(spin.plane, dimension, what);
-        require(std::isfinite(spin.degrees_per_s), what + ": degrees_per_s must be finite");
+        require(std::abs(spin.degrees_per_s) <= kMostDegrees,
+                what + ": degrees_per_s must be at most 1e9 in size");
     }
 }
 
 bool is_name(const std::string& name) {
-    return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')
-               || c == '-' || c == '_';
-    });
+    constexpr std::size_t kLongest = 100;  // names of files have 255 bytes
+    return !name.empty() && name.size() <= kLongest
+           && std::all_of(name.begin(), name.end(), [](char c) {
+                  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')
+                         || c == '-' || c == '_';
+              });
 }
 
 void check_body(const Body& body, int dimension) {
     require(is_name(body.name),
-            "the body name \"" + body.name + "\" may have letters, digits, - and _ only");
+            "the body name \"" + body.name
+                + "\" may have letters, digits, - and _ only, and at most 100 of them");
     const std::string what = "body \"" + body.name + "\"";
-    require(body.place.scale > 0 && std::isfinite(body.place.scale),
-            what + ": the scale must be above 0");
+    require(is_size(body.place.scale), what + ": the scale must be from 1e-30 to 1e30");
+    require(is_size(body.material.density), what + ": the density must be from 1e-30 to 1e30");
     check_vector(body.place.translate, dimension, what + ": place.translate");
     if (body.velocity.size() > 0) {
         check_vector(body.velocity, dimension, what + ": velocity");
@@ -57,7 +64,8 @@ void check_body(const Body& body, int dimension) {
     check_spins(body.spin, dimension, what);
     for (const Turn& turn : body.place.rotate) {
         check_plane(turn.plane, dimension, what);
-        require(std::isfinite(turn.degrees), what + ": the angle must be finite");
+        require(std::abs(turn.degrees) <= kMostDegrees,
+                what + ": degrees must be at most 1e9 in size");
     }
     try {
         check(body.material, dimension);
@@ -132,8 +140,8 @@ struct ShapeChecker {
 };
 
 void check_push(double distance, double stiffness, const std::string& what) {
-    require(distance > 0 && std::isfinite(distance), what + ": distance must be above 0");
-    require(stiffness > 0 && std::isfinite(stiffness), what + ": stiffness must be above 0");
+    require(is_size(distance), what + ": distance must be from 1e-30 to 1e30");
+    require(is_size(stiffness), what + ": stiffness must be from 1e-30 to 1e30");
 }
 
 void check_obstacle(const Obstacle& obstacle, int dimension) {
@@ -158,20 +166,37 @@ void check_contact(const Contact& contact, Integrator integrator) {
             "contact: friction must not be negative");
     require(contact.slip_speed > 0 && std::isfinite(contact.slip_speed),
             "contact: slip_speed must be above 0");
-    require(contact.model != ContactModel::Barrier || integrator != Integrator::LinearEuler,
-            "contact: the barrier model needs a solver that iterates, since one linear solve cannot"
-            " keep bodies apart; use integrator = \"newton_euler\", or model = \"penalty\"");
+    check_model(contact.model, integrator);
 }
 
 void check_sleep(const Sleep& sleep, Integrator integrator) {
     require(sleep.speed > 0 && std::isfinite(sleep.speed), "sleep: speed must be above 0");
-    require(sleep.time > 0 && std::isfinite(sleep.time), "sleep: time must be above 0");
+    require(sleep.time > 0 && sleep.time <= kLongestTime,
+            "sleep: time must be above 0, at most 1e6");
+    check_sleeping(integrator);
+}
+
+}  // namespace
+
+void check_model(ContactModel model, Integrator integrator) {
+    require(model != ContactModel::Barrier || integrator != Integrator::LinearEuler,
+            "contact: the barrier model needs a solver that iterates, since one linear solve cannot"
+            " keep bodies apart; use integrator = \"newton_euler\", or model = \"penalty\"");
+}
+
+void check_sleeping(Integrator integrator) {
     require(integrator != Integrator::Quasistatic,
             "sleep: the quasistatic integrator has no motion that could come to rest; leave [sleep]"
             " out");
 }
 
-}  // namespace
+void check_held(const Body& body, const Scene& scene) {
+    const bool is_held = std::any_of(scene.constraints.begin(), scene.constraints.end(),
+                                     [&](const Constraint& c) { return c.body == body.name; });
+    require(is_held || scene.solver.integrator != Integrator::Quasistatic,
+            "body \"" + body.name
+                + "\" has no constraint: the quasistatic integrator needs every body held");
+}
 
 std::string plane_name(const Plane& plane) {
     constexpr std::string_view kAxes = "xyzw";
@@ -183,8 +208,8 @@ void check(const Scene& scene) {
     check_vector(scene.gravity, scene.dimension, "gravity");
     require(scene.frames > 0 && scene.steps_per_frame > 0,
             "frames and steps_per_frame must be above 0");
-    require(scene.frames_per_second > 0 && std::isfinite(scene.frames_per_second),
-            "frames_per_second must be above 0");
+    require(scene.frames_per_second >= kLeastRate && scene.frames_per_second <= kMostRate,
+            "frames_per_second must be from 1e-6 to 1e6");
     require(!scene.bodies.empty(), "the scene has no body");
     for (const Body& body : scene.bodies) {
         check_body(body, scene.dimension);
@@ -211,11 +236,7 @@ void check(const Scene& scene) {
     }
     check_solver(scene.solver);
     for (const Body& body : scene.bodies) {
-        const bool is_held = std::any_of(scene.constraints.begin(), scene.constraints.end(),
-                                         [&](const Constraint& c) { return c.body == body.name; });
-        require(is_held || scene.solver.integrator != Integrator::Quasistatic,
-                "body \"" + body.name
-                    + "\" has no constraint: the quasistatic integrator needs every body held");
+        check_held(body, scene);
     }
 }
 

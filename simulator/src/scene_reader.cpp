@@ -1,14 +1,14 @@
 #include "contact_reader.h"
+#include "scene_checks.h"
 #include "scene_names.h"
 #include "toml_table.h"
 
 #include <pent/error.h>
+#include <pent/read_text.h>
 #include <pent/simulator/scene_file.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 namespace pent::simulator {
 
@@ -35,7 +35,7 @@ std::vector<Spin> read_spins(std::vector<TableReader> tables, int dimension) {
     std::vector<Spin> spins;
     for (TableReader& spin : tables) {
         const Plane plane = read_plane(spin, dimension);
-        spins.push_back({plane, spin.number("degrees_per_s", {}, kAnyNumber)});
+        spins.push_back({plane, spin.number("degrees_per_s", {}, kAngle)});
         spin.finish();
     }
     return spins;
@@ -46,7 +46,7 @@ Placement read_placement(TableReader reader, int dimension) {
     place.scale = reader.number("scale", 1, kPositive);
     for (TableReader& turn : reader.tables("rotate")) {
         const Plane plane = read_plane(turn, dimension);
-        place.rotate.push_back({plane, turn.number("degrees", {}, kAnyNumber)});
+        place.rotate.push_back({plane, turn.number("degrees", {}, kAngle)});
         turn.finish();
     }
     place.translate = reader.vector("translate", dimension, zero(dimension));
@@ -63,9 +63,12 @@ Material read_material(TableReader reader, int dimension) {
             "does not go together with mu and lambda; give one pair or the other";
         reader.refuse("young", kReason);
         reader.refuse("poisson", kReason);
-        material.lame.mu = reader.number("mu", {}, kPositive);
-        const double lowest = -2 * material.lame.mu / dimension;
-        material.lame.lambda = reader.number("lambda", {}, {.low = lowest, .low_included = false});
+        // What follows from young and poisson, both within bounds, is within these; it is written
+        // out as mu and lambda.
+        Range range{.low = 0, .low_included = false, .smallest = 1e-70, .largest = 1e70};
+        material.lame.mu = reader.number("mu", {}, range);
+        range.low = -2 * material.lame.mu / dimension;
+        material.lame.lambda = reader.number("lambda", {}, range);
     } else {
         const double young = reader.number("young", 1e5, kPositive);
         const double poisson = reader.number("poisson", 0.28, kAnyNumber);
@@ -83,6 +86,7 @@ Body read_body(TableReader& reader, int dimension, const std::filesystem::path& 
     Body body;
     body.name = reader.text("name");
     body.mesh = (folder / reader.text("mesh")).lexically_normal().string();
+    body.source = reader.place("mesh");
     if (reader.has("recipe")) {
         body.recipe = reader.text("recipe");
     }
@@ -192,6 +196,7 @@ Constraint read_constraint(TableReader& reader, const Scene& scene) {
         reader.fail("body", "no body is called \"" + constraint.body + "\""
                                 + did_you_mean(constraint.body, names));
     }
+    constraint.source = reader.place("select");
     if (reader.is_text("select")) {
         static_cast<void>(reader.choice("select", {"everything"}, 0));
         constraint.select.emplace_back(EverythingSelection{});
@@ -259,11 +264,58 @@ void read_head(TableReader reader, Scene& scene) {
     scene.dimension = static_cast<int>(reader.integer("dimension", 4, 3, 4));
     scene.gravity = reader.vector("gravity", scene.dimension, zero(scene.dimension));
     scene.frames = static_cast<int>(reader.integer("frames", scene.frames, 1, 999'999));
-    scene.frames_per_second =
-        reader.number("frames_per_second", scene.frames_per_second, kPositive);
+    scene.frames_per_second = reader.number(
+        "frames_per_second", scene.frames_per_second,
+        {.low = 0, .low_included = false, .smallest = kLeastRate, .largest = kMostRate});
     scene.steps_per_frame =
         static_cast<int>(reader.integer("steps_per_frame", scene.steps_per_frame, 1, 1'000'000));
     reader.finish();
+}
+
+void read_optional_blocks(TableReader& reader, Scene& scene) {
+    if (reader.has("contact")) {
+        scene.contact = read_contact(reader.table("contact"));
+    }
+    if (reader.has("damping")) {
+        TableReader damping = reader.table("damping");
+        scene.damping = Damping{.mass = damping.number("mass", 0, kNotNegative),
+                                .stiffness = damping.number("stiffness", 0, kNotNegative)};
+        damping.finish();
+    }
+    if (reader.has("sleep")) {
+        TableReader sleep = reader.table("sleep");
+        const Sleep standard;
+        scene.sleep =
+            Sleep{.speed = sleep.number("speed", standard.speed, kPositive),
+                  .time = sleep.number("time", standard.time,
+                                       {.low = 0, .low_included = false, .largest = kLongestTime})};
+        sleep.finish();
+    }
+    if (reader.has("output")) {
+        scene.output = read_output(reader.table("output"));
+    }
+}
+
+// What several blocks decide together is said at the one that asks for it.
+void check_together(TableReader& reader, const Scene& scene) {
+    const auto check_at = [](const TableReader& block, std::string_view key, const auto& action) {
+        try {
+            action();
+        } catch (const Error& error) {
+            block.fail(key, error.what());
+        }
+    };
+    if (scene.contact) {
+        check_at(reader.table("contact"), "model",
+                 [&] { check_model(scene.contact->model, scene.solver.integrator); });
+    }
+    if (scene.sleep) {
+        check_at(reader, "sleep", [&] { check_sleeping(scene.solver.integrator); });
+    }
+    const std::vector<TableReader> bodies = reader.tables("body");
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        check_at(bodies[i], "name", [&] { check_held(scene.bodies[i], scene); });
+    }
 }
 
 }  // namespace
@@ -292,45 +344,22 @@ Scene parse_scene(std::string_view text,
     for (TableReader& obstacle : reader.tables("obstacle")) {
         scene.obstacles.push_back(read_obstacle(obstacle, scene.dimension));
     }
-    if (reader.has("contact")) {
-        scene.contact = read_contact(reader.table("contact"));
-    }
-    if (reader.has("damping")) {
-        TableReader damping = reader.table("damping");
-        scene.damping = Damping{.mass = damping.number("mass", 0, kNotNegative),
-                                .stiffness = damping.number("stiffness", 0, kNotNegative)};
-        damping.finish();
-    }
-    if (reader.has("sleep")) {
-        TableReader sleep = reader.table("sleep");
-        const Sleep standard;
-        scene.sleep = Sleep{.speed = sleep.number("speed", standard.speed, kPositive),
-                            .time = sleep.number("time", standard.time, kPositive)};
-        sleep.finish();
-    }
+    scene.solver = preset(Preset::Balanced);
     if (reader.has("solver")) {
         scene.solver = read_solver(reader.table("solver"));
-    } else {
-        scene.solver = preset(Preset::Balanced);
     }
-    if (reader.has("output")) {
-        scene.output = read_output(reader.table("output"));
-    }
+    read_optional_blocks(reader, scene);
     reader.finish();
     if (scene.bodies.empty()) {
         reader.fail("", "the scene has no [[body]]");
     }
+    check_together(reader, scene);
     check(scene);
     return scene;
 }
 
 Scene read_scene(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (!file.good() && !file.eof()) {
-        throw Error(path.string() + ": cannot be read; expected a scene file (TOML)");
-    }
-    return parse_scene(text, path.string(), path.parent_path());
+    return parse_scene(read_text(path, "a scene file (TOML)"), path.string(), path.parent_path());
 }
 
 }  // namespace pent::simulator

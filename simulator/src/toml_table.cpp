@@ -4,6 +4,7 @@
 #include <pent/nearest_name.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace pent::simulator {
@@ -11,8 +12,7 @@ namespace pent::simulator {
 namespace {
 
 std::string at(const std::string& file, const toml::source_position& position) {
-    return file + ":" + std::to_string(position.line) + ":" + std::to_string(position.column)
-           + ": ";
+    return file + ":" + std::to_string(position.line) + ":" + std::to_string(position.column);
 }
 
 std::string readable(double value) {
@@ -39,6 +39,14 @@ bool is_within(const Range& range, double value) {
     const bool above = range.low_included ? value >= range.low : value > range.low;
     const bool below = range.high_included ? value <= range.high : value < range.high;
     return above && below && std::isfinite(value);
+}
+
+bool is_absurd(const Range& range, double value) {
+    return value != 0 && (std::abs(value) < range.smallest || std::abs(value) > range.largest);
+}
+
+std::string sane(const Range& range) {
+    return "0 or a size from " + readable(range.smallest) + " to " + readable(range.largest);
 }
 
 std::string type_of(const toml::node& node) {
@@ -83,7 +91,7 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
     try {
         return toml::parse(text);
     } catch (const toml::parse_error& error) {
-        throw Error(at(file, error.source().begin) + one_line(error.description()));
+        throw Error(at(file, error.source().begin) + ": " + one_line(error.description()));
     } catch (const BrokenToml&) {
         throw Error(file
                     + ": is not TOML; expected lines of the form key = value and [table] lines");
@@ -104,23 +112,39 @@ bool TableReader::has(std::string_view key) {
     return find(key) != nullptr;
 }
 
-void TableReader::fail(std::string_view key, const std::string& message) const {
+std::string TableReader::place(std::string_view key) const {
     const toml::node* node = table_->get(key);
-    const toml::source_position position =
-        node != nullptr ? node->source().begin : table_->source().begin;
-    throw Error(at(file_, position) + message);
+    return at(file_, node != nullptr ? node->source().begin : table_->source().begin);
+}
+
+void TableReader::fail(std::string_view key, const std::string& message) const {
+    throw Error(place(key) + ": " + message);
+}
+
+std::vector<std::string> TableReader::unknown() const {
+    std::vector<std::string> keys;
+    for (const auto& [key, node] : *table_) {
+        if (std::find(known_.begin(), known_.end(), key.str()) == known_.end()) {
+            keys.emplace_back(key.str());
+        }
+    }
+    return keys;
+}
+
+void TableReader::fail_unknown(const std::string& key, const std::string& expected) const {
+    std::string where = place(key);
+    for (const auto& [present, node] : *table_) {
+        where = present.str() == key ? at(file_, present.source().begin) : where;
+    }
+    throw Error(where + ": unknown key " + in_quotes(key) + " in " + name_ + expected
+                + did_you_mean(key, known_));
 }
 
 void TableReader::fail_missing(std::string_view key, std::string_view type) const {
-    std::vector<std::string> unknown;
-    for (const auto& [present, node] : *table_) {
-        if (std::find(known_.begin(), known_.end(), present.str()) == known_.end()) {
-            unknown.emplace_back(present.str());
-        }
-    }
-    fail("",
-         name_ + " needs " + in_quotes(key) + " (" + std::string(type) + ")"
-             + (unknown.empty() ? "" : "; found the unknown key " + in_quotes(unknown.front())));
+    // Of keys that nobody has asked for yet, one that looks like it.
+    const std::string typo = nearest_name(key, unknown());
+    fail("", name_ + " needs " + in_quotes(key) + " (" + std::string(type) + ")"
+                 + (typo.empty() ? "" : "; found the unknown key " + in_quotes(typo)));
 }
 
 double TableReader::number(std::string_view key,
@@ -136,6 +160,9 @@ double TableReader::number(std::string_view key,
     const std::optional<double> value = node->value<double>();
     if (!node->is_number() || !value || !is_within(range, *value)) {
         fail(key, in_quotes(key) + " is " + type_of(*node) + "; expected " + readable(range));
+    }
+    if (is_absurd(range, *value)) {
+        fail(key, in_quotes(key) + " is " + type_of(*node) + "; expected " + sane(range));
     }
     return *value;
 }
@@ -209,6 +236,10 @@ Eigen::VectorXd TableReader::vector(std::string_view key,
             fail(key,
                  in_quotes(key) + " has the entry " + type_of(entry) + "; expected " + expected);
         }
+        if (std::abs(*value) > kLargestNumber) {  // the small ones are roundings of 0
+            fail(key, in_quotes(key) + " has the entry " + type_of(entry) + "; expected "
+                          + sane(kAnyNumber));
+        }
         vector[axis] = *value;
     }
     return vector;
@@ -275,11 +306,14 @@ std::string TableReader::one_of(const std::vector<std::string>& kinds) {
             ++count;
         }
     }
-    if (count != 1) {
-        finish();  // a misspelled kind is the better thing to name
-        fail("", name_ + " has " + std::to_string(count) + " of " + list + "; expected one");
+    if (count == 1) {
+        return found;
     }
-    return found;
+    const std::vector<std::string> others = unknown();
+    if (count == 0 && !others.empty()) {  // a kind that is misspelled or that there is not
+        fail_unknown(others.front(), "; expected one of " + list);
+    }
+    fail("", name_ + " has " + std::to_string(count) + " of " + list + "; expected one");
 }
 
 bool TableReader::is_text(std::string_view key) {
@@ -293,11 +327,8 @@ void TableReader::refuse(std::string_view key, std::string_view reason) {
 }
 
 void TableReader::finish() const {
-    for (const auto& [key, node] : *table_) {
-        if (std::find(known_.begin(), known_.end(), key.str()) == known_.end()) {
-            throw Error(at(file_, key.source().begin) + "unknown key " + in_quotes(key.str())
-                        + " in " + name_ + did_you_mean(key.str(), known_));
-        }
+    for (const std::string& key : unknown()) {
+        fail_unknown(key, "");
     }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "number_bounds.h"
+
 #include <Eigen/Core>
 
 #include <cstdint>
@@ -28,7 +30,8 @@ struct BrokenToml {};
 #define TOML_HEADER_ONLY 1
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/impl/preprocessor.h>
-// Letters such as e with an accent outside of quotes come to what it marks as unreachable; none is a space.
+// Letters such as e with an accent outside of quotes come to what it marks as unreachable; none is
+// a space.
 #pragma push_macro("TOML_UNREACHABLE")
 #undef TOML_UNREACHABLE
 #define TOML_UNREACHABLE return false
@@ -45,14 +48,17 @@ struct Range {
     bool low_included = true;
     double high = std::numeric_limits<double>::infinity();
     bool high_included = true;
+    double smallest = kSmallestNumber;  ///< Of the size, but for 0.
+    double largest = kLargestNumber;
 };
 
 inline constexpr Range kAnyNumber{};
 inline constexpr Range kPositive{.low = 0, .low_included = false};
 inline constexpr Range kNotNegative{.low = 0};
+inline constexpr Range kAngle{.low = -kMostDegrees, .high = kMostDegrees};
 
-/// One table of a TOML file, read strictly: every function knows a key, checks its value, and throws
-/// an Error with file:line:column; finish() refuses the keys that no function asked for.
+/// One table of a TOML file, read strictly: every function knows a key, checks its value, and
+/// throws an Error with file:line:column; finish() refuses the keys that no function asked for.
 class TableReader {
 public:
     /// @param name  How messages call the table, as in "[solver]".
@@ -82,7 +88,8 @@ public:
     /// A table within the table; has(key) must hold.
     [[nodiscard]] TableReader table(std::string_view key);
 
-    /// All tables of an array; none if the key is missing. A single table counts as an array of one.
+    /// All tables of an array; none if the key is missing. A single table counts as an array of
+    /// one.
     [[nodiscard]] std::vector<TableReader> tables(std::string_view key);
 
     /// The one of these keys that is there; an Error unless it is exactly one. Ask for all other
@@ -98,13 +105,19 @@ public:
     /// Throws an Error for the first key that nobody asked for, with the nearest known one.
     void finish() const;
 
-    /// Throws an Error at the value of `key`, or at the table if there is none.
+    /// Where the value of `key` stands, or the table if there is none: "scene.toml:4:8".
+    [[nodiscard]] std::string place(std::string_view key) const;
+
+    /// Throws an Error at place(key).
     [[noreturn]] void fail(std::string_view key, const std::string& message) const;
 
     [[nodiscard]] const std::string& name() const { return name_; }
 
 private:
     const toml::node* find(std::string_view key);
+    [[nodiscard]] std::vector<std::string> unknown() const;  // keys that nobody asked for
+    // @param expected  "" or begins with ";".
+    [[noreturn]] void fail_unknown(const std::string& key, const std::string& expected) const;
     [[noreturn]] void fail_missing(std::string_view key, std::string_view type) const;
 
     const toml::table* table_;

@@ -8,11 +8,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <sstream>
 
 namespace pent::study {
 
 namespace {
+
+constexpr const char* kText = "settings";  // what messages call the text that settings are put into
 
 constexpr std::string_view kHeads[] = {"[solver]", "[contact]"};
 
@@ -61,11 +64,23 @@ std::string replaced(const std::string& scene,
     return text;
 }
 
+// A message about the text that settings were put into, without its lines and columns, which nobody
+// sees.
+std::string without_place(std::string message) {
+    const std::size_t begin =
+        message.find(kText) == 0 ? message.find_first_not_of(":0123456789", std::strlen(kText)) : 0;
+    return message.substr(begin == std::string::npos ? 0 : message.find_first_not_of(' ', begin));
+}
+
 // What a preset stands for.
 simulator::SolverOptions preset_solver(const Setting& setting) {
     const std::string text =
         "[[body]]\nname = \"a\"\nmesh = \"a.pent\"\n[solver]\npreset = \"" + setting.value + "\"\n";
-    return simulator::parse_scene(text, place_of(setting), "").solver;
+    try {
+        return simulator::parse_scene(text, kText, "").solver;
+    } catch (const Error& error) {
+        throw Error(place_of(setting) + ": " + without_place(error.what()));
+    }
 }
 
 simulator::Scene with_dt(simulator::Scene scene, const std::string& value) {
@@ -99,8 +114,8 @@ std::string with_key(const std::string& text, const Setting& setting) {
             known += (known.empty() ? "" : ", ") + name;
         }
         throw Error("--vary " + setting.axis + ": is not known"
-                    + (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " There are "
-                    + known);
+                    + (nearest.empty() ? "" : " (did you mean " + nearest + "?)")
+                    + "; expected one of " + known);
     }
     return replaced(text, head, key, setting.value);
 }
@@ -197,10 +212,20 @@ simulator::Scene with_settings(simulator::Scene scene, const Settings& settings)
             text = with_key(text, setting);
         }
     }
-    return simulator::parse_scene(text, place, "");
+    try {
+        return simulator::parse_scene(text, kText, "");
+    } catch (const Error& error) {
+        throw Error(place + ": " + without_place(error.what()));
+    }
 }
 
 void check_setting(simulator::Scene scene, const Setting& setting) {
+    const bool is_count = !setting.value.empty() && setting.value.size() < 7
+                          && setting.value.find_first_not_of("0123456789") == std::string::npos
+                          && setting.value.find_first_not_of('0') != std::string::npos;
+    if (is_mesh_axis(setting.axis) && !is_count) {
+        throw Error(place_of(setting) + ": expected a whole number of at least 1");
+    }
     // From where every single value is possible.
     scene.solver.integrator = simulator::Integrator::NewtonEuler;
     if (scene.contact) {

@@ -4,7 +4,7 @@
 #include "child_process.h"
 
 #include <pent/error.h>
-#include <pent/output_file.h>
+#include <pent/output_folder.h>
 #include <pent/pent_file.h>
 
 #include <algorithm>
@@ -76,9 +76,9 @@ simulator::Scene with_meshes(const simulator::Scene& scene,
         }
         if (!body.recipe.empty() && !(is_there && level.empty())) {
             is_known = true;
-            const fs::path folder = options.folder / "meshes";
-            make_folder(folder);
-            const fs::path path = folder / (body.name + "." + file_name(level) + ".pent");
+            const fs::path path =
+                OutputFolder(options.folder, kStudyFolder)
+                    .claim("meshes/" + body.name + "." + file_name(level) + ".pent");
             if (!fs::exists(path)) {
                 make_mesh(body, level, fs::absolute(path), options, should_stop);
             }

@@ -10,6 +10,7 @@
 
 #include <pent/error.h>
 #include <pent/output_file.h>
+#include <pent/output_folder.h>
 #include <pent/simulator/scene_file.h>
 #include <pent/study/study.h>
 
@@ -49,8 +50,9 @@ Settings finest_mesh(const std::vector<Axis>& axes) {
     return settings;
 }
 
-// As accurate as the program can be at a given dt. What Newton's method leaves of the momentum of a step
-// may add up over all of them, so it is little. Of several kinds of elements it has those that do not lock.
+// As accurate as the program can be at a given dt. What Newton's method leaves of the momentum of a
+// step may add up over all of them, so it is little. Of several kinds of elements it has those that
+// do not lock.
 simulator::SolverOptions reference_solver(const Scene& scene, const std::vector<Axis>& axes) {
     simulator::SolverOptions exact = scene.solver;
     const auto elements = std::ranges::find(axes, "elements", &Axis::name);
@@ -69,6 +71,7 @@ public:
     Study(const StudyOptions& options, const StudyCallbacks& callbacks)
         : options_(options),
           callbacks_(callbacks),
+          folder_(options.folder, kStudyFolder),
           scene_(shortened(simulator::read_scene(options.scene), options.frames)) {
         for (const std::string& text : options.vary) {
             axes_.push_back(parse_axis(text));
@@ -84,6 +87,9 @@ public:
                 check_setting(scene_, {axis.name, value});  // all mistakes before any work
             }
         }
+        if (scene_.solver.integrator != simulator::Integrator::Quasistatic) {
+            check_setting(scene_, {"integrator", options.reference_integrator});
+        }
         combinations_ = combinations(axes_);
         report_.scene = options.scene.filename().string();
         report_.frames = scene_.frames;
@@ -95,9 +101,9 @@ public:
 
 private:
     void open_folder();
-    void claim(const char* file, const std::string& text, const char* other) const;
+    void claim(const char* file, const std::string& text, const char* other);
     void run_reference();
-    void run_level(const Scene& scene, const fs::path& folder);
+    void run_level(const Scene& scene, const std::string& name);
     void run_combinations();
     void run_once(std::size_t combination);
     void measure(std::size_t combination, Record& record);
@@ -105,13 +111,17 @@ private:
     [[nodiscard]] bool is_stopping() const {
         return callbacks_.should_stop && callbacks_.should_stop();
     }
-    ChildOutcome simulate(const Scene& scene, const fs::path& folder, bool resume);
+    [[nodiscard]] std::string run_name(std::size_t combination) const {
+        return "runs/" + file_name(combinations_[combination]);
+    }
+    ChildOutcome simulate(const Scene& scene, const std::string& name, bool resume);
     [[nodiscard]] const Interpolation& where_in_reference(std::uint32_t meshes,
                                                           const Trajectory& run);
     void write_files();
 
     const StudyOptions& options_;
     const StudyCallbacks& callbacks_;
+    OutputFolder folder_;
     Scene scene_;
     std::vector<Axis> axes_;
     std::vector<Settings> combinations_;
@@ -140,22 +150,22 @@ void Study::tell(const std::string& next) {
 
 // The folder is of this scene, by this program, or new.
 void Study::open_folder() {
-    make_folder(options_.folder);
+    folder_.refuse_foreign();
     if (options_.force) {
-        for (const char* part : {"runs", "references", "meshes", "scene.toml", "program.txt"}) {
-            fs::remove_all(options_.folder / part);
+        std::vector<fs::path> inputs = {options_.scene};
+        for (const simulator::Body& body : scene_.bodies) {
+            inputs.emplace_back(body.mesh);
         }
+        folder_.clear(inputs);
     }
+    folder_.remove_temporaries();
     claim("scene.toml", simulator::scene_text(scene_), "of another scene");
     claim("program.txt", fingerprint(options_.programs / "pent-sim") + "\n", "by another pent-sim");
-    for (const char* part : {"runs", "references"}) {
-        make_folder(options_.folder / part);
-    }
 }
 
 // Says in a file of the folder what it is of, unless it is of something else.
-void Study::claim(const char* file, const std::string& text, const char* other) const {
-    const fs::path path = options_.folder / file;
+void Study::claim(const char* file, const std::string& text, const char* other) {
+    const fs::path path = folder_.claim(file);
     if (fs::exists(path) && read_text(path) != text) {
         throw Error(options_.folder.string() + ": holds a study " + other
                     + "; use another folder or --force");
@@ -163,8 +173,10 @@ void Study::claim(const char* file, const std::string& text, const char* other) 
     write_text(path, text);
 }
 
-ChildOutcome Study::simulate(const Scene& scene, const fs::path& folder, bool resume) {
-    const fs::path scene_path = folder.string() + ".toml";
+// Runs a scene into a folder of the study, with the scene beside it.
+ChildOutcome Study::simulate(const Scene& scene, const std::string& name, bool resume) {
+    const fs::path scene_path = folder_.claim(name + ".toml");
+    const fs::path folder = folder_.claim(name + "/").parent_path();
     write_text(scene_path, simulator::scene_text(scene));
     return run_child(options_.programs / "pent-sim",
                      {scene_path.string(), "-o", folder.string(), "--quiet", "--threads",
@@ -173,15 +185,15 @@ ChildOutcome Study::simulate(const Scene& scene, const fs::path& folder, bool re
 }
 
 // Runs a level of the reference unless it is there; goes on where an earlier call was interrupted.
-void Study::run_level(const Scene& scene, const fs::path& folder) {
+void Study::run_level(const Scene& scene, const std::string& name) {
     tell("reference, dt = " + short_number(scene.dt()) + " s");
-    const fs::path scene_path = folder.string() + ".toml";
-    const bool is_same = read_text(scene_path) == simulator::scene_text(scene);
+    const fs::path folder = options_.folder / name;
+    const bool is_same = read_text(folder.string() + ".toml") == simulator::scene_text(scene);
     const std::optional<RunVerdict> before = verdict_of(folder);
     if (is_same && before && before->verdict == "finished") {
         return;
     }
-    const ChildOutcome outcome = simulate(scene, folder, is_same && before.has_value());
+    const ChildOutcome outcome = simulate(scene, name, is_same && before.has_value());
     if (is_stopping()) {
         throw Stopped{};
     }
@@ -196,7 +208,7 @@ void Study::run_level(const Scene& scene, const fs::path& folder) {
     record.wall_seconds = {outcome.wall_seconds};
     record.cpu_seconds = {outcome.cpu_seconds};
     record.peak_bytes = {outcome.peak_bytes};
-    write_record(folder.string() + ".json", record);
+    write_record(folder_.claim(name + ".json"), record);
 }
 
 void Study::run_reference() {
@@ -218,9 +230,9 @@ void Study::run_reference() {
     for (int level = 0; level <= options_.reference_halvings; ++level) {
         Scene scene = base;
         scene.steps_per_frame = base.steps_per_frame << level;
-        folder =
-            options_.folder / "references" / ("steps-" + std::to_string(scene.steps_per_frame));
-        run_level(scene, folder);
+        const std::string name = "references/steps-" + std::to_string(scene.steps_per_frame);
+        folder = options_.folder / name;
+        run_level(scene, name);
         levels.push_back(std::make_unique<Trajectory>(scene, folder));
         report_.reference.dt.push_back(scene.dt());
         reference_text_ = simulator::scene_text(scene);
@@ -249,7 +261,8 @@ void Study::run_reference() {
 }
 
 const Interpolation& Study::where_in_reference(std::uint32_t meshes, const Trajectory& run) {
-    // A body's layers may reach a hair beyond those of a coarser one; a cell's height is another mesh.
+    // A body's layers may reach a hair beyond those of a coarser one; a cell's height is another
+    // mesh.
     constexpr double kMostOutside = 0.5;
     if (const auto known = where_.find(meshes); known != where_.end()) {
         return known->second;
@@ -268,21 +281,19 @@ const Interpolation& Study::where_in_reference(std::uint32_t meshes, const Traje
 
 // Compares a run that has just finished with the reference.
 void Study::measure(std::size_t combination, Record& record) {
-    const fs::path folder = options_.folder / "runs" / file_name(combinations_[combination]);
-    const Trajectory run(scenes_[combination], folder);
+    const Trajectory run(scenes_[combination], options_.folder / run_name(combination));
     record.errors = compare(run, *reference_, where_in_reference(record.meshes, run), window_,
                             scene_.frames_per_second);
     record.reference = reference_text_;
     if (!options_.keep_runs) {
-        fs::remove_all(folder);
+        folder_.remove(run_name(combination) + "/");
     }
 }
 
 void Study::run_once(std::size_t combination) {
-    const Settings& settings = combinations_[combination];
     Record& record = records_[combination];
-    const fs::path folder = options_.folder / "runs" / file_name(settings);
-    const ChildOutcome outcome = simulate(scenes_[combination], folder, false);
+    const std::string name = run_name(combination);
+    const ChildOutcome outcome = simulate(scenes_[combination], name, false);
     if (is_stopping()) {
         throw Stopped{};
     }
@@ -295,18 +306,18 @@ void Study::run_once(std::size_t combination) {
         if (is_first) {
             measure(combination, record);
         } else if (!options_.keep_runs) {
-            fs::remove_all(folder);
+            folder_.remove(name + "/");
         }
     } else {
         record.verdict = outcome.exit_code == 3 ? "diverged" : "refused";
         record.message = outcome.exit_code < 0 ? "ended by a signal" : outcome.error;
-        fs::remove_all(folder);
+        folder_.remove(name + "/");
     }
-    write_record(folder.string() + ".json", record);
+    write_record(folder_.claim(name + ".json"), record);
 }
 
-// Repetitions alternate between the combinations, so that a slow minute of the machine does not fall on
-// one of them alone.
+// Repetitions alternate between the combinations, so that a slow minute of the machine does not
+// fall on one of them alone.
 void Study::run_combinations() {
     for (const Settings& settings : combinations_) {
         scenes_.push_back(with_meshes(scene_, settings, options_, callbacks_.should_stop));
@@ -339,12 +350,11 @@ void Study::run_combinations() {
 }
 
 void Study::write_files() {
-    const fs::path& folder = options_.folder;
-    write_text(folder / "study.json", study_json(report_, options_.created_by));
-    write_text(folder / "study.csv", study_csv(report_));
+    write_text(folder_.claim("study.json"), study_json(report_, options_.created_by));
+    write_text(folder_.claim("study.csv"), study_csv(report_));
     const Drawing plot = frontier_plot(report_);
-    write_text(folder / "frontier.svg", svg(plot));
-    viewer::write_png(folder / "frontier.png", raster(plot));
+    write_text(folder_.claim("frontier.svg"), svg(plot));
+    viewer::write_png(folder_.claim("frontier.png"), raster(plot));
 }
 
 StudyReport Study::operator()() {

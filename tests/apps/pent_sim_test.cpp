@@ -48,7 +48,8 @@ integrator = "newton_euler"
     return nlohmann::json::parse(test::text_of(folder / "all"));
 }
 
-// A run that goes on from a frame in which everything is at one point: no force is left to undo that.
+// A run that goes on from a frame in which everything is at one point: no force is left to undo
+// that.
 TEST(PentSim, SaysThatElementsHaveCollapsed) {
     const pent::test::TempFolder folder;
     write_mesh(folder / "box.pent", pent::test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1}));
@@ -184,6 +185,83 @@ TEST_F(FallingCubes, DivergeWithAVerdictWhenNoIterationsAreAllowed) {
     const auto report = nlohmann::json::parse(test::text_of(folder_ / "report.json"));
     EXPECT_EQ(report.at("verdict"), "diverged");
     expect_contains(outcome.err, {"diverged at " + report.at("message").get<std::string>()});
+}
+
+// A project with folders named as those of a run, in which one works: nothing of it is lost.
+TEST_F(FallingCubes, AreNotTouchedInAFolderOfTheirOwn) {
+    std::filesystem::create_directories(folder_ / "meshes");
+    std::filesystem::rename(folder_ / "cube.pent", folder_ / "meshes/cube.pent");
+    std::string text = test::text_of(folder_ / "fall.toml");
+    for (std::size_t at = 0; (at = text.find("\"cube.pent", at)) != std::string::npos; at += 9) {
+        text.insert(at + 1, "meshes/");
+    }
+    std::ofstream(folder_ / "scene.toml") << text;
+    const std::string mesh = test::text_of(folder_ / "meshes/cube.pent");
+    for (const char* how : {"", " --force", " --resume"}) {
+        const Outcome outcome = test::run_program("pent-sim scene.toml -o ." + std::string(how),
+                                                  "cd " + folder_.path().string() + ";");
+        EXPECT_EQ(outcome.exit_code, 1) << how;
+        test::expect_one_error_line(outcome, "pent-sim");
+        EXPECT_EQ(test::text_of(folder_ / "meshes/cube.pent"), mesh) << how;
+        EXPECT_EQ(test::text_of(folder_ / "scene.toml"), text) << how;
+    }
+}
+
+TEST_F(FallingCubes, AreNotReplacedByAReport) {
+    const std::string scene = test::text_of(folder_ / "fall.toml");
+    const std::string mesh = test::text_of(folder_ / "cube.pent");
+    std::filesystem::create_symlink(folder_ / "fall.toml", folder_ / "link.toml");
+    for (const char* json : {"fall.toml", "./fall.toml", "link.toml", "cube.pent"}) {
+        const Outcome outcome = test::run_program("pent-sim " + path("fall.toml") + " -o "
+                                                  + path("run") + " --json " + path(json));
+        EXPECT_EQ(outcome.exit_code, 1);
+        test::expect_one_error_line(outcome, "pent-sim");
+        expect_contains(outcome.err, {"--json", json, "would replace a file that is read"});
+        EXPECT_EQ(test::text_of(folder_ / "fall.toml"), scene);
+        EXPECT_EQ(test::text_of(folder_ / "cube.pent"), mesh);
+    }
+    // The report of a refusal must not, either.
+    std::ofstream(folder_ / "broken.toml") << "[scene\n";
+    const Outcome outcome = test::run_program("pent-sim " + path("broken.toml") + " -o "
+                                              + path("run") + " --json " + path("broken.toml"));
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(test::text_of(folder_ / "broken.toml"), "[scene\n");
+}
+
+TEST_F(FallingCubes, AreAskedForInOurWordsWhateverIsGiven) {
+    const auto error = [&](const std::string& arguments) {
+        const Outcome outcome = test::run_program("pent-sim " + arguments);
+        EXPECT_EQ(outcome.exit_code, 1) << arguments;
+        test::expect_one_error_line(outcome, "pent-sim");
+        EXPECT_EQ(outcome.err.find("filesystem error"), std::string::npos) << outcome.err;
+        EXPECT_EQ(outcome.err.find("basic_"), std::string::npos) << outcome.err;
+        return outcome.err;
+    };
+    expect_contains(error(folder_.path().string() + " -o " + path("run")),
+                    {"Is a directory; expected a scene file"});
+    expect_contains(error(path("fall.toml") + " -o " + path(std::string(300, 'n'))),
+                    {"File name too long"});
+    expect_contains(error(path("fall.toml") + " -o " + path("fall.toml")), {"is a file"});
+    // A name of bytes that are no text is shown as numbers.
+    expect_contains(error(path("$'no\\xff\\x1b[31m.toml'") + " -o " + path("run")),
+                    {"no\\xff\\x1b[31m.toml"});
+}
+
+TEST_F(FallingCubes, ThatGoDeepSayWhichStiffnessWouldDo) {
+    std::ofstream(folder_ / "fall.toml", std::ios::app) << R"(
+[[obstacle]]
+half_space = { normal = [0, 1, 0], offset = -0.01 }
+stiffness = 10
+)";
+    std::string text = test::text_of(folder_ / "fall.toml");
+    text.replace(text.find("frames = 3"), 10, "frames = 15");
+    std::ofstream(folder_ / "fall.toml") << text;
+    const Outcome outcome =
+        test::run_program("pent-sim " + path("fall.toml") + " -o " + path("run"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    expect_contains(outcome.out, {"penetration reached",
+                                  "[[obstacle]] 1 stiffness = ", "finished with deep penetration"});
+    expect_contains(test::text_of(folder_ / "run/report.json"), {"\"penetration\""});
 }
 
 TEST_F(FallingCubes, ShowTheirProgressOnOneLineOfATerminal) {

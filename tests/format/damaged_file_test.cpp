@@ -1,8 +1,8 @@
-#include "crc32c.h"
 #include "support/kuhn_box.h"
 #include "support/messages.h"
 #include "support/temp_folder.h"
 
+#include <pent/crc32c.h>
 #include <pent/formatted.h>
 #include <pent/pent_file.h>
 
@@ -29,7 +29,15 @@ protected:
         write_mesh(folder_ / "good.pent", test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1}));
         std::ostringstream text;
         text << std::ifstream(folder_ / "good.pent", std::ios::binary).rdbuf();
-        good_ = text.str();
+        set_bytes(text.str());
+    }
+
+    void set_bytes(const std::string& bytes) {
+        whole_ = bytes;
+        // As version 0.1.0 wrote it, so that what is wrong in a header is named itself.
+        good_ = bytes;
+        const std::size_t sum = good_.find("comment header_crc32c");
+        good_.erase(sum, good_.find('\n', sum) - sum + 1);
         body_ = good_.find("end_header\n") + 11;
     }
 
@@ -66,10 +74,37 @@ protected:
     }
 
     test::TempFolder folder_;
+    std::string whole_;
     std::string good_;
     std::size_t body_ = 0;
     static constexpr std::size_t kCells = 16 * 32;  // where the cells begin in the body
 };
+
+TEST_F(DamagedFile, WithoutAChecksumOfItsHeaderIsStillRead) {
+    std::ofstream(folder_ / "old.pent", std::ios::binary) << good_;
+    EXPECT_EQ(read_mesh<4>(folder_ / "old.pent").mesh.cells,
+              read_mesh<4>(folder_ / "good.pent").mesh.cells);
+}
+
+// Any bit of the header, of its checksum and of the comments that nothing else checks; but in the
+// word that names the checksum, without which all that is believed is right.
+TEST_F(DamagedFile, HasNoBitInItsHeaderThatCouldBeAnother) {
+    constexpr std::string_view kName = "header_crc32c ";
+    const std::size_t name = whole_.find(kName);
+    for (std::size_t at = 0; at < whole_.find("end_header\n") + 11; ++at) {
+        if (at >= name && at < name + kName.size()) {
+            continue;
+        }
+        std::string bytes = whole_;
+        bytes[at] = static_cast<char>(bytes[at] ^ 1);
+        std::ofstream(folder_ / "bad.pent", std::ios::binary) << bytes;
+        EXPECT_THROW((void)read_mesh<4>(folder_ / "bad.pent"), Error) << at;
+        EXPECT_THROW((void)read_info(folder_ / "bad.pent"), Error) << at;
+    }
+    std::string bytes = whole_;
+    bytes.replace(bytes.find("created_by pent"), 15, "created_by mine");
+    expect_contains(message(bytes), {"header: its checksum is", "changed since it was written"});
+}
 
 TEST_F(DamagedFile, Missing) {
     expect_contains(error_of([&] { (void)read_mesh<4>(folder_ / "none.pent"); }),
@@ -283,8 +318,7 @@ protected:
                    {.encoding = Encoding::Ascii});
         std::ostringstream text;
         text << std::ifstream(folder_ / "good.pent").rdbuf();
-        good_ = text.str();
-        body_ = good_.find("end_header\n") + 11;
+        set_bytes(text.str());
     }
 };
 

@@ -2,6 +2,7 @@
 #include "support/messages.h"
 #include "support/temp_folder.h"
 
+#include <pent/crc32c.h>
 #include <pent/formatted.h>
 #include <pent/pent_file.h>
 
@@ -93,6 +94,18 @@ TEST(PentFile, RoundTripKeepsExtremeNumbers) {
     expect_round_trip(mesh);
 }
 
+// The definition of the specification: all bytes of the header but the line that has it.
+TEST(PentFile, HeaderHasTheChecksumOfItsOtherLines) {
+    const test::TempFolder folder;
+    write_mesh(folder / "a.pent", test::kuhn_box<3>({1, 1, 1}, {1, 1, 1}));
+    std::string header = bytes_of(folder / "a.pent");
+    header = header.substr(0, header.find("end_header\n") + 11);
+    const std::size_t line = header.find("comment header_crc32c ");
+    const std::string stated = header.substr(line + 22, 8);
+    header.erase(line, 22 + 9);
+    EXPECT_EQ(stated, formatted("%08x", crc32c(header.data(), header.size())));
+}
+
 TEST(PentFile, HeaderIsWhatTheSpecificationShows) {
     const test::TempFolder folder;
     SimplexMesh<4> mesh = test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1});
@@ -101,6 +114,7 @@ TEST(PentFile, HeaderIsWhatTheSpecificationShows) {
     std::string header = bytes_of(folder / "a.pent");
     header = header.substr(0, header.find("end_header"));
     header.replace(header.find("crc32c ") + 7, 8, "1f2e3d4c");
+    header.replace(header.find("header_crc32c ") + 14, 8, "5a6b7c8d");
     EXPECT_EQ(header,
               "ply\n"
               "format binary_little_endian 1.0\n"
@@ -108,6 +122,7 @@ TEST(PentFile, HeaderIsWhatTheSpecificationShows) {
               "comment dimension 4\n"
               "comment created_by pent-mesh 0.1.0\n"
               "comment crc32c 1f2e3d4c\n"
+              "comment header_crc32c 5a6b7c8d\n"
               "element vertex 16\n"
               "property double x\nproperty double y\nproperty double z\nproperty double w\n"
               "property uint column\nproperty uint layer\n"
@@ -151,6 +166,7 @@ TEST(PentFile, SkipsUnknownListsInBinary) {
     const SimplexMesh<2> mesh = test::kuhn_box<2>({1, 1}, {1, 1});
     write_mesh(folder / "a.pent", mesh);
     std::string bytes = bytes_of(folder / "a.pent");
+    bytes.erase(bytes.find("comment header_crc32c"), 31);  // which is optional
     // Two more elements behind the body: the checksum of a longer body is not at hand, so ascii
     // writes it; here the body's checksum is made to fit by moving it into the comment.
     const std::size_t body = bytes.find("end_header\n") + 11;

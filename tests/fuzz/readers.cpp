@@ -1,8 +1,7 @@
 #include "readers.h"
 
-#include "crc32c.h"
-#include "rest_file.h"
-#include "resume.h"
+#include "checkpoint_file.h"
+#include "journal.h"
 #include "run_report.h"
 #include "support/temp_folder.h"
 #ifdef PENT_FUZZ_STUDY
@@ -10,8 +9,10 @@
 #include "trajectory.h"
 #endif
 
+#include <pent/crc32c.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
+#include <pent/output_folder.h>
 #include <pent/pent_file.h>
 #include <pent/simulator/scene_file.h>
 #ifdef PENT_FUZZ_MESHER
@@ -27,6 +28,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -95,7 +97,11 @@ void try_pent(const fs::path& path) {
 void try_pent_with_checksum(const fs::path& path) {
     std::string text = content(path);
     constexpr std::string_view kEnd = "end_header\n";
-    constexpr std::string_view kSum = "crc32c ";
+    constexpr std::string_view kSum = "comment crc32c ";
+    constexpr std::string_view kHeaderSum = "comment header_crc32c ";
+    if (const std::size_t line = text.find(kHeaderSum); line != std::string::npos) {
+        text.erase(line, text.find('\n', line) - line + 1);  // as in files that have none
+    }
     const std::size_t end = text.find(kEnd);
     const std::size_t sum = text.find(kSum);
     if (end != std::string::npos && sum != std::string::npos
@@ -117,33 +123,75 @@ void try_scene(const fs::path& path) {
             "a scene that is accepted survives being written and read");
 }
 
-// What a run that sleeps left to be resumed.
-void try_rest(const fs::path& path) {
-    const std::vector<std::string> bodies = {"bar", "block"};
-    const std::vector<simulator::BodyRest> rest = simulator::read_rest(path, bodies);
-    const fs::path copy = folder() / "copy.json";
-    simulator::write_rest(copy, bodies, rest);
-    require(simulator::read_rest(copy, bodies) == rest,
-            "what is known of rest survives being written and read");
+// What a run left beside its last frame to be resumed from.
+void try_checkpoint(const fs::path& path) {
+    const simulator::StateBlocks blocks = simulator::read_checkpoint(path, 1, 2);
+    const fs::path copy = folder() / "copy.state";
+    simulator::write_checkpoint(copy, 1, 2, blocks);
+    require(simulator::read_checkpoint(copy, 1, 2) == blocks,
+            "a checkpoint that is accepted survives being written and read");
 }
 
-// A report.json as a resumed run and a study read it.
+// The same with the checksum put right.
+void try_checkpoint_with_checksum(const fs::path& path) {
+    std::string text = content(path);
+    if (text.size() >= 4) {
+        const std::uint32_t sum = crc32c(text.data(), text.size() - 4);
+        std::memcpy(text.data() + text.size() - 4, &sum, 4);
+        std::ofstream(path, std::ios::binary) << text;
+    }
+    try_checkpoint(path);
+}
+
+void try_journal(const fs::path& path) {
+    const std::vector<std::string> bodies = {"bar"};
+    std::optional<simulator::Journal> journal = simulator::read_journal(path, bodies);
+    require(journal.has_value(), "a file that is there is a journal");
+    journal->cut(1);
+    const fs::path copy = folder() / "copy.txt";
+    std::ofstream(copy, std::ios::binary) << simulator::journal_text(*journal, bodies);
+    static_cast<void>(simulator::read_journal(copy, bodies));
+}
+
+// The same with the checksum of each line put right.
+void try_journal_with_checksum(const fs::path& path) {
+    std::istringstream lines(content(path));
+    std::string text;
+    for (std::string line; std::getline(lines, line);) {
+        const std::string entry = line.size() > 9 ? line.substr(9) : "";
+        text += formatted("%08x ", crc32c(entry.data(), entry.size())) + entry + "\n";
+    }
+    std::ofstream(path, std::ios::binary) << text;
+    try_journal(path);
+}
+
+// The list of what a program wrote into a folder.
+void try_list(const fs::path& path) {
+    const fs::path list = folder() / "listed";
+    fs::create_directories(list);
+    fs::copy_file(path, list / "written.txt", fs::copy_options::overwrite_existing);
+    OutputFolder output(list, "run");
+    output.remove_temporaries();
+    if (output.has_list()) {
+        output.clear({});
+    }
+}
+
+// A report.json as a run of version 0.1.0 that is resumed and a study read it.
 void try_report(const fs::path& path) {
-    constexpr int kLastFrame = 10;
-    constexpr std::uint64_t kLastStep = 20;
     fs::copy_file(path, folder() / "report.json", fs::copy_options::overwrite_existing);
-    static_cast<void>(simulator::isa_of_run(folder()));
 #ifdef PENT_FUZZ_STUDY
     static_cast<void>(study::verdict_of(folder()));
     static_cast<void>(study::Trajectory(simulator::Scene(), folder()));  // no bodies: no meshes
 #endif
     simulator::RunReport report;
     report.bodies = {"bar"};
-    simulator::ReportHistory history = simulator::parse_history(
-        content(path), path.string(), report.bodies, kLastFrame, kLastStep);
+    simulator::ReportHistory history =
+        simulator::parse_history(content(path), path.string(), report.bodies);
     report.frames = std::move(history.frames);
     report.steps = std::move(history.steps);
-    static_cast<void>(simulator::report_text(report, "running", "", 1));
+    report.parts = {history.part};
+    static_cast<void>(simulator::report_text(report));
 }
 
 #ifdef PENT_FUZZ_STUDY
@@ -195,19 +243,31 @@ void try_profile(const fs::path& path) {
 
 const std::vector<Reader>& readers() {
     static const std::vector<Reader> all = {
-        {"pent", ".pent", try_pent},        {"pent_checksum", ".pent", try_pent_with_checksum},
-        {"scene", ".toml", try_scene},      {"rest", ".json", try_rest},
+        {"pent", ".pent", try_pent},
+        {"pent_checksum", ".pent", try_pent_with_checksum},
+        {"scene", ".toml", try_scene},
         {"report", ".json", try_report},
+        {"checkpoint", ".state", try_checkpoint},
+        {"checkpoint_checksum", ".state", try_checkpoint_with_checksum},
+        {"journal", ".txt", try_journal},
+        {"journal_checksum", ".txt", try_journal_with_checksum},
+        {"list", ".txt", try_list},
 #ifdef PENT_FUZZ_STUDY
         {"record", ".json", try_record},
 #endif
 #ifdef PENT_FUZZ_MESHER
-        {"obj", ".obj", try_surface},       {"off", ".off", try_surface},
-        {"ply", ".ply", try_surface},       {"stl", ".stl", try_surface},
-        {"gltf", ".gltf", try_surface},     {"gmsh", ".msh", try_tetrahedra},
-        {"medit", ".mesh", try_tetrahedra}, {"vtk", ".vtk", try_tetrahedra},
-        {"tobj", ".tobj", try_tetrahedra},  {"tetgen", ".pair", try_tetgen},
-        {"edges", ".edges", try_edges},     {"profile", ".profile", try_profile},
+        {"obj", ".obj", try_surface},
+        {"off", ".off", try_surface},
+        {"ply", ".ply", try_surface},
+        {"stl", ".stl", try_surface},
+        {"gltf", ".gltf", try_surface},
+        {"gmsh", ".msh", try_tetrahedra},
+        {"medit", ".mesh", try_tetrahedra},
+        {"vtk", ".vtk", try_tetrahedra},
+        {"tobj", ".tobj", try_tetrahedra},
+        {"tetgen", ".pair", try_tetgen},
+        {"edges", ".edges", try_edges},
+        {"profile", ".profile", try_profile},
 #endif
     };
     return all;

@@ -4,6 +4,7 @@
 
 #include <pent/pent_file.h>
 #include <pent/simulator/explain.h>
+#include <pent/simulator/run.h>
 
 #include <gtest/gtest.h>
 
@@ -201,7 +202,8 @@ TEST(Explain, WarnsOfLockingOfThinBodiesAndOfIdleTerms) {
                             "falls, 11.1 m"});  // 2/2 (100/30)^2
 }
 
-// Smoothed elements lock where there is one cell, or poisson is near the limit of 1/3; not from four on.
+// Smoothed elements lock where there is one cell, or poisson is near the limit of 1/3; not from
+// four on.
 TEST(Explain, NamesSmoothedElementsWhereTheyHelp) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 5);
@@ -278,6 +280,101 @@ TEST(Explain, WarnsOfBodiesTooFastForASoftContact) {
                     {"box and other move 1 m a step", "10 steps_per_frame"});
     scene.bodies[1].velocity = scene.bodies[0].velocity;  // side by side
     EXPECT_EQ(advice(explain(scene, 1)).find("a step past"), std::string::npos);
+}
+
+TEST(Explain, DoubtsUnitsThatDoNotFitOneAnother) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    scene.bodies.pop_back();
+    const auto says = [&](const auto& change) {
+        Scene other = scene;
+        change(other);
+        return advice(explain(other, 1));
+    };
+    EXPECT_EQ(says([](Scene&) {}).find("as meant"), std::string::npos);
+    expect_contains(says([](Scene& s) { s.contact = Contact{.distance = 0.11}; }),
+                    {"[contact] distance = 0.11 m is more than a tenth of \"box\"", "1 m thick"});
+    expect_contains(
+        says([](Scene& s) {
+            s.obstacles = {
+                {.shape = BallObstacle{.center = Eigen::Vector4d(0, -9, 0, 0), .radius = 1},
+                 .distance = 0.2}};
+        }),
+        {"[[obstacle]] 1 distance = 0.2 m"});
+    // A pascal in place of a gigapascal: 1e-3 J/m^4 make waves of 1 mm/s.
+    expect_contains(
+        says([](Scene& s) { s.bodies[0].material.lame = lame_from_young(4, 1e-9, 0.28); }),
+        {"a wave crosses \"box\"", "young (Pa)"});
+    expect_contains(says([](Scene& s) { s.bodies[0].place.scale = 1e-3; }),
+                    {"\"box\" weighs 2e-09 kg"});  // 2 mm^4 of 1000 kg/m^4
+}
+
+TEST(Explain, SaysWhatOverlapsAtTheStart) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 1.9);
+    scene.bodies[1].place.translate.tail(3).setConstant(0.05);
+    scene.contact = Contact{};
+    scene.obstacles = {
+        {.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d::UnitY(), .offset = 0.3}}};
+    expect_contains(advice(explain(scene, 1)),
+                    {"\"box\" and \"other\" overlap at the start, by 0.05 m",
+                     "\"box\" and [[obstacle]] 1 overlap at the start, by 0.3 m"});
+    scene = two_boxes(folder, 2);  // face to face
+    scene.contact = Contact{};
+    EXPECT_EQ(advice(explain(scene, 1)).find("overlap"), std::string::npos);
+}
+
+// The recipe of docs/contact.md on three scenes: a box that lies on a floor, one that falls on it,
+// and one that flies at another. With the default it goes deep, with what is said to do it does
+// not.
+TEST(Explain, SaysWhichStiffnessWouldDo) {
+    const TempFolder folder;
+    Scene lying = two_boxes(folder, 5);
+    lying.bodies.pop_back();
+    lying.bodies[0].material.lame = lame_from_young(4, 1e6, 0.28);
+    lying.gravity[1] = -9.8;
+    lying.frames = 30;
+    lying.steps_per_frame = 4;
+    lying.solver.integrator = Integrator::NewtonEuler;
+    lying.obstacles = {{.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d::UnitY()}}};
+    Scene falling = lying;
+    falling.bodies[0].place.translate[1] = 0.5;
+    Scene flying = two_boxes(folder, 2.1);
+    for (Body& body : flying.bodies) {
+        body.material = lying.bodies[0].material;
+    }
+    // Not face to face, where vertices would slide in along the sides.
+    flying.bodies[1].place.translate.tail(3).setConstant(0.3);
+    flying.bodies[0].velocity = Eigen::Vector4d(3, 0, 0, 0);
+    flying.frames = 10;
+    flying.steps_per_frame = 10;
+    flying.solver.integrator = Integrator::NewtonEuler;
+    flying.contact = Contact{};
+    for (Scene* scene : {&lying, &falling, &flying}) {
+        const auto deepest = [&] {
+            const RunReport report = run(*scene, {.folder = folder / "run", .force = true});
+            EXPECT_EQ(report.verdict, RunVerdict::Finished) << report.message;
+            double most = 0;
+            for (const StepReport& step : report.steps) {
+                most = std::max(most, step.contact.deepest);
+            }
+            EXPECT_EQ(report.penetration.empty(), most <= 0.1);
+            return most;
+        };
+        const std::string lines = advice(explain(*scene, 1));
+        const std::string before = " N/m, about ";
+        const std::size_t at = lines.find(before);
+        ASSERT_NE(at, std::string::npos) << lines;
+        EXPECT_GT(deepest(), 0.1);
+        const double stiffness = std::stod(lines.substr(at + before.size()));
+        if (scene->contact) {
+            scene->contact->stiffness = stiffness;
+        } else {
+            scene->obstacles[0].stiffness = stiffness;
+        }
+        EXPECT_LE(deepest(), 0.1);  // a tenth of 1 m
+        EXPECT_EQ(advice(explain(*scene, 1)).find("would do"), std::string::npos);
+    }
 }
 
 TEST(CellsAcross, AreTwiceTheEdgesFromTheMiddleToTheBoundary) {

@@ -1,3 +1,4 @@
+#include "checkpoint_file.h"
 #include "scenes.h"
 #include "support/messages.h"
 #include "support/temp_folder.h"
@@ -11,6 +12,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 namespace pent::simulator {
 namespace {
@@ -80,6 +82,82 @@ TEST(Run, RefusesAFolderInUseUnlessForced) {
     EXPECT_FALSE(fs::exists(folder / "run/frames/box_000002.pent"));
 }
 
+// A project whose own folders have the names that those of a run have.
+TEST(Run, RefusesAFolderThatIsNotOfARunWhateverIsAsked) {
+    const TempFolder folder;
+    Scene scene = falling_bar(folder, 1);
+    const std::vector<std::string> own = {"meshes/box.pent", "frames/mine.pent", "report.json",
+                                          "contacts/000000.csv"};
+    for (const std::string& name : own) {
+        fs::create_directories((folder / ("project/" + name)).parent_path());
+        std::ofstream(folder / ("project/" + name)) << "mine";
+    }
+    fs::copy_file(folder / "bar.pent", folder / "project/meshes/bar.pent");
+    scene.bodies[0].mesh = (folder / "project/meshes/bar.pent").string();
+    for (const bool force : {false, true}) {
+        const RunOptions options{.folder = folder / "project", .force = force};
+        EXPECT_NE(pent::test::error_of([&] {
+                      static_cast<void>(run(scene, options));
+                  }).find("stays as it is"),
+                  std::string::npos);
+        for (const std::string& name : own) {
+            EXPECT_EQ(read_text(folder / ("project/" + name)), "mine") << name;
+        }
+        EXPECT_TRUE(fs::exists(folder / "project/meshes/bar.pent"));
+    }
+}
+
+TEST(Run, ReplacesWhatTheRunWroteAndNothingElse) {
+    const TempFolder folder;
+    const Scene scene = falling_bar(folder, 1);
+    const RunOptions options{.folder = folder / "run", .force = true};
+    static_cast<void>(run(scene, options));
+    const std::vector<std::string> own = {"notes.txt", "meshes/mine.pent", "frames/notes.txt",
+                                          "frames/box_000009.pent", "checkpoint/mine"};
+    for (const std::string& name : own) {
+        fs::create_directories((folder / ("run/" + name)).parent_path());
+        std::ofstream(folder / ("run/" + name)) << "mine";
+    }
+    static_cast<void>(run(scene, options));
+    for (const std::string& name : own) {
+        EXPECT_EQ(read_text(folder / ("run/" + name)), "mine") << name;
+    }
+}
+
+TEST(Run, NeverReplacesWhatTheSceneReads) {
+    const TempFolder folder;
+    Scene scene = falling_bar(folder, 1);
+    static_cast<void>(run(scene, {.folder = folder / "run"}));
+    const RunOptions options{.folder = folder / "run", .force = true};
+    RunOptions from_scene_of_run = options;
+    from_scene_of_run.scene_file = folder / "run/scene.toml";
+    EXPECT_NE(pent::test::error_of([&] {
+                  static_cast<void>(run(scene, from_scene_of_run));
+              }).find("scene.toml: is read"),
+              std::string::npos);
+    scene.bodies[0].mesh = (folder / "run/meshes/box.pent").string();
+    EXPECT_NE(pent::test::error_of([&] {
+                  static_cast<void>(run(scene, options));
+              }).find("meshes/box.pent: is read"),
+              std::string::npos);
+    EXPECT_TRUE(fs::exists(folder / "run/meshes/box.pent"));
+    EXPECT_TRUE(fs::exists(folder / "run/frames/box_000001.pent"));
+}
+
+// One may work in the folder of a run: more frames, in its own scene file, with a comment.
+TEST(Run, LeavesTheSceneFileThatItIsResumedFromAsItIs) {
+    const TempFolder folder;
+    static_cast<void>(run(falling_bar(folder, 1), {.folder = folder / "run"}));
+    const fs::path file = folder / "run/scene.toml";
+    std::string text = read_text(file);
+    text.replace(text.find("frames = 1"), 10, "frames = 2  # mine");
+    std::ofstream(file) << text;
+    static_cast<void>(
+        run(read_scene(file), {.folder = folder / "run", .scene_file = file, .resume = true}));
+    EXPECT_EQ(read_text(file), text);
+    EXPECT_TRUE(fs::exists(folder / "run/frames/box_000002.pent"));
+}
+
 class Integrators : public testing::TestWithParam<Integrator> {};
 INSTANTIATE_TEST_SUITE_P(All,
                          Integrators,
@@ -112,7 +190,7 @@ TEST(Run, RemovesWhatAKilledRunLeftHalfWrittenWhenItIsResumed) {
     const TempFolder folder;
     const Scene scene = falling_bar(folder, 1);
     static_cast<void>(run(scene, {.folder = folder / "run"}));
-    const fs::path half = folder / "run/frames/.box_000002.pent.4711.tmp";
+    const fs::path half = folder / "run/frames/.box_000001.pent.4711.tmp";
     const fs::path own = folder / "run/frames/.mine";
     std::ofstream(half) << "PENT";
     std::ofstream(own) << "mine";
@@ -132,8 +210,156 @@ TEST(Run, RefusesToResumeFromAFrameWhoseStepBeforeIsNotKept) {
     }
     EXPECT_NE(pent::test::error_of([&] {
                   static_cast<void>(run(scene, {.folder = folder / "run", .resume = true}));
-              }).find("box_000002.pent: is not kept so far back"),
+              }).find("000002.state: cannot be gone on from: it is not there"),
               std::string::npos);
+}
+
+// The scene, its mesh and the run may all have moved, apart from one another.
+TEST(Run, ResumesWhereverItWasMovedOrCopiedTo) {
+    const TempFolder folder;
+    Scene scene = falling_bar(folder, 1);
+    scene.solver.integrator = Integrator::Bdf2;
+    static_cast<void>(run(scene, {.folder = folder / "run"}));
+    fs::create_directories(folder / "elsewhere/deep");
+    fs::copy(folder / "run", folder / "elsewhere/deep/run", fs::copy_options::recursive);
+    fs::rename(folder / "bar.pent", folder / "elsewhere/other.pent");
+    scene.bodies[0].mesh = (folder / "elsewhere/other.pent").string();
+    scene.frames = 3;
+    const RunReport report = run(scene, {.folder = folder / "elsewhere/deep/run", .resume = true});
+    EXPECT_EQ(report.frames.size(), 4U);
+    static_cast<void>(run(scene, {.folder = folder / "whole"}));
+    EXPECT_EQ(read_text(folder / "whole/frames/box_000003.pent"),
+              read_text(folder / "elsewhere/deep/run/frames/box_000003.pent"));
+}
+
+// Labels decide what is held and how unknowns are numbered: positions and cells alone are not the
+// mesh.
+TEST(Run, RefusesToResumeWithAMeshOfOtherLabels) {
+    const TempFolder folder;
+    const Scene scene = falling_bar(folder, 1);
+    static_cast<void>(run(scene, {.folder = folder / "run"}));
+    SimplexMesh<4> mesh = read_mesh<4>(folder / "bar.pent").mesh;
+    mesh.layers[0] += 1;
+    write_mesh(folder / "bar.pent", mesh);
+    EXPECT_NE(pent::test::error_of([&] {
+                  static_cast<void>(run(scene, {.folder = folder / "run", .resume = true}));
+              }).find("is another mesh"),
+              std::string::npos);
+}
+
+// Three parts, of which the second was killed while it wrote: the last tells of all.
+TEST(Run, TellsOfAllItsPartsHoweverTheyEnded) {
+    const TempFolder folder;
+    Scene scene = falling_bar(folder, 2);
+    const fs::path out = folder / "run";
+    static_cast<void>(run(scene, {.folder = out}));
+    scene.frames = 4;
+    static_cast<void>(run(scene, {.folder = out, .resume = true}));
+    // What a kill leaves: no end, half a line, and a report that is seconds old.
+    std::string journal = read_text(out / "journal.txt");
+    journal.erase(journal.rfind('\n', journal.size() - 2) + 1);
+    std::ofstream(out / "journal.txt", std::ios::binary) << journal << "0123";
+    fs::remove(out / "report.json");
+    scene.frames = 5;
+    std::string told;
+    const RunReport report = run(scene, {.folder = out, .resume = true},
+                                 {.should_stop = nullptr,
+                                  .on_frame = nullptr,
+                                  .on_warning = nullptr,
+                                  .on_resume = [&](const std::string& line) { told = line; }});
+    EXPECT_EQ(told,
+              "the run had died (it was killed or crashed) behind frame 4; it goes on from there");
+    ASSERT_EQ(report.frames.size(), 6U);
+    ASSERT_EQ(report.steps.size(), 10U);
+    for (std::size_t i = 0; i < 10; ++i) {
+        EXPECT_EQ(report.steps[i].step, i + 1);
+    }
+    ASSERT_EQ(report.parts.size(), 3U);
+    EXPECT_EQ(report.parts[0].verdict, "finished");
+    EXPECT_EQ(report.parts[1].verdict, "died");
+    EXPECT_EQ(report.parts[1].first_frame, 2);
+    EXPECT_EQ(report.parts[1].last_frame, 4);
+    EXPECT_GT(report.parts[1].seconds, 0);
+    EXPECT_EQ(report.parts[2].verdict, "finished");
+    EXPECT_EQ(report.parts[2].first_frame, 4);
+    const std::string text = read_text(out / "report.json");
+    pent::test::expect_contains(text, {"\"died\"", "\"step\": 10"});
+}
+
+// What is believed on the way back in has a checksum: the journal, line by line, which has the
+// instruction set; and the headers of frames.
+TEST(Run, RefusesToResumeFromAJournalOrAFrameThatWasChanged) {
+    const TempFolder folder;
+    Scene scene = falling_bar(folder, 1);
+    const fs::path out = folder / "run";
+    static_cast<void>(run(scene, {.folder = out, .isa = "scalar"}));
+    scene.frames = 2;
+    const auto resume_with = [&](const fs::path& file, const std::string& from,
+                                 const std::string& to) {
+        const std::string good = read_text(file);
+        std::string bad = good;
+        bad.replace(bad.find(from), from.size(), to);
+        std::ofstream(file, std::ios::binary) << bad;
+        const std::string error = pent::test::error_of(
+            [&] { static_cast<void>(run(scene, {.folder = out, .resume = true})); });
+        std::ofstream(file, std::ios::binary) << good;
+        return error;
+    };
+    pent::test::expect_contains(resume_with(out / "journal.txt", "scalar", "avx512"),
+                                {"journal.txt:1: ", "checksum"});
+    pent::test::expect_contains(
+        resume_with(out / "frames/box_000001.pent", "comment time 0.0", "comment time 0.1"),
+        {"box_000001.pent", "header", "checksum"});
+    pent::test::expect_contains(
+        resume_with(out / "frames/box_000001.pent", "property double vx", "property double ux"),
+        {"box_000001.pent", "header", "checksum"});
+    EXPECT_EQ(run(scene, {.folder = out, .resume = true}).isa, "scalar");
+}
+
+// As version 0.1.0 left it: no list, no journal, and checkpoints in files of their own; its report
+// lost the steps of its last seconds.
+TEST(Run, ResumesARunOfVersion010ToTheSameBytes) {
+    const TempFolder folder;
+    Scene scene = falling_bar(folder, 3);
+    scene.solver.integrator = Integrator::Bdf2;
+    scene.sleep = Sleep{};
+    const fs::path out = folder / "run";
+    static_cast<void>(run(scene, {.folder = out}));
+    static_cast<void>(run(scene, {.folder = folder / "whole"}));
+    const StateBlocks blocks = read_checkpoint(out / "checkpoint/000003.state", 3, 6);
+    auto before = read_frame<4>(out / "frames/box_000003.pent");
+    const auto count = static_cast<std::size_t>(before.positions.size());
+    for (auto* values : {&before.positions, &before.velocities}) {
+        const bool is_first = values == &before.positions;
+        const std::vector<double> numbers = blocks.get<double>(
+            is_first ? "previous positions/box" : "previous velocities/box", count);
+        *values = Eigen::Map<const Positions<4>>(numbers.data(), 4, values->cols());
+    }
+    fs::remove_all(out / "checkpoint");
+    fs::create_directory(out / "checkpoint");
+    write_frame(out / "checkpoint/box_000003.pent", before);
+    std::ofstream(out / "checkpoint/rest_000003.json")
+        << R"({"box": {"is_asleep": false, "quiet_steps": 0}})";
+    fs::remove(out / "journal.txt");
+    fs::remove(out / "written.txt");
+    auto report = nlohmann::json::parse(read_text(out / "report.json"));
+    report["verdict"] = "running";
+    report["frames"].erase(3);
+    report["steps"].erase(5);
+    report["steps"].erase(4);
+    std::ofstream(out / "report.json") << report.dump(1);
+    scene.frames = 5;
+    const RunReport resumed = run(scene, {.folder = out, .resume = true});
+    EXPECT_EQ(resumed.frames.size(), 6U);
+    EXPECT_EQ(resumed.steps.size(), 8U);  // of 10
+    ASSERT_EQ(resumed.parts.size(), 2U);
+    EXPECT_EQ(resumed.parts[0].verdict, "died");
+    static_cast<void>(run(scene, {.folder = folder / "whole", .resume = true}));
+    EXPECT_EQ(read_text(folder / "whole/frames/box_000005.pent"),
+              read_text(out / "frames/box_000005.pent"));
+    // From here on it is a run like any other.
+    static_cast<void>(run(scene, {.folder = out, .force = true}));
+    EXPECT_FALSE(fs::exists(out / "checkpoint/rest_000003.json"));
 }
 
 TEST(Run, PutsTheWarningsOfTheSimulationIntoItsReport) {
@@ -146,9 +372,77 @@ TEST(Run, PutsTheWarningsOfTheSimulationIntoItsReport) {
             {.should_stop = nullptr,
              .on_frame = nullptr,
              .on_warning = [&](const std::string& warning) { told.push_back(warning); }});
-    ASSERT_EQ(report.warnings.size(), 1U);
+    ASSERT_EQ(report.warnings.size(), 2U);
+    pent::test::expect_contains(report.warnings[0], {"mean surface edge"});
+    pent::test::expect_contains(report.warnings[1],
+                                {"[contact] distance = 0.2 m", "a tenth of \"box\"", "scale"});
     EXPECT_EQ(told, report.warnings);
-    EXPECT_NE(read_text(folder / "run/report.json").find(report.warnings[0]), std::string::npos);
+    pent::test::expect_contains(read_text(folder / "run/report.json"), {"mean surface edge"});
+}
+
+TEST(Run, SaysWhereInTheSceneAMeshIsMissingOrOfAnotherDimension) {
+    const TempFolder folder;
+    write_mesh(folder / "cube.pent", pent::test::kuhn_box<3>({1, 1, 1}, {1, 1, 1}));
+    const auto message = [&](const std::string& mesh) {
+        std::ofstream(folder / "s.toml") << "[[body]]\nname = 'a'\nmesh = '" << mesh << "'\n";
+        return pent::test::error_of([&] {
+            static_cast<void>(run(read_scene(folder / "s.toml"), {.folder = folder / "run"}));
+        });
+    };
+    pent::test::expect_contains(message("none.pent"),
+                                {"s.toml:3:8: ", "none.pent: cannot be read: No such file"});
+    pent::test::expect_contains(message("cube.pent"),
+                                {"s.toml:3:8: ", "is of dimension 3", "[scene] dimension = 3"});
+    EXPECT_FALSE(fs::exists(folder / "run"));
+}
+
+TEST(Run, SaysWhereInTheSceneTwoConstraintsSelectOneVertex) {
+    const TempFolder folder;
+    static_cast<void>(falling_bar(folder, 1));
+    std::ofstream(folder / "s.toml") << R"([[body]]
+name = "a"
+mesh = "bar.pent"
+[[constraint]]
+body = "a"
+select = { layers = { first = 0 } }
+[[constraint]]
+body = "a"
+select = { layers = { first = 0, last = 1 } }
+)";
+    pent::test::expect_contains(
+        pent::test::error_of([&] {
+            static_cast<void>(run(read_scene(folder / "s.toml"), {.folder = folder / "run"}));
+        }),
+        {"s.toml:9:10: vertex 0 of body \"a\"", "and that at", "s.toml:6:10"});
+}
+
+TEST(Run, RefusesAMeshTooSmallForItsVolumes) {
+    const TempFolder folder;
+    Scene scene = falling_bar(folder, 1);
+    SimplexMesh<4> mesh = read_mesh<4>(folder / "bar.pent").mesh;
+    mesh.positions *= 1e-90;
+    write_mesh(folder / "bar.pent", mesh);
+    pent::test::expect_contains(
+        pent::test::error_of([&] { static_cast<void>(run(scene, {.folder = folder / "run"})); }),
+        {"body \"box\"", "m large; expected a size from 1e-30"});
+}
+
+// A cell twice: pent-check refuses it; where contact needs a closed surface so does a run.
+TEST(Run, WarnsOfCellsThatDoNotFitTogetherAndRefusesThemWithContact) {
+    const TempFolder folder;
+    Scene scene = falling_bar(folder, 1);
+    SimplexMesh<4> mesh = read_mesh<4>(folder / "bar.pent").mesh;
+    mesh.cells.conservativeResize(5, mesh.cells.cols() + 1);
+    mesh.cells.rightCols(1) = mesh.cells.leftCols(1);
+    write_mesh(folder / "bar.pent", mesh);
+    const RunReport report = run(scene, {.folder = folder / "run"});
+    ASSERT_EQ(report.warnings.size(), 1U);
+    pent::test::expect_contains(report.warnings[0],
+                                {"bar.pent", "do not fit together", "pent-check"});
+    scene.contact = Contact{};
+    pent::test::expect_contains(
+        pent::test::error_of([&] { static_cast<void>(run(scene, {.folder = folder / "touch"})); }),
+        {"bar.pent", "contact needs a closed surface"});
 }
 
 TEST(Run, RefusesToResumeAnotherScene) {

@@ -301,8 +301,60 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{with("[solver]\nelements = \"quadratic\"\n"), "\"smoothed\""},
         Bad{with("[solver]\ntolerance = 1\n"), "below 1"},
         Bad{with("[damping]\nmass = -1\n"), "at least 0"},
+        Bad{with("[[obstacle]]\nplane = { normal = [0,1,0,0] }\n"),
+            "scene.toml:6:1: unknown key \"plane\" in \"obstacle\"; expected one of half_space, "
+            "ball,"},
+        Bad{"[[body]]\nmesh = \"a.pent\"\nmaterial = {}\n", "1:1: \"body\" needs \"name\" (text)"},
+        Bad{"[[body]]\nname = \"" + std::string(101, 'a') + "\"\nmesh = \"a.pent\"\n",
+            "at most 100 of them"},
+        Bad{with("[contact]\nmodel = \"barrier\"\n"), "scene.toml:6:9: contact: the barrier model"},
+        Bad{with("[sleep]\n[solver]\nintegrator = \"quasistatic\"\n[[constraint]]\nbody = \"a\"\n"
+                 "select = \"everything\"\n"),
+            "scene.toml:5:1: sleep: the quasistatic"},
+        Bad{with("[solver]\nintegrator = \"quasistatic\"\n"),
+            "scene.toml:2:8: body \"a\" has no constraint"},
+        Bad{with("place = { scale = 1e-200 }\n"), "a size from 1e-30 to 1e+30"},
+        Bad{with("place = { translate = [1e200, 0, 0, 0] }\n"), "a size from 1e-30 to 1e+30"},
+        Bad{with("material = { density = 1e-300 }\n"), "a size from 1e-30 to 1e+30"},
+        Bad{with("spin = { plane = \"xw\", degrees_per_s = 1e300 }\n"),
+            "at least -1e+09 and at most 1e+09"},
+        Bad{with("place = { rotate = [{ plane = \"xy\", degrees = 1e300 }] }\n"), "at most 1e+09"},
+        Bad{with("[sleep]\ntime = 1e20\n"), "to 1e+06"},
         Bad{with("[sleep]\ntime = 0\n"), "above 0"},
         Bad{with("[sleep]\nspeeed = 1\n"), "did you mean \"speed\"?"}));
+
+// A key that is missing is not blamed on one that is right.
+TEST(ParseSceneErrors, NameNoOtherKeyThanOneThatLooksLikeTheMissingOne) {
+    EXPECT_EQ(error_of("[[body]]\nmesh = \"a.pent\"\nmaterial = {}\n").find("material"),
+              std::string::npos);
+}
+
+TEST(ParseScene, KnowsWhereMeshesAndSelectionsStand) {
+    const Scene scene = parse(with("[[constraint]]\nbody = \"a\"\nselect = \"everything\"\n"));
+    EXPECT_EQ(scene.bodies[0].source, "scene.toml:3:8");
+    EXPECT_EQ(scene.constraints[0].source, "scene.toml:7:10");
+}
+
+// What young and poisson at the borders of their ranges make of mu and lambda is read back.
+TEST(SceneText, OfExtremeMaterialsIsReadBack) {
+    for (const char* young : {"1e-30", "1e30"}) {
+        for (const char* poisson : {"1e-30", "0.333333333333", "-0.999999999999"}) {
+            const Scene scene = parse(with(std::string("material = { young = ") + young
+                                           + ", poisson = " + poisson + " }\n"));
+            EXPECT_NO_THROW(static_cast<void>(parse(scene_text(scene)))) << young << poisson;
+        }
+    }
+}
+
+TEST(ReadScene, SaysThatAFolderIsNoScene) {
+    try {
+        static_cast<void>(read_scene("/"));
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(),
+                     "/: cannot be read: Is a directory; expected a scene file (TOML)");
+    }
+}
 
 TEST(ReadScene, NamesAFileThatIsNotThere) {
     try {

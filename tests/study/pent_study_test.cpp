@@ -27,7 +27,8 @@ StudyOptions bar_study(const TempFolder& folder, std::vector<std::string> vary) 
             .programs = PENT_BIN};
 }
 
-// The theory of the integrators, seen from outside: the reference is of second order, Euler of first.
+// The theory of the integrators, seen from outside: the reference is of second order, Euler of
+// first.
 TEST(RunStudy, FindsTheOrderOfTheReferenceAndErrorsThatFallWithTheStep) {
     const TempFolder folder;
     const StudyReport report =
@@ -89,7 +90,7 @@ TEST(RunStudy, RefusesTheFolderOfAnotherScene) {
 TEST(RunStudy, RefusesTheFolderThatAnotherProgramMeasuredFor) {
     const TempFolder folder;
     StudyOptions options = bar_study(folder, {"dt=1/30"});
-    std::filesystem::create_directory(options.folder);
+    static_cast<void>(run_study(options, {.should_stop = [] { return true; }}));
     std::ofstream(options.folder / "program.txt") << "0123456789abcdef\n";
     expect_contains(pent::test::error_of([&] { static_cast<void>(run_study(options)); }),
                     {"another pent-sim", "--force"});
@@ -132,7 +133,50 @@ TEST(RunStudy, AskedToStopAtOnceRunsNothing) {
                                           .on_run = [&](int, int, const std::string&) { ++told; }});
     EXPECT_TRUE(report.is_stopped);
     EXPECT_EQ(told, 0);
-    EXPECT_TRUE(std::filesystem::is_empty(folder / "study/references"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "study/references"));
+}
+
+// A folder of one's own that has the names that those of a study have.
+TEST(RunStudy, RefusesAFolderThatIsNotOfAStudyWhateverIsAsked) {
+    const TempFolder folder;
+    StudyOptions options = bar_study(folder, {"dt=1/30"});
+    std::filesystem::create_directories(options.folder / "runs");
+    std::ofstream(options.folder / "runs/mine") << "mine";
+    for (const bool force : {false, true}) {
+        options.force = force;
+        expect_contains(pent::test::error_of([&] { static_cast<void>(run_study(options)); }),
+                        {(folder / "study").string(), "stays as it is"});
+        EXPECT_EQ(text_of(folder / "study/runs/mine"), "mine");
+    }
+}
+
+TEST(RunStudy, ThrowsAwayWhatAStudyWroteAndNothingElse) {
+    const TempFolder folder;
+    StudyOptions options = bar_study(folder, {"dt=1/30"});
+    static_cast<void>(run_study(options));
+    std::ofstream(folder / "study/references/steps-1/notes.txt") << "mine";
+    std::ofstream(folder / "study/notes.txt") << "mine";
+    options.force = true;
+    static_cast<void>(run_study(options));
+    EXPECT_EQ(text_of(folder / "study/references/steps-1/notes.txt"), "mine");
+    EXPECT_EQ(text_of(folder / "study/notes.txt"), "mine");
+}
+
+TEST(PentStudy, NeverWritesToWhatItReads) {
+    const TempFolder folder;
+    const std::string scene = test::write_bar(folder).string();
+    const std::string text = text_of(scene);
+    for (const std::string option : {"--write-scene ", "--json "}) {
+        for (const char* file : {"bar.toml", "bar.pent"}) {
+            const Outcome outcome =
+                run_program("pent-study " + scene + " -o " + (folder / "study").string()
+                            + " --vary dt=1/30 --error 50 " + option + (folder / file).string());
+            EXPECT_EQ(outcome.exit_code, 1);
+            expect_contains(outcome.err, {option, "would replace a file that is read"});
+            EXPECT_FALSE(std::filesystem::exists(folder / "study"));
+        }
+    }
+    EXPECT_EQ(text_of(scene), text);
 }
 
 TEST(RunStudy, RefusesAReferenceOfAnotherMeshThanItsFrames) {
@@ -361,6 +405,9 @@ TEST(RunStudy, RefusesLevelsOfDifferentShape) {
     std::ofstream(scene) << text;
     const std::filesystem::path meshes = folder / "study/meshes";
     std::filesystem::create_directories(meshes);
+    std::ofstream(folder / "study/written.txt")
+        << "# pent study: as if it had made "
+           "them\nmeshes/bar.layers-1.pent\nmeshes/bar.layers-2.pent\n";
     using pent::test::kuhn_box;
     write_mesh(meshes / "bar.layers-1.pent", kuhn_box<4>({2, 1, 1, 1}, {2, 0.5, 0.5, 0.5}));
     write_mesh(meshes / "bar.layers-2.pent", kuhn_box<4>({2, 1, 1, 1}, {1, 0.5, 0.5, 0.5}));

@@ -10,8 +10,8 @@ namespace pent {
 ///
 /// Bytes go to `.NAME.PID.tmp` in the same folder; commit() renames it. Without commit() the
 /// temporary file is removed. A link stays, and what it leads to is written. Devices and pipes, as
-/// /dev/stdout, are written to at once. Every function throws an Error that names the path, what failed
-/// (no such folder, permission, disk full) and what to do.
+/// /dev/stdout, are written to at once. Every function throws an Error that names the path, what
+/// failed (no such folder, permission, disk full) and what to do.
 class OutputFile {
 public:
     explicit OutputFile(std::filesystem::path path);
@@ -41,6 +41,10 @@ private:
 
 /// Writes a whole text file through an OutputFile.
 void write_text(const std::filesystem::path& path, std::string_view text);
+
+/// Adds text to the end of a file, which it makes if need be, in one write: a kill leaves all of it
+/// or its beginning. Throws an Error that names the path and says what to do.
+void append_text(const std::filesystem::path& path, std::string_view text);
 
 /// Makes a folder and its parents. Throws an Error that names it when that fails.
 void make_folder(const std::filesystem::path& path);

@@ -16,7 +16,8 @@ namespace pent::simulator {
 
 /// What to simulate, as plain data. Every vector has `Scene::dimension` entries, axes x y z w.
 ///
-/// read_scene() fills a Scene from a file and checks it; a host program may as well fill one itself.
+/// read_scene() fills a Scene from a file and checks it; a host program may as well fill one
+/// itself.
 
 /// A plane of rotation: by a positive angle, axis `from` turns towards axis `to`.
 struct Plane {
@@ -52,6 +53,9 @@ struct Body {
     std::string recipe;  ///< Arguments of pent-mesh that make the mesh, paths relative to the scene
                          ///< file; for pent-study. The simulator does not use it.
     std::vector<Spin> spin;  ///< At the start, about the center of mass, added to the velocity.
+    std::string source =
+        {};  ///< Where its mesh stands in a scene file, as in "scene.toml:4:8", for messages;
+             ///< empty if the scene was not read from a file.
 };
 
 /// Points at most `radius` from `center`.
@@ -113,6 +117,7 @@ struct Constraint {
     std::vector<Selection> select;  ///< A union.
     /// Each takes the vertices on from where those before it have them; none holds them still.
     std::vector<Motion> motion;
+    std::string source = {};  ///< Where its selection stands in a scene file; as Body::source.
 };
 
 /// Solid below a hyperplane: {p : normal . p < offset}.
@@ -184,8 +189,9 @@ struct Damping {
 
 /// Bodies at rest that are not solved for until something moves them.
 ///
-/// A body falls asleep, its velocities set to zero, when for a while it and all it touches have been
-/// slow, asleep, or held still. It wakes when its held vertices move, or when it touches what moves.
+/// A body falls asleep, its velocities set to zero, when for a while it and all it touches have
+/// been slow, asleep, or held still. It wakes when its held vertices move, or when it touches what
+/// moves.
 struct Sleep {
     double speed = 1e-3;  ///< Of the fastest vertex, in diagonals of the box around the body a
                           ///< second, > 0: slower counts as at rest.

@@ -9,8 +9,8 @@
 
 namespace pent::study {
 
-/// Speed against accuracy of one scene, measured: every combination of settings is run by pent-sim as a
-/// user would run it, and compared with a reference that is shown to be converged.
+/// Speed against accuracy of one scene, measured: every combination of settings is run by pent-sim
+/// as a user would run it, and compared with a reference that is shown to be converged.
 ///
 ///     OUT/study.csv, study.json      everything measured
 ///     OUT/frontier.svg, frontier.png error against time
@@ -40,7 +40,7 @@ struct StudyOptions {
                                  ///< over 2^this; at least 2, for an observed order.
     std::string reference_integrator = "bdf2";  ///< As in a scene.
     int threads = 1;                            ///< Of each run.
-    bool force = false;                         ///< Throw away what is in the folder.
+    bool force = false;                         ///< Throw away the study that is in the folder.
     bool keep_runs = false;               ///< Keep the frames of runs that have been measured.
     std::filesystem::path programs = {};  ///< Folder with pent-sim and pent-mesh.
     std::string created_by = "pent-study";
@@ -121,8 +121,9 @@ struct StudyCallbacks {
 
 /// Runs what has not been run yet, compares, and writes the files of the folder.
 ///
-/// Throws an Error for a scene or an axis that is not understood, a folder of another study (without
-/// force), a reference that cannot be run, and files that cannot be written.
+/// Throws an Error for a scene or an axis that is not understood, a folder of another study
+/// (without force), one that is neither empty nor of a study (with force too), a reference that
+/// cannot be run, and files that cannot be written.
 [[nodiscard]] StudyReport run_study(const StudyOptions& options,
                                     const StudyCallbacks& callbacks = {});
 
