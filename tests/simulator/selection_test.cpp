@@ -2,6 +2,7 @@
 
 #include "rotation.h"
 #include "support/kuhn_box.h"
+#include "support/messages.h"
 
 #include <pent/error.h>
 
@@ -60,6 +61,38 @@ TEST(SelectVertices, RefusesToSelectNothingAndSaysWhereTheBodyIs) {
         EXPECT_NE(std::string(error.what()).find("[0, 0, 0, 0] to [1, 1, 1, 1]"), std::string::npos)
             << error.what();
     }
+}
+
+TEST(SelectVertices, SaysWhichConstraintSelectsNothingAndWhatThereIs) {
+    SimplexMesh<4> mesh = unit_box();
+    for (std::uint32_t v = 0; v < 81; ++v) {
+        mesh.layers.push_back(v / 27);
+    }
+    mesh.regions.assign(static_cast<std::size_t>(mesh.cell_count()), 4);
+    const auto message = [&](const Selection& selection) {
+        Constraint constraint = select({selection});
+        constraint.source = "scene.toml:7:10";
+        const std::string text =
+            pent::test::error_of([&] { static_cast<void>(select_vertices(mesh, constraint)); });
+        EXPECT_EQ(text.rfind("scene.toml:7:10: constraint on \"box\" selects no vertex: ", 0), 0U)
+            << text;
+        return text;
+    };
+    const Vector<4> corner(1, 1, 1, 4);  // 3 m from the vertex 80, the last
+    pent::test::expect_contains(message(BallSelection{.center = corner, .radius = 0.5}),
+                                {"the nearest vertex is 80 at [1, 1, 1, 1], 2.5 m away"});
+    pent::test::expect_contains(
+        message(BoxSelection{.low = corner, .high = corner + Vector<4>::Ones()}),
+        {"the nearest vertex is 80 at", ", 3 m away"});
+    pent::test::expect_contains(
+        message(HalfSpaceSelection{.normal = Vector<4>(0, 0, 0, 1), .offset = -2}),
+        {"the nearest vertex is 0 at [0, 0, 0, 0], 2 m away"});
+    pent::test::expect_contains(message(LayerSelection{.first = 5, .last = 9}),
+                                {"the mesh has the layers 0 to 2"});
+    pent::test::expect_contains(message(RegionSelection{.region = 3}),
+                                {"the mesh has the regions 4 to 4"});
+    mesh.regions.clear();
+    pent::test::expect_contains(message(RegionSelection{.region = 3}), {"the mesh has no regions"});
 }
 
 TEST(SelectVertices, RefusesLayersOfAMeshThatHasNone) {

@@ -102,6 +102,13 @@ TEST(CheckSetting, NamesTheNearestAxisAndRefusesBadValues) {
     expect_contains(message("integrator", "bdf3"), {"bdf3", "bdf2"});
     expect_contains(message("tolerance", "2"), {"tolerance=2"});
     expect_contains(message("contact", "penalty"), {"no [contact]"});
+    EXPECT_EQ(message("integrator", "foo").rfind("--vary integrator=foo: \"integrator\" is", 0), 0U)
+        << "no line and column of a text that nobody sees";
+    expect_contains(message("preset", "foo"), {"--vary preset=foo: ", "\"balanced\""});
+    expect_contains(message("young", "1e5"), {"--vary young: is not known", "expected one of"});
+    for (const char* count : {"0", "-1", "x", "1.5", ""}) {
+        expect_contains(message("layers", count), {"expected a whole number of at least 1"});
+    }
 }
 
 TEST(WithSettings, DoNotDependOnTheirOrder) {
