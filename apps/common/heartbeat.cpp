@@ -16,7 +16,10 @@ void print(const char* text, std::size_t length) {
 }  // namespace
 
 Heartbeat::Heartbeat(bool quiet, std::chrono::milliseconds between)
-    : start_(Clock::now()), between_(between), is_terminal_(::isatty(STDOUT_FILENO) == 1) {
+    : start_(Clock::now()),
+      last_(start_),
+      between_(between),
+      is_terminal_(::isatty(STDOUT_FILENO) == 1) {
     if (quiet) {
         return;
     }
@@ -48,12 +51,21 @@ void Heartbeat::begin(const std::string& stage) {
     start_ = Clock::now();
 }
 
+void Heartbeat::spoken() {
+    const std::lock_guard lock(mutex_);
+    has_line_ = false;
+    last_ = Clock::now();
+}
+
 void Heartbeat::beat() {
     std::unique_lock lock(mutex_);
     is_beating_ = true;
     changed_.notify_one();
-    while (!changed_.wait_for(lock, between_, [this] { return is_over_; })) {
-        say_so_far();
+    while (!changed_.wait_until(lock, last_ + between_, [this] { return is_over_; })) {
+        if (Clock::now() >= last_ + between_) {  // nothing was said meanwhile
+            say_so_far();
+            last_ = Clock::now();
+        }
     }
 }
 
@@ -63,7 +75,7 @@ void Heartbeat::say_so_far() {
     // On a terminal the next line, whoever prints it, goes over this one.
     const int length =
         std::snprintf(line.data(), line.size(),
-                      is_terminal_ ? "working    %s, %d s\x1b[K\r" : "working    %s, %d s\n",
+                      is_terminal_ ? "\rworking    %s, %d s\x1b[K\r" : "working    %s, %d s\n",
                       stage_.data(), static_cast<int>(seconds.count()));
     print(line.data(), static_cast<std::size_t>(std::max(length, 0)));
     has_line_ = is_terminal_;

@@ -9,8 +9,8 @@
 
 namespace pent::apps {
 
-/// Says on stdout every two seconds what is being done and for how long, while a library does it that
-/// cannot report progress: in one line that renews itself on a terminal, in plain lines when piped.
+/// Says on stdout what is being done and for how long whenever nothing has been said for two seconds: in
+/// one line that renews itself on a terminal, in plain lines when piped.
 class Heartbeat {
 public:
     explicit Heartbeat(bool quiet, std::chrono::milliseconds between = std::chrono::seconds(2));
@@ -23,6 +23,9 @@ public:
     /// @param stage  A few words, as in "fill".
     void begin(const std::string& stage);
 
+    /// Somebody else has just said something: nothing is to be said for a while.
+    void spoken();
+
 private:
     using Clock = std::chrono::steady_clock;
 
@@ -34,7 +37,8 @@ private:
     // their locks.
     static constexpr std::size_t kLongestStage = 64;
     std::array<char, kLongestStage> stage_{};
-    Clock::time_point start_;
+    Clock::time_point start_;  // of the stage
+    Clock::time_point last_;   // when something was said
     std::chrono::milliseconds between_;
     bool is_terminal_;
     bool has_line_ = false;

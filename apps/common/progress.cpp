@@ -37,7 +37,7 @@ Progress::~Progress() {
     finish();
 }
 
-void Progress::update(std::int64_t done, const std::string& note) {
+bool Progress::update(std::int64_t done, const std::string& note) {
     if (first_ < 0) {
         first_ = done - 1;
     }
@@ -45,7 +45,7 @@ void Progress::update(std::int64_t done, const std::string& note) {
     const double since_last = std::chrono::duration<double>(now - last_).count();
     const bool is_due = done == total_ || since_last > (terminal_ ? 0.1 : 2.0);
     if (quiet_ || !is_due) {
-        return;
+        return false;
     }
     last_ = now;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
@@ -59,6 +59,7 @@ void Progress::update(std::int64_t done, const std::string& note) {
                 terminal_ ? "\x1b[K" : "\n");
     open_line_ = terminal_;
     std::fflush(stdout);
+    return true;
 }
 
 void Progress::finish() {

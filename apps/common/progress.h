@@ -21,7 +21,8 @@ public:
 
     /// @param done  How many are done, not decreasing.
     /// @param note  A few words more, as in "12 iterations".
-    void update(std::int64_t done, const std::string& note = {});
+    /// @return      Whether something was printed.
+    bool update(std::int64_t done, const std::string& note = {});
 
     /// Ends the line; called by the destructor.
     void finish();

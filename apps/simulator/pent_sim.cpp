@@ -1,7 +1,9 @@
+#include "common/heartbeat.h"
 #include "common/program.h"
 #include "common/progress.h"
 
 #include <pent/formatted.h>
+#include <pent/printable.h>
 #include <pent/simulator/explain.h>
 #include <pent/simulator/run.h>
 #include <pent/simulator/scene_file.h>
@@ -179,7 +181,12 @@ void summarize(Program& program, const RunReport& report, const std::string& fol
 }
 
 Verdict explain_scene(Program& program, const pent::simulator::Scene& scene) {
-    const pent::simulator::Explanation explanation = explain(scene, program.common().threads);
+    pent::simulator::Explanation explanation;
+    {
+        pent::apps::Heartbeat heartbeat(program.common().quiet);
+        heartbeat.begin("one step in memory");
+        explanation = explain(scene, program.common().threads);
+    }
     program.say(explanation_text(explanation));
     nlohmann::ordered_json terms = nlohmann::ordered_json::array();
     for (const pent::simulator::Term& term : explanation.terms) {
@@ -210,34 +217,47 @@ pent::simulator::Scene read_inputs(Program& program, const std::string& path) {
     return scene;
 }
 
+RunReport run_scene(Program& program,
+                    const Arguments& arguments,
+                    const pent::simulator::Scene& scene) {
+    pent::apps::Progress progress("frame", scene.frames, program.common().quiet);
+    pent::apps::Heartbeat heartbeat(program.common().quiet);
+    heartbeat.begin("setting up");
+    pent::simulator::RunCallbacks callbacks;
+    callbacks.should_stop = pent::apps::stop_requested;
+    callbacks.on_frame = [&](const FrameReport& frame, const StepReport& step) {
+        if (frame.frame > 0
+            && progress.update(frame.frame, std::to_string(step.iterations) + " iterations")) {
+            heartbeat.spoken();
+        }
+        heartbeat.begin("frame " + std::to_string(frame.frame + 1));
+    };
+    const auto say = [&](const std::string& line) {
+        program.say(line);
+        heartbeat.spoken();
+    };
+    callbacks.on_warning = [&](const std::string& line) { say("warning: " + line); };
+    callbacks.on_resume = say;
+    return run(scene,
+               {.folder = arguments.output,
+                .force = arguments.force,
+                .scene_file = arguments.scene,
+                .resume = arguments.resume,
+                .threads = program.common().threads,
+                .isa = arguments.isa,
+                .created_by = program.name_and_version()},
+               callbacks);
+}
+
 Verdict simulate(Program& program, const Arguments& arguments) {
     const pent::simulator::Scene scene = read_inputs(program, arguments.scene);
     if (arguments.explain) {
         return explain_scene(program, scene);
     }
-    pent::apps::Progress progress("frame", scene.frames, program.common().quiet);
-    pent::simulator::RunCallbacks callbacks;
-    callbacks.should_stop = pent::apps::stop_requested;
-    callbacks.on_frame = [&](const FrameReport& frame, const StepReport& step) {
-        if (frame.frame > 0) {
-            progress.update(frame.frame, std::to_string(step.iterations) + " iterations");
-        }
-    };
-    callbacks.on_warning = [&](const std::string& line) { program.say("warning: " + line); };
-    callbacks.on_resume = [&](const std::string& line) { program.say(line); };
-    const RunReport report = run(scene,
-                                 {.folder = arguments.output,
-                                  .force = arguments.force,
-                                  .scene_file = arguments.scene,
-                                  .resume = arguments.resume,
-                                  .threads = program.common().threads,
-                                  .isa = arguments.isa,
-                                  .created_by = program.name_and_version()},
-                                 callbacks);
-    progress.finish();
+    const RunReport report = run_scene(program, arguments, scene);
     summarize(program, report, arguments.output);
     if (!report.message.empty()) {
-        std::fprintf(stderr, "pent-sim: diverged at %s\n", report.message.c_str());
+        std::fprintf(stderr, "pent-sim: diverged at %s\n", pent::printable(report.message).c_str());
         program.report()["message"] = report.message;
     }
     return verdict_of(report.verdict);

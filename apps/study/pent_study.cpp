@@ -1,3 +1,4 @@
+#include "common/heartbeat.h"
 #include "common/program.h"
 #include "common/progress.h"
 
@@ -98,13 +99,19 @@ Verdict study(Program& program, Arguments& arguments) {
     pent::study::StudyCallbacks callbacks;
     callbacks.should_stop = pent::apps::stop_requested;
     std::optional<pent::apps::Progress> progress;
+    std::optional<pent::apps::Heartbeat> heartbeat(program.common().quiet);
+    heartbeat->begin("looking at what is there");
     callbacks.on_run = [&](int done, int total, const std::string& next) {
         if (!progress) {
             progress.emplace("run", total, program.common().quiet);
         }
-        progress->update(done + 1, next);
+        if (progress->update(done + 1, next)) {
+            heartbeat->spoken();
+        }
+        heartbeat->begin(next);
     };
     const StudyReport report = run_study(arguments.study, callbacks);
+    heartbeat.reset();
     progress.reset();
     if (report.is_stopped) {
         program.say("stopped: run the same command again to go on");

@@ -226,9 +226,9 @@ std::vector<std::string> soft_contacts(const Scene& scene, const Simulation<Dim>
         }
     };
     for (std::size_t i = 0; !has_barrier && i < scene.bodies.size(); ++i) {
-        const bool is_held = std::any_of(
-            scene.constraints.begin(), scene.constraints.end(),
-            [&](const Constraint& held) { return held.body == scene.bodies[i].name; });
+        const bool is_held =
+            std::any_of(scene.constraints.begin(), scene.constraints.end(),
+                        [&](const Constraint& held) { return held.body == scene.bodies[i].name; });
         if (is_held) {
             continue;  // what holds it bears its weight
         }

@@ -56,7 +56,6 @@ void check_body(const Body& body, int dimension) {
                 + "\" may have letters, digits, - and _ only, and at most 100 of them");
     const std::string what = "body \"" + body.name + "\"";
     require(is_size(body.place.scale), what + ": the scale must be from 1e-30 to 1e30");
-    require(is_size(body.material.density), what + ": the density must be from 1e-30 to 1e30");
     check_vector(body.place.translate, dimension, what + ": place.translate");
     if (body.velocity.size() > 0) {
         check_vector(body.velocity, dimension, what + ": velocity");
@@ -72,6 +71,7 @@ void check_body(const Body& body, int dimension) {
     } catch (const Error& error) {
         throw Error(what + ": " + error.what());
     }
+    require(is_size(body.material.density), what + ": the density must be from 1e-30 to 1e30");
 }
 
 struct SelectionChecker {

@@ -26,6 +26,20 @@ TEST(Heartbeat, SaysWhatIsDoneOnceItsTimeHasCome) {
     EXPECT_EQ(said(false, milliseconds(60'000)), "");
 }
 
+// Something is said every 20 ms, so that half a second without would be twice the time.
+TEST(Heartbeat, IsSilentWhileOthersSpeak) {
+    testing::internal::CaptureStdout();
+    {
+        Heartbeat heartbeat(false, milliseconds(250));
+        heartbeat.begin("fill");
+        for (int i = 0; i < 25; ++i) {
+            std::this_thread::sleep_for(milliseconds(20));
+            heartbeat.spoken();
+        }
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
+
 TEST(Heartbeat, IsSilentWhereQuietIsAsked) {
     EXPECT_EQ(said(true, milliseconds(20)), "");
 }
