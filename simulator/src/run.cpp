@@ -3,6 +3,7 @@
 #include "doubts.h"
 #include "earlier_run.h"
 #include "journal.h"
+#include "obstacle_shape.h"
 #include "resume.h"
 #include "rigid_fit.h"
 #include "run_files.h"
@@ -10,6 +11,7 @@
 #include "scene_meshes.h"
 
 #include <pent/error.h>
+#include <pent/obstacles_file.h>
 #include <pent/output_file.h>
 #include <pent/output_folder.h>
 #include <pent/pent_file.h>
@@ -140,6 +142,13 @@ void Run<Dim>::write_scene() {
     std::error_code ignored;
     if (!fs::equivalent(options_.scene_file, file, ignored)) {
         write_text(file, scene_text(relocated(scene_, options_.folder)));
+    }
+    std::vector<pent::Obstacle<Dim>> obstacles;
+    for (const Obstacle& obstacle : scene_.obstacles) {
+        obstacles.push_back(to_obstacle<Dim>(obstacle.shape));
+    }
+    if (!obstacles.empty()) {
+        write_obstacles(folder_.claim(kObstaclesFile), obstacles);
     }
 }
 

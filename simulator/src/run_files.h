@@ -10,6 +10,7 @@ namespace pent::simulator {
 /// Names of the files of a run within its folder.
 inline constexpr const char* kRunFolder = "run";  // what its list calls it
 inline constexpr const char* kSceneFile = "scene.toml";
+inline constexpr const char* kObstaclesFile = "obstacles.json";
 inline constexpr const char* kReportFile = "report.json";
 inline constexpr const char* kJournalFile = "journal.txt";
 

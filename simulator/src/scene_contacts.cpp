@@ -1,5 +1,7 @@
 #include "scene_contacts.h"
 
+#include "obstacle_shape.h"
+
 #include <algorithm>
 
 namespace pent::simulator {
@@ -9,25 +11,6 @@ namespace {
 // How far vertices may move before pairs are searched again, over the distance of contact: the
 // evaluations of one Newton step stay within it.
 constexpr double kMargin = 0.25;
-
-template <int Dim>
-contact::Obstacle<Dim> fixed_size(const ObstacleShape& shape) {
-    struct Convert {
-        contact::Obstacle<Dim> operator()(const HalfSpaceObstacle& plane) const {
-            return contact::HalfSpace<Dim>{plane.normal, plane.offset};
-        }
-        contact::Obstacle<Dim> operator()(const BallObstacle& ball) const {
-            return contact::Ball<Dim>{ball.center, ball.radius};
-        }
-        contact::Obstacle<Dim> operator()(const CavityObstacle& cavity) const {
-            return contact::Cavity<Dim>{cavity.center, cavity.radius};
-        }
-        contact::Obstacle<Dim> operator()(const BowlObstacle& bowl) const {
-            return contact::Bowl<Dim>{bowl.center, bowl.radius, bowl.up};
-        }
-    };
-    return std::visit(Convert{}, shape);
-}
 
 template <int Dim>
 std::vector<contact::ContactBody<Dim>> contact_bodies(const Scene& scene, const World<Dim>& world) {
@@ -66,7 +49,7 @@ std::unique_ptr<contact::BarrierFinder<Dim>> make_barrier(const Scene& scene,
                                                           const World<Dim>& world) {
     std::vector<contact::Obstacle<Dim>> obstacles;
     for (const Obstacle& obstacle : scene.obstacles) {
-        obstacles.push_back(fixed_size<Dim>(obstacle.shape));
+        obstacles.push_back(to_obstacle<Dim>(obstacle.shape));
     }
     std::vector<bool> is_held;
     for (std::uint32_t vertex = 0; vertex < world.vertex_count(); ++vertex) {
@@ -172,7 +155,7 @@ SceneContacts<Dim>::SceneContacts(const Scene& scene, const World<Dim>& world) {
         finder_ = make_finder(scene, world);
     }
     for (const Obstacle& obstacle : scene.obstacles) {
-        obstacles_.push_back({fixed_size<Dim>(obstacle.shape),
+        obstacles_.push_back({to_obstacle<Dim>(obstacle.shape),
                               {.distance = obstacle.distance,
                                .stiffness = obstacle.stiffness,
                                .reach = contact::Reach::AnyDepth}});

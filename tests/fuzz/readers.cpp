@@ -12,6 +12,7 @@
 #include <pent/crc32c.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
+#include <pent/obstacles_file.h>
 #include <pent/output_folder.h>
 #include <pent/pent_file.h>
 #include <pent/simulator/scene_file.h>
@@ -121,6 +122,24 @@ void try_scene(const fs::path& path) {
     const simulator::Scene scene = read_again(simulator::read_scene(path));
     require(simulator::scene_text(scene) == simulator::scene_text(read_again(scene)),
             "a scene that is accepted survives being written and read");
+}
+
+template <int Dim>
+void try_obstacles_of(const fs::path& path) {
+    const fs::path copy = folder() / "copy.json";
+    const fs::path again = folder() / "again.json";
+    write_obstacles(copy, read_obstacles<Dim>(path));
+    write_obstacles(again, read_obstacles<Dim>(copy));
+    require(content(copy) == content(again),
+            "obstacles that are accepted survive being written and read");
+}
+
+void try_obstacles(const fs::path& path) {
+    try {
+        try_obstacles_of<4>(path);
+    } catch (const Error&) {
+        try_obstacles_of<3>(path);
+    }
 }
 
 // What a run left beside its last frame to be resumed from.
@@ -246,6 +265,7 @@ const std::vector<Reader>& readers() {
         {"pent", ".pent", try_pent},
         {"pent_checksum", ".pent", try_pent_with_checksum},
         {"scene", ".toml", try_scene},
+        {"obstacles", ".json", try_obstacles},
         {"report", ".json", try_report},
         {"checkpoint", ".state", try_checkpoint},
         {"checkpoint_checksum", ".state", try_checkpoint_with_checksum},

@@ -4,6 +4,7 @@
 #include "support/temp_folder.h"
 
 #include <pent/error.h>
+#include <pent/obstacles_file.h>
 #include <pent/pent_file.h>
 #include <pent/simulator/run.h>
 #include <pent/simulator/scene_file.h>
@@ -60,6 +61,28 @@ TEST(Run, WritesSceneMeshFramesAndReport) {
     EXPECT_NE(read_text(folder / "run/report.json").find("\"verdict\": \"finished\""),
               std::string::npos);
     EXPECT_GT(report.frames.back().non_rigid[0], 0);
+}
+
+// What a viewer needs to show them; nothing is left of those of a run that was replaced.
+TEST(Run, WritesTheObstaclesOfItsScene) {
+    const TempFolder folder;
+    Scene scene = falling_bar(folder, 1);
+    scene.obstacles = {
+        {.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d::UnitY(), .offset = -3}},
+        {.shape = BallObstacle{.center = Eigen::Vector4d(1, 2, 3, 4), .radius = 0.5}},
+        {.shape = CavityObstacle{.center = Eigen::Vector4d::Zero(), .radius = 9}},
+        {.shape = BowlObstacle{
+             .center = Eigen::Vector4d::Zero(), .radius = 8, .up = Eigen::Vector4d::UnitY()}}};
+    static_cast<void>(run(scene, {.folder = folder / "run"}));
+    const auto obstacles = read_obstacles<4>(folder / "run/obstacles.json");
+    ASSERT_EQ(obstacles.size(), 4U);
+    EXPECT_EQ(std::get<HalfSpace<4>>(obstacles[0]).offset, -3);
+    EXPECT_EQ(std::get<Ball<4>>(obstacles[1]).center, Eigen::Vector4d(1, 2, 3, 4));
+    EXPECT_EQ(std::get<Cavity<4>>(obstacles[2]).radius, 9);
+    EXPECT_EQ(std::get<Bowl<4>>(obstacles[3]).up, Eigen::Vector4d::UnitY());
+    scene.obstacles.clear();
+    static_cast<void>(run(scene, {.folder = folder / "run", .force = true}));
+    EXPECT_FALSE(fs::exists(folder / "run/obstacles.json"));
 }
 
 TEST(Run, WritesASceneThatRunsAgainToTheSameBytes) {

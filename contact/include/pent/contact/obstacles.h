@@ -2,44 +2,16 @@
 
 #include <pent/contact/barrier.h>
 #include <pent/contact/penalty.h>
-
-#include <variant>
+#include <pent/obstacle.h>
 
 namespace pent::contact {
 
-/// Solid below a hyperplane: {x : normal . x < offset}.
-template <int Dim>
-struct HalfSpace {
-    Vector<Dim> normal;  ///< Unit length, out of the solid.
-    double offset = 0;   ///< m.
-};
-
-/// A solid ball; bodies stay outside.
-template <int Dim>
-struct Ball {
-    Vector<Dim> center;  ///< m.
-    double radius = 0;   ///< m, > 0.
-};
-
-/// A hollow ball in a solid; bodies stay inside.
-template <int Dim>
-struct Cavity {
-    Vector<Dim> center;  ///< m.
-    double radius = 0;   ///< m, > 0.
-};
-
-/// Half a hollow ball in solid ground: the ground is the half-space below the rim, the bowl is dug
-/// into it. What goes over the rim lies on the ground beside it.
-template <int Dim>
-struct Bowl {
-    Vector<Dim> center;  ///< Of the ball and of its rim, m.
-    double radius = 0;   ///< m, > 0.
-    Vector<Dim> up;      ///< Unit length, out of the ground.
-};
-
-/// Something that does not move and has no mesh.
-template <int Dim>
-using Obstacle = std::variant<HalfSpace<Dim>, Ball<Dim>, Cavity<Dim>, Bowl<Dim>>;
+// The shapes are in the format, as files of runs have them, too.
+using pent::Ball;
+using pent::Bowl;
+using pent::Cavity;
+using pent::HalfSpace;
+using pent::Obstacle;
 
 /// Signed distance of a point to the surface of an obstacle, m; negative in the solid. Exact, so its
 /// gradient has length 1 wherever it has one.

@@ -13,6 +13,7 @@ namespace pent::simulator {
 /// Runs of whole scenes into a folder:
 ///
 ///     RUN/scene.toml                the scene as run, defaults filled in
+///     RUN/obstacles.json            the shapes of its obstacles, if there are any
 ///     RUN/meshes/BODY.pent          the mesh as placed
 ///     RUN/frames/BODY_000123.pent   positions and velocities; frame 0 is the start
 ///     RUN/contacts/000123.csv       every pair in contact, if the scene asks for them

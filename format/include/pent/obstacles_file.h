@@ -1,0 +1,29 @@
+#pragma once
+
+#include <pent/obstacle.h>
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace pent {
+
+/// The obstacles of a run, in RUN/obstacles.json: specified in docs/pent-format.md.
+
+/// Writes the file through an OutputFile; throws an Error as that does.
+///
+/// @param obstacles  In the order of the scene; numbers are finite, not checked.
+template <int Dim>
+void write_obstacles(const std::filesystem::path& path,
+                     const std::vector<Obstacle<Dim>>& obstacles);
+
+/// Reads the file back to the last bit. Throws an Error that says which obstacle is damaged, of
+/// another dimension, of a kind or with a key that this reader does not know, or out of range.
+template <int Dim>
+[[nodiscard]] std::vector<Obstacle<Dim>> read_obstacles(const std::filesystem::path& path);
+
+/// "half_space", "ball", "cavity" or "bowl".
+template <int Dim>
+[[nodiscard]] std::string_view kind_of(const Obstacle<Dim>& obstacle);
+
+}  // namespace pent
