@@ -25,6 +25,7 @@ struct Arguments {
     std::string size = "1280x720";
     std::string range;
     bool no_floor = false;
+    bool no_obstacles = false;
     bool no_caption = false;
     viewer::RenderRunOptions render;
 };
@@ -58,7 +59,9 @@ void add_options(CLI::App& cli, Arguments& arguments) {
                  "Show several slices one after the other, at every frame: a mesh from end to end");
     cli.add_option("--range", arguments.range, "Values of the first and last color, LOW,HIGH")
         ->type_name("A,B");
-    cli.add_flag("--no-floor", arguments.no_floor, "Leave out the floor and its shadows");
+    cli.add_flag("--no-obstacles", arguments.no_obstacles, "Leave out the obstacles of the scene");
+    cli.add_flag("--no-floor", arguments.no_floor,
+                 "Leave out the floor drawn where no obstacle is one, and its shadows");
     cli.add_flag("--no-caption", arguments.no_caption, "Leave out time, slice and color bar");
 }
 
@@ -145,6 +148,7 @@ Verdict render(Program& program, Arguments& arguments) {
     options.color = to_color(arguments.view);
     options.projection = to_projection(arguments.view);
     options.has_floor = !arguments.no_floor;
+    options.has_obstacles = !arguments.no_obstacles;
     options.has_caption = !arguments.no_caption;
     read_size(arguments.size, options);
     if (!arguments.range.empty()) {
@@ -164,6 +168,11 @@ Verdict render(Program& program, Arguments& arguments) {
                        + (report.pictures == 1 ? " picture" : " pictures");
     for (const std::string& file : report.files) {
         line += (&file == &report.files.front() ? " in " : ", ") + file;
+    }
+    if (options.color != viewer::ColorBy::Body) {
+        line += "; " + std::string(viewer::title_of(options.color)) + ": "
+                + viewer::short_number(report.range.low) + " to "
+                + viewer::short_number(report.range.high);
     }
     program.say(line + (report.is_empty ? " (the hyperplane misses the bodies)" : ""));
     return report.is_complete ? Verdict::Finished : Verdict::Stopped;

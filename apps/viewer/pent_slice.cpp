@@ -17,6 +17,7 @@ struct Arguments {
     std::string format = "ply";
     bool keep_degenerate = false;
     bool has_boundary = false;
+    bool has_obstacles = false;
 };
 
 void add_options(CLI::App& cli, Arguments& arguments) {
@@ -29,6 +30,8 @@ void add_options(CLI::App& cli, Arguments& arguments) {
         ->type_name("KIND");
     cli.add_flag("--keep-degenerate", arguments.keep_degenerate,
                  "Keep the triangles of zero area that a slice through vertices has");
+    cli.add_flag("--obstacles", arguments.has_obstacles,
+                 "Add the obstacles of the scene, planes cut off around the bodies");
     cli.add_flag("--boundary", arguments.has_boundary,
                  "Add the whole boundary as tetrahedra with w, speed and strain, VTU, for ParaView "
                  "to slice");
@@ -41,6 +44,17 @@ viewer::SurfaceFormat to_format(const std::string& name) {
     return name == "vtu" ? viewer::SurfaceFormat::Vtu : viewer::SurfaceFormat::Ply;
 }
 
+// Whether what the scene has besides its bodies has been written.
+std::string obstacle_note(int obstacles, const Arguments& arguments) {
+    if (obstacles == 0) {
+        return "";
+    }
+    const std::string count =
+        "; " + std::to_string(obstacles) + (obstacles == 1 ? " obstacle " : " obstacles ");
+    return count
+           + (arguments.has_obstacles ? "in files of their own" : "left out (see --obstacles)");
+}
+
 Verdict slice(Program& program, const Arguments& arguments) {
     const viewer::RunFolder run = viewer::open_run(arguments.view.input);
     viewer::SliceRunOptions options;
@@ -51,6 +65,7 @@ Verdict slice(Program& program, const Arguments& arguments) {
     options.keep_degenerate = arguments.keep_degenerate;
     options.projection = to_projection(arguments.view);
     options.has_boundary = arguments.has_boundary;
+    options.has_obstacles = arguments.has_obstacles;
     options.created_by = program.name_and_version();
 
     WorkProgress progress(program.common().quiet);
@@ -60,17 +75,18 @@ Verdict slice(Program& program, const Arguments& arguments) {
 
     std::int64_t triangles = 0;
     for (const viewer::SliceRecord& slice : report.slices) {
-        triangles += slice.triangles;
+        triangles += slice.is_obstacle ? 0 : slice.triangles;
     }
     program.report()["frames"] = options.frames.size();
     program.report()["slices"] = report.slices.size();
     program.report()["triangles"] = triangles;
+    program.report()["obstacles"] = arguments.has_obstacles ? report.obstacles : 0;
     program.report()["output"] = arguments.output;
     program.say(std::string(report.is_complete ? "finished" : "stopped") + ": "
                 + std::to_string(report.slices.size()) + " slices, " + std::to_string(triangles)
                 + " triangles in " + arguments.output
                 + (triangles == 0 ? " (the hyperplane misses the bodies)" : "")
-                + "; volumes in slices.csv");
+                + "; volumes in slices.csv" + obstacle_note(report.obstacles, arguments));
     return report.is_complete ? Verdict::Finished : Verdict::Stopped;
 }
 

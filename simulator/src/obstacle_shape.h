@@ -5,7 +5,8 @@
 
 namespace pent::simulator {
 
-/// An obstacle of a scene as an obstacle of fixed dimension. Its vectors have Dim numbers; not checked.
+/// An obstacle of a scene as an obstacle of fixed dimension. Its vectors have Dim numbers; not
+/// checked.
 template <int Dim>
 [[nodiscard]] pent::Obstacle<Dim> to_obstacle(const ObstacleShape& shape) {
     struct Convert {

@@ -24,8 +24,17 @@ TEST(VertexStrain, IsZeroAtEveryRigidMotion) {
     const PlaneRotation turns[] = {{0, 3, 1.1}, {1, 2, -2.0}, {2, 3, 0.4}};
     Positions<4> moved = rotation_matrix(turns) * mesh.positions;
     moved.colwise() += Eigen::Vector4d(3, -1, 2, 5);
-    // Inverses of matrices with entries near 2 lose a digit or two.
-    EXPECT_LT(vertex_strain<4>(mesh, moved).maxCoeff(), 1e-13);
+    EXPECT_EQ(vertex_strain<4>(mesh, moved).maxCoeff(), 0);
+    // Far away coordinates have fewer digits behind the point: 5e4 eps is 1e-11.
+    moved.colwise() += Eigen::Vector4d(3e4, 0, 5e4, 0);
+    EXPECT_EQ(vertex_strain<4>(mesh, moved).maxCoeff(), 0);
+}
+
+TEST(VertexStrain, IsSeenAboveTheRoundingOfCoordinates) {
+    const SimplexMesh<4> mesh = test::jittered_box({2, 2, 2, 2}, 1);
+    Positions<4> moved = mesh.positions;
+    moved.row(1) *= 1 + 1e-12;
+    EXPECT_NEAR(vertex_strain<4>(mesh, moved).minCoeff(), 1e-12, 2e-14);
 }
 
 TEST(VertexStrain, OfAUniformStretchIsThatOfItsMatrix) {
@@ -158,9 +167,17 @@ TEST(SuitableRange, LeavesOutTheUpmostHundredth) {
     EXPECT_NEAR(range.high, 0.99, 1e-12);
 }
 
-TEST(ColorRange, PlacesEverythingInTheMiddleWhereAllIsEqual) {
-    EXPECT_EQ((ColorRange{3, 3}.place(3)), 0.5);
-    EXPECT_EQ((ColorRange{2, 4}.place(3.5)), 0.75);
+TEST(ColorRange, PlacesWhatIsAllEqualInTheMiddleOfTwoSidesOrAtTheBeginning) {
+    EXPECT_EQ((ColorRange{3, 3}.place(3, ColorBy::W)), 0.5);
+    EXPECT_EQ((ColorRange{0, 0}.place(0, ColorBy::Strain)), 0);
+    EXPECT_EQ((ColorRange{2, 4}.place(3.5, ColorBy::W)), 0.75);
+    EXPECT_EQ((ColorRange{2, 4}.place(3.5, ColorBy::Strain)), 0.75);
+}
+
+TEST(SurfaceColors, AreThoseOfZeroWhereNothingIsStrained) {
+    const Eigen::Matrix3Xf colors =
+        surface_colors(Eigen::VectorXd::Zero(2), ColorBy::Strain, {0, 0}, 0);
+    EXPECT_EQ(colors.col(0), map_color(ColorMap::Heat, 0));
 }
 
 TEST(Color, SrgbReturnsToItself) {

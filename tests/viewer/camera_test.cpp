@@ -40,6 +40,27 @@ TEST(CameraFit, SeesAllPointsAndTouchesTheMargin) {
     }
 }
 
+TEST(CameraFit, LeavesTheLegendItsShareAtTheBottomAlone) {
+    const ViewOptions view;
+    constexpr double kLegend = 0.3;
+    CameraFit fit(1, view, kLegend);
+    const Positions<3> points = Positions<3>::Identity(3, 3) * 2;
+    fit.add(points);
+    double top = -1;
+    double bottom = 1;
+    for (const auto& point : points.colwise()) {
+        const Eigen::Vector2d place = place_in_picture(fit.camera(), 1, point);
+        top = std::max(top, place.y());
+        bottom = std::min(bottom, place.y());
+        EXPECT_LE(std::abs(place.x()), 1 - 2 * view.margin + 1e-9);
+    }
+    // Room between the margin above and the legend below is shared or used up.
+    const double above = 1 - 2 * view.margin - top;
+    const double below = bottom + 1 - 2 * kLegend;
+    EXPECT_GE(above, -1e-9);
+    EXPECT_GE(below, -1e-9);
+}
+
 TEST(CameraFit, LooksFromTheDirectionAskedFor) {
     CameraFit fit(1, {.azimuth = 90, .elevation = 0});
     fit.add(Positions<3>::Identity(3, 3));

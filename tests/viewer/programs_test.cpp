@@ -1,5 +1,7 @@
 #include "runs.h"
 
+#include <pent/obstacles_file.h>
+
 #include <gtest/gtest.h>
 
 #include <apps/run_program.h>
@@ -144,6 +146,40 @@ TEST_F(ViewerPrograms, RefuseBadInputInOneLine) {
     expect_refused("pent-render", at("run") + " --sheet " + at("a.jpg"), ".png");
     expect_refused("pent-render", at("run") + " -o " + at("a.png") + " --range 2,1", "--range");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
+TEST_F(ViewerPrograms, MakeTheFoldersOfTheirFiles) {
+    const std::string small = " --size 64x48 --frames 1";
+    ASSERT_EQ(run_program("pent-render " + at("run") + small + " -o " + at("new/b/a.png")
+                          + " --sheet " + at("other/sheet.png"))
+                  .exit_code,
+              0);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "new/b/a.png"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "other/sheet.png"));
+    // A movie, or the pictures in its place where there is no ffmpeg.
+    ASSERT_EQ(
+        run_program("pent-render " + at("run") + " --size 64x48 -o " + at("films/a.mp4")).exit_code,
+        0);
+    EXPECT_FALSE(std::filesystem::is_empty(folder_ / "films"));
+    expect_refused("pent-render", at("run") + small + " -o " + at("new/b/a.png/c.png"),
+                   "cannot be made");
+}
+
+TEST_F(ViewerPrograms, SayWhereObstaclesAre) {
+    const std::string slice = "pent-slice " + at("run") + " --frames 1 -o ";
+    EXPECT_EQ(run_program(slice + at("a")).out.find("obstacle"), std::string::npos);
+    write_obstacles<4>(folder_ / "run/obstacles.json",
+                       {HalfSpace<4>{Eigen::Vector4d::UnitY(), -0.1}});
+    EXPECT_NE(run_program(slice + at("b")).out.find("1 obstacle left out (see --obstacles)"),
+              std::string::npos);
+    EXPECT_NE(run_program(slice + at("c") + " --obstacles").out.find("1 obstacle in files of"),
+              std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "c/obstacle.1_000001.ply"));
+    const std::string render = "pent-render " + at("run") + " --size 64x48 -o ";
+    ASSERT_EQ(run_program(render + at("with.png")).exit_code, 0);
+    ASSERT_EQ(run_program(render + at("without.png") + " --no-obstacles").exit_code, 0);
+    EXPECT_NE(pent::test::text_of(folder_ / "with.png"),
+              pent::test::text_of(folder_ / "without.png"));
 }
 
 TEST_F(ViewerPrograms, RefuseUnknownColorsAndFormatsAsWrongUsage) {

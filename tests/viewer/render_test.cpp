@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <support/host_tasks.h>
 #include <support/messages.h>
 #include <support/temp_folder.h>
@@ -140,7 +141,7 @@ TEST(Legend, WritesInTheCorners) {
     }
     const Font font(caption_pixels(180));
     const int end = draw_caption(image, font, "t = 1");
-    draw_color_bar(image, font, ColorMap::Heat, {0, 2}, "speed", end);
+    draw_color_bar(image, font, ColorBy::Speed, {0, 2}, end);
     const auto darkest = [&](int x0, int x1, int y0, int y1) {
         int least = 255;
         for (int y = y0; y < y1; ++y) {
@@ -162,13 +163,88 @@ TEST(Legend, PutsTheBarAboveACaptionThatLeavesNoRoom) {
     const int end = draw_caption(caption_alone, font, "t = 1.333 s    w = 0.25");
     EXPECT_LT(end, 200);
     Image both = caption_alone;
-    draw_color_bar(both, font, ColorMap::Heat, {0, 2}, "speed", end);
+    draw_color_bar(both, font, ColorBy::Speed, {0, 2}, end);
     EXPECT_NE(both.rgb, caption_alone.rgb);
     for (int y = 180 - 2 * font.pixels(); y < 180; ++y) {  // the caption's own lines
         for (int x = 0; x < 200; ++x) {
             ASSERT_EQ(*both.pixel(x, y), *caption_alone.pixel(x, y)) << x << " " << y;
         }
     }
+}
+
+TEST(Legend, IsAsHighAsItSays) {
+    const Font font(20);
+    const auto top_of = [](const Image& image) {
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = 0; x < image.width; ++x) {
+                if (*image.pixel(x, y) != 255) {
+                    return image.height - y;
+                }
+            }
+        }
+        return 0;
+    };
+    for (const int width : {250, 700}) {  // above the caption, and beside it
+        Image image(width, 300);
+        fill(image, Color::Ones());
+        const int end = draw_caption(image, font, "t = 1.333 s");
+        EXPECT_EQ(end, caption_end(font, "t = 1.333 s"));
+        EXPECT_LE(top_of(image), legend_height(font, width, end, false));
+        draw_color_bar(image, font, ColorBy::Speed, {0, 2}, end);
+        EXPECT_LE(top_of(image), legend_height(font, width, end, true));
+        EXPECT_GT(top_of(image), legend_height(font, width, end, true) - font.pixels());
+    }
+    EXPECT_EQ(legend_height(font, 700, 0, false), 0);
+}
+
+TEST(Legend, HasOneColorAndOneNumberForARangeOfOneValue) {
+    const Font font(20);
+    Image image(400, 100);
+    fill(image, Color::Ones());
+    draw_color_bar(image, font, ColorBy::Strain, {0, 0}, 0);
+    const std::array<std::uint8_t, 3> lowest = to_srgb(map_color(ColorMap::Heat, 0));
+    int colored = 0;
+    for (int x = 0; x < image.width; ++x) {
+        for (int y = 0; y < image.height; ++y) {
+            const std::uint8_t* pixel = image.pixel(x, y);
+            colored += std::equal(lowest.begin(), lowest.end(), pixel) ? 1 : 0;
+        }
+    }
+    EXPECT_GE(colored, 10 * 20 * (2 * 20 / 3));  // the whole bar: 10 x 2/3 em
+}
+
+TEST(Render, ShowsGroundWhereItFacesTheEye) {
+    RenderOptions options = small_picture();
+    const auto picture_of = [&](const Plane& plane, const Eigen::Vector3d& eye) {
+        options.grounds = {{.plane = plane}};
+        return Renderer().render({}, {.position = eye}, options);
+    };
+    options.ground_color = Color(0.1F, 0.4F, 0.1F);
+    const Plane floor{Eigen::Vector3d::UnitY(), -0.5};
+    const auto is_green = [](const std::uint8_t* p) {
+        return p[1] > p[0] + 20 && p[1] > p[2] + 20;
+    };
+    const Image above = picture_of(floor, {1, 1, 5});
+    EXPECT_TRUE(is_green(above.pixel(32, 40)));
+    EXPECT_FALSE(is_green(above.pixel(32, 2)));
+    const Image below = picture_of(floor, {1, -3, 5});
+    EXPECT_FALSE(is_green(below.pixel(32, 24)));
+    EXPECT_FALSE(is_green(below.pixel(32, 40)));
+}
+
+TEST(Render, ShowsABodyInAHollowThroughItsRimAndNotThroughAPlane) {
+    const RenderObject body = gray_box(0.5);
+    RenderOptions options = small_picture();
+    const Camera low{.position = {0, 2, 6}};
+    const Plane ground{Eigen::Vector3d::UnitY(), 0.6};  // over the body
+    const auto seen_behind = [&](const ObstacleSlice& slice) {
+        options.grounds = {slice};
+        const Image with = Renderer().render({&body, 1}, low, options);
+        const Image without = Renderer().render({}, low, options);
+        return difference(with, 32, 24, without, 32, 24);
+    };
+    EXPECT_EQ(seen_behind({.plane = ground}), 0);
+    EXPECT_GT(seen_behind({.plane = ground, .hollow = Sphere{{0, 0.3, 0}, 0.7}}), 30);
 }
 
 TEST(Font, IsWiderForLongerLinesAndDrawsNothingOutside) {

@@ -11,7 +11,7 @@
 namespace pent::viewer::test {
 
 /// Succeeds if every edge has exactly two triangles, which run along it in opposite directions.
-inline testing::AssertionResult is_closed_and_oriented(const Surface& surface) {
+inline testing::AssertionResult is_closed_and_oriented(const TriangleMesh& surface) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
     for (const auto& triangle : surface.triangles.colwise()) {
         for (int k = 0; k < 3; ++k) {
@@ -31,7 +31,7 @@ inline testing::AssertionResult is_closed_and_oriented(const Surface& surface) {
 }
 
 /// The smallest area of a triangle, m^2; infinite if there is none.
-inline double smallest_area(const Surface& surface) {
+inline double smallest_area(const TriangleMesh& surface) {
     double smallest = std::numeric_limits<double>::infinity();
     for (const auto& triangle : surface.triangles.colwise()) {
         const Eigen::Vector3d a = surface.positions.col(triangle[0]);

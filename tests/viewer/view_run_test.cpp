@@ -1,6 +1,8 @@
 #include "runs.h"
+#include "survey.h"
 
 #include <pent/error.h>
+#include <pent/obstacles_file.h>
 #include <pent/viewer/movie.h>
 #include <pent/viewer/render_run.h>
 #include <pent/viewer/slice.h>
@@ -8,8 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <limits>
+#include <numbers>
 #include <png.h>
 #include <sstream>
 #include <support/messages.h>
@@ -35,6 +39,12 @@ Image read_png(const std::filesystem::path& path) {
 
 bool go_on(std::string_view /*what*/, std::int64_t /*done*/, std::int64_t /*total*/) {
     return true;
+}
+
+std::string text_in(const std::filesystem::path& path) {
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    return text.str();
 }
 
 std::size_t count_files(const std::filesystem::path& folder) {
@@ -83,6 +93,50 @@ TEST(MakeSections, NamesAHyperplaneByItsUnitNormal) {
               "(0, 0.6, 0, 0.8) . p = 0.5");
 }
 
+TEST(SpanLabel, TellsOffsetsAndAnglesFromTheFirstToTheLast) {
+    SectionOptions options;
+    EXPECT_EQ(span_label(options), "");
+    options.offsets = {-0.1, 0, 0.3};
+    EXPECT_EQ(span_label(options), "-0.1 to 0.3");
+    options.rotations = {{1, 2, 0.3}, {0, 3, 0}};
+    options.last_angles = {0, std::numbers::pi / 2};
+    EXPECT_EQ(span_label(options), "-0.1 to 0.3, xw 0 to 90");
+    options.offsets = {0};
+    EXPECT_EQ(span_label(options), "xw 0 to 90");
+}
+
+TEST(Survey, TakesTheRoundingOfAQuantityThatIsTheSameEverywhereForOneValue) {
+    const SimplexMesh<4> mesh = test::jittered_box({2, 2, 2, 2}, 23);
+    const Eigen::VectorXd w = mesh.positions.row(3).transpose();
+    for (const double offset : {0.0, 0.1, 0.7}) {
+        Survey survey;
+        for (const double turn : {0.0, 0.1}) {  // two bodies, which round in other ways
+            const Positions<4> positions = test::twisted(mesh.positions, turn);
+            const Surface surface =
+                slice(make_boundary(mesh, "box"), positions, hyperplane_at(offset));
+            survey.add(surface, positions.row(3).transpose(), ColorBy::W);
+        }
+        const ColorRange range = survey.range();
+        EXPECT_EQ(range.low, range.high);
+        EXPECT_NEAR(range.low, offset, 1e-15);
+    }
+}
+
+// What is left of the solver's single precision in a body that falls freely; stiff ones are
+// strained by not much more.
+TEST(Survey, TakesStrainsOfLessThanARoundingOfSinglePrecisionForNone) {
+    const SimplexMesh<4> mesh = test::jittered_box({1, 1, 1, 1}, 23);
+    const Surface surface = slice(make_boundary(mesh, "box"), mesh.positions, hyperplane_at(0.5));
+    const auto range_of = [&](double strain) {
+        Survey survey;
+        survey.add(surface, Eigen::VectorXd::Constant(mesh.vertex_count(), strain),
+                   ColorBy::Strain);
+        return survey.range();
+    };
+    EXPECT_EQ(range_of(1e-7).high, 0);
+    EXPECT_NEAR(range_of(2e-7).high, 2e-7, 1e-20);
+}
+
 TEST(MakeSections, RefusesWhatContradictsItself) {
     const Frame<4> frame;
     SectionOptions both;
@@ -123,6 +177,44 @@ TEST(SliceRun, WritesEveryFrameBodyAndSectionWithTheirVolumes) {
     EXPECT_EQ(record.file, "b_s01_000001.ply");
     EXPECT_EQ(record.time, 0.1);
     EXPECT_NEAR(record.volume, enclosed_volume(expected), 1e-13);
+}
+
+// Ground under the run's body, and a ball that reaches past both hyperplanes.
+std::vector<Obstacle<4>> floor_and_ball() {
+    return {HalfSpace<4>{Eigen::Vector4d::UnitY(), -0.1},
+            Ball<4>{Eigen::Vector4d(2, 0.5, 0.5, 0.5), 0.4}};
+}
+
+TEST(SliceRun, WritesObstaclesIntoFilesOfTheirOwnWhereAsked) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0, 1});
+    write_obstacles<4>(folder / "run/obstacles.json", floor_and_ball());
+    const RunFolder run = open_run(folder / "run");
+    SliceRunOptions options;
+    options.frames = run.frames;
+    const SliceRunReport without = slice_run(run, folder / "without", options, go_on);
+    EXPECT_EQ(without.obstacles, 2);
+    EXPECT_EQ(without.slices.size(), 2U);
+    EXPECT_NE(text_in(folder / "without/a_000000.ply").find("without obstacles"),
+              std::string::npos);
+
+    options.has_obstacles = true;
+    options.sections.offsets = {0.4, 0.6};
+    const SliceRunReport with = slice_run(run, folder / "with", options, go_on);
+    EXPECT_EQ(with.slices.size(), 2U * 2U * 3U);
+    EXPECT_EQ(count_files(folder / "with"), 13U);  // and slices.csv
+    EXPECT_NE(text_in(folder / "with/a_s00_000000.ply").find("obstacles in files of their own"),
+              std::string::npos);
+    EXPECT_NE(text_in(folder / "with/obstacle.1_s01_000001.ply")
+                  .find("obstacle 1, half_space, w = 0.6, cut off"),
+              std::string::npos);
+    const SliceRecord& ball = with.slices.back();
+    EXPECT_EQ(ball.file, "obstacle.2_s01_000001.ply");
+    EXPECT_TRUE(ball.is_obstacle);
+    const double radius = std::sqrt(0.4 * 0.4 - 0.1 * 0.1);
+    const double volume = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
+    EXPECT_NEAR(ball.volume, volume, 1e-3 * volume);  // chords of 192 corners
+    EXPECT_TRUE(std::isnan(with.slices[2].volume));   // a plane has none
 }
 
 TEST(SliceRun, StopsBetweenFramesAndListsWhatItWrote) {
@@ -205,6 +297,92 @@ RenderRunOptions bare_picture(const RunFolder& run) {
     options.has_caption = false;
     options.has_floor = false;
     return options;
+}
+
+class RenderObstacles : public testing::Test {
+protected:
+    RenderObstacles() {
+        write_run(folder_ / "run", "a", {0});
+        write_run(folder_ / "bare", "a", {0});
+        write_obstacles<4>(folder_ / "run/obstacles.json", floor_and_ball());
+    }
+
+    [[nodiscard]] Image picture_of(const std::string& name, const RenderRunOptions& options) const {
+        const RunFolder run = open_run(folder_ / name);
+        (void)render_run(run, {.picture = folder_ / "a.png"}, options, go_on);
+        return read_png(folder_ / "a.png");
+    }
+
+    [[nodiscard]] RenderRunOptions options() const {
+        RenderRunOptions options = bare_picture(open_run(folder_ / "run"));
+        options.sections.offsets = {0.5};
+        return options;
+    }
+
+    TempFolder folder_;
+};
+
+TEST_F(RenderObstacles, ShowsThemUnlessToldNotTo) {
+    RenderRunOptions some = options();
+    const Image bare = picture_of("bare", some);
+    EXPECT_NE(picture_of("run", some).rgb, bare.rgb);
+    some.has_obstacles = false;
+    EXPECT_EQ(picture_of("run", some).rgb, bare.rgb);
+}
+
+TEST_F(RenderObstacles, LeaveOutTheFloorThatIsMadeUpWhereTheyAreOne) {
+    RenderRunOptions some = options();
+    const Image with = picture_of("run", some);
+    some.has_floor = true;
+    EXPECT_EQ(picture_of("run", some).rgb, with.rgb);
+    write_obstacles<4>(folder_ / "run/obstacles.json", {floor_and_ball()[1]});
+    const Image ball_on_floor = picture_of("run", some);
+    some.has_floor = false;
+    EXPECT_NE(picture_of("run", some).rgb, ball_on_floor.rgb);
+}
+
+TEST_F(RenderObstacles, AreSlicedAsTheBodiesAre) {
+    RenderRunOptions some = options();
+    some.sections.offsets = {0.05};  // misses the ball
+    const Image without_ball = picture_of("run", some);
+    write_obstacles<4>(folder_ / "run/obstacles.json", {floor_and_ball()[0]});
+    EXPECT_EQ(picture_of("run", some).rgb, without_ball.rgb);
+}
+
+TEST_F(RenderObstacles, HaveGhostsAndOutlinesAsBodiesHave) {
+    RenderRunOptions some = options();
+    write_obstacles<4>(folder_ / "run/obstacles.json", {floor_and_ball()[1]});
+    some.is_onion = true;
+    some.sections.offsets = {0.5, 0.05, 0.02};  // the ball is in the first alone: a ghost
+    EXPECT_NE(picture_of("run", some).rgb, picture_of("bare", some).rgb);
+    some = options();
+    some.sections.offsets = {0.05};
+    EXPECT_EQ(picture_of("run", some).rgb, picture_of("bare", some).rgb);
+    some.projection = ProjectionOptions();
+    EXPECT_NE(picture_of("run", some).rgb, picture_of("bare", some).rgb);
+}
+
+TEST_F(RenderObstacles, OfDamagedFilesAreRefused) {
+    write_text(folder_ / "run/obstacles.json", "{}");
+    expect_contains(error_of([&] { (void)picture_of("run", options()); }),
+                    {"obstacles.json", "is not the list"});
+}
+
+// Colors of a sheet are explained under it, where no body can be.
+TEST(RenderRun, PutsTheColorBarUnderASheet) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0, 1});
+    const RunFolder run = open_run(folder / "run");
+    RenderRunOptions options = small_pictures(run);
+    const auto sheet_of = [&](ColorBy color) {
+        options.color = color;
+        (void)render_run(run, {.sheet = folder / "sheet.png"}, options, go_on);
+        return read_png(folder / "sheet.png");
+    };
+    const Image plain = sheet_of(ColorBy::Body);
+    const Image colored = sheet_of(ColorBy::Strain);
+    EXPECT_EQ(colored.width, plain.width);
+    EXPECT_GT(colored.height, plain.height + 13);
 }
 
 TEST(RenderRun, ShowsAnOnionAsItsMiddleSliceAmongGhosts) {

@@ -5,7 +5,9 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace pent::viewer {
@@ -91,6 +93,10 @@ Eigen::VectorXd vertex_force(const Frame<Dim>& frame) {
 
 template <int Dim>
 Eigen::VectorXd vertex_strain(const SimplexMesh<Dim>& rest, const Positions<Dim>& positions) {
+    // Coordinates of a motion in closed form are a few roundings off, and each edge has two ends.
+    const double reach =
+        std::max(rest.positions.cwiseAbs().maxCoeff(), positions.cwiseAbs().maxCoeff());
+    const double rounding = 16 * std::numeric_limits<double>::epsilon() * reach;
     Eigen::VectorXd volumes(rest.cell_count());
     Eigen::VectorXd strains(rest.cell_count());
     parallel_for(rest.cell_count(), kLightChunk, [&](Eigen::Index c) {
@@ -98,7 +104,8 @@ Eigen::VectorXd vertex_strain(const SimplexMesh<Dim>& rest, const Positions<Dim>
         const Square<Dim> inverse = at_rest.inverse();
         const Square<Dim> F = edge_matrix<Dim>(positions, rest.cells.col(c)) * inverse;
         volumes[c] = std::abs(at_rest.determinant());
-        strains[c] = (F.transpose() * F - Square<Dim>::Identity()).norm() / 2;
+        const double strain = (F.transpose() * F - Square<Dim>::Identity()).norm() / 2;
+        strains[c] = strain > rounding * inverse.norm() ? strain : 0;
     });
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(rest.vertex_count());
     Eigen::VectorXd weight = Eigen::VectorXd::Zero(rest.vertex_count());
@@ -159,15 +166,19 @@ Positions<3> corner_normals(const Surface& surface,
     return result;
 }
 
-Positions<3> corner_normals(const Surface& surface, double crease) {
-    Surface own = surface;
-    for (Eigen::Index v = 0; v < own.vertex_count(); ++v) {
-        own.ends.col(v).setConstant(static_cast<std::uint32_t>(v));
+Positions<3> corner_normals(const TriangleMesh& mesh, double crease) {
+    Surface surface;
+    surface.positions = mesh.positions;
+    surface.triangles = mesh.triangles;
+    surface.ends.resize(2, mesh.vertex_count());
+    for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+        surface.ends.col(v).setConstant(static_cast<std::uint32_t>(v));
     }
-    own.weights.setZero();
-    std::iota(own.facets.begin(), own.facets.end(), 0U);
-    return corner_normals<3>(own, index_boundary<3>(own.triangles, own.vertex_count()),
-                             own.positions, Eigen::Matrix3d::Identity(), crease);
+    surface.weights.setZero(mesh.vertex_count());
+    surface.facets.resize(static_cast<std::size_t>(mesh.triangle_count()));
+    std::iota(surface.facets.begin(), surface.facets.end(), 0U);
+    return corner_normals<3>(surface, index_boundary<3>(mesh.triangles, mesh.vertex_count()),
+                             mesh.positions, Eigen::Matrix3d::Identity(), crease);
 }
 
 template Eigen::VectorXd vertex_speed<3>(const Frame<3>& frame);

@@ -29,7 +29,7 @@ Eigen::Matrix3d camera_frame(const Camera& camera) {
 //     (p - e).x + slope (p - e).z <= 0,
 // and so for the other edges. So all that is needed of the points is the highest value of
 // p.x + slope p.z, and the three like it.
-CameraFit::CameraFit(double aspect, const ViewOptions& view)
+CameraFit::CameraFit(double aspect, const ViewOptions& view, double legend)
     : field_of_view_(radians(view.field_of_view)),
       supports_(Eigen::Vector4d::Constant(-std::numeric_limits<double>::infinity())),
       depth_(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()) {
@@ -40,16 +40,17 @@ CameraFit::CameraFit(double aspect, const ViewOptions& view)
     camera.position << std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
         std::cos(azimuth) * std::cos(elevation);
     frame_ = camera_frame(camera);
-    const double upward = std::tan(field_of_view_ / 2) * (1.0 - 2.0 * view.margin);
-    slopes_ << upward * aspect, upward;
+    const double edge = std::tan(field_of_view_ / 2);
+    const double upward = edge * (1.0 - 2.0 * view.margin);
+    const double downward = edge * (1.0 - 2.0 * std::max(view.margin, legend));
+    slopes_ << upward * aspect, upward * aspect, upward, downward;
 }
 
 void CameraFit::add(const Positions<3>& points) {
     for (const auto& point : points.colwise()) {
         const Eigen::Vector3d p = frame_.transpose() * point;
-        const Eigen::Vector4d reach(p.x() + slopes_.x() * p.z(), -p.x() + slopes_.x() * p.z(),
-                                    p.y() + slopes_.y() * p.z(), -p.y() + slopes_.y() * p.z());
-        supports_ = supports_.cwiseMax(reach);
+        const Eigen::Vector4d across(p.x(), -p.x(), p.y(), -p.y());
+        supports_ = supports_.cwiseMax(across + slopes_ * p.z());
         depth_ << std::min(depth_[0], p.z()), std::max(depth_[1], p.z());
     }
 }
@@ -62,10 +63,14 @@ Camera CameraFit::camera() const {
         camera.position = 3.0 * frame_.col(2);
         return camera;
     }
+    // The nearest eye z at which there is room between the edges on both sides, and in that room
+    // the middle:  s0 - slope0 z <= x <= slope1 z - s1,  and so for y.
     const Eigen::Vector4d& s = supports_;
-    Eigen::Vector3d eye(
-        (s[0] - s[1]) / 2, (s[2] - s[3]) / 2,
-        std::max((s[0] + s[1]) / (2 * slopes_.x()), (s[2] + s[3]) / (2 * slopes_.y())));
+    Eigen::Vector3d eye;
+    eye.z() = std::max((s[0] + s[1]) / (slopes_[0] + slopes_[1]),
+                       (s[2] + s[3]) / (slopes_[2] + slopes_[3]));
+    eye.x() = (s[0] - s[1] + (slopes_[1] - slopes_[0]) * eye.z()) / 2;
+    eye.y() = (s[2] - s[3] + (slopes_[3] - slopes_[2]) * eye.z()) / 2;
     const double middle = (depth_[0] + depth_[1]) / 2;
     const double nearest = 1e-9 * std::max(1.0, std::abs(middle));
     if (eye.z() - middle < nearest) {  // a single point

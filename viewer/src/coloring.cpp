@@ -84,7 +84,7 @@ Eigen::Matrix3Xf surface_colors(const Eigen::VectorXd& values,
         table.col(i) = map_color(color_map_of(by), static_cast<double>(i) / kSteps);
     }
     for (Eigen::Index v = 0; v < values.size(); ++v) {
-        const double place = std::clamp(range.place(values[v]), 0.0, 1.0);
+        const double place = std::clamp(range.place(values[v], by), 0.0, 1.0);
         colors.col(v) = table.col(std::lround(place * kSteps));
     }
     return colors;

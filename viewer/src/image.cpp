@@ -23,6 +23,13 @@ void blend(Image& image, int x, int y, const Color& color, float alpha) {
     std::copy(mixed.begin(), mixed.end(), pixel);
 }
 
+void fill(Image& image, const Color& color) {
+    const std::array<std::uint8_t, 3> bytes = to_srgb(color);
+    for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+        image.rgb[i] = bytes[i % 3];
+    }
+}
+
 void paste(Image& image, const Image& part, int x, int y) {
     const int first = std::max(0, -x);
     const int last = std::min(part.width, image.width - x);
@@ -43,16 +50,20 @@ Image contact_sheet(const std::vector<Image>& pictures,
     const int high = pictures.front().height;
     const int rows = (static_cast<int>(pictures.size()) + columns - 1) / columns;
     Image sheet(gap + columns * (wide + gap), gap + rows * (high + gap));
-    const std::array<std::uint8_t, 3> fill = to_srgb(background);
-    for (std::size_t i = 0; i < sheet.rgb.size(); ++i) {
-        sheet.rgb[i] = fill[i % 3];
-    }
+    fill(sheet, background);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const int column = static_cast<int>(i) % columns;
         const int row = static_cast<int>(i) / columns;
         paste(sheet, pictures[i], gap + column * (wide + gap), gap + row * (high + gap));
     }
     return sheet;
+}
+
+Image stacked(const Image& above, const Image& below) {
+    Image both(above.width, above.height + below.height);
+    paste(both, above, 0, 0);
+    paste(both, below, 0, above.height);
+    return both;
 }
 
 void write_png(const std::filesystem::path& path, const Image& image) {

@@ -1,6 +1,6 @@
 #include "pent/viewer/render_run.h"
 
-#include "studio.h"
+#include "run_renderer.h"
 
 #include <pent/error.h>
 #include <pent/formatted.h>
@@ -62,17 +62,20 @@ std::string sweep_picture_name(int frame, std::size_t section) {
     return formatted("%06d_s%02zu.png", frame, section);
 }
 
-// Finds out before all the work whether the files can be made at all.
+// Finds out before all the work whether the files can be made at all, and makes their folders.
 void try_outputs(const RenderTargets& targets) {
     for (const std::filesystem::path& path : {targets.movie, targets.picture, targets.sheet}) {
         if (!path.empty()) {
+            if (path.has_parent_path()) {
+                make_folder(path.parent_path());
+            }
             const OutputFile attempt(path);
         }
     }
 }
 
 template <int Dim>
-bool look_at_frames(Studio<Dim>& studio,
+bool look_at_frames(RunRenderer<Dim>& renderer,
                     const RenderRunOptions& options,
                     const OnProgress& on_progress) {
     const auto total = static_cast<std::int64_t>(options.frames.size());
@@ -81,15 +84,15 @@ bool look_at_frames(Studio<Dim>& studio,
         if (!on_progress("looked at frame", done++, total)) {
             return false;
         }
-        studio.look_at(frame);
+        renderer.look_at(frame);
     }
     (void)on_progress("looked at frame", done, total);
-    studio.settle();
+    renderer.settle();
     return true;
 }
 
 template <int Dim>
-bool render_frames(const Studio<Dim>& studio,
+bool render_frames(const RunRenderer<Dim>& renderer,
                    const RenderTargets& targets,
                    const RenderRunOptions& options,
                    const OnProgress& on_progress,
@@ -99,7 +102,7 @@ bool render_frames(const Studio<Dim>& studio,
         movie = std::make_unique<Movie>(targets.movie, options.width, options.height,
                                         report.frames_per_second);
     }
-    const std::size_t shots = options.is_sweep ? studio.tile_count() : 1;
+    const std::size_t shots = options.is_sweep ? renderer.tile_count() : 1;
     const auto total = static_cast<std::int64_t>(options.frames.size() * shots);
     std::int64_t done = 0;
     for (const int frame : options.frames) {
@@ -108,7 +111,7 @@ bool render_frames(const Studio<Dim>& studio,
                 return false;
             }
             const Image image =
-                options.is_sweep ? studio.tile_picture(frame, shot) : studio.picture(frame);
+                options.is_sweep ? renderer.tile_picture(frame, shot) : renderer.picture(frame);
             ++report.pictures;
             if (movie) {
                 movie->add(image);
@@ -139,28 +142,29 @@ bool render_frames(const Studio<Dim>& studio,
 // A row for each tile of a picture. The frames of a single tile fill a square, and so do the tiles
 // of a single frame.
 template <int Dim>
-bool render_sheet(const Studio<Dim>& studio,
+bool render_sheet(const RunRenderer<Dim>& renderer,
                   const RenderTargets& targets,
                   const RenderRunOptions& options,
                   const OnProgress& on_progress,
                   RenderRunReport& report) {
     const std::vector<int> frames = spread(options.frames, options.sheet_frames);
-    const auto total = static_cast<std::int64_t>(frames.size() * studio.tile_count());
+    const auto total = static_cast<std::int64_t>(frames.size() * renderer.tile_count());
     std::vector<Image> tiles;
-    for (std::size_t tile = 0; tile < studio.tile_count(); ++tile) {
+    for (std::size_t tile = 0; tile < renderer.tile_count(); ++tile) {
         for (const int frame : frames) {
             if (!on_progress("sheet picture", static_cast<std::int64_t>(tiles.size()), total)) {
                 return false;
             }
-            tiles.push_back(studio.small_tile(frame, tile, std::ssize(tiles) + 1 == total));
+            tiles.push_back(renderer.small_tile(frame, tile));
             ++report.pictures;
         }
     }
     (void)on_progress("sheet picture", total, total);
-    const bool is_table = frames.size() > 1 && studio.tile_count() > 1;
+    const bool is_table = frames.size() > 1 && renderer.tile_count() > 1;
     const auto columns = static_cast<int>(
         is_table ? frames.size() : static_cast<std::size_t>(std::ceil(std::sqrt(tiles.size()))));
-    write_png(targets.sheet, contact_sheet(tiles, columns, kSheetGap, kSheetPaper));
+    const Image sheet = contact_sheet(tiles, columns, kSheetGap, kSheetPaper);
+    write_png(targets.sheet, stacked(sheet, renderer.sheet_legend(sheet.width, kSheetPaper)));
     report.files.push_back(targets.sheet.string());
     return true;
 }
@@ -173,7 +177,7 @@ RenderRunReport render_run_in(const RunFolder& run,
     if (Dim == 3 && options.projection) {
         throw Error("pictures: the bodies have dimension 3; there is nothing to project");
     }
-    Studio<Dim> studio(run, options);
+    RunRenderer<Dim> renderer(run, options);
     if (!targets.folder.empty()) {
         make_folder(targets.folder);
     }
@@ -181,15 +185,15 @@ RenderRunReport render_run_in(const RunFolder& run,
         !targets.movie.empty() || !targets.picture.empty() || !targets.folder.empty();
     const bool has_sheet = !targets.sheet.empty();
     RenderRunReport report;
-    if (!look_at_frames(studio, options, on_progress)) {
+    if (!look_at_frames(renderer, options, on_progress)) {
         return report;
     }
-    report.is_empty = studio.survey().box.isEmpty();
-    report.range = studio.range();
-    report.frames_per_second = options.frames_per_second.value_or(studio.true_rate());
+    report.is_empty = renderer.is_empty();
+    report.range = renderer.range();
+    report.frames_per_second = options.frames_per_second.value_or(renderer.true_rate());
     report.is_complete =
-        (!has_sheet || render_sheet(studio, targets, options, on_progress, report))
-        && (!has_frames || render_frames(studio, targets, options, on_progress, report));
+        (!has_sheet || render_sheet(renderer, targets, options, on_progress, report))
+        && (!has_frames || render_frames(renderer, targets, options, on_progress, report));
     return report;
 }
 

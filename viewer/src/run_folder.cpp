@@ -1,6 +1,7 @@
 #include "pent/viewer/run_folder.h"
 
 #include <pent/error.h>
+#include <pent/obstacles_file.h>
 
 #include <algorithm>
 #include <charconv>
@@ -37,18 +38,18 @@ std::optional<int> to_number(const std::string& text) {
 /// Names without extension of the .pent files in a folder; hidden files are temporary ones.
 std::vector<std::string> pent_stems(const fs::path& folder) {
     std::error_code error;
-    fs::directory_iterator entries(folder, error);
+    std::vector<std::string> stems;
+    fs::directory_iterator entry(folder, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+        const fs::path name = entry->path().filename();
+        if (name.extension() == ".pent" && name.string().front() != '.') {
+            stems.push_back(name.stem().string());
+        }
+    }
     if (error) {
         throw Error(
             folder.string() + ": " + error.message()
             + "; expected a run folder of pent-sim, with meshes/ and frames/, or a .pent mesh");
-    }
-    std::vector<std::string> stems;
-    for (const fs::directory_entry& entry : entries) {
-        const fs::path name = entry.path().filename();
-        if (name.extension() == ".pent" && name.string().front() != '.') {
-            stems.push_back(name.stem().string());
-        }
     }
     std::sort(stems.begin(), stems.end());
     return stems;
@@ -217,6 +218,16 @@ Frame<Dim> load_frame(const RunFolder& run, const Body<Dim>& body, int frame) {
     return result;
 }
 
+template <int Dim>
+std::vector<Obstacle<Dim>> load_obstacles(const RunFolder& run) {
+    const fs::path path = run.path / "obstacles.json";
+    std::error_code error;
+    if (run.is_mesh || !fs::exists(path, error)) {
+        return {};
+    }
+    return read_obstacles<Dim>(path);
+}
+
 std::vector<int> select_frames(const std::vector<int>& frames, const std::string& text) {
     if (text.empty()) {
         return frames;
@@ -239,5 +250,7 @@ template std::vector<Body<3>> load_bodies<3>(const RunFolder& run);
 template std::vector<Body<4>> load_bodies<4>(const RunFolder& run);
 template Frame<3> load_frame<3>(const RunFolder& run, const Body<3>& body, int frame);
 template Frame<4> load_frame<4>(const RunFolder& run, const Body<4>& body, int frame);
+template std::vector<Obstacle<3>> load_obstacles<3>(const RunFolder& run);
+template std::vector<Obstacle<4>> load_obstacles<4>(const RunFolder& run);
 
 }  // namespace pent::viewer

@@ -32,8 +32,20 @@ Hyperplane make_plane(const SectionOptions& options, double offset) {
                           : hyperplane_at(offset, options.rotations);
 }
 
-std::string label_of(const SectionOptions& options, const Hyperplane& plane) {
+std::string axes_of(const PlaneRotation& rotation) {
     constexpr char kAxes[] = "xyzw";
+    return {kAxes[rotation.from], kAxes[rotation.to]};
+}
+
+double degrees(double radians) {
+    return radians * 180 / std::numbers::pi;
+}
+
+std::string span(double first, double last) {
+    return short_number(first) + " to " + short_number(last);
+}
+
+std::string label_of(const SectionOptions& options, const Hyperplane& plane) {
     if (options.normal) {
         std::string label = "(";
         for (int axis = 0; axis < 4; ++axis) {
@@ -43,8 +55,7 @@ std::string label_of(const SectionOptions& options, const Hyperplane& plane) {
     }
     std::string label = "w = " + short_number(plane.offset);
     for (const PlaneRotation& rotation : options.rotations) {
-        label += std::string(", ") + kAxes[rotation.from] + kAxes[rotation.to] + " "
-                 + short_number(rotation.radians * 180 / std::numbers::pi);
+        label += ", " + axes_of(rotation) + " " + short_number(degrees(rotation.radians));
     }
     return label;
 }
@@ -71,6 +82,18 @@ double middle_offset(const SectionOptions& options, std::span<const Frame<4>> fr
 
 std::string short_number(double value) {
     return formatted("%.4g", value == 0 ? 0.0 : value);  // no "-0"
+}
+
+std::string span_label(const SectionOptions& options) {
+    std::string label;
+    if (options.offsets.size() > 1) {
+        label = span(options.offsets.front(), options.offsets.back());
+    }
+    if (options.last_angles.size() > 1) {
+        label += (label.empty() ? "" : ", ") + axes_of(options.rotations.back()) + " "
+                 + span(degrees(options.last_angles.front()), degrees(options.last_angles.back()));
+    }
+    return label;
 }
 
 template <>
@@ -119,6 +142,16 @@ Surface take_section<3>(const Body<3>& body,
                         const Positions<3>& positions,
                         const Section& /*section*/) {
     return skin(body.boundary, positions);
+}
+
+template <>
+ObstacleSlice take_section<4>(const Obstacle<4>& obstacle, const Section& section) {
+    return slice(obstacle, section.plane);
+}
+
+template <>
+ObstacleSlice take_section<3>(const Obstacle<3>& obstacle, const Section& /*section*/) {
+    return whole(obstacle);
 }
 
 }  // namespace pent::viewer

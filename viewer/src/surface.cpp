@@ -113,7 +113,7 @@ Eigen::VectorXd interpolate(const Surface& surface, const Eigen::VectorXd& value
     return result;
 }
 
-double enclosed_volume(const Surface& surface) {
+double enclosed_volume(const TriangleMesh& surface) {
     if (surface.triangle_count() == 0) {
         return 0.0;
     }
@@ -129,7 +129,7 @@ double enclosed_volume(const Surface& surface) {
     return six_volume / 6.0;
 }
 
-double area(const Surface& surface) {
+double area(const TriangleMesh& surface) {
     double doubled = 0.0;
     for (const auto& triangle : surface.triangles.colwise()) {
         const Eigen::Vector3d a = surface.positions.col(triangle[0]);
@@ -140,7 +140,7 @@ double area(const Surface& surface) {
     return doubled / 2.0;
 }
 
-Eigen::AlignedBox3d bounding_box(const Surface& surface) {
+Eigen::AlignedBox3d bounding_box(const TriangleMesh& surface) {
     Eigen::AlignedBox3d box;
     if (surface.vertex_count() > 0) {
         box.min() = surface.positions.rowwise().minCoeff();

@@ -25,7 +25,7 @@ bool has_colors(const SurfaceExtras& extras) {
     return extras.colors.cols() > 0;
 }
 
-std::string ply_header(const Surface& surface, const SurfaceExtras& extras) {
+std::string ply_header(const TriangleMesh& surface, const SurfaceExtras& extras) {
     std::string header = "ply\nformat binary_little_endian 1.0\n";
     if (!extras.comment.empty()) {
         header += "comment " + extras.comment + "\n";
@@ -42,7 +42,7 @@ std::string ply_header(const Surface& surface, const SurfaceExtras& extras) {
            + "\nproperty list uchar uint vertex_indices\nend_header\n";
 }
 
-std::string ply_bytes(const Surface& surface, const SurfaceExtras& extras) {
+std::string ply_bytes(const TriangleMesh& surface, const SurfaceExtras& extras) {
     std::string bytes = ply_header(surface, extras);
     bytes.reserve(bytes.size() + 64 * static_cast<std::size_t>(surface.vertex_count())
                   + 13 * static_cast<std::size_t>(surface.triangle_count()));
@@ -66,7 +66,7 @@ std::string ply_bytes(const Surface& surface, const SurfaceExtras& extras) {
     return bytes;
 }
 
-std::string obj_text(const Surface& surface, const SurfaceExtras& extras) {
+std::string obj_text(const TriangleMesh& surface, const SurfaceExtras& extras) {
     std::string text = extras.comment.empty() ? "" : "# " + extras.comment + "\n";
     for (Eigen::Index v = 0; v < surface.vertex_count(); ++v) {
         const auto p = surface.positions.col(v);
@@ -83,7 +83,7 @@ std::string obj_text(const Surface& surface, const SurfaceExtras& extras) {
     return text;
 }
 
-std::string vtu_bytes(const Surface& surface, const SurfaceExtras& extras) {
+std::string vtu_bytes(const TriangleMesh& surface, const SurfaceExtras& extras) {
     VtuGrid grid;
     grid.points = surface.positions;
     grid.cells = surface.triangles;
@@ -108,7 +108,7 @@ std::string extension(SurfaceFormat format) {
 }
 
 void write_surface(const std::filesystem::path& path,
-                   const Surface& surface,
+                   const TriangleMesh& surface,
                    SurfaceFormat format,
                    const SurfaceExtras& extras) {
     switch (format) {

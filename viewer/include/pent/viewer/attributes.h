@@ -28,7 +28,9 @@ template <int Dim>
 ///
 ///     E = (F^T F - I) / 2.
 ///
-/// Zero at every rigid motion of the mesh.
+/// Zero at every rigid motion of the mesh: the strain of a cell counts as zero below what the
+/// rounding of coordinates makes of it, 16 eps |x| |Dm^-1|, where |x| is the largest coordinate at
+/// rest or now and Dm holds the edges of the cell at rest.
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd vertex_strain(const SimplexMesh<Dim>& rest,
                                             const Positions<Dim>& positions);
@@ -54,7 +56,7 @@ template <int Dim>
                                           const Eigen::Matrix<double, 3, Dim>& axes,
                                           double crease);
 
-/// The same from the triangles of the surface alone, for surfaces without slivers.
-[[nodiscard]] Positions<3> corner_normals(const Surface& surface, double crease);
+/// The same from triangles alone, for surfaces without slivers.
+[[nodiscard]] Positions<3> corner_normals(const TriangleMesh& mesh, double crease);
 
 }  // namespace pent::viewer

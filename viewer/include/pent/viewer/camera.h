@@ -30,7 +30,9 @@ struct ViewOptions {
 class CameraFit {
 public:
     /// @param aspect  Width over height.
-    CameraFit(double aspect, const ViewOptions& view);
+    /// @param legend  Share of the picture left free at the bottom, if more than the margin;
+    ///                0..0.5.
+    CameraFit(double aspect, const ViewOptions& view, double legend = 0);
 
     /// @param points  3 x n, m.
     void add(const Positions<3>& points);
@@ -41,8 +43,8 @@ public:
 private:
     Eigen::Matrix3d frame_;     // right, up, back
     double field_of_view_;      // radians
-    Eigen::Vector2d slopes_;    // of the used part of the picture: sideways, upwards
-    Eigen::Vector4d supports_;  // how far points reach across: right, left, top, bottom
+    Eigen::Vector4d slopes_;    // of the used part of the picture: right, left, top, bottom
+    Eigen::Vector4d supports_;  // how far points reach across, in the same order
     Eigen::Vector2d depth_;     // lowest and highest coordinate along back
 };
 

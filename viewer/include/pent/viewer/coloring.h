@@ -29,9 +29,11 @@ struct ColorRange {
     double low = 0;
     double high = 1;
 
-    /// The share of the way from low to high; 0.5 where both are equal.
-    [[nodiscard]] double place(double value) const {
-        return high > low ? (value - low) / (high - low) : 0.5;
+    /// The share of the way from low to high. Where both are equal it is the middle of a quantity
+    /// with two sides, and the beginning of one that counts from zero.
+    [[nodiscard]] double place(double value, ColorBy by) const {
+        const double alone = color_map_of(by) == ColorMap::Diverging ? 0.5 : 0;
+        return high > low ? (value - low) / (high - low) : alone;
     }
 };
 

@@ -28,6 +28,9 @@ struct Image {
 /// Lays a color over one pixel, covering the share `alpha` (0..1) of it; outside the image nothing.
 void blend(Image& image, int x, int y, const Color& color, float alpha);
 
+/// Gives every pixel one color.
+void fill(Image& image, const Color& color);
+
 /// Copies `part` into the image with its upper left corner at (x, y); what sticks out is cut off.
 void paste(Image& image, const Image& part, int x, int y);
 
@@ -37,6 +40,9 @@ void paste(Image& image, const Image& part, int x, int y);
                                   int columns,
                                   int gap,
                                   const Color& background);
+
+/// Two pictures of one width, the second under the first.
+[[nodiscard]] Image stacked(const Image& above, const Image& below);
 
 /// Writes a PNG through an OutputFile. Throws an Error as that does.
 void write_png(const std::filesystem::path& path, const Image& image);

@@ -4,12 +4,14 @@
 #include <pent/viewer/camera.h>
 #include <pent/viewer/color.h>
 #include <pent/viewer/image.h>
+#include <pent/viewer/obstacle_slice.h>
 
 #include <Eigen/Core>
 
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace pent::viewer {
 
@@ -27,6 +29,12 @@ struct RenderOptions {
     int height = 720;  ///< Pixels, at least 1.
     /// Height y of a floor that takes the shadows, m; none: no floor.
     std::optional<double> floor;
+    /// Obstacles without end, or larger than what is looked at. They are seen where they face the
+    /// eye, take shadows and throw none, and fade away around the scene. What is behind the rim of
+    /// a hollow shows through it.
+    std::vector<ObstacleSlice> grounds;
+    /// Linear light: the share the grounds reflect.
+    Color ground_color = Color::Constant(0.5F);
     /// Diagonal of what is looked at, m, over 0: how far things shade each other goes by it.
     double scene_size = 1;
     /// The middle of it.

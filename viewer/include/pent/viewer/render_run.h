@@ -26,7 +26,9 @@ struct RenderRunOptions {
     bool is_onion = false;  ///< All hyperplanes in one picture, all but the middle one as ghosts.
     bool is_sweep = false;  ///< One picture after the other for each hyperplane, at every frame.
     ViewOptions view;
-    bool has_floor = true;    ///< A floor under the lowest point, for the shadows.
+    bool has_obstacles = true;  ///< Show those of the scene, sliced as the bodies are.
+    /// A floor under the lowest point, for the shadows, where no obstacle is one.
+    bool has_floor = true;
     bool has_caption = true;  ///< Time, hyperplane and color bar.
     /// Of the movie, over 0; none: as in the simulation, so that it plays at its true speed.
     std::optional<double> frames_per_second;
@@ -52,6 +54,10 @@ struct RenderRunReport {
 };
 
 /// Renders frames of a run: slices in light and shade, one camera that sees all of every frame.
+///
+/// Folders of pictures are made if need be. Obstacles are gray: balls as bodies are; planes and
+/// hollows where they face the eye, and what the rim of a hollow hides shows through. Those that
+/// are no larger than the bodies' reach are in the picture whole.
 ///
 /// Throws an Error as reading and writing do, for a size that is out of range or, for a movie, odd,
 /// and for several frames in one picture.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/obstacle.h>
 #include <pent/pent_file.h>
 #include <pent/simplex_mesh.h>
 #include <pent/viewer/boundary.h>
@@ -43,6 +44,11 @@ template <int Dim>
 /// mesh than the body's.
 template <int Dim>
 [[nodiscard]] Frame<Dim> load_frame(const RunFolder& run, const Body<Dim>& body, int frame);
+
+/// The obstacles of a run, in the order of its scene; none where the run says nothing of any.
+/// Throws an Error as read_obstacles does.
+template <int Dim>
+[[nodiscard]] std::vector<Obstacle<Dim>> load_obstacles(const RunFolder& run);
 
 /// The numbers a user asked for, out of those there are.
 ///

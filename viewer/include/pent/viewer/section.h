@@ -2,6 +2,7 @@
 
 #include <pent/pent_file.h>
 #include <pent/viewer/hyperplane.h>
+#include <pent/viewer/obstacle_slice.h>
 #include <pent/viewer/run_folder.h>
 #include <pent/viewer/surface.h>
 
@@ -45,11 +46,19 @@ template <int Dim>
 [[nodiscard]] std::vector<Section> make_sections(const SectionOptions& options,
                                                  std::span<const Frame<Dim>> frames);
 
+/// What tells the hyperplanes apart, from the first to the last: "-0.1 to 0.3" for offsets, "xw 0
+/// to 90" for angles, or both. Empty for a single one.
+[[nodiscard]] std::string span_label(const SectionOptions& options);
+
 /// What is seen of a body: its slice, or in three dimensions all of its surface.
 template <int Dim>
 [[nodiscard]] Surface take_section(const Body<Dim>& body,
                                    const Positions<Dim>& positions,
                                    const Section& section);
+
+/// What is seen of an obstacle: its slice, or in three dimensions all of it.
+template <int Dim>
+[[nodiscard]] ObstacleSlice take_section(const Obstacle<Dim>& obstacle, const Section& section);
 
 /// A number in few digits, as in captions: "0.25", "-3", "1.2e-05".
 [[nodiscard]] std::string short_number(double value);

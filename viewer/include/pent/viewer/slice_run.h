@@ -29,6 +29,8 @@ struct SliceRunOptions {
     bool keep_degenerate = false;   ///< Keep triangles of zero area, as slice() makes them.
     /// Write the outlines of the whole bodies as well: BODY_outline_000123.ply.
     std::optional<ProjectionOptions> projection;
+    /// Write the obstacles as well: obstacle.1_000123.ply. A dot is in no body's name.
+    bool has_obstacles = false;
     /// Write the whole boundaries as well: BODY_boundary_000123.vtu.
     bool has_boundary = false;
     std::string created_by = "pent-slice";
@@ -41,15 +43,17 @@ struct SliceRecord {
     double time = 0;  ///< s.
     std::string section;
     double offset = 0;  ///< m.
-    std::string body;
+    std::string body;   ///< Or the obstacle.
     std::int64_t vertices = 0;
     std::int64_t triangles = 0;
-    double volume = 0;  ///< m^3.
+    double volume = 0;  ///< m^3; NaN for a surface that is open, as a plane's is.
     double area = 0;    ///< m^2.
+    bool is_obstacle = false;
 };
 
 struct SliceRunReport {
     std::vector<SliceRecord> slices;
+    int obstacles = 0;         ///< That the scene has.
     bool is_complete = false;  ///< False if on_progress ended it.
 };
 
@@ -58,6 +62,9 @@ struct SliceRunReport {
 /// hyperplanes. Beside them slices.csv lists all of them with volumes and areas; for VTU,
 /// BODY.pvd puts them in time for ParaView. The boundary is tetrahedra at x, y, z with w, speed,
 /// strain and, where frames have them, contact forces as point data: a contour of w is a slice.
+///
+/// A file says whether there are obstacles beside its body, and whether they have files of their
+/// own. A plane is cut off where it is as far from the bodies as they reach over all frames.
 ///
 /// The color range is that of the frames chosen. Throws an Error as reading and writing do.
 [[nodiscard]] SliceRunReport slice_run(const RunFolder& run,

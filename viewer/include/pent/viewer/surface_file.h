@@ -36,7 +36,7 @@ struct SurfaceExtras {
 /// (`red green blue`). OBJ has positions that read back exactly, with sRGB colors 0..1 behind them.
 /// VTU is an unstructured grid of triangles with raw appended data.
 void write_surface(const std::filesystem::path& path,
-                   const Surface& surface,
+                   const TriangleMesh& surface,
                    SurfaceFormat format,
                    const SurfaceExtras& extras = {});
 

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "ray_scene.h"
+
+#include <pent/viewer/camera.h>
+#include <pent/viewer/render.h>
+
+#include <cmath>
+
+namespace pent::viewer {
+
+/// The rays of a camera through its picture, about the picture's origin.
+class Pinhole {
+public:
+    Pinhole(const Camera& camera, const RenderOptions& options)
+        : eye_((camera.position - options.scene_center).cast<float>()),
+          frame_(camera_frame(camera).cast<float>()),
+          slope_(static_cast<float>(std::tan(camera.field_of_view / 2))),
+          width_(static_cast<float>(options.width)),
+          height_(static_cast<float>(options.height)) {}
+
+    [[nodiscard]] const Vec& eye() const { return eye_; }
+
+    /// Unit, through a point of the picture, pixels from its upper left corner.
+    [[nodiscard]] Vec direction(float x, float y) const {
+        const float across = slope_ * (2 * x - width_) / height_;
+        const float upward = slope_ * (height_ - 2 * y) / height_;
+        return (frame_ * Vec(across, upward, -1)).normalized();
+    }
+
+    /// The size of a pixel at a distance, m.
+    [[nodiscard]] float footprint(float distance) const { return 2 * slope_ * distance / height_; }
+
+private:
+    Vec eye_;
+    Eigen::Matrix3f frame_;  // right, up, back
+    float slope_;            // of the upper edge of the picture
+    float width_;            // pixels
+    float height_;           // pixels
+};
+
+}  // namespace pent::viewer
