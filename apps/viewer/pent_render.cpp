@@ -114,9 +114,10 @@ viewer::RenderTargets to_targets(const Program& program, const Arguments& argume
     if (!arguments.sheet.empty() && !has_extension(arguments.sheet, ".png")) {
         throw Error("--sheet: found " + arguments.sheet + "; expected a name that ends in .png");
     }
+    std::error_code ignored;  // of names too long to be there
     const bool is_folder = output.empty() || output.back() == '/'
                            || !std::filesystem::path(output).has_extension()
-                           || std::filesystem::is_directory(output);
+                           || std::filesystem::is_directory(output, ignored);
     if (!is_folder && !has_extension(output, ".mp4") && !has_extension(output, ".png")) {
         throw Error("--output: found " + output
  + "; expected a name that ends in .mp4 or .png, or a folder (with / at its end "
@@ -137,10 +138,16 @@ viewer::RenderTargets to_targets(const Program& program, const Arguments& argume
 }
 
 Verdict render(Program& program, Arguments& arguments) {
+    refuse_inputs(program, arguments.view.input, {});  // before an error is reported there
     const viewer::RunFolder run = viewer::open_run(arguments.view.input);
     viewer::RenderRunOptions& options = arguments.render;
     options.sections = to_sections(arguments.view);
     const viewer::RenderTargets targets = to_targets(program, arguments);
+    refuse_inputs(program, arguments.view.input,
+                  {{"--output", targets.movie},
+                   {"--output", targets.picture},
+                   {"--output", targets.folder},
+                   {"--sheet", targets.sheet}});
     const bool is_one_picture = !targets.picture.empty() && targets.sheet.empty();
     options.frames = viewer::select_frames(
         run.frames,

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "common/program.h"
 #include "common/progress.h"
+#include "common/same_file.h"
 
 #include <pent/viewer/coloring.h>
 #include <pent/viewer/project.h>
@@ -30,6 +32,15 @@ struct ViewArguments {
 };
 
 void add_view_options(CLI::App& cli, ViewArguments& arguments);
+
+/// Throws an Error if something that is to be written is what `input` is read from: a mesh, or a
+/// run's scene, report, obstacles, meshes, frames, contacts and checkpoints, or the whole of its
+/// folder. The same for --json, which is then not written.
+///
+/// @param outputs  Files and folders; empty ones are left out. No two may be the same.
+void refuse_inputs(Program& program,
+                   const std::string& input,
+                   const std::vector<NamedFile>& outputs);
 
 /// The hyperplanes meant. Throws an Error that says what was found and what was expected.
 [[nodiscard]] viewer::SectionOptions to_sections(const ViewArguments& arguments);

@@ -1,10 +1,12 @@
 #include "runs.h"
 
 #include <pent/obstacles_file.h>
+#include <pent/output_file.h>
 
 #include <gtest/gtest.h>
 
 #include <apps/run_program.h>
+#include <map>
 #include <support/temp_folder.h>
 
 namespace pent::viewer {
@@ -148,6 +150,42 @@ TEST_F(ViewerPrograms, RefuseBadInputInOneLine) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
+TEST_F(ViewerPrograms, NeverWriteOverWhatTheyLookAt) {
+    const std::string run = at("run");
+    const auto content = [&] {
+        std::map<std::filesystem::path, std::string> files;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / "run")) {
+            if (entry.is_regular_file()) {
+                files[entry.path()] = pent::test::text_of(entry.path());
+            }
+        }
+        return files;
+    };
+    write_text(folder_ / "run/scene.toml", "[scene]\n");
+    write_text(folder_ / "run/report.json", "{}\n");
+    std::filesystem::create_symlink("run/frames/a_000002.pent", folder_ / "link.json");
+    const auto before = content();
+    const std::string part = "--output is a part of what is looked at";
+    for (const std::string out : {"run", "run/", "run/meshes", "run/frames/new", "x/../run"}) {
+        expect_refused("pent-slice", run + " -o " + at(out), part);
+        expect_refused("pent-render", run + " -o " + at(out) + "/", part);
+    }
+    for (const std::string json : {"run/scene.toml", "run/report.json", "run/obstacles.json",
+                                   "run/meshes/a.pent", "run/frames/a_000001.pent", "link.json"}) {
+        const std::string rest = " --json " + at(json);
+        expect_refused("pent-slice", run + " -o " + at("out") + rest, "--json");
+        expect_refused("pent-render", run + " -o " + at("a.png") + rest, "--json");
+    }
+    const std::string mesh = at("run/meshes/a.pent");
+    expect_refused("pent-render", mesh + " -o " + at("a.png") + " --json " + mesh, "--json");
+    EXPECT_EQ(content(), before);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+    expect_refused("pent-render", run + " -o " + at("a.png") + " --frames 1 --sheet " + at("a.png"),
+                   "--sheet is the same file");
+    // Beside what the run is made of there is room.
+    EXPECT_EQ(run_program("pent-slice " + run + " -o " + at("run/slices")).exit_code, 0);
+}
+
 TEST_F(ViewerPrograms, MakeTheFoldersOfTheirFiles) {
     const std::string small = " --size 64x48 --frames 1";
     ASSERT_EQ(run_program("pent-render " + at("run") + small + " -o " + at("new/b/a.png")
@@ -163,6 +201,31 @@ TEST_F(ViewerPrograms, MakeTheFoldersOfTheirFiles) {
     EXPECT_FALSE(std::filesystem::is_empty(folder_ / "films"));
     expect_refused("pent-render", at("run") + small + " -o " + at("new/b/a.png/c.png"),
                    "cannot be made");
+}
+
+TEST_F(ViewerPrograms, SayInOneLineWhatNamesAreTooLong) {
+    const std::string name(300, 'n');
+    expect_refused("pent-slice", at(name) + " -o " + at("out"), "no such file");
+    expect_refused("pent-slice", at("run") + " -o " + at(name), "File name too long");
+    for (const std::string end : {".png", "/", ".mp4"}) {
+        expect_refused("pent-render", at("run") + " --frames 1 -o " + at(name + end),
+                       "File name too long");
+    }
+}
+
+TEST_F(ViewerPrograms, SayWhichFolderCannotBeRead) {
+    const std::string other = "setpriv --reuid=65534 --clear-groups ";
+    // NOLINTNEXTLINE(cert-env33-c)
+    if (std::system((other + "test -x " PENT_BIN "/pent-slice 2>/dev/null").c_str()) != 0) {
+        GTEST_SKIP() << "only root may become somebody else, who must get to the programs";
+    }
+    namespace fs = std::filesystem;
+    fs::permissions(folder_.path(), fs::perms::all);
+    for (const std::string part : {"run/meshes", "run/frames", "run"}) {
+        fs::permissions(folder_ / part, fs::perms::owner_all);
+        expect_refused("pent-slice", at("run") + " -o " + at("out"), "Permission denied", other);
+        fs::permissions(folder_ / part, fs::perms::all);
+    }
 }
 
 TEST_F(ViewerPrograms, SayWhereObstaclesAre) {
