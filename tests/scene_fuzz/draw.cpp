@@ -1,0 +1,440 @@
+#include "draw.h"
+
+#include "plan.h"
+
+#include <functional>
+
+namespace pent::scene_fuzz {
+
+namespace {
+
+// A key of a table: how likely a scene has it, and how its value is drawn. Every key that scene files
+// know is a line of the tables below; scene_fuzz_test.cpp compares them with what the simulator writes.
+struct Key {
+    const char* name;
+    double chance;
+    std::function<Json(Random&, const Plan&)> draw;
+};
+using Keys = std::vector<Key>;
+
+Json draw_table(const Keys& keys, Random& random, const Plan& plan) {
+    Json table = Json::object();
+    for (const Key& key : keys) {
+        if (random.chance(key.chance)) {
+            table[key.name] = key.draw(random, plan);
+        }
+    }
+    return table;
+}
+
+// ------------------------------------------------------------------------------------ kinds of values
+
+auto one_of(std::initializer_list<const char*> words) {
+    return [words = std::vector<std::string>(words.begin(), words.end())](
+               Random& random, const Plan&) -> Json { return words[random.below(words.size())]; };
+}
+
+auto flag() {
+    return [](Random& random, const Plan&) -> Json { return random.chance(0.5); };
+}
+
+auto number(double low, double high) {
+    return [=](Random& random, const Plan&) -> Json { return random.number(low, high); };
+}
+
+auto magnitude(double low, double high) {
+    return [=](Random& random, const Plan&) -> Json { return random.magnitude(low, high); };
+}
+
+auto whole(int low, int high) {
+    return [=](Random& random, const Plan&) -> Json { return random.whole(low, high); };
+}
+
+auto table(const Keys& keys) {
+    return [&keys](Random& random, const Plan& plan) -> Json {
+        return draw_table(keys, random, plan);
+    };
+}
+
+// One table, or a list of up to two.
+auto tables(const Keys& keys) {
+    return [&keys](Random& random, const Plan& plan) -> Json {
+        if (random.chance(0.4)) {
+            return draw_table(keys, random, plan);
+        }
+        Json list = Json::array();
+        for (int i = random.whole(1, 2); i > 0; --i) {
+            list.push_back(draw_table(keys, random, plan));
+        }
+        return list;
+    };
+}
+
+Json as_json(const Vector& vector, int dimension) {
+    Json list = Json::array();
+    for (int axis = 0; axis < dimension; ++axis) {
+        list.push_back(Random::short_of(vector[static_cast<std::size_t>(axis)]));
+    }
+    return list;
+}
+
+Json unit(int axis, double sign, int dimension) {
+    Vector vector = {};
+    vector[static_cast<std::size_t>(axis)] = sign;
+    return as_json(vector, dimension);
+}
+
+// Of any length and direction below it.
+Json random_vector(Random& random, const Plan& plan, double most) {
+    Vector vector = {};
+    for (double& entry : vector) {
+        entry = random.number(-most, most);
+    }
+    return as_json(vector, plan.dimension);
+}
+
+Json plane(Random& random, const Plan& plan) {
+    const auto axes = static_cast<std::size_t>(plan.dimension);
+    const std::size_t from = random.below(axes);
+    const std::size_t to = (from + 1 + random.below(axes - 1)) % axes;
+    return std::string{"xyzw"[from], "xyzw"[to]};
+}
+
+// ---------------------------------------------------------------------------------------------- scene
+
+Json gravity(Random& random, const Plan& plan) {
+    return random.chance(0.8) ? as_json({0, -9.8, 0, 0}, plan.dimension)
+                              : random_vector(random, plan, 10);
+}
+
+const Keys kScene = {
+    {"dimension", 1, [](Random&, const Plan& plan) -> Json { return plan.dimension; }},
+    {"gravity", 0.6, gravity},
+    {"frames", 1, [](Random&, const Plan& plan) -> Json { return plan.frames; }},
+    {"frames_per_second", 1,
+     [](Random&, const Plan& plan) -> Json { return plan.frames_per_second; }},
+    {"steps_per_frame", 1, [](Random&, const Plan& plan) -> Json { return plan.steps_per_frame; }},
+};
+
+// --------------------------------------------------------------------------------------------- bodies
+
+// A turn a run, at most.
+Json turn_rate(Random& random, const Plan& plan) {
+    return Random::short_of(random.number(-60, 60) / plan.duration());
+}
+
+const Keys kSpin = {{"plane", 1, plane}, {"degrees_per_s", 1, turn_rate}};
+const Keys kTurn = {{"plane", 1, plane}, {"degrees", 1, number(-180, 180)}};
+
+const Keys kPlace = {
+    {"scale", 1, [](Random&, const Plan& plan) -> Json { return plan.now().scale; }},
+    {"rotate", 1,
+     [](Random& random, const Plan& plan) -> Json {
+         return plan.now().is_turned ? tables(kTurn)(random, plan) : Json::array();
+     }},
+    {"translate", 1,
+     [](Random&, const Plan& plan) { return as_json(plan.now().center, plan.dimension); }},
+};
+
+// Waves cross between a twentieth of a cell and twenty cells in a step.
+double draw_young(Random& random, const Plan& plan, double density) {
+    const double speed = random.magnitude(0.05, 20) * plan.edge / plan.dt();
+    return Random::short_of(density * speed * speed);
+}
+
+Json draw_material(Random& random, const Plan& plan) {
+    Json material = draw_table(
+        {{"model", 0.8, one_of({"stable-neo-hookean", "arap", "st-venant-kirchhoff", "linear"})}},
+        random, plan);
+    const double density = random.chance(0.3) ? 1000 : random.magnitude(10, 1e4);
+    const double young = draw_young(random, plan, density);
+    if (random.chance(0.2)) {
+        material["mu"] = Random::short_of(young / 2.5);
+        material["lambda"] = Random::short_of(young * random.number(-0.1, 1));
+    } else {
+        material["young"] = young;
+        if (random.chance(0.7)) {
+            material["poisson"] = random.number(-0.3, plan.dimension == 4 ? 0.31 : 0.45);
+        }
+    }
+    if (density != 1000) {
+        material["density"] = density;
+    }
+    return material;
+}
+
+const Keys kBody = {
+    {"name", 1, [](Random&, const Plan& plan) -> Json { return plan.now().name; }},
+    {"mesh", 1, [](Random&, const Plan& plan) -> Json { return text_of(plan.now().mesh); }},
+    {"recipe", 0.05,
+     one_of({"a.obj --edge-length 0.1 -o a.pent", "\"quoted\" \\ name\t.obj", "--ball 1"})},
+    {"place", 1, table(kPlace)},
+    {"material", 0.95, draw_material},
+    {"velocity", 0.9,
+     [](Random&, const Plan& plan) { return as_json(plan.now().velocity, plan.dimension); }},
+    {"spin", 0.25, tables(kSpin)},
+};
+
+// ---------------------------------------------------------------------------------------- constraints
+
+// Half of a body along an axis: of its box, so never nothing.
+Json half_space_selection(Random& random, const Plan& plan) {
+    const PlannedBody& body = plan.now();
+    const auto axis = random.below(static_cast<std::size_t>(plan.dimension));
+    const double sign = random.pick({-1.0, 1.0});
+    const double share = body.is_turned ? 0 : random.pick({0.0, -0.9});
+    const double offset = sign * body.center[axis] + share * body.half[axis];
+    return {{"half_space",
+             {{"normal", unit(static_cast<int>(axis), sign, plan.dimension)}, {"offset", offset}}}};
+}
+
+Json ball_selection(Random& random, const Plan& plan) {
+    const PlannedBody& body = plan.now();
+    Vector center = body.center;
+    const std::size_t axis = random.below(static_cast<std::size_t>(plan.dimension));
+    center[axis] += body.half[axis];
+    double squared = 0;
+    for (const double half : body.half) {
+        squared += half * half;
+    }
+    const double radius = Random::short_of(std::sqrt(squared) * random.number(0.8, 1.2));
+    return {{"ball", {{"center", as_json(center, plan.dimension)}, {"radius", radius}}}};
+}
+
+Json box_selection(Random& random, const Plan& plan) {
+    const PlannedBody& body = plan.now();
+    Vector low = body.center;
+    Vector high = body.center;
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+        low[axis] -= 1.1 * body.half[axis];
+        high[axis] += 1.1 * body.half[axis];
+    }
+    high[random.below(static_cast<std::size_t>(plan.dimension))] -= plan.size;
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+        high[axis] = std::max(high[axis], low[axis] + 0.2 * body.half[axis]);
+    }
+    return {
+        {"box", {{"low", as_json(low, plan.dimension)}, {"high", as_json(high, plan.dimension)}}}};
+}
+
+Json draw_selection(Random& random, const Plan& plan) {
+    const MeshName& mesh = plan.now().mesh;
+    if (mesh.kind == "layered" && random.chance(0.6)) {
+        Json layers = {{"first", 0}};
+        if (random.chance(0.3)) {
+            layers["last"] = 1;
+        }
+        return {{"layers", layers}};
+    }
+    if (mesh.kind == "regions" && random.chance(0.6)) {
+        return {{"region", 0}};
+    }
+    const double which = random.share();
+    return which < 0.4   ? half_space_selection(random, plan)
+           : which < 0.7 ? ball_selection(random, plan)
+                         : box_selection(random, plan);
+}
+
+Json draw_selections(Random& random, const Plan& plan) {
+    const double which = random.share();
+    if (which < 0.2) {
+        return "everything";
+    }
+    Json selection = draw_selection(random, plan);
+    return which < 0.7 ? selection : Json::array({selection, draw_selection(random, plan)});
+}
+
+Json motion_velocity(Random& random, const Plan& plan) {
+    return random_vector(random, plan, Random::short_of(0.3 * plan.size / plan.duration()));
+}
+
+const Keys kMotion = {
+    {"translate", 0.6, motion_velocity},
+    {"rotate", 0.4, tables(kSpin)},
+    {"about", 0.3,
+     [](Random& random, const Plan& plan) { return random_vector(random, plan, plan.size); }},
+    {"from", 0.3,
+     [](Random& random, const Plan& plan) -> Json {
+         return Random::short_of(random.number(0, 0.5) * plan.duration());
+     }},
+    {"to", 0.3,
+     [](Random& random, const Plan& plan) -> Json {
+         return Random::short_of(random.number(0.6, 1.2) * plan.duration());
+     }},
+};
+
+const Keys kConstraint = {
+    {"body", 1, [](Random&, const Plan& plan) -> Json { return plan.now().name; }},
+    {"select", 1, draw_selections},
+    {"motion", 0.8,
+     [](Random& random, const Plan& plan) -> Json {
+         return random.chance(0.4) ? Json("fixed") : tables(kMotion)(random, plan);
+     }},
+};
+
+// ------------------------------------------------------------------------------ obstacles and contact
+
+// Newtons a meter that go with the bodies' stiffness, which is not known here: with their mass.
+Json contact_stiffness(Random& random, const Plan& plan) {
+    const double mass = 1000 * std::pow(plan.size, plan.dimension) / 10;  // a vertex
+    return Random::short_of(mass / (plan.dt() * plan.dt()) * random.magnitude(0.003, 3));
+}
+
+Json contact_distance(Random& /*random*/, const Plan& plan) {
+    return plan.distance;
+}
+
+Json draw_obstacle(Random& random, const Plan& plan) {
+    const double gap = plan.distance * random.pick({0.5, 0.9, 1.2, 3.0});
+    const double reach = plan.reach();
+    const double which = random.share();
+    Json obstacle = Json::object();
+    if (which < 0.5) {
+        obstacle["half_space"] = {{"normal", unit(1, random.chance(0.2) ? 2 : 1, plan.dimension)}};
+        obstacle["half_space"]["offset"] = Random::short_of(plan.lowest() - gap);
+    } else if (which < 0.7) {
+        const double radius = Random::short_of(plan.size * random.number(0.5, 4));
+        obstacle["ball"] = {
+            {"center", as_json({0, plan.lowest() - radius - gap, 0, 0}, plan.dimension)},
+            {"radius", radius}};
+    } else if (which < 0.85) {
+        obstacle["cavity"] = {{"center", as_json({}, plan.dimension)},
+                              {"radius", Random::short_of(reach + gap)}};
+    } else {
+        obstacle["bowl"] = {{"center", as_json({0, 0.2 * plan.size, 0, 0}, plan.dimension)},
+                            {"radius", Random::short_of(1.2 * reach + gap)}};
+        if (random.chance(0.3)) {
+            obstacle["bowl"]["up"] = as_json({0.2, 1, 0, 0}, plan.dimension);
+        }
+    }
+    obstacle.update(
+        draw_table({{"distance", 0.9, contact_distance}, {"stiffness", 0.9, contact_stiffness}},
+                   random, plan));
+    return obstacle;
+}
+
+const Keys kContact = {
+    {"model", 0.9, one_of({"penalty", "barrier"})},
+    {"distance", 0.95, contact_distance},
+    {"stiffness", 0.9, contact_stiffness},
+    {"self", 0.5, flag()},
+    {"filter", 0.3, one_of({"clamp", "absolute", "none"})},
+    {"separation", 0.15,
+     [](Random& random, const Plan& plan) -> Json {
+         return Random::short_of(plan.distance * random.number(0, 0.25));
+     }},
+    {"friction", 0.5, number(0, 1)},
+    {"slip_speed", 0.3, magnitude(1e-4, 0.1)},
+};
+
+// -------------------------------------------------------------------------------- damping, sleep, rest
+
+const Keys kDamping = {
+    {"mass", 0.7,
+     [](Random& random, const Plan& plan) -> Json {
+         return random.magnitude(0.01 / plan.dt(), 1 / plan.dt());
+     }},
+    {"stiffness", 0.6,
+     [](Random& random, const Plan& plan) -> Json {
+         return random.magnitude(0.01 * plan.dt(), plan.dt());
+     }},
+};
+
+const Keys kSleep = {
+    {"speed", 0.9, magnitude(0.01, 1)},
+    {"time", 0.95,
+     [](Random& random, const Plan& plan) -> Json {
+         return Random::short_of(plan.dt() * random.number(0.5, 4));
+     }},
+};
+
+const Keys kSolver = {
+    {"preset", 0.2, one_of({"fast", "balanced", "accurate"})},
+    {"integrator", 0.85,
+     one_of({"linear_euler", "newton_euler", "newton_euler", "bdf2", "bdf2", "quasistatic"})},
+    {"elements", 0.5, one_of({"linear", "smoothed"})},
+    {"filter", 0.3, one_of({"clamp", "absolute", "none"})},
+    {"linear", 0.3, one_of({"cg", "direct"})},
+    {"preconditioner", 0.4, one_of({"block-jacobi", "column-jacobi", "rigid-modes"})},
+    {"precision", 0.3, one_of({"float", "double"})},
+    {"tolerance", 0.3, magnitude(1e-6, 1e-2)},
+    {"newton_tolerance", 0.3, magnitude(1e-6, 1e-2)},
+    {"max_iterations", 0.1, whole(20, 3000)},
+    {"max_halvings", 0.95, whole(0, 2)},  // what diverges is to do so soon
+};
+
+const Keys kOutput = {{"contact_forces", 0.6, flag()}, {"contact_pairs", 0.6, flag()}};
+
+// ---------------------------------------------------------------------------------- what goes together
+
+std::string integrator_of(const Json& scene) {
+    const Json solver = scene.value("solver", Json::object());
+    const char* standard = solver.value("preset", "") == "accurate" ? "bdf2" : "linear_euler";
+    return solver.value("integrator", standard);
+}
+
+bool is_held(const Json& scene, const std::string& body) {
+    for (const Json& constraint : scene["constraint"]) {
+        if (constraint["body"] == body) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The rules that docs/simulator.md has for keys that do not go together.
+void settle(Random& random, Plan& plan, Json& scene) {
+    if (scene.contains("contact") && scene["contact"].value("model", "") == "barrier"
+        && integrator_of(scene) == "linear_euler") {
+        scene["solver"]["integrator"] =
+            random.pick<const char*>({"newton_euler", "bdf2", "quasistatic"});
+    }
+    if (integrator_of(scene) != "quasistatic") {
+        return;
+    }
+    scene.erase("sleep");
+    for (plan.body = 0; plan.body < plan.bodies.size(); ++plan.body) {
+        if (!is_held(scene, plan.now().name)) {
+            scene["constraint"].push_back(draw_table(kConstraint, random, plan));
+        }
+    }
+}
+
+}  // namespace
+
+Json draw_scene(std::uint64_t seed) {
+    Random random(seed);
+    Plan plan = make_plan(random);
+    Json scene = Json::object();
+    scene["scene"] = draw_table(kScene, random, plan);
+    if (plan.is_calm) {
+        scene["scene"].erase("gravity");
+    }
+    scene["body"] = Json::array();
+    scene["constraint"] = Json::array();
+    for (plan.body = 0; plan.body < plan.bodies.size(); ++plan.body) {
+        scene["body"].push_back(draw_table(kBody, random, plan));
+        if (random.chance(0.25)) {
+            scene["constraint"].push_back(draw_table(kConstraint, random, plan));
+        }
+    }
+    scene["obstacle"] = Json::array();
+    for (int i = random.pick({0, 0, 1, 1, 2}); i > 0; --i) {
+        scene["obstacle"].push_back(draw_obstacle(random, plan));
+    }
+    const std::vector<std::tuple<const char*, double, const Keys*>> blocks = {
+        {"contact", 0.75, &kContact},
+        {"damping", 0.3, &kDamping},
+        {"sleep", plan.is_calm ? 0.8 : 0.4, &kSleep},
+        {"solver", 0.95, &kSolver},
+        {"output", 0.6, &kOutput}};
+    for (const auto& [name, chance, keys] : blocks) {
+        if (random.chance(chance)) {
+            scene[name] = draw_table(*keys, random, plan);
+        }
+    }
+    settle(random, plan, scene);
+    return scene;
+}
+
+}  // namespace pent::scene_fuzz

@@ -1,0 +1,112 @@
+#include "off_law.h"
+
+#include "folders.h"
+
+#include <vector>
+
+namespace pent::scene_fuzz {
+
+namespace {
+
+// A part of the model, whether a scene has it, and the counts that are zero in every step without.
+struct Part {
+    const char* name;
+    bool (*is_on)(const Json& scene);
+    std::vector<const char*> counts;
+};
+
+bool has_contact(const Json& scene) {
+    return scene.contains("contact");
+}
+
+bool has_obstacle(const Json& scene) {
+    return scene.contains("obstacle");
+}
+
+bool has_barrier(const Json& scene) {
+    return value_at(scene, "contact.model") == "barrier";
+}
+
+bool has_pairs(const Json& scene) {
+    return has_contact(scene)
+           && (scene["body"].size() > 1 || value_at(scene, "contact.self") == true
+               || has_barrier(scene));
+}
+
+const std::vector<Part>& parts() {
+    static const std::vector<Part> kParts = {
+        {"contact",
+         has_pairs,
+         {"contact.point_facet", "contact.mixed", "contact.self", "contact.searches",
+          "contact.candidates", "contact.trees_built", "contact.trees_refit", "contact_energy"}},
+        {"contact within bodies",
+         [](const Json& scene) { return value_at(scene, "contact.self") == true; },
+         {"contact.self"}},
+        {"a barrier", has_barrier, {"contact.ccd_seconds", "contact.stiffness"}},
+        {"an obstacle", has_obstacle, {"contact.obstacle", "contact.obstacle_tests", "obstacle"}},
+        {"contact and obstacles",
+         [](const Json& scene) { return has_contact(scene) || has_obstacle(scene); },
+         {"contact.seconds", "contact.deepest"}},
+        {"friction",
+         [](const Json& scene) {
+             return has_contact(scene) && value_at(scene, "contact.friction") > 0;
+         },
+         {"contact.friction"}},
+        {"damping by stiffness",
+         [](const Json& scene) {
+             return scene.contains("damping") && value_at(scene, "damping.stiffness") > 0
+                    && value_at(scene, "solver.integrator") != "linear_euler";
+         },
+         {"damping_hessians"}},
+        {"sleep", [](const Json& scene) { return scene.contains("sleep"); }, {"asleep"}},
+        {"Newton's method",
+         [](const Json& scene) { return value_at(scene, "solver.integrator") != "linear_euler"; },
+         {"newton_iterations", "unbalanced"}},
+        {"gravity",
+         [](const Json& scene) {
+             for (const Json& entry : scene["scene"]["gravity"]) {
+                 if (entry != 0) {
+                     return true;
+                 }
+             }
+             return false;
+         },
+         {"gravity"}},
+    };
+    return kParts;
+}
+
+// A folder of the run, and whether the scene has what writes it.
+std::string extra_folder(const Json& scene, const std::filesystem::path& run) {
+    const bool has_checkpoint =
+        scene.contains("sleep") || value_at(scene, "solver.integrator") == "bdf2";
+    if (!has_checkpoint && std::filesystem::exists(run / "checkpoint")) {
+        return "checkpoint/ is there without bdf2 and sleep";
+    }
+    const bool has_table = value_at(scene, "output.contact_pairs") == true;
+    return has_table == std::filesystem::exists(run / "contacts")
+               ? ""
+               : "contacts/ is there, or not, against output.contact_pairs";
+}
+
+}  // namespace
+
+std::string work_of_what_is_off(const Json& written, const std::filesystem::path& run) {
+    const Json report = read_report(run);
+    for (const Part& part : parts()) {
+        if (part.is_on(written)) {
+            continue;
+        }
+        for (const Json& step : report["steps"]) {
+            for (const char* count : part.counts) {
+                if (value_at(step, count) != 0) {
+                    return std::string(count) + " of step " + step["step"].dump() + " is "
+                           + value_at(step, count).dump() + " without " + part.name;
+                }
+            }
+        }
+    }
+    return extra_folder(written, run);
+}
+
+}  // namespace pent::scene_fuzz

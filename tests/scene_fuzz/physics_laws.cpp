@@ -1,0 +1,397 @@
+#include "physics_laws.h"
+
+#include "support/crossing_checker.h"
+
+#include <pent/formatted.h>
+#include <pent/pent_file.h>
+#include <pent/simulator/simulation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace pent::scene_fuzz {
+
+namespace {
+
+using namespace simulator;
+
+template <int Dim>
+std::vector<SimplexMesh<Dim>> read_meshes(const Scene& scene) {
+    std::vector<SimplexMesh<Dim>> meshes;
+    for (const Body& body : scene.bodies) {
+        meshes.push_back(read_mesh<Dim>(body.mesh).mesh);
+    }
+    return meshes;
+}
+
+int step_count(const Scene& scene) {
+    return scene.frames * scene.steps_per_frame;
+}
+
+// All bodies in one: what `part` gives of each.
+template <int Dim, typename Part>
+Positions<Dim> of_all(const Simulation<Dim>& simulation, const Part& part) {
+    Positions<Dim> all(Dim, 0);
+    for (int body = 0; body < simulation.body_count(); ++body) {
+        const Positions<Dim> of_body = part(body);
+        all.conservativeResize(Dim, all.cols() + of_body.cols());
+        all.rightCols(of_body.cols()) = of_body;
+    }
+    return all;
+}
+
+template <int Dim>
+Positions<Dim> impulses(const Simulation<Dim>& simulation) {
+    return of_all(simulation, [&](int body) -> Positions<Dim> {
+        return simulation.velocities(body) * simulation.masses(body).asDiagonal();
+    });
+}
+
+template <int Dim>
+double total_mass(const Simulation<Dim>& simulation) {
+    double sum = 0;
+    for (int body = 0; body < simulation.body_count(); ++body) {
+        sum += simulation.masses(body).sum();
+    }
+    return sum;
+}
+
+template <int Dim>
+double extent_of(const Simulation<Dim>& simulation) {
+    const Positions<Dim> all = of_all(
+        simulation, [&](int body) -> Positions<Dim> { return simulation.mesh(body).positions; });
+    return (all.rowwise().maxCoeff() - all.rowwise().minCoeff()).norm();
+}
+
+template <int Dim>
+std::string text_of(const Eigen::Matrix<double, Dim, 1>& vector) {
+    std::string text;
+    for (int axis = 0; axis < Dim; ++axis) {
+        text += formatted(axis == 0 ? "(%.3g" : ", %.3g", vector[axis]);
+    }
+    return text + ")";
+}
+
+// ------------------------------------------------------------------------------------------- momentum
+
+// The elastic and contact forces add up to zero, so of a step's equations summed over all vertices only
+// what is left unsolved stays: |sum| <= sqrt(vertices) |residual|, the residual being the reported part of
+// what the step started with, h |M v| + h^2 |f| at most. Twice that, since BDF2 carries an error on with
+// 4/3 of it less 1/3, and twice again for parts of a step that are measured at its start alone.
+constexpr double kMomentumFactor = 4;
+
+// Corrections below this are not made, m: a part of the extent, and with a barrier of its distance.
+double smallest_correction(const Scene& scene, double extent) {
+    constexpr double kNegligible = 1e-10;  // see potential.h
+    const bool has_barrier = scene.contact && scene.contact->model == ContactModel::Barrier;
+    return std::max(kNegligible * extent,
+                    has_barrier ? scene.solver.newton_tolerance * scene.contact->distance : 0);
+}
+
+// What is left unsolved of a step, as a part of what it started with. A step that reaches the tolerance
+// may leave all of that.
+double unsolved(const Scene& scene, const StepReport& report) {
+    return scene.solver.integrator == Integrator::LinearEuler
+               ? report.residual
+               : std::max(report.unbalanced, scene.solver.newton_tolerance);
+}
+
+template <int Dim>
+void check_momentum_in(Scene scene) {
+    scene.sleep.reset();
+    scene.solver.precision =
+        Precision::Double;  // rounding of a float matrix is not in the residual
+    Simulation<Dim> simulation(scene, read_meshes<Dim>(scene), {.isa = "scalar"});
+    const Eigen::Matrix<double, Dim, 1> gravity = scene.gravity;
+    const double mass = total_mass(simulation);
+    const double h = scene.dt();
+    const Eigen::Matrix<double, Dim, 1> start = impulses(simulation).rowwise().sum();
+    double moved = impulses(simulation).colwise().norm().sum();
+    double allowed = 0;
+    for (int k = 1; k <= step_count(scene); ++k) {
+        const Positions<Dim> forces =
+            of_all(simulation, [&](int body) -> Positions<Dim> { return simulation.forces(body); });
+        const double size = impulses(simulation).norm() + h * forces.norm();
+        const StepReport report = simulation.step();
+        if (!report.is_accepted) {
+            return;
+        }
+        moved = std::max(moved, impulses(simulation).colwise().norm().sum());
+        allowed += kMomentumFactor * std::sqrt(static_cast<double>(forces.cols())) * report.substeps
+                   * unsolved(scene, report) * size;
+        allowed += mass * smallest_correction(scene, extent_of(simulation)) / h;
+        const Eigen::Matrix<double, Dim, 1> error =
+            impulses(simulation).rowwise().sum() - start - mass * report.time * gravity;
+        const double rounding = 1e-12 * (moved + mass * report.time * gravity.norm());
+        if (!(error.norm() <= allowed + rounding)) {
+            throw BrokenLaw("the momentum is off by " + text_of<Dim>(error)
+                            + formatted(" kg m/s at step %d, of %.3g that move; allowed are %.3g",
+                                        k, moved, allowed + rounding));
+        }
+    }
+}
+
+// ------------------------------------------------------------------------------------------- reaction
+
+template <int Dim>
+void check_reaction_in(const Scene& scene) {
+    Simulation<Dim> simulation(scene, read_meshes<Dim>(scene), {.isa = "baseline"});
+    for (int k = 1; k <= step_count(scene) && simulation.step().is_accepted; ++k) {
+        const Positions<Dim> forces = of_all(simulation, [&](int body) -> Positions<Dim> {
+            return simulation.contact_forces(body);
+        });
+        // Weights of a pair add up to zero but for rounding; a held or fixed point takes its share too.
+        const double error = forces.rowwise().sum().norm();
+        const double most = forces.colwise().norm().sum();
+        if (!(error <= 1e-9 * most)) {
+            throw BrokenLaw(formatted("the forces of contact add up to %.3g N of %.3g N at step %d",
+                                      error, most, k));
+        }
+    }
+}
+
+// ------------------------------------------------------------------------------------------ crossings
+
+double signed_distance(const ObstacleShape& shape, const Eigen::VectorXd& point) {
+    struct Distance {
+        const Eigen::VectorXd& x;
+        double operator()(const HalfSpaceObstacle& plane) const {
+            return plane.normal.dot(x) - plane.offset;
+        }
+        double operator()(const BallObstacle& ball) const {
+            return (x - ball.center).norm() - ball.radius;
+        }
+        double operator()(const CavityObstacle& cavity) const {
+            return cavity.radius - (x - cavity.center).norm();
+        }
+        double operator()(
+            const BowlObstacle& bowl) const {  // outside the ground, in the hole or above it
+            const double inside = bowl.radius - (x - bowl.center).norm();
+            return std::max(bowl.up.dot(x - bowl.center), inside);
+        }
+    };
+    return std::visit(Distance{point}, shape);
+}
+
+template <int Dim>
+class Watch {
+public:
+    explicit Watch(const Scene& scene)
+        : scene_(scene),
+          simulation_(
+              scene, read_meshes<Dim>(scene), {.on_move = [this](const auto& x, bool is_start) {
+                  look_at_way(x, is_start);
+              }}) {
+        std::uint32_t first = 0;
+        for (int body = 0; body < simulation_.body_count(); ++body) {
+            const SimplexMesh<Dim>& mesh = simulation_.mesh(body);
+            surfaces_.push_back(contact::make_surface<Dim>(mesh.cells, mesh.vertex_count(), first));
+            first += static_cast<std::uint32_t>(mesh.vertex_count());
+        }
+    }
+
+    void run() {
+        for (int k = 1; k <= step_count(scene_); ++k) {
+            if (!simulation_.step().is_accepted) {
+                return;
+            }
+            const Positions<Dim> now = of_all(simulation_, [&](int body) -> Positions<Dim> {
+                return simulation_.positions(body);
+            });
+            require(count([&](const auto& a, const auto& b) {
+                        return test::count_crossings<Dim>(a, b, now);
+                    }) == 0,
+                    "bodies cross", k);
+            require(!is_in_obstacle(now), "a vertex is inside an obstacle", k);
+        }
+    }
+
+private:
+    using Surface = contact::Surface<Dim>;
+
+    void look_at_way(const Eigen::MatrixXd& positions, bool is_start) {
+        const Positions<Dim> now = positions;
+        if (!is_start) {
+            require(count([&](const auto& a, const auto& b) {
+                        return test::count_swept_crossings<Dim>(a, b, last_, now);
+                    }) == 0,
+                    "bodies cross on their way", static_cast<int>(simulation_.step_count()) + 1);
+        }
+        last_ = now;
+    }
+
+    template <typename Count>
+    int count(const Count& of_pair) const {
+        int sum = 0;
+        for (std::size_t a = 0; a < surfaces_.size(); ++a) {
+            for (std::size_t b = scene_.contact->self ? a : a + 1; b < surfaces_.size(); ++b) {
+                sum += of_pair(surfaces_[a], surfaces_[b]);
+            }
+        }
+        return sum;
+    }
+
+    // Held vertices go where the scene says.
+    bool is_in_obstacle(const Positions<Dim>& positions) const {
+        for (const Obstacle& obstacle : scene_.obstacles) {
+            for (Eigen::Index v = 0; v < positions.cols(); ++v) {
+                if (scene_.constraints.empty()
+                    && signed_distance(obstacle.shape, positions.col(v)) <= 0) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    static void require(bool holds, const char* what, int step) {
+        if (!holds) {
+            throw BrokenLaw(std::string(what) + " at step " + std::to_string(step));
+        }
+    }
+
+    const Scene& scene_;
+    Positions<Dim> last_;
+    std::vector<Surface> surfaces_;
+    Simulation<Dim> simulation_;
+};
+
+// ---------------------------------------------------------------------------------------------- sleep
+
+template <int Dim>
+class SleepLaw {
+public:
+    explicit SleepLaw(const Scene& scene)
+        : scene_(scene),
+          awake_scene_(awake(scene)),
+          sleeping_(scene, read_meshes<Dim>(scene)),
+          awake_(awake_scene_, read_meshes<Dim>(scene)) {}
+
+    void run() {
+        bool has_slept = false;
+        for (int k = 1; k <= step_count(scene_); ++k) {
+            const StepReport report = sleeping_.step();
+            const StepReport other = awake_.step();
+            if (report.is_accepted != other.is_accepted && !has_slept) {
+                throw BrokenLaw(formatted("step %d is taken only by one of the two", k));
+            }
+            if (!report.is_accepted || !other.is_accepted) {
+                return;
+            }
+            if (has_slept) {
+                compare_places(k);
+                continue;
+            }
+            has_slept = report.asleep > 0;
+            compare_exactly(k, report, other);
+        }
+    }
+
+private:
+    static Scene awake(Scene scene) {
+        scene.sleep.reset();
+        return scene;
+    }
+
+    // No body sleeps, or one has just fallen asleep where it is.
+    void compare_exactly(int step, const StepReport& report, const StepReport& other) const {
+        for (int body = 0; body < sleeping_.body_count(); ++body) {
+            if (sleeping_.positions(body) != awake_.positions(body)) {
+                throw BrokenLaw(
+                    formatted("body %d is elsewhere at step %d, before any slept", body, step));
+            }
+            const Positions<Dim> forces = sleeping_.contact_forces(body);
+            const Positions<Dim> others = awake_.contact_forces(body);
+            const double difference = (forces - others).norm();
+            if (difference > 1e-9 * others.norm()) {
+                throw BrokenLaw(
+                    formatted("forces of contact on body %d are %.4g N with sleep, %.4g N"
+                              " without, at step %d where %d bodies fall asleep",
+                              body, forces.norm(), others.norm(), step, report.asleep));
+            }
+        }
+        const double energy = report.energies.contact + report.energies.obstacle;
+        const double expected = other.energies.contact + other.energies.obstacle;
+        if (std::abs(energy - expected) > 1e-9 * std::abs(expected)) {
+            throw BrokenLaw(
+                formatted("the energy of contact is %.4g J with sleep, %.4g J without, at"
+                          " step %d where %d bodies fall asleep",
+                          energy, expected, step, report.asleep));
+        }
+    }
+
+    // What was at rest for n steps at less than `speed` is accelerated by less than speed / (n h), which
+    // moves it by speed T (1 + T / (2 n h)) in a time T. Three times that, for forces that grow. This says
+    // nothing of what has just been let go, and of rest that lasts less than three steps.
+    void compare_places(int step) const {
+        const double h = scene_.dt();
+        const double quiet = std::ceil(scene_.sleep->time / h - 1e-6);
+        if (quiet < 3) {
+            return;
+        }
+        const double time = step_count(scene_) * h;
+        for (int body = 0; body < sleeping_.body_count(); ++body) {
+            const double speed = scene_.sleep->speed * largest_;
+            const double allowed =
+                3 * speed * time * (1 + time / (2 * quiet * h)) + 1e-3 * largest_;
+            const double off =
+                (sleeping_.positions(body) - awake_.positions(body)).colwise().norm().maxCoeff();
+            if (!(off <= allowed)) {
+                throw BrokenLaw(
+                    formatted("body %d is %.3g m from where it is without sleep, at step"
+                              " %d; allowed are %.3g m",
+                              body, off, step, allowed));
+            }
+        }
+    }
+
+    const Scene& scene_;
+    Scene awake_scene_;
+    Simulation<Dim> sleeping_;
+    Simulation<Dim> awake_;
+    double largest_ = extent_of(sleeping_);
+};
+
+template <typename In3, typename In4>
+void in_dimension(const Scene& scene, const In3& in_3, const In4& in_4) {
+    if (scene.dimension == 3) {
+        in_3();
+    } else {
+        in_4();
+    }
+}
+
+}  // namespace
+
+void check_momentum(const Scene& scene) {
+    const bool is_free = scene.obstacles.empty() && scene.constraints.empty()
+                         && (!scene.damping || scene.damping->mass == 0);
+    if (is_free && scene.solver.integrator != Integrator::Quasistatic) {
+        in_dimension(
+            scene, [&] { check_momentum_in<3>(scene); }, [&] { check_momentum_in<4>(scene); });
+    }
+}
+
+void check_reaction(const Scene& scene) {
+    if (scene.contact && scene.obstacles.empty()) {
+        in_dimension(
+            scene, [&] { check_reaction_in<3>(scene); }, [&] { check_reaction_in<4>(scene); });
+    }
+}
+
+void check_crossings(const Scene& scene) {
+    if (scene.contact && scene.contact->model == ContactModel::Barrier) {
+        in_dimension(
+            scene, [&] { Watch<3>(scene).run(); }, [&] { Watch<4>(scene).run(); });
+    }
+}
+
+void check_sleep(const Scene& scene) {
+    if (scene.sleep) {
+        in_dimension(
+            scene, [&] { SleepLaw<3>(scene).run(); }, [&] { SleepLaw<4>(scene).run(); });
+    }
+}
+
+}  // namespace pent::scene_fuzz
