@@ -8,7 +8,8 @@
 #   scripts/test.sh --threads                 only the parts that use threads, under the thread sanitizer
 #   scripts/test.sh --portable                the libraries with clang++, libc++ and without threads
 #   scripts/test.sh --all                     every test, every test under the address and undefined-behavior
-#                                             sanitizers, --threads and --portable (long: each builds anew)
+#                                             sanitizers, a minute of scripts/scene_fuzz.sh from a fixed
+#                                             seed, --threads and --portable (long: each builds anew)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -59,6 +60,7 @@ case ${1:-} in
     --all)
         run_preset dev
         run_preset asan
+        scripts/scene_fuzz.sh 60 1
         run_threads
         run_portable
         ;;
