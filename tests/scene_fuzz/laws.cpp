@@ -2,6 +2,7 @@
 
 #include "child.h"
 #include "folders.h"
+#include "known.h"
 #include "meshes.h"
 #include "off_law.h"
 #include "physics_laws.h"
@@ -298,9 +299,18 @@ Checked check(const Json& scene, const fs::path& folder, const CheckOptions& opt
         if (!is_wanted || (trial.first().ended != Ended::Well && !law.is_of_refused)) {
             continue;
         }
-        if (const std::string what = law.find(trial); !what.empty()) {
-            checked.finding = {law.name, what};
+        const std::string what = law.find(trial);
+        if (what.empty()) {
+            continue;
+        }
+        const Finding finding{law.name, what};
+        const std::string known = known_defect(scene, finding);
+        if (known.empty()) {
+            checked.finding = finding;
             break;
+        }
+        if (std::ranges::find(checked.known, known) == checked.known.end()) {
+            checked.known.push_back(known);
         }
     }
     return checked;

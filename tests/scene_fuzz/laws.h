@@ -25,7 +25,8 @@ struct Summary {
 };
 
 struct Checked {
-    std::optional<Finding> finding;  ///< The first.
+    std::optional<Finding> finding;  ///< The first that is news.
+    std::vector<std::string> known;  ///< Defects that are known and were seen, see known.h.
     Summary summary;
 };
 
