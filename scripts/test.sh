@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds the preset `dev` (optimized, asserts on, warnings are errors) and
-# runs every test.
+# Installs what is missing, builds the preset `dev` (optimized, asserts on, warnings are errors), runs
+# every test and, where all are meant, a minute of random scenes from a fixed seed (docs/testing.md).
 #
 #   scripts/test.sh [ARGUMENTS FOR CTEST]     for example: scripts/test.sh -R Slice
 #   scripts/test.sh --readers                 only the format and every reader of files under the address
@@ -63,6 +63,10 @@ case ${1:-} in
         scripts/scene_fuzz.sh 60 1
         run_threads
         run_portable
+        ;;
+    "")
+        run_preset dev
+        build/dev/bin/scene_fuzz --seconds 60 --seed 1 --jobs "$(nproc)" --found build/scene_fuzz/found
         ;;
     *)
         run_preset dev "$@"
