@@ -4,6 +4,7 @@
 #   scripts/setup.sh            what building, testing and the demo need
 #   scripts/setup.sh --tools    also what lint.sh, coverage.sh and fuzz.sh need
 #   scripts/setup.sh --portable also what test.sh --portable needs: clang, libc++, the sources of GoogleTest
+#   scripts/setup.sh --web      also what web.sh and test.sh --web need: node, npm and Chromium
 #   scripts/setup.sh --check    only say what is missing; exit code 1 if anything is
 #
 # Works as root or with sudo. Safe to run again: when nothing is missing it does nothing.
@@ -11,13 +12,15 @@ set -euo pipefail
 
 with_tools=false
 with_portable=false
+with_web=false
 only_check=false
 for argument in "$@"; do
     case $argument in
         --tools) with_tools=true ;;
         --portable) with_portable=true ;;
+        --web) with_web=true ;;
         --check) only_check=true ;;
-        *) echo "setup: unknown argument $argument; expected --tools, --portable or --check" >&2; exit 2 ;;
+        *) echo "setup: unknown argument $argument; expected --tools, --portable, --web or --check" >&2; exit 2 ;;
     esac
 done
 
@@ -42,6 +45,13 @@ if $with_tools; then
         gcovr                             # coverage.sh
         clang libclang-rt-14-dev llvm     # fuzz.sh: libFuzzer, names in what its sanitizers find
     )
+fi
+if $with_web; then
+    packages+=(chromium)                  # end-to-end tests
+    # A node from elsewhere does as well, and has npm with it.
+    if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
+        packages+=(nodejs npm)
+    fi
 fi
 
 if $with_portable; then

@@ -7,9 +7,12 @@
 #                                             and undefined-behavior sanitizers, over damaged samples
 #   scripts/test.sh --threads                 only the parts that use threads, under the thread sanitizer
 #   scripts/test.sh --portable                the libraries with clang++, libc++ and without threads
+#   scripts/test.sh --web                     only the page of web/: builds it, its readers and its view in node,
+#                                             and the page in Chromium; beside pent-slice and pent-check
+#                                             where the preset dev is built
 #   scripts/test.sh --all                     every test, every test under the address and undefined-behavior
 #                                             sanitizers, a minute of scripts/scene_fuzz.sh from a fixed
-#                                             seed, --threads and --portable (long: each builds anew)
+#                                             seed, --threads, --portable and --web (long: each builds anew)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -40,6 +43,12 @@ run_portable() {
     run_preset portable
 }
 
+run_web() {
+    scripts/web.sh
+    npm --prefix web test
+    npm --prefix web run e2e
+}
+
 launcher=()
 scripts/setup.sh
 case ${1:-} in
@@ -57,12 +66,16 @@ case ${1:-} in
     --portable)
         run_portable
         ;;
+    --web)
+        run_web
+        ;;
     --all)
         run_preset dev
         run_preset asan
         scripts/scene_fuzz.sh 60 1
         run_threads
         run_portable
+        run_web
         ;;
     "")
         run_preset dev

@@ -1,0 +1,466 @@
+// Shaders in GLSL ES 3.00. What has an index lies in textures of kTextureWidth texels a row.
+
+export const kTextureWidth = 2048;
+
+const kHead = `#version 300 es
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+precision highp sampler2DShadow;
+precision highp usampler2D;
+ivec2 texel(int i) { return ivec2(i & ${kTextureWidth - 1}, i >> 11); }
+`;
+
+const kAcross = `
+// The normal of a facet with these corners: outward, as long as three times its measure and more.
+vec4 across(vec4 e1, vec4 e2, vec4 e3) {
+    return vec4(dot(e1.yzw, cross(e2.yzw, e3.yzw)), -dot(e1.xzw, cross(e2.xzw, e3.xzw)),
+                dot(e1.xyw, cross(e2.xyw, e3.xyw)), -dot(e1.xyz, cross(e2.xyz, e3.xyz)));
+}
+`;
+
+const kTurn = `
+uniform sampler2D positions;
+uniform mat4 rotation;
+uniform vec4 shift;  // what is seen of p is rotation p + shift; its w is the height over the slice
+vec4 seen(uint vertex) {
+    return rotation * texelFetch(positions, texel(int(vertex)), 0) + shift;
+}
+${kAcross}`;
+
+/** A triangle over the whole target. */
+export const kFullScreen = `${kHead}
+void main() {
+    gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0, 1);
+}`;
+
+/** Pass 1 of smooth normals: the normal of each facet in its own space. */
+export const kFacetNormals = `${kHead}
+uniform usampler2D facets;
+uniform sampler2D positions;
+uniform int count;
+uniform int dimension;
+uniform float unit;  // 1 / a usual length, to stay within the range of floats
+out vec4 normal;
+${kAcross}
+vec4 corner(uint vertex) { return unit * texelFetch(positions, texel(int(vertex)), 0); }
+void main() {
+    int facet = int(gl_FragCoord.y) * ${kTextureWidth} + int(gl_FragCoord.x);
+    if (facet >= count) {
+        discard;
+    }
+    uvec4 t = texelFetch(facets, texel(facet), 0);
+    vec4 first = corner(t.x);
+    vec4 e1 = corner(t.y) - first;
+    vec4 e2 = corner(t.z) - first;
+    normal = dimension == 3 ? vec4(cross(e1.xyz, e2.xyz), 0) : across(e1, e2, corner(t.w) - first);
+}`;
+
+/** Pass 2: at each corner of each facet the sum of the normals around the vertex, of those facets
+ * that are within the crease angle of this one. */
+export const kCornerNormals = `${kHead}
+uniform usampler2D facets;
+uniform usampler2D vertexBegin;
+uniform usampler2D vertexFacets;
+uniform sampler2D facetNormals;
+uniform int count;
+out vec4 normal;
+void main() {
+    const float kCreaseCosine = 0.5403023;  // 1 radian, 57 degrees
+    int place = int(gl_FragCoord.y) * ${kTextureWidth} + int(gl_FragCoord.x);
+    if (place >= 4 * count) {
+        discard;
+    }
+    int vertex = int(texelFetch(facets, texel(place >> 2), 0)[place & 3]);
+    vec4 own = texelFetch(facetNormals, texel(place >> 2), 0);
+    int begin = int(texelFetch(vertexBegin, texel(vertex), 0).r);
+    int end = int(texelFetch(vertexBegin, texel(vertex + 1), 0).r);
+    vec4 sum = vec4(0);
+    for (int i = begin; i < end; ++i) {
+        int other = int(texelFetch(vertexFacets, texel(i), 0).r);
+        vec4 n = texelFetch(facetNormals, texel(other), 0);
+        if (dot(n, own) >= kCreaseCosine * length(own) * length(n)) {
+            sum += n;
+        }
+    }
+    float size = length(sum);
+    normal = size > 0.0 ? sum / size : vec4(0);
+}`;
+
+// For a tetrahedron with corner k above where bit k of the mask is set: up to two triangles, each of
+// three of its edges, numbered 01 02 03 12 13 23. The same table as the C++ slicer's.
+const kCuts = `
+const int kCuts[96] = int[](
+    -1,-1,-1,-1,-1,-1,  0, 2, 1,-1,-1,-1,  0, 3, 4,-1,-1,-1,  2, 1, 3, 2, 3, 4,
+     1, 5, 3,-1,-1,-1,  0, 2, 5, 0, 5, 3,  4, 0, 1, 4, 1, 5,  2, 5, 4,-1,-1,-1,
+     2, 4, 5,-1,-1,-1,  4, 1, 0, 4, 5, 1,  0, 5, 2, 0, 3, 5,  1, 3, 5,-1,-1,-1,
+     1, 2, 4, 1, 4, 3,  0, 4, 3,-1,-1,-1,  0, 1, 2,-1,-1,-1, -1,-1,-1,-1,-1,-1);
+const ivec2 kEnds[6] = ivec2[](ivec2(0, 1), ivec2(0, 2), ivec2(0, 3), ivec2(1, 2), ivec2(1, 3),
+                               ivec2(2, 3));
+`;
+
+const kSurfaceOut = `
+uniform usampler2D facets;
+uniform sampler2D scalars;
+uniform sampler2D cornerNormals;
+uniform mat4 viewProjection;
+uniform int valueOf;   // 0 nothing, 1 w of the body's own space, 2 the scalar
+uniform bool isSmooth;
+out vec3 world;
+out vec3 normal;
+out float value;
+out float isDrawn;     // for what is captured
+float valueAt(uint vertex) {
+    return valueOf == 1 ? texelFetch(positions, texel(int(vertex)), 0).w
+         : valueOf == 2 ? texelFetch(scalars, texel(int(vertex)), 0).r : 0.0;
+}
+vec4 normalAt(int corner) { return texelFetch(cornerNormals, texel(4 * gl_InstanceID + corner), 0); }
+void leaveOut() {
+    world = vec3(0);
+    normal = vec3(0);
+    value = 0.0;
+    isDrawn = 0.0;
+    gl_Position = vec4(2, 2, 2, 1);
+}
+`;
+
+/** The slice of a body: an instance for each boundary tetrahedron, six vertices of up to two
+ * triangles. A vertex on the hyperplane counts as above it, and each edge is cut from its lower
+ * vertex, so the surface is closed at every hyperplane. */
+export const kSlice = `${kHead}${kTurn}${kCuts}${kSurfaceOut}
+void main() {
+    uvec4 tet = texelFetch(facets, texel(gl_InstanceID), 0);
+    vec4 corners[4] = vec4[](seen(tet.x), seen(tet.y), seen(tet.z), seen(tet.w));
+    int mask = 0;
+    for (int k = 0; k < 4; ++k) {
+        mask |= corners[k].w < 0.0 ? 0 : 1 << k;
+    }
+    int edge = kCuts[6 * mask + gl_VertexID];
+    if (edge < 0) {
+        leaveOut();
+        return;
+    }
+    ivec2 ends = kEnds[edge];
+    ends = tet[ends.x] < tet[ends.y] ? ends : ends.yx;
+    vec4 a = corners[ends.x];
+    vec4 b = corners[ends.y];
+    float t = a.w / (a.w - b.w);
+    world = (1.0 - t) * a.xyz + t * b.xyz;
+    vec4 flatNormal = across(corners[1] - corners[0], corners[2] - corners[0],
+                             corners[3] - corners[0]);
+    normal = flatNormal.xyz;
+    if (isSmooth) {
+        vec3 smoothNormal =
+            (rotation * ((1.0 - t) * normalAt(ends.x) + t * normalAt(ends.y))).xyz;
+        // Else it vanished, or is turned away by a deep fold.
+        normal = dot(smoothNormal, normal) > 0.0 ? smoothNormal : normal;
+    }
+    float size = length(normal);
+    normal = size > 0.0 ? normal / size : vec3(0, 1, 0);
+    value = valueOf == 0 ? 0.0
+        : (1.0 - t) * valueAt(tet[ends.x]) + t * valueAt(tet[ends.y]);
+    isDrawn = 1.0;
+    gl_Position = viewProjection * vec4(world, 1);
+}`;
+
+/** The boundary of a three-dimensional body, whole: an instance a triangle. */
+export const kSkin = `${kHead}${kTurn}${kSurfaceOut}
+void main() {
+    uvec4 triangle = texelFetch(facets, texel(gl_InstanceID), 0);
+    if (gl_VertexID > 2) {
+        leaveOut();
+        return;
+    }
+    vec3 a = seen(triangle.x).xyz;
+    vec3 flatNormal = cross(seen(triangle.y).xyz - a, seen(triangle.z).xyz - a);
+    world = seen(triangle[gl_VertexID]).xyz;
+    normal = isSmooth ? (rotation * normalAt(gl_VertexID)).xyz : flatNormal;
+    normal = dot(normal, flatNormal) > 0.0 ? normal : flatNormal;
+    float size = length(normal);
+    normal = size > 0.0 ? normal / size : vec3(0, 1, 0);
+    value = valueAt(triangle[gl_VertexID]);
+    isDrawn = 1.0;
+    gl_Position = viewProjection * vec4(world, 1);
+}`;
+
+/** The outline of the projection: an instance for each triangle between two boundary tetrahedra,
+ * drawn where one of them faces the eye in the fourth dimension and the other does not. */
+export const kFold = `${kHead}${kTurn}
+uniform usampler2D folds;
+uniform mat4 viewProjection;
+uniform vec4 eye;  // xyz: the point of the film under it; w: its distance, 0 for infinitely far
+out vec3 world;
+out vec3 normal;
+out float value;
+out float isDrawn;
+vec3 image(uint vertex) {
+    vec4 p = seen(vertex);
+    return eye.w > 0.0 ? eye.xyz + (p.xyz - eye.xyz) * (eye.w / (eye.w - p.w)) : p.xyz;
+}
+void main() {
+    uvec4 t = texelFetch(folds, texel(2 * gl_InstanceID), 0);
+    uint other = texelFetch(folds, texel(2 * gl_InstanceID + 1), 0).x;
+    vec3 a = image(t.x);
+    vec3 outward = cross(image(t.y) - a, image(t.z) - a);
+    bool isFirstFacing = dot(outward, image(t.w) - a) > 0.0;
+    bool isOtherFacing = dot(outward, image(other) - a) < 0.0;
+    world = vec3(0);
+    normal = vec3(0);
+    value = 0.0;
+    isDrawn = 0.0;
+    gl_Position = vec4(2, 2, 2, 1);
+    if (isFirstFacing == isOtherFacing) {
+        return;
+    }
+    int corner = isFirstFacing ? (3 - gl_VertexID) % 3 : gl_VertexID;
+    world = image(t[corner]);
+    normal = normalize(isFirstFacing ? -outward : outward);
+    isDrawn = 1.0;
+    gl_Position = viewProjection * vec4(world, 1);
+}`;
+
+/** Solid surfaces: one soft lamp and the sky, as in the pictures of pent-render. What the sky gives
+ * and what the lamp gives stay apart, since occlusion is of the one and shadows are of the other. */
+export const kSolid = `${kHead}
+uniform sampler2D colorMap;
+uniform vec3 bodyColor;
+uniform int valueOf;
+uniform vec2 range;
+uniform vec3 cameraEye;
+uniform vec3 toKey;
+uniform vec3 toFill;
+in vec3 world;
+in vec3 normal;
+in float value;
+layout(location = 0) out vec4 sky;
+layout(location = 1) out vec4 lamp;
+void main() {
+    vec3 albedo = bodyColor;
+    if (valueOf != 0) {
+        float place = clamp((value - range.x) / max(range.y - range.x, 1e-30), 0.0, 1.0);
+        albedo = texture(colorMap, vec2((place * 255.0 + 0.5) / 256.0, 0.5)).rgb;
+    }
+    vec3 n = normalize(normal);
+    if (!gl_FrontFacing) {  // never, but where the body is turned inside out
+        albedo = vec3(1.0, 0.0, 0.5);
+        n = -n;
+    }
+    vec3 toEye = normalize(cameraEye - world);
+    vec3 ambient = mix(vec3(0.24, 0.22, 0.20), vec3(0.36, 0.38, 0.42), 0.5 + 0.5 * n.y);
+    float fill = 0.10 * max(dot(n, toFill), 0.0);
+    float key = 0.85 * max(dot(n, toKey), 0.0);
+    float gloss = 0.05 * pow(max(dot(n, normalize(toEye + toKey)), 0.0), 30.0);
+    sky = vec4(albedo * (ambient + fill), 1);
+    lamp = vec4(albedo * key + gloss, 0);
+}`;
+
+/** Surfaces to look through: clear where seen from the front, denser at the rim. */
+export const kGhost = `${kHead}
+uniform vec3 ghostColor;
+uniform vec2 opacity;  // seen from the front, and edge-on
+uniform vec3 cameraEye;
+in vec3 world;
+in vec3 normal;
+out vec4 color;
+void main() {
+    float facing = abs(dot(normalize(normal), normalize(cameraEye - world)));
+    float alpha = mix(opacity.y, opacity.x, 1.0 - pow(1.0 - facing, 3.0));
+    color = vec4(ghostColor * alpha, alpha);
+}`;
+
+export const kNothing = `${kHead}
+void main() {}`;
+
+/** Where nothing is drawn but transform feedback listens. */
+export const kCaptured = ["world", "isDrawn"];
+
+/** The floor shows only what darkens it, and a little light of its own on a dark page. */
+export const kFloorVertex = `${kHead}
+uniform mat4 viewProjection;
+uniform vec4 floorDisk;  // center, radius
+out vec3 world;
+void main() {
+    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    world = floorDisk.xyz + floorDisk.w * vec3(corner.x, 0, -corner.y);
+    gl_Position = viewProjection * vec4(world, 1);
+}`;
+
+export const kFloor = `${kHead}
+uniform vec4 floorDisk;
+uniform vec3 floorGlow;
+in vec3 world;
+layout(location = 0) out vec4 sky;
+layout(location = 1) out vec4 lamp;  // alpha: how much of a floor there is
+void main() {
+    float reach = length(world.xz - floorDisk.xz) / floorDisk.w;
+    if (reach >= 1.0) {
+        discard;
+    }
+    float fade = 1.0 - smoothstep(0.3, 1.0, reach);
+    sky = vec4(0);
+    lamp = vec4(floorGlow * fade * fade, fade);
+}`;
+
+/** Segments of so many pixels across, ends a and b of each an attribute of the instance. */
+export const kLineVertex = `${kHead}
+layout(location = 0) in vec3 a;
+layout(location = 1) in vec3 b;
+layout(location = 2) in vec4 tint;
+uniform mat4 viewProjection;
+uniform vec2 pixels;  // of the target
+uniform float width;
+out vec4 shade;
+void main() {
+    vec4 p = viewProjection * vec4(a, 1);
+    vec4 q = viewProjection * vec4(b, 1);
+    vec2 along = (q.xy / q.w - p.xy / p.w) * pixels;
+    vec2 side = vec2(-along.y, along.x) / max(length(along), 1e-6);
+    vec4 end = gl_VertexID < 2 ? p : q;
+    float s = (gl_VertexID & 1) == 0 ? 1.0 : -1.0;
+    gl_Position = end + vec4(s * side * width / pixels * end.w, 0, 0);
+    shade = tint;
+}`;
+
+export const kLine = `${kHead}
+in vec4 shade;
+out vec4 color;
+void main() { color = vec4(shade.rgb * shade.a, shade.a); }`;
+
+const kDepth = `
+uniform sampler2D depths;
+uniform ivec4 tile;     // origin and size, pixels
+uniform vec4 lens;      // slopes across and upright, near, far
+float distanceAt(ivec2 pixel) {
+    float z = 2.0 * texelFetch(depths, clamp(pixel, tile.xy, tile.xy + tile.zw - 1), 0).r - 1.0;
+    return 2.0 * lens.z * lens.w / (lens.w + lens.z - z * (lens.w - lens.z));
+}
+`;
+
+const kNoise = `
+float noise(vec2 pixel) {  // interleaved gradient noise [jimenez2014]
+    return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
+}
+`;
+
+const kShadow = `
+uniform sampler2DShadow shadowMap;
+uniform sampler2D shadowDepths;  // the same texture, read as numbers
+uniform mat4 lightMatrix;        // from the space of the camera to 0..1 each way
+uniform vec3 lightSize;          // of a texel, m; depth of the map, m; its width, m
+vec2 onDisk(int i, int count, float turn) {  // a sunflower
+    float angle = 2.3999632 * float(i) + 6.2831853 * turn;
+    return sqrt((float(i) + 0.5) / float(count)) * vec2(cos(angle), sin(angle));
+}
+// How much of the key light arrives: a lamp of radius 0.14 seen from here, so that shadows are sharp
+// where they begin and soft further away [fernando2005].
+float keyVisibility(vec3 point, vec3 n, float turn) {
+    const float kLamp = 0.14;
+    const float kSearch = 0.06;
+    vec3 p = (lightMatrix * vec4(point + 2.0 * lightSize.x * n, 1)).xyz;
+    float bias = 1.5 * lightSize.x / lightSize.y;
+    float sum = 0.0;
+    float blockers = 0.0;
+    for (int i = 0; i < 12; ++i) {
+        float depth = texture(shadowDepths, p.xy + kSearch * onDisk(i, 12, turn)).r;
+        if (depth < p.z - bias) {
+            sum += depth;
+            blockers += 1.0;
+        }
+    }
+    if (blockers == 0.0) {
+        return 1.0;
+    }
+    float gap = (p.z - sum / blockers) * lightSize.y;
+    float radius = clamp(kLamp * gap / lightSize.z, 1.5 * lightSize.x / lightSize.z, kSearch);
+    float open = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        open += texture(shadowMap, vec3(p.xy + radius * onDisk(i, 16, turn), p.z - bias));
+    }
+    return open / 16.0;
+}
+`;
+
+/** From depth alone: how much of the sky is open, red [mcguire2012], and of the lamp, green. Each
+ * pixel has a few samples in a pattern of its own; kCompose takes the mean over neighbors. */
+export const kOcclusion = `${kHead}${kDepth}${kNoise}${kShadow}
+uniform float reach;    // of surroundings that count, m
+uniform float perMeter; // pixels of a meter at distance 1
+out vec4 result;
+vec3 pointAt(ivec2 pixel) {
+    ivec2 p = clamp(pixel, tile.xy, tile.xy + tile.zw - 1);
+    vec2 place = 2.0 * (vec2(p - tile.xy) + 0.5) / vec2(tile.zw) - 1.0;
+    return distanceAt(p) * vec3(place * lens.xy, -1);
+}
+vec3 smaller(vec3 a, vec3 b) { return abs(a.z) < abs(b.z) ? a : b; }
+float skyVisibility(ivec2 pixel, vec3 p, vec3 n, float turn) {
+    const int kSamples = 14;
+    float radius = min(reach * perMeter / -p.z, 220.0);
+    float sum = 0.0;
+    for (int i = 0; i < kSamples; ++i) {
+        float way = (float(i) + 0.5) / float(kSamples);
+        float angle = 43.9822972 * way + 6.2831853 * turn;  // seven turns
+        vec3 v = pointAt(pixel + ivec2(way * radius * vec2(cos(angle), sin(angle)))) - p;
+        float square = dot(v, v);
+        float near = max(reach * reach - square, 0.0);
+        sum += near * near * near * max((dot(v, n) + 0.004 * p.z) / (square + 1e-4 * reach * reach), 0.0);
+    }
+    return max(0.0, 1.0 - sum * 6.0 / (pow(reach, 5.0) * float(kSamples)));
+}
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec3 p = pointAt(pixel);
+    if (-p.z > 0.999 * lens.w) {
+        result = vec4(1);
+        return;
+    }
+    vec3 across = smaller(pointAt(pixel + ivec2(1, 0)) - p, p - pointAt(pixel - ivec2(1, 0)));
+    vec3 upward = smaller(pointAt(pixel + ivec2(0, 1)) - p, p - pointAt(pixel - ivec2(0, 1)));
+    vec3 n = normalize(cross(across, upward));
+    float turn = noise(gl_FragCoord.xy);
+    result = vec4(skyVisibility(pixel, p, n, turn), keyVisibility(p, n, turn), 0, 1);
+}`;
+
+/** Background, solid things with their occlusion, ghosts in front; into the canvas, as sRGB. */
+export const kCompose = `${kHead}${kDepth}${kNoise}
+uniform sampler2D sky;
+uniform sampler2D lamp;
+uniform sampler2D ghosts;
+uniform sampler2D occlusion;
+uniform bool hasOcclusion;
+uniform vec3 top;
+uniform vec3 bottom;
+out vec4 color;
+// Mean over the neighbors that are about as far away.
+vec2 visibilityAt(ivec2 pixel) {
+    float own = distanceAt(pixel);
+    vec3 sum = vec3(0);
+    for (int y = -3; y <= 3; ++y) {
+        for (int x = -3; x <= 3; ++x) {
+            ivec2 other = clamp(pixel + ivec2(x, y), tile.xy, tile.xy + tile.zw - 1);
+            float weight = abs(distanceAt(other) - own) < 0.015 * own ? 1.0 : 0.0;
+            sum += weight * vec3(texelFetch(occlusion, other, 0).rg, 1);
+        }
+    }
+    return sum.xy / max(sum.z, 1.0);
+}
+vec3 encoded(vec3 linear) {
+    return mix(12.92 * linear, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055,
+               step(0.0031308, linear));
+}
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float height = (gl_FragCoord.y - float(tile.y)) / float(tile.w);
+    vec2 visibility = hasOcclusion ? visibilityAt(pixel) : vec2(1);
+    vec4 fromSky = texelFetch(sky, pixel, 0);
+    vec4 fromLamp = texelFetch(lamp, pixel, 0);
+    vec3 background = mix(bottom, top, smoothstep(0.0, 1.0, height));
+    // The floor has the color of the background, and darkens it.
+    float dark = 1.0 - visibility.x * mix(0.42, 1.0, visibility.y);
+    background *= 1.0 - dark * fromLamp.a;
+    vec3 result = background * (1.0 - fromSky.a) + fromSky.rgb * visibility.x
+        + fromLamp.rgb * mix(1.0, visibility.x, 0.4) * visibility.y;
+    vec4 ghost = texelFetch(ghosts, pixel, 0);
+    result = result * (1.0 - ghost.a) + ghost.rgb;
+    // Half a step of noise, so that the background shows no bands.
+    color = vec4(encoded(clamp(result, 0.0, 1.0)) + (noise(gl_FragCoord.xy) - 0.5) / 255.0, 1);
+}`;

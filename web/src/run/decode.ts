@@ -1,0 +1,97 @@
+import { PentError } from "../format/error.ts";
+import { readFrame, readMesh } from "../format/pent_file.ts";
+import { makeBoundary } from "../mesh/boundary.ts";
+import type { Boundary } from "../mesh/boundary.ts";
+import { lengths, makeRestCells, strains, toFloat4 } from "../mesh/quantities.ts";
+import type { RestCells } from "../mesh/quantities.ts";
+
+/** A body, ready for the graphics card. */
+export interface Body {
+    name: string;
+    dimension: 3 | 4;
+    vertexCount: number;
+    cellCount: number;
+    boundary: Boundary;
+}
+
+/** What a body is at one moment: four floats a vertex, and one float a vertex of each quantity that
+ * there is. */
+export interface BodyFrame {
+    positions: Float32Array;
+    speed: Float32Array | null; // m/s
+    force: Float32Array | null; // of contact, N
+    strain: Float32Array | null; // made when it is asked for
+}
+
+export interface DecodedMesh {
+    body: Body;
+    start: BodyFrame;
+}
+
+export interface DecodedFrame {
+    time: number; // s
+    frame: BodyFrame;
+}
+
+interface Kept {
+    path: string;
+    dimension: number;
+    vertexCount: number;
+    crc: number;
+    rest: ReturnType<typeof readMesh>;
+    restCells: RestCells | null; // made when strain is first asked for
+}
+
+/** Decodes the files of one run; keeps of each body what its frames are checked against. */
+export class Decoder {
+    private kept = new Map<string, Kept>();
+
+    mesh(bytes: Uint8Array, name: string, path: string): DecodedMesh {
+        const mesh = readMesh(bytes, path);
+        if (mesh.dimension === 2) {
+            throw new PentError(`${path}: has dimension 2; expected 3 or 4`);
+        }
+        const boundary = makeBoundary(mesh, path);
+        this.kept.set(name, {
+            path, dimension: mesh.dimension, vertexCount: mesh.vertexCount, crc: mesh.crc,
+            rest: mesh, restCells: null,
+        });
+        return {
+            body: {
+                name, dimension: mesh.dimension, vertexCount: mesh.vertexCount,
+                cellCount: mesh.cellCount, boundary,
+            },
+            start: {
+                positions: toFloat4(mesh.positions, mesh.dimension),
+                speed: null, force: null, strain: null,
+            },
+        };
+    }
+
+    frame(bytes: Uint8Array, name: string, path: string): DecodedFrame {
+        const frame = readFrame(bytes, path);
+        const mesh = this.kept.get(name)!;
+        if (frame.meshCrc !== mesh.crc || frame.vertexCount !== mesh.vertexCount
+            || frame.dimension !== mesh.dimension) {
+            throw new PentError(
+                `${path}: belongs to another mesh than ${mesh.path}; expected both from one run`);
+        }
+        const size = (values: Float64Array | null) => values && lengths(values, frame.dimension);
+        return {
+            time: frame.time,
+            frame: {
+                positions: toFloat4(frame.positions, frame.dimension),
+                speed: size(frame.velocities),
+                force: size(frame.contactForces),
+                strain: null,
+            },
+        };
+    }
+
+    /** @param positions  Four floats a vertex. */
+    strain(name: string, positions: Float32Array): Float32Array {
+        const mesh = this.kept.get(name)!;
+        mesh.restCells ??= makeRestCells(mesh.rest);
+        return strains(mesh.restCells, positions);
+    }
+}

@@ -1,0 +1,93 @@
+import { PentError } from "../format/error.ts";
+
+/** Where bytes come from: a server, files dropped on the page. Paths are relative, with slashes. */
+export interface FileSource {
+    /** What the page calls it: the name of the folder or file. */
+    readonly title: string;
+    /** Looks what is there; again each time. */
+    list(): Promise<Listing>;
+    /** The bytes of a file. Rejects with a PentError that names it. */
+    read(path: string): Promise<Uint8Array>;
+}
+
+/** What is in a run folder, or one mesh. */
+export interface Listing {
+    /** A single mesh file; then there is nothing else. */
+    mesh?: string;
+    /** Names of meshes/NAME.pent. */
+    meshes: string[];
+    /** Numbers of frames/NAME_000123.pent, by name. */
+    frames: Map<string, number[]>;
+    /** Whether more frames may come. */
+    isGrowing: boolean;
+}
+
+const kExpected = "expected a run folder of pent-sim, with meshes/ and frames/, or a .pent mesh";
+
+export function meshPath(body: string): string {
+    return `meshes/${body}.pent`;
+}
+
+export function framePath(body: string, frame: number): string {
+    return `frames/${body}_${String(frame).padStart(6, "0")}.pent`;
+}
+
+/** Sorts the paths of a dropped folder: the run is the shallowest folder that has meshes/.
+ * Hidden files are temporary ones.
+ *
+ * @return  The listing, and what stands in front of its paths. */
+export function listPaths(paths: string[]): { listing: Listing; prefix: string } {
+    const pent = paths.filter((path) => /(^|\/)[^./][^/]*\.pent$/.test(path));
+    const roots = pent
+        .map((path) => /^(.*\/)?meshes\/[^/]+$/.exec(path))
+        .filter((match) => match !== null)
+        .map((match) => match[1] ?? "")
+        .sort((a, b) => a.split("/").length - b.split("/").length || (a < b ? -1 : 1));
+    const listing: Listing = { meshes: [], frames: new Map(), isGrowing: false };
+    if (roots.length === 0) {
+        if (pent.length !== 1) {
+            const found = pent.length === 0 ? "no .pent file" : `${pent.length} .pent files but no `
+                + "folder meshes/";
+            throw new PentError(`${paths[0] ?? "folder"}: found ${found}; ${kExpected}`);
+        }
+        listing.mesh = pent[0]!;
+        return { listing, prefix: "" };
+    }
+    const prefix = roots[0]!;
+    const stems = (folder: string) => pent
+        .filter((path) => path.startsWith(prefix + folder)
+            && !path.slice(prefix.length + folder.length).includes("/"))
+        .map((path) => path.slice(prefix.length + folder.length, -".pent".length))
+        .sort();
+    listing.meshes = stems("meshes/");
+    for (const stem of stems("frames/")) {
+        const match = /^(.+)_(\d{6,})$/.exec(stem);
+        if (match) {
+            const numbers = listing.frames.get(match[1]!) ?? [];
+            numbers.push(Number(match[2]));
+            listing.frames.set(match[1]!, numbers);
+        }
+    }
+    return { listing, prefix };
+}
+
+/** The frames that every body has, ascending. Throws a PentError where there is none. */
+export function commonFrames(listing: Listing): number[] {
+    if (listing.meshes.length === 0) {
+        throw new PentError("meshes: no .pent mesh; expected one for every body");
+    }
+    let common: number[] | null = null;
+    for (const body of listing.meshes) {
+        const found = listing.frames.get(body);
+        if (!found?.length) {
+            throw new PentError(`${framePath(body, 0)}: no such frame nor a later one of this body; `
+                + "did pent-sim run?");
+        }
+        const numbers = new Set(found);
+        common = common === null ? [...numbers] : common.filter((frame) => numbers.has(frame));
+    }
+    if (common!.length === 0) {
+        throw new PentError("frames: no frame that all bodies have");
+    }
+    return common!.sort((a, b) => a - b);
+}

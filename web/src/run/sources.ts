@@ -1,0 +1,180 @@
+import { PentError } from "../format/error.ts";
+import { listPaths } from "./listing.ts";
+import type { FileSource, Listing } from "./listing.ts";
+
+/** Files that were dropped on the page or chosen in a dialog. */
+export class LocalFiles implements FileSource {
+    readonly title: string;
+    private prefix = "";
+
+    /** @param files  By path, as in "run/frames/octopus_000012.pent". */
+    constructor(private files: Map<string, File>) {
+        const first = [...files.keys()][0] ?? "nothing";
+        this.title = first.split("/")[0]!.replace(/\.pent$/, "");
+    }
+
+    list(): Promise<Listing> {
+        try {
+            const { listing, prefix } = listPaths([...this.files.keys()]);
+            this.prefix = prefix;
+            return Promise.resolve(listing);
+        } catch (error) {
+            return Promise.reject(error as Error);
+        }
+    }
+
+    async read(path: string): Promise<Uint8Array> {
+        const file = this.files.get(this.prefix + path);
+        if (!file) {
+            throw new PentError(`${this.prefix}${path}: no such file among those that were opened`);
+        }
+        try {
+            return new Uint8Array(await file.arrayBuffer());
+        } catch (error) {
+            throw new PentError(`${path}: cannot be read: ${(error as Error).message}`);
+        }
+    }
+}
+
+// Ranges [first, last] of frame numbers, as pent-view lists them.
+function toNumbers(ranges: unknown, where: string): number[] {
+    const kMost = 1_000_000; // of frames; pent-sim writes fewer
+    const numbers: number[] = [];
+    for (const range of ranges as [number, number][]) {
+        const [first, last] = range;
+        if (!Number.isSafeInteger(first) || !Number.isSafeInteger(last) || first < 0
+            || last < first || numbers.length + last - first > kMost) {
+            throw new PentError(`${where}: found frames ${JSON.stringify(range).slice(0, 60)}; `
+                + "expected [FIRST, LAST]");
+        }
+        for (let frame = first; frame <= last; ++frame) {
+            numbers.push(frame);
+        }
+    }
+    return numbers;
+}
+
+/** Understands run.json, what pent-view says of a run, or a report.json of pent-sim. */
+export function parseListing(text: string, where: string): Listing {
+    let json;
+    try {
+        json = JSON.parse(text);
+        if (typeof json.mesh === "string") {
+            return { mesh: json.mesh, meshes: [], frames: new Map(), isGrowing: false };
+        }
+        if (json.meshes) {
+            const frames = new Map<string, number[]>();
+            for (const [body, ranges] of Object.entries(json.frames ?? {})) {
+                frames.set(body, toNumbers(ranges, where));
+            }
+            return { meshes: json.meshes.map(String), frames, isGrowing: json.follow === true };
+        }
+        const bodies: string[] = json.bodies.map((body: { name: string }) => body.name);
+        const numbers: number[] = json.frames.map((frame: { frame: number }) => frame.frame);
+        return {
+            meshes: bodies.sort(),
+            frames: new Map(bodies.map((body) => [body, numbers])),
+            isGrowing: json.verdict === "running",
+        };
+    } catch (error) {
+        if (error instanceof PentError) {
+            throw error;
+        }
+        throw new PentError(`${where}: cannot be understood; expected the list of a run, as `
+            + "pent-view or pent-sim writes it");
+    }
+}
+
+/** A run folder or a single file on a server. Without a server that lists it, a folder is known by
+ * its report.json. */
+export class WebFiles implements FileSource {
+    readonly title: string;
+
+    /** @param address  Of a folder or of a .pent file, relative to the page or absolute. */
+    constructor(private address: string) {
+        this.title = decodeURIComponent(
+            address.replace(/[?#].*$/, "").replace(/\/+$/, "").split("/").at(-1)!
+                .replace(/\.pent$/, "")) || "run";
+    }
+
+    async list(): Promise<Listing> {
+        if (this.address.endsWith(".pent")) {
+            const mesh = this.address.split("/").at(-1)!;
+            return { mesh, meshes: [], frames: new Map(), isGrowing: false };
+        }
+        for (const name of ["run.json", "report.json"]) {
+            const response = await this.fetch(name);
+            if (response.ok) {
+                return parseListing(await response.text(), `${this.folder()}${name}`);
+            }
+        }
+        throw new PentError(`${this.folder()}: neither run.json nor report.json is there; `
+            + "expected a run folder of pent-sim or a .pent file");
+    }
+
+    async read(path: string): Promise<Uint8Array> {
+        const response = await this.fetch(path);
+        if (!response.ok) {
+            throw new PentError(`${this.folder()}${path}: cannot be read: the server says `
+                + `${response.status} ${response.statusText}`.trim());
+        }
+        return new Uint8Array(await response.arrayBuffer());
+    }
+
+    private folder(): string {
+        return this.address.endsWith(".pent") ? this.address.replace(/[^/]*$/, "")
+            : this.address.replace(/\/*$/, "/");
+    }
+
+    private async fetch(path: string): Promise<Response> {
+        try {
+            const address = this.folder() + path.split("/").map(encodeURIComponent).join("/");
+            return await fetch(address, { cache: "no-cache" });
+        } catch {
+            throw new PentError(`${this.folder()}${path}: cannot be reached; is the server running? `
+                + "A page opened from a file cannot load by address: drop the folder on it");
+        }
+    }
+}
+
+/** All files of what was dropped, folders included. */
+export async function droppedFiles(transfer: DataTransfer): Promise<Map<string, File>> {
+    const files = new Map<string, File>();
+    const entries = [...transfer.items].map((item) => item.webkitGetAsEntry?.() ?? null);
+    if (entries.every((entry) => entry === null)) {
+        for (const file of transfer.files) {
+            files.set(file.name, file);
+        }
+        return files;
+    }
+    const visit = async (entry: FileSystemEntry, path: string): Promise<void> => {
+        if (entry.isFile) {
+            const file = await new Promise<File>((resolve, reject) =>
+                (entry as FileSystemFileEntry).file(resolve, reject));
+            files.set(path, file);
+            return;
+        }
+        const reader = (entry as FileSystemDirectoryEntry).createReader();
+        for (;;) { // it gives some at a time
+            const some = await new Promise<FileSystemEntry[]>((resolve, reject) =>
+                reader.readEntries(resolve, reject));
+            if (some.length === 0) {
+                return;
+            }
+            for (const child of some) {
+                await visit(child, `${path}/${child.name}`);
+            }
+        }
+    };
+    for (const entry of entries) {
+        if (entry) {
+            await visit(entry, entry.name);
+        }
+    }
+    return files;
+}
+
+/** All files of an input element, those of a chosen folder with their paths in it. */
+export function chosenFiles(list: FileList): Map<string, File> {
+    return new Map([...list].map((file) => [file.webkitRelativePath || file.name, file]));
+}

@@ -1,0 +1,57 @@
+import { button } from "./controls.ts";
+import { byId, element } from "./dom.ts";
+import { kIcons } from "./icons.ts";
+
+const kShown = 8000; // ms that a note stays; errors stay until they are closed
+const kMost = 4;
+
+/** Messages over the picture; also said to screen readers. */
+export class Messages {
+    private progress: HTMLElement | null = null;
+
+    constructor(private root: HTMLElement) {}
+
+    error(text: string): void {
+        this.add(text, true);
+    }
+
+    note(text: string): void {
+        this.add(text, false);
+    }
+
+    /** A line that something is under way; "" ends it. */
+    busy(text: string): void {
+        this.progress ??= element("div", { class: "message busy" });
+        this.progress.replaceChildren(element("span", { class: "spinner" }), text);
+        if (text === "") {
+            this.progress.remove();
+        } else {
+            this.root.append(this.progress);
+            this.say(text);
+        }
+    }
+
+    /** Takes errors away, as another run opens. */
+    clear(): void {
+        this.root.replaceChildren();
+    }
+
+    say(text: string): void {
+        byId("status").textContent = text;
+    }
+
+    private add(text: string, isError: boolean): void {
+        const same = [...this.root.children].find((one) => one.textContent === text);
+        same?.remove();
+        const close = button("Close this message", kIcons.close, () => message.remove());
+        const message = element("div", { class: isError ? "message error" : "message",
+            role: isError ? "alert" : "status" }, element("span", {}, text), close);
+        this.root.append(message);
+        while (this.root.childElementCount > kMost) {
+            this.root.firstElementChild!.remove();
+        }
+        if (!isError) {
+            setTimeout(() => message.remove(), kShown);
+        }
+    }
+}

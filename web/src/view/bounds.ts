@@ -1,0 +1,79 @@
+import type { Moment } from "../run/run.ts";
+import { apply } from "./rotation.ts";
+import type { Rotation } from "./rotation.ts";
+
+/** Where the bodies are, over the frames looked at so far. */
+export class Bounds {
+    low = [Infinity, Infinity, Infinity, Infinity];
+    high = [-Infinity, -Infinity, -Infinity, -Infinity];
+    /** What bodies are turned about: the middle of the box, zero where it is nearly that. */
+    pivot: [number, number, number, number] = [0, 0, 0, 0];
+    /** Of a ball about the pivot that the bodies stay in however they are turned, m. */
+    radius = 1;
+    /** The box at the start. */
+    start: Bounds = this;
+
+    get isEmpty(): boolean {
+        return !(this.low[0]! <= this.high[0]!);
+    }
+
+    /** Takes more frames in. */
+    add(moments: Moment[]): void {
+        for (const body of moments.flatMap((moment) => moment.bodies)) {
+            const p = body.positions;
+            for (let v = 0; v < p.length; v += 4) {
+                for (let axis = 0; axis < 4; ++axis) {
+                    this.low[axis] = Math.min(this.low[axis]!, p[v + axis]!);
+                    this.high[axis] = Math.max(this.high[axis]!, p[v + axis]!);
+                }
+            }
+        }
+    }
+
+    /** The box of one moment alone. */
+    static of(moment: Moment): Bounds {
+        const bounds = new Bounds();
+        bounds.add([moment]);
+        return bounds;
+    }
+
+    /** Places the pivot in the middle and measures the ball about it. */
+    settle(moments: Moment[]): void {
+        this.start = Bounds.of(moments[0]!);
+        const extent = Math.hypot(...this.low.map((low, axis) => this.high[axis]! - low)) / 2 || 1;
+        const digit = 10 ** (Math.floor(Math.log10(extent)) - 1);
+        const middle = (axis: number) => {
+            const value = (this.low[axis]! + this.high[axis]!) / 2;
+            return Math.abs(value) < 0.1 * extent ? 0
+                : Number((Math.round(value / digit) * digit).toPrecision(12));
+        };
+        this.pivot = [middle(0), middle(1), middle(2), middle(3)];
+        let square = 0;
+        for (const body of moments.flatMap((moment) => moment.bodies)) {
+            const p = body.positions;
+            for (let v = 0; v < p.length; v += 4) {
+                square = Math.max(square, (p[v]! - this.pivot[0]) ** 2 + (p[v + 1]! - this.pivot[1]) ** 2
+                    + (p[v + 2]! - this.pivot[2]) ** 2 + (p[v + 3]! - this.pivot[3]) ** 2);
+            }
+        }
+        this.radius = Math.sqrt(square) || 1;
+    }
+
+    /** Lowest and highest coordinate along an axis that is seen, as the box is turned. */
+    reach(rotation: Rotation, axis: number): [number, number] {
+        const center = this.low.map((low, k) => (low + this.high[k]!) / 2 - this.pivot[k]!);
+        const middle = apply(rotation, center)[axis]! + this.pivot[axis]!;
+        let half = 0;
+        for (let k = 0; k < 4; ++k) {
+            half += (Math.abs(rotation[4 * axis + k]!) * (this.high[k]! - this.low[k]!)) / 2;
+        }
+        return [middle - half, middle + half];
+    }
+
+    /** What is seen of p is R p + this: turned about the pivot. */
+    shift(rotation: Rotation): [number, number, number, number] {
+        const turned = apply(rotation, this.pivot);
+        return [this.pivot[0] - turned[0], this.pivot[1] - turned[1], this.pivot[2] - turned[2],
+            this.pivot[3] - turned[3]];
+    }
+}

@@ -1,0 +1,381 @@
+import { PentError } from "../format/error.ts";
+import type { Picture } from "../render/picture.ts";
+import { Renderer } from "../render/renderer.ts";
+import type { BodyFrame } from "../run/decode.ts";
+import type { Moment, Run } from "../run/run.ts";
+import { FrameStream } from "../run/stream.ts";
+import { Bounds } from "./bounds.ts";
+import { suitableRange } from "./colors.ts";
+import type { ColorBy } from "./colors.ts";
+import { makeColoring, makePicture } from "./compose.ts";
+import { orthonormalize, applyTurn } from "./rotation.ts";
+import { defaultState } from "./state.ts";
+import type { ViewState } from "./state.ts";
+
+/** What a viewer tells those who listen. */
+export interface ViewerEvents {
+    state: ViewState; // it has changed
+    run: Run; // another one is open, or it has more frames
+    moment: Moment; // another one is shown
+    picture: Picture; // one was drawn
+    playing: boolean;
+    notice: { text: string; isError: boolean };
+}
+
+type Listeners = { [Kind in keyof ViewerEvents]: ((event: ViewerEvents[Kind]) => void)[] };
+
+const kSampledFrames = 5; // that bounds are taken from
+const kAhead = 24; // frames to read ahead
+const kSlow = 70; // ms from picture to picture: then pictures are coarser while they move
+const kCoarse = 0.5;
+const kRest = 220; // ms after which a picture is drawn sharp again
+
+/** A run, a view of it, and the canvas it is drawn on. Knows no controls. */
+export class Viewer {
+    state: ViewState = defaultState();
+    run: Run | null = null;
+    bounds = new Bounds();
+    moment: Moment | null = null;
+    isPlaying = false;
+    theme: "light" | "dark" = "light";
+    readonly renderer: Renderer;
+    private stream: FrameStream | null = null;
+    private ranges = new Map<ColorBy, [number, number]>();
+    private rangeDone = new Map<ColorBy, WeakSet<Moment>>();
+    private listeners: Listeners =
+        { state: [], run: [], moment: [], picture: [], playing: [], notice: [] };
+    private isDue = false;
+    private size = { width: 1, height: 1, pixelRatio: 1 };
+    private clock = 0; // place in time while playing, in frames
+    private lastTick = 0;
+    private slowness = 0; // ms, of the last pictures
+    private sharpTimer = 0;
+    private isCoarse = false;
+    private secondsPerFrame = 1 / 30;
+
+    constructor(readonly canvas: HTMLCanvasElement) {
+        this.renderer = new Renderer(canvas);
+        canvas.addEventListener("webglcontextlost", () => this.tell("notice", {
+            text: "graphics: the graphics card has stopped; reload the page", isError: true,
+        }));
+    }
+
+    on<Kind extends keyof ViewerEvents>(kind: Kind, listener: (event: ViewerEvents[Kind]) => void) {
+        this.listeners[kind].push(listener);
+    }
+
+    /** Shows a run from now on. Rejects, and keeps the old one, where its first frames fail. */
+    async open(run: Run, state: ViewState): Promise<void> {
+        const count = run.frames.length;
+        const places = [...new Set(Array.from({ length: kSampledFrames }, (_, i) =>
+            Math.round((i * (count - 1)) / (kSampledFrames - 1))))];
+        const moments: Moment[] = [];
+        for (const place of places) {
+            moments.push(await run.load(run.frames[place]!));
+        }
+        const bounds = new Bounds();
+        bounds.add(moments);
+        bounds.settle(moments);
+        this.renderer.setBodies(run.bodies);
+        this.run?.close();
+        this.pause();
+        this.run = run;
+        this.bounds = bounds;
+        this.moment = null;
+        this.ranges.clear();
+        this.rangeDone.clear();
+        const last = moments.at(-1)!;
+        this.secondsPerFrame = count > 1 && last.time > moments[0]!.time
+            ? (last.time - moments[0]!.time) / (count - 1) : 1 / 30;
+        this.stream = new FrameStream(run, (place) => this.onArrival(place));
+        this.state = state;
+        this.seek(this.placeOf(state.frame ?? run.frames[0]!));
+        this.tell("run", run);
+        this.tell("state", state);
+    }
+
+    /** Changes the view. */
+    update(patch: Partial<ViewState>): void {
+        const needsFrame = patch.color !== undefined && patch.color !== this.state.color;
+        this.state = { ...this.state, ...patch };
+        if (patch.frame !== undefined && patch.frame !== null) {
+            this.seek(this.placeOf(patch.frame));
+        }
+        if (needsFrame && this.moment) {
+            this.show(this.moment);
+        }
+        this.tell("state", this.state);
+        this.requestDraw();
+    }
+
+    /** Turns the bodies further in a plane, by degrees. */
+    turn(from: number, to: number, degrees: number): void {
+        const rotation = this.state.rotation.slice();
+        applyTurn(rotation, from, to, degrees);
+        orthonormalize(rotation);
+        this.update({ rotation });
+    }
+
+    /** Place among the frames of the run of a frame's number, or of the one before it. */
+    placeOf(frame: number): number {
+        const frames = this.run?.frames ?? [0];
+        const after = frames.findIndex((number) => number > frame);
+        return Math.max(0, (after < 0 ? frames.length : after) - 1);
+    }
+
+    get place(): number {
+        return this.placeOf(this.state.frame ?? this.run?.frames[0] ?? 0);
+    }
+
+    /** So many frames on, or back. */
+    step(by: number): void {
+        if (!this.run) {
+            return;
+        }
+        const count = this.run.frames.length;
+        const next = this.place + by;
+        const place = this.state.loop ? ((next % count) + count) % count
+            : Math.min(Math.max(next, 0), count - 1);
+        this.pause();
+        this.update({ frame: this.run.frames[place]! });
+    }
+
+    play(): void {
+        if (this.isPlaying || !this.run || this.run.frames.length < 2) {
+            return;
+        }
+        const isAtEnd = this.place === this.run.frames.length - 1;
+        this.clock = isAtEnd && !this.run.isGrowing ? 0 : this.place;
+        this.isPlaying = true;
+        this.lastTick = performance.now();
+        this.tell("playing", true);
+        this.requestDraw();
+    }
+
+    pause(): void {
+        if (this.isPlaying) {
+            this.isPlaying = false;
+            this.tell("playing", false);
+        }
+    }
+
+    /** How many frames from the one shown on are here. */
+    get ready(): number {
+        return this.stream?.readyFrom(this.place, 1) ?? 0;
+    }
+
+    /** Bytes of frames that are kept. */
+    get bytes(): number {
+        return this.stream?.bytes ?? 0;
+    }
+
+    /** Looks whether a run that is being written has got further. */
+    async refresh(): Promise<void> {
+        const run = this.run;
+        if (run && (await run.refresh()) && run === this.run) {
+            this.tell("run", run);
+            this.stream!.want(this.place, kAhead, this.state.loop);
+        }
+    }
+
+    resize(width: number, height: number, pixelRatio: number): void {
+        this.size = { width: Math.max(1, width), height: Math.max(1, height), pixelRatio };
+        this.requestDraw();
+    }
+
+    setTheme(theme: "light" | "dark"): void {
+        this.theme = theme;
+        this.requestDraw();
+    }
+
+    /** The range of the colors shown. */
+    get range(): [number, number] {
+        const { bounds, state } = this;
+        if (state.range) {
+            return state.range;
+        }
+        return state.color === "w" ? [bounds.low[3]!, bounds.high[3]!]
+            : (this.ranges.get(state.color) ?? [0, 1]);
+    }
+
+    /** The picture of the view, of any size in pixels. */
+    makePicture(width: number, height: number, pixelRatio: number): Picture {
+        return makePicture(this.state, {
+            width, height, pixelRatio, theme: this.theme, dimension: this.run?.dimension ?? 4,
+            bounds: this.bounds,
+            coloring: makeColoring(this.state, this.range, this.run?.bodies.length ?? 1),
+        });
+    }
+
+    requestDraw(): void {
+        if (!this.isDue) {
+            this.isDue = true;
+            requestAnimationFrame((now) => this.tick(now));
+        }
+    }
+
+    /** Draws at once, sharp. */
+    drawNow(): Picture | null {
+        if (!this.run || !this.moment) {
+            return null;
+        }
+        const { width, height, pixelRatio } = this.size;
+        const scale = this.isCoarse ? kCoarse : 1;
+        const picture = this.makePicture(Math.round(width * pixelRatio * scale),
+            Math.round(height * pixelRatio * scale), pixelRatio * scale);
+        this.renderer.draw(picture);
+        this.tell("picture", picture);
+        return picture;
+    }
+
+    private tell<Kind extends keyof ViewerEvents>(kind: Kind, event: ViewerEvents[Kind]): void {
+        this.listeners[kind].forEach((listener) => listener(event));
+    }
+
+    private tick(now: number): void {
+        this.isDue = false;
+        if (this.isPlaying) {
+            this.advance(now);
+        }
+        this.measure(now);
+        this.drawNow();
+        if (this.isPlaying) {
+            this.requestDraw();
+        }
+    }
+
+    // Where pictures come slowly they are coarser while things move, and sharp when they rest.
+    private measure(now: number): void {
+        const gap = now - this.lastPicture;
+        this.lastPicture = now;
+        if (gap < 1000) {
+            this.slowness += 0.3 * (gap - this.slowness);
+        }
+        this.isCoarse = this.slowness > kSlow && gap < 1000;
+        clearTimeout(this.sharpTimer);
+        if (this.isCoarse) {
+            this.sharpTimer = window.setTimeout(() => {
+                this.slowness = 0;
+                this.requestDraw();
+            }, kRest);
+        }
+    }
+
+    private lastPicture = -Infinity;
+
+    private advance(now: number): void {
+        const run = this.run!;
+        const seconds = Math.min((now - this.lastTick) / 1000, 0.25) * this.state.speed;
+        this.lastTick = now;
+        const next = this.clock + seconds / this.secondsPerFrame;
+        const count = run.frames.length;
+        if (next >= count) {
+            if (!this.state.loop && !run.isGrowing) {
+                this.pause();
+                return;
+            }
+            this.clock = this.state.loop && !run.isGrowing ? next % count : count - 1;
+        } else if (this.stream!.get(Math.floor(next)) || this.stream!.failure(Math.floor(next))) {
+            this.clock = next;
+        } else { // waits for it
+            this.stream!.want(Math.floor(next), kAhead, this.state.loop);
+            return;
+        }
+        const place = Math.floor(this.clock);
+        if (place !== this.place) {
+            this.update({ frame: run.frames[place]! });
+        }
+    }
+
+    private seek(place: number): void {
+        if (!this.stream || !this.run) {
+            return;
+        }
+        this.stream.want(place, this.run.frames.length > 1 ? kAhead : 0, this.state.loop);
+        const moment = this.stream.get(place);
+        if (moment && moment !== this.moment) {
+            this.show(moment);
+        }
+        const failure = this.stream.failure(place);
+        if (failure) {
+            this.tell("notice", { text: failure.message, isError: true });
+        }
+    }
+
+    private onArrival(place: number): void {
+        if (place === this.place) {
+            this.seek(place);
+            this.requestDraw();
+        }
+    }
+
+    private show(moment: Moment): void {
+        const isNew = moment !== this.moment;
+        this.moment = moment;
+        const { color } = this.state;
+        if (color === "force" && moment.bodies.some((body) => !body.force)) {
+            this.refuseColor(`frame ${moment.frame} has no contact forces to color by; run the scene `
+                + "with [output] contact_forces = true");
+        } else if (color === "speed" && moment.bodies.some((body) => !body.speed)
+            && this.run!.frames.length === 1) {
+            this.refuseColor("a mesh has no speed to color by; open a run");
+        } else if (color === "strain" && moment.bodies.some((body) => !body.strain)) {
+            void this.addStrain(moment);
+        }
+        this.renderer.setFrame(moment.bodies, moment.bodies.map((body) => this.scalarOf(body)));
+        this.growRange(moment);
+        if (isNew) {
+            this.tell("moment", moment);
+        }
+        this.requestDraw();
+    }
+
+    private refuseColor(text: string): void {
+        this.tell("notice", { text, isError: true });
+        this.state = { ...this.state, color: "body" };
+        this.tell("state", this.state);
+    }
+
+    private async addStrain(moment: Moment): Promise<void> {
+        try {
+            if (!(await this.run!.addStrain(moment))) {
+                this.refuseColor("this run has no strain to color by");
+                return;
+            }
+            this.stream?.recount(this.placeOf(moment.frame), moment);
+        } catch (error) {
+            if (!(error instanceof PentError)) {
+                throw error;
+            }
+            return; // another run was opened meanwhile
+        }
+        if (moment === this.moment && this.state.color === "strain") {
+            this.show(moment);
+        }
+    }
+
+    private scalarOf(body: BodyFrame): Float32Array | null {
+        const { color } = this.state;
+        if (color === "body" || color === "w") {
+            return null;
+        }
+        return body[color] ?? new Float32Array(body.positions.length / 4);
+    }
+
+    private growRange(moment: Moment): void {
+        const { color } = this.state;
+        const done = this.rangeDone.get(color) ?? new WeakSet();
+        this.rangeDone.set(color, done);
+        if (color === "body" || color === "w" || done.has(moment)
+            || moment.bodies.some((body) => !body[color])) {
+            return;
+        }
+        done.add(moment);
+        for (const body of moment.bodies) {
+            const [low, high] = suitableRange(body[color]!, color);
+            const known = this.ranges.get(color);
+            this.ranges.set(color, known ? [Math.min(low, known[0]), Math.max(high, known[1])]
+                : [low, high]);
+        }
+    }
+}

@@ -1,0 +1,27 @@
+import { existsSync } from "node:fs";
+import { join } from "node:path";
+
+/** The repository. */
+export const kRoot = process.env["PENT_ROOT"]!;
+
+/** A program of a native build, or null: then what compares with it is skipped. */
+export function native(name: string): string | null {
+    const folders = [process.env["PENT_BIN"], join(kRoot, "build/dev/bin"),
+        join(kRoot, "build/release/bin")].filter((folder) => folder !== undefined);
+    const found = folders.map((folder) => join(folder, name)).find((path) => existsSync(path));
+    if (!found && process.env["PENT_NATIVE"] === "required") {
+        throw new Error(`${name} is not built; build the preset dev`);
+    }
+    return found ?? null;
+}
+
+/** Random numbers that are the same every time: 0 up to 1 [mulberry32]. */
+export function randomFrom(seed: number): () => number {
+    let state = seed;
+    return () => {
+        state = (state + 0x6d2b79f5) | 0;
+        let t = Math.imul(state ^ (state >>> 15), 1 | state);
+        t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
+        return ((t ^ (t >>> 14)) >>> 0) / 4294967296;
+    };
+}
