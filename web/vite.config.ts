@@ -27,7 +27,10 @@ function oneFile(): Plugin {
                     put(/<\/body>/, `<script type="module">${code}</script>\n</body>`);
                     delete bundle[name];
                 } else if (part.type === "asset" && name.endsWith(".css")) {
-                    put(/<link rel="stylesheet"[^>]*>\s*/, `<style>${String(part.source)}</style>\n`);
+                    put(
+                        /<link rel="stylesheet"[^>]*>\s*/,
+                        `<style>${String(part.source)}</style>\n`,
+                    );
                     delete bundle[name];
                 }
             }

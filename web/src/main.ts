@@ -10,8 +10,14 @@ declare global {
 
 // Whatever goes wrong, there are words on the page.
 function showFailure(error: Error): void {
-    byId("stage").append(element("div", { class: "failure", role: "alert" },
-        element("h2", {}, "This cannot be shown here"), element("p", {}, error.message)));
+    byId("stage").append(
+        element(
+            "div",
+            { class: "failure", role: "alert" },
+            element("h2", {}, "This cannot be shown here"),
+            element("p", {}, error.message),
+        ),
+    );
 }
 
 try {

@@ -11,7 +11,10 @@ process.env.PENT_ROOT = dirname(web);
 const noWorkers = {
     name: "no-workers",
     setup(setup) {
-        setup.onResolve({ filter: /\?worker&inline$/ }, ({ path }) => ({ path, namespace: "none" }));
+        setup.onResolve({ filter: /\?worker&inline$/ }, ({ path }) => ({
+            path,
+            namespace: "none",
+        }));
         setup.onLoad({ filter: /.*/, namespace: "none" }, () => ({
             contents: "export default class { postMessage() {} terminate() {} }",
         }));
@@ -26,9 +29,17 @@ export async function bundle(folder) {
     mkdirSync(to, { recursive: true });
     const tests = readdirSync(from).filter((name) => name.endsWith(".test.ts"));
     await build({
-        entryPoints: tests.map((name) => join(from, name)), outdir: to, bundle: true,
-        platform: "node", format: "esm", target: "node18", outExtension: { ".js": ".mjs" },
-        packages: "external", plugins: [noWorkers], sourcemap: "inline", logLevel: "warning",
+        entryPoints: tests.map((name) => join(from, name)),
+        outdir: to,
+        bundle: true,
+        platform: "node",
+        format: "esm",
+        target: "node18",
+        outExtension: { ".js": ".mjs" },
+        packages: "external",
+        plugins: [noWorkers],
+        sourcemap: "inline",
+        logLevel: "warning",
     });
     return tests.map((name) => join(to, name.replace(/\.ts$/, ".mjs")));
 }

@@ -18,8 +18,10 @@ const kSpace = 32;
 
 // Bytes a row takes at least: a list may be empty; ascii has one digit and one space a number.
 function leastRowBytes(element: PlyElement, isAscii: boolean): number {
-    return element.properties.reduce((bytes, property) =>
-        bytes + (isAscii ? 2 : sizeOf(property.countType ?? property.type)), 0);
+    return element.properties.reduce(
+        (bytes, property) => bytes + (isAscii ? 2 : sizeOf(property.countType ?? property.type)),
+        0,
+    );
 }
 
 /** Reads what stands behind a header, element by element, as the C++ reader does: counts against
@@ -30,7 +32,11 @@ export class BodyReader {
     private at = 0;
     private nextElement = 0;
 
-    constructor(private header: Header, file: Uint8Array, private path: string) {
+    constructor(
+        private header: Header,
+        file: Uint8Array,
+        private path: string,
+    ) {
         this.body = file.subarray(header.body);
         this.view = new DataView(this.body.buffer, this.body.byteOffset, this.body.byteLength);
         this.checkCounts();
@@ -81,10 +87,12 @@ export class BodyReader {
         for (const element of elements) {
             const rowBytes = leastRowBytes(element, isAscii);
             if (rowBytes > 0 && element.count > left / BigInt(rowBytes)) {
-                this.fail(`element ${element.name}`,
-                    `the header announces ${element.count} of ${isAscii ? "at least " : ""}`
-                    + `${rowBytes} bytes each, but ${left} bytes are left: `
-                    + "the file is truncated or its header damaged");
+                this.fail(
+                    `element ${element.name}`,
+                    `the header announces ${element.count} of ${isAscii ? "at least " : ""}` +
+                        `${rowBytes} bytes each, but ${left} bytes are left: ` +
+                        "the file is truncated or its header damaged",
+                );
             }
             if (rowBytes === 0 && element.count > 0n) {
                 this.fail(`element ${element.name}`, "has no properties, expected at least one");
@@ -104,8 +112,11 @@ export class BodyReader {
         }
         const found = crc32c(this.body);
         if (found !== expected) {
-            this.fail("checksum", `the data has crc32c ${hex8(found)}, expected ${hex8(expected)} `
-                + "from the header: the file was changed after it was written");
+            this.fail(
+                "checksum",
+                `the data has crc32c ${hex8(found)}, expected ${hex8(expected)} ` +
+                    "from the header: the file was changed after it was written",
+            );
         }
     }
 
@@ -142,7 +153,8 @@ export class BodyReader {
     private readAscii(element: PlyElement, columns: Column[]): void {
         const { properties } = element;
         const bound = properties.map((property) =>
-            columns.find((column) => column.name === property.name));
+            columns.find((column) => column.name === property.name),
+        );
         const end = this.body.length;
         for (let row = 0; row < Number(element.count); ++row) {
             const where = `${element.name} ${row}`;
@@ -150,14 +162,20 @@ export class BodyReader {
                 const { name, type } = properties[i]!;
                 this.skipSpaces();
                 if (this.at === end || this.body[this.at] === kNewline) {
-                    this.fail(where, `${this.at === end ? "the file" : "the line"} ends before `
-                        + `${name}, expected ${properties.length} numbers a line`);
+                    this.fail(
+                        where,
+                        `${this.at === end ? "the file" : "the line"} ends before ` +
+                            `${name}, expected ${properties.length} numbers a line`,
+                    );
                 }
                 const word = this.nextWord();
                 const value = parseNumber(word, type);
                 if (value === null) {
-                    this.fail(where, `${name} is '${printable(word.slice(0, 20))}', `
-                        + `expected a number of type ${type}`);
+                    this.fail(
+                        where,
+                        `${name} is '${printable(word.slice(0, 20))}', ` +
+                            `expected a number of type ${type}`,
+                    );
                 }
                 const column = bound[i];
                 if (column) {
@@ -166,8 +184,12 @@ export class BodyReader {
             }
             this.skipSpaces();
             if (this.at === end || this.body[this.at] !== kNewline) {
-                this.fail(where, this.at === end ? "the file ends here, expected a newline"
-                    : `more than ${properties.length} numbers on the line`);
+                this.fail(
+                    where,
+                    this.at === end
+                        ? "the file ends here, expected a newline"
+                        : `more than ${properties.length} numbers on the line`,
+                );
             }
             ++this.at;
         }
@@ -181,13 +203,18 @@ export class BodyReader {
 
     private nextWord(): string {
         const start = this.at;
-        while (this.at < this.body.length && this.body[this.at] !== kSpace
-            && this.body[this.at] !== kNewline) {
+        while (
+            this.at < this.body.length &&
+            this.body[this.at] !== kSpace &&
+            this.body[this.at] !== kNewline
+        ) {
             ++this.at;
         }
         // A number has fewer characters; the rest of a longer word cannot make it one.
         const kLongest = 4096;
-        return String.fromCharCode(...this.body.subarray(start, Math.min(this.at, start + kLongest)));
+        return String.fromCharCode(
+            ...this.body.subarray(start, Math.min(this.at, start + kLongest)),
+        );
     }
 
     private skipBinary(element: PlyElement): void {
@@ -198,15 +225,16 @@ export class BodyReader {
                 if (property.countType) {
                     const bytes = sizeOf(property.countType);
                     if (left() < bytes) {
-                        this.fail(`${element.name} ${row}`,
-                            "the file ends here: it is truncated");
+                        this.fail(`${element.name} ${row}`, "the file ends here: it is truncated");
                     }
                     count = readBinary(this.view, this.at, property.countType);
                     this.at += bytes;
                 }
                 if (count < 0 || count > Math.floor(left() / sizeOf(property.type))) {
-                    this.fail(`${element.name} ${row}`,
-                        `the file ends within property ${property.name}: it is truncated`);
+                    this.fail(
+                        `${element.name} ${row}`,
+                        `the file ends within property ${property.name}: it is truncated`,
+                    );
                 }
                 this.at += count * sizeOf(property.type);
             }

@@ -23,17 +23,30 @@ const kTables = (() => {
  * Of "123456789" it is 0xe3069283. */
 export function crc32c(bytes: Uint8Array): number {
     const [t0, t1, t2, t3, t4, t5, t6, t7] = kTables as unknown as Uint32Array[] as [
-        Uint32Array, Uint32Array, Uint32Array, Uint32Array,
-        Uint32Array, Uint32Array, Uint32Array, Uint32Array,
+        Uint32Array,
+        Uint32Array,
+        Uint32Array,
+        Uint32Array,
+        Uint32Array,
+        Uint32Array,
+        Uint32Array,
+        Uint32Array,
     ];
     let crc = 0xffffffff;
     let i = 0;
     for (; i + 8 <= bytes.length; i += 8) {
         const low =
-            crc ^ (bytes[i]! | (bytes[i + 1]! << 8) | (bytes[i + 2]! << 16) | (bytes[i + 3]! << 24));
+            crc ^
+            (bytes[i]! | (bytes[i + 1]! << 8) | (bytes[i + 2]! << 16) | (bytes[i + 3]! << 24));
         crc =
-            t7[low & 255]! ^ t6[(low >>> 8) & 255]! ^ t5[(low >>> 16) & 255]! ^ t4[low >>> 24]!
-            ^ t3[bytes[i + 4]!]! ^ t2[bytes[i + 5]!]! ^ t1[bytes[i + 6]!]! ^ t0[bytes[i + 7]!]!;
+            t7[low & 255]! ^
+            t6[(low >>> 8) & 255]! ^
+            t5[(low >>> 16) & 255]! ^
+            t4[low >>> 24]! ^
+            t3[bytes[i + 4]!]! ^
+            t2[bytes[i + 5]!]! ^
+            t1[bytes[i + 6]!]! ^
+            t0[bytes[i + 7]!]!;
     }
     for (; i < bytes.length; ++i) {
         crc = t0[(crc ^ bytes[i]!) & 255]! ^ (crc >>> 8);

@@ -61,11 +61,22 @@ class Parser {
     private line = 0;
     private seen = new Set<string>();
     private header: Header = {
-        isAscii: false, dimension: 4, createdBy: "", crc32c: null, mesh: null,
-        frame: 0, step: 0, time: 0, elements: [], body: 0,
+        isAscii: false,
+        dimension: 4,
+        createdBy: "",
+        crc32c: null,
+        mesh: null,
+        frame: 0,
+        step: 0,
+        time: 0,
+        elements: [],
+        body: 0,
     };
 
-    constructor(private bytes: Uint8Array, private path: string) {}
+    constructor(
+        private bytes: Uint8Array,
+        private path: string,
+    ) {}
 
     parse(): Header {
         this.parsePreamble();
@@ -94,7 +105,8 @@ class Parser {
 
     private fail(found: string, expected: string): never {
         throw new PentError(
-            `${this.path}: header line ${this.line}: found ${quoted(found)}, expected ${expected}`);
+            `${this.path}: header line ${this.line}: found ${quoted(found)}, expected ${expected}`,
+        );
     }
 
     private failHeader(what: string): never {
@@ -104,14 +116,19 @@ class Parser {
     private nextLine(): string {
         ++this.line;
         if (this.at >= this.bytes.length) {
-            throw new PentError(`${this.path}: header line ${this.line}: `
-                + "the file ends here, expected more header up to end_header");
+            throw new PentError(
+                `${this.path}: header line ${this.line}: ` +
+                    "the file ends here, expected more header up to end_header",
+            );
         }
         const end = this.bytes.indexOf(10, this.at);
         if (end < 0 || end - this.at > kLongestLine) {
-            this.fail(toText(this.bytes.subarray(this.at, this.at + kLongestLine)),
-                this.line === 1 ? "'ply' (is this a .pent file?)"
-                    : "a line that ends with a newline");
+            this.fail(
+                toText(this.bytes.subarray(this.at, this.at + kLongestLine)),
+                this.line === 1
+                    ? "'ply' (is this a .pent file?)"
+                    : "a line that ends with a newline",
+            );
         }
         const line = toText(this.bytes.subarray(this.at, end));
         this.at = end + 1;
@@ -185,8 +202,11 @@ class Parser {
 
     private parseCrc(words: string[], word: number, line: string): number {
         if (words.length !== word + 1 || !/^[0-9a-fA-F]{8}$/.test(words[word]!)) {
-            this.fail(line, `'comment ${word === 2 ? "crc32c" : "mesh NAME"} XXXXXXXX' `
-                + "with 8 hexadecimal digits");
+            this.fail(
+                line,
+                `'comment ${word === 2 ? "crc32c" : "mesh NAME"} XXXXXXXX' ` +
+                    "with 8 hexadecimal digits",
+            );
         }
         return Number.parseInt(words[word]!, 16);
     }
@@ -204,8 +224,10 @@ class Parser {
 
     private parseType(word: string, line: string): PlyType {
         const type = kPlyTypes.find((known) => known.name === word || known.alias === word);
-        return type?.name
-            ?? this.fail(line, "a PLY type: char uchar short ushort int uint float double");
+        return (
+            type?.name ??
+            this.fail(line, "a PLY type: char uchar short ushort int uint float double")
+        );
     }
 
     private parseProperty(words: string[], line: string): void {
@@ -238,15 +260,19 @@ class Parser {
         names.forEach((name, i) => {
             const found = element.properties[i];
             if (!found || found.name !== name || found.type !== type || found.countType) {
-                this.failHeader(`property ${i} of element ${element.name}`
-                    + (found ? ` is '${declaration(found)}'` : " is missing")
-                    + `, expected '${declaration({ name, type, countType: null })}'`);
+                this.failHeader(
+                    `property ${i} of element ${element.name}` +
+                        (found ? ` is '${declaration(found)}'` : " is missing") +
+                        `, expected '${declaration({ name, type, countType: null })}'`,
+                );
             }
         });
         const list = element.properties.find((property) => property.countType);
         if (list) {
-            this.failHeader(`element ${element.name} has the list property ${list.name}`
-                + ", expected properties of fixed width");
+            this.failHeader(
+                `element ${element.name} has the list property ${list.name}` +
+                    ", expected properties of fixed width",
+            );
         }
     }
 
@@ -258,8 +284,10 @@ class Parser {
             this.failHeader(`found ${found}, expected element vertex first`);
         }
         if (vertex.count > kMostVertices) {
-            this.failHeader(`element vertex has ${vertex.count} vertices, `
-                + `expected at most ${kMostVertices}`);
+            this.failHeader(
+                `element vertex has ${vertex.count} vertices, ` +
+                    `expected at most ${kMostVertices}`,
+            );
         }
         this.checkPrefix(vertex, [..."xyzw"].slice(0, dimension), "double");
         if (!isAscii && crc32c === null) {
@@ -269,10 +297,16 @@ class Parser {
             return;
         }
         if (cells?.name !== cellName(dimension)) {
-            this.failHeader(`found ${cells ? `element ${cells.name}` : "no element"} after element `
-                + `vertex, expected element ${cellName(dimension)} (dimension ${dimension})`);
+            this.failHeader(
+                `found ${cells ? `element ${cells.name}` : "no element"} after element ` +
+                    `vertex, expected element ${cellName(dimension)} (dimension ${dimension})`,
+            );
         }
-        this.checkPrefix(cells, [..."01234"].slice(0, dimension + 1).map((k) => `v${k}`), "uint");
+        this.checkPrefix(
+            cells,
+            [..."01234"].slice(0, dimension + 1).map((k) => `v${k}`),
+            "uint",
+        );
     }
 }
 

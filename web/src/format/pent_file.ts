@@ -8,7 +8,7 @@ import type { PlyElement, PlyType } from "./ply.ts";
 const kAxes = "xyzw";
 const kDegenerate = 1e-14; // of the product of edge lengths: below, rounding may decide the sign
 
-/** A mesh of simplices: positions of `dimension` numbers a vertex, cells of dimension + 1 corners. */
+/** A mesh of simplices: positions of `dimension` numbers a vertex, cells of one corner more. */
 export interface Mesh {
     dimension: Dimension;
     vertexCount: number;
@@ -36,15 +36,21 @@ export interface Frame {
 function hasProperty(element: PlyElement, name: string, type: PlyType, path: string): boolean {
     const property = element.properties.find((known) => known.name === name);
     if (property && property.type !== type) {
-        throw new PentError(`${path}: header: property ${name} of element ${element.name} is `
-            + `${property.type}, expected ${type}`);
+        throw new PentError(
+            `${path}: header: property ${name} of element ${element.name} is ` +
+                `${property.type}, expected ${type}`,
+        );
     }
     return property !== undefined;
 }
 
 function vectorColumns(values: Float64Array, dimension: number, prefix: string): Column[] {
-    return [...kAxes.slice(0, dimension)].map((axis, i) =>
-        ({ name: prefix + axis, values, first: i, stride: dimension }));
+    return [...kAxes.slice(0, dimension)].map((axis, i) => ({
+        name: prefix + axis,
+        values,
+        first: i,
+        stride: dimension,
+    }));
 }
 
 function shown(value: number): string {
@@ -54,9 +60,11 @@ function shown(value: number): string {
 function checkFinite(values: Float64Array | null, dimension: number, prefix: string, path: string) {
     const bad = values?.findIndex((value) => !Number.isFinite(value)) ?? -1;
     if (values && bad >= 0) {
-        throw new PentError(`${path}: vertex ${Math.floor(bad / dimension)}: `
-            + `${prefix}${kAxes[bad % dimension]} is ${shown(values[bad]!)}, `
-            + "expected a finite number");
+        throw new PentError(
+            `${path}: vertex ${Math.floor(bad / dimension)}: ` +
+                `${prefix}${kAxes[bad % dimension]} is ${shown(values[bad]!)}, ` +
+                "expected a finite number",
+        );
     }
 }
 
@@ -66,15 +74,23 @@ export function determinant(m: ArrayLike<number>, size: number): number {
         return m[0]! * m[3]! - m[1]! * m[2]!;
     }
     if (size === 3) {
-        return m[0]! * (m[4]! * m[8]! - m[5]! * m[7]!) - m[1]! * (m[3]! * m[8]! - m[5]! * m[6]!)
-            + m[2]! * (m[3]! * m[7]! - m[4]! * m[6]!);
+        return (
+            m[0]! * (m[4]! * m[8]! - m[5]! * m[7]!) -
+            m[1]! * (m[3]! * m[8]! - m[5]! * m[6]!) +
+            m[2]! * (m[3]! * m[7]! - m[4]! * m[6]!)
+        );
     }
     // By pairs of minors of the upper and the lower two rows.
     const minor = (row: number, i: number, j: number) =>
         m[4 * row + i]! * m[4 * row + 4 + j]! - m[4 * row + j]! * m[4 * row + 4 + i]!;
-    return minor(0, 0, 1) * minor(2, 2, 3) - minor(0, 0, 2) * minor(2, 1, 3)
-        + minor(0, 0, 3) * minor(2, 1, 2) + minor(0, 1, 2) * minor(2, 0, 3)
-        - minor(0, 1, 3) * minor(2, 0, 2) + minor(0, 2, 3) * minor(2, 0, 1);
+    return (
+        minor(0, 0, 1) * minor(2, 2, 3) -
+        minor(0, 0, 2) * minor(2, 1, 3) +
+        minor(0, 0, 3) * minor(2, 1, 2) +
+        minor(0, 1, 2) * minor(2, 0, 3) -
+        minor(0, 1, 3) * minor(2, 0, 2) +
+        minor(0, 2, 3) * minor(2, 0, 1)
+    );
 }
 
 function validateIndices(mesh: Mesh, cell: number, where: () => string): void {
@@ -83,19 +99,28 @@ function validateIndices(mesh: Mesh, cell: number, where: () => string): void {
     for (let i = 0; i < corners; ++i) {
         const vertex = mesh.cells[at + i]!;
         if (vertex >= mesh.vertexCount) {
-            throw new PentError(`${where()}vertex ${vertex} of ${mesh.vertexCount}, `
-                + `expected at most ${mesh.vertexCount - 1}`);
+            throw new PentError(
+                `${where()}vertex ${vertex} of ${mesh.vertexCount}, ` +
+                    `expected at most ${mesh.vertexCount - 1}`,
+            );
         }
         for (let j = 0; j < i; ++j) {
             if (mesh.cells[at + j] === vertex) {
-                throw new PentError(`${where()}vertex ${vertex} appears twice, `
-                    + `expected ${corners} different vertices`);
+                throw new PentError(
+                    `${where()}vertex ${vertex} appears twice, ` +
+                        `expected ${corners} different vertices`,
+                );
             }
         }
     }
 }
 
-function validateOrientation(mesh: Mesh, cell: number, edges: Float64Array, where: () => string): void {
+function validateOrientation(
+    mesh: Mesh,
+    cell: number,
+    edges: Float64Array,
+    where: () => string,
+): void {
     const { dimension, positions, cells } = mesh;
     const at = cell * (dimension + 1);
     const first = cells[at]! * dimension;
@@ -121,10 +146,13 @@ function validateOrientation(mesh: Mesh, cell: number, edges: Float64Array, wher
     if (value > kDegenerate * bound) {
         return;
     }
-    throw new PentError(`${where()}` + (value < -kDegenerate * bound
-        ? "inverted (its determinant is negative), expected positive orientation: "
-          + "swap two of its vertices"
-        : "degenerate (flat to rounding error), expected a positive volume"));
+    throw new PentError(
+        `${where()}` +
+            (value < -kDegenerate * bound
+                ? "inverted (its determinant is negative), expected positive orientation: " +
+                  "swap two of its vertices"
+                : "degenerate (flat to rounding error), expected a positive volume"),
+    );
 }
 
 function validate(mesh: Mesh, path: string): void {
@@ -144,8 +172,10 @@ function validate(mesh: Mesh, path: string): void {
 export function readMesh(bytes: Uint8Array, path: string): Mesh {
     const header = parseHeader(bytes, path);
     if (header.mesh) {
-        throw new PentError(`${path}: header: this is a frame of the mesh ${header.mesh.name}, `
-            + "expected a mesh");
+        throw new PentError(
+            `${path}: header: this is a frame of the mesh ${header.mesh.name}, ` +
+                "expected a mesh",
+        );
     }
     const reader = new BodyReader(header, bytes, path);
     const { dimension } = header;
@@ -164,8 +194,14 @@ export function readMesh(bytes: Uint8Array, path: string): Mesh {
         createdBy: header.createdBy,
     };
     reader.read(vectorColumns(mesh.positions, dimension, ""));
-    reader.read(Array.from({ length: corners }, (_, k) =>
-        ({ name: `v${k}`, values: mesh.cells, first: k, stride: corners })));
+    reader.read(
+        Array.from({ length: corners }, (_, k) => ({
+            name: `v${k}`,
+            values: mesh.cells,
+            first: k,
+            stride: corners,
+        })),
+    );
     reader.finish();
     validate(mesh, path);
     return mesh;
@@ -176,10 +212,13 @@ function vectorOf(header: Header, prefix: string, what: string, path: string): F
     const { dimension } = header;
     const vertex = header.elements[0]!;
     const found = [...kAxes.slice(0, dimension)].filter((axis) =>
-        hasProperty(vertex, prefix + axis, "double", path)).length;
+        hasProperty(vertex, prefix + axis, "double", path),
+    ).length;
     if (found !== 0 && found !== dimension) {
-        throw new PentError(`${path}: header: ${found} ${what} properties, `
-            + `expected none or all of ${dimension}`);
+        throw new PentError(
+            `${path}: header: ${found} ${what} properties, ` +
+                `expected none or all of ${dimension}`,
+        );
     }
     return found ? new Float64Array(dimension * Number(vertex.count)) : null;
 }
@@ -188,8 +227,9 @@ function vectorOf(header: Header, prefix: string, what: string, path: string): F
 export function readFrame(bytes: Uint8Array, path: string): Frame {
     const header = parseHeader(bytes, path);
     if (!header.mesh) {
-        throw new PentError(`${path}: header: no 'comment mesh NAME CRC', `
-            + "expected a frame (this is a mesh)");
+        throw new PentError(
+            `${path}: header: no 'comment mesh NAME CRC', ` + "expected a frame (this is a mesh)",
+        );
     }
     const reader = new BodyReader(header, bytes, path);
     const { dimension } = header;
@@ -207,8 +247,15 @@ export function readFrame(bytes: Uint8Array, path: string): Frame {
     checkFinite(velocities, dimension, "v", path);
     checkFinite(contactForces, dimension, "f", path);
     return {
-        dimension, vertexCount, positions, velocities, contactForces,
-        meshName: header.mesh.name, meshCrc: header.mesh.crc,
-        frame: header.frame, step: header.step, time: header.time,
+        dimension,
+        vertexCount,
+        positions,
+        velocities,
+        contactForces,
+        meshName: header.mesh.name,
+        meshCrc: header.mesh.crc,
+        frame: header.frame,
+        step: header.step,
+        time: header.time,
     };
 }

@@ -36,9 +36,11 @@ export function makeBoundary(mesh: Mesh, path: string): Boundary {
         },
     });
     if (firstFault !== Infinity) {
-        throw new PentError(`${path}: ${cellName(mesh.dimension)} ${firstFault}: does not fit its `
-            + `neighbors (${oneSided} facets seen twice from one side, ${overfull} shared by more `
-            + "than two cells); expected a conforming mesh, see pent-check");
+        throw new PentError(
+            `${path}: ${cellName(mesh.dimension)} ${firstFault}: does not fit its ` +
+                `neighbors (${oneSided} facets seen twice from one side, ${overfull} shared by more ` +
+                "than two cells); expected a conforming mesh, see pent-check",
+        );
     }
     const order = Float64Array.from(found).sort();
     const facets = new Uint32Array(4 * order.length);
@@ -49,7 +51,11 @@ export function makeBoundary(mesh: Mesh, path: string): Boundary {
 }
 
 /** The same for outward facets found elsewhere. */
-export function indexBoundary(facets: Uint32Array, dimension: number, vertexCount: number): Boundary {
+export function indexBoundary(
+    facets: Uint32Array,
+    dimension: number,
+    vertexCount: number,
+): Boundary {
     const vertexBegin = new Uint32Array(vertexCount + 1);
     const facetCount = facets.length / 4;
     for (let f = 0; f < facetCount; ++f) {

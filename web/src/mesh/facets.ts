@@ -129,8 +129,12 @@ class FacetTable {
             if (count === 1) {
                 visitor.onBoundary(e[at + kCells]!, e[at + kApex]!);
             } else if (count === 2 && !(e[at + kFlags]! & 2)) {
-                visitor.onInterior?.(e[at + kCells]!, e[at + kApex]!,
-                    e[at + kOther]!, e[at + kOtherApex]!);
+                visitor.onInterior?.(
+                    e[at + kCells]!,
+                    e[at + kApex]!,
+                    e[at + kOther]!,
+                    e[at + kOtherApex]!,
+                );
             } else {
                 visitor.onFault(e[at + kCells]!, count);
             }
@@ -142,8 +146,12 @@ class FacetTable {
  * groups of one lowest corner.
  *
  * @param size  Corners of a cell, 4 or 5. */
-export function matchFacets(cells: Uint32Array, size: number, vertexCount: number,
-    visitor: FacetVisitor): void {
+export function matchFacets(
+    cells: Uint32Array,
+    size: number,
+    vertexCount: number,
+    visitor: FacetVisitor,
+): void {
     const { begin, list } = cellsByLowestCorner(cells, size, vertexCount);
     const table = new FacetTable(size - 2);
     const corners = new Uint32Array(size);
@@ -172,8 +180,14 @@ export function matchFacets(cells: Uint32Array, size: number, vertexCount: numbe
 }
 
 /** Corners of the facet of a cell that lacks corner k, in an outward order, to target[at...]. */
-export function outwardFacet(cells: Uint32Array, size: number, cell: number, k: number,
-    target: Uint32Array, at: number): void {
+export function outwardFacet(
+    cells: Uint32Array,
+    size: number,
+    cell: number,
+    k: number,
+    target: Uint32Array,
+    at: number,
+): void {
     for (let i = 0, to = at; i < size; ++i) {
         if (i !== k) {
             target[to++] = cells[cell * size + i]!;

@@ -80,7 +80,8 @@ export function makeRestCells(mesh: Mesh): RestCells {
         for (let k = 0; k < n; ++k) {
             const corner = mesh.cells[cell * (n + 1) + k + 1]! * n;
             for (let axis = 0; axis < n; ++axis) {
-                edges[axis * n + k] = mesh.positions[corner + axis]! - mesh.positions[first + axis]!;
+                edges[axis * n + k] =
+                    mesh.positions[corner + axis]! - mesh.positions[first + axis]!;
             }
         }
         volumes[cell] = invert(edges, inverse, n);
@@ -90,7 +91,12 @@ export function makeRestCells(mesh: Mesh): RestCells {
 }
 
 // |F^T F - I| / 2 for F = Ds Dm^-1.
-function cellStrain(rest: RestCells, cell: number, positions: Float32Array, F: Float64Array): number {
+function cellStrain(
+    rest: RestCells,
+    cell: number,
+    positions: Float32Array,
+    F: Float64Array,
+): number {
     const n = rest.dimension;
     const at = cell * (n + 1);
     const first = 4 * rest.cells[at]!;
@@ -98,7 +104,8 @@ function cellStrain(rest: RestCells, cell: number, positions: Float32Array, F: F
         for (let column = 0; column < n; ++column) {
             let sum = 0;
             for (let k = 0; k < n; ++k) {
-                const edge = positions[4 * rest.cells[at + k + 1]! + row]! - positions[first + row]!;
+                const edge =
+                    positions[4 * rest.cells[at + k + 1]! + row]! - positions[first + row]!;
                 sum += edge * rest.inverses[n * n * cell + n * k + column]!;
             }
             F[row * n + column] = sum;

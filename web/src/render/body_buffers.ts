@@ -5,11 +5,11 @@ import { kTextureWidth } from "./shaders.ts";
 
 /** The programs that make smooth normals. */
 export interface NormalPrograms {
-    facets: Program;
-    corners: Program;
+    facets(): Program;
+    corners(): Program;
 }
 
-/** A body on the graphics card: its boundary once, and positions and a scalar of the frame shown. */
+/** A body on the graphics card: its boundary, and positions and a scalar of the frame shown. */
 export class BodyBuffers {
     readonly facets: WebGLTexture;
     readonly folds: WebGLTexture | null;
@@ -26,7 +26,11 @@ export class BodyBuffers {
     private shown: BodyFrame | null = null;
     private scalar: Float32Array | null = null;
 
-    constructor(private gl: Gl, readonly body: Body, canDrawFloats: boolean) {
+    constructor(
+        private gl: Gl,
+        readonly body: Body,
+        canDrawFloats: boolean,
+    ) {
         const kinds = textureKinds(gl);
         const { boundary, vertexCount } = body;
         const filled = (kind: TextureKind, data: Uint32Array, what: string) => {
@@ -46,7 +50,8 @@ export class BodyBuffers {
             this.facetNormals = makeTexture(gl, kinds.float4, boundary.facetCount, "facets");
             this.cornerNormals = makeTexture(gl, kinds.float4, 4 * boundary.facetCount, "corners");
             this.targets = [this.facetNormals, this.cornerNormals].map((texture) =>
-                makeFramebuffer(gl, texture, null));
+                makeFramebuffer(gl, texture, null),
+            );
         }
     }
 
@@ -83,14 +88,18 @@ export class BodyBuffers {
             gl.viewport(0, 0, kTextureWidth, rowsFor(gl, texels, "facets"));
             gl.drawArrays(gl.TRIANGLES, 0, 3);
         };
-        programs.facets.use()
+        programs
+            .facets()
+            .use()
             .int("count", count)
             .int("dimension", this.body.dimension)
             .float("unit", unit)
             .texture("facets", 0, this.facets)
             .texture("positions", 1, this.positions);
         draw(0, count);
-        programs.corners.use()
+        programs
+            .corners()
+            .use()
             .int("count", count)
             .texture("facets", 0, this.facets)
             .texture("vertexBegin", 1, this.vertexBegin)
@@ -101,8 +110,16 @@ export class BodyBuffers {
     }
 
     dispose(): void {
-        const textures = [this.facets, this.folds, this.positions, this.scalars, this.cornerNormals,
-            this.facetNormals, this.vertexBegin, this.vertexFacets];
+        const textures = [
+            this.facets,
+            this.folds,
+            this.positions,
+            this.scalars,
+            this.cornerNormals,
+            this.facetNormals,
+            this.vertexBegin,
+            this.vertexFacets,
+        ];
         textures.forEach((texture) => this.gl.deleteTexture(texture));
         this.targets.forEach((target) => this.gl.deleteFramebuffer(target));
     }

@@ -7,7 +7,10 @@ export type Gl = WebGL2RenderingContext;
 export class Program {
     private places = new Map<string, WebGLUniformLocation | null>();
 
-    constructor(private gl: Gl, private program: WebGLProgram) {}
+    constructor(
+        private gl: Gl,
+        private program: WebGLProgram,
+    ) {}
 
     use(): this {
         this.gl.useProgram(this.program);
@@ -36,8 +39,12 @@ export class Program {
     /** One to four floats. */
     float(name: string, ...values: number[]): this {
         const place = this.at(name);
-        const set = [this.gl.uniform1fv, this.gl.uniform2fv, this.gl.uniform3fv,
-            this.gl.uniform4fv][values.length - 1]!;
+        const set = [
+            this.gl.uniform1fv,
+            this.gl.uniform2fv,
+            this.gl.uniform3fv,
+            this.gl.uniform4fv,
+        ][values.length - 1]!;
         set.call(this.gl, place, values);
         return this;
     }
@@ -47,7 +54,12 @@ export class Program {
         return this;
     }
 
-    texture(name: string, unit: number, texture: WebGLTexture, sampler: WebGLSampler | null = null) {
+    texture(
+        name: string,
+        unit: number,
+        texture: WebGLTexture,
+        sampler: WebGLSampler | null = null,
+    ) {
         this.gl.activeTexture(this.gl.TEXTURE0 + unit);
         this.gl.bindTexture(this.gl.TEXTURE_2D, texture);
         this.gl.bindSampler(unit, sampler);
@@ -60,14 +72,19 @@ export class Program {
  * @param captured  Outputs of the vertex shader for transform feedback. */
 export function makeProgram(gl: Gl, vertex: string, fragment: string, captured: string[] = []) {
     const program = gl.createProgram()!;
-    for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]] as const) {
+    for (const [kind, text] of [
+        [gl.VERTEX_SHADER, vertex],
+        [gl.FRAGMENT_SHADER, fragment],
+    ] as const) {
         const shader = gl.createShader(kind)!;
         gl.shaderSource(shader, text);
         gl.compileShader(shader);
         gl.attachShader(program, shader);
         if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost()) {
-            throw new PentError(`graphics: a shader does not compile here: `
-                + `${gl.getShaderInfoLog(shader)?.split("\n")[0]}`);
+            throw new PentError(
+                `graphics: a shader does not compile here: ` +
+                    `${gl.getShaderInfoLog(shader)?.split("\n")[0]}`,
+            );
         }
         gl.deleteShader(shader);
     }
@@ -93,7 +110,10 @@ export function textureKinds(gl: Gl) {
         float4: { internal: gl.RGBA32F, format: gl.RGBA, type: gl.FLOAT, perTexel: 4 },
         float1: { internal: gl.R32F, format: gl.RED, type: gl.FLOAT, perTexel: 1 },
         uint4: {
-            internal: gl.RGBA32UI, format: gl.RGBA_INTEGER, type: gl.UNSIGNED_INT, perTexel: 4,
+            internal: gl.RGBA32UI,
+            format: gl.RGBA_INTEGER,
+            type: gl.UNSIGNED_INT,
+            perTexel: 4,
         },
         uint1: { internal: gl.R32UI, format: gl.RED_INTEGER, type: gl.UNSIGNED_INT, perTexel: 1 },
     };
@@ -111,8 +131,10 @@ export function rowsFor(gl: Gl, texels: number, what: string): number {
     const rows = Math.max(1, Math.ceil(texels / kTextureWidth));
     const most = gl.getParameter(gl.MAX_TEXTURE_SIZE) as number;
     if (rows > most) {
-        throw new PentError(`graphics: ${texels} ${what} are more than the ${most * kTextureWidth} `
-            + "that this graphics card can hold; open a coarser mesh");
+        throw new PentError(
+            `graphics: ${texels} ${what} are more than the ${most * kTextureWidth} ` +
+                "that this graphics card can hold; open a coarser mesh",
+        );
     }
     return rows;
 }
@@ -127,8 +149,12 @@ export function makeTexture(gl: Gl, kind: TextureKind, texels: number, what: str
 }
 
 /** Fills such a texture from its start. */
-export function fillTexture(gl: Gl, texture: WebGLTexture, kind: TextureKind,
-    data: Float32Array | Uint32Array): void {
+export function fillTexture(
+    gl: Gl,
+    texture: WebGLTexture,
+    kind: TextureKind,
+    data: Float32Array | Uint32Array,
+): void {
     gl.activeTexture(gl.TEXTURE0);
     gl.bindTexture(gl.TEXTURE_2D, texture);
     const perRow = kTextureWidth * kind.perTexel;
@@ -138,8 +164,17 @@ export function fillTexture(gl: Gl, texture: WebGLTexture, kind: TextureKind,
     }
     const rest = data.subarray(rows * perRow);
     if (rest.length > 0) {
-        gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, rows, rest.length / kind.perTexel, 1, kind.format,
-            kind.type, rest);
+        gl.texSubImage2D(
+            gl.TEXTURE_2D,
+            0,
+            0,
+            rows,
+            rest.length / kind.perTexel,
+            1,
+            kind.format,
+            kind.type,
+            rest,
+        );
     }
 }
 

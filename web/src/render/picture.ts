@@ -52,7 +52,10 @@ export interface Picture {
 }
 
 /** Where tile i stands: x and y from the left and the bottom, width and height, pixels. */
-export function tileRect(picture: Pick<Picture, "width" | "height" | "columns" | "tiles">, i: number) {
+export function tileRect(
+    picture: Pick<Picture, "width" | "height" | "columns" | "tiles">,
+    i: number,
+) {
     const rows = Math.ceil(picture.tiles.length / picture.columns);
     const column = i % picture.columns;
     const row = Math.floor(i / picture.columns);

@@ -1,26 +1,21 @@
 import { PentError } from "../format/error.ts";
 import type { Body, BodyFrame } from "../run/decode.ts";
-import { add, multiply, normalized, orthographic, scale, viewMatrix, cross } from "../view/matrix.ts";
-import type { Matrix, Vector } from "../view/matrix.ts";
+import { multiply } from "../view/matrix.ts";
+import type { Matrix } from "../view/matrix.ts";
 import { BodyBuffers } from "./body_buffers.ts";
-import { makeProgram } from "./gl.ts";
 import type { Gl, Program } from "./gl.ts";
+import { captureTriangles } from "./capture.ts";
+import { makeLight } from "./light.ts";
+import type { Light } from "./light.ts";
 import { tileRect } from "./picture.ts";
-import type { Picture, Segment, SliceView, Tile } from "./picture.ts";
-import * as shaders from "./shaders.ts";
+import type { Picture, SliceView, Tile } from "./picture.ts";
+import { LineDrawer } from "./lines.ts";
+import { makePrograms } from "./programs.ts";
+import type { Lazy } from "./programs.ts";
 import { ShadowMap, Targets } from "./targets.ts";
 
 const kMapSize = 256; // colors of a color map
 const kShadowPixels = 2048;
-
-interface Light {
-    toKey: Vector;
-    toFill: Vector;
-    viewProjection: Matrix; // of the shadow map
-    toMap: Matrix; // the same, to 0..1 each way
-    width: number; // m, of the map
-    depth: number; // m
-}
 
 /** Draws pictures of bodies with WebGL 2. Knows nothing of the page around the canvas. */
 export class Renderer {
@@ -30,19 +25,23 @@ export class Renderer {
     private shadows: ShadowMap;
     private programs;
     private colorMap: WebGLTexture;
-    private lineBuffer: WebGLBuffer;
-    private lineArray: WebGLVertexArrayObject;
+    private lines: LineDrawer;
     private plainArray: WebGLVertexArrayObject;
     private canDrawFloats: boolean;
 
     /** Throws a PentError where WebGL 2 is not there. */
     constructor(readonly canvas: HTMLCanvasElement | OffscreenCanvas) {
         const gl = canvas.getContext("webgl2", {
-            antialias: false, depth: false, alpha: false, powerPreference: "high-performance",
+            antialias: false,
+            depth: false,
+            alpha: false,
+            powerPreference: "high-performance",
         }) as Gl | null;
         if (!gl) {
-            throw new PentError("graphics: this browser has no WebGL 2, which draws the slices; "
-                + "switch hardware acceleration on, or try another browser");
+            throw new PentError(
+                "graphics: this browser has no WebGL 2, which draws the slices; " +
+                    "switch hardware acceleration on, or try another browser",
+            );
         }
         this.gl = gl;
         this.canDrawFloats = gl.getExtension("EXT_color_buffer_float") !== null;
@@ -51,15 +50,16 @@ export class Renderer {
         this.colorMap = gl.createTexture()!;
         gl.bindTexture(gl.TEXTURE_2D, this.colorMap);
         gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32F, kMapSize, 1);
-        for (const [key, value] of [[gl.TEXTURE_MIN_FILTER, gl.NEAREST],
-            [gl.TEXTURE_MAG_FILTER, gl.NEAREST], [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE],
-            [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE]] as const) {
+        for (const [key, value] of [
+            [gl.TEXTURE_MIN_FILTER, gl.NEAREST],
+            [gl.TEXTURE_MAG_FILTER, gl.NEAREST],
+            [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE],
+            [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE],
+        ] as const) {
             gl.texParameteri(gl.TEXTURE_2D, key, value);
         }
-        this.lineBuffer = gl.createBuffer()!;
-        this.lineArray = gl.createVertexArray()!;
         this.plainArray = gl.createVertexArray()!;
-        this.bindLines();
+        this.lines = new LineDrawer(gl);
     }
 
     /** Whether smooth normals are possible here. */
@@ -71,15 +71,18 @@ export class Renderer {
     setBodies(bodies: Body[]): void {
         this.bodies.forEach((body) => body.dispose());
         this.bodies = [];
-        while (this.gl.getError() !== this.gl.NO_ERROR) { // of earlier calls
+        while (this.gl.getError() !== this.gl.NO_ERROR) {
+            // of earlier calls
             if (this.gl.isContextLost()) {
                 break;
             }
         }
         this.bodies = bodies.map((body) => new BodyBuffers(this.gl, body, this.canDrawFloats));
         if (this.gl.getError() === this.gl.OUT_OF_MEMORY) {
-            throw new PentError("graphics: the memory of the graphics card is not enough for this "
-                + "mesh; open a coarser one");
+            throw new PentError(
+                "graphics: the memory of the graphics card is not enough for this " +
+                    "mesh; open a coarser one",
+            );
         }
     }
 
@@ -112,13 +115,20 @@ export class Renderer {
         gl.depthMask(true);
         gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
         const light = makeLight(picture);
-        picture.tiles.forEach((tile, i) => this.drawSolid(picture, tile, tileRect(picture, i), light));
+        picture.tiles.forEach((tile, i) =>
+            this.drawSolid(picture, tile, tileRect(picture, i), light),
+        );
         gl.disable(gl.SCISSOR_TEST);
         const targets = this.targets!;
-        targets.resolve(targets.sampled, 0, targets.solid, gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+        targets.resolve(
+            targets.sampled,
+            0,
+            targets.solid,
+            gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT,
+        );
         targets.resolve(targets.sampled, 1, targets.lamp, gl.COLOR_BUFFER_BIT);
-        // Into a color buffer of its own: some drivers let what is cleared after a resolve take part
-        // in it.
+        // Into a color buffer of its own: some drivers let what is cleared after a resolve take
+        // part in it.
         gl.bindFramebuffer(gl.FRAMEBUFFER, targets.sampledGhosts);
         gl.clear(gl.COLOR_BUFFER_BIT);
         picture.tiles.forEach((tile, i) => this.drawGhosts(picture, tile, tileRect(picture, i)));
@@ -132,7 +142,8 @@ export class Renderer {
             this.compose(picture, rect);
         });
         const places = Math.ceil(picture.tiles.length / picture.columns) * picture.columns;
-        for (let i = picture.tiles.length; i < places; ++i) { // a gap in the last row
+        for (let i = picture.tiles.length; i < places; ++i) {
+            // a gap in the last row
             this.compose(picture, tileRect(picture, i));
         }
     }
@@ -140,37 +151,14 @@ export class Renderer {
     /** The triangles of a slice through a body, nine numbers each, in the order of the boundary, as
      * the shader makes them: caught by transform feedback. */
     captureSlice(picture: Picture, body: number, w: number): Float32Array {
-        const gl = this.gl;
         const buffers = this.bodies[body]!;
-        const perInstance = buffers.body.dimension === 4 ? 6 : 3;
-        const count = buffers.body.boundary.facetCount * perInstance;
-        gl.bindVertexArray(this.plainArray);
-        const target = gl.createBuffer()!;
-        gl.bindBuffer(gl.TRANSFORM_FEEDBACK_BUFFER, target);
-        gl.bufferData(gl.TRANSFORM_FEEDBACK_BUFFER, 16 * count, gl.STREAM_READ);
-        gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, target);
-        const program = buffers.body.dimension === 4 ? this.programs.sliceCapture
-            : this.programs.skinCapture;
-        gl.enable(gl.RASTERIZER_DISCARD);
-        this.setBody(program.use(), picture, buffers, w, picture.camera.viewProjection);
+        const { slice, skin } = this.programs.capture;
+        const is4 = buffers.body.dimension === 4;
+        const program = (is4 ? slice : skin)().use();
+        this.gl.bindVertexArray(this.plainArray);
+        this.setBody(program, picture, buffers, w, picture.camera.viewProjection);
         program.int("isSmooth", 0);
-        gl.beginTransformFeedback(gl.TRIANGLES);
-        gl.drawArraysInstanced(gl.TRIANGLES, 0, perInstance, buffers.body.boundary.facetCount);
-        gl.endTransformFeedback();
-        gl.disable(gl.RASTERIZER_DISCARD);
-        const all = new Float32Array(4 * count);
-        gl.getBufferSubData(gl.TRANSFORM_FEEDBACK_BUFFER, 0, all);
-        gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, null);
-        gl.deleteBuffer(target);
-        const kept: number[] = [];
-        for (let at = 0; at < all.length; at += 12) {
-            if (all[at + 3] === 1) {
-                for (const k of [0, 1, 2, 4, 5, 6, 8, 9, 10]) {
-                    kept.push(all[at + k]!);
-                }
-            }
-        }
-        return Float32Array.from(kept);
+        return captureTriangles(this.gl, is4 ? 6 : 3, buffers.body.boundary.facetCount);
     }
 
     private resize(width: number, height: number): void {
@@ -200,7 +188,13 @@ export class Renderer {
         this.gl.enable(this.gl.SCISSOR_TEST);
     }
 
-    private setBody(program: Program, picture: Picture, buffers: BodyBuffers, w: number, m: Matrix) {
+    private setBody(
+        program: Program,
+        picture: Picture,
+        buffers: BodyBuffers,
+        w: number,
+        m: Matrix,
+    ) {
         const [x, y, z, ownW] = picture.shift;
         const valueOf = { nothing: 0, w: 1, scalar: 2 }[picture.coloring.valueOf];
         const isSmooth = picture.isSmooth && buffers.cornerNormals !== null;
@@ -216,14 +210,24 @@ export class Renderer {
             .texture("cornerNormals", 3, buffers.cornerNormals ?? buffers.positions);
     }
 
-    private drawBody(program: { slice: Program; skin: Program }, picture: Picture,
-        buffers: BodyBuffers, w: number, viewProjection: Matrix, prepare: (p: Program) => void): void {
+    private drawBody(
+        program: { slice: Lazy; skin: Lazy },
+        picture: Picture,
+        buffers: BodyBuffers,
+        w: number,
+        viewProjection: Matrix,
+        prepare: (p: Program) => void,
+    ): void {
         const is4 = buffers.body.dimension === 4;
-        const chosen = (is4 ? program.slice : program.skin).use();
+        const chosen = (is4 ? program.slice : program.skin)().use();
         this.setBody(chosen, picture, buffers, w, viewProjection);
         prepare(chosen);
-        this.gl.drawArraysInstanced(this.gl.TRIANGLES, 0, is4 ? 6 : 3,
-            buffers.body.boundary.facetCount);
+        this.gl.drawArraysInstanced(
+            this.gl.TRIANGLES,
+            0,
+            is4 ? 6 : 3,
+            buffers.body.boundary.facetCount,
+        );
     }
 
     private drawShadows(picture: Picture, slice: SliceView, light: Light): void {
@@ -234,8 +238,14 @@ export class Renderer {
         gl.enable(gl.DEPTH_TEST);
         gl.clear(gl.DEPTH_BUFFER_BIT);
         for (const buffers of this.bodies) {
-            this.drawBody(this.programs.shadow, picture, buffers, slice.w, light.viewProjection,
-                () => {});
+            this.drawBody(
+                this.programs.shadow,
+                picture,
+                buffers,
+                slice.w,
+                light.viewProjection,
+                () => {},
+            );
         }
     }
 
@@ -250,21 +260,35 @@ export class Renderer {
         this.enter(rect);
         if (solid) {
             this.bodies.forEach((buffers, i) => {
-                this.drawBody(this.programs.solid, picture, buffers, solid.w, camera.viewProjection,
-                    (program) => program
-                        .texture("colorMap", 4, this.colorMap)
-                        .float("bodyColor", ...coloring.bodies[i % coloring.bodies.length]!)
-                        .float("range", ...coloring.range)
-                        .float("cameraEye", ...camera.eye)
-                        .float("toKey", ...light.toKey)
-                        .float("toFill", ...light.toFill));
+                this.drawBody(
+                    this.programs.solid,
+                    picture,
+                    buffers,
+                    solid.w,
+                    camera.viewProjection,
+                    (program) =>
+                        program
+                            .texture("colorMap", 4, this.colorMap)
+                            .float("bodyColor", ...coloring.bodies[i % coloring.bodies.length]!)
+                            .float("range", ...coloring.range)
+                            .float("cameraEye", ...camera.eye)
+                            .float("toKey", ...light.toKey)
+                            .float("toFill", ...light.toFill),
+                );
             });
         }
         if (picture.floor !== null && camera.eye[1] > picture.floor) {
-            this.programs.floor.use()
+            this.programs
+                .floor()
+                .use()
                 .matrix("viewProjection", camera.viewProjection)
-                .float("floorDisk", picture.center[0], picture.floor, picture.center[2],
-                    2.6 * picture.radius)
+                .float(
+                    "floorDisk",
+                    picture.center[0],
+                    picture.floor,
+                    picture.center[2],
+                    2.6 * picture.radius,
+                )
                 .float("floorGlow", ...picture.background.glow);
             gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
         }
@@ -280,17 +304,27 @@ export class Renderer {
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
         for (const slice of tile.slices.filter((one) => one.ghost !== null)) {
             for (const buffers of this.bodies) {
-                this.drawBody(this.programs.ghost, picture, buffers, slice.w, camera.viewProjection,
-                    (program) => program
-                        .float("ghostColor", ...slice.ghost!)
-                        .float("opacity", 0.1, 0.5)
-                        .float("cameraEye", ...camera.eye));
+                this.drawBody(
+                    this.programs.ghost,
+                    picture,
+                    buffers,
+                    slice.w,
+                    camera.viewProjection,
+                    (program) =>
+                        program
+                            .float("ghostColor", ...slice.ghost!)
+                            .float("opacity", 0.1, 0.5)
+                            .float("cameraEye", ...camera.eye),
+                );
             }
         }
         if (outline) {
             this.drawOutline(picture, tile);
         }
-        this.drawLines(picture, tile.lines, rect);
+        if (tile.lines.length > 0) {
+            this.lines.draw(this.programs.line(), picture, tile.lines, rect);
+            gl.bindVertexArray(this.plainArray);
+        }
         gl.depthMask(true);
         gl.disable(gl.BLEND);
     }
@@ -304,7 +338,9 @@ export class Renderer {
             if (!buffers.folds) {
                 continue;
             }
-            this.programs.fold.use()
+            this.programs
+                .fold()
+                .use()
                 .matrix("viewProjection", camera.viewProjection)
                 .matrix("rotation", columnsOf(picture))
                 .float("shift", shift[0], shift[1], shift[2], shift[3] - film)
@@ -318,39 +354,10 @@ export class Renderer {
         }
     }
 
-    private bindLines(): void {
-        const gl = this.gl;
-        gl.bindVertexArray(this.lineArray);
-        gl.bindBuffer(gl.ARRAY_BUFFER, this.lineBuffer);
-        [3, 3, 4].forEach((size, i) => {
-            gl.enableVertexAttribArray(i);
-            gl.vertexAttribPointer(i, size, gl.FLOAT, false, 40, 12 * i);
-            gl.vertexAttribDivisor(i, 1);
-        });
-        gl.bindVertexArray(this.plainArray);
-    }
-
-    private drawLines(picture: Picture, lines: Segment[], rect: readonly number[]): void {
-        if (lines.length === 0) {
-            return;
-        }
-        const gl = this.gl;
-        const data = Float32Array.from(lines.flatMap(({ a, b, color, alpha }) =>
-            [...a, ...b, ...color, alpha]));
-        gl.bindVertexArray(this.lineArray);
-        gl.bindBuffer(gl.ARRAY_BUFFER, this.lineBuffer);
-        gl.bufferData(gl.ARRAY_BUFFER, data, gl.STREAM_DRAW);
-        this.programs.line.use()
-            .matrix("viewProjection", picture.camera.viewProjection)
-            .float("pixels", rect[2]!, rect[3]!)
-            .float("width", picture.lineWidth);
-        gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.length);
-        gl.bindVertexArray(this.plainArray);
-    }
-
     private setDepth(program: Program, { camera }: Picture, rect: readonly number[]): Program {
         const [x, y, width, height] = rect as [number, number, number, number];
-        return program.use()
+        return program
+            .use()
             .texture("depths", 0, this.targets!.depth)
             .int4("tile", [x, y, width, height])
             .float("lens", (camera.slope * width) / height, camera.slope, camera.near, camera.far);
@@ -364,9 +371,17 @@ export class Renderer {
         gl.disable(gl.DEPTH_TEST);
         gl.bindFramebuffer(gl.FRAMEBUFFER, this.targets!.occlusion);
         this.enter(rect);
-        const toWorld = Float32Array.of(...camera.right, 0, ...camera.up, 0, ...camera.back, 0,
-            ...camera.eye, 1);
-        this.setDepth(this.programs.occlusion, picture, rect)
+        const toWorld = Float32Array.of(
+            ...camera.right,
+            0,
+            ...camera.up,
+            0,
+            ...camera.back,
+            0,
+            ...camera.eye,
+            1,
+        );
+        this.setDepth(this.programs.occlusion(), picture, rect)
             .float("reach", 0.16 * picture.radius)
             .float("perMeter", rect[3]! / (2 * camera.slope))
             .matrix("lightMatrix", multiply(light.toMap, toWorld))
@@ -382,7 +397,7 @@ export class Renderer {
         gl.disable(gl.DEPTH_TEST);
         gl.bindFramebuffer(gl.FRAMEBUFFER, null);
         this.enter(rect);
-        this.setDepth(this.programs.compose, picture, rect)
+        this.setDepth(this.programs.compose(), picture, rect)
             .texture("sky", 1, targets.skyColor)
             .texture("lamp", 2, targets.lampColor)
             .texture("ghosts", 3, targets.ghostColor)
@@ -394,49 +409,7 @@ export class Renderer {
     }
 }
 
-function makePrograms(gl: Gl) {
-    const pair = (fragment: string) => ({
-        slice: makeProgram(gl, shaders.kSlice, fragment),
-        skin: makeProgram(gl, shaders.kSkin, fragment),
-    });
-    return {
-        facets: makeProgram(gl, shaders.kFullScreen, shaders.kFacetNormals),
-        corners: makeProgram(gl, shaders.kFullScreen, shaders.kCornerNormals),
-        solid: pair(shaders.kSolid),
-        ghost: pair(shaders.kGhost),
-        shadow: pair(shaders.kNothing),
-        sliceCapture: makeProgram(gl, shaders.kSlice, shaders.kNothing, shaders.kCaptured),
-        skinCapture: makeProgram(gl, shaders.kSkin, shaders.kNothing, shaders.kCaptured),
-        fold: makeProgram(gl, shaders.kFold, shaders.kGhost),
-        floor: makeProgram(gl, shaders.kFloorVertex, shaders.kFloor),
-        line: makeProgram(gl, shaders.kLineVertex, shaders.kLine),
-        occlusion: makeProgram(gl, shaders.kFullScreen, shaders.kOcclusion),
-        compose: makeProgram(gl, shaders.kFullScreen, shaders.kCompose),
-    };
-}
-
 // A rotation by rows, as WebGL takes it: by columns.
 function columnsOf({ rotation }: Picture): Float32Array {
     return Float32Array.from(rotation, (_, i) => rotation[4 * (i % 4) + (i >> 2)]!);
 }
-
-// A key light over the left shoulder and a weak one from the right, which go with the camera.
-function makeLight({ camera, center, radius, floor }: Picture): Light {
-    const flat: Vector = [camera.back[0], 0, camera.back[2]];
-    const back = Math.hypot(...flat) > 1e-6 ? normalized(flat) : camera.up;
-    const mix = (right: number, up: number, toEye: number) =>
-        normalized(add(add(scale(camera.right, right), [0, 1, 0], up), back, toEye));
-    const toKey = mix(-0.65, 1, 0.55);
-    const right = normalized(cross([0, 1, 0], toKey));
-    const half = 1.05 * radius;
-    // Deep enough for the floor under the bodies.
-    const below = floor === null ? radius : (center[1] - floor + 2 * radius) / toKey[1] + radius;
-    const view = viewMatrix(right, cross(toKey, right), toKey, center);
-    const viewProjection = multiply(orthographic(half, -half, below), view);
-    const toUnit = Float32Array.of(0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0.5, 0.5, 0.5, 1);
-    return {
-        toKey, toFill: mix(0.8, 0.1, 0.6), viewProjection, toMap: multiply(toUnit, viewProjection),
-        width: 2 * half, depth: below + half,
-    };
-}
-

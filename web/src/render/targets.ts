@@ -3,8 +3,8 @@ import type { Gl } from "./gl.ts";
 
 const kSamples = 4;
 
-/** What a picture is drawn into, of one size: solid things, by light of the sky and of the lamp, with
- * many samples a pixel and depth; the same with one sample; ghosts; occlusion. */
+/** What a picture is drawn into, of one size: solid things, by light of the sky and of the lamp,
+ * with many samples a pixel and depth; the same with one sample; ghosts; occlusion. */
 export class Targets {
     readonly sampled: WebGLFramebuffer;
     readonly sampledGhosts: WebGLFramebuffer; // has the depths of the solid things, too
@@ -19,7 +19,11 @@ export class Targets {
     readonly occlusionColor: WebGLTexture;
     private buffers: WebGLRenderbuffer[];
 
-    constructor(private gl: Gl, readonly width: number, readonly height: number) {
+    constructor(
+        private gl: Gl,
+        readonly width: number,
+        readonly height: number,
+    ) {
         const samples = Math.min(kSamples, gl.getParameter(gl.MAX_SAMPLES) as number);
         const kinds = [gl.SRGB8_ALPHA8, gl.SRGB8_ALPHA8, gl.SRGB8_ALPHA8, gl.DEPTH_COMPONENT24];
         this.buffers = kinds.map((internal) => {
@@ -48,7 +52,8 @@ export class Targets {
         gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
         const places = colors.map((_, i) => gl.COLOR_ATTACHMENT0 + i);
         colors.forEach((color, i) =>
-            gl.framebufferRenderbuffer(gl.FRAMEBUFFER, places[i]!, gl.RENDERBUFFER, color));
+            gl.framebufferRenderbuffer(gl.FRAMEBUFFER, places[i]!, gl.RENDERBUFFER, color),
+        );
         gl.drawBuffers(places);
         gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, depth);
         return framebuffer;
@@ -60,19 +65,40 @@ export class Targets {
         gl.bindFramebuffer(gl.READ_FRAMEBUFFER, source);
         gl.readBuffer(gl.COLOR_ATTACHMENT0 + color);
         gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, target);
-        gl.blitFramebuffer(0, 0, this.width, this.height, 0, 0, this.width, this.height, mask,
-            gl.NEAREST);
+        gl.blitFramebuffer(
+            0,
+            0,
+            this.width,
+            this.height,
+            0,
+            0,
+            this.width,
+            this.height,
+            mask,
+            gl.NEAREST,
+        );
     }
 
     dispose(): void {
         const gl = this.gl;
-        for (const framebuffer of [this.sampled, this.sampledGhosts, this.solid, this.lamp,
-            this.ghosts, this.occlusion]) {
+        for (const framebuffer of [
+            this.sampled,
+            this.sampledGhosts,
+            this.solid,
+            this.lamp,
+            this.ghosts,
+            this.occlusion,
+        ]) {
             gl.deleteFramebuffer(framebuffer);
         }
         this.buffers.forEach((buffer) => gl.deleteRenderbuffer(buffer));
-        for (const texture of [this.skyColor, this.lampColor, this.depth, this.ghostColor,
-            this.occlusionColor]) {
+        for (const texture of [
+            this.skyColor,
+            this.lampColor,
+            this.depth,
+            this.ghostColor,
+            this.occlusionColor,
+        ]) {
             gl.deleteTexture(texture);
         }
     }
@@ -85,7 +111,10 @@ export class ShadowMap {
     readonly compared: WebGLSampler;
     readonly plain: WebGLSampler;
 
-    constructor(gl: Gl, readonly size: number) {
+    constructor(
+        gl: Gl,
+        readonly size: number,
+    ) {
         this.texture = makeTarget(gl, gl.DEPTH_COMPONENT24, size, size);
         this.framebuffer = makeFramebuffer(gl, null, this.texture);
         this.compared = gl.createSampler()!;

@@ -53,17 +53,26 @@ export class Decoder {
         }
         const boundary = makeBoundary(mesh, path);
         this.kept.set(name, {
-            path, dimension: mesh.dimension, vertexCount: mesh.vertexCount, crc: mesh.crc,
-            rest: mesh, restCells: null,
+            path,
+            dimension: mesh.dimension,
+            vertexCount: mesh.vertexCount,
+            crc: mesh.crc,
+            rest: mesh,
+            restCells: null,
         });
         return {
             body: {
-                name, dimension: mesh.dimension, vertexCount: mesh.vertexCount,
-                cellCount: mesh.cellCount, boundary,
+                name,
+                dimension: mesh.dimension,
+                vertexCount: mesh.vertexCount,
+                cellCount: mesh.cellCount,
+                boundary,
             },
             start: {
                 positions: toFloat4(mesh.positions, mesh.dimension),
-                speed: null, force: null, strain: null,
+                speed: null,
+                force: null,
+                strain: null,
             },
         };
     }
@@ -71,10 +80,14 @@ export class Decoder {
     frame(bytes: Uint8Array, name: string, path: string): DecodedFrame {
         const frame = readFrame(bytes, path);
         const mesh = this.kept.get(name)!;
-        if (frame.meshCrc !== mesh.crc || frame.vertexCount !== mesh.vertexCount
-            || frame.dimension !== mesh.dimension) {
+        if (
+            frame.meshCrc !== mesh.crc ||
+            frame.vertexCount !== mesh.vertexCount ||
+            frame.dimension !== mesh.dimension
+        ) {
             throw new PentError(
-                `${path}: belongs to another mesh than ${mesh.path}; expected both from one run`);
+                `${path}: belongs to another mesh than ${mesh.path}; expected both from one run`,
+            );
         }
         const size = (values: Float64Array | null) => values && lengths(values, frame.dimension);
         return {

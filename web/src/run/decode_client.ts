@@ -30,24 +30,37 @@ export class DecodeClient {
             if ("result" in answer) {
                 waiting?.resolve(answer.result);
             } else {
-                waiting?.reject(answer.isOurs ? new PentError(answer.error)
-                    : new PentError(`the reader failed: ${answer.error}; is the file too large?`));
+                waiting?.reject(
+                    answer.isOurs
+                        ? new PentError(answer.error)
+                        : new PentError(
+                              `the reader failed: ${answer.error}; is the file too large?`,
+                          ),
+                );
             }
         };
         this.worker.onerror = (event) => {
-            this.waiting.forEach((waiting) => waiting.reject(
-                new PentError(`the reader failed: ${event.message || "its thread did not start"}`)));
+            this.waiting.forEach((waiting) =>
+                waiting.reject(
+                    new PentError(
+                        `the reader failed: ${event.message || "its thread did not start"}`,
+                    ),
+                ),
+            );
             this.waiting.clear();
         };
     }
 
     mesh(bytes: Uint8Array, name: string, path: string): Promise<DecodedMesh> {
-        return this.ask({ kind: "mesh", bytes, name, path }, [bytes.buffer]) as Promise<DecodedMesh>;
+        return this.ask({ kind: "mesh", bytes, name, path }, [
+            bytes.buffer,
+        ]) as Promise<DecodedMesh>;
     }
 
     frame(bytes: Uint8Array, name: string, path: string): Promise<DecodedFrame> {
-        return this.ask({ kind: "frame", bytes, name, path }, [bytes.buffer]) as
-            Promise<DecodedFrame>;
+        return this.ask({ kind: "frame", bytes, name, path }, [
+            bytes.buffer,
+        ]) as Promise<DecodedFrame>;
     }
 
     strain(name: string, positions: Float32Array): Promise<Float32Array> {

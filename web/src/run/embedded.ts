@@ -49,7 +49,9 @@ export class EmbeddedRun implements Run {
         this.bodies = bodies.map(({ name, vertices, cells, facets }) => {
             const part = corners.slice(at, (at += 4 * facets));
             if (part.length !== 4 * facets || part.some((vertex) => vertex >= vertices)) {
-                throw new PentError(`this page: the surface of ${name} is damaged; export it again`);
+                throw new PentError(
+                    `this page: the surface of ${name} is damaged; export it again`,
+                );
             }
             const boundary = indexBoundary(part, dimension, vertices);
             return { name, dimension, vertexCount: vertices, cellCount: cells, boundary };
@@ -69,7 +71,9 @@ export class EmbeddedRun implements Run {
             throw new PentError("this page: its run cannot be understood; export it again");
         }
         if (description.version !== 1) {
-            throw new PentError(`this page: its run has version ${description.version}, expected 1`);
+            throw new PentError(
+                `this page: its run has version ${description.version}, expected 1`,
+            );
         }
         return new EmbeddedRun(description);
     }
@@ -93,8 +97,10 @@ export class EmbeddedRun implements Run {
             for (const key of kQuantities) {
                 const most = maxima[key];
                 if (most !== null) {
-                    made[key] = Float32Array.from(bytes.subarray(at, (at += vertexCount)),
-                        (value) => (value / 255) * most);
+                    made[key] = Float32Array.from(
+                        bytes.subarray(at, (at += vertexCount)),
+                        (value) => (value / 255) * most,
+                    );
                 }
             }
             return made;
@@ -108,8 +114,10 @@ export class EmbeddedRun implements Run {
         const vertices = this.bodies.reduce((sum, body) => sum + body.vertexCount, 0);
         const expected = vertices * (2 * this.dimension + quantities);
         if (bytes.length !== expected) {
-            throw new PentError(`this page: frame ${frame} has ${bytes.length} bytes, expected `
-                + `${expected}; export the page again`);
+            throw new PentError(
+                `this page: frame ${frame} has ${bytes.length} bytes, expected ` +
+                    `${expected}; export the page again`,
+            );
         }
     }
 

@@ -36,17 +36,20 @@ const wave = (time: number) => (2 * Math.PI * time) / kPeriod;
 /** Bodies that the page makes by itself, to have something to look at. */
 export const kExamples: Record<string, Example> = {
     tesseract: {
-        title: "Tesseract, turning in xw and yz at once", cells: [3, 3, 3, 3],
+        title: "Tesseract, turning in xw and yz at once",
+        cells: [3, 3, 3, 3],
         shape: (p) => p,
         motion: (p, time) => turned(turned(p, 0, 3, wave(time) / 4), 1, 2, wave(time) / 4),
     },
     twist: {
-        title: "Bar, twisted in the plane zw", cells: [18, 3, 3, 3],
+        title: "Bar, twisted in the plane zw",
+        cells: [18, 3, 3, 3],
         shape: (p) => [2 * p[0], 0.5 * p[1], 0.5 * p[2], 0.5 * p[3]],
-        motion: (p, time) => turned(p, 2, 3, 0.5 * Math.PI * Math.sin(wave(time)) * p[0] / 2),
+        motion: (p, time) => turned(p, 2, 3, (0.5 * Math.PI * Math.sin(wave(time)) * p[0]) / 2),
     },
     ball: {
-        title: "Ball that swells and shrinks", cells: [6, 6, 6, 6],
+        title: "Ball that swells and shrinks",
+        cells: [6, 6, 6, 6],
         shape: (p) => toBall(p) as Point,
         motion(p, time) {
             const s = 0.25 * Math.sin(wave(time));
@@ -54,14 +57,17 @@ export const kExamples: Record<string, Example> = {
         },
     },
     duocylinder: {
-        title: "Duocylinder: a disk times a disk", cells: [7, 7, 7, 7],
+        title: "Duocylinder: a disk times a disk",
+        cells: [7, 7, 7, 7],
         shape([x, y, z, w]) {
             const [a, b] = toBall([x, z]);
             const [c, d] = toBall([y, w]);
             return [0.9 * a!, 0.7 * c!, 0.9 * b!, 0.7 * d!];
         },
-        motion: (p, time) => turned(p, 1, 3, wave(time) / 2).map((value, k) =>
-            (k === 0 ? value + 0.2 * Math.sin(wave(time) + 1.5 * p[1]) : value)) as Point,
+        motion: (p, time) =>
+            turned(p, 1, 3, wave(time) / 2).map((value, k) =>
+                k === 0 ? value + 0.2 * Math.sin(wave(time) + 1.5 * p[1]) : value,
+            ) as Point,
     },
 };
 
@@ -72,8 +78,11 @@ function orders(): { axes: number[]; isEven: boolean }[] {
         if (axes.length === 4) {
             found.push({ axes, isEven: swaps % 2 === 0 });
         }
-        [0, 1, 2, 3].filter((axis) => !axes.includes(axis)).forEach((axis) =>
-            extend([...axes, axis], swaps + axes.filter((other) => other > axis).length));
+        [0, 1, 2, 3]
+            .filter((axis) => !axes.includes(axis))
+            .forEach((axis) =>
+                extend([...axes, axis], swaps + axes.filter((other) => other > axis).length),
+            );
     };
     extend([], 0);
     return found;
@@ -110,8 +119,12 @@ export function gridMesh(counts: readonly number[], shape: (p: Point) => Point):
         }
     });
     return {
-        dimension: 4, vertexCount: positions.length / 4, cellCount: cells.length / 5,
-        positions: Float64Array.from(positions), cells: Uint32Array.from(cells), crc: 0,
+        dimension: 4,
+        vertexCount: positions.length / 4,
+        cellCount: cells.length / 5,
+        positions: Float64Array.from(positions),
+        cells: Uint32Array.from(cells),
+        crc: 0,
         createdBy: "",
     };
 }
@@ -126,14 +139,23 @@ export class ExampleRun implements Run {
     private mesh: Mesh;
     private rest: RestCells;
 
-    constructor(private example: Example, name: string) {
+    constructor(
+        private example: Example,
+        name: string,
+    ) {
         this.title = example.title;
         this.mesh = gridMesh(example.cells, example.shape);
         this.rest = makeRestCells(this.mesh);
         const { vertexCount, cellCount } = this.mesh;
-        this.bodies = [{
-            name, dimension: 4, vertexCount, cellCount, boundary: makeBoundary(this.mesh, name),
-        }];
+        this.bodies = [
+            {
+                name,
+                dimension: 4,
+                vertexCount,
+                cellCount,
+                boundary: makeBoundary(this.mesh, name),
+            },
+        ];
     }
 
     load(frame: number): Promise<Moment> {
@@ -156,7 +178,9 @@ export class ExampleRun implements Run {
         }
         const positions = toFloat4(now, 4);
         return Promise.resolve({
-            frame, time, bodies: [{ positions, speed, force: null, strain: null }],
+            frame,
+            time,
+            bodies: [{ positions, speed, force: null, strain: null }],
         });
     }
 

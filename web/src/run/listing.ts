@@ -46,19 +46,25 @@ export function listPaths(paths: string[]): { listing: Listing; prefix: string }
     const listing: Listing = { meshes: [], frames: new Map(), isGrowing: false };
     if (roots.length === 0) {
         if (pent.length !== 1) {
-            const found = pent.length === 0 ? "no .pent file" : `${pent.length} .pent files but no `
-                + "folder meshes/";
+            const found =
+                pent.length === 0
+                    ? "no .pent file"
+                    : `${pent.length} .pent files but no ` + "folder meshes/";
             throw new PentError(`${paths[0] ?? "folder"}: found ${found}; ${kExpected}`);
         }
         listing.mesh = pent[0]!;
         return { listing, prefix: "" };
     }
     const prefix = roots[0]!;
-    const stems = (folder: string) => pent
-        .filter((path) => path.startsWith(prefix + folder)
-            && !path.slice(prefix.length + folder.length).includes("/"))
-        .map((path) => path.slice(prefix.length + folder.length, -".pent".length))
-        .sort();
+    const stems = (folder: string) =>
+        pent
+            .filter(
+                (path) =>
+                    path.startsWith(prefix + folder) &&
+                    !path.slice(prefix.length + folder.length).includes("/"),
+            )
+            .map((path) => path.slice(prefix.length + folder.length, -".pent".length))
+            .sort();
     listing.meshes = stems("meshes/");
     for (const stem of stems("frames/")) {
         const match = /^(.+)_(\d{6,})$/.exec(stem);
@@ -80,8 +86,10 @@ export function commonFrames(listing: Listing): number[] {
     for (const body of listing.meshes) {
         const found = listing.frames.get(body);
         if (!found?.length) {
-            throw new PentError(`${framePath(body, 0)}: no such frame nor a later one of this body; `
-                + "did pent-sim run?");
+            throw new PentError(
+                `${framePath(body, 0)}: no such frame nor a later one of this body; ` +
+                    "did pent-sim run?",
+            );
         }
         const numbers = new Set(found);
         common = common === null ? [...numbers] : common.filter((frame) => numbers.has(frame));

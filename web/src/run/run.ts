@@ -30,8 +30,15 @@ export interface Run {
 
 export function bytesOf(moment: Moment): number {
     const size = (values: Float32Array | null) => values?.byteLength ?? 0;
-    return moment.bodies.reduce((sum, body) => sum + body.positions.byteLength
-        + size(body.speed) + size(body.force) + size(body.strain), 0);
+    return moment.bodies.reduce(
+        (sum, body) =>
+            sum +
+            body.positions.byteLength +
+            size(body.speed) +
+            size(body.force) +
+            size(body.strain),
+        0,
+    );
 }
 
 /** A run folder, or a single .pent mesh, read by a worker. */
@@ -71,10 +78,12 @@ export class PentRun implements Run {
     }
 
     async addStrain(moment: Moment): Promise<boolean> {
-        await Promise.all(this.bodies.map(async (body, i) => {
-            const frame = moment.bodies[i]!;
-            frame.strain ??= await this.decoder.strain(body.name, frame.positions);
-        }));
+        await Promise.all(
+            this.bodies.map(async (body, i) => {
+                const frame = moment.bodies[i]!;
+                frame.strain ??= await this.decoder.strain(body.name, frame.positions);
+            }),
+        );
         return true;
     }
 
@@ -99,11 +108,16 @@ export class PentRun implements Run {
         for (const name of names) {
             const path = listing.mesh ?? meshPath(name);
             onProgress(`reading ${path}`);
-            const { body, start } =
-                await this.decoder.mesh(await this.source.read(path), name, path);
+            const { body, start } = await this.decoder.mesh(
+                await this.source.read(path),
+                name,
+                path,
+            );
             if (this.bodies.length > 0 && body.dimension !== this.dimension) {
-                throw new PentError(`${path}: has dimension ${body.dimension}; expected `
-                    + `${this.dimension} as the other bodies have`);
+                throw new PentError(
+                    `${path}: has dimension ${body.dimension}; expected ` +
+                        `${this.dimension} as the other bodies have`,
+                );
             }
             this.dimension = body.dimension;
             this.bodies.push(body);

@@ -42,10 +42,17 @@ function toNumbers(ranges: unknown, where: string): number[] {
     const numbers: number[] = [];
     for (const range of ranges as [number, number][]) {
         const [first, last] = range;
-        if (!Number.isSafeInteger(first) || !Number.isSafeInteger(last) || first < 0
-            || last < first || numbers.length + last - first > kMost) {
-            throw new PentError(`${where}: found frames ${JSON.stringify(range).slice(0, 60)}; `
-                + "expected [FIRST, LAST]");
+        if (
+            !Number.isSafeInteger(first) ||
+            !Number.isSafeInteger(last) ||
+            first < 0 ||
+            last < first ||
+            numbers.length + last - first > kMost
+        ) {
+            throw new PentError(
+                `${where}: found frames ${JSON.stringify(range).slice(0, 60)}; ` +
+                    "expected [FIRST, LAST]",
+            );
         }
         for (let frame = first; frame <= last; ++frame) {
             numbers.push(frame);
@@ -80,8 +87,10 @@ export function parseListing(text: string, where: string): Listing {
         if (error instanceof PentError) {
             throw error;
         }
-        throw new PentError(`${where}: cannot be understood; expected the list of a run, as `
-            + "pent-view or pent-sim writes it");
+        throw new PentError(
+            `${where}: cannot be understood; expected the list of a run, as ` +
+                "pent-view or pent-sim writes it",
+        );
     }
 }
 
@@ -92,9 +101,15 @@ export class WebFiles implements FileSource {
 
     /** @param address  Of a folder or of a .pent file, relative to the page or absolute. */
     constructor(private address: string) {
-        this.title = decodeURIComponent(
-            address.replace(/[?#].*$/, "").replace(/\/+$/, "").split("/").at(-1)!
-                .replace(/\.pent$/, "")) || "run";
+        this.title =
+            decodeURIComponent(
+                address
+                    .replace(/[?#].*$/, "")
+                    .replace(/\/+$/, "")
+                    .split("/")
+                    .at(-1)!
+                    .replace(/\.pent$/, ""),
+            ) || "run";
     }
 
     async list(): Promise<Listing> {
@@ -108,21 +123,26 @@ export class WebFiles implements FileSource {
                 return parseListing(await response.text(), `${this.folder()}${name}`);
             }
         }
-        throw new PentError(`${this.folder()}: neither run.json nor report.json is there; `
-            + "expected a run folder of pent-sim or a .pent file");
+        throw new PentError(
+            `${this.folder()}: neither run.json nor report.json is there; ` +
+                "expected a run folder of pent-sim or a .pent file",
+        );
     }
 
     async read(path: string): Promise<Uint8Array> {
         const response = await this.fetch(path);
         if (!response.ok) {
-            throw new PentError(`${this.folder()}${path}: cannot be read: the server says `
-                + `${response.status} ${response.statusText}`.trim());
+            throw new PentError(
+                `${this.folder()}${path}: cannot be read: the server says ` +
+                    `${response.status} ${response.statusText}`.trim(),
+            );
         }
         return new Uint8Array(await response.arrayBuffer());
     }
 
     private folder(): string {
-        return this.address.endsWith(".pent") ? this.address.replace(/[^/]*$/, "")
+        return this.address.endsWith(".pent")
+            ? this.address.replace(/[^/]*$/, "")
             : this.address.replace(/\/*$/, "/");
     }
 
@@ -131,8 +151,10 @@ export class WebFiles implements FileSource {
             const address = this.folder() + path.split("/").map(encodeURIComponent).join("/");
             return await fetch(address, { cache: "no-cache" });
         } catch {
-            throw new PentError(`${this.folder()}${path}: cannot be reached; is the server running? `
-                + "A page opened from a file cannot load by address: drop the folder on it");
+            throw new PentError(
+                `${this.folder()}${path}: cannot be reached; is the server running? ` +
+                    "A page opened from a file cannot load by address: drop the folder on it",
+            );
         }
     }
 }
@@ -150,14 +172,17 @@ export async function droppedFiles(transfer: DataTransfer): Promise<Map<string, 
     const visit = async (entry: FileSystemEntry, path: string): Promise<void> => {
         if (entry.isFile) {
             const file = await new Promise<File>((resolve, reject) =>
-                (entry as FileSystemFileEntry).file(resolve, reject));
+                (entry as FileSystemFileEntry).file(resolve, reject),
+            );
             files.set(path, file);
             return;
         }
         const reader = (entry as FileSystemDirectoryEntry).createReader();
-        for (;;) { // it gives some at a time
+        for (;;) {
+            // it gives some at a time
             const some = await new Promise<FileSystemEntry[]>((resolve, reject) =>
-                reader.readEntries(resolve, reject));
+                reader.readEntries(resolve, reject),
+            );
             if (some.length === 0) {
                 return;
             }

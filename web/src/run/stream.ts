@@ -4,7 +4,7 @@ import type { Moment, Run } from "./run.ts";
 
 /** Brings frames in the order in which they are wanted, and keeps those used last.
  *
- * At most a few are under way at once; when what is wanted changes, what has not begun is forgotten.
+ * At most a few are under way at once; when what is wanted changes, what has not begun is dropped.
  */
 export class FrameStream {
     private cache: ByteCache<number, Moment>;
@@ -14,8 +14,12 @@ export class FrameStream {
 
     /** @param onArrival  Called when a frame has come or failed.
      *  @param limit      Bytes of decoded frames to keep. */
-    constructor(private run: Run, private onArrival: (place: number) => void,
-        limit = 256 * 1024 * 1024, private atOnce = 3) {
+    constructor(
+        private run: Run,
+        private onArrival: (place: number) => void,
+        limit = 256 * 1024 * 1024,
+        private atOnce = 3,
+    ) {
         this.cache = new ByteCache(limit);
     }
 

@@ -33,65 +33,94 @@ export function zoom(viewer: Viewer, factor: number): void {
 
 export const kActions: Action[] = [
     {
-        keys: ["Space"], shown: "space", does: "play, pause",
+        keys: ["Space"],
+        shown: "space",
+        does: "play, pause",
         run: (viewer) => (viewer.isPlaying ? viewer.pause() : viewer.play()),
     },
     {
-        keys: ["ArrowLeft"], shown: "\u2190", does: "a frame back (ten with shift)",
+        keys: ["ArrowLeft"],
+        shown: "\u2190",
+        does: "a frame back (ten with shift)",
         run: (viewer, isShift) => viewer.step(isShift ? -10 : -1),
     },
     {
-        keys: ["ArrowRight"], shown: "\u2192", does: "a frame on (ten with shift)",
+        keys: ["ArrowRight"],
+        shown: "\u2192",
+        does: "a frame on (ten with shift)",
         run: (viewer, isShift) => viewer.step(isShift ? 10 : 1),
     },
     {
-        keys: ["ArrowUp"], shown: "\u2191", does: "slice up along w (ten times as far with shift)",
+        keys: ["ArrowUp"],
+        shown: "\u2191",
+        does: "slice up along w (ten times as far with shift)",
         run: (viewer, isShift) => moveW(viewer, isShift ? 10 : 1),
     },
     {
-        keys: ["ArrowDown"], shown: "\u2193", does: "slice down along w",
+        keys: ["ArrowDown"],
+        shown: "\u2193",
+        does: "slice down along w",
         run: (viewer, isShift) => moveW(viewer, isShift ? -10 : -1),
     },
-    ...kPlanes.map((plane, i): Action => ({
-        keys: [`Digit${i + 1}`, `Numpad${i + 1}`], shown: String(i + 1),
-        does: `turn in ${plane} (the other way with shift)`,
-        run(viewer, isShift) {
-            const [from, to] = axesOf(plane);
-            if (viewer.run?.dimension === 4 || to < 3) {
-                viewer.turn(from, to, isShift ? -kTurnDegrees : kTurnDegrees);
-            }
-        },
-    })),
+    ...kPlanes.map(
+        (plane, i): Action => ({
+            keys: [`Digit${i + 1}`, `Numpad${i + 1}`],
+            shown: String(i + 1),
+            does: `turn in ${plane} (the other way with shift)`,
+            run(viewer, isShift) {
+                const [from, to] = axesOf(plane);
+                if (viewer.run?.dimension === 4 || to < 3) {
+                    viewer.turn(from, to, isShift ? -kTurnDegrees : kTurnDegrees);
+                }
+            },
+        }),
+    ),
     {
-        keys: ["Digit0", "Numpad0"], shown: "0", does: "turn back, slice in the middle",
+        keys: ["Digit0", "Numpad0"],
+        shown: "0",
+        does: "turn back, slice in the middle",
         run: (viewer) => viewer.update({ rotation: identity(), w: null }),
     },
     {
-        keys: ["KeyC"], shown: "C", does: "next coloring",
+        keys: ["KeyC"],
+        shown: "C",
+        does: "next coloring",
         run: (viewer) => viewer.update({ color: next(kColorBy, viewer.state.color), range: null }),
     },
     {
-        keys: ["KeyS"], shown: "S", does: "one slice, side by side, onion skin",
+        keys: ["KeyS"],
+        shown: "S",
+        does: "one slice, side by side, onion skin",
         run: (viewer) => viewer.update({ layout: next(kLayouts, viewer.state.layout) }),
     },
     {
-        keys: ["KeyG"], shown: "G", does: "ghost: none, orthographic, perspective",
+        keys: ["KeyG"],
+        shown: "G",
+        does: "ghost: none, orthographic, perspective",
         run: (viewer) => viewer.update({ ghost: next(kGhosts, viewer.state.ghost) }),
     },
     {
-        keys: ["KeyB"], shown: "B", does: "tesseract box",
+        keys: ["KeyB"],
+        shown: "B",
+        does: "tesseract box",
         run: (viewer) => viewer.update({ box: !viewer.state.box }),
     },
     {
-        keys: ["Equal", "NumpadAdd"], shown: "+", does: "nearer",
+        keys: ["Equal", "NumpadAdd"],
+        shown: "+",
+        does: "nearer",
         run: (viewer) => zoom(viewer, 1.2),
     },
     {
-        keys: ["Minus", "NumpadSubtract"], shown: "\u2212", does: "further away",
+        keys: ["Minus", "NumpadSubtract"],
+        shown: "\u2212",
+        does: "further away",
         run: (viewer) => zoom(viewer, 1 / 1.2),
     },
     {
-        keys: ["KeyR"], shown: "R", does: "camera as at the start",
+        keys: ["KeyR"],
+        shown: "R",
+        does: "camera as at the start",
         run: (viewer) => viewer.update({ orbit: defaultState().orbit }),
     },
 ];
@@ -102,11 +131,12 @@ export function describe(viewer: Viewer): string {
     if (!run || !moment) {
         return "No body is open";
     }
-    const places = slicePlaces(state, viewer.bounds, run.dimension)
-        .map((w) => Number(w.toPrecision(3)));
+    const places = slicePlaces(state, viewer.bounds, run.dimension).map((w) =>
+        Number(w.toPrecision(3)),
+    );
     const what = run.dimension === 3 ? "Whole bodies" : `Slice at w = ${places.join(", ")} m`;
-    const time = run.frames.length > 1 ? `, frame ${moment.frame}, ${moment.time.toFixed(2)} s` : "";
+    const time =
+        run.frames.length > 1 ? `, frame ${moment.frame}, ${moment.time.toFixed(2)} s` : "";
     const color = state.color === "body" ? "" : `, colored by ${state.color}`;
     return `${what} of ${run.title}${time}${color}`;
 }
-

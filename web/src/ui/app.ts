@@ -30,7 +30,12 @@ export class App {
     private recorder: VideoRecorder;
     private title = element("span", { class: "run-title" });
     private opening = 0; // counts, so that only the last of several openings counts
-    private files = element("input", { type: "file", multiple: true, accept: ".pent", hidden: true });
+    private files = element("input", {
+        type: "file",
+        multiple: true,
+        accept: ".pent",
+        hidden: true,
+    });
     private folder = element("input", { type: "file", webkitdirectory: true, hidden: true });
     private addressTimer = 0;
 
@@ -53,9 +58,14 @@ export class App {
     /** Opens what the address or the page names, else an example. */
     async start(): Promise<void> {
         const { state, unknown } = parseState(location.hash);
+        await this.openFirst(state);
         if (unknown.length > 0) {
-            this.messages.note(`The address has parts that are not understood: ${unknown.join(", ")}`);
+            const parts = unknown.join(", ");
+            this.messages.note(`The address has parts that are not understood: ${parts}`);
         }
+    }
+
+    private async openFirst(state: ViewState): Promise<void> {
         const parameters = new URLSearchParams(location.search);
         const address = parameters.get("run");
         const example = parameters.get("example");
@@ -70,8 +80,10 @@ export class App {
             await this.open(new ExampleRun(kExamples[example]!, example), state);
         } else {
             if (example) {
-                this.messages.error(`No example is called "${example}"; there are `
-                    + Object.keys(kExamples).join(", "));
+                this.messages.error(
+                    `No example is called "${example}"; there are ` +
+                        Object.keys(kExamples).join(", "),
+                );
             }
             await this.openExample(kFirstExample, location.hash ? state : undefined);
             this.showWelcome();
@@ -79,22 +91,27 @@ export class App {
     }
 
     async openExample(name: string, state?: ViewState): Promise<void> {
-        await this.open(new ExampleRun(kExamples[name]!, name),
-            state ?? { ...this.kept(), box: true, rotation: defaultState().rotation });
+        await this.open(
+            new ExampleRun(kExamples[name]!, name),
+            state ?? { ...this.kept(), box: true, rotation: defaultState().rotation },
+        );
     }
 
     async openFiles(source: FileSource, state: ViewState): Promise<void> {
         const turn = ++this.opening;
         this.messages.clear();
         this.messages.busy(`Opening ${source.title}`);
-        const run = await this.attempt(() => PentRun.open(source, (text) => this.messages.busy(text)));
+        const run = await this.attempt(() =>
+            PentRun.open(source, (text) => this.messages.busy(text)),
+        );
         this.messages.busy("");
         if (run && turn === this.opening) {
             await this.open(run, state);
         } else {
             run?.close();
         }
-        if (!this.viewer.run) { // there is always something to see
+        if (!this.viewer.run) {
+            // there is always something to see
             await this.openExample(kFirstExample);
             this.showWelcome();
         }
@@ -143,7 +160,8 @@ export class App {
         if (this.viewer.run?.isGrowing && !document.hidden) {
             try {
                 await this.viewer.refresh();
-            } catch { // the server has ended; what is here stays
+            } catch {
+                // the server has ended; what is here stays
             }
         }
     }
@@ -153,11 +171,16 @@ export class App {
         const openers = [
             ["A folder of pent-sim\u2026", () => this.folder.click()],
             [".pent files\u2026", () => this.files.click()],
-            ...Object.entries(kExamples).map(([name, { title }]) =>
-                [title, () => {
-                    history.replaceState(null, "", `${location.pathname}?example=${name}`);
-                    void this.openExample(name);
-                }] as const),
+            ...Object.entries(kExamples).map(
+                ([name, { title }]) =>
+                    [
+                        title,
+                        () => {
+                            history.replaceState(null, "", `${location.pathname}?example=${name}`);
+                            void this.openExample(name);
+                        },
+                    ] as const,
+            ),
         ] as const;
         const savers = [
             ["Picture (PNG)", () => void this.attempt(() => savePicture(viewer))],
@@ -166,25 +189,41 @@ export class App {
             ["Copy the address of this view", () => void this.copyAddress()],
         ] as const;
         byId("top").append(
-            element("h1", {}, "Pentimento"), this.title, element("span", { class: "grow" }),
-            menu("Open", kIcons.open, "Open", openers), menu("Save", kIcons.save, "Save", savers),
+            element("h1", {}, "Pentimento"),
+            this.title,
+            element("span", { class: "grow" }),
+            menu("Open", kIcons.open, "Open", openers),
+            menu("Save", kIcons.save, "Save", savers),
             button("Light, dark, or as the system has it", kIcons.theme, () => {
                 const at = kThemes.indexOf(viewer.state.theme);
                 viewer.update({ theme: kThemes[(at + 1) % kThemes.length]! });
                 this.messages.say(`theme ${viewer.state.theme}`);
             }),
             button("Keys and gestures", kIcons.help, () =>
-                byId<HTMLDialogElement>("help").showModal()),
-            button("Controls", kIcons.panel, () =>
-                document.body.classList.toggle("panel-toggled")), this.files, this.folder);
-        this.files.addEventListener("change", () => void this.openLocal(chosenFiles(this.files.files!)));
-        this.folder.addEventListener("change", () =>
-            void this.openLocal(chosenFiles(this.folder.files!)));
+                byId<HTMLDialogElement>("help").showModal(),
+            ),
+            button("Controls", kIcons.panel, () => document.body.classList.toggle("panel-toggled")),
+            this.files,
+            this.folder,
+        );
+        this.files.addEventListener(
+            "change",
+            () => void this.openLocal(chosenFiles(this.files.files!)),
+        );
+        this.folder.addEventListener(
+            "change",
+            () => void this.openLocal(chosenFiles(this.folder.files!)),
+        );
     }
 
     private fillTools(pointer: Pointer): void {
-        const tools = segments("What dragging does", kTools.map((tool) =>
-            [tool, ...kToolTexts[tool]] as const), (tool) => { pointer.tool = tool; });
+        const tools = segments(
+            "What dragging does",
+            kTools.map((tool) => [tool, ...kToolTexts[tool]] as const),
+            (tool) => {
+                pointer.tool = tool;
+            },
+        );
         tools.show(pointer.tool);
         byId("tools").append(tools.root);
         this.viewer.on("run", (run) => {
@@ -213,27 +252,47 @@ export class App {
 
     private writeAddress(): void {
         const state = formatState(this.viewer.state);
-        history.replaceState(null, "", location.pathname + location.search + (state && `#${state}`));
+        history.replaceState(
+            null,
+            "",
+            location.pathname + location.search + (state && `#${state}`),
+        );
     }
 
     private showWelcome(): void {
         const card = byId("welcome");
         card.replaceChildren(
-            element("p", {}, element("b", {}, "Bodies of four dimensions, a slice at a time. "),
-                "Move w and turn xw below and beside: what you see is the part of the body that lies "
-                + "in the space w = 0."),
+            element(
+                "p",
+                {},
+                element("b", {}, "Bodies of four dimensions, a slice at a time. "),
+                "Move w below and turn xw beside: what you see is the part of the body that " +
+                    "lies in the space w = 0.",
+            ),
             element("p", {}, "Drop a run folder of pent-sim or a .pent mesh here, or "),
-            element("div", { class: "actions" },
-                button("Open a run folder", kIcons.open, () => this.folder.click(), "Open a folder"),
-                button("Open .pent files", kIcons.open, () => this.files.click(), "Open files")),
-            button("Close", kIcons.close, () => { card.hidden = true; }));
+            element(
+                "div",
+                { class: "actions" },
+                button(
+                    "Open a run folder",
+                    kIcons.open,
+                    () => this.folder.click(),
+                    "Open a folder",
+                ),
+                button("Open .pent files", kIcons.open, () => this.files.click(), "Open files"),
+            ),
+            button("Close", kIcons.close, () => {
+                card.hidden = true;
+            }),
+        );
         card.hidden = false;
     }
 
     private applyTheme(): void {
         const { theme } = this.viewer.state;
-        const isDark = theme === "dark"
-            || (theme === "auto" && matchMedia("(prefers-color-scheme: dark)").matches);
+        const isDark =
+            theme === "dark" ||
+            (theme === "auto" && matchMedia("(prefers-color-scheme: dark)").matches);
         document.documentElement.dataset["theme"] = isDark ? "dark" : "light";
         this.viewer.setTheme(isDark ? "dark" : "light");
     }
@@ -241,18 +300,22 @@ export class App {
     private listen(): void {
         const { viewer } = this;
         viewer.on("notice", ({ text, isError }) =>
-            (isError ? this.messages.error(text) : this.messages.note(text)));
+            isError ? this.messages.error(text) : this.messages.note(text),
+        );
         viewer.on("state", () => {
             this.applyTheme();
             clearTimeout(this.addressTimer);
             this.addressTimer = window.setTimeout(() => this.writeAddress(), 400);
         });
-        const label = () => { viewer.canvas.ariaLabel = describe(viewer); };
+        const label = () => {
+            viewer.canvas.ariaLabel = describe(viewer);
+        };
         viewer.on("state", label);
         viewer.on("moment", label);
-        matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.applyTheme());
-        window.addEventListener("hashchange", () =>
-            viewer.update(parseState(location.hash).state));
+        matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () =>
+            this.applyTheme(),
+        );
+        window.addEventListener("hashchange", () => viewer.update(parseState(location.hash).state));
         document.addEventListener("keydown", (event) => this.onKey(event));
         document.addEventListener("dragover", (event) => {
             event.preventDefault();
@@ -272,11 +335,17 @@ export class App {
 
     private onKey(event: KeyboardEvent): void {
         const target = event.target as HTMLElement;
-        const isTyping = target.matches("input:not([type=checkbox],[type=radio]), select")
-            || target.closest("dialog, [role=menu]") !== null;
-        if (event.ctrlKey || event.metaKey || event.altKey || isTyping
-            || (event.code === "Space" && target.matches("button, summary, input"))
-            || (event.code.startsWith("Arrow") && target.matches("input"))) {
+        const isTyping =
+            target.matches("input:not([type=checkbox],[type=radio]), select") ||
+            target.closest("dialog, [role=menu]") !== null;
+        if (
+            event.ctrlKey ||
+            event.metaKey ||
+            event.altKey ||
+            isTyping ||
+            (event.code === "Space" && target.matches("button, summary, input")) ||
+            (event.code.startsWith("Arrow") && target.matches("input"))
+        ) {
             return;
         }
         if (event.key === "?") {
@@ -292,8 +361,12 @@ export class App {
 
     private watchSize(): void {
         const { canvas } = this.viewer;
-        const measure = () => this.viewer.resize(canvas.clientWidth, canvas.clientHeight,
-            Math.min(window.devicePixelRatio || 1, 2));
+        const measure = () =>
+            this.viewer.resize(
+                canvas.clientWidth,
+                canvas.clientHeight,
+                Math.min(window.devicePixelRatio || 1, 2),
+            );
         new ResizeObserver(measure).observe(canvas);
         measure();
     }

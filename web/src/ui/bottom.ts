@@ -19,19 +19,38 @@ export class Bottom {
     private loop: HTMLButtonElement;
     private speed: HTMLSelectElement;
 
-    constructor(root: HTMLElement, private viewer: Viewer) {
+    constructor(
+        root: HTMLElement,
+        private viewer: Viewer,
+    ) {
         this.w = element("input", {
-            type: "range", min: 0, max: kSteps, step: 1, class: "w", "aria-label": "slice at w",
+            type: "range",
+            min: 0,
+            max: kSteps,
+            step: 1,
+            class: "w",
+            "aria-label": "slice at w",
             input: () => viewer.update({ w: this.toW(Number(this.w.value)) }),
         });
         this.wValue = element("output", { class: "value", for: "w" });
-        this.wRow = element("div", { class: "bar" },
+        this.wRow = element(
+            "div",
+            { class: "bar" },
             button("Slice through the middle", kIcons.reset, () => viewer.update({ w: null })),
-            element("span", { class: "letter", "aria-hidden": "true" }, "w"), this.w, this.wValue);
+            element("span", { class: "letter", "aria-hidden": "true" }, "w"),
+            this.w,
+            this.wValue,
+        );
         this.play = button("Play", kIcons.play, () =>
-            (viewer.isPlaying ? viewer.pause() : viewer.play()));
+            viewer.isPlaying ? viewer.pause() : viewer.play(),
+        );
         this.time = element("input", {
-            type: "range", min: 0, max: 1, step: 1, class: "time", "aria-label": "frame",
+            type: "range",
+            min: 0,
+            max: 1,
+            step: 1,
+            class: "time",
+            "aria-label": "frame",
             input: () => {
                 viewer.pause();
                 viewer.update({ frame: viewer.run!.frames[Number(this.time.value)]! });
@@ -43,8 +62,15 @@ export class Bottom {
             "aria-label": "speed of playing",
             change: () => viewer.update({ speed: Number(this.speed.value) }),
         });
-        this.timeRow = element("div", { class: "bar" }, this.play, this.time, this.timeValue,
-            this.speed, this.loop);
+        this.timeRow = element(
+            "div",
+            { class: "bar" },
+            this.play,
+            this.time,
+            this.timeValue,
+            this.speed,
+            this.loop,
+        );
         root.append(this.wRow, this.timeRow);
         viewer.on("state", () => this.show());
         viewer.on("run", () => this.show());
@@ -79,8 +105,9 @@ export class Bottom {
         this.time.ariaValueText = `frame ${state.frame ?? run.frames[0]}, ${seconds}`;
         this.loop.ariaPressed = String(state.loop);
         const speeds = [...new Set([...kSpeeds, state.speed])].sort((a, b) => a - b);
-        this.speed.replaceChildren(...speeds.map((speed) =>
-            element("option", { value: speed }, `${speed}\u00d7`)));
+        this.speed.replaceChildren(
+            ...speeds.map((speed) => element("option", { value: speed }, `${speed}\u00d7`)),
+        );
         this.speed.value = String(state.speed);
     }
 }

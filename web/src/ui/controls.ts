@@ -6,35 +6,73 @@ export interface Control<Value> {
     show(value: Value): void;
 }
 
-export function toggle(label: string, onChange: (value: boolean) => void, title = ""): Control<boolean> {
+export function toggle(
+    label: string,
+    onChange: (value: boolean) => void,
+    title = "",
+): Control<boolean> {
     const input = element("input", {
-        type: "checkbox", change: () => onChange(input.checked),
+        type: "checkbox",
+        change: () => onChange(input.checked),
     });
     const root = element("label", { class: "toggle", title }, input, element("span", {}, label));
-    return { root, show: (value) => { input.checked = value; } };
+    return {
+        root,
+        show: (value) => {
+            input.checked = value;
+        },
+    };
 }
 
-export function choice<Value extends string>(label: string, options: readonly (readonly [Value, string])[],
-    onChange: (value: Value) => void): Control<Value> {
-    const select = element("select", {
-        "aria-label": label, change: () => onChange(select.value as Value),
-    }, ...options.map(([value, text]) => element("option", { value }, text)));
+export function choice<Value extends string>(
+    label: string,
+    options: readonly (readonly [Value, string])[],
+    onChange: (value: Value) => void,
+): Control<Value> {
+    const select = element(
+        "select",
+        {
+            "aria-label": label,
+            change: () => onChange(select.value as Value),
+        },
+        ...options.map(([value, text]) => element("option", { value }, text)),
+    );
     const root = element("label", { class: "row" }, element("span", {}, label), select);
-    return { root, show: (value) => { select.value = value; } };
+    return {
+        root,
+        show: (value) => {
+            select.value = value;
+        },
+    };
 }
 
 /** A few choices side by side. */
-export function segments<Value extends string>(label: string,
-    options: readonly (readonly [Value, string, string?])[], onChange: (value: Value) => void) {
+export function segments<Value extends string>(
+    label: string,
+    options: readonly (readonly [Value, string, string?])[],
+    onChange: (value: Value) => void,
+) {
     const name = `segments-${label.replace(/\W/g, "")}`;
-    const inputs = options.map(([value]) => element("input", {
-        type: "radio", name, value, change: () => onChange(value),
-    }));
-    const root = element("fieldset", { class: "segments" },
+    const inputs = options.map(([value]) =>
+        element("input", {
+            type: "radio",
+            name,
+            value,
+            change: () => onChange(value),
+        }),
+    );
+    const root = element(
+        "fieldset",
+        { class: "segments" },
         element("legend", { class: "hidden-text" }, label),
         ...options.map(([, text, title], i) =>
-            element("label", title ? { title } : {}, inputs[i]!, element("span", {}, text))));
-    const show = (value: Value) => inputs.forEach((input) => { input.checked = input.value === value; });
+            element("label", title ? { title } : {}, inputs[i]!, element("span", {}, text)),
+        ),
+    );
+    const show = (value: Value) =>
+        inputs.forEach((input) => {
+            input.checked = input.value === value;
+        });
     return { root, show } satisfies Control<Value>;
 }
 
@@ -45,23 +83,37 @@ export class Slider {
     readonly number: HTMLInputElement;
 
     /** @param onChange  Is given what was chosen, by either. */
-    constructor(label: string, unit: string, range: { min: number; max: number; step: number },
-        onChange: (value: number) => void) {
+    constructor(
+        label: string,
+        unit: string,
+        range: { min: number; max: number; step: number },
+        onChange: (value: number) => void,
+    ) {
         const shared = { min: range.min, max: range.max, step: range.step };
         this.input = element("input", {
-            type: "range", ...shared, "aria-label": label,
+            type: "range",
+            ...shared,
+            "aria-label": label,
             input: () => onChange(Number(this.input.value)),
         });
         this.number = element("input", {
-            type: "number", step: "any", "aria-label": `${label}, ${unit || "number"}`,
+            type: "number",
+            step: "any",
+            "aria-label": `${label}, ${unit || "number"}`,
             change: () => {
                 if (Number.isFinite(this.number.valueAsNumber)) {
                     onChange(this.number.valueAsNumber);
                 }
             },
         });
-        this.root = element("div", { class: "slider" }, element("span", { class: "name" }, label),
-            this.input, this.number, element("span", { class: "unit" }, unit));
+        this.root = element(
+            "div",
+            { class: "slider" },
+            element("span", { class: "name" }, label),
+            this.input,
+            this.number,
+            element("span", { class: "unit" }, unit),
+        );
     }
 
     setRange(min: number, max: number, step: number): void {
@@ -78,34 +130,70 @@ export class Slider {
     }
 }
 
-export function button(label: string, path: string, onClick: () => void, text = ""): HTMLButtonElement {
-    return element("button", {
-        type: "button", title: label, "aria-label": label, click: onClick,
-        class: text ? "button" : "button round",
-    }, icon(path), text ? element("span", {}, text) : null);
+export function button(
+    label: string,
+    path: string,
+    onClick: () => void,
+    text = "",
+): HTMLButtonElement {
+    return element(
+        "button",
+        {
+            type: "button",
+            title: label,
+            "aria-label": label,
+            click: onClick,
+            class: text ? "button" : "button round",
+        },
+        icon(path),
+        text ? element("span", {}, text) : null,
+    );
 }
 
 export function section(title: string, ...children: Node[]): HTMLDetailsElement {
-    return element("details", { open: true }, element("summary", {}, title),
-        element("div", { class: "group" }, ...children));
+    return element(
+        "details",
+        { open: true },
+        element("summary", {}, title),
+        element("div", { class: "group" }, ...children),
+    );
 }
 
 /** A button that opens a small list of actions. */
-export function menu(label: string, path: string, text: string,
-    items: readonly (readonly [string, () => void])[]): HTMLElement {
-    const list = element("div", { class: "menu", role: "menu", hidden: true },
-        ...items.map(([name, action]) => element("button", {
-            type: "button", role: "menuitem",
-            click: () => {
-                close();
-                action();
-            },
-        }, name)));
-    const opener = button(label, path, () => {
-        list.hidden = !list.hidden;
-        opener.setAttribute("aria-expanded", String(!list.hidden));
-        (list.firstElementChild as HTMLElement).focus();
-    }, text);
+export function menu(
+    label: string,
+    path: string,
+    text: string,
+    items: readonly (readonly [string, () => void])[],
+): HTMLElement {
+    const list = element(
+        "div",
+        { class: "menu", role: "menu", hidden: true },
+        ...items.map(([name, action]) =>
+            element(
+                "button",
+                {
+                    type: "button",
+                    role: "menuitem",
+                    click: () => {
+                        close();
+                        action();
+                    },
+                },
+                name,
+            ),
+        ),
+    );
+    const opener = button(
+        label,
+        path,
+        () => {
+            list.hidden = !list.hidden;
+            opener.setAttribute("aria-expanded", String(!list.hidden));
+            (list.firstElementChild as HTMLElement).focus();
+        },
+        text,
+    );
     const close = () => {
         list.hidden = true;
         opener.setAttribute("aria-expanded", "false");

@@ -14,8 +14,13 @@ const kGestures = [
 ] as const;
 
 function table(rows: readonly (readonly [string, string])[]): HTMLElement {
-    return element("table", {}, ...rows.map(([what, does]) =>
-        element("tr", {}, element("th", { scope: "row" }, what), element("td", {}, does))));
+    return element(
+        "table",
+        {},
+        ...rows.map(([what, does]) =>
+            element("tr", {}, element("th", { scope: "row" }, what), element("td", {}, does)),
+        ),
+    );
 }
 
 /** The legend of keys and gestures. */
@@ -23,13 +28,25 @@ export function fillHelp(dialog: HTMLDialogElement): void {
     dialog.append(
         element("h2", { id: "help-title" }, "Keys and gestures"),
         button("Close", kIcons.close, () => dialog.close()),
-        element("div", { class: "columns" },
+        element(
+            "div",
+            { class: "columns" },
             table(kActions.map(({ shown, does }) => [shown, does] as const)),
-            element("div", {}, table(kGestures),
-                element("p", {}, "The picture shows the three-dimensional slice of the bodies at "
-                    + "height w, after they have been turned. In four dimensions a rotation has a "
-                    + "plane in place of an axis: xw takes x towards w. The ring at the end of an "
-                    + "axis tells how far it points out of the slice."))));
+            element(
+                "div",
+                {},
+                table(kGestures),
+                element(
+                    "p",
+                    {},
+                    "The picture shows the three-dimensional slice of the bodies at " +
+                        "height w, after they have been turned. In four dimensions a rotation has a " +
+                        "plane in place of an axis: xw takes x towards w. The ring at the end of an " +
+                        "axis tells how far it points out of the slice.",
+                ),
+            ),
+        ),
+    );
     dialog.addEventListener("click", (event) => {
         if (event.target === dialog) {
             dialog.close();

@@ -44,8 +44,12 @@ export class Messages {
         const same = [...this.root.children].find((one) => one.textContent === text);
         same?.remove();
         const close = button("Close this message", kIcons.close, () => message.remove());
-        const message = element("div", { class: isError ? "message error" : "message",
-            role: isError ? "alert" : "status" }, element("span", {}, text), close);
+        const message = element(
+            "div",
+            { class: isError ? "message error" : "message", role: isError ? "alert" : "status" },
+            element("span", {}, text),
+            close,
+        );
         this.root.append(message);
         while (this.root.childElementCount > kMost) {
             this.root.firstElementChild!.remove();

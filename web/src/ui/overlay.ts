@@ -16,7 +16,10 @@ export class Overlay {
     private labelsShown = "";
     private legendShown = "";
 
-    constructor(root: HTMLElement, private viewer: Viewer) {
+    constructor(
+        root: HTMLElement,
+        private viewer: Viewer,
+    ) {
         root.append(this.labels, this.gizmo, this.legend, this.badge);
         viewer.on("picture", (picture) => this.show(picture));
     }
@@ -37,26 +40,34 @@ export class Overlay {
     }
 
     private showLabels(picture: Picture): void {
-        const places = slicePlaces(this.viewer.state, this.viewer.bounds, this.viewer.run!.dimension);
+        const places = slicePlaces(
+            this.viewer.state,
+            this.viewer.bounds,
+            this.viewer.run!.dimension,
+        );
         const key = `${picture.width} ${picture.height} ${picture.tiles.length} ${places.join()}`;
         if (key === this.labelsShown) {
             return;
         }
         this.labelsShown = key;
         const isTiled = picture.tiles.length > 1;
-        this.labels.replaceChildren(...(isTiled ? places : []).map((w, i) => {
-            const [x, y, width, height] = tileRect(picture, i);
-            const part = (value: number, whole: number) => `${(100 * value) / whole}%`;
-            const label = element("span", {}, sliceLabel(Number(w.toPrecision(6))));
-            label.style.left = part(x + width / 2, picture.width);
-            label.style.top = part(picture.height - y - height, picture.height);
-            const frame = element("i", {});
-            frame.style.left = part(x, picture.width);
-            frame.style.bottom = part(y, picture.height);
-            frame.style.width = part(width, picture.width);
-            frame.style.height = part(height, picture.height);
-            return [frame, label];
-        }).flat());
+        this.labels.replaceChildren(
+            ...(isTiled ? places : [])
+                .map((w, i) => {
+                    const [x, y, width, height] = tileRect(picture, i);
+                    const part = (value: number, whole: number) => `${(100 * value) / whole}%`;
+                    const label = element("span", {}, sliceLabel(Number(w.toPrecision(6))));
+                    label.style.left = part(x + width / 2, picture.width);
+                    label.style.top = part(picture.height - y - height, picture.height);
+                    const frame = element("i", {});
+                    frame.style.left = part(x, picture.width);
+                    frame.style.bottom = part(y, picture.height);
+                    frame.style.width = part(width, picture.width);
+                    frame.style.height = part(height, picture.height);
+                    return [frame, label];
+                })
+                .flat(),
+        );
     }
 
     private showLegend(): void {
@@ -68,24 +79,36 @@ export class Overlay {
         this.legendShown = key;
         if (state.color === "body") {
             const bodies = run!.bodies.length > 1 ? run!.bodies.slice(0, 8) : [];
-            this.legend.replaceChildren(...bodies.map((body, i) => {
-                const swatch = element("i", { class: "swatch" });
-                swatch.style.background = toCss(bodyColor(i));
-                return element("div", { class: "entry" }, swatch, body.name);
-            }));
+            this.legend.replaceChildren(
+                ...bodies.map((body, i) => {
+                    const swatch = element("i", { class: "swatch" });
+                    swatch.style.background = toCss(bodyColor(i));
+                    return element("div", { class: "entry" }, swatch, body.name);
+                }),
+            );
             return;
         }
         const stops = Array.from({ length: 9 }, (_, i) => toCss(mapColor(state.color, i / 8)));
         const bar = element("div", { class: "colorbar" });
         bar.style.background = `linear-gradient(to right, ${stops.join(", ")})`;
-        this.legend.replaceChildren(element("div", { class: "title" }, kColorTitles[state.color]), bar,
-            element("div", { class: "ends" },
-                ...range.map((end) => element("span", {}, short(end, 3)))));
+        this.legend.replaceChildren(
+            element("div", { class: "title" }, kColorTitles[state.color]),
+            bar,
+            element(
+                "div",
+                { class: "ends" },
+                ...range.map((end) => element("span", {}, short(end, 3))),
+            ),
+        );
     }
 }
 
 /** The same texts drawn on a picture that is saved. */
-export function drawCaption(context: CanvasRenderingContext2D, viewer: Viewer, picture: Picture): void {
+export function drawCaption(
+    context: CanvasRenderingContext2D,
+    viewer: Viewer,
+    picture: Picture,
+): void {
     const { state, range, moment, run, bounds } = viewer;
     const size = Math.max(13, Math.min(picture.height / 30, 44));
     const { width, height } = picture;
@@ -103,8 +126,11 @@ export function drawCaption(context: CanvasRenderingContext2D, viewer: Viewer, p
         context.textAlign = "center";
         places.forEach((w, i) => {
             const [x, y, tileWidth, tileHeight] = tileRect(picture, i);
-            context.fillText(sliceLabel(Number(w.toPrecision(6))), x + tileWidth / 2,
-                height - y - tileHeight + 1.6 * size);
+            context.fillText(
+                sliceLabel(Number(w.toPrecision(6))),
+                x + tileWidth / 2,
+                height - y - tileHeight + 1.6 * size,
+            );
         });
     }
     if (state.color !== "body") {

@@ -19,13 +19,24 @@ class TurnControls {
 
     constructor(private viewer: Viewer) {
         for (const plane of kPlanes) {
-            this.sliders.set(plane, new Slider(plane, "\u00b0", { min: -180, max: 180, step: 1 },
-                (degrees) => this.set(plane, degrees)));
+            this.sliders.set(
+                plane,
+                new Slider(plane, "\u00b0", { min: -180, max: 180, step: 1 }, (degrees) =>
+                    this.set(plane, degrees),
+                ),
+            );
         }
-        this.root = element("div", { class: "turns" },
+        this.root = element(
+            "div",
+            { class: "turns" },
             ...[...this.sliders.values()].map((slider) => slider.root),
-            button("Turn back to the start", kIcons.reset,
-                () => viewer.update({ rotation: identity() }), "Turn back"));
+            button(
+                "Turn back to the start",
+                kIcons.reset,
+                () => viewer.update({ rotation: identity() }),
+                "Turn back",
+            ),
+        );
     }
 
     show(rotation: Rotation, dimension: number): void {
@@ -44,10 +55,12 @@ class TurnControls {
 
     private set(plane: Plane, degrees: number): void {
         this.angles.set(plane, degrees);
-        this.own = fromTurns(kOrder.map((one) => {
-            const [from, to] = axesOf(one);
-            return { from, to, degrees: this.angles.get(one) ?? 0 };
-        }));
+        this.own = fromTurns(
+            kOrder.map((one) => {
+                const [from, to] = axesOf(one);
+                return { from, to, degrees: this.angles.get(one) ?? 0 };
+            }),
+        );
         this.viewer.update({ rotation: this.own });
     }
 }
@@ -58,13 +71,21 @@ export class Panel {
     private shows: ((state: ViewState) => void)[] = [];
     private onlyIn4: HTMLElement[] = [];
 
-    constructor(private root: HTMLElement, private viewer: Viewer) {
+    constructor(
+        private root: HTMLElement,
+        private viewer: Viewer,
+    ) {
         this.turns = new TurnControls(viewer);
         const slices = this.sliceSection();
         const color = this.colorSection();
         this.onlyIn4.push(slices);
-        root.append(slices, section("Turn", this.turns.root), this.showSection(), color,
-            element("p", { id: "facts", class: "facts" }));
+        root.append(
+            slices,
+            section("Turn", this.turns.root),
+            this.showSection(),
+            color,
+            element("p", { id: "facts", class: "facts" }),
+        );
         viewer.on("state", (state) => this.show(state));
         viewer.on("run", () => this.show(viewer.state));
     }
@@ -73,28 +94,42 @@ export class Panel {
         const dimension = this.viewer.run?.dimension ?? 4;
         this.turns.show(state.rotation, dimension);
         this.shows.forEach((show) => show(state));
-        this.onlyIn4.forEach((one) => { one.hidden = dimension === 3; });
+        this.onlyIn4.forEach((one) => {
+            one.hidden = dimension === 3;
+        });
         const run = this.viewer.run;
         const facts = this.root.querySelector("#facts")!;
         const count = (key: "vertexCount" | "cellCount") =>
             run!.bodies.reduce((sum, body) => sum + body[key], 0).toLocaleString("en");
-        facts.textContent = run ? `${run.bodies.length === 1 ? "1 body" : `${run.bodies.length} bodies`}`
-            + `, ${count("vertexCount")} vertices, ${count("cellCount")} `
-            + `${dimension === 4 ? "pentachora" : "tetrahedra"}, `
-            + `${run.frames.length === 1 ? "1 frame" : `${run.frames.length} frames`}` : "";
+        facts.textContent = run
+            ? `${run.bodies.length === 1 ? "1 body" : `${run.bodies.length} bodies`}` +
+              `, ${count("vertexCount")} vertices, ${count("cellCount")} ` +
+              `${dimension === 4 ? "pentachora" : "tetrahedra"}, ` +
+              `${run.frames.length === 1 ? "1 frame" : `${run.frames.length} frames`}`
+            : "";
     }
 
     private sliceSection(): HTMLElement {
         const { viewer } = this;
-        const layout = segments("Slices", [["single", "One"], ["side", "Side by side"],
-            ["onion", "Onion skin", "Neighboring slices as ghosts"]] as const,
-            (value) => viewer.update({ layout: value }));
+        const layout = segments(
+            "Slices",
+            [
+                ["single", "One"],
+                ["side", "Side by side"],
+                ["onion", "Onion skin", "Neighboring slices as ghosts"],
+            ] as const,
+            (value) => viewer.update({ layout: value }),
+        );
         const count = new Slider("count", "", { min: 2, max: 9, step: 1 }, (value) =>
-            viewer.update({ slices: Math.min(9, Math.max(2, Math.round(value))) }));
+            viewer.update({ slices: Math.min(9, Math.max(2, Math.round(value))) }),
+        );
         const spacing = new Slider("spacing", "m", { min: 0.001, max: 1, step: 0.001 }, (value) =>
-            viewer.update({ spacing: value > 0 ? value : null }));
+            viewer.update({ spacing: value > 0 ? value : null }),
+        );
         this.shows.push((state) => {
-            const [low, high] = viewer.bounds.isEmpty ? [-1, 1] : viewer.bounds.reach(state.rotation, 3);
+            const [low, high] = viewer.bounds.isEmpty
+                ? [-1, 1]
+                : viewer.bounds.reach(state.rotation, 3);
             layout.show(state.layout);
             spacing.setRange((high - low) / 1000, (high - low) / 2, (high - low) / 1000);
             count.show(state.slices, 0);
@@ -107,16 +142,24 @@ export class Panel {
     private showSection(): HTMLElement {
         const { viewer } = this;
         // A ghost of the whole body, projected along w.
-        const ghost = choice("Projection", [["none", "none"],
-            ["orthographic", "orthographic"], ["perspective", "perspective"]] as const,
-            (value) => viewer.update({ ghost: value }));
-        const switches = ([
-            ["box", "Tesseract box", "The box about all bodies and its slice"],
-            ["axes", "Axes", "How the axes x y z w lie"],
-            ["floor", "Floor", ""],
-            ["shade", "Shadows", "Shadows and ambient occlusion"],
-            ["smooth", "Smooth", "Smooth normals, but for edges sharper than 57 degrees"],
-        ] as const).map(([key, label, title]) => {
+        const ghost = choice(
+            "Projection",
+            [
+                ["none", "none"],
+                ["orthographic", "orthographic"],
+                ["perspective", "perspective"],
+            ] as const,
+            (value) => viewer.update({ ghost: value }),
+        );
+        const switches = (
+            [
+                ["box", "Tesseract box", "The box about all bodies and its slice"],
+                ["axes", "Axes", "How the axes x y z w lie"],
+                ["floor", "Floor", ""],
+                ["shade", "Shadows", "Shadows and ambient occlusion"],
+                ["smooth", "Smooth", "Smooth normals, but for edges sharper than 57 degrees"],
+            ] as const
+        ).map(([key, label, title]) => {
             const control = toggle(label, (value) => viewer.update({ [key]: value }), title);
             this.shows.push((state) => control.show(state[key]));
             if (key === "box") {
@@ -131,21 +174,41 @@ export class Panel {
 
     private colorSection(): HTMLElement {
         const { viewer } = this;
-        const names = { body: "body", w: "w", speed: "speed", strain: "strain",
-            force: "contact force" };
-        const by = choice("Color by", kColorBy.map((key) => [key, names[key]] as const),
-            (value) => viewer.update({ color: value, range: null }));
-        const ends = [0, 1].map((end) => element("input", {
-            type: "number", step: "any", "aria-label": end ? "highest value" : "lowest value",
-            change: () => {
-                const range = [...viewer.range] as [number, number];
-                range[end] = ends[end]!.valueAsNumber;
-                viewer.update({ range: range[0] < range[1] ? range : null });
-            },
-        }));
-        const range = element("div", { class: "row range" }, element("span", {}, "from"), ends[0]!,
-            element("span", {}, "to"), ends[1]!,
-            button("Range as the frames have it", kIcons.reset, () => viewer.update({ range: null })));
+        const names = {
+            body: "body",
+            w: "w",
+            speed: "speed",
+            strain: "strain",
+            force: "contact force",
+        };
+        const by = choice(
+            "Color by",
+            kColorBy.map((key) => [key, names[key]] as const),
+            (value) => viewer.update({ color: value, range: null }),
+        );
+        const ends = [0, 1].map((end) =>
+            element("input", {
+                type: "number",
+                step: "any",
+                "aria-label": end ? "highest value" : "lowest value",
+                change: () => {
+                    const range = [...viewer.range] as [number, number];
+                    range[end] = ends[end]!.valueAsNumber;
+                    viewer.update({ range: range[0] < range[1] ? range : null });
+                },
+            }),
+        );
+        const range = element(
+            "div",
+            { class: "row range" },
+            element("span", {}, "from"),
+            ends[0]!,
+            element("span", {}, "to"),
+            ends[1]!,
+            button("Range as the frames have it", kIcons.reset, () =>
+                viewer.update({ range: null }),
+            ),
+        );
         const showRange = () => {
             range.hidden = viewer.state.color === "body";
             ends.forEach((input, end) => {

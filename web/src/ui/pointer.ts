@@ -29,8 +29,11 @@ export class Pointer {
     private sum = { across: 0, upright: 0 };
 
     /** @param onTurn  Told what is being turned, as in "xw 12°"; "" at the end. */
-    constructor(private canvas: HTMLCanvasElement, private viewer: Viewer,
-        private onTurn: (text: string) => void) {
+    constructor(
+        private canvas: HTMLCanvasElement,
+        private viewer: Viewer,
+        private onTurn: (text: string) => void,
+    ) {
         canvas.addEventListener("pointerdown", (event) => this.onDown(event));
         canvas.addEventListener("pointermove", (event) => this.onMove(event));
         for (const kind of ["pointerup", "pointercancel"] as const) {
@@ -48,9 +51,14 @@ export class Pointer {
             event.preventDefault();
         }
         const is4 = this.viewer.run?.dimension === 4;
-        this.dragged = this.fingers.size > 1 || event.button === 1 ? "pan"
-            : is4 && (event.button === 2 || event.shiftKey) ? "xw"
-            : is4 && (event.altKey || event.ctrlKey || event.metaKey) ? "zw" : this.tool;
+        this.dragged =
+            this.fingers.size > 1 || event.button === 1
+                ? "pan"
+                : is4 && (event.button === 2 || event.shiftKey)
+                  ? "xw"
+                  : is4 && (event.altKey || event.ctrlKey || event.metaKey)
+                    ? "zw"
+                    : this.tool;
     }
 
     private onMove(event: PointerEvent): void {
@@ -103,10 +111,15 @@ export class Pointer {
             return;
         }
         if (tool === "pan") {
-            const perPixel = 2 / Math.min(this.canvas.clientHeight, this.canvas.clientWidth) / orbit.zoom;
-            viewer.update({ orbit: {
-                ...orbit, panX: orbit.panX - dx * perPixel, panY: orbit.panY + dy * perPixel,
-            } });
+            const perPixel =
+                2 / Math.min(this.canvas.clientHeight, this.canvas.clientWidth) / orbit.zoom;
+            viewer.update({
+                orbit: {
+                    ...orbit,
+                    panX: orbit.panX - dx * perPixel,
+                    panY: orbit.panY + dy * perPixel,
+                },
+            });
             return;
         }
         // Seen from behind, across is the other way round.
@@ -114,8 +127,18 @@ export class Pointer {
         const across = side * dx * kDegreesPerPixel;
         const upright = -dy * kDegreesPerPixel;
         const [first, second] = {
-            xw: [[0, 3, across], [1, 3, upright]], zw: [[0, 1, -across], [2, 3, upright]],
-            xz: [[0, 2, -across], [1, 2, -upright]],
+            xw: [
+                [0, 3, across],
+                [1, 3, upright],
+            ],
+            zw: [
+                [0, 1, -across],
+                [2, 3, upright],
+            ],
+            xz: [
+                [0, 2, -across],
+                [1, 2, -upright],
+            ],
         }[tool] as [[number, number, number], [number, number, number]];
         for (const [from, to, degrees] of [first, second]) {
             if (degrees !== 0) {
@@ -126,7 +149,11 @@ export class Pointer {
         this.sum.upright += second[2];
         const text = (turn: [number, number, number], sum: number) =>
             `${"xyzw"[turn[0]]}${"xyzw"[turn[1]]} ${Math.round(sum)}\u00b0`;
-        this.onTurn(`${text(first, this.sum.across)}   ${text(second, this.sum.upright)}`
-            .replaceAll("-", "\u2212"));
+        this.onTurn(
+            `${text(first, this.sum.across)}   ${text(second, this.sum.upright)}`.replaceAll(
+                "-",
+                "\u2212",
+            ),
+        );
     }
 }

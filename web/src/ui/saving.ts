@@ -18,7 +18,8 @@ function copyPicture(viewer: Viewer, target: HTMLCanvasElement): void {
 function fileName(viewer: Viewer, ending: string): string {
     const title = viewer.run!.title.replace(/[^\w-]+/g, "-").replace(/^-|-$/g, "") || "picture";
     return viewer.run!.frames.length > 1
-        ? `${title}_${String(viewer.moment!.frame).padStart(6, "0")}.${ending}` : `${title}.${ending}`;
+        ? `${title}_${String(viewer.moment!.frame).padStart(6, "0")}.${ending}`
+        : `${title}.${ending}`;
 }
 
 /** Saves what is seen as PNG. */
@@ -32,8 +33,11 @@ export async function savePicture(viewer: Viewer): Promise<void> {
     save(blob, fileName(viewer, "png"));
 }
 
-const kVideoKinds = [["video/mp4;codecs=avc1", "mp4"], ["video/webm;codecs=vp9", "webm"],
-    ["video/webm", "webm"]] as const;
+const kVideoKinds = [
+    ["video/mp4;codecs=avc1", "mp4"],
+    ["video/webm;codecs=vp9", "webm"],
+    ["video/webm", "webm"],
+] as const;
 
 /** Records the view while it plays from the first frame to the last. */
 export class VideoRecorder {
@@ -81,11 +85,15 @@ export class VideoRecorder {
         viewer.update({ loop: false, frame: viewer.run!.frames[0]! });
         this.copy();
         const stream = this.canvas.captureStream(60);
-        const recorder = new MediaRecorder(stream,
-            { mimeType: kind[0], videoBitsPerSecond: 16_000_000 });
+        const recorder = new MediaRecorder(stream, {
+            mimeType: kind[0],
+            videoBitsPerSecond: 16_000_000,
+        });
         const parts: Blob[] = [];
         recorder.ondataavailable = (event) => parts.push(event.data);
-        const stopped = new Promise<void>((resolve) => { recorder.onstop = () => resolve(); });
+        const stopped = new Promise<void>((resolve) => {
+            recorder.onstop = () => resolve();
+        });
         this.recorder = recorder;
         recorder.start();
         viewer.play();
@@ -93,7 +101,10 @@ export class VideoRecorder {
         this.recorder = null;
         stream.getTracks().forEach((track) => track.stop());
         viewer.update({ loop });
-        save(new Blob(parts, { type: kind[0] }), fileName(viewer, kind[1]).replace(/_\d{6}\./, "."));
+        save(
+            new Blob(parts, { type: kind[0] }),
+            fileName(viewer, kind[1]).replace(/_\d{6}\./, "."),
+        );
     }
 }
 
@@ -102,16 +113,18 @@ export class VideoRecorder {
 export function slicePly(viewer: Viewer): Blob {
     const picture = viewer.makePicture(64, 64, 1);
     const parts = slicePlaces(viewer.state, viewer.bounds, viewer.run!.dimension).flatMap((w) =>
-        viewer.run!.bodies.map((_, body) => viewer.renderer.captureSlice(picture, body, w)));
+        viewer.run!.bodies.map((_, body) => viewer.renderer.captureSlice(picture, body, w)),
+    );
     const count = parts.reduce((sum, part) => sum + part.length / 9, 0);
     const faces = new DataView(new ArrayBuffer(13 * count));
     for (let i = 0; i < count; ++i) {
         faces.setUint8(13 * i, 3);
         [0, 1, 2].forEach((k) => faces.setUint32(13 * i + 1 + 4 * k, 3 * i + k, true));
     }
-    const header = "ply\nformat binary_little_endian 1.0\ncomment slice by Pentimento\n"
-        + `element vertex ${3 * count}\nproperty float x\nproperty float y\nproperty float z\n`
-        + `element face ${count}\nproperty list uchar uint vertex_indices\nend_header\n`;
+    const header =
+        "ply\nformat binary_little_endian 1.0\ncomment slice by Pentimento\n" +
+        `element vertex ${3 * count}\nproperty float x\nproperty float y\nproperty float z\n` +
+        `element face ${count}\nproperty list uchar uint vertex_indices\nend_header\n`;
     return new Blob([header, ...parts.map((part) => part.buffer as ArrayBuffer), faces.buffer]);
 }
 

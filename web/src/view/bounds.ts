@@ -44,7 +44,8 @@ export class Bounds {
         const digit = 10 ** (Math.floor(Math.log10(extent)) - 1);
         const middle = (axis: number) => {
             const value = (this.low[axis]! + this.high[axis]!) / 2;
-            return Math.abs(value) < 0.1 * extent ? 0
+            return Math.abs(value) < 0.1 * extent
+                ? 0
                 : Number((Math.round(value / digit) * digit).toPrecision(12));
         };
         this.pivot = [middle(0), middle(1), middle(2), middle(3)];
@@ -52,8 +53,13 @@ export class Bounds {
         for (const body of moments.flatMap((moment) => moment.bodies)) {
             const p = body.positions;
             for (let v = 0; v < p.length; v += 4) {
-                square = Math.max(square, (p[v]! - this.pivot[0]) ** 2 + (p[v + 1]! - this.pivot[1]) ** 2
-                    + (p[v + 2]! - this.pivot[2]) ** 2 + (p[v + 3]! - this.pivot[3]) ** 2);
+                square = Math.max(
+                    square,
+                    (p[v]! - this.pivot[0]) ** 2 +
+                        (p[v + 1]! - this.pivot[1]) ** 2 +
+                        (p[v + 2]! - this.pivot[2]) ** 2 +
+                        (p[v + 3]! - this.pivot[3]) ** 2,
+                );
             }
         }
         this.radius = Math.sqrt(square) || 1;
@@ -73,7 +79,11 @@ export class Bounds {
     /** What is seen of p is R p + this: turned about the pivot. */
     shift(rotation: Rotation): [number, number, number, number] {
         const turned = apply(rotation, this.pivot);
-        return [this.pivot[0] - turned[0], this.pivot[1] - turned[1], this.pivot[2] - turned[2],
-            this.pivot[3] - turned[3]];
+        return [
+            this.pivot[0] - turned[0],
+            this.pivot[1] - turned[1],
+            this.pivot[2] - turned[2],
+            this.pivot[3] - turned[3],
+        ];
     }
 }

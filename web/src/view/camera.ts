@@ -31,7 +31,8 @@ export function makeCamera(orbit: Orbit, center: Vector, radius: number, aspect:
     const azimuth = (orbit.azimuth * Math.PI) / 180;
     const elevation = (orbit.elevation * Math.PI) / 180;
     const back: Vector = [
-        Math.sin(azimuth) * Math.cos(elevation), Math.sin(elevation),
+        Math.sin(azimuth) * Math.cos(elevation),
+        Math.sin(elevation),
         Math.cos(azimuth) * Math.cos(elevation),
     ];
     const right = normalized(cross([0, 1, 0], back));

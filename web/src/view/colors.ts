@@ -3,19 +3,41 @@ export type Color = [number, number, number];
 
 type Stop = [lightness: number, chroma: number, hue: number]; // Oklch, degrees
 
-const kHeat: Stop[] = [[0.6, 0.11, 255], [0.78, 0.09, 195], [0.89, 0.14, 105], [0.74, 0.16, 60],
-    [0.55, 0.2, 25]];
-const kDiverging: Stop[] = [[0.52, 0.1, 215], [0.73, 0.09, 205], [0.93, 0.02, 90],
-    [0.76, 0.13, 60], [0.58, 0.17, 40]];
-const kBodies: Stop[] = [[0.72, 0.14, 48], [0.68, 0.11, 240], [0.74, 0.12, 150], [0.72, 0.13, 350],
-    [0.82, 0.13, 92], [0.75, 0.1, 195], [0.68, 0.12, 300], [0.62, 0.16, 25]];
+const kHeat: Stop[] = [
+    [0.6, 0.11, 255],
+    [0.78, 0.09, 195],
+    [0.89, 0.14, 105],
+    [0.74, 0.16, 60],
+    [0.55, 0.2, 25],
+];
+const kDiverging: Stop[] = [
+    [0.52, 0.1, 215],
+    [0.73, 0.09, 205],
+    [0.93, 0.02, 90],
+    [0.76, 0.13, 60],
+    [0.58, 0.17, 40],
+];
+const kBodies: Stop[] = [
+    [0.72, 0.14, 48],
+    [0.68, 0.11, 240],
+    [0.74, 0.12, 150],
+    [0.72, 0.13, 350],
+    [0.82, 0.13, 92],
+    [0.75, 0.1, 195],
+    [0.68, 0.12, 300],
+    [0.62, 0.16, 25],
+];
 
 /** What a picture can be colored by. */
 export const kColorBy = ["body", "w", "speed", "strain", "force"] as const;
 export type ColorBy = (typeof kColorBy)[number];
 
 export const kColorTitles: Record<ColorBy, string> = {
-    body: "", w: "w, m", speed: "speed, m/s", strain: "strain", force: "contact force, N",
+    body: "",
+    w: "w, m",
+    speed: "speed, m/s",
+    strain: "strain",
+    force: "contact force, N",
 };
 
 /** Oklab to linear sRGB [ottosson2020]. */

@@ -11,11 +11,15 @@ import type { ViewState } from "./state.ts";
 
 const kBackgrounds: Record<"light" | "dark", Picture["background"] & { ink: Color }> = {
     light: {
-        bottom: [0.86, 0.86, 0.85], top: [0.66, 0.7, 0.75], glow: [0.03, 0.03, 0.028],
+        bottom: [0.86, 0.86, 0.85],
+        top: [0.66, 0.7, 0.75],
+        glow: [0.03, 0.03, 0.028],
         ink: [0.02, 0.025, 0.03],
     },
     dark: {
-        bottom: [0.022, 0.023, 0.026], top: [0.011, 0.012, 0.015], glow: [0.05, 0.051, 0.055],
+        bottom: [0.022, 0.023, 0.026],
+        top: [0.011, 0.012, 0.015],
+        glow: [0.05, 0.051, 0.055],
         ink: [0.8, 0.82, 0.85],
     },
 };
@@ -29,7 +33,10 @@ export function slicePlaces(state: ViewState, bounds: Bounds, dimension: number)
         return [w];
     }
     const spacing = spacingOf(state, bounds);
-    return Array.from({ length: state.slices }, (_, i) => w + (i - (state.slices - 1) / 2) * spacing);
+    return Array.from(
+        { length: state.slices },
+        (_, i) => w + (i - (state.slices - 1) / 2) * spacing,
+    );
 }
 
 /** What is asked for, or what spreads the slices over two thirds of the bodies as they start. */
@@ -72,13 +79,14 @@ function makeTiles(state: ViewState, bounds: Bounds, dimension: number): Tile[] 
     // All but the middle one as ghosts, from teal, the first, to orange, the last.
     const middle = Math.floor(places.length / 2);
     const slices = places.map((w, i) => ({
-        w, ghost: i === middle ? null : mapColor("w", i / (places.length - 1)),
+        w,
+        ghost: i === middle ? null : mapColor("w", i / (places.length - 1)),
     }));
     return [{ slices, lines: [] }];
 }
 
-/** The eye of the projection: over the film, under it the middle of the bodies, at three times their
- * reach; a distance of 0 stands for infinitely far. */
+/** The eye of the projection: over the film, under it the middle of the bodies, at three times
+ * their reach; a distance of 0 stands for infinitely far. */
 function eyeOf(state: ViewState, bounds: Bounds): [number, number, number, number] {
     const [x, y, z] = [0, 1, 2].map((axis) => {
         const [low, high] = bounds.reach(state.rotation, axis);
@@ -103,7 +111,8 @@ function addBox(tiles: Tile[], state: ViewState, bounds: Bounds, ink: Color): vo
 export function makeColoring(state: ViewState, range: [number, number], bodies: number): Coloring {
     const valueOf = state.color === "body" ? "nothing" : state.color === "w" ? "w" : "scalar";
     return {
-        valueOf, range,
+        valueOf,
+        range,
         bodies: Array.from({ length: bodies }, (_, i) => bodyColor(i)),
         map: Array.from({ length: kMapSize }, (_, i) => mapColor(state.color, i / (kMapSize - 1))),
     };
@@ -128,21 +137,40 @@ export function makePicture(state: ViewState, stage: Stage): Picture {
     const rows = Math.ceil(tiles.length / columns);
     const background = kBackgrounds[stage.theme];
     const center = bounds.pivot.slice(0, 3) as Vector;
-    const camera = makeCamera(state.orbit, center, bounds.radius,
-        width / columns / (height / rows));
+    const camera = makeCamera(
+        state.orbit,
+        center,
+        bounds.radius,
+        width / columns / (height / rows),
+    );
     if (state.box && dimension === 4) {
         addBox(tiles, state, bounds, background.ink);
     }
     // Under the ghosts of an outline, too, but not far below a body that is thin.
     const [lowest] = bounds.reach(state.rotation, 1);
     return {
-        width, height, pixelRatio: stage.pixelRatio, columns, tiles, camera,
-        rotation: state.rotation, shift: bounds.shift(state.rotation), center,
-        radius: bounds.radius, floor: state.floor ? lowest - 0.004 * bounds.radius : null,
-        outline: state.ghost === "none" || dimension === 3 ? null
-            : { eye: eyeOf(state, bounds), color: stage.theme === "dark" ? [0.75, 0.8, 0.9]
-                : [0.16, 0.2, 0.28] },
-        coloring: stage.coloring, isSmooth: state.smooth, isShaded: state.shade, background,
+        width,
+        height,
+        pixelRatio: stage.pixelRatio,
+        columns,
+        tiles,
+        camera,
+        rotation: state.rotation,
+        shift: bounds.shift(state.rotation),
+        center,
+        radius: bounds.radius,
+        floor: state.floor ? lowest - 0.004 * bounds.radius : null,
+        outline:
+            state.ghost === "none" || dimension === 3
+                ? null
+                : {
+                      eye: eyeOf(state, bounds),
+                      color: stage.theme === "dark" ? [0.75, 0.8, 0.9] : [0.16, 0.2, 0.28],
+                  },
+        coloring: stage.coloring,
+        isSmooth: state.smooth,
+        isShaded: state.shade,
+        background,
         lineWidth: 0.75 * stage.pixelRatio,
     };
 }

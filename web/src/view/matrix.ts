@@ -2,12 +2,18 @@
 export type Matrix = Float32Array;
 export type Vector = [number, number, number];
 
-export const add = (a: Vector, b: Vector, s = 1): Vector =>
-    [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
+export const add = (a: Vector, b: Vector, s = 1): Vector => [
+    a[0] + s * b[0],
+    a[1] + s * b[1],
+    a[2] + s * b[2],
+];
 export const scale = (a: Vector, s: number): Vector => [a[0] * s, a[1] * s, a[2] * s];
 export const dot = (a: Vector, b: Vector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-export const cross = (a: Vector, b: Vector): Vector =>
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+export const cross = (a: Vector, b: Vector): Vector => [
+    a[1] * b[2] - a[2] * b[1],
+    a[2] * b[0] - a[0] * b[2],
+    a[0] * b[1] - a[1] * b[0],
+];
 export const normalized = (a: Vector): Vector => scale(a, 1 / Math.sqrt(dot(a, a)));
 
 export function multiply(a: Matrix, b: Matrix): Matrix {
@@ -32,8 +38,23 @@ export function transform(m: Matrix, p: Vector): [number, number, number, number
 /** From the world to an eye with these unit axes: right, up, and back towards the viewer. */
 export function viewMatrix(right: Vector, up: Vector, back: Vector, eye: Vector): Matrix {
     return Float32Array.of(
-        right[0], up[0], back[0], 0, right[1], up[1], back[1], 0, right[2], up[2], back[2], 0,
-        -dot(right, eye), -dot(up, eye), -dot(back, eye), 1);
+        right[0],
+        up[0],
+        back[0],
+        0,
+        right[1],
+        up[1],
+        back[1],
+        0,
+        right[2],
+        up[2],
+        back[2],
+        0,
+        -dot(right, eye),
+        -dot(up, eye),
+        -dot(back, eye),
+        1,
+    );
 }
 
 /** @param slopeX  Tangent of half the angle across; slopeY upright. */

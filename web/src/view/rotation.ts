@@ -87,8 +87,8 @@ function dotRows(R: Rotation, i: number, j: number): number {
 }
 
 export function apply(R: Rotation, p: ArrayLike<number>): [number, number, number, number] {
-    const row = (i: number) => R[4 * i]! * p[0]! + R[4 * i + 1]! * p[1]! + R[4 * i + 2]! * p[2]!
-        + R[4 * i + 3]! * p[3]!;
+    const row = (i: number) =>
+        R[4 * i]! * p[0]! + R[4 * i + 1]! * p[1]! + R[4 * i + 2]! * p[2]! + R[4 * i + 3]! * p[3]!;
     return [row(0), row(1), row(2), row(3)];
 }
 
@@ -110,7 +110,9 @@ export function parseTurns(text: string): Turn[] | null {
             return null;
         }
         turns.push({
-            from: kAxes.indexOf(match[1]!), to: kAxes.indexOf(match[2]!), degrees: Number(match[3]),
+            from: kAxes.indexOf(match[1]!),
+            to: kAxes.indexOf(match[2]!),
+            degrees: Number(match[3]),
         });
     }
     return turns;

@@ -32,11 +32,24 @@ export interface ViewState {
 
 export function defaultState(): ViewState {
     return {
-        w: null, rotation: identity(),
+        w: null,
+        rotation: identity(),
         orbit: { azimuth: 30, elevation: 18, zoom: 1, panX: 0, panY: 0 },
-        frame: null, speed: 1, loop: true, layout: "single", slices: 3, spacing: null,
-        ghost: "none", color: "body", range: null, smooth: true, shade: true, floor: true,
-        box: false, axes: true, theme: "auto",
+        frame: null,
+        speed: 1,
+        loop: true,
+        layout: "single",
+        slices: 3,
+        spacing: null,
+        ghost: "none",
+        color: "body",
+        range: null,
+        smooth: true,
+        shade: true,
+        floor: true,
+        box: false,
+        axes: true,
+        theme: "auto",
     };
 }
 
@@ -59,10 +72,12 @@ export function formatState(state: ViewState): string {
     if (turns !== "") {
         put("rotate", turns);
     }
-    const camera = (["azimuth", "elevation", "zoom", "panX", "panY"] as const)
-        .map((key) => short(state.orbit[key], 4));
-    const usual = (["azimuth", "elevation", "zoom", "panX", "panY"] as const)
-        .map((key) => short(initial.orbit[key], 4));
+    const camera = (["azimuth", "elevation", "zoom", "panX", "panY"] as const).map((key) =>
+        short(state.orbit[key], 4),
+    );
+    const usual = (["azimuth", "elevation", "zoom", "panX", "panY"] as const).map((key) =>
+        short(initial.orbit[key], 4),
+    );
     if (camera.join() !== usual.join()) {
         put("camera", camera.join(","));
     }
@@ -96,7 +111,8 @@ function number(text: string, low: number, high: number): number | null {
 function numbers(text: string, count: number): number[] | null {
     const values = text.split(",").map((word) => number(word, -1e9, 1e9));
     return values.length === count && values.every((value) => value !== null)
-        ? (values as number[]) : null;
+        ? (values as number[])
+        : null;
 }
 
 // Each gives whether it understood the value.
@@ -112,8 +128,7 @@ const kReaders: Record<string, (state: ViewState, text: string) => boolean> = {
         if (zoom === undefined || zoom < 0.05 || zoom > 100 || Math.abs(elevation!) > 89) {
             return false;
         }
-        state.orbit =
-            { azimuth: azimuth!, elevation: elevation!, zoom, panX: panX!, panY: panY! };
+        state.orbit = { azimuth: azimuth!, elevation: elevation!, zoom, panX: panX!, panY: panY! };
         return true;
     },
     frame(state, text) {
@@ -132,10 +147,22 @@ const kReaders: Record<string, (state: ViewState, text: string) => boolean> = {
         state.range = ends && ends[0]! < ends[1]! ? [ends[0]!, ends[1]!] : null;
         return state.range !== null;
     },
-    layout: (state, text) => choose(kLayouts, text, (value) => { state.layout = value; }),
-    ghost: (state, text) => choose(kGhosts, text, (value) => { state.ghost = value; }),
-    color: (state, text) => choose(kColorBy, text, (value) => { state.color = value; }),
-    theme: (state, text) => choose(kThemes, text, (value) => { state.theme = value; }),
+    layout: (state, text) =>
+        choose(kLayouts, text, (value) => {
+            state.layout = value;
+        }),
+    ghost: (state, text) =>
+        choose(kGhosts, text, (value) => {
+            state.ghost = value;
+        }),
+    color: (state, text) =>
+        choose(kColorBy, text, (value) => {
+            state.color = value;
+        }),
+    theme: (state, text) =>
+        choose(kThemes, text, (value) => {
+            state.theme = value;
+        }),
 };
 
 function choose<T extends string>(known: readonly T[], text: string, set: (value: T) => void) {
@@ -152,7 +179,10 @@ function choose<T extends string>(known: readonly T[], text: string, set: (value
 export function parseState(text: string): { state: ViewState; unknown: string[] } {
     const state = defaultState();
     const unknown: string[] = [];
-    for (const part of text.replace(/^#/, "").split("&").filter((word) => word !== "")) {
+    for (const part of text
+        .replace(/^#/, "")
+        .split("&")
+        .filter((word) => word !== "")) {
         const [key, ...rest] = part.split("=");
         const value = rest.join("=");
         const flag = kSwitches.find((one) => one === key);
@@ -165,7 +195,8 @@ export function parseState(text: string): { state: ViewState; unknown: string[] 
             } else {
                 isKnown = Object.hasOwn(kReaders, key!) && kReaders[key!]!(state, decoded);
             }
-        } catch { // a broken %
+        } catch {
+            // a broken %
         }
         if (!isKnown) {
             unknown.push(part);

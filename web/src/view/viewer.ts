@@ -8,6 +8,7 @@ import { Bounds } from "./bounds.ts";
 import { suitableRange } from "./colors.ts";
 import type { ColorBy } from "./colors.ts";
 import { makeColoring, makePicture } from "./compose.ts";
+import { Pace } from "./pace.ts";
 import { orthonormalize, applyTurn } from "./rotation.ts";
 import { defaultState } from "./state.ts";
 import type { ViewState } from "./state.ts";
@@ -26,9 +27,6 @@ type Listeners = { [Kind in keyof ViewerEvents]: ((event: ViewerEvents[Kind]) =>
 
 const kSampledFrames = 5; // that bounds are taken from
 const kAhead = 24; // frames to read ahead
-const kSlow = 70; // ms from picture to picture: then pictures are coarser while they move
-const kCoarse = 0.5;
-const kRest = 220; // ms after which a picture is drawn sharp again
 
 /** A run, a view of it, and the canvas it is drawn on. Knows no controls. */
 export class Viewer {
@@ -42,22 +40,29 @@ export class Viewer {
     private stream: FrameStream | null = null;
     private ranges = new Map<ColorBy, [number, number]>();
     private rangeDone = new Map<ColorBy, WeakSet<Moment>>();
-    private listeners: Listeners =
-        { state: [], run: [], moment: [], picture: [], playing: [], notice: [] };
+    private listeners: Listeners = {
+        state: [],
+        run: [],
+        moment: [],
+        picture: [],
+        playing: [],
+        notice: [],
+    };
     private isDue = false;
     private size = { width: 1, height: 1, pixelRatio: 1 };
     private clock = 0; // place in time while playing, in frames
     private lastTick = 0;
-    private slowness = 0; // ms, of the last pictures
-    private sharpTimer = 0;
-    private isCoarse = false;
+    private pace = new Pace(() => this.requestDraw());
     private secondsPerFrame = 1 / 30;
 
     constructor(readonly canvas: HTMLCanvasElement) {
         this.renderer = new Renderer(canvas);
-        canvas.addEventListener("webglcontextlost", () => this.tell("notice", {
-            text: "graphics: the graphics card has stopped; reload the page", isError: true,
-        }));
+        canvas.addEventListener("webglcontextlost", () =>
+            this.tell("notice", {
+                text: "graphics: the graphics card has stopped; reload the page",
+                isError: true,
+            }),
+        );
     }
 
     on<Kind extends keyof ViewerEvents>(kind: Kind, listener: (event: ViewerEvents[Kind]) => void) {
@@ -67,8 +72,13 @@ export class Viewer {
     /** Shows a run from now on. Rejects, and keeps the old one, where its first frames fail. */
     async open(run: Run, state: ViewState): Promise<void> {
         const count = run.frames.length;
-        const places = [...new Set(Array.from({ length: kSampledFrames }, (_, i) =>
-            Math.round((i * (count - 1)) / (kSampledFrames - 1))))];
+        const places = [
+            ...new Set(
+                Array.from({ length: kSampledFrames }, (_, i) =>
+                    Math.round((i * (count - 1)) / (kSampledFrames - 1)),
+                ),
+            ),
+        ];
         const moments: Moment[] = [];
         for (const place of places) {
             moments.push(await run.load(run.frames[place]!));
@@ -85,8 +95,10 @@ export class Viewer {
         this.ranges.clear();
         this.rangeDone.clear();
         const last = moments.at(-1)!;
-        this.secondsPerFrame = count > 1 && last.time > moments[0]!.time
-            ? (last.time - moments[0]!.time) / (count - 1) : 1 / 30;
+        this.secondsPerFrame =
+            count > 1 && last.time > moments[0]!.time
+                ? (last.time - moments[0]!.time) / (count - 1)
+                : 1 / 30;
         this.stream = new FrameStream(run, (place) => this.onArrival(place));
         this.state = state;
         this.seek(this.placeOf(state.frame ?? run.frames[0]!));
@@ -134,7 +146,8 @@ export class Viewer {
         }
         const count = this.run.frames.length;
         const next = this.place + by;
-        const place = this.state.loop ? ((next % count) + count) % count
+        const place = this.state.loop
+            ? ((next % count) + count) % count
             : Math.min(Math.max(next, 0), count - 1);
         this.pause();
         this.update({ frame: this.run.frames[place]! });
@@ -194,14 +207,19 @@ export class Viewer {
         if (state.range) {
             return state.range;
         }
-        return state.color === "w" ? [bounds.low[3]!, bounds.high[3]!]
+        return state.color === "w"
+            ? [bounds.low[3]!, bounds.high[3]!]
             : (this.ranges.get(state.color) ?? [0, 1]);
     }
 
     /** The picture of the view, of any size in pixels. */
     makePicture(width: number, height: number, pixelRatio: number): Picture {
         return makePicture(this.state, {
-            width, height, pixelRatio, theme: this.theme, dimension: this.run?.dimension ?? 4,
+            width,
+            height,
+            pixelRatio,
+            theme: this.theme,
+            dimension: this.run?.dimension ?? 4,
             bounds: this.bounds,
             coloring: makeColoring(this.state, this.range, this.run?.bodies.length ?? 1),
         });
@@ -214,15 +232,18 @@ export class Viewer {
         }
     }
 
-    /** Draws at once, sharp. */
+    /** Draws at once. */
     drawNow(): Picture | null {
         if (!this.run || !this.moment) {
             return null;
         }
         const { width, height, pixelRatio } = this.size;
-        const scale = this.isCoarse ? kCoarse : 1;
-        const picture = this.makePicture(Math.round(width * pixelRatio * scale),
-            Math.round(height * pixelRatio * scale), pixelRatio * scale);
+        const scale = this.pace.scale;
+        const picture = this.makePicture(
+            Math.round(width * pixelRatio * scale),
+            Math.round(height * pixelRatio * scale),
+            pixelRatio * scale,
+        );
         this.renderer.draw(picture);
         this.tell("picture", picture);
         return picture;
@@ -237,31 +258,12 @@ export class Viewer {
         if (this.isPlaying) {
             this.advance(now);
         }
-        this.measure(now);
+        this.pace.measure(now);
         this.drawNow();
         if (this.isPlaying) {
             this.requestDraw();
         }
     }
-
-    // Where pictures come slowly they are coarser while things move, and sharp when they rest.
-    private measure(now: number): void {
-        const gap = now - this.lastPicture;
-        this.lastPicture = now;
-        if (gap < 1000) {
-            this.slowness += 0.3 * (gap - this.slowness);
-        }
-        this.isCoarse = this.slowness > kSlow && gap < 1000;
-        clearTimeout(this.sharpTimer);
-        if (this.isCoarse) {
-            this.sharpTimer = window.setTimeout(() => {
-                this.slowness = 0;
-                this.requestDraw();
-            }, kRest);
-        }
-    }
-
-    private lastPicture = -Infinity;
 
     private advance(now: number): void {
         const run = this.run!;
@@ -277,7 +279,8 @@ export class Viewer {
             this.clock = this.state.loop && !run.isGrowing ? next % count : count - 1;
         } else if (this.stream!.get(Math.floor(next)) || this.stream!.failure(Math.floor(next))) {
             this.clock = next;
-        } else { // waits for it
+        } else {
+            // waits for it
             this.stream!.want(Math.floor(next), kAhead, this.state.loop);
             return;
         }
@@ -314,15 +317,23 @@ export class Viewer {
         this.moment = moment;
         const { color } = this.state;
         if (color === "force" && moment.bodies.some((body) => !body.force)) {
-            this.refuseColor(`frame ${moment.frame} has no contact forces to color by; run the scene `
-                + "with [output] contact_forces = true");
-        } else if (color === "speed" && moment.bodies.some((body) => !body.speed)
-            && this.run!.frames.length === 1) {
+            this.refuseColor(
+                `frame ${moment.frame} has no contact forces to color by; run the scene ` +
+                    "with [output] contact_forces = true",
+            );
+        } else if (
+            color === "speed" &&
+            moment.bodies.some((body) => !body.speed) &&
+            this.run!.frames.length === 1
+        ) {
             this.refuseColor("a mesh has no speed to color by; open a run");
         } else if (color === "strain" && moment.bodies.some((body) => !body.strain)) {
             void this.addStrain(moment);
         }
-        this.renderer.setFrame(moment.bodies, moment.bodies.map((body) => this.scalarOf(body)));
+        this.renderer.setFrame(
+            moment.bodies,
+            moment.bodies.map((body) => this.scalarOf(body)),
+        );
         this.growRange(moment);
         if (isNew) {
             this.tell("moment", moment);
@@ -366,16 +377,22 @@ export class Viewer {
         const { color } = this.state;
         const done = this.rangeDone.get(color) ?? new WeakSet();
         this.rangeDone.set(color, done);
-        if (color === "body" || color === "w" || done.has(moment)
-            || moment.bodies.some((body) => !body[color])) {
+        if (
+            color === "body" ||
+            color === "w" ||
+            done.has(moment) ||
+            moment.bodies.some((body) => !body[color])
+        ) {
             return;
         }
         done.add(moment);
         for (const body of moment.bodies) {
             const [low, high] = suitableRange(body[color]!, color);
             const known = this.ranges.get(color);
-            this.ranges.set(color, known ? [Math.min(low, known[0]), Math.max(high, known[1])]
-                : [low, high]);
+            this.ranges.set(
+                color,
+                known ? [Math.min(low, known[0]), Math.max(high, known[1])] : [low, high],
+            );
         }
     }
 }

@@ -6,8 +6,11 @@ export const kRoot = process.env["PENT_ROOT"]!;
 
 /** A program of a native build, or null: then what compares with it is skipped. */
 export function native(name: string): string | null {
-    const folders = [process.env["PENT_BIN"], join(kRoot, "build/dev/bin"),
-        join(kRoot, "build/release/bin")].filter((folder) => folder !== undefined);
+    const folders = [
+        process.env["PENT_BIN"],
+        join(kRoot, "build/dev/bin"),
+        join(kRoot, "build/release/bin"),
+    ].filter((folder) => folder !== undefined);
     const found = folders.map((folder) => join(folder, name)).find((path) => existsSync(path));
     if (!found && process.env["PENT_NATIVE"] === "required") {
         throw new Error(`${name} is not built; build the preset dev`);
@@ -15,7 +18,7 @@ export function native(name: string): string | null {
     return found ?? null;
 }
 
-/** Random numbers that are the same every time: 0 up to 1 [mulberry32]. */
+/** Random numbers that are the same every time: 0 up to 1. */
 export function randomFrom(seed: number): () => number {
     let state = seed;
     return () => {

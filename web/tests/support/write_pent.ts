@@ -35,7 +35,8 @@ function join(header: string[], body: Uint8Array): Uint8Array {
 
 function rowsOf(values: ArrayLike<number>, size: number): number[][] {
     return Array.from({ length: values.length / size }, (_, i) =>
-        Array.from({ length: size }, (__, k) => values[i * size + k]!));
+        Array.from({ length: size }, (__, k) => values[i * size + k]!),
+    );
 }
 
 /** A binary .pent mesh. */
@@ -45,13 +46,21 @@ export function writeMesh(mesh: Pick<Mesh, "dimension" | "positions" | "cells">)
         ...rowsOf(positions, n).map((doubles) => ({ doubles, whole: [] })),
         ...rowsOf(cells, n + 1).map((whole) => ({ doubles: [], whole })),
     ]);
-    return join([
-        "ply", "format binary_little_endian 1.0", "comment pent 1.0", `comment dimension ${n}`,
-        `comment crc32c ${hex8(crc32c(body))}`, `element vertex ${positions.length / n}`,
-        ...[..."xyzw"].slice(0, n).map((axis) => `property double ${axis}`),
-        `element ${kCells[n]} ${cells.length / (n + 1)}`,
-        ...Array.from({ length: n + 1 }, (_, k) => `property uint v${k}`), "end_header",
-    ], body);
+    return join(
+        [
+            "ply",
+            "format binary_little_endian 1.0",
+            "comment pent 1.0",
+            `comment dimension ${n}`,
+            `comment crc32c ${hex8(crc32c(body))}`,
+            `element vertex ${positions.length / n}`,
+            ...[..."xyzw"].slice(0, n).map((axis) => `property double ${axis}`),
+            `element ${kCells[n]} ${cells.length / (n + 1)}`,
+            ...Array.from({ length: n + 1 }, (_, k) => `property uint v${k}`),
+            "end_header",
+        ],
+        body,
+    );
 }
 
 /** The checksum that a file states. */
@@ -60,19 +69,41 @@ export function crcOf(file: Uint8Array): string {
 }
 
 /** A binary frame of four dimensions, with velocities and, if given, contact forces. */
-export function writeFrame(mesh: Uint8Array, frame: number, time: number, positions: number[],
-    velocities: number[], forces: number[] = []): Uint8Array {
-    const columns = [positions, velocities, ...(forces.length > 0 ? [forces] : [])]
-        .map((values) => rowsOf(values, 4));
-    const body = bytesOf(columns[0]!.map((_, v) =>
-        ({ doubles: columns.flatMap((column) => column[v]!), whole: [] })));
+export function writeFrame(
+    mesh: Uint8Array,
+    frame: number,
+    time: number,
+    positions: number[],
+    velocities: number[],
+    forces: number[] = [],
+): Uint8Array {
+    const columns = [positions, velocities, ...(forces.length > 0 ? [forces] : [])].map((values) =>
+        rowsOf(values, 4),
+    );
+    const body = bytesOf(
+        columns[0]!.map((_, v) => ({
+            doubles: columns.flatMap((column) => column[v]!),
+            whole: [],
+        })),
+    );
     const prefixes = ["", "v", "f"].slice(0, columns.length);
-    return join([
-        "ply", "format binary_little_endian 1.0", "comment pent 1.0", "comment dimension 4",
-        `comment mesh body.pent ${crcOf(mesh)}`, `comment frame ${frame}`, `comment step ${frame}`,
-        `comment time ${time}`, `comment crc32c ${hex8(crc32c(body))}`,
-        `element vertex ${positions.length / 4}`,
-        ...prefixes.flatMap((prefix) => [..."xyzw"].map((axis) => `property double ${prefix}${axis}`)),
-        "end_header",
-    ], body);
+    return join(
+        [
+            "ply",
+            "format binary_little_endian 1.0",
+            "comment pent 1.0",
+            "comment dimension 4",
+            `comment mesh body.pent ${crcOf(mesh)}`,
+            `comment frame ${frame}`,
+            `comment step ${frame}`,
+            `comment time ${time}`,
+            `comment crc32c ${hex8(crc32c(body))}`,
+            `element vertex ${positions.length / 4}`,
+            ...prefixes.flatMap((prefix) =>
+                [..."xyzw"].map((axis) => `property double ${prefix}${axis}`),
+            ),
+            "end_header",
+        ],
+        body,
+    );
 }

@@ -24,9 +24,20 @@ function textMesh(lines: string[], body: string[]): Uint8Array {
     return new TextEncoder().encode([...lines, ...body, ""].join("\n"));
 }
 
-const kTriangle = ["ply", "format ascii 1.0", "comment pent 1.0", "comment dimension 2",
-    "element vertex 3", "property double x", "property double y", "element triangle 1",
-    "property uint v0", "property uint v1", "property uint v2", "end_header"];
+const kTriangle = [
+    "ply",
+    "format ascii 1.0",
+    "comment pent 1.0",
+    "comment dimension 2",
+    "element vertex 3",
+    "property double x",
+    "property double y",
+    "element triangle 1",
+    "property uint v0",
+    "property uint v1",
+    "property uint v2",
+    "end_header",
+];
 
 function messageOf(action: () => unknown): string {
     try {
@@ -85,23 +96,39 @@ test("every sample of the corpus is taken or said why not, in one line", () => {
 test("messages name line, place, what was found and what was expected", () => {
     const cases: [Uint8Array, RegExp][] = [
         [new Uint8Array(0), /^a\.pent: the file is empty, expected a \.pent file$/],
-        [textMesh(["solid x"], []),
-            /^a\.pent: header line 1: found 'solid x', expected 'ply' \(is this a \.pent file\?\)$/],
+        [
+            textMesh(["solid x"], []),
+            /^a\.pent: header line 1: found 'solid x', expected 'ply' \(is this a \.pent file\?\)$/,
+        ],
         [textMesh(["ply\r"], []), /header line 1: found 'ply\?', expected lines that end with LF/],
-        [textMesh(kTriangle.map((line) => line.replace("vertex 3", "vertex 300")), ["0 0"]),
-            /element vertex: the header announces 300 of at least 4 bytes each, but \d+ bytes are left/],
-        [textMesh(kTriangle, ["0 0", "1 0", "0 nan", "0 1 2"]),
-            /^a\.pent: vertex 2: y is nan, expected a finite number$/],
-        [textMesh(kTriangle, ["0 0", "1 0", "0 1", "0 1 3"]),
-            /^a\.pent: triangle 0: vertex 3 of 3, expected at most 2$/],
+        [
+            textMesh(
+                kTriangle.map((line) => line.replace("vertex 3", "vertex 300")),
+                ["0 0"],
+            ),
+            /element vertex: the header announces 300 of at least 4 bytes each, but \d+ bytes are left/,
+        ],
+        [
+            textMesh(kTriangle, ["0 0", "1 0", "0 nan", "0 1 2"]),
+            /^a\.pent: vertex 2: y is nan, expected a finite number$/,
+        ],
+        [
+            textMesh(kTriangle, ["0 0", "1 0", "0 1", "0 1 3"]),
+            /^a\.pent: triangle 0: vertex 3 of 3, expected at most 2$/,
+        ],
         [textMesh(kTriangle, ["0 0", "1 0", "0 1", "0 2 1"]), /triangle 0: inverted/],
         [textMesh(kTriangle, ["0 0", "1 0", "2 0", "0 1 2"]), /triangle 0: degenerate/],
         [textMesh(kTriangle, ["0 0", "1 0", "0 1", "0 1 1"]), /vertex 1 appears twice/],
-        [textMesh(kTriangle, ["0 0", "1 0", "0 +1", "0 1 2"]),
-            /^a\.pent: vertex 2: y is '\+1', expected a number of type double$/],
+        [
+            textMesh(kTriangle, ["0 0", "1 0", "0 +1", "0 1 2"]),
+            /^a\.pent: vertex 2: y is '\+1', expected a number of type double$/,
+        ],
     ];
     for (const [bytes, expected] of cases) {
-        assert.match(messageOf(() => read(bytes, "a.pent")), expected);
+        assert.match(
+            messageOf(() => read(bytes, "a.pent")),
+            expected,
+        );
     }
 });
 
@@ -109,16 +136,26 @@ test("huge counts are refused before anything is allocated", () => {
     const file = Buffer.from(writeMesh(kUnit)).toString("latin1");
     for (const count of ["4294967295", "99999999999", "18446744073709551615"]) {
         const damaged = file.replace(/element vertex \d+/, `element vertex ${count}`);
-        assert.match(messageOf(() => read(Buffer.from(damaged, "latin1"), "a.pent")),
-            /announces|at most 4294967295/);
+        assert.match(
+            messageOf(() => read(Buffer.from(damaged, "latin1"), "a.pent")),
+            /announces|at most 4294967295/,
+        );
     }
 });
 
 test("determinants agree with expansion along the first row", () => {
     const random = randomFrom(1);
-    const expand = (m: number[][]): number => (m.length === 1 ? m[0]![0]!
-        : m[0]!.reduce((sum, value, j) => sum + (j % 2 ? -1 : 1) * value
-            * expand(m.slice(1).map((row) => row.filter((_, k) => k !== j))), 0));
+    const expand = (m: number[][]): number =>
+        m.length === 1
+            ? m[0]![0]!
+            : m[0]!.reduce(
+                  (sum, value, j) =>
+                      sum +
+                      (j % 2 ? -1 : 1) *
+                          value *
+                          expand(m.slice(1).map((row) => row.filter((_, k) => k !== j))),
+                  0,
+              );
     for (const n of [2, 3, 4]) {
         const m = Array.from({ length: n }, () => Array.from({ length: n }, () => random() - 0.5));
         assert.ok(Math.abs(determinant(m.flat(), n) - expand(m)) < 1e-14); // rounding of 24 products
@@ -180,7 +217,8 @@ test("damaged samples get the very words of the C++ reader", (t) => {
     const path = join(folder, "a.pent");
     const random = randomFrom(5);
     // What pent-check asks beyond reading: links of vertices and the like; and the sign of a NaN.
-    const isBeyond = (words: string) => /vertices without a cell|does not fit|facets|boundary/.test(words);
+    const isBeyond = (words: string) =>
+        /vertices without a cell|does not fit|facets|boundary/.test(words);
     let refused = 0;
     try {
         for (let i = 0; i < 240; ++i) {
@@ -188,8 +226,13 @@ test("damaged samples get the very words of the C++ reader", (t) => {
             const damaged = damage(sample, random);
             const bytes = i % 2 ? withChecksum(damaged) : damaged;
             writeFileSync(path, bytes);
-            const stderr: string = spawnSync(check, [path, "--quiet"], { encoding: "latin1" }).stderr;
-            const expected: string = stderr.trim().replace(/^pent-check: /, "").replaceAll("-nan", "nan");
+            const stderr: string = spawnSync(check, [path, "--quiet"], {
+                encoding: "latin1",
+            }).stderr;
+            const expected: string = stderr
+                .trim()
+                .replace(/^pent-check: /, "")
+                .replaceAll("-nan", "nan");
             // A C string ends at a zero byte, which damage can bring into a name.
             const found = messageOf(() => read(bytes, path)).split("\0")[0];
             if (!isBeyond(expected)) {

@@ -12,15 +12,25 @@ const kGrid = gridMesh([2, 1, 1, 2], (p) => p);
 /** A cube of six tetrahedra around a diagonal. */
 function cube3(): Mesh {
     const cells: number[] = [];
-    for (const [a, b, c, isEven] of [[1, 2, 4, 1], [2, 4, 1, 1], [4, 1, 2, 1], [2, 1, 4, 0],
-        [1, 4, 2, 0], [4, 2, 1, 0]] as const) {
+    for (const [a, b, c, isEven] of [
+        [1, 2, 4, 1],
+        [2, 4, 1, 1],
+        [4, 1, 2, 1],
+        [2, 1, 4, 0],
+        [1, 4, 2, 0],
+        [4, 2, 1, 0],
+    ] as const) {
         const path = [0, a, a + b, a + b + c];
         cells.push(...(isEven ? path : [path[0]!, path[1]!, path[3]!, path[2]!]));
     }
     return {
-        dimension: 3, vertexCount: 8, cellCount: 6, cells: Uint32Array.from(cells), crc: 0,
+        dimension: 3,
+        vertexCount: 8,
+        cellCount: 6,
+        cells: Uint32Array.from(cells),
+        crc: 0,
         createdBy: "",
-        positions: Float64Array.from({ length: 24 }, (_, i) => (Math.floor(i / 3) >> (i % 3)) & 1),
+        positions: Float64Array.from({ length: 24 }, (_, i) => (Math.floor(i / 3) >> i % 3) & 1),
     };
 }
 
@@ -33,7 +43,10 @@ function insideOf(mesh: Mesh, facets: Uint32Array): number {
     const n = mesh.dimension;
     let sum = 0;
     for (let f = 0; f < facets.length; f += 4) {
-        sum += determinant([...facets.subarray(f, f + n)].flatMap((v) => point(mesh, v)), n);
+        sum += determinant(
+            [...facets.subarray(f, f + n)].flatMap((v) => point(mesh, v)),
+            n,
+        );
     }
     return sum / (n === 4 ? 24 : 6);
 }
@@ -51,7 +64,10 @@ test("cells of a grid are positively oriented and fill it", () => {
 });
 
 test("boundaries are outward and closed, in three and four dimensions", () => {
-    for (const [mesh, size, inside] of [[kGrid, 4, 16], [cube3(), 3, 1]] as const) {
+    for (const [mesh, size, inside] of [
+        [kGrid, 4, 16],
+        [cube3(), 3, 1],
+    ] as const) {
         const { facets, facetCount } = makeBoundary(mesh, "a");
         assert.ok(Math.abs(insideOf(mesh, facets) - inside) < 1e-12);
         // Every ridge has two facets.
@@ -59,7 +75,10 @@ test("boundaries are outward and closed, in three and four dimensions", () => {
         for (let f = 0; f < facetCount; ++f) {
             const corners = [...facets.subarray(4 * f, 4 * f + size)];
             corners.forEach((apex) => {
-                const key = corners.filter((one) => one !== apex).sort().join();
+                const key = corners
+                    .filter((one) => one !== apex)
+                    .sort()
+                    .join();
                 ridges.set(key, (ridges.get(key) ?? 0) + 1);
             });
         }
@@ -70,8 +89,10 @@ test("boundaries are outward and closed, in three and four dimensions", () => {
 test("a vertex lists just the facets that have it", () => {
     const { facets, facetCount, vertexBegin, vertexFacets } = makeBoundary(kGrid, "a");
     const expected = Array.from({ length: kGrid.vertexCount }, (_, v) =>
-        Array.from({ length: facetCount }, (__, f) => f)
-            .filter((f) => facets.subarray(4 * f, 4 * f + 4).includes(v)));
+        Array.from({ length: facetCount }, (__, f) => f).filter((f) =>
+            facets.subarray(4 * f, 4 * f + 4).includes(v),
+        ),
+    );
     expected.forEach((list, v) => {
         assert.deepEqual([...vertexFacets.subarray(vertexBegin[v], vertexBegin[v + 1])], list);
     });
@@ -80,8 +101,11 @@ test("a vertex lists just the facets that have it", () => {
 test("folds are the triangles of the boundary, each once, between their two tetrahedra", () => {
     const { facets, facetCount, folds } = makeBoundary(kGrid, "a");
     assert.equal(folds.length / 8, (4 * facetCount) / 2);
-    const tets = new Set(Array.from({ length: facetCount }, (_, f) =>
-        [...facets.subarray(4 * f, 4 * f + 4)].sort().join()));
+    const tets = new Set(
+        Array.from({ length: facetCount }, (_, f) =>
+            [...facets.subarray(4 * f, 4 * f + 4)].sort().join(),
+        ),
+    );
     for (let at = 0; at < folds.length; at += 8) {
         const [a, b, c, first, other] = [...folds.subarray(at, at + 5)];
         assert.ok(tets.has([a, b, c, first].sort().join()));
@@ -91,19 +115,28 @@ test("folds are the triangles of the boundary, each once, between their two tetr
 
 test("cells that do not fit together are refused with the number of the first", () => {
     const cells = Uint32Array.from([...kGrid.cells, ...kGrid.cells.subarray(0, 5)]);
-    assert.throws(() => makeBoundary({ ...kGrid, cells }, "a.pent"),
-        /^Error: a\.pent: pentachoron 0: does not fit its neighbors \(.*see pent-check$/);
+    assert.throws(
+        () => makeBoundary({ ...kGrid, cells }, "a.pent"),
+        /^Error: a\.pent: pentachoron 0: does not fit its neighbors \(.*see pent-check$/,
+    );
 });
 
 test("strain is zero for rigid motions, and known for a stretch", () => {
     const rest = makeRestCells(kGrid);
-    const R = fromTurns([{ from: 0, to: 3, degrees: 33 }, { from: 1, to: 2, degrees: -70 }]);
+    const R = fromTurns([
+        { from: 0, to: 3, degrees: 33 },
+        { from: 1, to: 2, degrees: -70 },
+    ]);
     const moved = (A: Float64Array) => {
         const positions = new Float64Array(kGrid.positions.length);
         for (let v = 0; v < positions.length; v += 4) {
             for (let i = 0; i < 4; ++i) {
-                positions[v + i] = 1 + [0, 1, 2, 3].reduce((sum, k) =>
-                    sum + A[4 * i + k]! * kGrid.positions[v + k]!, 0);
+                positions[v + i] =
+                    1 +
+                    [0, 1, 2, 3].reduce(
+                        (sum, k) => sum + A[4 * i + k]! * kGrid.positions[v + k]!,
+                        0,
+                    );
             }
         }
         return toFloat4(positions, 4);

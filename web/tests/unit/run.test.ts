@@ -10,9 +10,16 @@ import { parseListing } from "../../src/run/sources.ts";
 import { writeFrame, writeMesh } from "../support/write_pent.ts";
 
 test("a dropped run is found in whatever folder it is", () => {
-    const paths = ["a/b/run/meshes/x.pent", "a/b/run/meshes/y_1.pent", "a/b/run/frames/x_000002.pent",
-        "a/b/run/frames/x_000001.pent", "a/b/run/frames/y_1_000001.pent", "a/b/run/frames/.x_000003.pent",
-        "a/b/run/report.json", "a/b/run/checkpoint/meshes/x.pent"];
+    const paths = [
+        "a/b/run/meshes/x.pent",
+        "a/b/run/meshes/y_1.pent",
+        "a/b/run/frames/x_000002.pent",
+        "a/b/run/frames/x_000001.pent",
+        "a/b/run/frames/y_1_000001.pent",
+        "a/b/run/frames/.x_000003.pent",
+        "a/b/run/report.json",
+        "a/b/run/checkpoint/meshes/x.pent",
+    ];
     const { listing, prefix } = listPaths(paths);
     assert.equal(prefix, "a/b/run/");
     assert.deepEqual(listing.meshes, ["x", "y_1"]);
@@ -22,32 +29,64 @@ test("a dropped run is found in whatever folder it is", () => {
 
 test("a dropped mesh is found, and what is neither is refused", () => {
     assert.equal(listPaths(["octopus.pent"]).listing.mesh, "octopus.pent");
-    assert.throws(() => listPaths(["notes.txt"]), /^Error: notes.txt: found no .pent file; expected/);
-    assert.throws(() => listPaths(["a.pent", "b.pent"]), /found 2 \.pent files but no folder meshes/);
+    assert.throws(
+        () => listPaths(["notes.txt"]),
+        /^Error: notes.txt: found no .pent file; expected/,
+    );
+    assert.throws(
+        () => listPaths(["a.pent", "b.pent"]),
+        /found 2 \.pent files but no folder meshes/,
+    );
     assert.throws(() => listPaths([]), /expected a run folder/);
 });
 
 test("a run without frames of a body, or without a common one, is refused", () => {
     const of = (paths: string[]) => listPaths(paths).listing;
-    assert.throws(() => commonFrames(of(["r/meshes/a.pent"])),
-        /^Error: frames\/a_000000.pent: no such frame nor a later one of this body; did pent-sim run\?$/);
-    assert.throws(() => commonFrames(of(["r/meshes/a.pent", "r/meshes/b.pent",
-        "r/frames/a_000000.pent", "r/frames/b_000001.pent"])), /no frame that all bodies have/);
+    assert.throws(
+        () => commonFrames(of(["r/meshes/a.pent"])),
+        /^Error: frames\/a_000000.pent: no such frame nor a later one of this body; did pent-sim run\?$/,
+    );
+    assert.throws(
+        () =>
+            commonFrames(
+                of([
+                    "r/meshes/a.pent",
+                    "r/meshes/b.pent",
+                    "r/frames/a_000000.pent",
+                    "r/frames/b_000001.pent",
+                ]),
+            ),
+        /no frame that all bodies have/,
+    );
 });
 
 test("lists of pent-view and reports of pent-sim are understood, and nothing else", () => {
-    const ours = parseListing('{"meshes":["a"],"frames":{"a":[[0,2],[5,5]]},"follow":true}', "run.json");
+    const ours = parseListing(
+        '{"meshes":["a"],"frames":{"a":[[0,2],[5,5]]},"follow":true}',
+        "run.json",
+    );
     assert.deepEqual(ours.frames.get("a"), [0, 1, 2, 5]);
     assert.equal(ours.isGrowing, true);
-    const report = parseListing('{"verdict":"running","bodies":[{"name":"b"},{"name":"a"}],'
-        + '"frames":[{"frame":0},{"frame":1}]}', "report.json");
-    assert.deepEqual([report.meshes, report.frames.get("b"), report.isGrowing], [["a", "b"], [0, 1], true]);
+    const report = parseListing(
+        '{"verdict":"running","bodies":[{"name":"b"},{"name":"a"}],' +
+            '"frames":[{"frame":0},{"frame":1}]}',
+        "report.json",
+    );
+    assert.deepEqual(
+        [report.meshes, report.frames.get("b"), report.isGrowing],
+        [["a", "b"], [0, 1], true],
+    );
     for (const text of ["", "{}", "[]", "null", "7", '{"bodies":3,"frames":[]}', "<html>"]) {
-        assert.throws(() => parseListing(text, "run.json"), /^Error: run.json: cannot be understood/);
+        assert.throws(
+            () => parseListing(text, "run.json"),
+            /^Error: run.json: cannot be understood/,
+        );
     }
     for (const range of ["[0,1e12]", "[3,1]", "[-1,1]", "[0.5,1]", '["0",1]']) {
-        assert.throws(() => parseListing(`{"meshes":["a"],"frames":{"a":[${range}]}}`, "run.json"),
-            /run.json: found frames/);
+        assert.throws(
+            () => parseListing(`{"meshes":["a"],"frames":{"a":[${range}]}}`, "run.json"),
+            /run.json: found frames/,
+        );
     }
 });
 
@@ -57,10 +96,13 @@ test("frames of another mesh are refused", () => {
     const mesh = writeMesh(grid);
     const other = writeMesh(gridMesh([1, 1, 1, 1], (p) => [2 * p[0], p[1], p[2], p[3]]));
     decoder.mesh(mesh, "a", "meshes/a.pent");
-    const frame = (of: Uint8Array) => writeFrame(of, 0, 0, [...grid.positions], [...grid.positions]);
+    const frame = (of: Uint8Array) =>
+        writeFrame(of, 0, 0, [...grid.positions], [...grid.positions]);
     assert.equal(decoder.frame(frame(mesh), "a", "f").frame.positions.length, 64);
-    assert.throws(() => decoder.frame(frame(other), "a", "frames/a_000000.pent"),
-        /^Error: frames\/a_000000.pent: belongs to another mesh than meshes\/a.pent; expected both/);
+    assert.throws(
+        () => decoder.frame(frame(other), "a", "frames/a_000000.pent"),
+        /^Error: frames\/a_000000.pent: belongs to another mesh than meshes\/a.pent; expected both/,
+    );
 });
 
 test("speeds, forces and strain of a frame are those of its vectors", () => {
@@ -70,7 +112,10 @@ test("speeds, forces and strain of a frame are those of its vectors", () => {
     decoder.mesh(mesh, "a", "a");
     const velocities = [...grid.positions].map((_, i) => (i % 4 === 3 ? 4 : i % 4 === 0 ? 3 : 0));
     const { frame, time } = decoder.frame(
-        writeFrame(mesh, 1, 0.5, [...grid.positions], velocities, velocities), "a", "f");
+        writeFrame(mesh, 1, 0.5, [...grid.positions], velocities, velocities),
+        "a",
+        "f",
+    );
     assert.equal(time, 0.5);
     assert.ok(frame.speed!.every((value) => value === 5));
     assert.ok(frame.force!.every((value) => value === 5));
@@ -82,10 +127,14 @@ test("meshes of dimension 2 are refused, those of 3 are taken", () => {
     const tet = writeMesh({ dimension: 3, positions, cells: Uint32Array.of(0, 1, 2, 3) });
     assert.equal(new Decoder().mesh(tet, "t", "t.pent").body.boundary.facetCount, 4);
     const triangle = writeMesh({
-        dimension: 2, positions: Float64Array.of(0, 0, 1, 0, 0, 1), cells: Uint32Array.of(0, 1, 2),
+        dimension: 2,
+        positions: Float64Array.of(0, 0, 1, 0, 0, 1),
+        cells: Uint32Array.of(0, 1, 2),
     });
-    assert.throws(() => new Decoder().mesh(triangle, "t", "t.pent"),
-        /^Error: t.pent: has dimension 2; expected 3 or 4$/);
+    assert.throws(
+        () => new Decoder().mesh(triangle, "t", "t.pent"),
+        /^Error: t.pent: has dimension 2; expected 3 or 4$/,
+    );
 });
 
 test("the cache keeps what was used last, within its bytes", () => {
@@ -94,7 +143,10 @@ test("the cache keeps what was used last, within its bytes", () => {
     cache.set(2, "b", 40);
     cache.get(1);
     cache.set(3, "c", 40);
-    assert.deepEqual([cache.has(1), cache.has(2), cache.has(3), cache.bytes], [true, false, true, 80]);
+    assert.deepEqual(
+        [cache.has(1), cache.has(2), cache.has(3), cache.bytes],
+        [true, false, true, 80],
+    );
     cache.set(4, "larger than all", 1000);
     assert.deepEqual([cache.size, cache.bytes], [1, 1000]); // what came last stays
     cache.set(4, "less", 10);
@@ -117,9 +169,18 @@ class SlowRun implements Run {
     }
 
     async bring(frame: number): Promise<void> {
-        this.waiting.get(frame)!({ frame, time: 0, bodies: [{
-            positions: new Float32Array(40), speed: null, force: null, strain: null,
-        }] });
+        this.waiting.get(frame)!({
+            frame,
+            time: 0,
+            bodies: [
+                {
+                    positions: new Float32Array(40),
+                    speed: null,
+                    force: null,
+                    strain: null,
+                },
+            ],
+        });
         await new Promise((resolve) => setTimeout(resolve));
     }
 
@@ -143,7 +204,7 @@ test("frames are brought a few at a time, what is wanted first, and read ahead",
     assert.equal(stream.get(50), undefined);
 });
 
-test("no more is kept than the bytes allow, and reading ahead stays within half of them", async () => {
+test("no more is kept than the bytes allow, and half of them at most is read ahead", async () => {
     const run = new SlowRun();
     const stream = new FrameStream(run, () => {}, 800, 4); // five frames
     stream.want(0, 24, true);

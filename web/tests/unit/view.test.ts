@@ -6,7 +6,18 @@ import { makeCamera } from "../../src/view/camera.ts";
 import { bodyColor, mapColor, suitableRange } from "../../src/view/colors.ts";
 import { columnsFor, slicePlaces } from "../../src/view/compose.ts";
 import { transform } from "../../src/view/matrix.ts";
-import { apply, applyTurn, axesOf, formatTurns, fromTurns, identity, kPlanes, orthonormalize, parseTurns, toTurns } from "../../src/view/rotation.ts";
+import {
+    apply,
+    applyTurn,
+    axesOf,
+    formatTurns,
+    fromTurns,
+    identity,
+    kPlanes,
+    orthonormalize,
+    parseTurns,
+    toTurns,
+} from "../../src/view/rotation.ts";
 import type { Rotation } from "../../src/view/rotation.ts";
 import { defaultState, formatState, parseState } from "../../src/view/state.ts";
 import { randomFrom } from "../support/native.ts";
@@ -16,15 +27,20 @@ function distance(a: Rotation, b: Rotation): number {
 }
 
 function randomRotation(random: () => number): Rotation {
-    return fromTurns(Array.from({ length: 9 }, () => {
-        const [from, to] = axesOf(kPlanes[Math.floor(6 * random())]!);
-        return { from, to, degrees: 720 * random() - 360 };
-    }));
+    return fromTurns(
+        Array.from({ length: 9 }, () => {
+            const [from, to] = axesOf(kPlanes[Math.floor(6 * random())]!);
+            return { from, to, degrees: 720 * random() - 360 };
+        }),
+    );
 }
 
 test("the plane xw takes x towards w", () => {
     const R = fromTurns([{ from: 0, to: 3, degrees: 90 }]);
-    assert.deepEqual(apply(R, [1, 0, 0, 0]).map((x) => Math.round(x * 1e9) / 1e9), [0, 0, 0, 1]);
+    assert.deepEqual(
+        apply(R, [1, 0, 0, 0]).map((x) => Math.round(x * 1e9) / 1e9),
+        [0, 0, 0, 1],
+    );
     const back = fromTurns([{ from: 3, to: 0, degrees: 90 }]);
     applyTurn(back, 0, 3, 90);
     assert.ok(distance(back, identity()) < 1e-12);
@@ -56,7 +72,10 @@ test("rounding of many turns is taken out", () => {
     orthonormalize(rough);
     for (let i = 0; i < 4; ++i) {
         for (let j = 0; j < 4; ++j) {
-            const along = [0, 1, 2, 3].reduce((sum, k) => sum + rough[4 * i + k]! * rough[4 * j + k]!, 0);
+            const along = [0, 1, 2, 3].reduce(
+                (sum, k) => sum + rough[4 * i + k]! * rough[4 * j + k]!,
+                0,
+            );
             assert.ok(Math.abs(along - (i === j ? 1 : 0)) < 1e-12);
         }
     }
@@ -91,19 +110,38 @@ test("a state survives the address, whatever it is", () => {
 });
 
 test("what is not understood in an address is named, and the rest holds", () => {
-    const { state, unknown } = parseState("#w=0.1&rotat=xw:3&slices=77&layout=pile&%=%&smooth=off"
-        + "&camera=1,2,0,0,0&range=2,1&__proto__=1&speed=x");
+    const { state, unknown } = parseState(
+        "#w=0.1&rotat=xw:3&slices=77&layout=pile&%=%&smooth=off" +
+            "&camera=1,2,0,0,0&range=2,1&__proto__=1&speed=x",
+    );
     assert.equal(state.w, 0.1);
     assert.equal(state.smooth, false);
     assert.equal(state.speed, 1);
-    assert.deepEqual(unknown, ["rotat=xw:3", "slices=77", "layout=pile", "%=%", "camera=1,2,0,0,0",
-        "range=2,1", "__proto__=1", "speed=x"]);
+    assert.deepEqual(unknown, [
+        "rotat=xw:3",
+        "slices=77",
+        "layout=pile",
+        "%=%",
+        "camera=1,2,0,0,0",
+        "range=2,1",
+        "__proto__=1",
+        "speed=x",
+    ]);
 });
 
 function boundsOf(points: number[][]): Bounds {
-    const moment = { frame: 0, time: 0, bodies: [{
-        positions: Float32Array.from(points.flat()), speed: null, force: null, strain: null,
-    }] };
+    const moment = {
+        frame: 0,
+        time: 0,
+        bodies: [
+            {
+                positions: Float32Array.from(points.flat()),
+                speed: null,
+                force: null,
+                strain: null,
+            },
+        ],
+    };
     const bounds = new Bounds();
     bounds.add([moment]);
     bounds.settle([moment]);
@@ -111,8 +149,17 @@ function boundsOf(points: number[][]): Bounds {
 }
 
 test("the pivot is the origin for bodies about it, and in their middle elsewhere", () => {
-    assert.deepEqual(boundsOf([[-1, -1, 0, 0], [1.1, 1, 0, 0]]).pivot, [0, 0, 0, 0]);
-    const far = boundsOf([[9, 0, 0, 4], [11, 0, 0, 6]]);
+    assert.deepEqual(
+        boundsOf([
+            [-1, -1, 0, 0],
+            [1.1, 1, 0, 0],
+        ]).pivot,
+        [0, 0, 0, 0],
+    );
+    const far = boundsOf([
+        [9, 0, 0, 4],
+        [11, 0, 0, 6],
+    ]);
     assert.deepEqual(far.pivot, [10, 0, 0, 5]);
     const R = fromTurns([{ from: 0, to: 3, degrees: 50 }]);
     const shift = far.shift(R);
@@ -136,15 +183,20 @@ test("the reach of a turned box holds all that is in it", () => {
 });
 
 test("a tesseract has 32 edges, and its slice through the middle is a cube", () => {
-    const bounds = boundsOf([[-1, -1, -1, -1], [1, 1, 1, 1]]);
+    const bounds = boundsOf([
+        [-1, -1, -1, -1],
+        [1, 1, 1, 1],
+    ]);
     const film = (p: number[]) => [p[0]!, p[1]!, p[2]!] as [number, number, number];
     const lines = tesseract(bounds, identity(), 0.25, film, [0, 0, 0]);
     assert.equal(lines.length, 32 + 12);
-    // Across the long diagonal it is an octahedron; that the slice meets vertices makes some edges of
-    // no length.
-    const across = Float64Array.of(1, 1, -1, -1, 1, -1, 1, -1, 1, -1, -1, 1, 1, 1, 1, 1)
-        .map((value) => value / 2);
-    const edges = tesseract(bounds, across, 0, film, [0, 0, 0]).slice(32)
+    // Across the long diagonal it is an octahedron; that the slice meets vertices makes some edges
+    // of no length.
+    const across = Float64Array.of(1, 1, -1, -1, 1, -1, 1, -1, 1, -1, -1, 1, 1, 1, 1, 1).map(
+        (value) => value / 2,
+    );
+    const edges = tesseract(bounds, across, 0, film, [0, 0, 0])
+        .slice(32)
         .map(({ a, b }) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]))
         .filter((length) => length > 1e-9);
     assert.equal(edges.length, 12);
@@ -152,9 +204,15 @@ test("a tesseract has 32 edges, and its slice through the middle is a cube", () 
 });
 
 test("slices lie about w, evenly", () => {
-    const bounds = boundsOf([[-1, -1, -1, -1], [1, 1, 1, 1]]);
+    const bounds = boundsOf([
+        [-1, -1, -1, -1],
+        [1, 1, 1, 1],
+    ]);
     const state = { ...defaultState(), w: 0.5, layout: "side" as const, slices: 3, spacing: 0.2 };
-    assert.deepEqual(slicePlaces(state, bounds, 4).map((w) => Number(w.toFixed(9))), [0.3, 0.5, 0.7]);
+    assert.deepEqual(
+        slicePlaces(state, bounds, 4).map((w) => Number(w.toFixed(9))),
+        [0.3, 0.5, 0.7],
+    );
     assert.deepEqual(slicePlaces(state, bounds, 3), [0.5]);
 });
 
@@ -166,8 +224,12 @@ test("tiles are as large as can be", () => {
 });
 
 test("the camera sees what it looks at in the middle, and depth between near and far", () => {
-    const camera = makeCamera({ azimuth: 200, elevation: -30, zoom: 1.5, panX: 0, panY: 0 },
-        [1, 2, 3], 2, 1.6);
+    const camera = makeCamera(
+        { azimuth: 200, elevation: -30, zoom: 1.5, panX: 0, panY: 0 },
+        [1, 2, 3],
+        2,
+        1.6,
+    );
     const [x, y, z, w] = transform(camera.viewProjection, [1, 2, 3]);
     assert.ok(Math.abs(x / w) < 1e-5 && Math.abs(y / w) < 1e-5 && Math.abs(z / w) < 1);
 });

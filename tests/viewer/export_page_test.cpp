@@ -1,0 +1,148 @@
+#include "runs.h"
+#include "web_pages.h"
+
+#include <pent/viewer/attributes.h>
+#include <pent/viewer/export_page.h>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <support/messages.h>
+#include <support/temp_folder.h>
+
+namespace pent::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+using pent::test::error_of;
+using pent::test::expect_contains;
+using pent::test::TempFolder;
+
+const OnProgress kGoOn = [](std::string_view, std::int64_t, std::int64_t) { return true; };
+
+std::string text_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// What stands in <script ... id="ID">...</script>.
+std::string element(const std::string& page, const std::string& id) {
+    const std::size_t at = page.find(" id=\"" + id + "\">");
+    if (at == std::string::npos) {
+        return "";
+    }
+    const std::size_t begin = page.find('>', at) + 1;
+    return page.substr(begin, page.find('<', begin) - begin);
+}
+
+std::string decoded(const std::string& base64) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    for (std::size_t i = 0; i + 4 <= base64.size(); i += 4) {
+        std::uint32_t three = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const char c = base64[i + k];
+            three = three << 6 | (c == '=' ? 0U : static_cast<std::uint32_t>(digits.find(c)));
+        }
+        for (std::size_t k = 0; k < 3 && base64[i + k + 1] != '='; ++k) {
+            bytes += static_cast<char>(three >> (16 - 8 * k) & 255);
+        }
+    }
+    return bytes;
+}
+
+class AnExportedPage : public testing::Test {
+protected:
+    AnExportedPage() { test::write_run(folder_ / "twist", "a<b", {0, 1, 2}); }
+
+    [[nodiscard]] ExportReport make(const fs::path& input, ExportOptions options) const {
+        const RunFolder run = open_run(input);
+        if (options.frames.empty()) {
+            options.frames = run.frames;
+        }
+        options.page = test::write_page(folder_.path());
+        return export_page(run, folder_ / "out.html", options, kGoOn);
+    }
+
+    TempFolder folder_;
+};
+
+TEST_F(AnExportedPage, HoldsEveryPositionToWithinHalfAStep) {
+    const ExportReport report = make(folder_ / "twist", {});
+    ASSERT_TRUE(report.is_complete);
+    const std::string page = text_of(folder_ / "out.html");
+    EXPECT_EQ(report.bytes, static_cast<std::int64_t>(page.size()));
+    EXPECT_EQ(page.find("<!-- run -->"), std::string::npos);
+    expect_contains(element(page, "pent-run"),
+                    {"\"version\":1", "\"title\":\"twist\"", "\"name\":\"a\\u003cb\"",
+                     "\"dimension\":4", "\"force\":null", "{\"frame\":2,\"time\":0.2"});
+    const RunFolder run = open_run(folder_ / "twist");
+    const auto bodies = load_bodies<4>(run);
+    Eigen::AlignedBox4d box;
+    for (const int frame : run.frames) {
+        for (const auto& point : load_frame<4>(run, bodies[0], frame).positions.colwise()) {
+            box.extend(point);
+        }
+    }
+    // The mesh has a vertex in its middle that the boundary does not have.
+    const Eigen::Index shell = bodies[0].mesh.vertex_count() - 1;
+    for (const int frame : run.frames) {
+        const std::string bytes = decoded(element(page, "pent-frame-" + std::to_string(frame)));
+        ASSERT_EQ(bytes.size(), static_cast<std::size_t>(shell) * (8 + 2));
+        const Positions<4> expected = load_frame<4>(run, bodies[0], frame).positions;
+        Eigen::Index vertex = 0;
+        for (Eigen::Index v = 0; v < shell; ++v, ++vertex) {
+            if (bodies[0].boundary.vertex_begin[vertex]
+                == bodies[0].boundary.vertex_begin[vertex + 1]) {
+                ++vertex;
+            }
+            for (int axis = 0; axis < 4; ++axis) {
+                const std::size_t at = 2 * static_cast<std::size_t>(4 * v + axis);
+                const int step = static_cast<unsigned char>(bytes[at])
+                                 + 256 * static_cast<unsigned char>(bytes[at + 1]);
+                const double value = box.min()[axis] + box.sizes()[axis] * step / 65535;
+                // Beside half a step the rounding of the sum.
+                EXPECT_NEAR(value, expected(axis, vertex), report.largest_error * (1 + 1e-9));
+            }
+        }
+    }
+}
+
+TEST_F(AnExportedPage, OfAMeshHasOneFrameWithoutSpeed) {
+    const ExportReport report = make(folder_ / "twist" / "meshes" / "a<b.pent", {});
+    EXPECT_TRUE(report.is_complete);
+    expect_contains(element(text_of(folder_ / "out.html"), "pent-run"),
+                    {"\"speed\":null,\"strain\":null", "\"frames\":[{\"frame\":0,\"time\":0}]"});
+}
+
+TEST_F(AnExportedPage, ThatWouldBeTooLargeIsRefusedWithWhatWouldFit) {
+    ExportOptions options;
+    options.most_bytes = 20'000;
+    expect_contains(error_of([&] { (void)make(folder_ / "twist", options); }),
+                    {"out.html: would have ", " MB, expected at most 0.0; ", "raise --limit"});
+    EXPECT_FALSE(fs::exists(folder_ / "out.html"));
+}
+
+TEST_F(AnExportedPage, ThatIsStoppedIsNotThere) {
+    const RunFolder run = open_run(folder_ / "twist");
+    const ExportOptions options{test::write_page(folder_.path()), run.frames, 64'000'000};
+    for (const std::string stop_at : {"looked at frame", "wrote frame"}) {
+        const ExportReport report = export_page(
+            run, folder_ / "out.html", options,
+            [&](std::string_view what, std::int64_t, std::int64_t) { return what != stop_at; });
+        EXPECT_FALSE(report.is_complete);
+        EXPECT_FALSE(fs::exists(folder_ / "out.html"));
+    }
+}
+
+TEST_F(AnExportedPage, HasTheSameBytesEachTime) {
+    (void)make(folder_ / "twist", {});
+    const std::string once = text_of(folder_ / "out.html");
+    (void)make(folder_ / "twist", {});
+    EXPECT_EQ(text_of(folder_ / "out.html"), once);
+}
+
+}  // namespace
+}  // namespace pent::viewer

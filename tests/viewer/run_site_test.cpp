@@ -1,0 +1,109 @@
+#include "run_site.h"
+
+#include "runs.h"
+#include "web_pages.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <support/messages.h>
+#include <support/temp_folder.h>
+
+namespace pent::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+using pent::test::TempFolder;
+
+constexpr int kPort = 8080;
+
+class RunSiteOf : public testing::Test {
+protected:
+    RunSiteOf() {
+        test::write_run(folder_ / "my run", "a", {0, 1, 2, 5});
+        write_text(folder_ / "secret.pent", "secret");
+        write_text(folder_ / "my run" / "notes.txt", "not for others");
+        page_ = test::write_page(folder_.path());
+    }
+
+    [[nodiscard]] RunSite site() const { return {page_, folder_ / "my run"}; }
+
+    [[nodiscard]] HttpResponse get(const std::string& path) const {
+        return site().answer({"GET", path, "127.0.0.1:8080"}, kPort);
+    }
+
+    TempFolder folder_;
+    fs::path page_;
+};
+
+TEST_F(RunSiteOf, ARunGivesThePageItsFilesAndAList) {
+    EXPECT_EQ(site().start(), "/?run=my%20run/");
+    EXPECT_NE(get("/").body.find("viewer"), std::string::npos);
+    EXPECT_NE(get("/").headers.find("default-src 'none'"), std::string::npos);
+    EXPECT_EQ(get("/my run/run.json").body,
+              "{\"meshes\":[\"a\"],\"frames\":{\"a\":[[0,2],[5,5]]},\"follow\":true}");
+    EXPECT_EQ(get("/my run/frames/a_000001.pent").body.substr(0, 4), "ply\n");
+    EXPECT_EQ(get("/my run/meshes/a.pent").type, "application/octet-stream");
+    EXPECT_EQ(get("/my run/frames/a_000007.pent").status, 404);
+}
+
+TEST_F(RunSiteOf, ARunFollowsItWhileItIsWritten) {
+    EXPECT_NE(get("/my run/run.json").body.find("\"follow\":true"), std::string::npos);
+    const fs::path report = folder_ / "my run" / "report.json";
+    write_text(report, "{\n \"created_by\": \"pent-sim\",\n \"verdict\": \"running\"\n}");
+    EXPECT_NE(get("/my run/run.json").body.find("\"follow\":true"), std::string::npos);
+    test::write_run(folder_ / "my run", "a", {3});
+    EXPECT_NE(get("/my run/run.json").body.find("[[0,3],[5,5]]"), std::string::npos);
+    write_text(report, "{\n \"created_by\": \"pent-sim\",\n \"verdict\": \"finished\"\n}");
+    EXPECT_NE(get("/my run/run.json").body.find("\"follow\":false"), std::string::npos);
+    fs::remove_all(folder_ / "my run" / "frames");
+    EXPECT_EQ(get("/my run/run.json").status, 404);
+}
+
+TEST_F(RunSiteOf, ARunGivesNothingElse) {
+    fs::create_symlink(folder_ / "secret.pent", folder_ / "my run" / "meshes" / "link.pent");
+    for (const std::string path :
+         {"/my run/../secret.pent", "/my run/meshes/../../secret.pent", "/secret.pent",
+          "/my run/meshes/link.pent", "/my run/notes.txt", "/my run/", "/my run/meshes/",
+          "/my run/meshes/.pent", "/my run/frames/.a_000001.pent.7.tmp", "//etc/passwd",
+          "/my run//etc/passwd", "/my run/frames", "/my run"}) {
+        EXPECT_EQ(get(path).status, 404) << path;
+    }
+}
+
+TEST_F(RunSiteOf, ARunAnswersOnlyWhoeverNamesThisMachineAndAsksWithGet) {
+    for (const std::string host : {"", "127.0.0.1", "127.0.0.1:80", "evil.example:8080",
+                                   "localhost.evil.example:8080", "[::1]:8080"}) {
+        EXPECT_EQ(site().answer({"GET", "/", host}, kPort).status, 403) << host;
+    }
+    EXPECT_EQ(site().answer({"GET", "/", "localhost:8080"}, kPort).status, 200);
+    for (const std::string method : {"POST", "HEAD", "PUT", "DELETE", "get"}) {
+        EXPECT_EQ(site().answer({method, "/", "127.0.0.1:8080"}, kPort).status, 405) << method;
+    }
+}
+
+TEST_F(RunSiteOf, AMeshGivesThatFile) {
+    const fs::path mesh = folder_ / "my run" / "meshes" / "a.pent";
+    const RunSite site(page_, mesh);
+    EXPECT_EQ(site.start(), "/?run=a.pent");
+    const auto get = [&](const std::string& path) {
+        return site.answer({"GET", path, "localhost:8080"}, kPort).status;
+    };
+    EXPECT_EQ(get("/a.pent"), 200);
+    EXPECT_EQ(get("/b.pent"), 404);
+    EXPECT_EQ(get("/a.pent/run.json"), 404);
+}
+
+TEST_F(RunSiteOf, WhatIsNoPageIsRefused) {
+    using pent::test::error_of;
+    using pent::test::expect_contains;
+    const fs::path run = folder_ / "my run";
+    expect_contains(error_of([&] { RunSite(folder_ / "none.html", run); }),
+                    {"none.html: cannot be read; build the page with scripts/web.sh"});
+    expect_contains(error_of([&] { RunSite(folder_ / "secret.pent", run); }),
+                    {"secret.pent: is not the page of the viewer"});
+}
+
+}  // namespace
+}  // namespace pent::viewer

@@ -1,0 +1,161 @@
+#include "run_site.h"
+
+#include "web_page.h"
+
+#include <pent/error.h>
+#include <pent/viewer/run_folder.h>
+
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <system_error>
+#include <vector>
+
+namespace pent::viewer {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the page needs: its own script and style, a worker that it makes itself, files of the run.
+constexpr const char* kPolicy =
+    "Content-Security-Policy: default-src 'none'; script-src 'unsafe-inline' blob:; "
+    "worker-src blob:; style-src 'unsafe-inline'; img-src data: blob:; media-src blob:; "
+    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n";
+
+std::optional<std::string> read_file(const fs::path& path) {
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) {
+        return std::nullopt;
+    }
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        return std::nullopt;
+    }
+    return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+// Frames as ranges: [[0,89],[95,95]].
+std::string ranges(const std::vector<int>& frames) {
+    std::string text = "[";
+    for (std::size_t i = 0; i < frames.size();) {
+        std::size_t last = i;
+        while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1) {
+            ++last;
+        }
+        text += (i == 0 ? "[" : ",[") + std::to_string(frames[i]) + ","
+                + std::to_string(frames[last]) + "]";
+        i = last + 1;
+    }
+    return text + "]";
+}
+
+// Whether pent-sim may still be at work: report.json says so near its start. Without a report it has
+// just begun.
+bool is_growing(const fs::path& run) {
+    std::ifstream file(run / "report.json", std::ios::binary);
+    std::string head(1024, '\0');
+    file.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(file.gcount()));
+    return head.empty() || head.find("\"verdict\": \"running\"") != std::string::npos;
+}
+
+// A file name of a run, with no way out of its folder: "meshes/a.pent", "report.json".
+bool is_served(const std::string& name) {
+    if (name == "scene.toml" || name == "report.json") {
+        return true;
+    }
+    for (const std::string folder : {"meshes/", "frames/"}) {
+        if (name.starts_with(folder) && name.ends_with(".pent")) {
+            const std::string file = name.substr(folder.size());
+            return file.front() != '.' && file.find('/') == std::string::npos;
+        }
+    }
+    return false;
+}
+
+HttpResponse binary(std::optional<std::string> bytes, const std::string& type) {
+    if (!bytes) {
+        return refusal(404, "no such file");
+    }
+    HttpResponse response;
+    response.type = type;
+    response.body = std::move(*bytes);
+    return response;
+}
+
+}  // namespace
+
+RunSite::RunSite(const fs::path& page, const fs::path& run) : page_(read_web_page(page)) {
+    is_mesh_ = open_run(run).is_mesh;
+    run_ = fs::canonical(run);
+    name_ = run_.filename().string();
+}
+
+std::string RunSite::start() const {
+    return "/?run=" + percent_encoded(name_) + (is_mesh_ ? "" : "/");
+}
+
+HttpResponse RunSite::answer(const HttpRequest& request, int port) const {
+    const std::string at = ":" + std::to_string(port);
+    if (request.host != "127.0.0.1" + at && request.host != "localhost" + at) {
+        return refusal(403, "the address must be http://127.0.0.1" + at + " or localhost");
+    }
+    if (request.method != "GET") {
+        HttpResponse response = refusal(405, "nothing can be changed here; use GET");
+        response.headers = "Allow: GET\r\n";
+        return response;
+    }
+    if (request.path == "/" || request.path == "/index.html") {
+        HttpResponse response = binary(page_, "text/html; charset=utf-8");
+        response.headers = kPolicy;
+        return response;
+    }
+    if (is_mesh_) {
+        return binary(request.path == "/" + name_ ? read_file(run_) : std::nullopt,
+                      "application/octet-stream");
+    }
+    const std::string folder = "/" + name_ + "/";
+    if (!request.path.starts_with(folder)) {
+        return refusal(404, "there is " + folder + " and the page / alone");
+    }
+    const std::string name = request.path.substr(folder.size());
+    return name == "run.json" ? listing() : file_of_run(name);
+}
+
+HttpResponse RunSite::file_of_run(const std::string& name) const {
+    if (!is_served(name)) {
+        return refusal(404, "no such file");
+    }
+    // A link within the run may not lead out of it.
+    std::error_code error;
+    const fs::path path = fs::canonical(run_ / name, error);
+    if (error || path.parent_path() != (run_ / name).parent_path()) {
+        return refusal(404, "no such file");
+    }
+    const bool is_text = name == "scene.toml";
+    return binary(read_file(path), name == "report.json" ? "application/json"
+                                   : is_text             ? "text/plain; charset=utf-8"
+                                                         : "application/octet-stream");
+}
+
+HttpResponse RunSite::listing() const {
+    try {
+        const bool may_grow = is_growing(run_);  // before the frames, or the last might be missed
+        const RunFolder run = open_run(run_);
+        std::string meshes;
+        std::string frames;
+        for (const std::string& body : run.bodies) {
+            const std::string comma = meshes.empty() ? "" : ",";
+            meshes += comma + json_string(body);
+            frames += comma + json_string(body) + ":" + ranges(run.frames);
+        }
+        return binary("{\"meshes\":[" + meshes + "],\"frames\":{" + frames
+                          + "},\"follow\":" + (may_grow ? "true" : "false") + "}",
+                      "application/json");
+    } catch (const Error& error) {  // the run was removed meanwhile
+        return refusal(404, error.what());
+    }
+}
+
+}  // namespace pent::viewer

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "http.h"
+
+#include <filesystem>
+#include <string>
+
+namespace pent::viewer {
+
+/// What a browser may see of a disk: the page of web/, and one run or mesh. Nothing else, whatever it
+/// asks for.
+///
+///     /                          the page
+///     /NAME/run.json             bodies and frames there are now, and whether more may come
+///     /NAME/meshes/BODY.pent     files of the run NAME; also frames/, scene.toml, report.json
+///     /NAME.pent                 in place of a run: a mesh
+class RunSite {
+public:
+    /// @param page  index.html as scripts/web.sh builds it.
+    /// @param run   A run folder, or a .pent mesh.
+    /// Throws an Error if one of them is not what it should be.
+    RunSite(const std::filesystem::path& page, const std::filesystem::path& run);
+
+    /// @param port  That the request came to: its Host must be this machine's own with this port, so
+    ///              that pages of others cannot read the run by a name that leads here.
+    [[nodiscard]] HttpResponse answer(const HttpRequest& request, int port) const;
+
+    /// What stands behind the host in the address that shows the run: "/?run=octopus/".
+    [[nodiscard]] std::string start() const;
+
+private:
+    [[nodiscard]] HttpResponse file_of_run(const std::string& name) const;
+    [[nodiscard]] HttpResponse listing() const;
+
+    std::filesystem::path run_;  // without links
+    bool is_mesh_ = false;
+    std::string name_;  // of the run
+    std::string page_;  // its bytes
+};
+
+}  // namespace pent::viewer
