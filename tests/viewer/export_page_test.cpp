@@ -82,7 +82,8 @@ TEST_F(AnExportedPage, HoldsEveryPositionToWithinHalfAStep) {
     const auto bodies = load_bodies<4>(run);
     Eigen::AlignedBox4d box;
     for (const int frame : run.frames) {
-        for (const auto& point : load_frame<4>(run, bodies[0], frame).positions.colwise()) {
+        const Positions<4> positions = load_frame<4>(run, bodies[0], frame).positions;
+        for (const auto& point : positions.colwise()) {
             box.extend(point);
         }
     }
@@ -119,7 +120,7 @@ TEST_F(AnExportedPage, OfAMeshHasOneFrameWithoutSpeed) {
 
 TEST_F(AnExportedPage, ThatWouldBeTooLargeIsRefusedWithWhatWouldFit) {
     ExportOptions options;
-    options.most_bytes = 20'000;
+    options.most_bytes = 8'000;
     expect_contains(error_of([&] { (void)make(folder_ / "twist", options); }),
                     {"out.html: would have ", " MB, expected at most 0.0; ", "raise --limit"});
     EXPECT_FALSE(fs::exists(folder_ / "out.html"));

@@ -49,6 +49,10 @@ TEST_F(RunSiteOf, ARunGivesThePageItsFilesAndAList) {
 }
 
 TEST_F(RunSiteOf, ARunFollowsItWhileItIsWritten) {
+    const RunSite site = this->site();
+    const auto get = [&](const std::string& path) {
+        return site.answer({"GET", path, "localhost:8080"}, kPort);
+    };
     EXPECT_NE(get("/my run/run.json").body.find("\"follow\":true"), std::string::npos);
     const fs::path report = folder_ / "my run" / "report.json";
     write_text(report, "{\n \"created_by\": \"pent-sim\",\n \"verdict\": \"running\"\n}");
@@ -62,13 +66,14 @@ TEST_F(RunSiteOf, ARunFollowsItWhileItIsWritten) {
 }
 
 TEST_F(RunSiteOf, ARunGivesNothingElse) {
+    const RunSite site = this->site();
     fs::create_symlink(folder_ / "secret.pent", folder_ / "my run" / "meshes" / "link.pent");
     for (const std::string path :
          {"/my run/../secret.pent", "/my run/meshes/../../secret.pent", "/secret.pent",
           "/my run/meshes/link.pent", "/my run/notes.txt", "/my run/", "/my run/meshes/",
           "/my run/meshes/.pent", "/my run/frames/.a_000001.pent.7.tmp", "//etc/passwd",
           "/my run//etc/passwd", "/my run/frames", "/my run"}) {
-        EXPECT_EQ(get(path).status, 404) << path;
+        EXPECT_EQ(site.answer({"GET", path, "localhost:8080"}, kPort).status, 404) << path;
     }
 }
 

@@ -315,7 +315,10 @@ export class App {
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () =>
             this.applyTheme(),
         );
-        window.addEventListener("hashchange", () => viewer.update(parseState(location.hash).state));
+        window.addEventListener("hashchange", (event) => {
+            // Not location: the address may have been written meanwhile from the old state.
+            viewer.update(parseState(new URL(event.newURL).hash).state);
+        });
         document.addEventListener("keydown", (event) => this.onKey(event));
         document.addEventListener("dragover", (event) => {
             event.preventDefault();

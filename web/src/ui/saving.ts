@@ -33,6 +33,8 @@ export async function savePicture(viewer: Viewer): Promise<void> {
     save(blob, fileName(viewer, "png"));
 }
 
+const kLastPicture = 250; // ms that the last picture stays
+
 const kVideoKinds = [
     ["video/mp4;codecs=avc1", "mp4"],
     ["video/webm;codecs=vp9", "webm"],
@@ -43,6 +45,8 @@ const kVideoKinds = [
 export class VideoRecorder {
     private recorder: MediaRecorder | null = null;
     private canvas = document.createElement("canvas");
+    private track: CanvasCaptureMediaStreamTrack | null = null;
+    private isCopying = false;
 
     constructor(private viewer: Viewer) {
         viewer.on("picture", () => {
@@ -52,17 +56,16 @@ export class VideoRecorder {
         });
         viewer.on("playing", (isPlaying) => {
             if (!isPlaying && this.recorder?.state === "recording") {
-                setTimeout(() => this.recorder?.stop(), 100); // the last picture belongs to it
+                setTimeout(() => this.recorder?.stop(), kLastPicture);
             }
         });
     }
-
-    private isCopying = false;
 
     private copy(): void {
         this.isCopying = true;
         copyPicture(this.viewer, this.canvas);
         this.isCopying = false;
+        this.track?.requestFrame(); // also where the page is too busy to be asked
     }
 
     get isRecording(): boolean {
@@ -85,6 +88,7 @@ export class VideoRecorder {
         viewer.update({ loop: false, frame: viewer.run!.frames[0]! });
         this.copy();
         const stream = this.canvas.captureStream(60);
+        this.track = stream.getVideoTracks()[0] as CanvasCaptureMediaStreamTrack;
         const recorder = new MediaRecorder(stream, {
             mimeType: kind[0],
             videoBitsPerSecond: 16_000_000,
@@ -96,9 +100,11 @@ export class VideoRecorder {
         });
         this.recorder = recorder;
         recorder.start();
+        this.copy();
         viewer.play();
         await stopped;
         this.recorder = null;
+        this.track = null;
         stream.getTracks().forEach((track) => track.stop());
         viewer.update({ loop });
         save(

@@ -42,15 +42,16 @@ const kViews = [
 /** Triangles of the slice that the page draws, nine numbers each. */
 function capture(page: Page, w: number, rotate: string): Promise<number[]> {
     return page.evaluate(
-        ([w, rotate]) => {
+        async ([w, rotate]) => {
             const { viewer } = window.pentimento!;
-            location.hash = `#w=${w}&rotate=${rotate}`;
-            return new Promise<number[]>((resolve) => {
-                setTimeout(() => {
-                    const picture = viewer.makePicture(32, 32, 1);
-                    resolve([...viewer.renderer.captureSlice(picture, 0, Number(w))]);
-                }, 100);
-            });
+            // As a person does who edits the address; the page has listened before.
+            const isHeard = new Promise((resolve) =>
+                window.addEventListener("hashchange", resolve, { once: true }),
+            );
+            location.hash = `#speed=2&w=${w}&rotate=${rotate}&shade=off`;
+            await isHeard;
+            const picture = viewer.makePicture(32, 32, 1);
+            return [...viewer.renderer.captureSlice(picture, 0, Number(w))];
         },
         [String(w), rotate] as const,
     );
@@ -104,7 +105,7 @@ test("the slice is that of pent-slice, triangle by triangle", async (t) => {
     writeFileSync(join(folder, "grid.pent"), kGrid);
     try {
         for (const { mesh, w, rotate } of kViews) {
-            const out = join(folder, "out");
+            const out = join(folder, `${mesh} ${w} ${rotate}`);
             mkdirSync(out, { recursive: true });
             const turns = rotate.split(",").filter((turn) => turn !== "");
             execFileSync(slicer, [
@@ -125,10 +126,11 @@ test("the slice is that of pent-slice, triangle by triangle", async (t) => {
             const found = split(await capture(page, w, rotate));
             await close();
             assert.equal(found.length, expected.length, `${mesh} ${w} ${rotate}`);
-            // Both in the order of the boundary. Floats near 1, turned and cut: a few 1e-7.
+            // Both in the order of the boundary. Heights are floats near 1, wrong by 1e-7; an edge at
+            // a small angle to the slice makes that a hundred times as much along itself.
             found.forEach((triangle, i) =>
                 triangle.forEach((value, k) =>
-                    assert.ok(Math.abs(value - expected[i]![k]!) < 2e-6, `triangle ${i}`),
+                    assert.ok(Math.abs(value - expected[i]![k]!) < 1e-5, `triangle ${i}`),
                 ),
             );
         }
