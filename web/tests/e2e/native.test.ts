@@ -1,0 +1,105 @@
+import assert from "node:assert/strict";
+import { execFileSync, spawn } from "node:child_process";
+import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { test } from "node:test";
+import { gridMesh } from "../../src/run/example.ts";
+import { kPage, openPage, useBrowser } from "../support/browser.ts";
+import { native } from "../support/native.ts";
+import { writeFrame, writeMesh } from "../support/write_pent.ts";
+
+const browser = useBrowser();
+const kGrid = gridMesh([2, 2, 1, 2], (p) => p);
+
+function positionsAt(frame: number): number[] {
+    return [...kGrid.positions].map((value, i) => value * (1 + 0.05 * frame) + (i % 4) * 0.01);
+}
+
+/** A run of three frames in a folder that is removed in the end. */
+async function withRun(action: (folder: string, view: string) => Promise<void>): Promise<boolean> {
+    const view = native("pent-view");
+    if (!view) {
+        return false;
+    }
+    const folder = mkdtempSync(join(tmpdir(), "pent-web-"));
+    const mesh = writeMesh(kGrid);
+    mkdirSync(join(folder, "run/meshes"), { recursive: true });
+    mkdirSync(join(folder, "run/frames"));
+    writeFileSync(join(folder, "run/meshes/body.pent"), mesh);
+    for (let frame = 0; frame < 3; ++frame) {
+        const positions = positionsAt(frame);
+        const bytes = writeFrame(mesh, frame, frame / 10, positions, positions);
+        writeFileSync(join(folder, `run/frames/body_00000${frame}.pent`), bytes);
+    }
+    try {
+        await action(folder, view);
+    } finally {
+        rmSync(folder, { recursive: true });
+    }
+    return true;
+}
+
+test("pent-view shows its run, and ends by Ctrl-C", async (t) => {
+    const isThere = await withRun(async (folder, view) => {
+        const program = spawn(view, [join(folder, "run"), "--no-open", "--page", kPage]);
+        const ended = new Promise<number | null>((resolve) => program.on("close", resolve));
+        const address = await new Promise<string>((resolve) =>
+            program.stdout.once("data", (text) => resolve(/http:\S+/.exec(String(text))![0])),
+        );
+        const { page, said, close } = await openPage(browser.get(), `${address}#shade=off&frame=2`);
+        await page.waitForFunction(() => window.pentimento!.viewer.moment!.frame === 2);
+        assert.equal(await page.title(), "run \u2013 Pentimento");
+        await page.locator("select[aria-label='Color by']").selectOption("strain");
+        await page.waitForSelector(".legend .title");
+        assert.deepEqual(said, []); // nothing that its own policy of content forbids
+        await close();
+        program.kill("SIGINT");
+        assert.equal(await ended, 0);
+    });
+    if (!isThere) {
+        t.skip("pent-view is not built");
+    }
+});
+
+test("an exported page opens from a file and shows what the run has", async (t) => {
+    const isThere = await withRun(async (folder, view) => {
+        const path = join(folder, "page.html");
+        execFileSync(view, [join(folder, "run"), "--page", kPage, "--export", path, "--quiet"]);
+        const { page, said, close } = await openPage(
+            browser.get(),
+            `${pathToFileURL(path)}#shade=off&frame=2&color=strain`,
+        );
+        await page.waitForFunction(() => window.pentimento!.viewer.moment!.frame === 2);
+        const { positions, strain, time } = await page.evaluate(() => {
+            const { moment } = window.pentimento!.viewer;
+            const [body] = moment!.bodies;
+            return {
+                positions: [...body!.positions],
+                strain: [...body!.strain!],
+                time: moment!.time,
+            };
+        });
+        assert.ok(Math.abs(time - 0.2) < 1e-12);
+        // Vertices inside are left out: those left are each near one of the run, in order.
+        const expected = positionsAt(2);
+        let at = 0;
+        for (let v = 0; v < positions.length; v += 4) {
+            // Half a step of 2.2 m in 65535, and floats.
+            const isNear = () =>
+                [0, 1, 2, 3].every((k) => Math.abs(positions[v + k]! - expected[at + k]!) < 2e-5);
+            while (at < expected.length && !isNear()) {
+                at += 4;
+            }
+            assert.ok(at < expected.length, `vertex ${v / 4}`);
+        }
+        // Grown by 1.1 along each axis: E = (1.21 - 1) / 2 four times, to a step of 255.
+        assert.ok(strain.every((value) => Math.abs(value - 0.21) < 0.21 / 255));
+        assert.deepEqual(said, []);
+        await close();
+    });
+    if (!isThere) {
+        t.skip("pent-view is not built");
+    }
+});
