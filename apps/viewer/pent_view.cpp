@@ -12,8 +12,7 @@
 #include <spawn.h>
 #include <string>
 #include <system_error>
-
-extern char** environ;  // what posix_spawn wants and no header has
+#include <unistd.h>
 
 namespace pent::apps {
 
