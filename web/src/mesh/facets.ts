@@ -66,9 +66,9 @@ function cellsByLowestCorner(cells: Uint32Array, size: number, vertexCount: numb
 // The facets with one lowest corner, found by their other corners, by open addressing.
 class FacetTable {
     size = 0;
-    entries = new Uint32Array(64 * kStride);
-    private slots = new Int32Array(256).fill(-1);
-    private mask = 255;
+    entries = new Uint32Array(0); // grows with the slots: there are never more
+    private slots = new Int32Array(0);
+    private mask = 0;
 
     constructor(private restSize: number) {}
 
