@@ -37,42 +37,96 @@ Stars stars_of(const Simplices<Dim>& facets, Eigen::Index vertices) {
     return stars;
 }
 
-// The closed link of dimension Dim - 2 is connected and has the sphere's Euler characteristic. Its
-// ridges are shared by two facets each, so that edges number Dim / 2 per triangle.
+// The corners of the facets around a vertex without it, Dim - 1 of each, renamed from 0 on.
+struct Link {
+    std::vector<std::uint32_t> corners;
+    std::uint32_t names = 0;
+};
+
 template <int Dim>
-bool is_sphere(const Simplices<Dim>& facets,
-               std::span<const std::uint32_t> star,
-               std::uint32_t vertex) {
-    std::vector<std::uint32_t> corners;  // Dim - 1 a facet of the link
+Link link_of(const Simplices<Dim>& facets,
+             std::span<const std::uint32_t> star,
+             std::uint32_t vertex) {
+    Link link;
     for (const std::uint32_t facet : star) {
         for (int i = 0; i < Dim; ++i) {
             if (facets(i, facet) != vertex) {
-                corners.push_back(facets(i, facet));
+                link.corners.push_back(facets(i, facet));
             }
         }
     }
-    std::vector<std::uint32_t> names = corners;
+    std::vector<std::uint32_t> names = link.corners;
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
-    if constexpr (Dim == 2) {
-        return names.size() == 2;
+    for (std::uint32_t& corner : link.corners) {
+        corner = static_cast<std::uint32_t>(std::lower_bound(names.begin(), names.end(), corner)
+                                            - names.begin());
     }
-    UnionFind parts(names.size());
-    std::size_t joins = 0;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const auto name_of = [&](std::uint32_t corner) {
-            return static_cast<std::uint32_t>(std::lower_bound(names.begin(), names.end(), corner)
-                                              - names.begin());
-        };
-        const std::uint32_t a = name_of(corners[i]);
-        const std::uint32_t b = name_of(corners[i - i % (Dim - 1)]);
+    link.names = static_cast<std::uint32_t>(names.size());
+    return link;
+}
+
+template <int Dim>
+bool is_connected(const Link& link) {
+    UnionFind parts(link.names);
+    std::uint32_t joins = 0;
+    for (std::size_t i = 0; i < link.corners.size(); ++i) {
+        const std::uint32_t a = link.corners[i];
+        const std::uint32_t b = link.corners[i - i % (Dim - 1)];
         joins += parts.find(a) != parts.find(b) ? 1 : 0;
         parts.join(a, b);
     }
-    const bool is_connected = joins + 1 == names.size();
-    const auto V = static_cast<std::int64_t>(names.size());
-    const auto F = static_cast<std::int64_t>(star.size());
-    return is_connected && (Dim == 3 ? V == F : 2 * V - F == 4);  // V - 3/2 F + F = 2
+    return joins + 1 == link.names;
+}
+
+// Whether the triangles around each corner of a closed surface are one circle, and not several that touch
+// there: then the corners of triangles that are one across edges are as many as there are names.
+bool is_surface(const Link& link) {
+    struct Side {
+        std::uint32_t low;
+        std::uint32_t high;
+        std::uint32_t at_low;   // places in link.corners
+        std::uint32_t at_high;
+    };
+    std::vector<Side> sides;
+    for (std::uint32_t i = 0; i < link.corners.size(); ++i) {
+        const std::uint32_t next = i % 3 == 2 ? i - 2 : i + 1;
+        const bool is_low = link.corners[i] < link.corners[next];
+        const std::uint32_t low = is_low ? i : next;
+        const std::uint32_t high = is_low ? next : i;
+        sides.push_back({link.corners[low], link.corners[high], low, high});
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+        return a.low != b.low ? a.low < b.low : a.high < b.high;
+    });
+    UnionFind parts(link.corners.size());
+    auto circles = static_cast<std::uint32_t>(link.corners.size());
+    const auto join = [&](std::uint32_t a, std::uint32_t b) {
+        circles -= parts.find(a) != parts.find(b) ? 1 : 0;
+        parts.join(a, b);
+    };
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+        if (sides[i].low == sides[i - 1].low && sides[i].high == sides[i - 1].high) {
+            join(sides[i].at_low, sides[i - 1].at_low);
+            join(sides[i].at_high, sides[i - 1].at_high);
+        }
+    }
+    return circles == link.names;
+}
+
+// The closed link of dimension Dim - 2 is connected and has the sphere's Euler characteristic. Its
+// ridges are shared by two facets each, so that edges number Dim / 2 per triangle.
+template <int Dim>
+bool is_sphere(const Link& link) {
+    const auto V = static_cast<std::int64_t>(link.names);
+    const auto F = static_cast<std::int64_t>(link.corners.size()) / (Dim - 1);
+    if constexpr (Dim == 2) {
+        return V == 2;
+    } else if constexpr (Dim == 3) {
+        return V == F && is_connected<Dim>(link);
+    } else {
+        return 2 * V - F == 4 && is_connected<Dim>(link) && is_surface(link);  // V - 3/2 F + F = 2
+    }
 }
 
 }  // namespace
@@ -94,7 +148,7 @@ LinkReport check_links(const SimplexMesh<Dim>& mesh) {
             continue;
         }
         ++report.boundary_vertices;
-        if (!is_sphere<Dim>(facets, star, v)) {
+        if (!is_sphere<Dim>(link_of<Dim>(facets, star, v))) {
             report.first_faulty = report.faulty == 0 ? v : report.first_faulty;
             ++report.faulty;
         }
