@@ -33,6 +33,7 @@ packages=(
     nlohmann-json3-dev            # reports
     libcgal-dev libgmp-dev libmpfr-dev libboost-graph-dev  # mesher
     libassimp-dev libtet1.5-dev   # mesher: surface files, TetGen
+    libmuparser-dev               # mesher: expressions of shapes
     libembree-dev libpng-dev      # viewer: ray tracer, pictures
     libfreetype-dev fonts-dejavu-core  # viewer: captions
     libgtest-dev libbenchmark-dev # tests and benchmarks

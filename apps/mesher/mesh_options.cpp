@@ -86,8 +86,8 @@ void add_input(CLI::App& cli, MeshArguments& arguments) {
     CLI::Option_group* input = cli.add_option_group("Input", "One of these");
     input
         ->add_option("input", arguments.input,
-                     "A surface (.obj .off .ply .stl .gltf .glb) or tetrahedra (.node/.ele .mesh "
-                     ".msh .vtk .tobj); - for standard input")
+                     "A surface (.obj .off .ply .stl .gltf .glb), tetrahedra (.node/.ele .mesh "
+                     ".msh .vtk .tobj) or a four-dimensional shape (.toml); - for standard input")
         ->type_name("FILE");
     const std::vector<CLI::Option*> shapes = add_shapes(*input, arguments);
     input->require_option(1);

@@ -90,6 +90,12 @@ template <int Dim>
 void say_body(const Program& program, const pent::mesher::Body<Dim>& body) {
     const BodyReport& report = body.report;
     const pent::mesher::Proof& proof = report.proof;
+    if (report.beveled > 0) {
+        program.say(
+            formatted("beveled    %lld simplices of the boundary cross a ridge; shorter edges "
+                      "follow it",
+                      static_cast<Long>(report.beveled)));
+    }
     program.say(formatted("body       %lld vertices, %lld %s, %.10g m^%d",
                           static_cast<Long>(body.mesh.vertex_count()),
                           static_cast<Long>(proof.cells), pent::cell_name_plural(Dim).data(),
@@ -139,6 +145,7 @@ nlohmann::ordered_json to_json(const pent::mesher::Body<Dim>& body) {
                     {"cells", report.proof.cells},
                     {"interior_facets", report.proof.interior_facets},
                     {"boundary_facets", report.proof.boundary_facets},
+                    {"beveled", report.beveled},
                     {"volume", report.proof.volume},
                     {"expected_volume", report.proof.expected_volume},
                     {"boundary_volume", report.proof.boundary_volume},
@@ -261,7 +268,8 @@ std::vector<NamedFile> inputs_of(const MeshArguments& arguments) {
 int main(int argc, char** argv) {
     Program program("pent-mesh",
                     "Makes a pentachoral mesh of a closed surface: fills it with tetrahedra and "
-                    "extrudes them along w. With --dim 3 the tetrahedra are the mesh.",
+                    "extrudes them along w; or of a four-dimensional shape described in a file. "
+                    "With --dim 3 the tetrahedra are the mesh.",
                     "pent-mesh octopus.obj -o octopus.pent --thickness 0.5");
     MeshArguments arguments;
     pent::apps::add_options(program.options(), arguments);

@@ -79,13 +79,13 @@ bool is_connected(const Link& link) {
     return joins + 1 == link.names;
 }
 
-// Whether the triangles around each corner of a closed surface are one circle, and not several that touch
+// Whether two triangles share each edge, and those around each corner are one circle, not several that touch
 // there: then the corners of triangles that are one across edges are as many as there are names.
 bool is_surface(const Link& link) {
     struct Side {
         std::uint32_t low;
         std::uint32_t high;
-        std::uint32_t at_low;   // places in link.corners
+        std::uint32_t at_low;  // places in link.corners
         std::uint32_t at_high;
     };
     std::vector<Side> sides;
@@ -105,11 +105,15 @@ bool is_surface(const Link& link) {
         circles -= parts.find(a) != parts.find(b) ? 1 : 0;
         parts.join(a, b);
     };
-    for (std::size_t i = 1; i < sides.size(); ++i) {
-        if (sides[i].low == sides[i - 1].low && sides[i].high == sides[i - 1].high) {
-            join(sides[i].at_low, sides[i - 1].at_low);
-            join(sides[i].at_high, sides[i - 1].at_high);
+    const auto are_one = [&](std::size_t i, std::size_t j) {
+        return j < sides.size() && sides[i].low == sides[j].low && sides[i].high == sides[j].high;
+    };
+    for (std::size_t i = 0; i < sides.size(); i += 2) {
+        if (!are_one(i, i + 1) || are_one(i, i + 2)) {
+            return false;  // shared by another number of triangles than two
         }
+        join(sides[i].at_low, sides[i + 1].at_low);
+        join(sides[i].at_high, sides[i + 1].at_high);
     }
     return circles == link.names;
 }
@@ -140,6 +144,7 @@ LinkReport check_links(const SimplexMesh<Dim>& mesh) {
         is_used[corner] = true;
     }
     LinkReport report;
+    report.is_faulty.assign(mesh.vertex_count(), false);
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         report.unused_vertices += is_used[v] ? 0 : 1;
         const std::span star(stars.facets.data() + stars.first[v],
@@ -150,6 +155,7 @@ LinkReport check_links(const SimplexMesh<Dim>& mesh) {
         ++report.boundary_vertices;
         if (!is_sphere<Dim>(link_of<Dim>(facets, star, v))) {
             report.first_faulty = report.faulty == 0 ? v : report.first_faulty;
+            report.is_faulty[v] = true;
             ++report.faulty;
         }
     }

@@ -5,6 +5,8 @@
 
 #include <pent/error.h>
 #include <pent/mesher/make_body.h>
+#include <pent/mesher/read_solid.h>
+#include <pent/mesher/stuff.h>
 #include <pent/mesher/subdivide.h>
 
 #include <algorithm>
@@ -243,6 +245,46 @@ bool is_flat(const Surface& surface) {
     return z.maxCoeff() == z.minCoeff();
 }
 
+// The path of the input if that is a shape file, else none.
+const std::filesystem::path* shape_file_of(const BodyRequest& request) {
+    const auto* path = std::get_if<std::filesystem::path>(&request.input);
+    return path != nullptr && request.format.empty() && is_shape_file(*path) ? path : nullptr;
+}
+
+Body<4> make_shape(const std::filesystem::path& path,
+                   const BodyRequest& request,
+                   StageClock& clock) {
+    constexpr double kSeconds = 6e-6;  // to stuff a cell on one core
+    refuse_extrusion(request);
+    if (request.surface_triangles > 0 || request.target_cells > 0) {
+        throw Error(path.string()
+                    + ": a shape is stuffed with edges of one length; leave out triangles and"
+                      " number of pentachora");
+    }
+    if (request.edge_length <= 0) {
+        throw Error(path.string()
+                    + ": a shape needs the length of the edges; expected --edge-length");
+    }
+    const Solid solid = clock.time("read", [&] {
+        return place(read_solid(path), request.scale, Eigen::Matrix4d::Identity(),
+                     Eigen::Vector4d::Zero());
+    });
+    BodyReport report;
+    StuffedSolid stuffed;
+    try {
+        ExpectedSize size =
+            expected_size<4>(estimate_cells(solid, request.edge_length), 1, 0, request);
+        size.seconds += kSeconds * size.cells;
+        announce(request, size);
+        stuffed = clock.time("stuff", [&] { return stuff(solid, request.edge_length); });
+    } catch (const Error& error) {
+        throw Error(path.string() + ": " + error.what());
+    }
+    report.generator = "lattice stuffing";
+    report.beveled = stuffed.beveled;
+    return finish<4>(std::move(stuffed.mesh), 0, request, std::move(report), clock);
+}
+
 // The triangles of a flat surface, all counterclockwise.
 SimplexMesh<2> plane_mesh(const Surface& surface, const std::string& name) {
     SimplexMesh<2> mesh;
@@ -265,6 +307,9 @@ Body<4> make_body(const BodyRequest& request) {
     if (const auto* shape = std::get_if<BoxShape>(&request.input)) {
         return make_box<4>(*shape, request, clock);
     }
+    if (const auto* path = shape_file_of(request)) {
+        return make_shape(*path, request, clock);
+    }
     BodyReport report;
     ExtrusionRequest extrusion = request.extrusion;
     if (has_tetrahedra(request)) {
@@ -282,6 +327,9 @@ Body<3> make_solid(const BodyRequest& request) {
     StageClock clock(request.on_stage);
     if (const auto* shape = std::get_if<BoxShape>(&request.input)) {
         return make_box<3>(*shape, request, clock);
+    }
+    if (const auto* path = shape_file_of(request)) {
+        throw Error(path->string() + ": is a shape of four dimensions; leave out --dim 3");
     }
     BodyReport report;
     if (has_tetrahedra(request)) {

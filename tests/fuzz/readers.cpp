@@ -19,6 +19,7 @@
 #ifdef PENT_FUZZ_MESHER
 #include <pent/mesher/edge_order.h>
 #include <pent/mesher/profile.h>
+#include <pent/mesher/read_solid.h>
 #include <pent/mesher/read_tetrahedra.h>
 #include <pent/mesher/surface.h>
 #endif
@@ -253,6 +254,12 @@ void try_edges(const fs::path& path) {
     require(edges.size() == 0 || edges.maxCoeff() < kVertices, "edges join vertices of the mesh");
 }
 
+void try_shape(const fs::path& path) {
+    const mesher::Solid solid = mesher::read_solid(path);
+    (void)solid.value({0.1, 0.2, 0.3, 0.4});
+    require(solid.piece_count() > 0, "a shape that is accepted has a surface");
+}
+
 void try_profile(const fs::path& path) {
     require(mesher::read_profile(path).size() >= 2, "a profile has two layers or more");
 }
@@ -288,6 +295,7 @@ const std::vector<Reader>& readers() {
         {"tetgen", ".pair", try_tetgen},
         {"edges", ".edges", try_edges},
         {"profile", ".profile", try_profile},
+        {"shape", ".toml", try_shape},
 #endif
     };
     return all;

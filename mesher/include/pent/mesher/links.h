@@ -3,6 +3,7 @@
 #include <pent/simplex_mesh.h>
 
 #include <cstdint>
+#include <vector>
 
 namespace pent::mesher {
 
@@ -12,6 +13,7 @@ struct LinkReport {
     std::int64_t faulty = 0;           ///< Vertices whose link is not a sphere.
     std::int64_t first_faulty = -1;    ///< The lowest of them.
     std::int64_t unused_vertices = 0;  ///< Vertices without a cell.
+    std::vector<bool> is_faulty;       ///< One a vertex.
 };
 
 /// Checks the link of every boundary vertex: the facets around it, each without it. The boundary is

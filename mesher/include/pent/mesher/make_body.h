@@ -62,7 +62,8 @@ struct ExpectedSize {
 
 /// What pent-mesh is asked for.
 struct BodyRequest {
-    /// A file with a surface or a tet mesh (see read_surface, read_tetrahedra), or a shape.
+    /// A file with a surface, a tet mesh or a shape (see read_surface, read_tetrahedra, read_solid), or a
+    /// shape that needs no file.
     /// The path "-" is standard input.
     std::variant<std::filesystem::path, SphereShape, BallShape, BoxShape> input;
     std::string format;           ///< Of the file, as in "obj"; empty: by the ending of its name.
@@ -76,8 +77,8 @@ struct BodyRequest {
     ExtrusionRequest extrusion;
     /// Called when a stage of the work begins, as in "fill".
     std::function<void(const std::string& stage)> on_stage;
-    /// Called with an estimate before a surface is filled, and with the number before cells are made,
-    /// unless target_cells asks for one. May throw to stop the work.
+    /// Called with an estimate before a surface is filled or a shape stuffed, and with the number
+    /// before other cells are made, unless target_cells asks for one. May throw to stop the work.
     std::function<void(const ExpectedSize&)> on_size;
     int subdivide = 1;  ///< Every edge of the body is cut in this many parts, see subdivide().
 
@@ -119,6 +120,7 @@ struct BodyReport {
 
     Eigen::VectorXd direction;  ///< From the first layer to the last, m.
     int layers = 0;             ///< Slabs of simplices; 0: not extruded.
+    std::int64_t beveled = 0;   ///< Of a shape's boundary: see StuffedSolid.
 
     Proof proof;
     QualityReport quality;
@@ -131,8 +133,8 @@ struct Body {
     BodyReport report;
 };
 
-/// Makes a pentachoral body from a surface (read, mend, resample, fill, extrude, prove) or from a
-/// tet mesh (read, extrude, prove).
+/// Makes a pentachoral body from a surface (read, mend, resample, fill, extrude, prove), from a tet mesh
+/// (read, extrude, prove) or from a shape file (read, stuff with edges of edge_length, prove).
 ///
 /// If a surface that was clean or lightly mended cannot be filled, and a wrap is allowed, its wrap
 /// is. An edge length beyond that of the surface coarsens it. Throws an Error if the surface cannot be

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <vector>
+
+namespace pent::mesher {
+
+/// A box along the axes; without bounds where it is infinite.
+struct Box4 {
+    Eigen::Vector4d low;   ///< m.
+    Eigen::Vector4d high;  ///< m.
+};
+
+/// Least and greatest value of a function.
+struct ValueRange {
+    double low = 0;
+    double high = 0;
+};
+
+/// A body of four dimensions as a function of the point: negative inside, positive outside, zero
+/// on the boundary; made from primitives (see primitives.h) by the operations below.
+///
+/// The boundary consists of smooth pieces, each the zeros of a function of its own; ridges are
+/// where pieces meet at an angle. Safe to ask from several threads.
+class Solid {
+public:
+    /// The function at a point, m. NaN only where an expression is.
+    [[nodiscard]] double value(const Eigen::Vector4d& p) const;
+
+    /// Bounds of the function within a ball; infinite where an expression decides.
+    [[nodiscard]] ValueRange values_within(const Eigen::Vector4d& center, double radius) const;
+
+    /// The pieces that decide the function at a point, or would if values changed by up to `margin`
+    /// (m, 0 or more): their numbers, ascending.
+    [[nodiscard]] std::vector<int> pieces_near(const Eigen::Vector4d& p, double margin) const;
+
+    /// Pieces are numbered from 0 to below this.
+    [[nodiscard]] int piece_count() const;
+
+    /// The function of one piece at a point, m.
+    [[nodiscard]] double piece_value(int piece, const Eigen::Vector4d& p) const;
+
+    /// Holds all that is inside.
+    [[nodiscard]] const Box4& bounds() const;
+
+    [[nodiscard]] bool is_bounded() const;
+
+    /// The smallest diameter of a primitive, m; infinite if none is known.
+    [[nodiscard]] double smallest_width() const;
+
+    struct Data;
+    explicit Solid(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+    [[nodiscard]] const Data& data() const { return *data_; }
+
+private:
+    std::shared_ptr<const Data> data_;
+};
+
+/// What is in either, in both, or in the first but not in the second.
+///
+/// @param smooth  Blends the two where their functions differ by less (m, 0 or more): ridges
+///                between them become round.
+[[nodiscard]] Solid unite(const Solid& a, const Solid& b, double smooth = 0);
+[[nodiscard]] Solid intersect(const Solid& a, const Solid& b, double smooth = 0);
+[[nodiscard]] Solid subtract(const Solid& a, const Solid& b, double smooth = 0);
+
+/// The solid scaled about the origin, then rotated about it, then translated.
+///
+/// @param scale     Above 0.
+/// @param rotation  Orthogonal, det 1.
+[[nodiscard]] Solid place(const Solid& solid,
+                          double scale,
+                          const Eigen::Matrix4d& rotation,
+                          const Eigen::Vector4d& translation);
+
+}  // namespace pent::mesher

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <pent/mesher/solid.h>
+#include <pent/simplex_mesh.h>
+
+#include <cstdint>
+
+namespace pent::mesher {
+
+/// A solid as a mesh, and what it took.
+struct StuffedSolid {
+    SimplexMesh<4> mesh;
+    std::int64_t moved_back =
+        0;                     ///< Lattice points that had to leave the surface again, see stuff().
+    std::int64_t beveled = 0;  ///< Edges, triangles and tetrahedra of the boundary that still cross
+                               ///< a ridge, since cells would have become too flat.
+};
+
+/// Fills a solid with pentachora by stuffing a lattice of congruent ones [labelle2007].
+///
+/// Inside, all cells are those of the lattice A4*. Lattice points near the surface move onto it,
+/// the simplices that the surface then still cuts get the pieces of cut_simplex(). Where the
+/// boundary is not a manifold, points move back; without them it always is. Then boundary
+/// simplices that cross ridges are bent or split so that they follow them, and vertices of the
+/// worst cells move, those on the surface along it. All boundary vertices lie on the surface to
+/// 1e-6 edges.
+///
+/// The same bytes at any number of threads.
+/// @param edge_length  Mean length of the edges inside, m, above 0.
+/// Throws an Error for a solid that is empty, without bounds, thinner than an edge, or too large for
+/// such edges.
+[[nodiscard]] StuffedSolid stuff(const Solid& solid, double edge_length);
+
+/// About how many cells stuff() gives, without the work: of the part of 16^4 points that is inside.
+/// Throws as stuff() does for edges that the solid's parts are too thin for, and for one without bounds.
+[[nodiscard]] double estimate_cells(const Solid& solid, double edge_length);
+
+}  // namespace pent::mesher

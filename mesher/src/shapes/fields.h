@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <string>
+#include <variant>
+
+namespace pent::mesher {
+
+/// Functions of a point of space in meters, negative inside. But for the expression, all change
+/// by no more than the distance that the point moves, and are smooth where they are zero, or the
+/// largest of a few that are: their pieces.
+
+/// Distance from the origin in some of the axes, less a radius: a ball, or a cylinder over one.
+struct RoundField {
+    Eigen::Vector4d axes;  ///< 1 for those that count, else 0.
+    double radius = 1;
+};
+
+/// Within a radius of a segment along w.
+struct CapsuleField {
+    double radius = 1;
+    double half_length = 1;
+};
+
+/// Common part of half-spaces, one a piece: normals * p - offsets.
+struct HalfSpacesField {
+    Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> normals;  ///< Of length 1, outward.
+    Eigen::VectorXd offsets;                                            ///< m.
+};
+
+/// A tube around a circle in xy (two axes) or a sphere in xyz (three).
+struct RingField {
+    int axes = 2;
+    double ring_radius = 1;
+    double tube_radius = 0.5;
+};
+
+/// A tube around the product of a circle in xy and one in zw.
+struct TigerField {
+    Eigen::Vector2d ring_radii{1, 1};
+    double tube_radius = 0.5;
+};
+
+/// A tube around a torus in xyz.
+struct DitorusField {
+    Eigen::Vector2d ring_radii{1, 0.5};  ///< From the z axis; from the first circle.
+    double tube_radius = 0.25;
+};
+
+/// A formula in x y z w.
+class ExpressionField {
+public:
+    /// Throws an Error with the place in the formula for one that cannot be understood.
+    explicit ExpressionField(const std::string& formula);
+
+    /// Safe to call from several threads. May be NaN. Throws an Error for what fails while it runs.
+    [[nodiscard]] double value(const Eigen::Vector4d& p) const;
+
+private:
+    class Parsers;
+    std::shared_ptr<Parsers> parsers_;
+};
+
+using Field = std::variant<RoundField,
+                           CapsuleField,
+                           HalfSpacesField,
+                           RingField,
+                           TigerField,
+                           DitorusField,
+                           ExpressionField>;
+
+[[nodiscard]] double field_value(const Field& field, const Eigen::Vector4d& p);
+
+[[nodiscard]] int piece_count(const Field& field);
+
+/// The function of one piece, also where another one is larger.
+[[nodiscard]] double piece_value(const Field& field, int piece, const Eigen::Vector4d& p);
+
+/// Whether it changes by no more than the distance that the point moves.
+[[nodiscard]] bool is_distance_bound(const Field& field);
+
+}  // namespace pent::mesher

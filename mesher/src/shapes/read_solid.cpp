@@ -1,0 +1,242 @@
+#include "shape_table.h"
+
+#include <pent/error.h>
+#include <pent/mesher/primitives.h>
+#include <pent/mesher/read_solid.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <numbers>
+#include <system_error>
+#include <utility>
+
+namespace pent::mesher {
+
+namespace {
+
+constexpr std::size_t kMostShapes = 4096;
+
+// Reads the keys of a primitive and gives what makes it.
+using Maker = std::function<Solid()>;
+using Reader = std::function<Maker(ShapeTable&)>;
+
+// The primitives by their keys.
+const std::vector<std::pair<std::string, Reader>>& primitives() {
+    using Table = ShapeTable;
+    static const std::vector<std::pair<std::string, Reader>> all = {
+        {"ball",
+         [](Table& t) -> Maker {
+             return [radius = t.number("radius")] { return ball_solid(radius); };
+         }},
+        {"box",
+         [](Table& t) -> Maker {
+             return [size = t.vector("size", 4)] { return box_solid(size); };
+         }},
+        {"capsule",
+         [](Table& t) -> Maker {
+             return [radius = t.number("radius"), length = t.number("length")] {
+                 return capsule_solid(radius, length);
+             };
+         }},
+        {"spherinder",
+         [](Table& t) -> Maker {
+             return [radius = t.number("radius"), length = t.number("length")] {
+                 return spherinder_solid(radius, length);
+             };
+         }},
+        {"cubinder",
+         [](Table& t) -> Maker {
+             return [radius = t.number("radius"), size = t.vector("size", 2)] {
+                 return cubinder_solid(radius, size);
+             };
+         }},
+        {"duocylinder",
+         [](Table& t) -> Maker {
+             return [radii = t.vector("radii", 2)] { return duocylinder_solid(radii); };
+         }},
+        {"spheritorus",
+         [](Table& t) -> Maker {
+             return [ring_radius = t.number("ring_radius"), tube_radius = t.number("tube_radius")] {
+                 return spheritorus_solid(ring_radius, tube_radius);
+             };
+         }},
+        {"torisphere",
+         [](Table& t) -> Maker {
+             return [ring_radius = t.number("ring_radius"), tube_radius = t.number("tube_radius")] {
+                 return torisphere_solid(ring_radius, tube_radius);
+             };
+         }},
+        {"tiger",
+         [](Table& t) -> Maker {
+             return
+                 [ring_radii = t.vector("ring_radii", 2), tube_radius = t.number("tube_radius")] {
+                     return tiger_solid(ring_radii, tube_radius);
+                 };
+         }},
+        {"ditorus",
+         [](Table& t) -> Maker {
+             return
+                 [ring_radii = t.vector("ring_radii", 2), tube_radius = t.number("tube_radius")] {
+                     return ditorus_solid(ring_radii, tube_radius);
+                 };
+         }},
+        {"clifford_torus",
+         [](Table& t) -> Maker {
+             return [radius = t.number("radius"), thickness = t.number("thickness")] {
+                 return clifford_torus_solid(radius, thickness);
+             };
+         }},
+        {"polytope",
+         [](Table& t) -> Maker {
+             return [cells = t.integer("cells"), radius = t.number("radius")] {
+                 return polytope_solid(cells, radius);
+             };
+         }},
+        {"half_space",
+         [](Table& t) -> Maker {
+             return [normal = t.vector("normal", 4), offset = t.number("offset")] {
+                 return half_space_solid(normal, offset);
+             };
+         }},
+        {"expression",
+         [](Table& t) -> Maker {
+             return [formula = t.text("formula"), low = t.vector("low", 4),
+                     high = t.vector("high", 4)] {
+                 return expression_solid(formula, {low, high});
+             };
+         }},
+    };
+    return all;
+}
+
+Eigen::Matrix4d rotation_of(std::vector<ShapeTable> turns) {
+    Eigen::Matrix4d rotation = Eigen::Matrix4d::Identity();
+    for (ShapeTable& turn : turns) {
+        const std::string plane = turn.text("plane");
+        const auto axis_of = [](char letter) {
+            return static_cast<int>(std::string_view("xyzw").find(letter));
+        };
+        const bool is_plane = plane.size() == 2
+                              && plane.find_first_not_of("xyzw") == std::string::npos
+                              && plane[0] != plane[1];
+        if (!is_plane) {
+            turn.fail("plane",
+                      "\"plane\" is \"" + plane + "\"; expected two of x y z w, as in \"xw\"");
+        }
+        const double angle = turn.number("degrees") * std::numbers::pi / 180;
+        const int from = axis_of(plane[0]);
+        const int to = axis_of(plane[1]);
+        Eigen::Matrix4d step = Eigen::Matrix4d::Identity();
+        step(from, from) = std::cos(angle);
+        step(to, to) = std::cos(angle);
+        step(from, to) = -std::sin(angle);
+        step(to, from) = std::sin(angle);
+        rotation = step * rotation;
+        turn.finish();
+    }
+    return rotation;
+}
+
+Solid combined_shapes(ShapeTable& table, std::size_t& count);
+
+// The primitive or group of a shape, as it is before it is placed.
+Solid shape_alone(ShapeTable& table, std::size_t& count) {
+    std::vector<std::string> kinds = {"shape"};
+    for (const auto& [kind, reader] : primitives()) {
+        kinds.push_back(kind);
+    }
+    const std::string kind = table.one_of(kinds);
+    if (kind == "shape") {
+        return combined_shapes(table, count);
+    }
+    const auto found = std::find_if(primitives().begin(), primitives().end(),
+                                    [&](const auto& entry) { return entry.first == kind; });
+    ShapeTable values = table.table(kind);
+    const Maker make = found->second(values);
+    values.finish();
+    try {
+        return make();
+    } catch (const Error& error) {
+        values.fail("", kind + ": " + error.what());
+    }
+}
+
+Solid placed_shape(ShapeTable& table, std::size_t& count) {
+    const double scale = table.number("scale", 1);
+    if (!(scale > 0)) {
+        table.fail("scale", "\"scale\" is not above 0; expected a factor");
+    }
+    const Eigen::Matrix4d rotation = rotation_of(table.tables("rotate"));
+    const Eigen::Vector4d translation = table.has("translate")
+                                            ? Eigen::Vector4d(table.vector("translate", 4))
+                                            : Eigen::Vector4d::Zero();
+    return place(shape_alone(table, count), scale, rotation, translation);
+}
+
+Solid combined_shapes(ShapeTable& table, std::size_t& count) {
+    std::vector<ShapeTable> shapes = table.tables("shape");
+    if (shapes.empty()) {
+        table.fail("",
+                   "no shape; expected [[shape]] with one of its kinds, as ball = { radius = 1 }");
+    }
+    count += shapes.size();
+    if (count > kMostShapes) {
+        table.fail("shape", "more than " + std::to_string(kMostShapes) + " shapes");
+    }
+    std::optional<Solid> all;
+    for (ShapeTable& shape : shapes) {
+        if (!all && (shape.has("op") || shape.has("smooth"))) {
+            shape.fail(
+                shape.has("op") ? "op" : "smooth",
+                "the first shape has nothing before it to be combined with; expected neither "
+                "\"op\" nor \"smooth\"");
+        }
+        const std::string op = shape.choice("op", {"union", "intersection", "difference"});
+        const double smooth = shape.number("smooth", 0);
+        if (smooth < 0) {
+            shape.fail("smooth", "\"smooth\" is below 0; expected a length (m)");
+        }
+        const Solid next = placed_shape(shape, count);
+        shape.finish();
+        all = !all                   ? next
+              : op == "union"        ? unite(*all, next, smooth)
+              : op == "intersection" ? intersect(*all, next, smooth)
+                                     : subtract(*all, next, smooth);
+    }
+    return *all;
+}
+
+}  // namespace
+
+bool is_shape_file(const std::filesystem::path& path) {
+    return path.extension() == ".toml";
+}
+
+Solid parse_solid(std::string_view text, const std::string& name) {
+    const toml::table parsed = parse_shapes(text, name);
+    ShapeTable table(parsed, "the file", name);
+    std::size_t count = 0;
+    (void)table.has("shape");
+    table.finish();
+    return combined_shapes(table, count);
+}
+
+Solid read_solid(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) {
+        throw Error(path.string() + ": is a folder; give a file");
+    }
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        throw Error(path.string()
+                    + ": cannot be opened: " + std::generic_category().message(errno));
+    }
+    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    return parse_solid(text, path.string());
+}
+
+}  // namespace pent::mesher

@@ -1,0 +1,263 @@
+#include "surface_mesh.h"
+#include "surface_search.h"
+
+#include <pent/facets.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <set>
+
+namespace pent::mesher {
+
+namespace {
+
+// How far from zero a piece may be that a point lies on, in parts of the cells' scale.
+constexpr double kOnPiece = 1e-6;
+
+// Pieces that meet at less than this angle (its cosine) are one smooth surface.
+constexpr double kSmoothCosine = 0.97;
+
+// Pieces that may have to be tried together for one place.
+constexpr int kMostPieces = 6;
+
+constexpr int kMostPasses = 20;
+
+std::vector<int> common(const std::vector<int>& a, const std::vector<int>& b) {
+    std::vector<int> both;
+    std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+    return both;
+}
+
+bool includes(const std::vector<int>& all, const std::vector<int>& some) {
+    return std::includes(all.begin(), all.end(), some.begin(), some.end());
+}
+
+// A place where pieces meet, and all that meet there.
+struct Ridge {
+    Eigen::Vector4d place;
+    std::vector<int> pieces;
+};
+
+using Simplex = std::vector<std::uint32_t>;
+
+class Sharpener {
+public:
+    Sharpener(SurfaceMesh& surface, double least_quality)
+        : surface_(surface), least_quality_(least_quality) {}
+
+    std::int64_t run() {
+        bool has_mended = true;
+        std::set<Simplex> crossing;
+        const SimplexMesh<4> mesh = surface_.mesh.mesh();
+        const Simplices<4> facets = match_facets<4>(mesh.cells, mesh.vertex_count()).boundary;
+        for (const auto& facet : facets.colwise()) {
+            collect({facet[0], facet[1], facet[2], facet[3]}, crossing);
+        }
+        for (int pass = 0; pass < kMostPasses && has_mended; ++pass) {
+            has_mended = false;
+            std::set<Simplex> left;
+            std::set<std::uint32_t> touched;
+            for (const Simplex& simplex : crossing) {
+                if (!crosses(simplex)) {
+                    continue;  // something before has mended it
+                }
+                if (const auto vertex = mend(simplex)) {
+                    touched.insert(*vertex);
+                    has_mended = true;
+                } else {
+                    left.insert(simplex);
+                }
+            }
+            for (const std::uint32_t vertex : touched) {
+                collect_around(vertex, left);
+            }
+            crossing = std::move(left);
+        }
+        return static_cast<std::int64_t>(crossing.size());
+    }
+
+private:
+    [[nodiscard]] std::vector<int> common_pieces(const Simplex& simplex) const {
+        std::vector<int> pieces = surface_.pieces[simplex[0]];
+        for (const std::uint32_t vertex : simplex) {
+            pieces = common(pieces, surface_.pieces[vertex]);
+        }
+        return pieces;
+    }
+
+    [[nodiscard]] bool crosses(const Simplex& simplex) const {
+        return common_pieces(simplex).empty() && !surface_.mesh.star(simplex).empty();
+    }
+
+    // Adds the faces of a boundary facet that cross a ridge though their own faces do not.
+    void collect(std::array<std::uint32_t, 4> facet, std::set<Simplex>& crossing) const {
+        std::sort(facet.begin(), facet.end());
+        if (!common_pieces({facet.begin(), facet.end()}).empty()) {
+            return;
+        }
+        for (unsigned subset = 1; subset < 16; ++subset) {
+            Simplex simplex;
+            for (int i = 0; i < 4; ++i) {
+                if ((subset >> i & 1U) != 0) {
+                    simplex.push_back(facet[i]);
+                }
+            }
+            if (common_pieces(simplex).empty() && faces_agree(simplex)) {
+                crossing.insert(std::move(simplex));
+            }
+        }
+    }
+
+    void collect_around(std::uint32_t vertex, std::set<Simplex>& crossing) const {
+        for (const std::uint32_t cell : surface_.mesh.star(vertex)) {
+            for (const std::uint32_t left_out : surface_.mesh.cell(cell)) {
+                if (left_out == vertex) {
+                    continue;
+                }
+                std::array<std::uint32_t, 4> facet{};
+                std::remove_copy(surface_.mesh.cell(cell).begin(), surface_.mesh.cell(cell).end(),
+                                 facet.begin(), left_out);
+                const bool is_on_surface = std::none_of(
+                    facet.begin(), facet.end(),
+                    [&](std::uint32_t corner) { return surface_.pieces[corner].empty(); });
+                if (is_on_surface && surface_.mesh.star(facet).size() == 1) {
+                    collect(facet, crossing);
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] bool faces_agree(const Simplex& simplex) const {
+        for (std::size_t left_out = 0; simplex.size() > 2 && left_out < simplex.size();
+             ++left_out) {
+            Simplex face = simplex;
+            face.erase(face.begin() + static_cast<std::ptrdiff_t>(left_out));
+            if (common_pieces(face).empty()) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    // Where all of some pieces meet near a place, with those that turn out to be in the way there.
+    [[nodiscard]] std::optional<Ridge> find_ridge(std::vector<int> pieces,
+                                                  const Eigen::Vector4d& near) const {
+        const double on = kOnPiece * surface_.scale;
+        while (static_cast<int>(pieces.size()) <= kMostPieces) {
+            const auto place = nearest_common_zero(*surface_.solid, pieces, near, surface_.scale);
+            if (!place) {
+                return std::nullopt;
+            }
+            std::vector<int> there = surface_.solid->pieces_near(*place, on);
+            if (std::abs(surface_.solid->value(*place)) <= on) {
+                return Ridge{*place, std::move(there)};
+            }
+            const auto in_the_way = std::find_if(there.begin(), there.end(), [&](int piece) {
+                return !std::binary_search(pieces.begin(), pieces.end(), piece);
+            });
+            if (in_the_way == there.end()) {
+                return std::nullopt;
+            }
+            pieces.insert(std::upper_bound(pieces.begin(), pieces.end(), *in_the_way), *in_the_way);
+        }
+        return std::nullopt;
+    }
+
+    [[nodiscard]] bool is_sharp(const Ridge& ridge) const {
+        std::vector<Eigen::Vector4d> normals;
+        for (const int piece : ridge.pieces) {
+            normals.push_back(
+                piece_gradient(*surface_.solid, piece, ridge.place, surface_.scale).normalized());
+        }
+        return std::any_of(normals.begin(), normals.end(), [&](const Eigen::Vector4d& normal) {
+            return normal.dot(normals.front()) < kSmoothCosine;
+        });
+    }
+
+    // The ridge that a simplex crosses: of a piece of each of its faces, so that a vertex there
+    // has one in common with each.
+    [[nodiscard]] std::optional<Ridge> ridge_across(const Simplex& simplex) const {
+        Eigen::Vector4d middle = Eigen::Vector4d::Zero();
+        std::vector<int> pieces;
+        for (const std::uint32_t vertex : simplex) {
+            middle += surface_.mesh.place(vertex) / static_cast<double>(simplex.size());
+            Simplex face;
+            std::remove_copy(simplex.begin(), simplex.end(), std::back_inserter(face), vertex);
+            const std::vector<int> of_face = common_pieces(face);
+            if (common(pieces, of_face).empty()) {
+                pieces.push_back(of_face.front());
+                std::sort(pieces.begin(), pieces.end());
+            }
+        }
+        const std::optional<Ridge> ridge = find_ridge(pieces, middle);
+        return ridge && is_sharp(*ridge) ? ridge : std::nullopt;
+    }
+
+    // The vertex that moved to the ridge, or is new there; nothing if either leaves cells too flat.
+    std::optional<std::uint32_t> mend(const Simplex& simplex) {
+        const std::optional<Ridge> across = ridge_across(simplex);
+        if (!across) {
+            return std::nullopt;
+        }
+        double best = least_quality_;
+        std::optional<std::uint32_t> moving;
+        Ridge target;
+        for (const std::uint32_t vertex : simplex) {
+            const auto ridge = find_ridge(across->pieces, surface_.mesh.place(vertex));
+            if (ridge && includes(ridge->pieces, surface_.pieces[vertex])) {
+                const double quality = surface_.mesh.quality_if_moved(vertex, ridge->place);
+                if (quality > best) {
+                    best = quality;
+                    moving = vertex;
+                    target = *ridge;
+                }
+            }
+        }
+        if (surface_.mesh.quality_if_split(simplex, across->place) > best) {
+            moving = surface_.mesh.split(simplex, across->place);
+            surface_.pieces.push_back(across->pieces);
+        } else if (moving) {
+            surface_.mesh.move(*moving, target.place);
+            surface_.pieces[*moving] = target.pieces;
+        }
+        return moving;
+    }
+
+    SurfaceMesh& surface_;
+    double least_quality_;
+};
+
+}  // namespace
+
+SurfaceMesh on_surface(const Solid& solid,
+                       double scale,
+                       SimplexMesh<4> mesh,
+                       const std::vector<bool>& is_on_surface) {
+    SurfaceMesh surface{&solid, scale, StarMesh(std::move(mesh)), {}};
+    surface.pieces.resize(is_on_surface.size());
+    for (std::uint32_t vertex = 0; vertex < is_on_surface.size(); ++vertex) {
+        if (is_on_surface[vertex]) {
+            surface.pieces[vertex] =
+                solid.pieces_near(surface.mesh.place(vertex), kOnPiece * scale);
+        }
+    }
+    return surface;
+}
+
+std::optional<Eigen::Vector4d> slide(const SurfaceMesh& surface,
+                                     std::span<const int> pieces,
+                                     const Eigen::Vector4d& place) {
+    const auto there = nearest_common_zero(*surface.solid, pieces, place, surface.scale);
+    return there && std::abs(surface.solid->value(*there)) <= kOnPiece * surface.scale
+               ? there
+               : std::nullopt;
+}
+
+std::int64_t sharpen(SurfaceMesh& surface, double least_quality) {
+    return Sharpener(surface, least_quality).run();
+}
+
+}  // namespace pent::mesher

@@ -1,0 +1,251 @@
+#include "solid_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pent::mesher {
+
+namespace {
+
+using Data = Solid::Data;
+using Op = Data::Op;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// What a blend adds to the extreme one: as much of `smooth` as they are near each other,
+// quadratic, so that the slope does not jump.
+double blend(double a, double b, double smooth) {
+    const double overlap = std::max(smooth - std::abs(a - b), 0.0);
+    return smooth > 0 ? overlap * overlap / (4 * smooth) : 0;
+}
+
+double combine(const Data::Node& node, double a, double b) {
+    return node.op == Op::Min ? std::min(a, b) - blend(a, b, node.smooth)
+                              : std::max(a, b) + blend(a, b, node.smooth);
+}
+
+double leaf_value(const Data::Leaf& leaf, const Eigen::Vector4d& p) {
+    return leaf.factor * field_value(leaf.field, leaf.local(p));
+}
+
+double node_value(const Data& data, int node, const Eigen::Vector4d& p) {
+    if (node < 0) {
+        return leaf_value(data.leaves[~node], p);
+    }
+    const Data::Node& inner = data.nodes[node];
+    return combine(inner, node_value(data, inner.left, p), node_value(data, inner.right, p));
+}
+
+ValueRange range_of(const Data& data, int node, const Eigen::Vector4d& center, double radius) {
+    if (node < 0) {
+        const Data::Leaf& leaf = data.leaves[~node];
+        if (!is_distance_bound(leaf.field)) {
+            return {-kInfinity, kInfinity};
+        }
+        const double value = leaf_value(leaf, center);
+        return {value - radius, value + radius};
+    }
+    const Data::Node& inner = data.nodes[node];
+    const ValueRange a = range_of(data, inner.left, center, radius);
+    const ValueRange b = range_of(data, inner.right, center, radius);
+    const double most_blended = inner.smooth / 4;
+    return inner.op == Op::Min
+               ? ValueRange{std::min(a.low, b.low) - most_blended, std::min(a.high, b.high)}
+               : ValueRange{std::max(a.low, b.low), std::max(a.high, b.high) + most_blended};
+}
+
+// Appends the pieces near a point; returns the value.
+double collect_pieces(
+    const Data& data, int node, const Eigen::Vector4d& p, double margin, std::vector<int>& pieces) {
+    if (node < 0) {
+        const Data::Leaf& leaf = data.leaves[~node];
+        const Eigen::Vector4d local = leaf.local(p);
+        const double value = field_value(leaf.field, local);
+        const int count = piece_count(leaf.field);
+        for (int i = 0; i < count; ++i) {
+            const double own = count > 1 ? piece_value(leaf.field, i, local) : value;
+            if (std::abs(leaf.factor) * (value - own) <= margin) {
+                pieces.push_back(leaf.first_piece + i);
+            }
+        }
+        return leaf.factor * value;
+    }
+    const Data::Node& inner = data.nodes[node];
+    std::vector<int> of_left;
+    std::vector<int> of_right;
+    const double a = collect_pieces(data, inner.left, p, margin, of_left);
+    const double b = collect_pieces(data, inner.right, p, margin, of_right);
+    const double value = combine(inner, a, b);
+    if (std::abs(a - b) < inner.smooth) {
+        pieces.push_back(inner.piece);
+        return value;
+    }
+    const double extreme = inner.op == Op::Min ? std::min(a, b) : std::max(a, b);
+    if (std::abs(a - extreme) <= margin) {
+        pieces.insert(pieces.end(), of_left.begin(), of_left.end());
+    }
+    if (std::abs(b - extreme) <= margin) {
+        pieces.insert(pieces.end(), of_right.begin(), of_right.end());
+    }
+    return value;
+}
+
+// All of one and of the other, with the root still to be made.
+Data joined(const Data& a, const Data& b) {
+    Data data = a;
+    const auto leaves = static_cast<int>(a.leaves.size());
+    const auto nodes = static_cast<int>(a.nodes.size());
+    const auto moved = [&](int node) { return node < 0 ? node - leaves : node + nodes; };
+    for (Data::Leaf leaf : b.leaves) {
+        leaf.first_piece += a.pieces;
+        data.leaves.push_back(std::move(leaf));
+    }
+    for (Data::Node node : b.nodes) {
+        node.left = moved(node.left);
+        node.right = moved(node.right);
+        node.piece += a.pieces;
+        data.nodes.push_back(node);
+    }
+    data.pieces = a.pieces + b.pieces;
+    data.smallest_width = std::min(a.smallest_width, b.smallest_width);
+    data.root = moved(b.root);
+    return data;
+}
+
+Solid combine(const Solid& a, const Solid& b, Op op, double smooth) {
+    Data data = joined(a.data(), b.data());
+    data.nodes.push_back({op, smooth, a.data().root, data.root, data.pieces});
+    ++data.pieces;
+    data.root = static_cast<int>(data.nodes.size()) - 1;
+    const Box4& first = a.bounds();
+    const Box4& second = b.bounds();
+    if (op == Op::Min) {
+        const double grown = smooth / 4;
+        data.bounds = {first.low.cwiseMin(second.low).array() - grown,
+                       first.high.cwiseMax(second.high).array() + grown};
+    } else {
+        data.bounds = {first.low.cwiseMax(second.low), first.high.cwiseMin(second.high)};
+    }
+    return Solid(std::make_shared<const Data>(std::move(data)));
+}
+
+Solid outside_of(const Solid& solid) {
+    Data data = solid.data();
+    for (Data::Leaf& leaf : data.leaves) {
+        leaf.factor = -leaf.factor;
+    }
+    for (Data::Node& node : data.nodes) {
+        node.op = node.op == Op::Min ? Op::Max : Op::Min;
+    }
+    data.bounds = {Eigen::Vector4d::Constant(-kInfinity), Eigen::Vector4d::Constant(kInfinity)};
+    return Solid(std::make_shared<const Data>(std::move(data)));
+}
+
+// The box around a box that was turned. An infinite side makes all infinite that it has a part in.
+Box4 placed_box(const Box4& box,
+                const Eigen::Matrix4d& linear,
+                const Eigen::Vector4d& translation) {
+    Box4 result{translation, translation};
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) {
+            const double entry = linear(row, column);
+            if (entry != 0) {
+                const double a = entry * box.low[column];
+                const double b = entry * box.high[column];
+                result.low[row] += std::min(a, b);
+                result.high[row] += std::max(a, b);
+            }
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+Solid solid_of(Field field, const Box4& bounds, double smallest_width) {
+    Data data;
+    data.pieces = piece_count(field);
+    data.leaves.push_back({.field = std::move(field)});
+    data.root = ~0;
+    data.bounds = bounds;
+    data.smallest_width = smallest_width;
+    return Solid(std::make_shared<const Data>(std::move(data)));
+}
+
+double Solid::value(const Eigen::Vector4d& p) const {
+    return node_value(*data_, data_->root, p);
+}
+
+ValueRange Solid::values_within(const Eigen::Vector4d& center, double radius) const {
+    return range_of(*data_, data_->root, center, radius);
+}
+
+std::vector<int> Solid::pieces_near(const Eigen::Vector4d& p, double margin) const {
+    std::vector<int> pieces;
+    collect_pieces(*data_, data_->root, p, margin, pieces);
+    std::sort(pieces.begin(), pieces.end());
+    return pieces;
+}
+
+int Solid::piece_count() const {
+    return data_->pieces;
+}
+
+double Solid::piece_value(int piece, const Eigen::Vector4d& p) const {
+    for (std::size_t i = 0; i < data_->nodes.size(); ++i) {
+        if (data_->nodes[i].piece == piece) {
+            return node_value(*data_, static_cast<int>(i), p);
+        }
+    }
+    const auto after = std::upper_bound(
+        data_->leaves.begin(), data_->leaves.end(), piece,
+        [](int number, const Data::Leaf& leaf) { return number < leaf.first_piece; });
+    const Data::Leaf& leaf = *(after - 1);
+    return leaf.factor * mesher::piece_value(leaf.field, piece - leaf.first_piece, leaf.local(p));
+}
+
+const Box4& Solid::bounds() const {
+    return data_->bounds;
+}
+
+bool Solid::is_bounded() const {
+    return data_->bounds.low.allFinite() && data_->bounds.high.allFinite();
+}
+
+double Solid::smallest_width() const {
+    return data_->smallest_width;
+}
+
+Solid unite(const Solid& a, const Solid& b, double smooth) {
+    return combine(a, b, Op::Min, smooth);
+}
+
+Solid intersect(const Solid& a, const Solid& b, double smooth) {
+    return combine(a, b, Op::Max, smooth);
+}
+
+Solid subtract(const Solid& a, const Solid& b, double smooth) {
+    return combine(a, outside_of(b), Op::Max, smooth);
+}
+
+Solid place(const Solid& solid,
+            double scale,
+            const Eigen::Matrix4d& rotation,
+            const Eigen::Vector4d& translation) {
+    Data data = solid.data();
+    const Eigen::Matrix4d inverse = rotation.transpose() / scale;
+    for (Data::Leaf& leaf : data.leaves) {
+        leaf.offset -= leaf.to_field * inverse * translation;
+        leaf.to_field = leaf.to_field * inverse;
+        leaf.factor *= scale;
+    }
+    for (Data::Node& node : data.nodes) {
+        node.smooth *= scale;
+    }
+    data.bounds = placed_box(data.bounds, scale * rotation, translation);
+    data.smallest_width *= scale;
+    return Solid(std::make_shared<const Data>(std::move(data)));
+}
+
+}  // namespace pent::mesher

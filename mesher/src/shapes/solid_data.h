@@ -1,0 +1,47 @@
+#pragma once
+
+#include "fields.h"
+
+#include <pent/mesher/solid.h>
+
+#include <vector>
+
+namespace pent::mesher {
+
+/// A tree of minima and maxima over fields in places of their own.
+struct Solid::Data {
+    struct Leaf {
+        Field field;
+        Eigen::Matrix4d to_field = Eigen::Matrix4d::Identity();
+        Eigen::Vector4d offset = Eigen::Vector4d::Zero();
+        double factor = 1;  ///< Of the value: the scale, negative for the outside.
+        int first_piece = 0;
+
+        [[nodiscard]] Eigen::Vector4d local(const Eigen::Vector4d& p) const {
+            return to_field * p + offset;
+        }
+    };
+    enum class Op { Min, Max };
+    struct Node {
+        Op op = Op::Min;
+        double smooth = 0;
+        int left = 0;  ///< A node, or a leaf as ~leaf.
+        int right = 0;
+        int piece = 0;  ///< The one where the two blend.
+    };
+
+    std::vector<Leaf> leaves;
+    std::vector<Node> nodes;
+    int root = 0;
+    int pieces = 0;
+    Box4 bounds;
+    double smallest_width = 0;
+};
+
+/// One primitive.
+///
+/// @param bounds          Of what is inside, infinite where it has none.
+/// @param smallest_width  See Solid::smallest_width().
+[[nodiscard]] Solid solid_of(Field field, const Box4& bounds, double smallest_width);
+
+}  // namespace pent::mesher

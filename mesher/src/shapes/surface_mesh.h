@@ -1,0 +1,45 @@
+#pragma once
+
+#include "star_mesh.h"
+
+#include <pent/mesher/solid.h>
+
+#include <optional>
+#include <vector>
+
+namespace pent::mesher {
+
+/// A mesh whose boundary vertices know on which pieces of a solid's surface they lie.
+struct SurfaceMesh {
+    const Solid* solid = nullptr;
+    double scale = 1;  ///< Of the cells, m.
+    StarMesh mesh;
+    std::vector<std::vector<int>> pieces;  ///< One a vertex: ascending; none inside.
+};
+
+/// @param is_on_surface  One a vertex.
+[[nodiscard]] SurfaceMesh on_surface(const Solid& solid,
+                                     double scale,
+                                     SimplexMesh<4> mesh,
+                                     const std::vector<bool>& is_on_surface);
+
+/// Where a vertex may go that is to lie on some pieces: the point nearest to a place on all of
+/// them, if the solid's surface is there.
+[[nodiscard]] std::optional<Eigen::Vector4d> slide(const SurfaceMesh& surface,
+                                                   std::span<const int> pieces,
+                                                   const Eigen::Vector4d& place);
+
+/// Brings edges and corners of the mesh to where pieces meet at an angle. A boundary simplex
+/// without a piece common to its vertices crosses a ridge: a vertex of it moves there, or a new
+/// one splits it, whichever leaves the better cells. One stays as it is where either would leave
+/// cells too flat.
+///
+/// Returns how many boundary simplices still cross ridges.
+std::int64_t sharpen(SurfaceMesh& surface, double least_quality);
+
+/// Moves vertices until the cells around the worst ones are better; those on the surface along
+/// it, those on ridges along these.
+/// @param target  Cells of this mean ratio are good enough.
+void relax(SurfaceMesh& surface, double target);
+
+}  // namespace pent::mesher
