@@ -177,12 +177,13 @@ void Program::write_report(Verdict verdict, const std::string& error) {
 
 void Program::require_apart(const std::vector<NamedFile>& inputs,
                             const std::vector<NamedFile>& outputs) {
-    apps::require_apart(inputs, outputs);
+    // The report first: it would tell of the errors of the others, wherever it goes.
     std::vector<NamedFile> others = inputs;
     others.insert(others.end(), outputs.begin(), outputs.end());
     const NamedFile report{"--json", std::exchange(common_.json, std::string())};
     apps::require_apart(others, {report});
     common_.json = report.path.string();
+    apps::require_apart(inputs, outputs);
 }
 
 void Program::abandon(Verdict verdict, const std::string& error) {

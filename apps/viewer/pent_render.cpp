@@ -138,16 +138,16 @@ viewer::RenderTargets to_targets(const Program& program, const Arguments& argume
 }
 
 Verdict render(Program& program, Arguments& arguments) {
-    refuse_inputs(program, arguments.view.input, {});  // before an error is reported there
+    const std::vector<NamedFile> inputs = inputs_of(arguments.view.input);
+    program.require_apart(inputs, {});  // before an error is reported there
     const viewer::RunFolder run = viewer::open_run(arguments.view.input);
     viewer::RenderRunOptions& options = arguments.render;
     options.sections = to_sections(arguments.view);
     const viewer::RenderTargets targets = to_targets(program, arguments);
-    refuse_inputs(program, arguments.view.input,
-                  {{"--output", targets.movie},
-                   {"--output", targets.picture},
-                   {"--output", targets.folder},
-                   {"--sheet", targets.sheet}});
+    program.require_apart(inputs, {{"--output", targets.movie},
+                                   {"--output", targets.picture},
+                                   {"--output", targets.folder},
+                                   {"--sheet", targets.sheet}});
     const bool is_one_picture = !targets.picture.empty() && targets.sheet.empty();
     options.frames = viewer::select_frames(
         run.frames,

@@ -56,7 +56,7 @@ std::string obstacle_note(int obstacles, const Arguments& arguments) {
 }
 
 Verdict slice(Program& program, const Arguments& arguments) {
-    refuse_inputs(program, arguments.view.input, {{"--output", arguments.output}});
+    program.require_apart(inputs_of(arguments.view.input), {{"--output", arguments.output}});
     const viewer::RunFolder run = viewer::open_run(arguments.view.input);
     viewer::SliceRunOptions options;
     options.sections = to_sections(arguments.view);

@@ -13,6 +13,7 @@
 #include <string>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 namespace pent::apps {
 
@@ -128,6 +129,9 @@ int main(int argc, char** argv) {
     pent::apps::Arguments arguments;
     add_options(program.options(), arguments);
     return program.run(argc, argv, [&] {
+        std::vector<pent::apps::NamedFile> inputs = pent::apps::inputs_of(arguments.input);
+        inputs.push_back({"--page", arguments.page});
+        program.require_apart(inputs, {{"--export", arguments.output}});
         return arguments.output.empty() ? serve(program, arguments)
                                         : export_run(program, arguments);
     });

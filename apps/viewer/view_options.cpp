@@ -3,7 +3,6 @@
 #include <pent/error.h>
 #include <pent/real_text.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -94,53 +93,15 @@ void add_rotation(const std::string& text, viewer::SectionOptions& sections) {
     }
 }
 
-// Where a path leads, as far as it is there; as it stands where that cannot be found out.
-fs::path resolved(const fs::path& path) {
-    std::error_code error;
-    const fs::path absolute = fs::absolute(path, error);
-    const fs::path real = fs::weakly_canonical(absolute, error);
-    const fs::path& found = error ? absolute : real;
-    return found.has_filename() ? found : found.parent_path();  // "run/" is "run"
-}
-
-bool is_within(const fs::path& path, const fs::path& folder) {
-    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first
-           == folder.end();
-}
-
-// Whether a path is a mesh or run that is looked at, or what belongs to it.
-bool is_part_of(const fs::path& path, const std::string& input) {
-    if (is_same_file(path, input)) {
-        return true;
-    }
-    const fs::path target = resolved(path);
-    const fs::path source = resolved(input);
-    for (const char* part : {"scene.toml", "report.json", "obstacles.json", "meshes", "frames",
-                             "contacts", "checkpoint"}) {
-        if (is_within(target, source / part)) {
-            return true;
-        }
-    }
-    return target == source;
-}
-
 }  // namespace
 
-void refuse_inputs(Program& program,
-                   const std::string& input,
-                   const std::vector<NamedFile>& outputs) {
-    const fs::path json = program.common().json;
-    if (!json.empty() && is_part_of(json, input)) {
-        program.require_apart({{"a part of what is looked at", json}}, {});
+std::vector<NamedFile> inputs_of(const std::string& input) {
+    std::vector<NamedFile> inputs = {{"what is looked at", input}};
+    for (const char* part : {"scene.toml", "report.json", "obstacles.json", "journal.txt",
+                             "written.txt", "meshes", "frames", "contacts", "checkpoint"}) {
+        inputs.push_back({"a part of what is looked at", fs::path(input) / part, true});
     }
-    for (const NamedFile& output : outputs) {
-        if (!output.path.empty() && is_part_of(output.path, input)) {
-            throw Error(output.path.string() + ": " + output.what
-                        + " is a part of what is looked at, " + input
-                        + "; choose another place for it");
-        }
-    }
-    program.require_apart({}, outputs);
+    return inputs;
 }
 
 std::vector<double> to_numbers(const std::string& text, const std::string& what) {

@@ -33,14 +33,9 @@ struct ViewArguments {
 
 void add_view_options(CLI::App& cli, ViewArguments& arguments);
 
-/// Throws an Error if something that is to be written is what `input` is read from: a mesh, or a
-/// run's scene, report, obstacles, meshes, frames, contacts and checkpoints, or the whole of its
-/// folder. The same for --json, which is then not written.
-///
-/// @param outputs  Files and folders; empty ones are left out. No two may be the same.
-void refuse_inputs(Program& program,
-                   const std::string& input,
-                   const std::vector<NamedFile>& outputs);
+/// What is read of `input`, a mesh or a run, for Program::require_apart(): of a run the scene, report,
+/// obstacles, meshes, frames, contacts and checkpoints, and its folder, but nothing else in that.
+[[nodiscard]] std::vector<NamedFile> inputs_of(const std::string& input);
 
 /// The hyperplanes meant. Throws an Error that says what was found and what was expected.
 [[nodiscard]] viewer::SectionOptions to_sections(const ViewArguments& arguments);

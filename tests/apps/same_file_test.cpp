@@ -3,6 +3,8 @@
 #include "run_program.h"
 #include "support/messages.h"
 
+#include <pent/error.h>
+
 #include <gtest/gtest.h>
 
 namespace pent::apps {
@@ -57,10 +59,33 @@ TEST(RequireApart, NamesBothAndPassesOverWhatIsNotGiven) {
               a + ": -o is the same file as the input; give it another name");
     EXPECT_EQ(message({{"the input", a}}, {{"-o", soft}}),
               soft + ": -o is the same file as the input, " + a + "; give it another name");
+    EXPECT_EQ(message({{"the run", folder.path()}}, {{"-o", folder / ""}}),
+              (folder / "").string() + ": -o is the same folder as the run, "
+                  + folder.path().string() + "; give it another name");
     EXPECT_EQ(message({}, {{"-o", "new"}, {"--json", "./new"}}),
               "./new: --json is the same file as -o, new; give it another name");
     EXPECT_NO_THROW(
         require_apart({{"the input", a}, {"--profile", ""}}, {{"-o", "new"}, {"--json", ""}}));
+}
+
+TEST(RequireApart, KeepsOutOfFoldersWithTheirContentAlone) {
+    const test::TempFolder folder;
+    fs::create_directory(folder / "frames");
+    fs::create_directory_symlink(folder / "frames", folder / "link");
+    const auto check = [&](const std::string& name, bool has_content) {
+        require_apart({{"frames", folder / "frames", has_content}}, {{"-o", folder / name}});
+    };
+    for (const char* name : {"frames/new", "frames/new/newer", "link/new", "frames/../link/a"}) {
+        EXPECT_THROW(check(name, true), Error) << name;
+        EXPECT_NO_THROW(check(name, false)) << name;
+    }
+    for (const char* name : {"frames", "frames/", "link"}) {
+        EXPECT_THROW(check(name, true), Error) << name;
+        EXPECT_THROW(check(name, false), Error) << name;
+    }
+    for (const char* name : {"frames.mp4", "frames2/new", "new", "link/../new"}) {
+        EXPECT_NO_THROW(check(name, true)) << name;
+    }
 }
 
 }  // namespace

@@ -165,16 +165,19 @@ TEST_F(ViewerPrograms, NeverWriteOverWhatTheyLookAt) {
     write_text(folder_ / "run/report.json", "{}\n");
     std::filesystem::create_symlink("run/frames/a_000002.pent", folder_ / "link.json");
     const auto before = content();
-    const std::string part = "--output is a part of what is looked at";
     for (const std::string out : {"run", "run/", "run/meshes", "run/frames/new", "x/../run"}) {
-        expect_refused("pent-slice", run + " -o " + at(out), part);
-        expect_refused("pent-render", run + " -o " + at(out) + "/", part);
+        expect_refused("pent-slice", run + " -o " + at(out), "what is looked at");
+        expect_refused("pent-render", run + " -o " + at(out) + "/", "what is looked at");
+        expect_refused("pent-view", run + " --export " + at(out), "what is looked at");
     }
-    for (const std::string json : {"run/scene.toml", "run/report.json", "run/obstacles.json",
-                                   "run/meshes/a.pent", "run/frames/a_000001.pent", "link.json"}) {
+    for (const std::string json :
+         {"run/scene.toml", "run/report.json", "run/obstacles.json", "run/journal.txt",
+          "run/meshes/a.pent", "run/frames/a_000001.pent", "link.json"}) {
         const std::string rest = " --json " + at(json);
         expect_refused("pent-slice", run + " -o " + at("out") + rest, "--json");
         expect_refused("pent-render", run + " -o " + at("a.png") + rest, "--json");
+        expect_refused("pent-view", run + " --export " + at("a.html") + rest, "--json");
+        expect_refused("pent-slice", run + " -o " + at(json) + rest, "--json");
     }
     const std::string mesh = at("run/meshes/a.pent");
     expect_refused("pent-render", mesh + " -o " + at("a.png") + " --json " + mesh, "--json");
