@@ -1,8 +1,7 @@
 #pragma once
 
-#include "toml_table.h"
-
 #include <pent/simulator/scene.h>
+#include <pent/toml_table.h>
 
 namespace pent::simulator {
 

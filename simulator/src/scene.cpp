@@ -1,7 +1,7 @@
-#include "number_bounds.h"
 #include "scene_checks.h"
 
 #include <pent/error.h>
+#include <pent/number_bounds.h>
 #include <pent/simulator/scene.h>
 
 #include <algorithm>

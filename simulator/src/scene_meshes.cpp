@@ -1,12 +1,12 @@
 #include "scene_meshes.h"
 
-#include "number_bounds.h"
 #include "rotation.h"
 #include "selection.h"
 
 #include <pent/error.h>
 #include <pent/facets.h>
 #include <pent/formatted.h>
+#include <pent/number_bounds.h>
 #include <pent/pent_file.h>
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 #include "contact_reader.h"
 #include "scene_checks.h"
 #include "scene_names.h"
-#include "toml_table.h"
 
 #include <pent/error.h>
 #include <pent/read_text.h>
 #include <pent/simulator/scene_file.h>
+#include <pent/toml_table.h>
 
 #include <algorithm>
 #include <cmath>

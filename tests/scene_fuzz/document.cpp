@@ -1,6 +1,6 @@
 #include "document.h"
 
-#include "toml_table.h"
+#include <pent/toml_table.h>
 
 #include <charconv>
 #include <cstdint>
@@ -107,7 +107,7 @@ std::string toml_text(const Json& scene) {
 }
 
 Json parse_document(const std::string& text) {
-    return tree_of(simulator::parse_toml(text, "scene"));
+    return tree_of(parse_toml(text, "scene"));
 }
 
 std::vector<std::string> key_paths(const Json& scene) {

@@ -1,16 +1,17 @@
-#include "shape_table.h"
-
 #include <pent/error.h>
 #include <pent/mesher/primitives.h>
 #include <pent/mesher/read_solid.h>
+#include <pent/toml_table.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -19,14 +20,15 @@ namespace pent::mesher {
 namespace {
 
 constexpr std::size_t kMostShapes = 4096;
+constexpr std::int64_t kMostCells = 600;  // of a regular polytope
 
 // Reads the keys of a primitive and gives what makes it.
 using Maker = std::function<Solid()>;
-using Reader = std::function<Maker(ShapeTable&)>;
+using Reader = std::function<Maker(TableReader&)>;
 
 // The primitives by their keys.
 const std::vector<std::pair<std::string, Reader>>& primitives() {
-    using Table = ShapeTable;
+    using Table = TableReader;
     static const std::vector<std::pair<std::string, Reader>> all = {
         {"ball",
          [](Table& t) -> Maker {
@@ -92,8 +94,8 @@ const std::vector<std::pair<std::string, Reader>>& primitives() {
          }},
         {"polytope",
          [](Table& t) -> Maker {
-             return [cells = t.integer("cells"), radius = t.number("radius")] {
-                 return polytope_solid(cells, radius);
+             return [cells = t.integer("cells", {}, 1, kMostCells), radius = t.number("radius")] {
+                 return polytope_solid(static_cast<int>(cells), radius);
              };
          }},
         {"half_space",
@@ -113,9 +115,9 @@ const std::vector<std::pair<std::string, Reader>>& primitives() {
     return all;
 }
 
-Eigen::Matrix4d rotation_of(std::vector<ShapeTable> turns) {
+Eigen::Matrix4d rotation_of(std::vector<TableReader> turns) {
     Eigen::Matrix4d rotation = Eigen::Matrix4d::Identity();
-    for (ShapeTable& turn : turns) {
+    for (TableReader& turn : turns) {
         const std::string plane = turn.text("plane");
         const auto axis_of = [](char letter) {
             return static_cast<int>(std::string_view("xyzw").find(letter));
@@ -141,10 +143,10 @@ Eigen::Matrix4d rotation_of(std::vector<ShapeTable> turns) {
     return rotation;
 }
 
-Solid combined_shapes(ShapeTable& table, std::size_t& count);
+Solid combined_shapes(TableReader& table, std::size_t& count);
 
 // The primitive or group of a shape, as it is before it is placed.
-Solid shape_alone(ShapeTable& table, std::size_t& count) {
+Solid shape_alone(TableReader& table, std::size_t& count) {
     std::vector<std::string> kinds = {"shape"};
     for (const auto& [kind, reader] : primitives()) {
         kinds.push_back(kind);
@@ -155,7 +157,7 @@ Solid shape_alone(ShapeTable& table, std::size_t& count) {
     }
     const auto found = std::find_if(primitives().begin(), primitives().end(),
                                     [&](const auto& entry) { return entry.first == kind; });
-    ShapeTable values = table.table(kind);
+    TableReader values = table.table(kind);
     const Maker make = found->second(values);
     values.finish();
     try {
@@ -165,7 +167,7 @@ Solid shape_alone(ShapeTable& table, std::size_t& count) {
     }
 }
 
-Solid placed_shape(ShapeTable& table, std::size_t& count) {
+Solid placed_shape(TableReader& table, std::size_t& count) {
     const double scale = table.number("scale", 1);
     if (!(scale > 0)) {
         table.fail("scale", "\"scale\" is not above 0; expected a factor");
@@ -177,8 +179,8 @@ Solid placed_shape(ShapeTable& table, std::size_t& count) {
     return place(shape_alone(table, count), scale, rotation, translation);
 }
 
-Solid combined_shapes(ShapeTable& table, std::size_t& count) {
-    std::vector<ShapeTable> shapes = table.tables("shape");
+Solid combined_shapes(TableReader& table, std::size_t& count) {
+    std::vector<TableReader> shapes = table.tables("shape");
     if (shapes.empty()) {
         table.fail("",
                    "no shape; expected [[shape]] with one of its kinds, as ball = { radius = 1 }");
@@ -188,24 +190,24 @@ Solid combined_shapes(ShapeTable& table, std::size_t& count) {
         table.fail("shape", "more than " + std::to_string(kMostShapes) + " shapes");
     }
     std::optional<Solid> all;
-    for (ShapeTable& shape : shapes) {
+    for (TableReader& shape : shapes) {
         if (!all && (shape.has("op") || shape.has("smooth"))) {
             shape.fail(
                 shape.has("op") ? "op" : "smooth",
                 "the first shape has nothing before it to be combined with; expected neither "
                 "\"op\" nor \"smooth\"");
         }
-        const std::string op = shape.choice("op", {"union", "intersection", "difference"});
+        const std::size_t op = shape.choice("op", {"union", "intersection", "difference"}, 0);
         const double smooth = shape.number("smooth", 0);
         if (smooth < 0) {
             shape.fail("smooth", "\"smooth\" is below 0; expected a length (m)");
         }
         const Solid next = placed_shape(shape, count);
         shape.finish();
-        all = !all                   ? next
-              : op == "union"        ? unite(*all, next, smooth)
-              : op == "intersection" ? intersect(*all, next, smooth)
-                                     : subtract(*all, next, smooth);
+        all = !all      ? next
+              : op == 0 ? unite(*all, next, smooth)
+              : op == 1 ? intersect(*all, next, smooth)
+                        : subtract(*all, next, smooth);
     }
     return *all;
 }
@@ -217,8 +219,8 @@ bool is_shape_file(const std::filesystem::path& path) {
 }
 
 Solid parse_solid(std::string_view text, const std::string& name) {
-    const toml::table parsed = parse_shapes(text, name);
-    ShapeTable table(parsed, "the file", name);
+    const toml::table parsed = parse_toml(text, name);
+    TableReader table(parsed, "the file", name);
     std::size_t count = 0;
     (void)table.has("shape");
     table.finish();

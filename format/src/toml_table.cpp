@@ -1,4 +1,4 @@
-#include "toml_table.h"
+#include "pent/toml_table.h"
 
 #include <pent/error.h>
 #include <pent/nearest_name.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace pent::simulator {
+namespace pent {
 
 namespace {
 
@@ -49,25 +49,6 @@ std::string sane(const Range& range) {
     return "0 or a size from " + readable(range.smallest) + " to " + readable(range.largest);
 }
 
-std::string type_of(const toml::node& node) {
-    switch (node.type()) {
-        case toml::node_type::table:
-            return "a table";
-        case toml::node_type::array:
-            return "an array";
-        case toml::node_type::string:
-            return "the text \"" + node.as_string()->get() + "\"";
-        case toml::node_type::integer:
-            return std::to_string(node.as_integer()->get());
-        case toml::node_type::floating_point:
-            return readable(node.as_floating_point()->get());
-        case toml::node_type::boolean:
-            return node.as_boolean()->get() ? "true" : "false";
-        default:
-            return "a date or time";
-    }
-}
-
 // A message may quote what it found, and that may be the end of a line.
 std::string one_line(std::string_view text) {
     std::string line(text);
@@ -77,7 +58,26 @@ std::string one_line(std::string_view text) {
 }
 
 std::string in_quotes(std::string_view word) {
-    return "\"" + std::string(word) + "\"";
+    return "\"" + one_line(word) + "\"";
+}
+
+std::string type_of(const toml::node& node) {
+    switch (node.type()) {
+        case toml::node_type::table:
+            return "a table";
+        case toml::node_type::array:
+            return "an array";
+        case toml::node_type::string:
+            return "the text " + in_quotes(node.as_string()->get());
+        case toml::node_type::integer:
+            return std::to_string(node.as_integer()->get());
+        case toml::node_type::floating_point:
+            return readable(node.as_floating_point()->get());
+        case toml::node_type::boolean:
+            return node.as_boolean()->get() ? "true" : "false";
+        default:
+            return "a date or time";
+    }
 }
 
 }  // namespace
@@ -226,7 +226,7 @@ Eigen::VectorXd TableReader::vector(std::string_view key,
     }
     if (array->size() != static_cast<std::size_t>(length)) {
         fail(key, in_quotes(key) + " has " + std::to_string(array->size()) + " entries; expected "
-                      + expected + " (the scene's dimension is " + std::to_string(length) + ")");
+                      + expected);
     }
     Eigen::VectorXd vector(length);
     for (int axis = 0; axis < length; ++axis) {
@@ -267,6 +267,9 @@ std::size_t TableReader::choice(std::string_view key,
 
 TableReader TableReader::table(std::string_view key) {
     const toml::node* node = find(key);
+    if (node == nullptr) {
+        fail_missing(key, "a table");
+    }
     if (!node->is_table()) {
         fail(key, in_quotes(key) + " is " + type_of(*node) + "; expected a table");
     }
@@ -332,4 +335,4 @@ void TableReader::finish() const {
     }
 }
 
-}  // namespace pent::simulator
+}  // namespace pent

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace pent::simulator {
+namespace pent {
 
 /// Bounds of the size of every number of a scene but 0, in whatever unit: no scene means what is
 /// beyond, and volumes and squares of it would leave the range of double.
@@ -24,4 +24,4 @@ inline constexpr double kLongestTime = 1e6;
     return value >= kSmallestNumber && value <= kLargestNumber;
 }
 
-}  // namespace pent::simulator
+}  // namespace pent

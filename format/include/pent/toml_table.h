@@ -1,6 +1,8 @@
 #pragma once
 
-#include "number_bounds.h"
+// For the readers of the other parts; not installed, so that hosts need no toml++.
+
+#include <pent/number_bounds.h>
 
 #include <Eigen/Core>
 
@@ -12,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace pent::simulator {
+namespace pent {
 
 /// Thrown where the parser of toml++ meets what it takes for impossible.
 struct BrokenToml {};
@@ -20,13 +22,13 @@ struct BrokenToml {};
     throw BrokenToml{};
 }
 
-}  // namespace pent::simulator
+}  // namespace pent
 
 // Some damaged files break assertions of toml++, and without asserts it lets the compiler assume
 // them: undefined behavior from a file. Kept on in every build, they refuse the file.
 #pragma push_macro("NDEBUG")
 #undef NDEBUG
-#define TOML_ASSERT(expr) ((expr) ? void() : pent::simulator::refuse_broken_toml())
+#define TOML_ASSERT(expr) ((expr) ? void() : pent::refuse_broken_toml())
 #define TOML_HEADER_ONLY 1
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/impl/preprocessor.h>
@@ -40,7 +42,7 @@ struct BrokenToml {};
 #include <toml++/toml.h>
 #pragma pop_macro("NDEBUG")
 
-namespace pent::simulator {
+namespace pent {
 
 /// Which numbers a key takes; the text completes "expected a number ...".
 struct Range {
@@ -68,8 +70,8 @@ public:
 
     /// A missing key gives `fallback`, or is an error if there is none.
     [[nodiscard]] double number(std::string_view key,
-                                std::optional<double> fallback,
-                                const Range& range);
+                                std::optional<double> fallback = {},
+                                const Range& range = kAnyNumber);
     [[nodiscard]] std::int64_t integer(std::string_view key,
                                        std::optional<std::int64_t> fallback,
                                        std::int64_t low,
@@ -78,14 +80,14 @@ public:
     [[nodiscard]] std::string text(std::string_view key);
     [[nodiscard]] Eigen::VectorXd vector(std::string_view key,
                                          int length,
-                                         const std::optional<Eigen::VectorXd>& fallback);
+                                         const std::optional<Eigen::VectorXd>& fallback = {});
 
     /// One of a list of names, which the error message lists; gives its place in the list.
     [[nodiscard]] std::size_t choice(std::string_view key,
                                      const std::vector<std::string_view>& names,
                                      std::size_t fallback);
 
-    /// A table within the table; has(key) must hold.
+    /// A table within the table, which must be there.
     [[nodiscard]] TableReader table(std::string_view key);
 
     /// All tables of an array; none if the key is missing. A single table counts as an array of
@@ -133,4 +135,4 @@ private:
 [[nodiscard]] std::string did_you_mean(std::string_view word,
                                        const std::vector<std::string>& candidates);
 
-}  // namespace pent::simulator
+}  // namespace pent
