@@ -250,7 +250,11 @@ void OutputFolder::clear(const std::vector<fs::path>& inputs) {
         remove_entry(path_, name);
     }
     if (has_list_) {
-        names_.clear();
+        // Folders in which somebody else's files are left stay, and stay ours to write to.
+        std::error_code ignored;
+        std::erase_if(names_, [&](const std::string& name) {
+            return !is_folder_name(name) || !fs::exists(path_ / name, ignored);
+        });
         write_list();
     }
 }

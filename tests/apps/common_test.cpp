@@ -78,8 +78,9 @@ Outcome run_on_missing(const std::string& program,
                        const std::string& name,
                        const std::string& options = "") {
     const std::string name_of_output = program == "pent-mesh" ? "out.pent" : "out.png";
+    const std::string option = program == "pent-view" ? " --export " : " -o ";
     const std::string output =
-        program == "pent-check" ? "" : " -o " + (folder / name_of_output).string();
+        program == "pent-check" ? "" : option + (folder / name_of_output).string();
     return run_program(program + " " + (folder / name).string() + output + options);
 }
 

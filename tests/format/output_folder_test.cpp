@@ -111,6 +111,9 @@ TEST_F(OutputFolders, KeepTheirFoldersWithAListOfTheirOwnApart) {
     EXPECT_FALSE(has("out/runs/fine"));
     study.clear({});
     EXPECT_EQ(text_of("out/runs/with-notes/notes.txt"), "mine");
+    EXPECT_NO_THROW(static_cast<void>(study.claim("runs/with-notes/")));  // still ours to write to
+    put("out/runs/fine/notes.txt");
+    EXPECT_THROW(static_cast<void>(study.claim("runs/fine/")), Error);
 }
 
 TEST_F(OutputFolders, AreNotClearedOfWhatIsRead) {

@@ -82,7 +82,7 @@ TEST(PentMesh, SaysWhatIsWrongWithAShape) {
         EXPECT_EQ(outcome.exit_code, 1) << options;
         test::expect_contains(outcome.err, {"shape.toml", message.c_str()});
     }
-    const Outcome large = run_program("pent-mesh " + shape + " --edge-length 0.02" + out);
+    const Outcome large = run_program("pent-mesh " + shape + " --edge-length 0.05" + out);
     EXPECT_EQ(large.exit_code, 1);
     test::expect_contains(large.err, {"this would make about", "million pentachora", "--yes"});
     EXPECT_FALSE(std::filesystem::exists(folder / "out.pent"));

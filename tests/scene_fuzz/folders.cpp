@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
+#include <utility>
 
 namespace pent::scene_fuzz {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kReport = "report.json";
+constexpr const char* kJournal = "journal.txt";
 
 std::set<std::string> files_in(const fs::path& folder) {
     std::set<std::string> files;
@@ -54,27 +59,46 @@ std::string tree_difference(const Json& a, const Json& b, const std::string& pat
         }
     }
     const auto brief = [](const Json& value) { return value.dump().substr(0, 100); };
-    return "report.json" + path + ": " + brief(a) + " and " + brief(b);
+    return path + ": " + brief(a) + " and " + brief(b);
 }
 
-std::string report_difference(const fs::path& a, const fs::path& b, Apart apart) {
+// The entries of a journal, without the checksums of its lines: they change with the seconds.
+Json read_journal(const fs::path& run, Apart apart) {
+    constexpr std::size_t kChecksum = 9;
+    Json entries = Json::array();
+    std::istringstream lines(text_of_file(run / kJournal));
+    for (std::string line; std::getline(lines, line);) {
+        Json entry = Json::parse(line.substr(std::min(kChecksum, line.size())));
+        const bool is_of_part = entry.contains("part") || entry.contains("end");
+        if (apart == Apart::Times || !is_of_part) {
+            entries.push_back(std::move(entry));
+        }
+    }
+    return entries;
+}
+
+std::string statistics_difference(const fs::path& a, const fs::path& b, Apart apart) {
     std::set<std::string> keys = {"seconds", "threads", "assembly_seconds", "solve_seconds",
                                   "ccd_seconds"};
     if (apart == Apart::TimesAndWork) {
-        keys.insert({"searches", "candidates", "trees_built", "trees_refit", "bytes",
+        keys.insert({"parts", "searches", "candidates", "trees_built", "trees_refit", "bytes",
                      "contact_bytes", "matrix_blocks"});
     }
-    Json first = read_report(a);
-    Json second = read_report(b);
-    remove_keys(first, keys);
-    remove_keys(second, keys);
-    return tree_difference(first, second, "");
+    const auto difference = [&](const std::string& file, Json first, Json second) {
+        remove_keys(first, keys);
+        remove_keys(second, keys);
+        return tree_difference(first, second, file);
+    };
+    const std::string of_reports = difference(kReport, read_report(a), read_report(b));
+    return !of_reports.empty()
+               ? of_reports
+               : difference(kJournal, read_journal(a, apart), read_journal(b, apart));
 }
 
 }  // namespace
 
 Json read_report(const fs::path& run) {
-    return Json::parse(text_of_file(run / "report.json"));
+    return Json::parse(text_of_file(run / kReport));
 }
 
 Json value_at(const Json& tree, const std::string& path) {
@@ -98,7 +122,7 @@ std::string first_difference(const fs::path& a, const fs::path& b, Apart apart) 
         if (!others.contains(file)) {
             return file + " is missing in " + b.filename().string();
         }
-        if (file == "report.json") {
+        if (file == kReport || file == kJournal) {
             continue;
         }
         if (text_of_file(a / file) != text_of_file(b / file)) {
@@ -110,7 +134,7 @@ std::string first_difference(const fs::path& a, const fs::path& b, Apart apart) 
             return file + " is only in " + b.filename().string();
         }
     }
-    return apart == Apart::Report ? "" : report_difference(a, b, apart);
+    return statistics_difference(a, b, apart);
 }
 
 }  // namespace pent::scene_fuzz

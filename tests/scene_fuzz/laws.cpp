@@ -230,7 +230,7 @@ std::string goes_on_after_a_kill(const Trial& trial) {
     }
     const ChildResult resumed =
         trial.in_child("kill", [&] { static_cast<void>(trial.run_part("kill", 3, -1, false)); });
-    return trial.compare("kill", resumed, Apart::Report);
+    return trial.compare("kill", resumed, Apart::TimesAndWork);
 }
 
 std::string is_explained(const Trial& trial) {

@@ -220,25 +220,43 @@ protected:
 };
 
 TEST_F(Folders, DifferInAByteOrAFile) {
-    for (const char* name : {"a/frames/x.pent", "b/frames/x.pent"}) {
-        write(name, "same");
+    for (const std::string run : {"a/", "b/"}) {
+        write(run + "frames/x.pent", "same");
+        write(run + "report.json", "{}");
+        write(run + "journal.txt", "");
     }
-    EXPECT_EQ(difference(Apart::Report), "");
+    EXPECT_EQ(difference(Apart::TimesAndWork), "");
     write("b/frames/x.pent", "sane");
-    EXPECT_NE(difference(Apart::Report), "");
+    EXPECT_NE(difference(Apart::TimesAndWork), "");
     write("b/frames/x.pent", "same");
     write("b/contacts/1.csv", "");
-    EXPECT_NE(difference(Apart::Report), "");
+    EXPECT_NE(difference(Apart::TimesAndWork), "");
 }
 
 TEST_F(Folders, DifferInReportsButForTimes) {
+    write("a/journal.txt", "");
+    write("b/journal.txt", "");
     write("a/report.json", R"({"seconds": 1, "steps": [{"step": 1, "candidates": 3}]})");
     write("b/report.json", R"({"seconds": 2, "steps": [{"step": 1, "candidates": 4}]})");
     EXPECT_NE(difference(Apart::Times), "");
     EXPECT_EQ(difference(Apart::TimesAndWork), "");
     write("b/report.json", R"({"seconds": 2, "steps": [{"step": 2, "candidates": 3}]})");
     EXPECT_NE(difference(Apart::TimesAndWork), "");
-    EXPECT_EQ(difference(Apart::Report), "");
+}
+
+TEST_F(Folders, DifferInJournalsButForTimesAndParts) {
+    write("a/report.json", "{}");
+    write("b/report.json", "{}");
+    write("a/journal.txt",
+          "01234567 {\"part\": {\"isa\": 1}}\n01234567 {\"step\": {\"seconds\": 1}}\n");
+    write("b/journal.txt",
+          "76543210 {\"part\": {\"isa\": 1}}\n76543210 {\"step\": {\"seconds\": 2}}\n");
+    EXPECT_EQ(difference(Apart::Times), "");
+    write("b/journal.txt", "76543210 {\"step\": {\"seconds\": 2}}\n");
+    EXPECT_NE(difference(Apart::Times), "");
+    EXPECT_EQ(difference(Apart::TimesAndWork), "");
+    write("b/journal.txt", "76543210 {\"step\": {\"step\": 2}}\n");
+    EXPECT_NE(difference(Apart::TimesAndWork), "");
 }
 
 TEST(WhatIsLost, IsAKeyOrAValue) {
