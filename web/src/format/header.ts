@@ -1,3 +1,4 @@
+import { crc32c, hex8 } from "./crc32c.ts";
 import { PentError } from "./error.ts";
 import { kPlyTypes, parseCount, parseReal } from "./ply.ts";
 import type { PlyElement, PlyProperty, PlyType } from "./ply.ts";
@@ -29,11 +30,21 @@ export function cellNamePlural(dimension: Dimension): string {
     return kCellPlurals[dimension];
 }
 
-const kComments = ["pent", "dimension", "created_by", "crc32c", "mesh", "frame", "step", "time"];
+const kComments = [
+    "pent",
+    "dimension",
+    "created_by",
+    "crc32c",
+    "header_crc32c",
+    "mesh",
+    "frame",
+    "step",
+    "time",
+];
 const kLongestLine = 4096;
 const kMostVertices = 0xffffffffn; // indices are 32 bits wide
 
-// One byte a character: what is not ASCII is shown as a question mark.
+// One byte a character.
 function toText(bytes: Uint8Array): string {
     let text = "";
     for (let i = 0; i < bytes.length; i += kLongestLine) {
@@ -44,6 +55,23 @@ function toText(bytes: Uint8Array): string {
 
 export function printable(text: string): string {
     return text.replace(/[^ -~]/g, "?");
+}
+
+// A character of UTF-8 [RFC 3629] that is no control character, a byte each.
+const kCharacter = [
+    "[\\t -~]",
+    "\\xc2[\\xa0-\\xbf]|[\\xc3-\\xdf][\\x80-\\xbf]",
+    "\\xe0[\\xa0-\\xbf][\\x80-\\xbf]|[\\xe1-\\xec\\xee\\xef][\\x80-\\xbf]{2}|\\xed[\\x80-\\x9f][\\x80-\\xbf]",
+    "\\xf0[\\x90-\\xbf][\\x80-\\xbf]{2}|[\\xf1-\\xf3][\\x80-\\xbf]{3}|\\xf4[\\x80-\\x8f][\\x80-\\xbf]{2}",
+].join("|");
+
+// A name as messages show it: what is no text stands there as numbers of bytes.
+function nameOf(bytes: string): string {
+    return bytes.replace(new RegExp(`(${kCharacter})|[^]`, "g"), (all: string, whole?: string) =>
+        whole === undefined
+            ? `\\x${all.charCodeAt(0).toString(16).padStart(2, "0")}`
+            : new TextDecoder().decode(Uint8Array.from(whole, (c) => c.charCodeAt(0))),
+    );
 }
 
 function quoted(text: string): string {
@@ -58,6 +86,8 @@ function declaration(property: PlyProperty): string {
 // Reads a header line by line; every failure names the line.
 class Parser {
     private at = 0;
+    private begin = 0; // of the line that was read last
+    private checksum: { value: number; begin: number; end: number } | null = null; // of the header
     private line = 0;
     private seen = new Set<string>();
     private header: Header = {
@@ -99,6 +129,7 @@ class Parser {
             }
         }
         this.header.body = this.at;
+        this.checkChecksum();
         this.checkElements();
         return this.header;
     }
@@ -131,6 +162,7 @@ class Parser {
             );
         }
         const line = toText(this.bytes.subarray(this.at, end));
+        this.begin = this.at;
         this.at = end + 1;
         if (line.endsWith("\r")) {
             this.fail(line, "lines that end with LF alone (CR LF comes from a text-mode transfer)");
@@ -179,9 +211,12 @@ class Parser {
             this.header.createdBy = line.slice("comment created_by ".length);
         } else if (key === "crc32c") {
             this.header.crc32c = this.parseCrc(words, 2, line);
+        } else if (key === "header_crc32c") {
+            const value = this.parseCrc(words, 2, line);
+            this.checksum = { value, begin: this.begin, end: this.at };
         } else if (key === "mesh") {
             const crc = this.parseCrc(words, 3, line);
-            this.header.mesh = { name: words[2]!, crc };
+            this.header.mesh = { name: nameOf(words[2]!), crc };
         } else if (key === "time") {
             const time = words.length === 3 ? parseReal(words[2]!) : null;
             if (time === null) {
@@ -204,7 +239,7 @@ class Parser {
         if (words.length !== word + 1 || !/^[0-9a-fA-F]{8}$/.test(words[word]!)) {
             this.fail(
                 line,
-                `'comment ${word === 2 ? "crc32c" : "mesh NAME"} XXXXXXXX' ` +
+                `'comment ${word === 2 ? words[1] : "mesh NAME"} XXXXXXXX' ` +
                     "with 8 hexadecimal digits",
             );
         }
@@ -216,10 +251,11 @@ class Parser {
         if (count === null) {
             this.fail(line, "'element NAME COUNT' with a count of 0 to 2^64 - 1");
         }
-        if (this.header.elements.some((element) => element.name === words[1])) {
+        const name = nameOf(words[1]!);
+        if (this.header.elements.some((element) => element.name === name)) {
             this.fail(line, "each element only once");
         }
-        this.header.elements.push({ name: words[1]!, count, properties: [] });
+        this.header.elements.push({ name, count, properties: [] });
     }
 
     private parseType(word: string, line: string): PlyType {
@@ -242,10 +278,10 @@ class Parser {
                 this.fail(line, "a whole-number type for the length of a list");
             }
             property.type = this.parseType(words[3]!, line);
-            property.name = words[4]!;
+            property.name = nameOf(words[4]!);
         } else if (words[1] !== "list" && words.length === 3) {
             property.type = this.parseType(words[1]!, line);
-            property.name = words[2]!;
+            property.name = nameOf(words[2]!);
         } else {
             this.fail(line, "'property TYPE NAME' or 'property list TYPE TYPE NAME'");
         }
@@ -253,6 +289,24 @@ class Parser {
             this.fail(line, "each property only once in an element");
         }
         element.properties.push(property);
+    }
+
+    // Of every byte but the line that has it; files of version 0.1.0 have none.
+    private checkChecksum(): void {
+        if (!this.checksum) {
+            return;
+        }
+        const { value, begin, end } = this.checksum;
+        const rest = new Uint8Array(this.header.body - (end - begin));
+        rest.set(this.bytes.subarray(0, begin));
+        rest.set(this.bytes.subarray(end, this.header.body), begin);
+        const found = crc32c(rest);
+        if (found !== value) {
+            this.failHeader(
+                `its checksum is ${hex8(found)}, the header says ${hex8(value)}: ` +
+                    "it was changed since it was written",
+            );
+        }
     }
 
     // The known elements must begin with their required properties, in order.

@@ -25,8 +25,12 @@ function bytesOf(rows: Row[]): Uint8Array {
     return new Uint8Array(view.buffer);
 }
 
+// With the checksum of the header behind the comment at which that of the body stands.
 function join(header: string[], body: Uint8Array): Uint8Array {
-    const head = new TextEncoder().encode(`${header.join("\n")}\n`);
+    const encode = (lines: string[]) => new TextEncoder().encode(`${lines.join("\n")}\n`);
+    const at = header.findIndex((line) => line.startsWith("comment crc32c ")) + 1;
+    const sum = `comment header_crc32c ${hex8(crc32c(encode(header)))}`;
+    const head = encode([...header.slice(0, at), sum, ...header.slice(at)]);
     const all = new Uint8Array(head.length + body.length);
     all.set(head);
     all.set(body, head.length);

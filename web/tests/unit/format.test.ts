@@ -132,10 +132,49 @@ test("messages name line, place, what was found and what was expected", () => {
     }
 });
 
+test("a header that was changed since it was written is refused", () => {
+    const file = Buffer.from(writeMesh(kUnit)).toString("latin1");
+    const readChanged = (text: string) =>
+        messageOf(() => read(Buffer.from(text, "latin1"), "a.pent"));
+    const without = file.replace(/comment header_crc32c .*\n/, "");
+    assert.equal(readChanged(without), ""); // as files of version 0.1.0
+    assert.notEqual(without, file);
+    assert.match(
+        readChanged(file.replace("comment pent 1.0\n", "comment pent 1.0 \n")),
+        /expected 'comment pent 1\.0'/,
+    );
+    assert.match(
+        readChanged(file.replace("element vertex", "comment more\nelement vertex")),
+        /^a\.pent: header: its checksum is [0-9a-f]{8}, the header says [0-9a-f]{8}: it was changed/,
+    );
+    assert.match(
+        readChanged(file.replace(/header_crc32c .*\n/, "header_crc32c 12\n")),
+        /expected 'comment header_crc32c XXXXXXXX' with 8 hexadecimal digits/,
+    );
+});
+
+test("names of elements that are no text are shown as numbers of bytes", () => {
+    const bytes = textMesh(
+        kTriangle.map((line) => line.replace("element vertex", "element w\u00fcrfel")),
+        [],
+    );
+    assert.match(
+        messageOf(() => read(bytes, "a.pent")),
+        /found element w\u00fcrfel first/,
+    );
+    bytes[bytes.indexOf(0xc3)] = 0xbc;
+    assert.match(
+        messageOf(() => read(bytes, "a.pent")),
+        /found element w\\xbc\\xbcrfel first/,
+    );
+});
+
 test("huge counts are refused before anything is allocated", () => {
     const file = Buffer.from(writeMesh(kUnit)).toString("latin1");
     for (const count of ["4294967295", "99999999999", "18446744073709551615"]) {
-        const damaged = file.replace(/element vertex \d+/, `element vertex ${count}`);
+        const damaged = file
+            .replace(/comment header_crc32c .*\n/, "")
+            .replace(/element vertex \d+/, `element vertex ${count}`);
         assert.match(
             messageOf(() => read(Buffer.from(damaged, "latin1"), "a.pent")),
             /announces|at most 4294967295/,
@@ -227,14 +266,14 @@ test("damaged samples get the very words of the C++ reader", (t) => {
             const bytes = i % 2 ? withChecksum(damaged) : damaged;
             writeFileSync(path, bytes);
             const stderr: string = spawnSync(check, [path, "--quiet"], {
-                encoding: "latin1",
+                encoding: "utf8",
             }).stderr;
             const expected: string = stderr
                 .trim()
                 .replace(/^pent-check: /, "")
                 .replaceAll("-nan", "nan");
             // A C string ends at a zero byte, which damage can bring into a name.
-            const found = messageOf(() => read(bytes, path)).split("\0")[0];
+            const found = messageOf(() => read(bytes, path)).split("\\x00")[0];
             if (!isBeyond(expected)) {
                 assert.equal(found, expected);
             }
