@@ -2,7 +2,7 @@
 
 #include "hug.h"
 
-#include <pent/contact/contacts.h>
+#include <pent/contact/contact_finder.h>
 
 #include <benchmark/benchmark.h>
 
@@ -11,25 +11,28 @@ namespace {
 
 constexpr double kEps = 0.025;  // a quarter of a cell
 
+constexpr double kStiffness = 1000;
+
 ContactFinder<4> finder_of(const bench::Hug& hug, bool self, double margin) {
-    std::vector<ContactBody<4>> bodies;
+    ContactScene<4> scene;
+    scene.options = {.distance = kEps, .self = self, .margin = margin};
+    scene.is_fixed.resize(static_cast<std::size_t>(hug.positions.cols()));
+    scene.rest = hug.positions;
     for (const Surface<4>& surface : hug.surfaces) {
-        bodies.push_back({"body" + std::to_string(bodies.size()), surface, false});
+        scene.bodies.push_back({"body" + std::to_string(scene.bodies.size()), surface, false});
     }
-    return {std::move(bodies),
-            hug.positions,
-            {.distance = kEps, .stiffness = 1000, .self = self, .margin = margin}};
+    return ContactFinder<4>(std::move(scene));
 }
 
 void find(benchmark::State& state, double gap, double scale, bool self, double margin) {
     const bench::Hug hug = bench::make_hug(gap, scale);
     ContactFinder<4> finder = finder_of(hug, self, margin);
-    ContactReport report = finder.find(hug.positions).report;  // builds the trees
+    ContactReport report = finder.find(hug.positions, kStiffness).report;  // builds the trees
     double seconds = 0;
     double tree_seconds = 0;
     double search_seconds = 0;
     for (auto _ : state) {
-        report = finder.find(hug.positions).report;
+        report = finder.find(hug.positions, kStiffness).report;
         seconds += report.seconds;
         tree_seconds += report.tree_seconds;
         search_seconds += report.search_seconds;

@@ -1,12 +1,12 @@
 // Our trees against brute force on a subset of the edges, and against the box intersection of CGAL
 // where the mesher is built, as ratios in one run on one thread. Both are to be at least 10.
 //
-// Ours is what a step does: fit the trees of the step before to the boxes, and find the overlaps. The
-// rivals keep nothing from step to step.
+// Ours is what a step does: fit the trees of the step before to the boxes, and find the overlaps.
+// The rivals keep nothing from step to step.
 
+#include "boxes_around.h"
 #include "hug.h"
 
-#include <pent/contact/near_pairs.h>
 #include <pent/parallel.h>
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,7 @@
 #include "flop_count.h"
 
 #include "beams.h"
-#include "kernel_table.h"
+#include "kernels/kernel_table.h"
 #include "shaken_beam.h"
 
 namespace pent::simulator {
@@ -65,12 +65,12 @@ FlopCount count_flops(ElementKind kind) {
     const ShakenBeam sample(box({4, 4, 4, 4}), kind);
     const auto elements = static_cast<double>(sample.elements->count());
     Kernels<4> counting = kernels<4>(Isa::Scalar);
-    counting.forces = &add_forces_of<4, Counted<double>>;
+    counting.gradient = &add_gradient_of<4, Counted<double>>;
     counting.hessian_float = &add_hessian_of<4, Counted<float>, float>;
     Counted<double>::flops = Counted<float>::flops = 0;
     const Workers workers(1);
-    Positions<4> forces = Positions<4>::Zero(4, sample.mesh.vertex_count());
-    static_cast<void>(sample.elements->add_forces(workers, counting, sample.positions, forces));
+    Positions<4> gradient = Positions<4>::Zero(4, sample.mesh.vertex_count());
+    static_cast<void>(sample.elements->add_gradient(workers, counting, sample.positions, gradient));
     BlockMatrix<4, float> matrix(sample.pattern);
     sample.assemble(workers, counting, matrix);
     return {.forces = static_cast<double>(Counted<double>::flops) / elements,

@@ -1,7 +1,7 @@
 #include "beams.h"
 #include "cases.h"
 #include "dense_oracle.h"
-#include "preconditioner.h"
+#include "linear/preconditioner.h"
 #include "shaken_beam.h"
 #include "step_work.h"
 #include "stopwatch.h"
@@ -59,7 +59,7 @@ struct Bench {
         for (std::int64_t row = 0; row < matrix.rows(); ++row) {
             matrix.diagonal(row).diagonal().array() += kMass;
             at_unknowns.col(row) =
-                beam.positions.col(beam.numbering.vertex_of_unknown[static_cast<std::size_t>(row)]);
+                beam.positions.col(beam.dofs.vertex_of(static_cast<std::uint32_t>(row)));
         }
         if (kind == ElementKind::Linear) {
             sparse = both_triangles(matrix);
@@ -79,7 +79,7 @@ struct Bench {
     [[nodiscard]] std::unique_ptr<Preconditioner<4>> make_preconditioner(
         const Workers& workers) const {
         return with_rigid_modes(workers, matrix, aggregates, at_unknowns,
-                                column_jacobi(workers, matrix, beam.numbering.column_start));
+                                column_jacobi(workers, matrix, beam.dofs.column_start()));
     }
 };
 
@@ -134,7 +134,7 @@ Case force_case(const SharedBench& bench, int threads) {
            .units = static_cast<double>(bench->beam.elements->count())};
     c.run = [bench, workers] {
         return seconds_of([&] {
-            static_cast<void>(bench->beam.elements->add_forces(
+            static_cast<void>(bench->beam.elements->add_gradient(
                 *workers, kernels<4>(best_isa()), bench->beam.positions, bench->forces));
         });
     };
@@ -162,7 +162,9 @@ Case product_case(const SharedBench& bench, int threads) {
            .units = static_cast<double>(bench->beam.pattern.blocks())};
     c.run = [bench, workers] {
         return seconds_of(
-            [&] { bench->matrix.multiply(*workers, kernels<4>(best_isa()), bench->x, bench->y); },
+            [&] {
+                bench->matrix.multiply(*workers, kernels<4>(best_isa()).blocks, bench->x, bench->y);
+            },
             kCalls);
     };
     c.bound = [bench](const Ceilings& ceilings) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "elements.h"
+#include "potentials/elements.h"
 
 #include <pent/simulator/scene.h>
 
@@ -13,7 +13,7 @@ namespace pent::simulator::bench {
 struct ShakenBeam {
     SimplexMesh<4> mesh;
     Material material;
-    Numbering numbering;
+    DofMap dofs;
     BlockPattern pattern;
     std::unique_ptr<Elements<4>> elements;
     Positions<4> positions;

@@ -1,7 +1,7 @@
-#include "aggregates.h"
 #include "beams.h"
 #include "cases.h"
 #include "dense_oracle.h"
+#include "linear/aggregates.h"
 #include "step_work.h"
 #include "stopwatch.h"
 
@@ -19,18 +19,15 @@ template <int Dim>
 class Replay {
 public:
     Replay(const Scene& scene, const SimplexMesh<Dim>& mesh, int threads, int warm_up)
-        : warm_up_(warm_up), simulation_(scene, {mesh}, {.threads = threads, .isa = ""}) {
+        : simulation_(scene, {mesh}, {.threads = threads, .isa = ""}) {
         for (int i = 0; i < warm_up; ++i) {
             report_ = simulation_.step();
         }
-        positions_ = simulation_.positions(0);
-        velocities_ = simulation_.velocities(0);
+        start_ = simulation_.save();
     }
 
     double step() {
-        simulation_.set_state(0, positions_, velocities_);
-        simulation_.set_step_count(static_cast<std::uint64_t>(warm_up_));
-        static_cast<void>(simulation_.energies());  // brings forces up to date
+        simulation_.restore(start_);
         report_ = simulation_.step();
         return report_.is_accepted ? report_.seconds : 0;
     }
@@ -58,10 +55,8 @@ public:
     }
 
 private:
-    int warm_up_;
     Simulation<Dim> simulation_;
-    Positions<Dim> positions_;
-    Positions<Dim> velocities_;
+    Snapshot<Dim> start_;
     StepReport report_;
 };
 

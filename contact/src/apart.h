@@ -1,6 +1,6 @@
 #pragma once
 
-#include <pent/contact/closest_points.h>
+#include <pent/contact/stencil.h>
 
 namespace pent::contact {
 
@@ -15,8 +15,9 @@ template <int Dim, int M, int N>
     return above.cwiseMax(below).cwiseMax(0).squaredNorm() >= distance_squared;
 }
 
-/// The same for points that move evenly, each from its column in one matrix to that in the other: whether
-/// the boxes are that far apart at all times. How far they are along an axis is concave in time.
+/// The same for points that move evenly, each from its column in one matrix to that in the other:
+/// whether the boxes are that far apart at all times. How far they are along an axis is concave in
+/// time.
 template <int Dim, int M, int N>
 [[nodiscard]] bool are_paths_apart(const Corners<Dim, M>& first,
                                    const Corners<Dim, M>& first_end,

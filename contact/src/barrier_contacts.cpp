@@ -1,9 +1,7 @@
-#include "apart.h"
-#include "barrier_setting.h"
-#include "closest_point_search.h"
-#include "gather.h"
+#include "barrier_contacts.h"
 
-#include <pent/parallel.h>
+#include "apart.h"
+#include "spanned_volume.h"
 
 #include <Eigen/LU>
 
@@ -18,50 +16,38 @@ namespace {
 
 constexpr std::size_t kChunk = 512;
 
-// Mixed pairs spanning less than this part of the squared volume that they would span at rest if they
-// were normal to each other are nearly parallel [li2020].
-constexpr double kParallel = 1e-3;
-
-// Squared volume of the box that the edges of a simplex span.
-template <int Dim, int Count>
-double spanned_squared(const Corners<Dim, Count>& corners) {
-    const Eigen::Matrix<double, Dim, Count - 1> edges =
-        corners.template rightCols<Count - 1>().colwise() - corners.col(0);
-    return (edges.transpose() * edges).determinant();
-}
+// What is in no place of a contact's vertices.
+constexpr std::uint32_t kNoVertex = 0xffffffff;
 
 // Contacts without a mollifier that are the same faces; the key is their corners.
 template <int Dim>
-bool is_before(const BarrierContact<Dim>& a, const BarrierContact<Dim>& b) {
-    const bool a_plain = a.mollifier.threshold == 0;
-    const bool b_plain = b.mollifier.threshold == 0;
-    if (a_plain != b_plain) {
-        return a_plain;
+bool is_before(const Contact<Dim>& a, const Contact<Dim>& b) {
+    if (a.mollifier.is_on() != b.mollifier.is_on()) {
+        return b.mollifier.is_on();
     }
-    if (a.faces.first_count != b.faces.first_count) {
-        return a.faces.first_count < b.faces.first_count;
+    if (a.first_count != b.first_count) {
+        return a.first_count < b.first_count;
     }
-    return a.vertices != b.vertices ? a.vertices < b.vertices : a.first_body < b.first_body;
+    return a.vertices < b.vertices;
 }
 
 template <int Dim>
-bool is_same(const BarrierContact<Dim>& a, const BarrierContact<Dim>& b) {
-    return a.mollifier.threshold == 0 && b.mollifier.threshold == 0
-           && a.faces.first_count == b.faces.first_count && a.vertices == b.vertices
-           && a.first_body == b.first_body;
+bool is_same(const Contact<Dim>& a, const Contact<Dim>& b) {
+    return !a.mollifier.is_on() && !b.mollifier.is_on() && a.first_count == b.first_count
+           && a.vertices == b.vertices;
 }
 
 // The contact of one pair of simplices, and which pair: the list, and the places in it.
 template <int Dim>
 struct Found {
-    BarrierContact<Dim> contact;
+    Contact<Dim> contact;
     std::array<std::uint32_t, 3> pair;
 };
 
-// One contact for all pairs with the same nearest faces, in ascending order. Their distances differ by
-// rounding: that of the first pair counts, whatever order they were found in.
+// One contact for all pairs with the same nearest faces, in ascending order. Their distances differ
+// by rounding: that of the first pair counts, whatever order they were found in.
 template <int Dim>
-std::vector<BarrierContact<Dim>> merged(const std::vector<Found<Dim>>& found) {
+std::vector<Contact<Dim>> merged(const std::vector<Found<Dim>>& found) {
     std::vector<std::uint32_t> order(found.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -69,7 +55,7 @@ std::vector<BarrierContact<Dim>> merged(const std::vector<Found<Dim>>& found) {
                || (!is_before<Dim>(found[b].contact, found[a].contact)
                    && found[a].pair < found[b].pair);
     });
-    std::vector<BarrierContact<Dim>> kept;
+    std::vector<Contact<Dim>> kept;
     for (const std::uint32_t i : order) {
         if (!kept.empty() && is_same(kept.back(), found[i].contact)) {
             ++kept.back().multiplicity;
@@ -80,226 +66,159 @@ std::vector<BarrierContact<Dim>> merged(const std::vector<Found<Dim>>& found) {
     return kept;
 }
 
-template <int Dim>
-class Search {
-public:
-    Search(const BarrierSetting<Dim>& setting, const PositionsView<Dim>& positions)
-        : setting_(setting),
-          positions_(positions),
-          reach_(setting.options.distance + setting.options.separation),
-          travel_(setting.candidates.travel(positions, positions)) {}
-
-    BarrierContacts<Dim> run() {
-        setting_.for_each_list([this](const auto& list, const auto& first, const auto& second,
-                                      const std::array<int, 2>& bodies) {
-            this->append(list, first, second, bodies);
-            ++lists_;
-        });
-        append_obstacles();
-        contacts_.pairs = merged(found_);
-        sum_up();
-        return std::move(contacts_);
-    }
-
-private:
-    // The contact of a pair whose closest points are known: of its nearest faces, the one with the lower
-    // vertex first, so that the same faces are the same contact whatever pair they come from.
-    template <int K, int L>
-    BarrierContact<Dim> make_contact(const ClosestPoints<Dim, K, L>& points,
-                                     const std::uint32_t* first,
-                                     const std::uint32_t* second,
-                                     const std::array<int, 2>& bodies) const {
-        BarrierContact<Dim> contact;
-        NearestFaces<Dim>& faces = contact.faces;
-        faces.distance = std::sqrt(points.distance_squared);
-        faces.weights.setZero();
-        contact.vertices.fill(kFixedPoint);
-        const auto add = [&](std::uint32_t vertex, double weight) {
-            faces.active |= static_cast<std::uint8_t>(1U << faces.count);
-            faces.weights[faces.count] = weight;
-            contact.vertices[faces.count++] = vertex;
-        };
-        const auto add_first = [&](double sign) {
-            for (int i = 0; i < K; ++i) {
-                if ((points.first_face >> i & 1) != 0) {
-                    add(first[i], sign * points.beta[i]);
-                }
-            }
-        };
-        const auto add_second = [&](double sign) {
-            for (int j = 0; j < L; ++j) {
-                if ((points.second_face >> j & 1) != 0) {
-                    add(second[j], sign * points.alpha[j]);
-                }
-            }
-        };
-        const bool is_swapped = bodies[0] >= 0
-                                && second[std::countr_zero(points.second_face)]
-                                       < first[std::countr_zero(points.first_face)];
-        if (is_swapped) {
-            add_second(1);
-            faces.first_count = faces.count;
-            add_first(-1);
-        } else {
-            add_first(1);
-            faces.first_count = faces.count;
-            add_second(-1);
-        }
-        faces.direction = (is_swapped ? -1 : 1) / faces.distance * points.difference;
-        contact.first_body = bodies[is_swapped ? 1 : 0];
-        contact.second_body = bodies[is_swapped ? 0 : 1];
-        contact.separation = setting_.options.separation;
-        return contact;
-    }
-
-    // The same with all corners, for a pair that is nearly parallel.
-    template <int K, int L>
-    BarrierContact<Dim> make_mollified(const ClosestPoints<Dim, K, L>& points,
-                                       const std::uint32_t* first,
-                                       const std::uint32_t* second,
-                                       const std::array<int, 2>& bodies,
-                                       double threshold) const {
-        BarrierContact<Dim> contact;
-        contact.first_body = bodies[0];
-        contact.second_body = bodies[1];
-        contact.separation = setting_.options.separation;
-        contact.mollifier.threshold = threshold;
-        contact.faces = nearest_faces<Dim, K, L>(points);
-        std::copy_n(first, K, contact.vertices.begin());
-        std::copy_n(second, L, contact.vertices.begin() + K);
-        return contact;
-    }
-
-    // c0 of a mixed pair, or 0 where it is not nearly parallel.
-    template <int K, int L>
-    [[nodiscard]] double parallel_threshold(const Simplices<K>& first,
-                                            std::uint32_t i,
-                                            const Simplices<L>& second,
-                                            std::uint32_t j,
-                                            const Corners<Dim, K>& a,
-                                            const Corners<Dim, L>& b) const {
-        const double threshold =
-            kParallel * spanned_squared<Dim, K>(gather<Dim, K>(first, i, setting_.rest))
-            * spanned_squared<Dim, L>(gather<Dim, L>(second, j, setting_.rest));
-        Stencil<Dim> points;
-        points << a, b;
-        return spanned_volume_squared<Dim>(points) < threshold ? threshold : 0;
-    }
-
-    template <int K, int L>
-    void append(const CandidateList& list,
-                const Simplices<K>& first,
-                const Simplices<L>& second,
-                const std::array<int, 2>& bodies) {
-        const Sieve<K, L> sieve(list, first, second, travel_, reach_);
-        std::vector<std::vector<Found<Dim>>> found((sieve.size() + kChunk - 1) / kChunk);
-        parallel_for(found.size(), [&](std::size_t chunk) {
-            const std::size_t end = std::min((chunk + 1) * kChunk, sieve.size());
-            for (std::size_t k = chunk * kChunk; k < end; ++k) {
-                if (!sieve.passes(k)) {
-                    continue;
-                }
-                const std::uint32_t i = list.pairs[k].first;
-                const std::uint32_t j = list.pairs[k].second;
-                const Corners<Dim, K> a = gather<Dim, K>(first, i, positions_);
-                const Corners<Dim, L> b = gather<Dim, L>(second, j, positions_);
-                if (are_boxes_apart<Dim, K, L>(a, b, reach_ * reach_)) {
-                    continue;
-                }
-                ClosestPointSearch<Dim, K, L> search(a, b, reach_ * reach_);
-                if (!search.run()
-                    || (setting_.candidates.template is_held<K>(first, i)
-                        && setting_.candidates.template is_held<L>(second, j))) {
-                    continue;
-                }
-                const std::uint32_t* of_first = first.col(i).data();
-                const std::uint32_t* of_second = second.col(j).data();
-                double threshold = 0;
-                if constexpr (K == 2) {
-                    threshold = parallel_threshold<K, L>(first, i, second, j, a, b);
-                }
-                found[chunk].push_back(
-                    {threshold > 0 ? make_mollified<K, L>(search.best(), of_first, of_second,
-                                                          bodies, threshold)
-                                   : make_contact<K, L>(search.best(), of_first, of_second, bodies),
-                     {lists_, i, j}});
-            }
-        });
-        for (const auto& part : found) {
-            found_.insert(found_.end(), part.begin(), part.end());
-        }
-        contacts_.report.candidates += static_cast<std::int64_t>(sieve.size());
-    }
-
-    void append_obstacles() {
-        for (std::size_t o = 0; o < setting_.obstacles.size(); ++o) {
-            if (const auto* ball = std::get_if<Ball<Dim>>(&setting_.obstacles[o])) {
-                append_ball(static_cast<std::int32_t>(o), *ball);
-                continue;
-            }
-            setting_.for_each_free_vertex([&](std::int32_t /*body*/, std::uint32_t vertex) {
-                const double distance =
-                    signed_distance<Dim>(setting_.obstacles[o], positions_.col(vertex));
-                if (distance < reach_) {
-                    contacts_.vertices.push_back({vertex, static_cast<std::int32_t>(o), distance});
-                }
-            });
-        }
-    }
-
-    void append_ball(std::int32_t obstacle, const Ball<Dim>& ball) {
-        const double separation = ball.radius + setting_.options.separation;
-        const double reach = ball.radius + reach_;
-        const Corners<Dim, 1> center = ball.center;
-        setting_.for_each_facet_near(ball, [&](std::int32_t body, std::uint32_t facet) {
-            const Simplices<Dim>& facets = setting_.bodies[body].surface.facets;
-            const Corners<Dim, Dim> corners = gather<Dim, Dim>(facets, facet, positions_);
-            ClosestPointSearch<Dim, 1, Dim> search(center, corners, reach * reach);
-            if (!search.run()) {
-                return;
-            }
-            BarrierContact<Dim> contact = make_contact<1, Dim>(
-                search.best(), &kFixedPoint, facets.col(facet).data(), {-1 - obstacle, body});
-            contact.separation = separation;
-            found_.push_back({contact, {lists_, static_cast<std::uint32_t>(obstacle), facet}});
-        });
-    }
-
-    void sum_up() {
-        BarrierReport& report = contacts_.report;
-        for (const BarrierContact<Dim>& contact : contacts_.pairs) {
-            report.smallest_gap =
-                std::min(report.smallest_gap, contact.faces.distance - contact.separation);
-            report.mollified += contact.mollifier.threshold > 0 ? 1 : 0;
-        }
-        for (const VertexContact& contact : contacts_.vertices) {
-            report.smallest_gap =
-                std::min(report.smallest_gap, contact.distance - setting_.options.separation);
-        }
-        report.contacts =
-            static_cast<std::int64_t>(contacts_.pairs.size() + contacts_.vertices.size());
-    }
-
-    const BarrierSetting<Dim>& setting_;
-    const PositionsView<Dim>& positions_;
-    double reach_;
-    Travel travel_;
-    std::uint32_t lists_ = 0;  // that have been looked at
-    std::vector<Found<Dim>> found_;
-    BarrierContacts<Dim> contacts_;
+// One simplex of a pair, as a side of a contact.
+struct Side {
+    int collider = 0;
+    const std::uint32_t* vertices = nullptr;
+    const double* weights = nullptr;
+    int count = 0;
+    unsigned face = 0;  // Bit i: corner i spans the nearest face
 };
+
+template <int Dim>
+void add_corners(const Side& side, bool is_whole, double sign, Contact<Dim>& contact) {
+    for (int i = 0; i < side.count; ++i) {
+        const bool is_active = (side.face >> i & 1U) != 0;
+        if (is_whole || is_active) {
+            contact.active |=
+                static_cast<std::uint8_t>((is_active ? 1U : 0U) << contact.corner_count);
+            contact.weights[contact.corner_count] = sign * side.weights[i];
+            contact.vertices[contact.corner_count++] = side.vertices[i];
+        }
+    }
+}
+
+// The contact of nearest faces, or of whole simplices where they are nearly parallel. Of a core
+// comes second; of two bodies the face with the lower vertex first, so that the same faces are the
+// same contact whatever pair they come from, but whole simplices the edge.
+template <int Dim>
+Contact<Dim> make_contact(const Colliders<Dim>& colliders,
+                          const Side& a,
+                          const Side& b,
+                          const Vector<Dim>& difference,
+                          double threshold) {
+    const bool is_whole = threshold > 0;
+    const bool is_swapped =
+        is_whole ? colliders.is_core(a.collider)
+                 : b.vertices[std::countr_zero(b.face)] < a.vertices[std::countr_zero(a.face)];
+    const Side& first = is_swapped ? b : a;
+    const Side& second = is_swapped ? a : b;
+    Contact<Dim> contact;
+    contact.vertices.fill(kNoVertex);
+    add_corners<Dim>(first, is_whole, 1, contact);
+    contact.first_count = contact.corner_count;
+    add_corners<Dim>(second, is_whole, -1, contact);
+    contact.count = colliders.is_core(second.collider) ? contact.first_count : contact.corner_count;
+    contact.mollifier.threshold = threshold;
+    const double length = difference.norm();
+    contact.direction = (is_swapped ? -1 : 1) / length * difference;
+    contact.radius = colliders.radius(first.collider) + colliders.radius(second.collider);
+    contact.distance = length - contact.radius;
+    contact.first = colliders.collider(first.collider);
+    contact.second = colliders.collider(second.collider);
+    const bool has_point =
+        contact.first_count == 1 || contact.corner_count - contact.first_count == 1;
+    contact.kind = has_point ? ContactKind::PointFacet : ContactKind::Mixed;
+    return contact;
+}
+
+// Squared volume of the box that the edges of a simplex span.
+template <int Dim, int Count>
+double spanned_squared(const Corners<Dim, Count>& corners) {
+    const Eigen::Matrix<double, Dim, Count - 1> edges =
+        corners.template rightCols<Count - 1>().colwise() - corners.col(0);
+    return (edges.transpose() * edges).determinant();
+}
+
+// c0 of a mixed pair, or 0 where it is not nearly parallel.
+template <int Dim>
+double parallel_threshold(const Corners<Dim, 2>& edge_at_rest,
+                          const Corners<Dim, Dim - 1>& ridge_at_rest,
+                          const Corners<Dim, 2>& edge,
+                          const Corners<Dim, Dim - 1>& ridge) {
+    const double threshold = kNearlyParallel * spanned_squared<Dim, 2>(edge_at_rest)
+                             * spanned_squared<Dim, Dim - 1>(ridge_at_rest);
+    Stencil<Dim> points;
+    points << edge, ridge;
+    return spanned_volume_squared<Dim>(points) < threshold ? threshold : 0;
+}
+
+// The contact of a candidate, if it is one.
+template <int Dim, int K, int L>
+std::optional<Contact<Dim>> contact_of(const Colliders<Dim>& colliders,
+                                       const PositionsView<Dim>& positions,
+                                       const std::array<int, 2>& which,
+                                       const Candidate& pair,
+                                       double reach) {
+    const Simplices<K>& first = colliders.surface(which[0]).template simplices<K>();
+    const Simplices<L>& second = colliders.surface(which[1]).template simplices<L>();
+    const Corners<Dim, K> a = gather<Dim, K>(first, pair.first, positions);
+    const Corners<Dim, L> b = gather<Dim, L>(second, pair.second, positions);
+    if (are_boxes_apart<Dim, K, L>(a, b, reach * reach)) {
+        return {};
+    }
+    ClosestPointSearch<Dim, K, L> search(a, b, reach * reach);
+    if (!search.run()
+        || (colliders.template is_fixed<K>(first, pair.first)
+            && colliders.template is_fixed<L>(second, pair.second))) {
+        return {};
+    }
+    const ClosestPoints<Dim, K, L>& points = search.best();
+    double threshold = 0;
+    if constexpr (K == 2) {
+        threshold =
+            parallel_threshold<Dim>(gather<Dim, K>(first, pair.first, colliders.rest()),
+                                    gather<Dim, L>(second, pair.second, colliders.rest()), a, b);
+    }
+    return make_contact<Dim>(
+        colliders,
+        {which[0], first.col(pair.first).data(), points.beta.data(), K, points.first_face},
+        {which[1], second.col(pair.second).data(), points.alpha.data(), L, points.second_face},
+        points.difference, threshold);
+}
 
 }  // namespace
 
 template <int Dim>
-BarrierContacts<Dim> find_barrier_contacts(const BarrierSetting<Dim>& setting,
+BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
+                                           const Candidates<Dim>& candidates,
                                            const PositionsView<Dim>& positions) {
-    return Search<Dim>(setting, positions).run();
+    BarrierContacts<Dim> contacts;
+    if (candidates.pairs().empty()) {
+        return contacts;
+    }
+    const Displacement displacement = candidates.displacement(positions, positions);
+    std::vector<Found<Dim>> all;
+    std::uint32_t lists = 0;
+    candidates.for_each_list([&]<int K, int L>(const CandidateList& list, int first, int second) {
+        const double reach = candidates.reach(first, second);
+        const DistanceCull<K, L> cull(list, colliders.surface(first).template simplices<K>(),
+                                      colliders.surface(second).template simplices<L>(),
+                                      displacement, reach);
+        const std::vector<Found<Dim>> found = collect<Found<Dim>>(
+            cull.size(), kChunk, [&](std::size_t k, std::vector<Found<Dim>>& here) {
+                if (!cull.passes(k)) {
+                    return;
+                }
+                const Candidate& pair = list.pairs[k];
+                if (const auto contact =
+                        contact_of<Dim, K, L>(colliders, positions, {first, second}, pair, reach)) {
+                    here.push_back({*contact, {lists, pair.first, pair.second}});
+                }
+            });
+        all.insert(all.end(), found.begin(), found.end());
+        contacts.candidates += static_cast<std::int64_t>(cull.size());
+        ++lists;
+    });
+    contacts.list = merged(all);
+    return contacts;
 }
 
-template BarrierContacts<3> find_barrier_contacts(const BarrierSetting<3>&,
+template BarrierContacts<3> find_barrier_contacts(const Colliders<3>&,
+                                                  const Candidates<3>&,
                                                   const PositionsView<3>&);
-template BarrierContacts<4> find_barrier_contacts(const BarrierSetting<4>&,
+template BarrierContacts<4> find_barrier_contacts(const Colliders<4>&,
+                                                  const Candidates<4>&,
                                                   const PositionsView<4>&);
 
 }  // namespace pent::contact

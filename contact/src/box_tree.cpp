@@ -1,4 +1,4 @@
-#include "pent/contact/box_tree.h"
+#include "box_tree.h"
 
 #include <pent/parallel.h>
 

@@ -1,95 +1,129 @@
 #pragma once
 
-#include <pent/contact/surface.h>
+#include "candidate.h"
+#include "colliders.h"
+#include "overlaps.h"
+#include "rest_proximity_pairs.h"
+#include "surface_trees.h"
 
-#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
-
-// Lists of what may come near what, and which of it a look is worth.
 
 namespace pent::contact {
 
-/// Two simplices, by their places in the lists of their surfaces.
-struct Candidate {
-    std::uint32_t first = 0;
-    std::uint32_t second = 0;
-    float distance = 0;  ///< m: where distances were measured they were this far apart, or farther.
+/// What the search for candidates took so far.
+struct SearchWork {
+    std::int64_t searches = 0;
+    std::int64_t overlaps = 0;  ///< Pairs of boxes that the narrow phase looked at.
+    std::int64_t trees_built = 0;
+    std::int64_t trees_refit = 0;
+    double tree_seconds = 0;
 };
 
-/// Candidates in any order, but those whose distance is known come first. All others have the greatest
-/// distance that was measured.
-struct CandidateList {
-    std::vector<Candidate> pairs;
-    std::size_t known_count = 0;
-};
-
-/// What of two bodies (or of one and itself) can come near.
-struct CandidatePairs {
-    int first_body = 0;
-    int second_body = 0;
-    CandidateList points_first;   ///< Vertices of the first, facets of the second.
-    CandidateList points_second;  ///< The other way round; none within one body.
-    CandidateList mixed_first;    ///< Edges of the first, ridges of the second.
-    CandidateList mixed_second;   ///< The other way round; in R^4 between two bodies.
-};
-
-/// How far each vertex gets, at most, from where distances were measured, in m.
-struct Travel {
-    Eigen::VectorXf of_vertex;
-    float most = 0;
-
-    template <int Count>
-    [[nodiscard]] float of(const Simplices<Count>& simplices, Eigen::Index i) const {
-        float of_corner = 0;
-        for (int corner = 0; corner < Count; ++corner) {
-            of_corner = std::max(of_corner, of_vertex[simplices(corner, i)]);
-        }
-        return of_corner;
-    }
-};
-
-/// Tells which candidates of a list may come within a distance, from how far they were apart and how far
-/// they have gone since: most are held back by two numbers, without a look at where they are.
-template <int K, int L>
-class Sieve {
+/// The pairs of simplices of a scene that can come within the activation distance (with the
+/// separation) of each other while vertices move along straight paths; a single position is a path
+/// of no length. Pairs that share a vertex are left out.
+///
+/// Vertices may leave their paths by an inflation: candidates hold for all positions that have
+/// every vertex that near to where its path is at one and the same time. Only for others are they
+/// searched again, or when much shorter motions are asked for elsewhere.
+///
+/// Each candidate knows how far apart it was where the paths end, which is where Newton's method
+/// goes on: a DistanceCull holds most of them back there.
+///
+/// Of a penalty, mixed pairs are those whose closest points are inside both, unless they are kept
+/// for other positions (a margin). Within bodies its candidates are found anew each time, from what
+/// was near at rest and by patches: those alone that can be in contact.
+template <int Dim>
+class Candidates {
 public:
-    /// All but the distance (m) are kept by reference.
-    Sieve(const CandidateList& list,
-          const Simplices<K>& first,
-          const Simplices<L>& second,
-          const Travel& travel,
-          double distance)
-        : list_(list), first_(first), second_(second), travel_(travel), distance_(distance) {
-        const std::size_t known = list.known_count;
-        const bool is_done =
-            known == list.pairs.size() || is_beyond(list.pairs[known], 2 * travel.most);
-        size_ = is_done ? known : list.pairs.size();
+    /// The colliders must outlive this.
+    explicit Candidates(const Colliders<Dim>& colliders);
+
+    /// Sees to it that pairs() hold for everything on the way between two positions, and are not
+    /// many more than that needs.
+    void cover(const PositionsView<Dim>& from, const PositionsView<Dim>& to);
+
+    /// Sees to it that pairs() hold at these positions.
+    void cover(const PositionsView<Dim>& positions);
+
+    /// Drops pairs that would not be of use again, or that are too many to keep for penalties.
+    void drop_what_is_not_kept();
+
+    /// By colliders.
+    [[nodiscard]] const std::vector<CandidatePairs>& pairs() const { return pairs_; }
+
+    /// Calls visit<K, L>(list, first, second) for each list, K and L being the corners of its
+    /// simplices and first and second the colliders that these belong to.
+    template <typename Visit>
+    void for_each_list(const Visit& visit) const {
+        for (const CandidatePairs& pairs : pairs_) {
+            visit.template operator()<1, Dim>(pairs.points_first, pairs.first, pairs.second);
+            visit.template operator()<1, Dim>(pairs.points_second, pairs.second, pairs.first);
+            visit.template operator()<2, Dim - 1>(pairs.mixed_first, pairs.first, pairs.second);
+            visit.template operator()<2, Dim - 1>(pairs.mixed_second, pairs.second, pairs.first);
+        }
     }
 
-    /// Candidates from this place on do not pass.
-    [[nodiscard]] std::size_t size() const { return size_; }
-
-    [[nodiscard]] bool passes(std::size_t place) const {
-        const Candidate& pair = list_.pairs[place];
-        return !is_beyond(pair, 2 * travel_.most)
-               && !is_beyond(
-                   pair, travel_.of<K>(first_, pair.first) + travel_.of<L>(second_, pair.second));
+    /// How near simplices of two colliders have to be found, m.
+    [[nodiscard]] double reach(int first, int second) const {
+        return activation_distance_ + colliders_.radius(first) + colliders_.radius(second);
     }
+
+    /// Whether mixed pairs are all that are near now, inside both, and no other.
+    [[nodiscard]] bool is_exact() const { return is_penalty() && min_inflation_ == 0; }
+
+    /// Of the vertices on the way between two positions, from where distances were measured.
+    [[nodiscard]] Displacement displacement(const PositionsView<Dim>& from,
+                                            const PositionsView<Dim>& to) const;
+
+    [[nodiscard]] const Colliders<Dim>& colliders() const { return colliders_; }
+
+    /// Over boxes that hold what was covered.
+    [[nodiscard]] const SurfaceTrees<Dim>& trees(int collider) const {
+        return trees_[static_cast<std::size_t>(collider)];
+    }
+
+    [[nodiscard]] SearchWork work() const;
+    [[nodiscard]] std::int64_t bytes() const;
 
 private:
-    [[nodiscard]] bool is_beyond(const Candidate& pair, float travel) const {
-        constexpr double kRoundUp = 1 + 1e-6;  // floats have been added
-        return static_cast<double>(pair.distance)
-               > (distance_ + static_cast<double>(travel)) * kRoundUp;
-    }
+    // A scene's positions at the start and at the end of the paths.
+    struct Paths {
+        const PositionsView<Dim>& from;
+        const PositionsView<Dim>& to;
+    };
 
-    const CandidateList& list_;
-    const Simplices<K>& first_;
-    const Simplices<L>& second_;
-    const Travel& travel_;
-    double distance_;
-    std::size_t size_ = 0;
+    [[nodiscard]] bool is_penalty() const { return !colliders_.is_barrier(); }
+    [[nodiscard]] bool has_fresh_pairs_within() const {
+        return is_penalty() && colliders_.scene().options.self;
+    }
+    [[nodiscard]] bool is_covered(const PositionsView<Dim>& positions) const;
+    [[nodiscard]] bool is_too_coarse(const PositionsView<Dim>& from, double path_length) const;
+    void search(const PositionsView<Dim>& from, const PositionsView<Dim>& to);
+    void fit_trees(const Paths& paths);
+    void fit_boxes(const Paths& paths);
+    [[nodiscard]] bool do_overlap(int a, int b) const;
+    void find_pairs();
+    void find_pairs_within(const PositionsView<Dim>& positions);
+    void find_pairs_within(const PositionsView<Dim>& positions, CandidatePairs& pairs);
+    template <int K, int L>
+    [[nodiscard]] CandidateList search(int first, int second) const;
+
+    const Colliders<Dim>& colliders_;
+    double activation_distance_;   // m, with the separation
+    double min_inflation_;         // m
+    Positions<Dim> start_;         // where the covered paths begin
+    Positions<Dim> end_;           // and end: where distances are measured
+    Eigen::VectorXd path_length_;  // of each vertex, m
+    Eigen::VectorXd inflation_;    // how far each vertex may leave its path, m
+    double longest_ = 0;           // motion that candidates were searched for, m
+    std::vector<Box> boxes_;  // around the path of each vertex, its inflation and half a distance
+    std::vector<SurfaceTrees<Dim>> trees_;
+    std::vector<std::optional<RestProximityPairs>> near_at_rest_;  // of bodies searched within
+    std::vector<CandidatePairs> pairs_;
+    SearchWork work_;
 };
 
 }  // namespace pent::contact

@@ -1,4 +1,4 @@
-#include "pent/contact/ccd.h"
+#include "ccd.h"
 
 #include "apart.h"
 #include "closest_point_search.h"
@@ -12,7 +12,7 @@ namespace pent::contact {
 namespace {
 
 // Stops the advances where the gap does not.
-constexpr int kMostAdvances = 10'000;
+constexpr int kMaxAdvances = 10'000;
 
 // How long the two simplices stay `target` apart along u. Every two corners are on their sides for
 // as long as that, so the hulls of the corners are too.
@@ -39,8 +39,7 @@ double time_apart(const Vector<Dim>& u,
 
 template <int Dim>
 bool is_free_side_convex(const Obstacle<Dim>& obstacle) {
-    return std::holds_alternative<HalfSpace<Dim>>(obstacle)
-           || std::holds_alternative<Cavity<Dim>>(obstacle);
+    return std::visit([](const auto& shape) { return shape.kIsFreeSideConvex; }, obstacle);
 }
 
 }  // namespace
@@ -53,7 +52,8 @@ double safe_fraction(const Corners<Dim, K>& first,
                      const Clearance& clearance,
                      double limit) {
     constexpr double kFar = std::numeric_limits<double>::infinity();
-    // In coordinates of one corner, so that rounding is relative to the pair and not to where it is.
+    // In coordinates of one corner, so that rounding is relative to the pair and not to where it
+    // is.
     const Vector<Dim> origin = first.col(0);
     const Vector<Dim> drift = first_motion.col(0);
     const Corners<Dim, K> first_path = first_motion.colwise() - drift;
@@ -69,7 +69,7 @@ double safe_fraction(const Corners<Dim, K>& first,
     }
     double near_gap = 0;  // what counts of the gap at the start
     double t = 0;
-    for (int advance = 0; advance < kMostAdvances; ++advance) {
+    for (int advance = 0; advance < kMaxAdvances; ++advance) {
         ClosestPointSearch<Dim, K, L> search(a, b, kFar);
         search.run();
         const double distance = std::sqrt(search.best().distance_squared);
@@ -104,7 +104,7 @@ double safe_fraction(const Obstacle<Dim>& obstacle,
                      const Vector<Dim>& motion,
                      const Clearance& clearance,
                      double limit) {
-    const double start_gap = signed_distance<Dim>(obstacle, point) - clearance.separation;
+    const double start_gap = signed_distance<Dim>(obstacle, point).value - clearance.separation;
     if (!(start_gap > 0)) {
         return 0;
     }
@@ -112,10 +112,11 @@ double safe_fraction(const Obstacle<Dim>& obstacle,
     const double kept = kGapKept * near_gap;
     const double speed = motion.norm();
     const bool is_concave = is_free_side_convex<Dim>(obstacle);
-    const double end_gap = signed_distance<Dim>(obstacle, point + motion) - clearance.separation;
+    const double end_gap =
+        signed_distance<Dim>(obstacle, point + motion).value - clearance.separation;
     double gap = start_gap;
     double t = 0;
-    for (int advance = 0; advance < kMostAdvances; ++advance) {
+    for (int advance = 0; advance < kMaxAdvances; ++advance) {
         if (speed * (limit - t) <= gap - kept || (is_concave && end_gap >= kept)) {
             return limit;
         }
@@ -127,7 +128,7 @@ double safe_fraction(const Obstacle<Dim>& obstacle,
         if (!(t < limit)) {
             return limit;
         }
-        gap = signed_distance<Dim>(obstacle, point + t * motion) - clearance.separation;
+        gap = signed_distance<Dim>(obstacle, point + t * motion).value - clearance.separation;
         if (gap <= kGapReached * near_gap) {
             return t;
         }

@@ -1,19 +1,40 @@
 #pragma once
 
-#include <pent/contact/closest_points.h>
+#include <pent/contact/stencil.h>
 
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <utility>
-
-// The search behind closest_points(), in a header so that the narrow phase can inline what most pairs
-// need, run_interior(). All faces are in closest_points.cpp, once.
 
 namespace pent::contact {
 
-/// Closest points of two simplices among those nearer than a limit.
+/// The closest points of two simplices in R^Dim:
 ///
-/// Faces are bit masks of corners known at compile time: every face pair has its own straight code.
+///     x = sum beta_i r_i,   y = sum alpha_j p_j,   all beta, alpha >= 0, each summing to 1.
+template <int Dim, int K, int L>
+struct ClosestPoints {
+    Eigen::Matrix<double, K, 1> beta;   ///< Weights in the first simplex.
+    Eigen::Matrix<double, L, 1> alpha;  ///< Weights in the second simplex.
+    Vector<Dim> difference;             ///< x - y, m. Zero, and of no direction, where they touch.
+    double distance_squared = 0;        ///< |x - y|^2, m^2.
+    std::uint8_t first_face = 0;        ///< Bit i: corner i of the first simplex carries x.
+    std::uint8_t second_face = 0;       ///< Bit j: corner j of the second simplex carries y.
+};
+
+/// Closest points of two simplices of K and L corners, K + L = Dim + 1, among those nearer than a
+/// limit: of a point and a facet, or of the mixed pair (edge and edge in R^3, edge and triangle in
+/// R^4).
+///
+/// Minimizes |x - y|^2 over the product of the simplices, a convex polytope: the free minimum over
+/// the affine hulls if its weights are all positive, else the best of the facets it lies beyond.
+/// Where the edges are dependent within 0.01 rad every facet is tried, so that the distance is
+/// right to rounding (1e-14 of the size of the simplices) for parallel, touching and collapsed
+/// simplices too. Which of several closest pairs comes out depends on the order of the corners.
+///
+/// In a header so that searches can inline what most pairs need, run_interior(). All faces are in
+/// the source, once. Faces are bit masks of corners known at compile time: every face pair has its
+/// own straight code.
 template <int Dim, int K, int L>
 class ClosestPointSearch {
 public:
@@ -184,9 +205,9 @@ private:
         best_.second_face = B;
     }
 
-    // Whether all of |offset + edges t|, |t_i| <= 1, is beyond the limit for a reason that is cheap to
-    // see where edges are nearly dependent: an edge that is nearly in the span of those before it
-    // changes what is normal to the span by no more than its own normal part.
+    // Whether all of |offset + edges t|, |t_i| <= 1, is beyond the limit for a reason that is cheap
+    // to see where edges are nearly dependent: an edge that is nearly in the span of those before
+    // it changes what is normal to the span by no more than its own normal part.
     template <int N>
     [[nodiscard]] bool is_apart(const Edges<N>& edges, Vector<Dim> offset) const {
         constexpr double kRounding = 1e-12;

@@ -1,116 +1,94 @@
-#include "pent/contact/crossings.h"
+#include "crossings.h"
 
-#include "fitted_tree.h"
-#include "gather.h"
-
-#include <pent/contact/near_pairs.h>
-
-#include <Eigen/LU>
+#include "near_pairs.h"
+#include "obstacle_contacts.h"
+#include "simplex_crossing.h"
+#include "surface_trees.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace pent::contact {
 
 namespace {
 
-using Real = long double;
-
-// Distances below this part of the largest coordinate count as touching: rounding is a thousandth of
-// that.
+// Distances below this part of the largest coordinate count as touching: rounding is a thousandth
+// of that.
 constexpr double kRounding = 1e-12;
 
-// Sign of a determinant, 0 where rounding may have decided it. The columns are differences of doubles,
-// so their own rounding is within the bound too.
-template <int Dim>
-int sign_of(const Eigen::Matrix<Real, Dim, Dim>& columns) {
-    constexpr Real kErrors = 64;
-    Real size = 1;
-    for (int i = 0; i < Dim; ++i) {
-        size *= columns.col(i).norm();
-    }
-    const Real det = columns.determinant();
-    if (std::abs(det) <= kErrors * std::numeric_limits<Real>::epsilon() * size) {
-        return 0;
-    }
-    return det > 0 ? 1 : -1;
+template <int Count>
+std::vector<std::uint32_t> corners(const Simplices<Count>& simplices, Eigen::Index i) {
+    return {simplices.col(i).data(), simplices.col(i).data() + Count};
 }
 
-// Sign of the coefficient of point i in the affine dependency of Dim + 2 points.
 template <int Dim>
-int dependency_sign(const Eigen::Matrix<Real, Dim, Dim + 2>& points, int i) {
-    const int origin = i == 0 ? 1 : 0;
-    Eigen::Matrix<Real, Dim, Dim> columns;
-    int count = 0;
-    for (int k = 0; k < Dim + 2; ++k) {
-        if (k != i && k != origin) {
-            columns.col(count++) = points.col(k) - points.col(origin);
+std::vector<SurfaceTrees<Dim>> make_trees(const Colliders<Dim>& colliders,
+                                          const PositionsView<Dim>& positions,
+                                          double margin) {
+    std::vector<SurfaceTrees<Dim>> trees(static_cast<std::size_t>(colliders.count()));
+    std::vector<Box> boxes(static_cast<std::size_t>(positions.cols()));
+    for (int i = 0; i < colliders.count(); ++i) {
+        const Surface<Dim>& surface = colliders.surface(i);
+        for (const std::uint32_t v : surface.vertices.reshaped()) {
+            boxes[v] = box_around<Dim, 1>(positions.col(v), margin + colliders.radius(i));
         }
+        trees[static_cast<std::size_t>(i)].update_vertices(surface, boxes);
+        trees[static_cast<std::size_t>(i)].update_faces(surface, boxes);
     }
-    return (i % 2 == 0 ? 1 : -1) * sign_of<Dim>(columns);
+    return trees;
 }
 
+// Two colliders, in this order.
+struct Two {
+    int first = 0;
+    int second = 0;
+};
+
 template <int Dim>
-class Finder {
+class CrossingSearch {
 public:
-    Finder(const std::vector<ContactBody<Dim>>& bodies,
-           const std::vector<bool>& is_held,
-           const PositionsView<Dim>& positions,
-           double separation,
-           std::size_t most)
-        : bodies_(bodies),
-          is_held_(is_held),
+    CrossingSearch(const Colliders<Dim>& colliders,
+                   const PositionsView<Dim>& positions,
+                   std::size_t most)
+        : colliders_(colliders),
           positions_(positions),
-          least_(separation + kRounding * positions.cwiseAbs().maxCoeff()),
-          most_(most) {
-        for (const ContactBody<Dim>& body : bodies) {
-            trees_.emplace_back(make_trees(body.surface));
-        }
-    }
+          least_(colliders.scene().options.separation
+                 + kRounding * (positions.size() == 0 ? 0 : positions.cwiseAbs().maxCoeff())),
+          most_(most),
+          trees_(make_trees<Dim>(colliders, positions, least_)) {}
 
-    void visit(std::size_t a, std::size_t b) {
-        const Surface<Dim>& first = bodies_[a].surface;
-        const Surface<Dim>& second = bodies_[b].surface;
-        bodies_of_pair_ = {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)};
-        add_crossing<2, Dim>(first.edges, trees_[a].edges, second.facets, trees_[b].facets);
+    void add_between(int a, int b) {
+        add_through<2, Dim>({a, b});
         if constexpr (Dim > 3) {
-            add_crossing<3, 3>(first.ridges, trees_[a].ridges, second.ridges, trees_[b].ridges);
+            add_through<3, 3>({a, b});
         }
-        add_touching<1, Dim>(first.vertices, trees_[a].vertices, second.facets, trees_[b].facets);
-        add_touching<2, Dim - 1>(first.edges, trees_[a].edges, second.ridges, ridges(b));
+        add_touching<1, Dim>({a, b});
+        add_touching<2, Dim - 1>({a, b});
         if (a == b) {
             return;
         }
-        add_inside(first, trees_[a], second, trees_[b]);
-        std::swap(bodies_of_pair_[0], bodies_of_pair_[1]);
-        add_crossing<2, Dim>(second.edges, trees_[b].edges, first.facets, trees_[a].facets);
-        add_touching<1, Dim>(second.vertices, trees_[b].vertices, first.facets, trees_[a].facets);
+        add_inside({a, b});
+        add_through<2, Dim>({b, a});
+        add_touching<1, Dim>({b, a});
         if constexpr (Dim > 3) {
-            add_touching<2, Dim - 1>(second.edges, trees_[b].edges, first.ridges, ridges(a));
+            add_touching<2, Dim - 1>({b, a});
         }
-        add_inside(second, trees_[b], first, trees_[a]);
+        add_inside({b, a});
     }
 
-    void visit_obstacle(std::int32_t index, const Obstacle<Dim>& obstacle) {
-        for (std::size_t body = 0; body < bodies_.size(); ++body) {
-            if (bodies_[body].is_kinematic) {
-                continue;
-            }
-            bodies_of_pair_ = {static_cast<std::int32_t>(body), -1 - index};
-            if (const auto* ball = std::get_if<Ball<Dim>>(&obstacle)) {
-                add_at_ball(bodies_[body].surface, trees_[body].facets, *ball);
-                continue;
-            }
-            const Simplices<1>& vertices = bodies_[body].surface.vertices;
-            for (Eigen::Index i = 0; i < vertices.cols(); ++i) {
-                const std::uint32_t vertex = vertices(0, i);
-                const double distance = signed_distance<Dim>(obstacle, positions_.col(vertex));
-                if (!is_held_[vertex] && distance <= least_) {
-                    add(distance < 0 ? CrossingKind::Inside : CrossingKind::Touching, {vertex}, {},
-                        distance);
-                }
+    void add_at_surface(std::uint32_t obstacle, const std::vector<std::uint32_t>& vertices) {
+        const ContactScene<Dim>& scene = colliders_.scene();
+        for (const std::uint32_t vertex : vertices) {
+            const double distance =
+                signed_distance<Dim>(scene.obstacles[obstacle].shape, positions_.col(vertex)).value;
+            if (distance <= least_ && found_.size() < most_) {
+                found_.push_back({distance < 0 ? CrossingKind::Inside : CrossingKind::Touching,
+                                  body_of<Dim>(scene, vertex),
+                                  {Collider::Kind::Obstacle, obstacle},
+                                  {vertex},
+                                  {},
+                                  distance});
             }
         }
     }
@@ -118,137 +96,127 @@ public:
     std::vector<Crossing> take() { return std::move(found_); }
 
 private:
-    struct Trees {
-        BoxTree vertices;
-        BoxTree edges;
-        BoxTree ridges;  // empty in R^3
-        BoxTree facets;
-    };
-
-    [[nodiscard]] Trees make_trees(const Surface<Dim>& surface) const {
-        Trees trees;
-        trees.vertices = BoxTree(boxes_around<Dim, 1>(surface.vertices, positions_, least_));
-        trees.edges = BoxTree(boxes_around<Dim, 2>(surface.edges, positions_, least_));
-        trees.facets = BoxTree(boxes_around<Dim, Dim>(surface.facets, positions_, least_));
-        if constexpr (Dim > 3) {
-            trees.ridges = BoxTree(boxes_around<Dim, Dim - 1>(surface.ridges, positions_, least_));
-        }
-        return trees;
-    }
-
-    [[nodiscard]] const BoxTree& ridges(std::size_t body) const {
-        return Dim > 3 ? trees_[body].ridges : trees_[body].edges;
-    }
-
     template <int Count>
-    static std::vector<std::uint32_t> corners(const Simplices<Count>& simplices, Eigen::Index i) {
-        return {simplices.col(i).data(), simplices.col(i).data() + Count};
+    [[nodiscard]] const Simplices<Count>& simplices(int i) const {
+        return colliders_.surface(i).template simplices<Count>();
     }
-
-    [[nodiscard]] bool are_held(const std::vector<std::uint32_t>& vertices) const {
+    template <int Count>
+    [[nodiscard]] const BoxTree& tree(int i) const {
+        return trees_[static_cast<std::size_t>(i)].template tree<Count>();
+    }
+    [[nodiscard]] bool are_fixed(const std::vector<std::uint32_t>& vertices) const {
         return std::all_of(vertices.begin(), vertices.end(),
-                           [&](std::uint32_t vertex) { return is_held_[vertex]; });
+                           [&](std::uint32_t vertex) { return colliders_.is_fixed(vertex); });
     }
 
+    // Adds what may not be: fixed vertices alone may touch, and meet obstacles.
     void add(CrossingKind kind,
+             const Two& two,
              std::vector<std::uint32_t> first,
              std::vector<std::uint32_t> second,
              double distance) {
-        const bool may_be = kind == CrossingKind::Touching && bodies_of_pair_[1] >= 0
-                            && are_held(first) && are_held(second);
-        if (found_.size() < most_ && !may_be) {
-            found_.push_back({kind, bodies_of_pair_[0], bodies_of_pair_[1], std::move(first),
-                              std::move(second), distance});
+        const bool has_core = colliders_.is_core(two.first) || colliders_.is_core(two.second);
+        const bool may_be =
+            (has_core || kind == CrossingKind::Touching) && are_fixed(first) && are_fixed(second);
+        if (may_be || found_.size() >= most_) {
+            return;
+        }
+        Crossing crossing{kind,
+                          colliders_.collider(two.first),
+                          colliders_.collider(two.second),
+                          std::move(first),
+                          std::move(second),
+                          distance};
+        if (colliders_.is_core(two.first)) {
+            std::swap(crossing.first, crossing.second);
+            std::swap(crossing.first_corners, crossing.second_corners);
+        }
+        if (has_core) {
+            crossing.second_corners.clear();
+        }
+        found_.push_back(std::move(crossing));
+    }
+
+    template <int K, int L>
+    void add_through(const Two& two) {
+        const Simplices<K>& first = simplices<K>(two.first);
+        const Simplices<L>& second = simplices<L>(two.second);
+        const bool is_same_list = &tree<K>(two.first) == &tree<L>(two.second);
+        const CandidateList pairs = sorted(joined(walk_overlaps<CandidateList>(
+            tree<K>(two.first), tree<L>(two.second),
+            [&](std::uint32_t i, std::uint32_t j, CandidateList& found) {
+                if (share_a_vertex<K, L>(first, i, second, j)
+                    || !is_crossing<Dim, K, L>(gather<Dim, K>(first, i, positions_),
+                                               gather<Dim, L>(second, j, positions_))) {
+                    return;
+                }
+                if (is_same_list && j < i) {
+                    std::swap(i, j);
+                }
+                found.pairs.push_back({i, j, 0});
+            })));
+        for (const Candidate& pair : pairs.pairs) {
+            add(CrossingKind::Through, two, corners<K>(first, pair.first),
+                corners<L>(second, pair.second), 0);
         }
     }
 
     template <int K, int L>
-    void add_crossing(const Simplices<K>& first,
-                      const BoxTree& first_tree,
-                      const Simplices<L>& second,
-                      const BoxTree& second_tree) {
-        struct Pair {
-            std::uint32_t i;
-            std::uint32_t j;
-        };
-        std::vector<Pair> pairs;
-        const bool is_same_list = &first_tree == &second_tree;
-        for (const BoxTree::Work& work : BoxTree::split(first_tree, second_tree, 1)) {
-            BoxTree::for_each_overlap(
-                first_tree, second_tree, work, [&](std::uint32_t i, std::uint32_t j) {
-                    const auto a = corners<K>(first, i);
-                    const auto b = corners<L>(second, j);
-                    if (std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) == a.end()
-                        && is_crossing<Dim, K, L>(gather<Dim, K>(first, i, positions_),
-                                                  gather<Dim, L>(second, j, positions_))) {
-                        pairs.push_back({i, j});
-                    }
-                });
-        }
-        for (Pair& pair : pairs) {
-            if (is_same_list && pair.j < pair.i) {
-                std::swap(pair.i, pair.j);
-            }
-        }
-        std::sort(pairs.begin(), pairs.end(),
-                  [](const Pair& p, const Pair& q) { return p.i != q.i ? p.i < q.i : p.j < q.j; });
-        for (const Pair& pair : pairs) {
-            add(CrossingKind::Through, corners<K>(first, pair.i), corners<L>(second, pair.j), 0);
+    void add_touching(const Two& two) {
+        const Simplices<K>& first = simplices<K>(two.first);
+        const Simplices<L>& second = simplices<L>(two.second);
+        const double radius = colliders_.radius(two.first) + colliders_.radius(two.second);
+        const double limit = radius + least_;
+        const CandidateList near = near_pairs<Dim, K, L>(
+            {first, tree<K>(two.first)}, {second, tree<L>(two.second)}, positions_, limit);
+        for (const Candidate& pair : near.pairs) {
+            const Corners<Dim, K> a = gather<Dim, K>(first, pair.first, positions_);
+            const Corners<Dim, L> b = gather<Dim, L>(second, pair.second, positions_);
+            ClosestPointSearch<Dim, K, L> search(a, b, limit * limit);
+            search.run();
+            const double distance = std::sqrt(search.best().distance_squared) - radius;
+            add(distance < 0 ? CrossingKind::Through : CrossingKind::Touching, two,
+                corners<K>(first, pair.first), corners<L>(second, pair.second),
+                std::max(distance, 0.0));
         }
     }
 
-    template <int K, int L>
-    void add_touching(const Simplices<K>& first,
-                      const BoxTree& first_tree,
-                      const Simplices<L>& second,
-                      const BoxTree& second_tree) {
-        const NearPairs near =
-            near_pairs<Dim, K, L>({first, first_tree}, {second, second_tree}, positions_, least_);
-        for (const NearPair& pair : near.pairs) {
-            add(CrossingKind::Touching, corners<K>(first, pair.first),
-                corners<L>(second, pair.second), std::sqrt(pair.distance_squared));
-        }
-    }
-
-    void add_inside(const Surface<Dim>& surface,
-                    const Trees& trees,
-                    const Surface<Dim>& around,
-                    const Trees& trees_around) {
+    // Vertices of the first that are inside the second; of an obstacle one will do.
+    void add_inside(const Two& two) {
+        const Surface<Dim>& surface = colliders_.surface(two.first);
         const std::vector<std::uint8_t> inside =
-            vertices_inside<Dim>(surface, trees.vertices, around, trees_around.facets, positions_);
+            vertices_inside<Dim>(surface, tree<1>(two.first), colliders_.surface(two.second),
+                                 tree<Dim>(two.second), positions_);
         for (std::size_t i = 0; i < inside.size(); ++i) {
-            if (inside[i] != 0) {
-                add(CrossingKind::Inside,
-                    corners<1>(surface.vertices, static_cast<Eigen::Index>(i)), {}, 0);
+            if (inside[i] == 0) {
+                continue;
             }
+            if (colliders_.is_core(two.first)) {
+                add_swallowed(two);
+                return;
+            }
+            add(CrossingKind::Inside, two,
+                corners<1>(surface.vertices, static_cast<Eigen::Index>(i)), {}, 0);
         }
     }
 
-    void add_at_ball(const Surface<Dim>& surface, const BoxTree& facets, const Ball<Dim>& ball) {
-        const Corners<Dim, 1> center = ball.center;
-        std::vector<std::uint32_t> near;
-        facets.for_each_overlap(box_around<Dim, 1>(center, ball.radius + least_),
-                                [&](std::uint32_t facet) { near.push_back(facet); });
-        std::sort(near.begin(), near.end());
-        for (const std::uint32_t facet : near) {
-            const double most = ball.radius + least_;
-            const double squared = distance_squared_within<Dim, 1, Dim>(
-                center, gather<Dim, Dim>(surface.facets, facet, positions_), most * most);
-            if (squared < most * most && !are_held(corners<Dim>(surface.facets, facet))) {
-                const double distance = std::sqrt(squared) - ball.radius;
-                add(distance < 0 ? CrossingKind::Through : CrossingKind::Touching,
-                    corners<Dim>(surface.facets, facet), {}, std::max(distance, 0.0));
-            }
+    // An obstacle inside a body that nothing of is at its surface.
+    void add_swallowed(const Two& two) {
+        const Collider body = colliders_.collider(two.second);
+        const Collider obstacle = colliders_.collider(two.first);
+        const bool is_known = std::any_of(found_.begin(), found_.end(), [&](const Crossing& c) {
+            return c.first == body && c.second == obstacle;
+        });
+        if (!is_known && found_.size() < most_) {
+            found_.push_back({CrossingKind::Inside, body, obstacle, {}, {}, 0});
         }
     }
 
-    const std::vector<ContactBody<Dim>>& bodies_;
-    const std::vector<bool>& is_held_;
+    const Colliders<Dim>& colliders_;
     const PositionsView<Dim>& positions_;
     double least_;
     std::size_t most_;
-    std::vector<Trees> trees_;
-    std::array<std::int32_t, 2> bodies_of_pair_{};
+    std::vector<SurfaceTrees<Dim>> trees_;
     std::vector<Crossing> found_;
 };
 
@@ -269,69 +237,54 @@ std::string name_of(const std::vector<std::uint32_t>& corners, const ContactBody
 
 }  // namespace
 
-template <int Dim, int K, int L>
-bool is_crossing(const Corners<Dim, K>& first, const Corners<Dim, L>& second) {
-    static_assert(K + L == Dim + 2);
-    Eigen::Matrix<Real, Dim, Dim + 2> points;
-    points << first.template cast<Real>(), second.template cast<Real>();
-    const int side = dependency_sign<Dim>(points, 0);
-    for (int i = 1; i < K; ++i) {
-        if (side == 0 || dependency_sign<Dim>(points, i) != side) {
-            return false;
-        }
-    }
-    for (int j = K; j < K + L; ++j) {
-        if (dependency_sign<Dim>(points, j) != -side) {
-            return false;
-        }
-    }
-    return true;
-}
-
 template <int Dim>
-std::vector<Crossing> find_crossings(const std::vector<ContactBody<Dim>>& bodies,
-                                     const std::vector<Obstacle<Dim>>& obstacles,
-                                     const std::vector<bool>& is_held,
+std::vector<Crossing> find_crossings(const Colliders<Dim>& colliders,
+                                     const std::vector<std::uint32_t>& vertices,
                                      const PositionsView<Dim>& positions,
-                                     double separation,
-                                     bool self,
                                      std::size_t most) {
-    Finder<Dim> finder(bodies, is_held, positions, separation, most);
-    for (std::size_t a = 0; a < bodies.size(); ++a) {
-        for (std::size_t b = self ? a : a + 1; b < bodies.size(); ++b) {
-            finder.visit(a, b);
+    CrossingSearch<Dim> search(colliders, positions, most);
+    for (int a = 0; a < colliders.count(); ++a) {
+        for (int b = a; b < colliders.count(); ++b) {
+            if (colliders.can_meet(a, b)) {
+                search.add_between(a, b);
+            }
         }
     }
-    for (std::size_t o = 0; o < obstacles.size(); ++o) {
-        finder.visit_obstacle(static_cast<std::int32_t>(o), obstacles[o]);
+    for (std::uint32_t o = 0; o < colliders.scene().obstacles.size(); ++o) {
+        if (meets_vertices(colliders, o)) {
+            search.add_at_surface(o, vertices);
+        }
     }
-    return finder.take();
+    return search.take();
 }
 
 template <int Dim>
-std::string describe(const Crossing& crossing, const std::vector<ContactBody<Dim>>& bodies) {
-    const std::string first = name_of<Dim>(crossing.first, bodies[crossing.first_body]);
+std::string describe(const Crossing& crossing, const ContactScene<Dim>& scene) {
+    const ContactBody<Dim>& body = scene.bodies[crossing.first.index];
+    const std::string obstacle = "obstacle " + std::to_string(crossing.second.index);
+    if (crossing.first_corners.empty()) {
+        return obstacle + " is inside '" + body.name + "'";
+    }
+    const std::string first = name_of<Dim>(crossing.first_corners, body);
     const std::string how = crossing.kind == CrossingKind::Through    ? " goes through "
                             : crossing.kind == CrossingKind::Touching ? " touches "
                                                                       : " is inside ";
-    if (crossing.second_body < 0) {
-        return first + how + "obstacle " + std::to_string(-1 - crossing.second_body);
+    if (crossing.second.is_obstacle()) {
+        return first + how + obstacle;
     }
-    const ContactBody<Dim>& second = bodies[crossing.second_body];
+    const ContactBody<Dim>& second = scene.bodies[crossing.second.index];
     return first + how
-           + (crossing.second.empty() ? "'" + second.name + "'"
-                                      : name_of<Dim>(crossing.second, second));
+           + (crossing.second_corners.empty() ? "'" + second.name + "'"
+                                              : name_of<Dim>(crossing.second_corners, second));
 }
 
-#define PENT_INSTANTIATE(Dim)                                                                  \
-    template std::vector<Crossing> find_crossings<Dim>(                                        \
-        const std::vector<ContactBody<Dim>>&, const std::vector<Obstacle<Dim>>&,               \
-        const std::vector<bool>&, const PositionsView<Dim>&, double, bool, std::size_t);       \
-    template std::string describe<Dim>(const Crossing&, const std::vector<ContactBody<Dim>>&); \
-    template bool is_crossing<Dim, 2, Dim>(const Corners<Dim, 2>&, const Corners<Dim, Dim>&);
+#define PENT_INSTANTIATE(Dim)                                                              \
+    template std::vector<Crossing> find_crossings(const Colliders<Dim>&,                   \
+                                                  const std::vector<std::uint32_t>&,       \
+                                                  const PositionsView<Dim>&, std::size_t); \
+    template std::string describe(const Crossing&, const ContactScene<Dim>&);
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
-template bool is_crossing<4, 3, 3>(const Corners<4, 3>&, const Corners<4, 3>&);
 
 }  // namespace pent::contact

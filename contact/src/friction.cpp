@@ -1,10 +1,14 @@
 #include "pent/contact/friction.h"
 
+#include "chunks.h"
+
 #include <cmath>
 
 namespace pent::contact {
 
 namespace {
+
+constexpr std::size_t kChunk = 1024;
 
 // f1(y) / y, which is 2 / e at y = 0.
 double force_over_slip(double y, double e) {
@@ -23,30 +27,122 @@ double energy(double y, double e) {
 }  // namespace
 
 template <int Dim>
-Response<Dim> friction_response(const FrictionContact<Dim>& contact,
-                                const Vector<Dim>& slip,
-                                const Friction& friction,
-                                double h,
-                                FrictionLaw law) {
-    const double e = friction.slip_speed * h;
-    const Vector<Dim> u = slip - contact.normal.dot(slip) * contact.normal;
+FrictionResponse<Dim> friction_response(
+    const Vector<Dim>& normal, double force, const Vector<Dim>& slip, double e, FrictionLaw law) {
+    const Vector<Dim> u = slip - normal.dot(slip) * normal;
     const double y = u.norm();
-    const double across = contact.force * force_over_slip(y, e);
-    Response<Dim> response;
-    response.energy = contact.force * energy(y, e);
+    const double across = force * force_over_slip(y, e);
+    FrictionResponse<Dim> response;
+    response.energy = force * energy(y, e);
     response.gradient = across * u;
-    response.hessian = -across * contact.normal * contact.normal.transpose();
+    response.hessian = -across * normal * normal.transpose();
     response.hessian.diagonal().array() += across;
     if (law == FrictionLaw::Energy && y > 0) {
-        const double along = contact.force * force_slope(y, e);
+        const double along = force * force_slope(y, e);
         response.hessian += (along - across) / (y * y) * u * u.transpose();
     }
     return response;
 }
 
-template Response<3> friction_response<3>(
-    const FrictionContact<3>&, const Vector<3>&, const Friction&, double, FrictionLaw);
-template Response<4> friction_response<4>(
-    const FrictionContact<4>&, const Vector<4>&, const Friction&, double, FrictionLaw);
+template <int Dim>
+Vector<Dim> LaggedFriction<Dim>::weighted_sum(const Lagged& lagged, const Positions<Dim>& vectors) {
+    Vector<Dim> sum = Vector<Dim>::Zero();
+    for (int i = 0; i < lagged.count; ++i) {
+        sum += lagged.weights[i] * vectors.col(lagged.vertices[i]);
+    }
+    return sum;
+}
+
+template <int Dim>
+void LaggedFriction<Dim>::begin_step(const std::vector<Contact<Dim>>& contacts,
+                                     const Positions<Dim>& positions,
+                                     const Positions<Dim>* velocities,
+                                     double h) {
+    slip_ = friction_.slip_speed * h;
+    is_linear_ = velocities != nullptr;
+    lagged_ =
+        collect<Lagged>(contacts.size(), kChunk, [&](std::size_t i, std::vector<Lagged>& list) {
+            const Contact<Dim>& contact = contacts[i];
+            if (contact.slope == 0) {
+                return;
+            }
+            Lagged lagged;
+            lagged.vertices = contact.vertices;
+            lagged.weights = contact.weights;
+            lagged.count = contact.count;
+            lagged.normal = contact.direction;
+            lagged.force = friction_.coefficient * std::abs(contact.slope);
+            lagged.start = weighted_sum(lagged, positions);
+            lagged.resistance.setZero();
+            if (velocities != nullptr) {
+                lagged.resistance = friction_response<Dim>(lagged.normal, lagged.force,
+                                                           h * weighted_sum(lagged, *velocities),
+                                                           slip_, FrictionLaw::Secant)
+                                        .hessian;
+            }
+            list.push_back(lagged);
+        });
+}
+
+template <int Dim>
+FrictionResponse<Dim> LaggedFriction<Dim>::respond(const Lagged& lagged,
+                                                   const Positions<Dim>& positions) const {
+    const Vector<Dim> slip = weighted_sum(lagged, positions) - lagged.start;
+    if (!is_linear_) {
+        return friction_response<Dim>(lagged.normal, lagged.force, slip, slip_,
+                                      FrictionLaw::Energy);
+    }
+    FrictionResponse<Dim> response;
+    response.hessian = lagged.resistance;
+    response.gradient = lagged.resistance * slip;
+    response.energy = 0.5 * slip.dot(response.gradient);
+    return response;
+}
+
+template <int Dim>
+double LaggedFriction<Dim>::add_gradient(const Positions<Dim>& positions,
+                                         Positions<Dim>& gradient) const {
+    struct Part {
+        double energy = 0;
+        Vector<Dim> gradient;
+    };
+    const std::vector<Part> parts =
+        collect<Part>(lagged_.size(), kChunk, [&](std::size_t i, std::vector<Part>& list) {
+            const FrictionResponse<Dim> response = respond(lagged_[i], positions);
+            list.push_back({response.energy, response.gradient});
+        });
+    double energy = 0;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const Lagged& lagged = lagged_[k];
+        energy += parts[k].energy;
+        for (int i = 0; i < lagged.count; ++i) {
+            gradient.col(lagged.vertices[i]) += lagged.weights[i] * parts[k].gradient;
+        }
+    }
+    return energy;
+}
+
+template <int Dim>
+StencilHessians<Dim> LaggedFriction<Dim>::hessians(const Positions<Dim>& positions) const {
+    StencilHessians<Dim> hessians;
+    hessians.weighted.resize(lagged_.size());
+    for_each_chunk(lagged_.size(), kChunk,
+                   [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
+                       for (std::size_t i = begin; i < end; ++i) {
+                           const Lagged& lagged = lagged_[i];
+                           hessians.weighted[i] = {lagged.vertices, lagged.count, lagged.weights,
+                                                   respond(lagged, positions).hessian};
+                       }
+                   });
+    return hessians;
+}
+
+#define PENT_INSTANTIATE(Dim)                                                 \
+    template FrictionResponse<Dim> friction_response<Dim>(                    \
+        const Vector<Dim>&, double, const Vector<Dim>&, double, FrictionLaw); \
+    template class LaggedFriction<Dim>;
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

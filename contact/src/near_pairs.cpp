@@ -1,6 +1,6 @@
-#include "pent/contact/near_pairs.h"
+#include "near_pairs.h"
 
-#include "collect_pairs.h"
+#include "winding_number.h"
 
 #include <pent/parallel.h>
 
@@ -73,44 +73,18 @@ private:
 }  // namespace
 
 template <int Dim, int K, int L>
-NearPairs near_pairs(const SearchSet<K>& first,
-                     const SearchSet<L>& second,
-                     const PositionsView<Dim>& positions,
-                     double distance,
-                     Closest closest) {
-    const double limit = distance * distance;
-    const bool is_same_list = &first.tree == &second.tree;
-    const std::vector<BoxTree::Work> work = BoxTree::split(first.tree, second.tree, kPieces);
-    std::vector<NearPairs> found(work.size());
-    parallel_for(work.size(), [&](std::size_t piece) {
-        NearPairs& here = found[piece];
-        BoxTree::for_each_overlap(
-            first.tree, second.tree, work[piece], [&](std::uint32_t i, std::uint32_t j) {
-                visit_candidate<Dim, K, L>(first.simplices, i, second.simplices, j, is_same_list,
-                                           positions, limit, closest, here);
-            });
-    });
-    return merge(found);
-}
-
-template <int Dim, int K, int L>
-NearPairs still_near_pairs(const NearPairs& before,
-                           const Simplices<K>& first,
-                           const Simplices<L>& second,
-                           const PositionsView<Dim>& positions,
-                           double distance,
-                           Closest closest) {
-    constexpr std::size_t kChunk = 1024;
-    std::vector<NearPairs> found((before.pairs.size() + kChunk - 1) / kChunk);
-    parallel_for(found.size(), [&](std::size_t chunk) {
-        const std::size_t end = std::min((chunk + 1) * kChunk, before.pairs.size());
-        for (std::size_t k = chunk * kChunk; k < end; ++k) {
-            add_if_near<Dim, K, L>(first, before.pairs[k].first, second, before.pairs[k].second,
-                                   positions, distance * distance, closest, found[chunk]);
-            ++found[chunk].candidates;
-        }
-    });
-    return merge(found);
+CandidateList near_pairs(const SearchSet<K>& first,
+                         const SearchSet<L>& second,
+                         const PositionsView<Dim>& positions,
+                         double distance,
+                         Closest closest) {
+    const NearTest<Dim, K, L> test{.first = first.simplices,
+                                   .second = second.simplices,
+                                   .is_same_list = &first.tree == &second.tree,
+                                   .positions = positions,
+                                   .limit_squared = distance * distance,
+                                   .closest = closest};
+    return sorted(joined(walk_overlaps<CandidateList>(first.tree, second.tree, test)));
 }
 
 template <int Dim>
@@ -123,72 +97,42 @@ std::vector<std::uint8_t> vertices_inside(const Surface<Dim>& surface,
 }
 
 template <int Dim>
-NearPair nearest_facet(const Surface<Dim>& surface,
-                       const BoxTree& facets,
-                       const PositionsView<Dim>& positions,
-                       const Vector<Dim>& point) {
-    NearPair best;
-    best.distance_squared = std::numeric_limits<double>::infinity();
+std::uint32_t nearest_facet(const Surface<Dim>& surface,
+                            const BoxTree& facets,
+                            const PositionsView<Dim>& positions,
+                            const Vector<Dim>& point) {
+    std::uint32_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
     const Corners<Dim, 1> corner = point;
-    facets.for_each_near<Dim>(point, best.distance_squared, [&](std::uint32_t f) {
+    facets.for_each_near<Dim>(point, least, [&](std::uint32_t f) {
         const Corners<Dim, Dim> corners = gather<Dim, Dim>(surface.facets, f, positions);
         // Without a limit, so that the distance is the same whatever was met before.
         ClosestPointSearch<Dim, 1, Dim> search(corner, corners,
                                                std::numeric_limits<double>::infinity());
         search.run();
         const double squared = search.best().distance_squared;
-        if (squared < best.distance_squared
-            || (squared == best.distance_squared && f < best.second)) {
-            best = {0, f, squared};
+        if (squared < least || (squared == least && f < nearest)) {
+            nearest = f;
+            least = squared;
         }
-        return best.distance_squared;
+        return least;
     });
-    return best;
+    return nearest;
 }
 
-template NearPairs near_pairs<3, 1, 3>(
-    const SearchSet<1>&, const SearchSet<3>&, const PositionsView<3>&, double, Closest);
-template NearPairs near_pairs<3, 2, 2>(
-    const SearchSet<2>&, const SearchSet<2>&, const PositionsView<3>&, double, Closest);
-template NearPairs still_near_pairs<3, 1, 3>(const NearPairs&,
-                                             const Simplices<1>&,
-                                             const Simplices<3>&,
-                                             const PositionsView<3>&,
-                                             double,
-                                             Closest);
-template NearPairs still_near_pairs<3, 2, 2>(const NearPairs&,
-                                             const Simplices<2>&,
-                                             const Simplices<2>&,
-                                             const PositionsView<3>&,
-                                             double,
-                                             Closest);
-template std::vector<std::uint8_t> vertices_inside<3>(
-    const Surface<3>&, const BoxTree&, const Surface<3>&, const BoxTree&, const PositionsView<3>&);
-template NearPair nearest_facet<3>(const Surface<3>&,
-                                   const BoxTree&,
-                                   const PositionsView<3>&,
-                                   const Vector<3>&);
-template NearPairs near_pairs<4, 1, 4>(
-    const SearchSet<1>&, const SearchSet<4>&, const PositionsView<4>&, double, Closest);
-template NearPairs near_pairs<4, 2, 3>(
-    const SearchSet<2>&, const SearchSet<3>&, const PositionsView<4>&, double, Closest);
-template NearPairs still_near_pairs<4, 1, 4>(const NearPairs&,
-                                             const Simplices<1>&,
-                                             const Simplices<4>&,
-                                             const PositionsView<4>&,
-                                             double,
-                                             Closest);
-template NearPairs still_near_pairs<4, 2, 3>(const NearPairs&,
-                                             const Simplices<2>&,
-                                             const Simplices<3>&,
-                                             const PositionsView<4>&,
-                                             double,
-                                             Closest);
-template std::vector<std::uint8_t> vertices_inside<4>(
-    const Surface<4>&, const BoxTree&, const Surface<4>&, const BoxTree&, const PositionsView<4>&);
-template NearPair nearest_facet<4>(const Surface<4>&,
-                                   const BoxTree&,
-                                   const PositionsView<4>&,
-                                   const Vector<4>&);
+#define PENT_INSTANTIATE(Dim)                                                                    \
+    template CandidateList near_pairs<Dim, 1, Dim>(const SearchSet<1>&, const SearchSet<Dim>&,   \
+                                                   const PositionsView<Dim>&, double, Closest);  \
+    template CandidateList near_pairs<Dim, 2, Dim - 1>(                                          \
+        const SearchSet<2>&, const SearchSet<Dim - 1>&, const PositionsView<Dim>&, double,       \
+        Closest);                                                                                \
+    template std::vector<std::uint8_t> vertices_inside<Dim>(const Surface<Dim>&, const BoxTree&, \
+                                                            const Surface<Dim>&, const BoxTree&, \
+                                                            const PositionsView<Dim>&);          \
+    template std::uint32_t nearest_facet<Dim>(const Surface<Dim>&, const BoxTree&,               \
+                                              const PositionsView<Dim>&, const Vector<Dim>&);
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

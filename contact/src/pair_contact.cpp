@@ -2,9 +2,11 @@
 
 #include "closest_point_search.h"
 #include "gather.h"
+#include "normals.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pent::contact {
 
@@ -16,7 +18,7 @@ constexpr double kTouching = 1e-6;
 
 // Least sine of the angle at which a pair has to see the surfaces beside it, from the front or from
 // the back, to be in contact.
-constexpr double kLeastView = 0.2;
+constexpr double kMinView = 0.2;
 
 // A mixed pair fades where its closest points come this near to a border, in barycentric weight:
 // there a neighboring pair, or a vertex and a facet, takes over. Wide, so that its forces along the
@@ -49,9 +51,9 @@ View<Dim> view(const ClosestPoints<Dim, K, L>& points,
     const double first_faces = -from_second.dot(first_normal);
     View<Dim> result;
     const double least = std::min(std::abs(first_faces), std::abs(second_faces));
-    if (second_faces * first_faces > 0 && least > kLeastView) {
+    if (second_faces * first_faces > 0 && least > kMinView) {
         result.side = second_faces > 0 ? 1 : -1;
-        result.weight = std::min(1.0, (least - kLeastView) / kLeastView);
+        result.weight = std::min(1.0, (least - kMinView) / kMinView);
         result.direction = result.side * from_second;
     }
     return result;
@@ -73,7 +75,7 @@ bool is_culled(const PairSetting<Dim>& setting,
                const Simplices<L>& second,
                std::uint32_t j,
                double side) {
-    const double least = (side < 0 ? kThin : 1) * setting.options.distance;
+    const double least = (side < 0 ? kThin : 1) * setting.distance;
     const Corners<Dim, K> a = gather<Dim, K>(first, i, setting.rest);
     const Corners<Dim, L> b = gather<Dim, L>(second, j, setting.rest);
     return ClosestPointSearch<Dim, K, L>(a, b, least * least).run();
@@ -98,8 +100,11 @@ Contact<Dim> make_contact(const PairSetting<Dim>& setting,
     std::copy_n(second, L, contact.vertices.begin() + K);
     contact.weights << points.beta, -points.alpha;
     contact.kind = K == 1 ? ContactKind::PointFacet : ContactKind::Mixed;
-    contact.first_body = setting.first_body;
-    contact.second_body = setting.second_body;
+    contact.first = setting.first;
+    contact.second = setting.second;
+    contact.count = K + L;
+    contact.first_count = K;
+    contact.corner_count = K + L;
     return contact;
 }
 
@@ -111,7 +116,7 @@ std::optional<Contact<Dim>> solid_contact(const PairSetting<Dim>& setting,
                                           const Simplices<Dim>& facets,
                                           std::uint32_t facet,
                                           bool is_inside) {
-    const double eps = setting.options.distance;
+    const double eps = setting.distance;
     const Corners<Dim, 1> point = setting.positions.col(vertex);
     const Corners<Dim, Dim> corners = gather<Dim, Dim>(facets, facet, setting.positions);
     ClosestPointSearch<Dim, 1, Dim> search(point, corners, std::numeric_limits<double>::infinity());
@@ -131,9 +136,7 @@ std::optional<Contact<Dim>> solid_contact(const PairSetting<Dim>& setting,
     Contact<Dim> contact =
         make_contact<Dim, 1, Dim>(setting, search.best(), &vertex, facets.col(facet).data());
     contact.distance = side * l;
-    contact.response = pair_response<Dim>(contact.distance, direction,
-                                          {eps, setting.options.stiffness, Reach::AnyDepth}, 1,
-                                          setting.options.filter);
+    contact.direction = direction;
     return contact;
 }
 
@@ -143,7 +146,7 @@ std::optional<Contact<Dim>> local_contact(const PairSetting<Dim>& setting,
                                           std::uint32_t i,
                                           const Simplices<L>& second,
                                           std::uint32_t j) {
-    const double eps = setting.options.distance;
+    const double eps = setting.distance;
     const Corners<Dim, K> a = gather<Dim, K>(first, i, setting.positions);
     const Corners<Dim, L> b = gather<Dim, L>(second, j, setting.positions);
     ClosestPointSearch<Dim, K, L> search(a, b, eps * eps);
@@ -156,29 +159,30 @@ std::optional<Contact<Dim>> local_contact(const PairSetting<Dim>& setting,
         normal_at<Dim, L>(setting.normals, second, j, points.alpha), kTouching * eps);
     const double weight = seen.weight * (K == 1 ? 1 : fade_of<Dim, K, L>(points));
     if (weight == 0
-        || (setting.is_self() && is_culled<Dim, K, L>(setting, first, i, second, j, seen.side))) {
+        || (setting.first == setting.second
+            && is_culled<Dim, K, L>(setting, first, i, second, j, seen.side))) {
         return {};
     }
     Contact<Dim> contact =
         make_contact<Dim, K, L>(setting, points, first.col(i).data(), second.col(j).data());
     contact.distance = seen.side * std::sqrt(points.distance_squared);
-    contact.response = pair_response<Dim>(contact.distance, seen.direction,
-                                          {eps, setting.options.stiffness, Reach::Fading}, weight,
-                                          setting.options.filter);
+    contact.direction = seen.direction;
+    contact.share = weight;
+    contact.is_fading = true;
     return contact;
 }
 
-template std::optional<Contact<3>> solid_contact<3>(
-    const PairSetting<3>&, std::uint32_t, const Simplices<3>&, std::uint32_t, bool);
-template std::optional<Contact<3>> local_contact<3, 1, 3>(
-    const PairSetting<3>&, const Simplices<1>&, std::uint32_t, const Simplices<3>&, std::uint32_t);
-template std::optional<Contact<3>> local_contact<3, 2, 2>(
-    const PairSetting<3>&, const Simplices<2>&, std::uint32_t, const Simplices<2>&, std::uint32_t);
-template std::optional<Contact<4>> solid_contact<4>(
-    const PairSetting<4>&, std::uint32_t, const Simplices<4>&, std::uint32_t, bool);
-template std::optional<Contact<4>> local_contact<4, 1, 4>(
-    const PairSetting<4>&, const Simplices<1>&, std::uint32_t, const Simplices<4>&, std::uint32_t);
-template std::optional<Contact<4>> local_contact<4, 2, 3>(
-    const PairSetting<4>&, const Simplices<2>&, std::uint32_t, const Simplices<3>&, std::uint32_t);
+#define PENT_INSTANTIATE(Dim)                                                                   \
+    template std::optional<Contact<Dim>> solid_contact<Dim>(                                    \
+        const PairSetting<Dim>&, std::uint32_t, const Simplices<Dim>&, std::uint32_t, bool);    \
+    template std::optional<Contact<Dim>> local_contact<Dim, 1, Dim>(                            \
+        const PairSetting<Dim>&, const Simplices<1>&, std::uint32_t, const Simplices<Dim>&,     \
+        std::uint32_t);                                                                         \
+    template std::optional<Contact<Dim>> local_contact<Dim, 2, Dim - 1>(                        \
+        const PairSetting<Dim>&, const Simplices<2>&, std::uint32_t, const Simplices<Dim - 1>&, \
+        std::uint32_t);
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

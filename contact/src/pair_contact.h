@@ -1,23 +1,22 @@
 #pragma once
 
-#include <pent/contact/contacts.h>
+#include <pent/contact/contact.h>
+#include <pent/contact/surface.h>
 
 #include <optional>
 
 namespace pent::contact {
 
-/// What is needed to judge one pair.
+/// What pairs of two bodies (or of one) are judged by under the penalty model.
 template <int Dim>
 struct PairSetting {
     const PositionsView<Dim>& positions;
     const Positions<Dim>& rest;     ///< Read for pairs within a body.
     const Positions<Dim>& normals;  ///< Unit outward normals at boundary vertices; read for local
                                     ///< contacts.
-    const ContactOptions& options;
-    std::int32_t first_body = 0;
-    std::int32_t second_body = 0;
-
-    [[nodiscard]] bool is_self() const { return first_body == second_body; }
+    double distance = 0;            ///< Of contact, m.
+    Collider first;
+    Collider second;
 };
 
 /// Contact of a vertex with another body at its nearest facet; none if it is outside and too far.

@@ -1,9 +1,5 @@
 #include "pairs_within.h"
 
-#include "collect_pairs.h"
-
-#include <pent/parallel.h>
-
 #include <array>
 
 namespace pent::contact {
@@ -104,38 +100,37 @@ private:
 }  // namespace
 
 template <int Dim, int K, int L>
-NearPairs pairs_within(const PatchedSet<Dim, K>& first,
-                       const PatchedSet<Dim, L>& second,
-                       const PositionsView<Dim>& positions,
-                       double distance,
-                       double rest_distance,
-                       Closest closest) {
-    const double limit = distance * distance;
-    const bool is_same_list = &first.tree == &second.tree;
+CandidateList pairs_within(const PatchedSet<Dim, K>& first,
+                           const PatchedSet<Dim, L>& second,
+                           const PositionsView<Dim>& positions,
+                           double distance,
+                           double rest_distance,
+                           Closest closest) {
+    const NearTest<Dim, K, L> test{.first = first.simplices,
+                                   .second = second.simplices,
+                                   .is_same_list = &first.tree == &second.tree,
+                                   .positions = positions,
+                                   .limit_squared = distance * distance,
+                                   .closest = closest};
     const PatchWalk walk(first.tree, second.tree);
     const std::vector<Work> work = walk.split();
-    std::vector<NearPairs> found(work.size());
-    const auto visit_patches = [&](const Work& patches, NearPairs& here) {
-        const auto& [a, b] = patches;
-        if (!stay_apart<Dim>(first.motions[a.patch], second.motions[b.patch], rest_distance,
-                             distance)) {
-            BoxTree::for_each_overlap(first.tree, second.tree, {a.range, b.range, a.box, b.box},
-                                      [&](std::uint32_t i, std::uint32_t j) {
-                                          visit_candidate<Dim, K, L>(
-                                              first.simplices, i, second.simplices, j, is_same_list,
-                                              positions, limit, closest, here);
-                                      });
-        }
-    };
+    std::vector<CandidateList> found(work.size());
     parallel_for(work.size(), [&](std::size_t piece) {
-        walk.for_each_patches(work[piece],
-                              [&](const Work& patches) { visit_patches(patches, found[piece]); });
+        walk.for_each_patches(work[piece], [&](const Work& patches) {
+            const auto& [a, b] = patches;
+            if (!stay_apart<Dim>(first.motions[a.patch], second.motions[b.patch], rest_distance,
+                                 distance)) {
+                BoxTree::for_each_overlap(
+                    first.tree, second.tree, {a.range, b.range, a.box, b.box},
+                    [&](std::uint32_t i, std::uint32_t j) { test(i, j, found[piece]); });
+            }
+        });
     });
-    return merge(found);
+    return sorted(joined(found));
 }
 
 #define PENT_INSTANTIATE(Dim, K, L)                                                              \
-    template NearPairs pairs_within<Dim, K, L>(                                                  \
+    template CandidateList pairs_within<Dim, K, L>(                                              \
         const PatchedSet<Dim, K>&, const PatchedSet<Dim, L>&, const PositionsView<Dim>&, double, \
         double, Closest);
 PENT_INSTANTIATE(3, 1, 3)

@@ -1,5 +1,7 @@
 #include "patches.h"
 
+#include "normals.h"
+
 #include <pent/parallel.h>
 
 #include <Eigen/Eigenvalues>
@@ -12,7 +14,7 @@ namespace pent::contact {
 namespace {
 
 // Simplices of a patch, at most. Small ones are nearer to an affine map, large ones fewer.
-constexpr std::size_t kMostInPatch = 16;
+constexpr std::size_t kMaxInPatch = 16;
 
 // Mean squared offset along the thinnest axis of a patch, over that along the next: below, it is
 // flat. Then, and only then, what lies across it is taken to move without stretch.
@@ -54,7 +56,7 @@ std::vector<std::uint32_t> vertices_of(const Simplices<Count>& simplices,
 
 int patch_depth(std::size_t simplices) {
     int depth = 0;
-    for (; simplices > kMostInPatch; simplices = (simplices + 1) / 2) {
+    for (; simplices > kMaxInPatch; simplices = (simplices + 1) / 2) {
         ++depth;
     }
     return depth;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "box_tree.h"
+
 #include <pent/contact/surface.h>
 
 #include <limits>
@@ -23,8 +25,8 @@ struct PatchMotion {
 /// Whether a point of one and a point of the other patch that are `rest_distance` apart at rest, or
 /// more, are certainly more than `distance` apart now. Never true where something is not finite.
 ///
-/// With G the mean of both maps, x - y is G (X - Y), which is no shorter than the rest distance times
-/// the least stretch of G, and what the maps and centers lack to agree with G.
+/// With G the mean of both maps, x - y is G (X - Y), which is no shorter than the rest distance
+/// times the least stretch of G, and what the maps and centers lack to agree with G.
 template <int Dim>
 [[nodiscard]] bool stay_apart(const PatchMotion<Dim>& first,
                               const PatchMotion<Dim>& second,

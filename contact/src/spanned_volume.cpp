@@ -1,6 +1,6 @@
-#include "pent/contact/barrier.h"
+#include "spanned_volume.h"
 
-#include <pent/contact/surface.h>
+#include "normals.h"
 
 #include <array>
 
@@ -11,19 +11,28 @@ namespace {
 template <int Dim>
 using Edges = Eigen::Matrix<double, Dim, Dim - 1>;
 
-// The corner at which each edge starts: those of the first simplex at corner 0, of the ridge at 2.
-constexpr int start(int edge) {
-    return edge == 0 ? 0 : 2;
-}
-constexpr int end(int edge) {
-    return edge == 0 ? 1 : edge + 2;
-}
+// The corners at which the edges start and end: the first is that of the edge, all others are those
+// of the ridge from its first corner.
+template <int Dim>
+struct Layout {
+    int edge = 0;
+    int ridge = 2;
+
+    explicit Layout(int first_count) {
+        if (first_count != 2) {
+            ridge = 0;
+            edge = Dim - 1;
+        }
+    }
+    [[nodiscard]] int start(int k) const { return k == 0 ? edge : ridge; }
+    [[nodiscard]] int end(int k) const { return k == 0 ? edge + 1 : ridge + k; }
+};
 
 template <int Dim>
-Edges<Dim> edges_of(const Stencil<Dim>& points) {
+Edges<Dim> edges_of(const Stencil<Dim>& points, const Layout<Dim>& at) {
     Edges<Dim> edges;
     for (int k = 0; k < Dim - 1; ++k) {
-        edges.col(k) = points.col(end(k)) - points.col(start(k));
+        edges.col(k) = points.col(at.end(k)) - points.col(at.start(k));
     }
     return edges;
 }
@@ -38,8 +47,8 @@ Vector<Dim> normal_to(const Edges<Dim>& edges) {
 
 // Derivative of the normal by edge k: it is linear in each edge.
 template <int Dim>
-Eigen::Matrix<double, Dim, Dim> normal_by_edge(Edges<Dim> edges, int k) {
-    Eigen::Matrix<double, Dim, Dim> jacobian;
+Block<Dim> normal_by_edge(Edges<Dim> edges, int k) {
+    Block<Dim> jacobian;
     for (int axis = 0; axis < Dim; ++axis) {
         edges.col(k) = Vector<Dim>::Unit(axis);
         jacobian.col(axis) = normal_to<Dim>(edges);
@@ -49,45 +58,48 @@ Eigen::Matrix<double, Dim, Dim> normal_by_edge(Edges<Dim> edges, int k) {
 
 // Adds a block between two edges to the blocks between their corners.
 template <int Dim>
-void add_block(int k, int l, const Eigen::Matrix<double, Dim, Dim>& block, StencilMatrix<Dim>& to) {
-    to.template block<Dim, Dim>(Dim * end(k), Dim * end(l)) += block;
-    to.template block<Dim, Dim>(Dim * start(k), Dim * start(l)) += block;
-    to.template block<Dim, Dim>(Dim * end(k), Dim * start(l)) -= block;
-    to.template block<Dim, Dim>(Dim * start(k), Dim * end(l)) -= block;
+void add_block(
+    const Layout<Dim>& at, int k, int l, const Block<Dim>& block, StencilMatrix<Dim>& to) {
+    to.template block<Dim, Dim>(Dim * at.end(k), Dim * at.end(l)) += block;
+    to.template block<Dim, Dim>(Dim * at.start(k), Dim * at.start(l)) += block;
+    to.template block<Dim, Dim>(Dim * at.end(k), Dim * at.start(l)) -= block;
+    to.template block<Dim, Dim>(Dim * at.start(k), Dim * at.end(l)) -= block;
 }
 
 }  // namespace
 
 template <int Dim>
-double spanned_volume_squared(const Stencil<Dim>& points) {
-    return normal_to<Dim>(edges_of<Dim>(points)).squaredNorm();
+double spanned_volume_squared(const Stencil<Dim>& points, int first_count) {
+    return normal_to<Dim>(edges_of<Dim>(points, Layout<Dim>(first_count))).squaredNorm();
 }
 
 template <int Dim>
-StencilVector<Dim> spanned_volume_squared_gradient(const Stencil<Dim>& points) {
-    const Edges<Dim> edges = edges_of<Dim>(points);
+StencilVector<Dim> spanned_volume_squared_gradient(const Stencil<Dim>& points, int first_count) {
+    const Layout<Dim> at(first_count);
+    const Edges<Dim> edges = edges_of<Dim>(points, at);
     const Vector<Dim> normal = normal_to<Dim>(edges);
     StencilVector<Dim> gradient = StencilVector<Dim>::Zero();
     for (int k = 0; k < Dim - 1; ++k) {
         const Vector<Dim> by_edge = 2 * normal_by_edge<Dim>(edges, k).transpose() * normal;
-        gradient.template segment<Dim>(Dim * end(k)) += by_edge;
-        gradient.template segment<Dim>(Dim * start(k)) -= by_edge;
+        gradient.template segment<Dim>(Dim * at.end(k)) += by_edge;
+        gradient.template segment<Dim>(Dim * at.start(k)) -= by_edge;
     }
     return gradient;
 }
 
 template <int Dim>
-StencilMatrix<Dim> spanned_volume_squared_hessian(const Stencil<Dim>& points) {
-    const Edges<Dim> edges = edges_of<Dim>(points);
+StencilMatrix<Dim> spanned_volume_squared_hessian(const Stencil<Dim>& points, int first_count) {
+    const Layout<Dim> at(first_count);
+    const Edges<Dim> edges = edges_of<Dim>(points, at);
     const Vector<Dim> normal = normal_to<Dim>(edges);
-    std::array<Eigen::Matrix<double, Dim, Dim>, Dim - 1> jacobians;
+    std::array<Block<Dim>, Dim - 1> jacobians;
     for (int k = 0; k < Dim - 1; ++k) {
         jacobians[k] = normal_by_edge<Dim>(edges, k);
     }
     StencilMatrix<Dim> hessian = StencilMatrix<Dim>::Zero();
     for (int k = 0; k < Dim - 1; ++k) {
         for (int l = 0; l < Dim - 1; ++l) {
-            Eigen::Matrix<double, Dim, Dim> block = 2 * jacobians[k].transpose() * jacobians[l];
+            Block<Dim> block = 2 * jacobians[k].transpose() * jacobians[l];
             if (k != l) {
                 Edges<Dim> moved = edges;
                 for (int axis = 0; axis < Dim; ++axis) {
@@ -95,16 +107,16 @@ StencilMatrix<Dim> spanned_volume_squared_hessian(const Stencil<Dim>& points) {
                     block.row(axis) += 2 * normal.transpose() * normal_by_edge<Dim>(moved, l);
                 }
             }
-            add_block<Dim>(k, l, block, hessian);
+            add_block<Dim>(at, k, l, block, hessian);
         }
     }
     return hessian;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                              \
-    template double spanned_volume_squared<Dim>(const Stencil<Dim>&);                      \
-    template StencilVector<Dim> spanned_volume_squared_gradient<Dim>(const Stencil<Dim>&); \
-    template StencilMatrix<Dim> spanned_volume_squared_hessian<Dim>(const Stencil<Dim>&);
+#define PENT_INSTANTIATE(Dim)                                                                   \
+    template double spanned_volume_squared<Dim>(const Stencil<Dim>&, int);                      \
+    template StencilVector<Dim> spanned_volume_squared_gradient<Dim>(const Stencil<Dim>&, int); \
+    template StencilMatrix<Dim> spanned_volume_squared_hessian<Dim>(const Stencil<Dim>&, int);
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE

@@ -5,7 +5,6 @@
 #include <pent/error.h>
 #include <pent/output_file.h>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -18,96 +17,58 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kVersion = 1;
-constexpr std::array<std::string_view, 4> kKinds = {"half_space", "ball", "cavity", "bowl"};
 
-template <int Dim>
-using Vector = Eigen::Matrix<double, Dim, 1>;
-
-// The numbers of a shape by their keys, in the order written.
-template <int Dim, typename Visitor>
-void for_each_key(HalfSpace<Dim>& plane, const Visitor& visit) {
-    visit.unit("normal", plane.normal);
-    visit.number("offset", plane.offset);
-}
-
-template <typename Visitor, typename Round>
-void for_each_key_of_round(Round& round, const Visitor& visit) {
-    visit.point("center", round.center);
-    visit.length("radius", round.radius);
-}
-
-template <int Dim, typename Visitor>
-void for_each_key(Ball<Dim>& ball, const Visitor& visit) {
-    for_each_key_of_round(ball, visit);
-}
-
-template <int Dim, typename Visitor>
-void for_each_key(Cavity<Dim>& cavity, const Visitor& visit) {
-    for_each_key_of_round(cavity, visit);
-}
-
-template <int Dim, typename Visitor>
-void for_each_key(Bowl<Dim>& bowl, const Visitor& visit) {
-    for_each_key_of_round(bowl, visit);
-    visit.unit("up", bowl.up);
-}
-
-struct Writer {
+// Writes the fields of a shape.
+struct FieldWriter {
     Json& json;
 
+    void operator()(const char* key, double value, ShapeField /*kind*/) const { json[key] = value; }
     template <typename Vector>
-    void unit(const char* key, const Vector& vector) const {
-        json[key] = std::vector<double>(vector.begin(), vector.end());
+    void operator()(const char* key,
+                    const Eigen::MatrixBase<Vector>& value,
+                    ShapeField /*kind*/) const {
+        json[key] = std::vector<double>(value.derived().begin(), value.derived().end());
     }
-    template <typename Vector>
-    void point(const char* key, const Vector& vector) const {
-        unit(key, vector);
-    }
-    void number(const char* key, double value) const { json[key] = value; }
-    void length(const char* key, double value) const { json[key] = value; }
 };
 
-struct Reader {
+// Reads them.
+struct FieldReader {
     const Json& json;
     const std::string& where;
 
     [[noreturn]] void fail(const char* key, const std::string& expected) const {
         throw Error(where + ": \"" + key + "\" is missing or out of range; expected " + expected);
     }
-    void number(const char* key, double& value) const {
+    void operator()(const char* key, double& value, ShapeField kind) const {
         const auto found = json.find(key);
-        if (found == json.end() || !found->is_number() || !std::isfinite(found->get<double>())) {
-            fail(key, "a finite number");
+        const bool is_number =
+            found != json.end() && found->is_number() && std::isfinite(found->get<double>());
+        const bool is_length = kind == ShapeField::Length;
+        if (!is_number || (is_length && !(found->get<double>() > 0))) {
+            fail(key, is_length ? "a number above 0" : "a finite number");
         }
         value = found->get<double>();
     }
-    void length(const char* key, double& value) const {
-        number(key, value);
-        if (!(value > 0)) {
-            fail(key, "a number above 0");
-        }
-    }
-    template <typename Vector>
-    void point(const char* key, Vector& vector) const {
-        const std::string expected = std::to_string(vector.size()) + " finite numbers";
+    void operator()(const char* key, Eigen::VectorXd& value, ShapeField kind) const {
+        const std::string count = std::to_string(value.size());
         const auto found = json.find(key);
         if (found == json.end() || !found->is_array()
-            || found->size() != static_cast<std::size_t>(vector.size())) {
-            fail(key, expected);
+            || found->size() != static_cast<std::size_t>(value.size())) {
+            fail(key, count + " finite numbers");
         }
-        for (Eigen::Index i = 0; i < vector.size(); ++i) {
+        for (Eigen::Index i = 0; i < value.size(); ++i) {
             const Json& entry = (*found)[static_cast<std::size_t>(i)];
             if (!entry.is_number() || !std::isfinite(entry.get<double>())) {
-                fail(key, expected);
+                fail(key, count + " finite numbers");
             }
-            vector[i] = entry.get<double>();
+            value[i] = entry.get<double>();
         }
-    }
-    template <typename Vector>
-    void unit(const char* key, Vector& vector) const {
-        point(key, vector);
-        if (!(std::abs(vector.stableNorm() - 1) <= 1e-9)) {
-            fail(key, std::to_string(vector.size()) + " numbers, of length 1 together");
+        const bool is_direction = kind == ShapeField::Direction || kind == ShapeField::UpDirection;
+        if (is_direction && !(std::abs(value.stableNorm() - 1) <= 1e-9)) {
+            fail(key, count + " numbers, of length 1 together");
+        }
+        if (kind == ShapeField::Length && !(value.array() > 0).all()) {
+            fail(key, count + " numbers above 0");
         }
     }
 };
@@ -117,24 +78,33 @@ std::string quoted(const std::string& text) {
     return Json(text).dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
-template <int Dim>
-Obstacle<Dim> shape_of_kind(const std::string& kind, const std::string& where) {
-    const std::array<Obstacle<Dim>, 4> shapes = {HalfSpace<Dim>{}, Ball<Dim>{}, Cavity<Dim>{},
-                                                 Bowl<Dim>{}};
-    for (std::size_t i = 0; i < kKinds.size(); ++i) {
-        if (kind == kKinds[i]) {
-            return shapes[i];
+std::string known_kinds() {
+    std::string text;
+    const std::vector<Obstacle<Eigen::Dynamic>> shapes = all_shapes(4);
+    for (const Obstacle<Eigen::Dynamic>& shape : shapes) {
+        text += &shape == &shapes.front() ? "" : &shape == &shapes.back() ? " or " : ", ";
+        text += name_of<Eigen::Dynamic>(shape);
+    }
+    return text;
+}
+
+Obstacle<Eigen::Dynamic> shape_of_kind(const std::string& kind,
+                                       int dimension,
+                                       const std::string& where) {
+    for (const Obstacle<Eigen::Dynamic>& shape : all_shapes(dimension)) {
+        if (kind == name_of<Eigen::Dynamic>(shape)) {
+            return shape;
         }
     }
-    throw Error(where + ": found an obstacle of kind " + quoted(kind)
-                + "; expected half_space, ball, cavity or bowl; a newer pent-sim may have made it");
+    throw Error(where + ": found an obstacle of kind " + quoted(kind) + "; expected "
+                + known_kinds() + "; a newer pent-sim may have made it");
 }
 
 template <int Dim>
-Json to_json(Obstacle<Dim> obstacle) {
+Json to_json(const Obstacle<Dim>& obstacle) {
     Json json;
-    json["kind"] = kind_of<Dim>(obstacle);
-    std::visit([&](auto& shape) { for_each_key(shape, Writer{json}); }, obstacle);
+    json["kind"] = name_of<Dim>(obstacle);
+    std::visit([&](const auto& shape) { shape.fields(shape, FieldWriter{json}); }, obstacle);
     return json;
 }
 
@@ -142,19 +112,19 @@ template <int Dim>
 Obstacle<Dim> from_json(const Json& json, const std::string& where) {
     const auto kind = json.find("kind");
     if (kind == json.end() || !kind->is_string()) {
-        throw Error(where + ": found no kind; expected half_space, ball, cavity or bowl");
+        throw Error(where + ": found no kind; expected " + known_kinds());
     }
-    auto obstacle = shape_of_kind<Dim>(kind->get<std::string>(), where);
-    std::visit([&](auto& shape) { for_each_key(shape, Reader{json, where}); }, obstacle);
+    auto obstacle = shape_of_kind(kind->get<std::string>(), Dim, where);
+    std::visit([&](auto& shape) { shape.fields(shape, FieldReader{json, where}); }, obstacle);
     // A key more may say that it moves: drawn at rest it would be in the wrong place.
-    const Json known = to_json<Dim>(obstacle);
+    const Json known = to_json<Eigen::Dynamic>(obstacle);
     for (const auto& [key, value] : json.items()) {
         if (!known.contains(key)) {
             throw Error(where + ": found the key " + quoted(key)
                         + ", which is not known; a newer pent-sim may have made it");
         }
     }
-    return obstacle;
+    return fixed_size<Dim>(obstacle);
 }
 
 // A key of the file's own; `value` is 0 where there is none or another kind of thing.
@@ -164,11 +134,6 @@ std::uint64_t count_of(const Json& json, const char* key) {
 }
 
 }  // namespace
-
-template <int Dim>
-std::string_view kind_of(const Obstacle<Dim>& obstacle) {
-    return kKinds[obstacle.index()];
-}
 
 template <int Dim>
 void write_obstacles(const std::filesystem::path& path,
@@ -204,8 +169,6 @@ std::vector<Obstacle<Dim>> read_obstacles(const std::filesystem::path& path) {
     return obstacles;
 }
 
-template std::string_view kind_of<3>(const Obstacle<3>&);
-template std::string_view kind_of<4>(const Obstacle<4>&);
 template void write_obstacles<3>(const std::filesystem::path&, const std::vector<Obstacle<3>>&);
 template void write_obstacles<4>(const std::filesystem::path&, const std::vector<Obstacle<4>>&);
 template std::vector<Obstacle<3>> read_obstacles<3>(const std::filesystem::path&);

@@ -76,16 +76,16 @@ pent_step_report c_report(const StepReport& step) {
             .residual = step.residual,
             .inverted = step.inverted,
             .kinetic = step.energies.kinetic,
-            .elastic = step.energies.elastic,
-            .gravity = step.energies.gravity,
-            .obstacle = step.energies.obstacle};
+            .elastic = step.energies.of("elastic"),
+            .gravity = step.energies.of("gravity"),
+            .obstacle = step.energies.of("obstacle")};
 }
 
 pent_contact_report c_contacts(const StepReport& step) {
     return {.point_facet = step.contact.point_facet,
             .mixed = step.contact.mixed,
             .obstacle = step.contact.obstacle,
-            .energy = step.energies.contact,
+            .energy = step.energies.of("contact"),
             .deepest = step.contact.deepest,
             .smallest_distance = step.contact.smallest_distance,
             .seconds = step.contact.seconds};

@@ -1,7 +1,7 @@
 #include "advice.h"
 
 #include "doubts.h"
-#include "selection.h"
+#include "model/selection.h"
 
 #include <pent/facets.h>
 #include <pent/formatted.h>

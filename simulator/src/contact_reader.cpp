@@ -2,39 +2,54 @@
 
 #include "scene_names.h"
 
+#include <pent/obstacle.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace pent::simulator {
 
 namespace {
 
-template <typename Round>
-Round read_round(TableReader& reader, int dimension) {
-    Round round;
-    round.center = reader.vector("center", dimension, {});
-    round.radius = reader.number("radius", {}, kPositive);
-    return round;
-}
+// Reads a field of a shape.
+struct FieldReader {
+    TableReader& reader;
+    int dimension;
+
+    void operator()(const char* key, double& value, ShapeField kind) const {
+        value = kind == ShapeField::Length ? reader.number(key, {}, kPositive)
+                                           : reader.number(key, 0, kAnyNumber);
+    }
+    void operator()(const char* key, Eigen::VectorXd& value, ShapeField kind) const {
+        switch (kind) {
+            case ShapeField::UpDirection:
+                if (!reader.has(key)) {
+                    return;  // it is along the second axis
+                }
+                [[fallthrough]];
+            case ShapeField::Direction:
+                value = read_direction(reader, key, dimension);
+                return;
+            default:
+                value = reader.vector(key, dimension, {});
+        }
+        if (kind == ShapeField::Length && !(value.array() > 0).all()) {
+            reader.fail(key, "\"" + std::string(key) + "\" has a length that is not above 0");
+        }
+    }
+};
 
 ObstacleShape read_shape(TableReader& obstacle, int dimension) {
-    const std::string kind = obstacle.one_of({"half_space", "ball", "cavity", "bowl"});
-    TableReader reader = obstacle.table(kind);
-    ObstacleShape shape;
-    if (kind == "half_space") {
-        shape = HalfSpaceObstacle{.normal = read_direction(reader, "normal", dimension),
-                                  .offset = reader.number("offset", 0, kAnyNumber)};
-    } else if (kind == "ball") {
-        shape = read_round<BallObstacle>(reader, dimension);
-    } else if (kind == "cavity") {
-        shape = read_round<CavityObstacle>(reader, dimension);
-    } else {
-        auto bowl = read_round<BowlObstacle>(reader, dimension);
-        bowl.up = Eigen::VectorXd::Unit(dimension, 1);
-        if (reader.has("up")) {
-            bowl.up = read_direction(reader, "up", dimension);
-        }
-        shape = bowl;
+    const std::vector<ObstacleShape> shapes = all_shapes(dimension);
+    std::vector<std::string> names;
+    for (const ObstacleShape& shape : shapes) {
+        names.emplace_back(name_of<Eigen::Dynamic>(shape));
     }
+    const std::string kind = obstacle.one_of(names);
+    ObstacleShape shape = shapes[static_cast<std::size_t>(
+        std::find(names.begin(), names.end(), kind) - names.begin())];
+    TableReader reader = obstacle.table(kind);
+    std::visit([&](auto& one) { one.fields(one, FieldReader{reader, dimension}); }, shape);
     reader.finish();
     return shape;
 }

@@ -1,6 +1,6 @@
 #include "contact_table.h"
 
-#include <pent/contact/contacts.h>
+#include <pent/contact/contact.h>
 #include <pent/real_text.h>
 
 namespace pent::simulator {
@@ -36,6 +36,14 @@ int body_of(const Simulation<Dim>& simulation, std::uint32_t vertex) {
     return body;
 }
 
+template <int Dim>
+const char* kind_of(const contact::Contact<Dim>& contact) {
+    if (contact.second.is_obstacle()) {
+        return "obstacle,";
+    }
+    return contact.kind == contact::ContactKind::PointFacet ? "point-facet," : "mixed,";
+}
+
 }  // namespace
 
 template <int Dim>
@@ -49,30 +57,28 @@ std::string contact_table(const Simulation<Dim>& simulation,
     add_names(text, 'w', Dim + 1);
     text += '\n';
     for (const contact::Contact<Dim>& contact : simulation.contacts()) {
-        text += contact.kind == contact::ContactKind::PointFacet ? "point-facet," : "mixed,";
-        text += bodies[static_cast<std::size_t>(contact.first_body)] + ","
-                + bodies[static_cast<std::size_t>(contact.second_body)];
+        text += kind_of(contact);
+        text += bodies[contact.first.index] + ',';
+        text += contact.second.is_obstacle() ? std::to_string(contact.second.index)
+                                             : bodies[contact.second.index];
         add(text, contact.distance);
-        add_vector<Dim>(text, -contact.response.gradient);
+        add_vector<Dim>(text, -contact.slope * contact.direction);
         for (int i = 0; i <= Dim; ++i) {
-            const int body = body_of(simulation, contact.vertices[static_cast<std::size_t>(i)]);
-            text += ","
-                    + std::to_string(contact.vertices[static_cast<std::size_t>(i)]
-                                     - simulation.first_vertex(body));
+            text += ',';
+            if (i < contact.count) {
+                const std::uint32_t vertex = contact.vertices[static_cast<std::size_t>(i)];
+                text +=
+                    std::to_string(vertex - simulation.first_vertex(body_of(simulation, vertex)));
+            }
         }
         for (int i = 0; i <= Dim; ++i) {
-            add(text, contact.weights[i]);
+            if (i < contact.count) {
+                add(text, contact.weights[i]);
+            } else {
+                text += ',';
+            }
         }
         text += '\n';
-    }
-    for (const contact::ObstacleContact<Dim>& contact : simulation.obstacle_contacts()) {
-        const int body = body_of(simulation, contact.vertex);
-        text += "obstacle," + bodies[static_cast<std::size_t>(body)] + ","
-                + std::to_string(contact.obstacle);
-        add(text, contact.distance);
-        add_vector<Dim>(text, -contact.response.gradient);
-        text += "," + std::to_string(contact.vertex - simulation.first_vertex(body))
-                + std::string(Dim, ',') + ",1" + std::string(Dim, ',') + "\n";
     }
     return text;
 }

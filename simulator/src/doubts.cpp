@@ -1,6 +1,7 @@
 #include "doubts.h"
 
-#include <pent/contact/contacts.h>
+#include <pent/contact/contact.h>
+#include <pent/contact/obstacles.h>
 #include <pent/facets.h>
 #include <pent/formatted.h>
 
@@ -27,26 +28,6 @@ Vector<Dim> sides(const Simulation<Dim>& simulation, int body) {
     return positions.rowwise().maxCoeff() - positions.rowwise().minCoeff();
 }
 
-// Distance of a point from an obstacle, m, as far as how deep something falls needs it: of a bowl
-// that of its ball.
-template <int Dim>
-struct Height {
-    Vector<Dim> point;
-
-    double operator()(const HalfSpaceObstacle& plane) const {
-        return plane.normal.dot(point) - plane.offset;
-    }
-    double operator()(const BallObstacle& ball) const {
-        return (point - ball.center).norm() - ball.radius;
-    }
-    double operator()(const CavityObstacle& cavity) const {
-        return cavity.radius - (point - cavity.center).norm();
-    }
-    double operator()(const BowlObstacle& bowl) const {
-        return bowl.radius - (point - bowl.center).norm();
-    }
-};
-
 // How far the body is from an obstacle, or from the nearest other body by their boxes, m; infinite
 // from nothing.
 template <int Dim>
@@ -57,9 +38,10 @@ double gap(const Scene& scene,
     const Positions<Dim>& positions = simulation.mesh(body).positions;
     double least = kFar;
     if (obstacle != nullptr) {
+        const pent::Obstacle<Dim> shape = fixed_size<Dim>(obstacle->shape);
         for (Eigen::Index vertex = 0; vertex < positions.cols(); ++vertex) {
             least =
-                std::min(least, std::visit(Height<Dim>{positions.col(vertex)}, obstacle->shape));
+                std::min(least, contact::signed_distance<Dim>(shape, positions.col(vertex)).value);
         }
         return std::max(least, 0.0);
     }
@@ -168,23 +150,17 @@ std::vector<std::string> overlaps_at_start(const Scene& scene, const Simulation<
             most = std::max(most, depth);
         }
     };
-    const auto name = [&](int body) {
-        return "\"" + scene.bodies[static_cast<std::size_t>(body)].name + "\"";
-    };
+    const auto name = [&](std::size_t body) { return "\"" + scene.bodies[body].name + "\""; };
     for (const contact::Contact<Dim>& pair : simulation.contacts()) {
-        const int a = std::min(pair.first_body, pair.second_body);
-        const int b = std::max(pair.first_body, pair.second_body);
-        note(name(a), name(b), -pair.distance, scene.contact->distance);
-    }
-    for (const contact::ObstacleContact<Dim>& touch : simulation.obstacle_contacts()) {
-        int body = 0;
-        while (body + 1 < simulation.body_count()
-               && simulation.first_vertex(body + 1) <= touch.vertex) {
-            ++body;
+        const std::size_t second = pair.second.index;
+        if (pair.second.is_obstacle()) {
+            note(name(pair.first.index), "[[obstacle]] " + std::to_string(second + 1),
+                 -pair.distance, scene.obstacles[second].distance);
+        } else {
+            note(name(std::min(pair.first.index, pair.second.index)),
+                 name(std::max(pair.first.index, pair.second.index)), -pair.distance,
+                 scene.contact->distance);
         }
-        const auto obstacle = static_cast<std::size_t>(touch.obstacle);
-        note(name(body), "[[obstacle]] " + std::to_string(obstacle + 1), -touch.distance,
-             scene.obstacles[obstacle].distance);
     }
     std::vector<std::string> lines;
     for (const auto& [pair, depth] : deepest) {

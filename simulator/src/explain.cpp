@@ -231,7 +231,7 @@ private:
     void solver() {
         const SolverOptions& options = scene_.solver;
         const std::string method =
-            options.linear == LinearSolver::Direct
+            options.linear == LinearSolverKind::Direct
                 ? "direct"
                 : std::string(word_of(kPreconditioners, options.preconditioner));
         add({.name = "linear solver",

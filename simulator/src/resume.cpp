@@ -43,11 +43,11 @@ std::optional<std::pair<std::string, std::string>> difference(const std::string&
     return std::nullopt;
 }
 
-std::vector<BodyRest> read_rest(const fs::path& path, const std::vector<std::string>& bodies) {
+std::vector<SleepState> read_rest(const fs::path& path, const std::vector<std::string>& bodies) {
     std::ifstream file(path);
     try {
         const auto json = nlohmann::json::parse(file);
-        std::vector<BodyRest> rest(bodies.size());
+        std::vector<SleepState> rest(bodies.size());
         for (std::size_t body = 0; body < bodies.size(); ++body) {
             const auto& entry = json.at(bodies[body]);
             entry.at("is_asleep").get_to(rest[body].is_asleep);
@@ -136,11 +136,6 @@ Frame<Dim> read_own_frame(const fs::path& path,
 namespace {
 
 template <int Dim>
-std::span<const double> numbers(const Eigen::Map<const Positions<Dim>>& positions) {
-    return {positions.data(), static_cast<std::size_t>(positions.size())};
-}
-
-template <int Dim>
 Positions<Dim> positions_of(const StateBlocks& blocks,
                             const std::string& name,
                             Eigen::Index count) {
@@ -149,8 +144,24 @@ Positions<Dim> positions_of(const StateBlocks& blocks,
     return Eigen::Map<const Positions<Dim>>(values.data(), Dim, count);
 }
 
-std::string rest_block(const std::string& body) {
-    return "rest/" + body;
+// Of vertices [first, first + count).
+template <int Dim>
+void put_positions(StateBlocks& blocks,
+                   const std::string& name,
+                   const Positions<Dim>& all,
+                   Eigen::Index first,
+                   Eigen::Index count) {
+    blocks.put(name, std::span<const double>(all.data() + Dim * first,
+                                             Dim * static_cast<std::size_t>(count)));
+}
+
+constexpr const char* kStiffnessBlock = "contact stiffness";
+
+std::string sleep_block(const std::string& body) {
+    return "sleep/" + body;
+}
+std::string sleep_stiffness_block(const std::string& body) {
+    return "sleep stiffness/" + body;
 }
 std::string positions_block(const std::string& body) {
     return "previous positions/" + body;
@@ -159,9 +170,18 @@ std::string velocities_block(const std::string& body) {
     return "previous velocities/" + body;
 }
 
-void put_rest(StateBlocks& blocks, const std::string& body, const BodyRest& rest) {
-    const std::uint64_t values[] = {rest.is_asleep ? 1U : 0U, rest.quiet_steps};
-    blocks.put<std::uint64_t>(rest_block(body), values);
+void put_sleep(StateBlocks& blocks, const std::string& body, const SleepState& sleep) {
+    const std::uint64_t counts[] = {sleep.is_asleep ? 1U : 0U, sleep.quiet_steps};
+    const double stiffness[] = {sleep.contact_stiffness};
+    blocks.put<std::uint64_t>(sleep_block(body), counts);
+    blocks.put<double>(sleep_stiffness_block(body), stiffness);
+}
+
+SleepState sleep_of(const StateBlocks& blocks, const std::string& body) {
+    const auto counts = blocks.get<std::uint64_t>(sleep_block(body), 2);
+    return {.is_asleep = counts[0] != 0,
+            .quiet_steps = counts[1],
+            .contact_stiffness = blocks.get<double>(sleep_stiffness_block(body), 1)[0]};
 }
 
 }  // namespace
@@ -169,41 +189,54 @@ void put_rest(StateBlocks& blocks, const std::string& body, const BodyRest& rest
 template <int Dim>
 StateBlocks carried_state(const Simulation<Dim>& simulation,
                           const std::vector<std::string>& bodies) {
+    const Snapshot<Dim> snapshot = simulation.save();
     StateBlocks blocks;
+    if (snapshot.contact_stiffness > 0) {
+        const double stiffness[] = {snapshot.contact_stiffness};
+        blocks.put<double>(kStiffnessBlock, stiffness);
+    }
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const int body = static_cast<int>(i);
-        if (simulation.rest()[i] != BodyRest()) {
-            put_rest(blocks, bodies[i], simulation.rest()[i]);
+        if (snapshot.sleep[i] != SleepState()) {
+            put_sleep(blocks, bodies[i], snapshot.sleep[i]);
         }
-        if (simulation.has_history()) {
-            blocks.put(positions_block(bodies[i]),
-                       numbers<Dim>(simulation.previous_positions(body)));
-            blocks.put(velocities_block(bodies[i]),
-                       numbers<Dim>(simulation.previous_velocities(body)));
+        if (snapshot.previous_positions.cols() > 0) {
+            const Eigen::Index first = simulation.first_vertex(body);
+            const Eigen::Index count = simulation.mesh(body).vertex_count();
+            put_positions<Dim>(blocks, positions_block(bodies[i]), snapshot.previous_positions,
+                               first, count);
+            put_positions<Dim>(blocks, velocities_block(bodies[i]), snapshot.previous_velocities,
+                               first, count);
         }
     }
     return blocks;
 }
 
 template <int Dim>
-void restore_carried_state(const StateBlocks& blocks,
-                           const std::vector<std::string>& bodies,
-                           Simulation<Dim>& simulation) {
-    std::vector<BodyRest> rest(bodies.size());
+void read_carried_state(const StateBlocks& blocks,
+                        const std::vector<std::string>& bodies,
+                        const Simulation<Dim>& simulation,
+                        Snapshot<Dim>& snapshot) {
+    const bool has_barrier = simulation.save().contact_stiffness > 0;
+    snapshot.contact_stiffness = has_barrier ? blocks.get<double>(kStiffnessBlock, 1)[0] : 0;
+    snapshot.sleep.assign(bodies.size(), {});
+    const bool has_history = blocks.has(positions_block(bodies.front()));
+    const Eigen::Index total = has_history ? snapshot.positions.cols() : 0;
+    snapshot.previous_positions.resize(Dim, total);
+    snapshot.previous_velocities.resize(Dim, total);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const int body = static_cast<int>(i);
-        const Eigen::Index count = simulation.mesh(body).vertex_count();
-        if (blocks.has(positions_block(bodies[i]))) {
-            simulation.set_history(body,
-                                   positions_of<Dim>(blocks, positions_block(bodies[i]), count),
-                                   positions_of<Dim>(blocks, velocities_block(bodies[i]), count));
+        if (blocks.has(sleep_block(bodies[i]))) {
+            snapshot.sleep[i] = sleep_of(blocks, bodies[i]);
         }
-        if (blocks.has(rest_block(bodies[i]))) {
-            const auto values = blocks.get<std::uint64_t>(rest_block(bodies[i]), 2);
-            rest[i] = {.is_asleep = values[0] != 0, .quiet_steps = values[1]};
+        if (has_history) {
+            const Eigen::Index first = simulation.first_vertex(static_cast<int>(i));
+            const Eigen::Index count = simulation.mesh(static_cast<int>(i)).vertex_count();
+            snapshot.previous_positions.middleCols(first, count) =
+                positions_of<Dim>(blocks, positions_block(bodies[i]), count);
+            snapshot.previous_velocities.middleCols(first, count) =
+                positions_of<Dim>(blocks, velocities_block(bodies[i]), count);
         }
     }
-    simulation.set_rest(rest);
 }
 
 template <int Dim>
@@ -212,15 +245,20 @@ StateBlocks carried_state_of_old_run(const fs::path& folder,
                                      const std::vector<std::uint32_t>& mesh_crcs,
                                      const Scene& scene,
                                      int frame) {
+    if (scene.contact && scene.contact->model == ContactModel::Barrier) {
+        throw Error(folder.string()
+                    + ": was begun by version 0.1.0, which did not keep the stiffness of its barrier:"
+                      " going on would lead elsewhere; use --force to start again");
+    }
     StateBlocks blocks;
     const auto checkpoint = [&](const std::string& name, int number) {
         return folder / "checkpoint" / frame_file_name(name, number);
     };
     if (scene.sleep) {
         const fs::path path = checkpoint("rest", frame).replace_extension(".json");
-        const std::vector<BodyRest> rest = read_rest(path, bodies);
+        const std::vector<SleepState> sleep = read_rest(path, bodies);
         for (std::size_t i = 0; i < bodies.size(); ++i) {
-            put_rest(blocks, bodies[i], rest[i]);
+            put_sleep(blocks, bodies[i], sleep[i]);
         }
     }
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -235,25 +273,23 @@ StateBlocks carried_state_of_old_run(const fs::path& folder,
         const Frame<Dim> before = read_own_frame<Dim>(
             path, mesh_crcs[i], static_cast<std::uint64_t>(frame),
             static_cast<std::uint64_t>(frame) * static_cast<std::uint64_t>(scene.steps_per_frame));
-        const auto count = static_cast<std::size_t>(before.positions.size());
-        blocks.put(positions_block(bodies[i]),
-                   std::span<const double>(before.positions.data(), count));
-        blocks.put(velocities_block(bodies[i]),
-                   std::span<const double>(before.velocities.data(), count));
+        const Eigen::Index count = before.positions.cols();
+        put_positions<Dim>(blocks, positions_block(bodies[i]), before.positions, 0, count);
+        put_positions<Dim>(blocks, velocities_block(bodies[i]), before.velocities, 0, count);
     }
     return blocks;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                                     \
-    template std::uint32_t check_same_mesh<Dim>(const fs::path&, const SimplexMesh<Dim>&);        \
-    template Frame<Dim> read_own_frame<Dim>(const fs::path&, std::uint32_t, std::uint64_t,        \
-                                            std::uint64_t);                                       \
-    template StateBlocks carried_state<Dim>(const Simulation<Dim>&,                               \
-                                            const std::vector<std::string>&);                     \
-    template void restore_carried_state<Dim>(const StateBlocks&, const std::vector<std::string>&, \
-                                             Simulation<Dim>&);                                   \
-    template StateBlocks carried_state_of_old_run<Dim>(                                           \
-        const fs::path&, const std::vector<std::string>&, const std::vector<std::uint32_t>&,      \
+#define PENT_INSTANTIATE(Dim)                                                                  \
+    template std::uint32_t check_same_mesh<Dim>(const fs::path&, const SimplexMesh<Dim>&);     \
+    template Frame<Dim> read_own_frame<Dim>(const fs::path&, std::uint32_t, std::uint64_t,     \
+                                            std::uint64_t);                                    \
+    template StateBlocks carried_state<Dim>(const Simulation<Dim>&,                            \
+                                            const std::vector<std::string>&);                  \
+    template void read_carried_state<Dim>(const StateBlocks&, const std::vector<std::string>&, \
+                                          const Simulation<Dim>&, Snapshot<Dim>&);             \
+    template StateBlocks carried_state_of_old_run<Dim>(                                        \
+        const fs::path&, const std::vector<std::string>&, const std::vector<std::uint32_t>&,   \
         const Scene&, int);
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)

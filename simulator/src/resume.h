@@ -30,23 +30,27 @@ template <int Dim>
                                         std::uint64_t frame,
                                         std::uint64_t step);
 
-/// What a simulation carries from step to step beside positions and velocities: which bodies sleep,
-/// and for BDF2 the state one step before.
+/// What a simulation carries from step to step beside positions and velocities: the stiffness to
+/// which a barrier has adapted, which bodies sleep, and for BDF2 the state one step before.
 ///
 /// @param bodies  Their names.
 template <int Dim>
 [[nodiscard]] StateBlocks carried_state(const Simulation<Dim>& simulation,
                                         const std::vector<std::string>& bodies);
 
-/// Gives back what carried_state() gave; call it after set_state(). Throws an Error if it does not
-/// fit.
+/// Puts what carried_state() gave into a snapshot that has all the rest. Throws an Error if
+/// something is missing or does not fit.
+///
+/// @param simulation  Of the same scene.
 template <int Dim>
-void restore_carried_state(const StateBlocks& blocks,
-                           const std::vector<std::string>& bodies,
-                           Simulation<Dim>& simulation);
+void read_carried_state(const StateBlocks& blocks,
+                        const std::vector<std::string>& bodies,
+                        const Simulation<Dim>& simulation,
+                        Snapshot<Dim>& snapshot);
 
 /// The same of a run without a journal, as version 0.1.0 left it: JSON that says who sleeps, and
-/// frame files with the state one step before.
+/// frame files with the state one step before. One with a barrier is refused: its stiffness was not
+/// kept.
 ///
 /// @param mesh_crcs  Checksums of the meshes, one a body.
 template <int Dim>

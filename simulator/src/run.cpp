@@ -3,9 +3,8 @@
 #include "doubts.h"
 #include "earlier_run.h"
 #include "journal.h"
-#include "obstacle_shape.h"
+#include "model/rigid_fit.h"
 #include "resume.h"
-#include "rigid_fit.h"
 #include "run_files.h"
 #include "run_report.h"
 #include "scene_meshes.h"
@@ -92,6 +91,7 @@ private:
     [[nodiscard]] int last_known_frame() const;
     [[nodiscard]] std::optional<Bodies> read_frames(int frame) const;
     [[nodiscard]] StateBlocks carried_state_at(int frame) const;
+    [[nodiscard]] Snapshot<Dim> snapshot_of(const Bodies& frames, const StateBlocks& carried) const;
     void complete_history(int last_frame);
     void tell_resume(int frame) const;
     void write_frame_files(int frame);
@@ -145,7 +145,7 @@ void Run<Dim>::write_scene() {
     }
     std::vector<pent::Obstacle<Dim>> obstacles;
     for (const Obstacle& obstacle : scene_.obstacles) {
-        obstacles.push_back(to_obstacle<Dim>(obstacle.shape));
+        obstacles.push_back(fixed_size<Dim>(obstacle.shape));
     }
     if (!obstacles.empty()) {
         write_obstacles(folder_.claim(kObstaclesFile), obstacles);
@@ -273,6 +273,21 @@ void Run<Dim>::tell_resume(int frame) const {
                              : "the run had " + last.verdict + "; it goes on from " + where);
 }
 
+template <int Dim>
+Snapshot<Dim> Run<Dim>::snapshot_of(const Bodies& frames, const StateBlocks& carried) const {
+    Snapshot<Dim> snapshot = simulation_.save();
+    for (int body = 0; body < simulation_.body_count(); ++body) {
+        const Frame<Dim>& state = frames[static_cast<std::size_t>(body)];
+        const Eigen::Index first = simulation_.first_vertex(body);
+        const Eigen::Index count = state.positions.cols();
+        snapshot.positions.middleCols(first, count) = state.positions;
+        snapshot.velocities.middleCols(first, count) = state.velocities;
+    }
+    snapshot.steps = frames.front().step;
+    read_carried_state(carried, report_.bodies, simulation_, snapshot);
+    return snapshot;
+}
+
 // Puts the simulation at the last whole frame of the folder, and gives its number.
 template <int Dim>
 int Run<Dim>::resume_folder() {
@@ -289,13 +304,8 @@ int Run<Dim>::resume_folder() {
         throw Error(options_.folder.string()
                     + ": holds no whole frame to resume from; use --force to start again");
     }
-    for (int body = 0; body < simulation_.body_count(); ++body) {
-        const Frame<Dim>& state = (*frames)[static_cast<std::size_t>(body)];
-        simulation_.set_state(body, state.positions, state.velocities);
-    }
-    simulation_.set_step_count(frames->front().step);
     const StateBlocks carried = carried_state_at(frame);
-    restore_carried_state(carried, report_.bodies, simulation_);
+    simulation_.restore(snapshot_of(*frames, carried));
     complete_history(frame);
     tell_resume(frame);
     if (!folder_.has_list()) {

@@ -76,10 +76,10 @@ Json step_json(const StepReport& step) {
             {"inverted", step.inverted},
             {"collapsed", step.collapsed},
             {"kinetic", step.energies.kinetic},
-            {"elastic", step.energies.elastic},
-            {"gravity", step.energies.gravity},
-            {"obstacle", step.energies.obstacle},
-            {"contact_energy", step.energies.contact},
+            {"elastic", step.energies.of("elastic")},
+            {"gravity", step.energies.of("gravity")},
+            {"obstacle", step.energies.of("obstacle")},
+            {"contact_energy", step.energies.of("contact")},
             {"contact", contact_json(step.contact)},
             {"assembly_seconds", step.assembly_seconds},
             {"solve_seconds", step.solve_seconds},
@@ -106,10 +106,10 @@ StepReport parse_step(const Json& json) {
     read_count(json, "inverted", step.inverted);
     read_count(json, "collapsed", step.collapsed);
     json.at("kinetic").get_to(step.energies.kinetic);
-    json.at("elastic").get_to(step.energies.elastic);
-    json.at("gravity").get_to(step.energies.gravity);
-    json.at("obstacle").get_to(step.energies.obstacle);
-    json.at("contact_energy").get_to(step.energies.contact);
+    step.energies.terms = {{"elastic", json.at("elastic")},
+                           {"gravity", json.at("gravity")},
+                           {"obstacle", json.at("obstacle")},
+                           {"contact", json.at("contact_energy")}};
     step.contact = parse_contact(json.at("contact"));
     json.at("assembly_seconds").get_to(step.assembly_seconds);
     json.at("solve_seconds").get_to(step.solve_seconds);

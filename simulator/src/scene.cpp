@@ -117,35 +117,13 @@ void check_constraint(const Constraint& constraint, const Scene& scene) {
     }
 }
 
-struct ShapeChecker {
-    int dimension;
-
-    void operator()(const HalfSpaceObstacle& plane) const {
-        check_unit(plane.normal, dimension, "obstacle: normal");
-        require(std::isfinite(plane.offset), "obstacle: offset must be finite");
-    }
-    void operator()(const BallObstacle& ball) const { check_round(ball); }
-    void operator()(const CavityObstacle& cavity) const { check_round(cavity); }
-    void operator()(const BowlObstacle& bowl) const {
-        check_round(bowl);
-        check_unit(bowl.up, dimension, "obstacle: up");
-    }
-
-    template <typename Round>
-    void check_round(const Round& round) const {
-        check_vector(round.center, dimension, "obstacle: center");
-        require(round.radius > 0 && std::isfinite(round.radius),
-                "obstacle: radius must be above 0");
-    }
-};
-
 void check_push(double distance, double stiffness, const std::string& what) {
     require(is_size(distance), what + ": distance must be from 1e-30 to 1e30");
     require(is_size(stiffness), what + ": stiffness must be from 1e-30 to 1e30");
 }
 
 void check_obstacle(const Obstacle& obstacle, int dimension) {
-    std::visit(ShapeChecker{dimension}, obstacle.shape);
+    pent::check<Eigen::Dynamic>(obstacle.shape, dimension, "obstacle");
     check_push(obstacle.distance, obstacle.stiffness, "obstacle");
 }
 

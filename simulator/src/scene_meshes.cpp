@@ -1,7 +1,7 @@
 #include "scene_meshes.h"
 
-#include "rotation.h"
-#include "selection.h"
+#include "model/rotation.h"
+#include "model/selection.h"
 
 #include <pent/error.h>
 #include <pent/facets.h>

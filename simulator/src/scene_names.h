@@ -43,8 +43,8 @@ inline constexpr std::array kContactModels = {
     Name<ContactModel>{ContactModel::Barrier, "barrier"},
 };
 inline constexpr std::array kLinearSolvers = {
-    Name<LinearSolver>{LinearSolver::Iterative, "cg"},
-    Name<LinearSolver>{LinearSolver::Direct, "direct"},
+    Name<LinearSolverKind>{LinearSolverKind::Iterative, "cg"},
+    Name<LinearSolverKind>{LinearSolverKind::Direct, "direct"},
 };
 inline constexpr std::array kPreconditioners = {
     Name<PreconditionerKind>{PreconditionerKind::BlockJacobi, "block-jacobi"},

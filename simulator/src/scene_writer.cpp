@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 namespace pent::simulator {
 
@@ -138,29 +139,25 @@ std::string body_text(const Body& body, int dimension) {
            + line("spin", spins(body.spin));
 }
 
-struct ShapeWriter {
-    std::string operator()(const HalfSpaceObstacle& plane) const {
-        return line("half_space", "{ normal = " + vector(plane.normal)
-                                      + ", offset = " + number(plane.offset) + " }");
-    }
-    std::string operator()(const BallObstacle& ball) const {
-        return line("ball", "{ " + round(ball) + " }");
-    }
-    std::string operator()(const CavityObstacle& cavity) const {
-        return line("cavity", "{ " + round(cavity) + " }");
-    }
-    std::string operator()(const BowlObstacle& bowl) const {
-        return line("bowl", "{ " + round(bowl) + ", up = " + vector(bowl.up) + " }");
-    }
-
-    template <typename Round>
-    static std::string round(const Round& round) {
-        return "center = " + vector(round.center) + ", radius = " + number(round.radius);
-    }
-};
+std::string shape_text(const ObstacleShape& shape) {
+    return std::visit(
+        [](const auto& one) {
+            std::string fields;
+            one.fields(one, [&](const char* name, const auto& value, ShapeField) {
+                fields += (fields.empty() ? "" : ", ") + std::string(name) + " = ";
+                if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>) {
+                    fields += number(value);
+                } else {
+                    fields += vector(value);
+                }
+            });
+            return line(one.kName, "{ " + fields + " }");
+        },
+        shape);
+}
 
 std::string obstacle_text(const Obstacle& obstacle) {
-    return "\n[[obstacle]]\n" + std::visit(ShapeWriter{}, obstacle.shape)
+    return "\n[[obstacle]]\n" + shape_text(obstacle.shape)
            + line("distance", number(obstacle.distance))
            + line("stiffness", number(obstacle.stiffness));
 }

@@ -1,4 +1,6 @@
-#include <pent/contact/ccd.h>
+#include "ccd.h"
+
+#include "closest_points_oracle.h"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +38,8 @@ protected:
                      const Corners<kSpace, L>& vb,
                      const Clearance& clearance) {
         const auto gap = [&](double t) {
-            return std::sqrt(closest_points<kSpace, K, L>(a + t * va, b + t * vb).distance_squared)
+            return std::sqrt(
+                       test::closest_points<kSpace, K, L>(a + t * va, b + t * vb).distance_squared)
                    - clearance.separation;
         };
         const double t = safe_fraction<kSpace, K, L>(a, va, b, vb, clearance);
@@ -105,7 +108,8 @@ TYPED_TEST(CcdTest, LetsSlideWhatSlidesAtATinyGap) {
 
 TYPED_TEST(CcdTest, FindsAPassageThatIsOverInAMillionthOfTheStep) {
     constexpr int kDim = TypeParam::value;
-    // A needle of length 1e-6 shot through the middle of a facet: neither end is near it at t = 0 or 1.
+    // A needle of length 1e-6 shot through the middle of a facet: neither end is near it at t = 0
+    // or 1.
     Corners<kDim, 1> point = Corners<kDim, 1>::Constant(0);
     point[kDim - 1] = 50;
     Corners<kDim, 1> shot = Corners<kDim, 1>::Zero();
@@ -144,24 +148,26 @@ TYPED_TEST(CcdTest, KeepsPointsOutOfObstacles) {
     const Vector<kDim> up = Vector<kDim>::Unit(1);
     const std::vector<Obstacle<kDim>> obstacles{
         HalfSpace<kDim>{up, -1.0}, Ball<kDim>{Vector<kDim>::Constant(0.2), 0.7},
-        Cavity<kDim>{Vector<kDim>::Zero(), 2.5}, Bowl<kDim>{Vector<kDim>::Zero(), 1.5, up}};
+        Cavity<kDim>{Vector<kDim>::Zero(), 2.5},
+        Cuboid<kDim>{Vector<kDim>::Zero(), Vector<kDim>::LinSpaced(0.8, 1.2)},
+        Bowl<kDim>{Vector<kDim>::Zero(), 1.5, up}};
     for (const Obstacle<kDim>& obstacle : obstacles) {
         int stopped = 0;
         for (int k = 0; k < 2000; ++k) {
             const Vector<kDim> point = this->template corners<1>(1.5);
             const Vector<kDim> motion = this->template corners<1>(std::pow(10.0, k % 4 - 1));
             const double t = safe_fraction<kDim>(obstacle, point, motion);
-            const double start = signed_distance<kDim>(obstacle, point);
+            const double start = signed_distance<kDim>(obstacle, point).value;
             if (start <= 0) {
                 EXPECT_EQ(t, 0);
                 continue;
             }
             for (int s = 0; s <= 100; ++s) {
-                ASSERT_GE(signed_distance<kDim>(obstacle, point + 0.01 * s * t * motion),
+                ASSERT_GE(signed_distance<kDim>(obstacle, point + 0.01 * s * t * motion).value,
                           kGapKept * start - 1e-13);
             }
             if (t < 1) {
-                EXPECT_LE(signed_distance<kDim>(obstacle, point + t * motion),
+                EXPECT_LE(signed_distance<kDim>(obstacle, point + t * motion).value,
                           2.0001 * kGapKept * start);
                 ++stopped;
             }
@@ -170,8 +176,9 @@ TYPED_TEST(CcdTest, KeepsPointsOutOfObstacles) {
     }
 }
 
-// Past the top of a ball so near that ten thousand advances do not get by: as far as is safe, no farther. Each
-// goes on by what may be lost of the gap, which only grows, but for a rounding of 1e-7 of it.
+// Past the top of a ball so near that ten thousand advances do not get by: as far as is safe, no
+// farther. Each goes on by what may be lost of the gap, which only grows, but for a rounding of
+// 1e-7 of it.
 TYPED_TEST(CcdTest, GivesUpSafelyWhereItWouldTakeTooLong) {
     constexpr int kDim = TypeParam::value;
     constexpr double kGap = 1e-9;
@@ -182,7 +189,8 @@ TYPED_TEST(CcdTest, GivesUpSafelyWhereItWouldTakeTooLong) {
     EXPECT_GT(3 * t, 0.999 * 10'000 * (1 - kGapKept) * kGap);
     EXPECT_LT(t, 1);
     for (int s = 0; s <= 100; ++s) {
-        ASSERT_GE(signed_distance<kDim>(ball, point + 0.01 * s * t * motion), kGapKept * kGap);
+        ASSERT_GE(signed_distance<kDim>(ball, point + 0.01 * s * t * motion).value,
+                  kGapKept * kGap);
     }
 }
 

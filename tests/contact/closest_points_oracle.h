@@ -1,6 +1,6 @@
 #pragma once
 
-#include <pent/contact/closest_points.h>
+#include "closest_point_search.h"
 
 #include <Eigen/QR>
 
@@ -8,6 +8,15 @@
 #include <limits>
 
 namespace pent::contact::test {
+
+/// Closest points of two simplices, however far they are apart.
+template <int Dim, int K, int L>
+[[nodiscard]] ClosestPoints<Dim, K, L> closest_points(const Corners<Dim, K>& first,
+                                                      const Corners<Dim, L>& second) {
+    ClosestPointSearch<Dim, K, L> search(first, second, std::numeric_limits<double>::infinity());
+    search.run();
+    return search.best();
+}
 
 /// Distance of two simplices by enumeration: the least of the free minima over the affine hulls of
 /// all pairs of faces that have no negative weight, in long double by a rank-revealing QR. Pairs of

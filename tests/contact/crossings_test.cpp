@@ -1,7 +1,7 @@
+#include "crossings.h"
+
 #include "scenes.h"
 #include "support/crossing_checker.h"
-
-#include <pent/contact/crossings.h>
 
 #include <gtest/gtest.h>
 
@@ -14,21 +14,19 @@ namespace pent::contact {
 namespace {
 
 template <int Dim>
-std::vector<ContactBody<Dim>> bodies_of(const test::Scene<Dim>& scene) {
-    std::vector<ContactBody<Dim>> bodies;
-    for (const Surface<Dim>& surface : scene.surfaces) {
-        bodies.push_back({std::string(1, static_cast<char>('a' + bodies.size())), surface, false});
-    }
-    return bodies;
+ContactScene<Dim> scene_of(const test::Scene<Dim>& scene,
+                           bool self = false,
+                           const std::vector<Obstacle<Dim>>& obstacles = {}) {
+    return test::contact_scene<Dim>(
+        scene, {.model = ContactModel::Barrier, .distance = 0.1, .self = self}, obstacles);
 }
 
 template <int Dim>
 std::vector<Crossing> crossings_of(const test::Scene<Dim>& scene,
                                    bool self = false,
                                    const std::vector<Obstacle<Dim>>& obstacles = {}) {
-    return find_crossings<Dim>(bodies_of(scene), obstacles,
-                               std::vector<bool>(static_cast<std::size_t>(scene.positions.cols())),
-                               scene.positions, 0, self);
+    return ContactFinder<Dim>(scene_of<Dim>(scene, self, obstacles))
+        .find_crossings(scene.positions);
 }
 
 int count(const std::vector<Crossing>& crossings, CrossingKind kind) {
@@ -37,41 +35,10 @@ int count(const std::vector<Crossing>& crossings, CrossingKind kind) {
 }
 
 template <typename T>
-class CrossingsTest : public testing::Test {
-protected:
-    template <int Count>
-    Corners<T::value, Count> corners() {
-        return Corners<T::value, Count>::NullaryExpr([&] { return coordinate_(random_); });
-    }
-
-    template <int K, int L>
-    void expect_agreement() {
-        int crossing = 0;
-        for (int k = 0; k < 2000; ++k) {
-            const Corners<T::value, K> a = this->template corners<K>();
-            const Corners<T::value, L> b = this->template corners<L>();
-            const bool is_true = pent::test::do_cross<T::value, K, L>(
-                a.template cast<long double>(), b.template cast<long double>());
-            EXPECT_EQ((is_crossing<T::value, K, L>(a, b)), is_true);
-            crossing += is_true ? 1 : 0;
-        }
-        EXPECT_GT(crossing, 20);
-    }
-
-    std::mt19937 random_{23};
-    std::uniform_real_distribution<double> coordinate_{-1, 1};
-};
+class CrossingsTest : public testing::Test {};
 
 using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
 TYPED_TEST_SUITE(CrossingsTest, Dimensions);
-
-TYPED_TEST(CrossingsTest, OfTwoSimplicesAreWhereTheirHullsMeetInside) {
-    constexpr int kDim = TypeParam::value;
-    this->template expect_agreement<2, kDim>();
-    if constexpr (kDim == 4) {
-        this->template expect_agreement<3, 3>();
-    }
-}
 
 TYPED_TEST(CrossingsTest, AreFoundLikeByBruteForce) {
     constexpr int kDim = TypeParam::value;
@@ -88,14 +55,16 @@ TYPED_TEST(CrossingsTest, AreFoundLikeByBruteForce) {
 }
 
 TEST(Crossings, OfTwoFourDimensionalBodiesMayBeOfTrianglesAlone) {
-    // Long in z and w against long in x and y: no edge of either meets the other, but they overlap in
-    // the middle. Diagonal edges do cross, so the cells are small against them: edges at the rim only.
+    // Long in z and w against long in x and y: no edge of either meets the other, but they overlap
+    // in the middle. Diagonal edges do cross, so the cells are small against them: edges at the rim
+    // only.
     test::Scene<4> scene;
     scene.add(pent::test::kuhn_box<4>({1, 1, 3, 3}, {1, 1, 9, 9}), Vector<4>(0, 0, 0.3, 0.2));
     scene.add(pent::test::kuhn_box<4>({3, 3, 1, 1}, {9, 9, 1, 1}), Vector<4>(-4.1, -3.9, 4.6, 4.4));
     int triangles = 0;
     for (const Crossing& crossing : crossings_of<4>(scene)) {
-        triangles += crossing.first.size() == 3 && crossing.second.size() == 3 ? 1 : 0;
+        triangles +=
+            crossing.first_corners.size() == 3 && crossing.second_corners.size() == 3 ? 1 : 0;
     }
     EXPECT_GT(triangles, 0);
     EXPECT_GT(pent::test::count_crossings<4>(scene.surfaces[0], scene.surfaces[1], scene.positions),
@@ -110,7 +79,7 @@ TYPED_TEST(CrossingsTest, OfABodyInsideAnotherAreItsVertices) {
     const std::vector<Crossing> crossings = crossings_of<kDim>(scene);
     EXPECT_EQ(crossings.size(), 1U << kDim);
     EXPECT_EQ(count(crossings, CrossingKind::Inside), 1 << kDim);
-    EXPECT_EQ(describe<kDim>(crossings[0], bodies_of(scene)), "vertex 0 of 'b' is inside 'a'");
+    EXPECT_EQ(describe<kDim>(crossings[0], scene_of<kDim>(scene)), "vertex 0 of 'b' is inside 'a'");
 }
 
 TYPED_TEST(CrossingsTest, TouchingCubesAreReported) {
@@ -145,9 +114,9 @@ TYPED_TEST(CrossingsTest, WithinABodyAreTheSameInWhateverOrderItsCellsAre) {
         scene.add(mesh, Vector<kDim>::Zero());
         std::set<std::set<Simplex>> pairs;
         for (Crossing crossing : crossings_of<kDim>(scene, true)) {
-            std::sort(crossing.first.begin(), crossing.first.end());
-            std::sort(crossing.second.begin(), crossing.second.end());
-            pairs.insert({crossing.first, crossing.second});
+            std::sort(crossing.first_corners.begin(), crossing.first_corners.end());
+            std::sort(crossing.second_corners.begin(), crossing.second_corners.end());
+            pairs.insert({crossing.first_corners, crossing.second_corners});
         }
         return pairs;
     };
@@ -172,7 +141,8 @@ TYPED_TEST(CrossingsTest, WithObstaclesAreReported) {
     EXPECT_TRUE(crossings_of<kDim>(scene, false, {HalfSpace<kDim>{up, -0.1}}).empty());
     const auto sunk = crossings_of<kDim>(scene, false, {HalfSpace<kDim>{up, 0.5}});
     EXPECT_EQ(sunk.size(), 1U << (kDim - 1));
-    EXPECT_EQ(describe<kDim>(sunk[0], bodies_of(scene)), "vertex 0 of 'a' is inside obstacle 0");
+    EXPECT_EQ(describe<kDim>(sunk[0], scene_of<kDim>(scene)),
+              "vertex 0 of 'a' is inside obstacle 0");
     // A ball that cuts a side between its vertices.
     Vector<kDim> center = Vector<kDim>::Constant(0.5);
     center[0] = -0.1;
@@ -184,18 +154,48 @@ TYPED_TEST(CrossingsTest, WithObstaclesAreNoneOfBodiesThatAreMovedFromOutside) {
     constexpr int kDim = TypeParam::value;
     test::Scene<kDim> scene;
     scene.add(test::cube<kDim>(1), Vector<kDim>::Zero());
-    std::vector<ContactBody<kDim>> bodies = bodies_of(scene);
-    const std::vector<bool> is_held(static_cast<std::size_t>(scene.positions.cols()));
     for (const bool is_kinematic : {false, true}) {
-        bodies[0].is_kinematic = is_kinematic;
         for (const Obstacle<kDim>& obstacle :
              {Obstacle<kDim>(HalfSpace<kDim>{Vector<kDim>::Unit(1), 0.5}),
               Obstacle<kDim>(Ball<kDim>{Vector<kDim>::Zero(), 0.2})}) {
-            EXPECT_EQ(find_crossings<kDim>(bodies, {obstacle}, is_held, scene.positions, 0, false)
-                          .empty(),
+            ContactScene<kDim> model = scene_of<kDim>(scene, false, {obstacle});
+            model.bodies[0].is_kinematic = is_kinematic;
+            EXPECT_EQ(ContactFinder<kDim>(model).find_crossings(scene.positions).empty(),
                       is_kinematic);
         }
     }
+}
+
+// Larger than the ball or the box, and around them without touching.
+TYPED_TEST(CrossingsTest, WithAnObstacleThatABodyHasSwallowedAreReported) {
+    constexpr int kDim = TypeParam::value;
+    test::Scene<kDim> scene;
+    scene.add(test::cube<kDim>(3), Vector<kDim>::Zero());
+    const Vector<kDim> middle = Vector<kDim>::Constant(1.4);
+    for (const Obstacle<kDim>& obstacle :
+         {Obstacle<kDim>(Ball<kDim>{middle, 0.5}),
+          Obstacle<kDim>(Cuboid<kDim>{middle, Vector<kDim>::Constant(0.9)})}) {
+        const std::vector<Crossing> crossings = crossings_of<kDim>(scene, false, {obstacle});
+        ASSERT_EQ(crossings.size(), 1U);
+        EXPECT_EQ(describe<kDim>(crossings[0], scene_of<kDim>(scene)), "obstacle 0 is inside 'a'");
+    }
+}
+
+TYPED_TEST(CrossingsTest, WithABoxAreWhereFacesMeetOrVerticesAreInside) {
+    constexpr int kDim = TypeParam::value;
+    test::Scene<kDim> scene;
+    scene.add(test::cube<kDim>(1), Vector<kDim>::Zero());
+    const auto at = [&](double x, double side) {
+        Vector<kDim> center = Vector<kDim>::Constant(0.53);
+        center[0] = x;
+        return crossings_of<kDim>(scene, false,
+                                  {Cuboid<kDim>{center, Vector<kDim>::Constant(side)}});
+    };
+    EXPECT_TRUE(at(-0.3, 0.4).empty());
+    const std::vector<Crossing> cut = at(-0.1, 0.4);  // between the vertices of the cube
+    EXPECT_GT(count(cut, CrossingKind::Through), 0);
+    EXPECT_TRUE(cut[0].second.is_obstacle());
+    EXPECT_EQ(count(at(0.5, 3), CrossingKind::Inside), 1 << kDim);
 }
 
 TYPED_TEST(CrossingsTest, SweepOfTheCheckerSeesWhatPassesWithinAStep) {

@@ -12,21 +12,13 @@ template <typename T>
 class FrictionTest : public testing::Test {
 protected:
     static constexpr int kSpace = T::value;
-    static constexpr double kStep = 0.01;
-    static constexpr Friction kFriction{.coefficient = 0.5, .slip_speed = 0.1};  // e = 1e-3 m
+    static constexpr double kE = 1e-3;  // m
 
     Vector<kSpace> vector(double size = 1) {
         return Vector<kSpace>::NullaryExpr([&] { return size * coordinate_(random_); });
     }
-    FrictionContact<kSpace> contact() {
-        FrictionContact<kSpace> contact;
-        contact.weights.setOnes();
-        contact.normal = vector().normalized();
-        contact.force = 3;
-        return contact;
-    }
-    static Response<kSpace> at(const FrictionContact<kSpace>& contact, const Vector<kSpace>& slip) {
-        return friction_response<kSpace>(contact, slip, kFriction, kStep, FrictionLaw::Energy);
+    static FrictionResponse<kSpace> at(const Vector<kSpace>& normal, const Vector<kSpace>& slip) {
+        return friction_response<kSpace>(normal, 3, slip, kE, FrictionLaw::Energy);
     }
 
     std::mt19937 random_{5};
@@ -38,15 +30,15 @@ TYPED_TEST_SUITE(FrictionTest, Dimensions);
 
 TYPED_TEST(FrictionTest, HasDerivativesThatAreCentralDifferences) {
     constexpr int kDim = TypeParam::value;
-    const FrictionContact<kDim> contact = this->contact();
+    const Vector<kDim> normal = this->vector().normalized();
     for (const double size : {1e-5, 3e-4, 0.9e-3, 2e-3, 0.1}) {
         const Vector<kDim> slip = this->vector(size);
-        const Response<kDim> response = this->at(contact, slip);
+        const FrictionResponse<kDim> response = this->at(normal, slip);
         const double h = 1e-4 * size;
         for (int i = 0; i < kDim; ++i) {
             const Vector<kDim> step = h * Vector<kDim>::Unit(i);
-            const Response<kDim> plus = this->at(contact, slip + step);
-            const Response<kDim> minus = this->at(contact, slip - step);
+            const FrictionResponse<kDim> plus = this->at(normal, slip + step);
+            const FrictionResponse<kDim> minus = this->at(normal, slip - step);
             // Truncation (h / size)^2 = 1e-8; rounding 1e-16 / h of the energy.
             EXPECT_NEAR(response.gradient[i], (plus.energy - minus.energy) / (2 * h), 1e-6);
             EXPECT_LT((response.hessian.col(i) - (plus.gradient - minus.gradient) / (2 * h)).norm(),
@@ -57,27 +49,27 @@ TYPED_TEST(FrictionTest, HasDerivativesThatAreCentralDifferences) {
 
 TYPED_TEST(FrictionTest, IsCoulombsWhereItSlipsAndLessWhereItSticks) {
     constexpr int kDim = TypeParam::value;
-    const FrictionContact<kDim> contact = this->contact();
+    const Vector<kDim> normal = this->vector().normalized();
     Vector<kDim> slip = this->vector();
-    slip -= contact.normal.dot(slip) * contact.normal;
+    slip -= normal.dot(slip) * normal;
     slip.normalize();
-    EXPECT_NEAR(this->at(contact, 0.5 * slip).gradient.norm(), 3, 1e-12);
-    EXPECT_NEAR(this->at(contact, 1e-3 * slip).gradient.norm(), 3, 1e-12);
-    EXPECT_NEAR(this->at(contact, 0.5e-3 * slip).gradient.norm(), 3 * 0.75, 1e-12);  // 2 y - y^2
-    EXPECT_EQ(this->at(contact, 0 * slip).gradient.norm(), 0);
-    EXPECT_EQ(this->at(contact, 0 * slip).energy, 0);
+    EXPECT_NEAR(this->at(normal, 0.5 * slip).gradient.norm(), 3, 1e-12);
+    EXPECT_NEAR(this->at(normal, 1e-3 * slip).gradient.norm(), 3, 1e-12);
+    EXPECT_NEAR(this->at(normal, 0.5e-3 * slip).gradient.norm(), 3 * 0.75, 1e-12);  // 2 y - y^2
+    EXPECT_EQ(this->at(normal, 0 * slip).gradient.norm(), 0);
+    EXPECT_EQ(this->at(normal, 0 * slip).energy, 0);
 }
 
 TYPED_TEST(FrictionTest, ActsInTheTangentSpaceAndAgainstTheSlip) {
     constexpr int kDim = TypeParam::value;
     for (int k = 0; k < 50; ++k) {
-        const FrictionContact<kDim> contact = this->contact();
+        const Vector<kDim> normal = this->vector().normalized();
         const Vector<kDim> slip = this->vector(k % 2 == 0 ? 1e-3 : 1);
-        const Response<kDim> response = this->at(contact, slip);
-        EXPECT_NEAR(response.gradient.dot(contact.normal), 0, 1e-12);
+        const FrictionResponse<kDim> response = this->at(normal, slip);
+        EXPECT_NEAR(response.gradient.dot(normal), 0, 1e-12);
         EXPECT_GT(response.gradient.dot(slip), 0);  // the force is its negative: energy is lost
-        EXPECT_LT((response.hessian * contact.normal).norm(), 1e-9 * response.hessian.norm());
-        const Response<kDim> lifted = this->at(contact, slip + 0.3 * contact.normal);
+        EXPECT_LT((response.hessian * normal).norm(), 1e-9 * response.hessian.norm());
+        const FrictionResponse<kDim> lifted = this->at(normal, slip + 0.3 * normal);
         EXPECT_LT((lifted.gradient - response.gradient).norm(), 1e-12);
     }
 }
@@ -85,8 +77,8 @@ TYPED_TEST(FrictionTest, ActsInTheTangentSpaceAndAgainstTheSlip) {
 TYPED_TEST(FrictionTest, HessianIsPositiveSemidefinite) {
     constexpr int kDim = TypeParam::value;
     for (const double size : {0.0, 1e-6, 0.99e-3, 1.01e-3, 1.0}) {
-        const FrictionContact<kDim> contact = this->contact();
-        const Response<kDim> response = this->at(contact, this->vector(size));
+        const Vector<kDim> normal = this->vector().normalized();
+        const FrictionResponse<kDim> response = this->at(normal, this->vector(size));
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, kDim, kDim>> solver(
             response.hessian);
         EXPECT_GE(solver.eigenvalues().minCoeff(), -1e-9 * response.hessian.norm());
@@ -95,14 +87,124 @@ TYPED_TEST(FrictionTest, HessianIsPositiveSemidefinite) {
 
 TYPED_TEST(FrictionTest, SecantIsTheResistanceThatGivesTheSameForce) {
     constexpr int kDim = TypeParam::value;
-    const FrictionContact<kDim> contact = this->contact();
+    const Vector<kDim> normal = this->vector().normalized();
     for (const double size : {1e-4, 1e-2}) {
         const Vector<kDim> slip = this->vector(size);
-        const Response<kDim> secant = friction_response<kDim>(contact, slip, this->kFriction,
-                                                              this->kStep, FrictionLaw::Secant);
-        EXPECT_LT((secant.gradient - this->at(contact, slip).gradient).norm(), 1e-12);
+        const FrictionResponse<kDim> secant =
+            friction_response<kDim>(normal, 3, slip, this->kE, FrictionLaw::Secant);
+        EXPECT_LT((secant.gradient - this->at(normal, slip).gradient).norm(), 1e-12);
         EXPECT_LT((secant.hessian * slip - secant.gradient).norm(), 1e-12);
     }
+}
+
+template <typename T>
+class LaggedFrictionTest : public FrictionTest<T> {
+protected:
+    static constexpr int kSpace = T::value;
+    static constexpr double kStep = 0.01;
+    static constexpr Friction kFriction{.coefficient = 0.5, .slip_speed = 0.1};  // e = 1e-3 m
+
+    // Contacts of random vertices, one of them with an obstacle and one without a force.
+    void SetUp() override {
+        positions_ = Positions<kSpace>::NullaryExpr(kSpace, 9, [&] { return this->vector()[0]; });
+        for (std::uint32_t k = 0; k < 6; ++k) {
+            Contact<kSpace> contact;
+            contact.count = k == 5 ? 1 : kSpace + 1;
+            for (std::uint32_t i = 0; i <= kSpace; ++i) {
+                contact.vertices[i] = (k + 2 * i) % 9;
+                contact.weights[i] = this->vector()[0];
+            }
+            contact.direction = this->vector().normalized();
+            contact.slope = k == 0 ? 0 : -2.0 * k;
+            contacts_.push_back(contact);
+        }
+    }
+
+    [[nodiscard]] Positions<kSpace> near(double size) {
+        return positions_ + Positions<kSpace>::NullaryExpr(kSpace, 9, [&] {
+                   return size * this->vector()[0];
+               });
+    }
+    static double energy(const LaggedFriction<kSpace>& friction, const Positions<kSpace>& x) {
+        Positions<kSpace> unused = Positions<kSpace>::Zero(kSpace, x.cols());
+        return friction.add_gradient(x, unused);
+    }
+    static Positions<kSpace> gradient(const LaggedFriction<kSpace>& friction,
+                                      const Positions<kSpace>& x) {
+        Positions<kSpace> gradient = Positions<kSpace>::Zero(kSpace, x.cols());
+        friction.add_gradient(x, gradient);
+        return gradient;
+    }
+    static Positions<kSpace> product(const LaggedFriction<kSpace>& friction,
+                                     const Positions<kSpace>& x,
+                                     const Positions<kSpace>& way) {
+        Positions<kSpace> product = Positions<kSpace>::Zero(kSpace, x.cols());
+        for (const WeightedHessian<kSpace>& hessian : friction.hessians(x).weighted) {
+            Vector<kSpace> sum = Vector<kSpace>::Zero();
+            for (int i = 0; i < hessian.count; ++i) {
+                sum += hessian.weights[i] * way.col(hessian.vertices[i]);
+            }
+            for (int i = 0; i < hessian.count; ++i) {
+                product.col(hessian.vertices[i]) += hessian.weights[i] * hessian.block * sum;
+            }
+        }
+        return product;
+    }
+
+    Positions<kSpace> positions_;
+    std::vector<Contact<kSpace>> contacts_;
+};
+TYPED_TEST_SUITE(LaggedFrictionTest, Dimensions);
+
+TYPED_TEST(LaggedFrictionTest, HasDerivativesThatAreCentralDifferences) {
+    constexpr int kDim = TypeParam::value;
+    LaggedFriction<kDim> friction(this->kFriction);
+    friction.begin_step(this->contacts_, this->positions_, nullptr, this->kStep);
+    EXPECT_EQ(friction.size(), 5U);          // one has no force
+    for (const double size : {2e-4, 0.1}) {  // sticks, slips
+        const Positions<kDim> x = this->near(size);
+        const Positions<kDim> way = this->near(1) - this->positions_;
+        const double h = 1e-4 * size;
+        const Positions<kDim> gradient = this->gradient(friction, x);
+        // Truncation (h / size)^2 = 1e-8; rounding 1e-16 / h.
+        EXPECT_NEAR(
+            gradient.cwiseProduct(way).sum(),
+            (this->energy(friction, x + h * way) - this->energy(friction, x - h * way)) / (2 * h),
+            1e-5 * gradient.norm() * way.norm());
+        const Positions<kDim> product = this->product(friction, x, way);
+        EXPECT_LT((product
+                   - (this->gradient(friction, x + h * way) - this->gradient(friction, x - h * way))
+                         / (2 * h))
+                      .norm(),
+                  1e-5 * product.norm());
+    }
+}
+
+TYPED_TEST(LaggedFrictionTest, IsNothingWhereTheStepStarts) {
+    constexpr int kDim = TypeParam::value;
+    LaggedFriction<kDim> friction(this->kFriction);
+    friction.begin_step(this->contacts_, this->positions_, nullptr, this->kStep);
+    EXPECT_EQ(this->energy(friction, this->positions_), 0);
+    EXPECT_EQ(this->gradient(friction, this->positions_).norm(), 0);
+}
+
+// For a single linear solve: the resistance is that of the slip at the velocities of the start,
+// held.
+TYPED_TEST(LaggedFrictionTest, OfALinearStepIsLinearAndRightAtTheVelocitiesOfTheStart) {
+    constexpr int kDim = TypeParam::value;
+    const Positions<kDim> velocities = this->near(1) - this->positions_;
+    LaggedFriction<kDim> linear(this->kFriction);
+    linear.begin_step(this->contacts_, this->positions_, &velocities, this->kStep);
+    LaggedFriction<kDim> exact(this->kFriction);
+    exact.begin_step(this->contacts_, this->positions_, nullptr, this->kStep);
+    const auto at = [&](double times) -> Positions<kDim> {
+        return this->positions_ + times * this->kStep * velocities;
+    };
+    const Positions<kDim> whole = this->gradient(linear, at(1));
+    EXPECT_LT((whole - this->gradient(exact, at(1))).norm(), 1e-10 * whole.norm());
+    EXPECT_LT((2 * whole - this->gradient(linear, at(2))).norm(), 1e-10 * whole.norm());
+    EXPECT_LT((this->product(linear, at(0), velocities) * this->kStep - whole).norm(),
+              1e-10 * whole.norm());
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include "normals.h"
 #include "support/messages.h"
 
 #include <pent/contact/obstacles.h>
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <type_traits>
 
 namespace pent::contact {
 namespace {
@@ -24,7 +26,8 @@ protected:
         const Vector<T::value> center = random_point(0.3);
         const Vector<T::value> up = random_point(1).normalized();
         return {HalfSpace<T::value>{up, 0.2}, Ball<T::value>{center, 0.8},
-                Cavity<T::value>{center, 0.9}, Bowl<T::value>{center, 0.9, up}};
+                Cavity<T::value>{center, 0.9}, Bowl<T::value>{center, 0.9, up},
+                Cuboid<T::value>{center, Vector<T::value>::LinSpaced(0.7, 1.3)}};
     }
 
     std::mt19937 random_{3};
@@ -40,9 +43,9 @@ TYPED_TEST(ObstaclesTest, GradientAndHessianAreCentralDifferences) {
         for (int trial = 0; trial < 200; ++trial) {
             const Vector<kDim> x = this->random_point(1.5);
             const double h = 1e-5;
-            const Vector<kDim> gradient = signed_distance_gradient<kDim>(obstacle, x);
+            const Vector<kDim> gradient = signed_distance<kDim>(obstacle, x).gradient;
             const Eigen::Matrix<double, kDim, kDim> hessian =
-                signed_distance_hessian<kDim>(obstacle, x);
+                signed_distance<kDim>(obstacle, x).hessian();
             if (hessian.norm() > 20) {
                 continue;  // next to a center or the rim, where differences do not reach
             }
@@ -52,11 +55,11 @@ TYPED_TEST(ObstaclesTest, GradientAndHessianAreCentralDifferences) {
             for (int axis = 0; axis < kDim; ++axis) {
                 const Vector<kDim> ahead = x + h * Vector<kDim>::Unit(axis);
                 const Vector<kDim> behind = x - h * Vector<kDim>::Unit(axis);
-                slope[axis] = (signed_distance<kDim>(obstacle, ahead)
-                               - signed_distance<kDim>(obstacle, behind))
+                slope[axis] = (signed_distance<kDim>(obstacle, ahead).value
+                               - signed_distance<kDim>(obstacle, behind).value)
                               / (2 * h);
-                change.col(axis) = (signed_distance_gradient<kDim>(obstacle, ahead)
-                                    - signed_distance_gradient<kDim>(obstacle, behind))
+                change.col(axis) = (signed_distance<kDim>(obstacle, ahead).gradient
+                                    - signed_distance<kDim>(obstacle, behind).gradient)
                                    / (2 * h);
                 // In the ground beside a bowl the nearest surface may change within the step.
                 is_smooth = is_smooth && change.col(axis).norm() < 100;
@@ -78,67 +81,15 @@ TYPED_TEST(ObstaclesTest, DistanceIsContinuousAndHasSlopeOne) {
         for (int trial = 0; trial < 500; ++trial) {
             const Vector<kDim> a = this->random_point(1.5);
             const Vector<kDim> b = a + this->random_point(0.1);
-            EXPECT_LE(
-                std::abs(signed_distance<kDim>(obstacle, a) - signed_distance<kDim>(obstacle, b)),
-                (a - b).norm() * (1 + 1e-12));
-            EXPECT_NEAR(signed_distance_gradient<kDim>(obstacle, a).norm(), 1, 1e-14);
+            EXPECT_LE(std::abs(signed_distance<kDim>(obstacle, a).value
+                               - signed_distance<kDim>(obstacle, b).value),
+                      (a - b).norm() * (1 + 1e-12));
+            EXPECT_NEAR(signed_distance<kDim>(obstacle, a).gradient.norm(), 1, 1e-14);
             // Going back along the gradient by the distance ends on the surface.
-            const Vector<kDim> foot =
-                a
-                - signed_distance<kDim>(obstacle, a) * signed_distance_gradient<kDim>(obstacle, a);
-            EXPECT_NEAR(signed_distance<kDim>(obstacle, foot), 0, 1e-7);
-        }
-    }
-}
-
-TYPED_TEST(ObstaclesTest, ResponseHasDerivativesThatAreCentralDifferences) {
-    constexpr int kDim = TypeParam::value;
-    const Penalty penalty{0.3, 50, Reach::AnyDepth};
-    const double h = 1e-6;
-    for (const auto& obstacle : this->obstacles()) {
-        for (int trial = 0; trial < 100; ++trial) {
-            const Vector<kDim> x = this->random_point(1.5);
-            if (signed_distance_hessian<kDim>(obstacle, x).norm() > 20
-                || std::abs(signed_distance<kDim>(obstacle, x) - 0.3) < 1e-3) {
-                continue;
-            }
-            const Response<kDim> at = obstacle_response<kDim>(obstacle, x, penalty, Filter::None);
-            Vector<kDim> change = Vector<kDim>::Zero();
-            const Vector<kDim> along = this->random_point(1).normalized();
-            const Response<kDim> ahead =
-                obstacle_response<kDim>(obstacle, x + h * along, penalty, Filter::None);
-            const Response<kDim> behind =
-                obstacle_response<kDim>(obstacle, x - h * along, penalty, Filter::None);
-            EXPECT_NEAR((ahead.energy - behind.energy) / (2 * h), at.gradient.dot(along), 1e-5);
-            change = (ahead.gradient - behind.gradient) / (2 * h);
-            if (change.norm() < 1e5) {  // not across the change of the nearest surface
-                EXPECT_LT((change - at.hessian * along).norm(), 1e-2);
-            }
-        }
-    }
-}
-
-TYPED_TEST(ObstaclesTest, FilteredHessiansAreThoseOfADenseEigensolver) {
-    constexpr int kDim = TypeParam::value;
-    using Block = Eigen::Matrix<double, kDim, kDim>;
-    const Penalty penalty{0.4, 50, Reach::AnyDepth};
-    for (const auto& obstacle : this->obstacles()) {
-        for (int trial = 0; trial < 100; ++trial) {
-            const Vector<kDim> x = this->random_point(1.5);
-            const Block raw = obstacle_response<kDim>(obstacle, x, penalty, Filter::None).hessian;
-            const Eigen::SelfAdjointEigenSolver<Block> solver(raw);
-            const Block& Q = solver.eigenvectors();
-            const Block clamped = Q * solver.eigenvalues().cwiseMax(0).asDiagonal() * Q.transpose();
-            const Block absolute = Q * solver.eigenvalues().cwiseAbs().asDiagonal() * Q.transpose();
-            const double rounding = 1e-12 * (1 + raw.norm());
-            EXPECT_LT(
-                (obstacle_response<kDim>(obstacle, x, penalty, Filter::Clamp).hessian - clamped)
-                    .norm(),
-                rounding);
-            EXPECT_LT(
-                (obstacle_response<kDim>(obstacle, x, penalty, Filter::Absolute).hessian - absolute)
-                    .norm(),
-                rounding);
+            const Vector<kDim> foot = a
+                                      - signed_distance<kDim>(obstacle, a).value
+                                            * signed_distance<kDim>(obstacle, a).gradient;
+            EXPECT_NEAR(signed_distance<kDim>(obstacle, foot).value, 0, 1e-7);
         }
     }
 }
@@ -152,9 +103,9 @@ TYPED_TEST(ObstaclesTest, AreFiniteAtTheirCenters) {
     for (const auto& obstacle : obstacles) {
         for (const double above : {0.0, 0.5}) {
             const Vector<kDim> x = center + above * up;
-            EXPECT_TRUE(std::isfinite(signed_distance<kDim>(obstacle, x)));
-            EXPECT_NEAR(signed_distance_gradient<kDim>(obstacle, x).norm(), 1, 1e-14);
-            EXPECT_TRUE(signed_distance_hessian<kDim>(obstacle, x).allFinite());
+            EXPECT_TRUE(std::isfinite(signed_distance<kDim>(obstacle, x).value));
+            EXPECT_NEAR(signed_distance<kDim>(obstacle, x).gradient.norm(), 1, 1e-14);
+            EXPECT_TRUE(signed_distance<kDim>(obstacle, x).hessian().allFinite());
         }
     }
 }
@@ -163,23 +114,88 @@ TYPED_TEST(ObstaclesTest, ThatMakeNoSenseAreRefused) {
     constexpr int kDim = TypeParam::value;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const Vector<kDim> zero = Vector<kDim>::Zero();
-    const std::vector<std::pair<Obstacle<kDim>, std::string>> wrong{
-        {HalfSpace<kDim>{zero, 0}, "unit length"},
-        {HalfSpace<kDim>{Vector<kDim>::UnitX(), nan}, "offset"},
-        {Ball<kDim>{zero, 0}, "radius"},
-        {Cavity<kDim>{Vector<kDim>::Constant(nan), 1}, "center"},
-        {Bowl<kDim>{zero, 1, zero}, "up"}};
-    for (const auto& [obstacle, part] : wrong) {
-        const std::string message =
-            pent::test::error_of([&, &shape = obstacle] { check<kDim>(shape, "obstacle 3"); });
-        pent::test::expect_contains(message, {"obstacle 3: ", part});
+    const std::vector<std::pair<Obstacle<kDim>, std::vector<std::string>>> wrong{
+        {HalfSpace<kDim>{zero, 0}, {"normal", "length 1"}},
+        {HalfSpace<kDim>{Vector<kDim>::UnitX(), nan}, {"offset", "finite"}},
+        {Ball<kDim>{zero, 0}, {"radius", "above 0"}},
+        {Cavity<kDim>{Vector<kDim>::Constant(nan), 1}, {"center", "finite numbers"}},
+        {Bowl<kDim>{zero, 1, zero}, {"up", "length 1"}},
+        {Cuboid<kDim>{zero, zero}, {"sides", "above 0"}}};
+    for (const auto& [obstacle, parts] : wrong) {
+        const std::string message = pent::test::error_of(
+            [&, &shape = obstacle] { pent::check<kDim>(shape, kDim, "obstacle 3"); });
+        pent::test::expect_contains(message, {"obstacle 3: ", parts[0], parts[1]});
     }
-    EXPECT_NO_THROW(check<kDim>(HalfSpace<kDim>{Vector<kDim>::UnitX(), 0}, "obstacle"));
+    EXPECT_NO_THROW(pent::check<kDim>(HalfSpace<kDim>{Vector<kDim>::UnitX(), 0}, kDim, "obstacle"));
+}
+
+// As a scene has them, whose dimension is not known when it is compiled.
+TYPED_TEST(ObstaclesTest, OfAnyDimensionBecomeThoseOfOne) {
+    constexpr int kDim = TypeParam::value;
+    const Vector<kDim> x = this->random_point(1);
+    std::size_t shapes = 0;
+    for (Obstacle<Eigen::Dynamic> shape : all_shapes(kDim)) {
+        double number = 0.3;
+        std::visit(
+            [&](auto& one) {
+                one.fields(one, [&](const char* /*name*/, auto& value, ShapeField kind) {
+                    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>) {
+                        value = number;
+                    } else if (kind == ShapeField::Direction) {
+                        value[2] = 1;
+                    } else if (kind != ShapeField::UpDirection) {
+                        value.setConstant(number);
+                    }
+                    number += 0.1;
+                });
+            },
+            shape);
+        pent::check<Eigen::Dynamic>(shape, kDim, "obstacle");
+        pent::test::expect_contains(
+            pent::test::error_of([&] { pent::check<Eigen::Dynamic>(shape, 7 - kDim, "obstacle"); }),
+            {"finite numbers"});
+        const Obstacle<kDim> fixed = fixed_size<kDim>(shape);
+        EXPECT_EQ(fixed.index(), shapes++);
+        if (const auto* ball = std::get_if<Ball<kDim>>(&fixed)) {
+            EXPECT_EQ(ball->center, Vector<kDim>::Constant(0.3));
+            EXPECT_EQ(ball->radius, 0.4);
+        }
+        if (const auto* bowl = std::get_if<Bowl<kDim>>(&fixed)) {
+            EXPECT_EQ(bowl->up, Vector<kDim>::Unit(1));
+        }
+        EXPECT_TRUE(std::isfinite(signed_distance<kDim>(fixed, x).value));
+    }
+    EXPECT_EQ(shapes, std::variant_size_v<Obstacle<kDim>>);
+}
+
+// Those that repel facets: the distance to the core, less its radius, is that to the surface.
+TYPED_TEST(ObstaclesTest, CoresAreWhereTheDistanceSays) {
+    constexpr int kDim = TypeParam::value;
+    for (const auto& obstacle : this->obstacles()) {
+        const ObstacleCore<kDim> core = core_of<kDim>(obstacle);
+        EXPECT_EQ(core.points.cols() > 0, repels(obstacle) == Repels::Facets);
+        for (Eigen::Index i = 0; i < core.points.cols(); ++i) {
+            EXPECT_NEAR(signed_distance<kDim>(obstacle, core.points.col(i)).value, -core.radius,
+                        1e-15);
+        }
+        for (Eigen::Index f = 0; f < core.surface.facets.cols(); ++f) {
+            Vector<kDim> middle = Vector<kDim>::Zero();
+            Corners<kDim, kDim> corners;
+            for (int i = 0; i < kDim; ++i) {
+                corners.col(i) = core.points.col(core.surface.facets(i, f));
+                middle += corners.col(i) / kDim;
+            }
+            const SignedDistance<kDim> at = signed_distance<kDim>(obstacle, middle);
+            EXPECT_NEAR(at.value, -core.radius, 1e-15);
+            const Vector<kDim> outward = facet_normal<kDim>(corners).normalized();
+            EXPECT_GT(signed_distance<kDim>(obstacle, middle + 0.01 * outward).value, 0.009);
+        }
+    }
 }
 
 TEST(Bowl, IsHollowHalfABallInTheGround) {
     const Bowl<4> bowl{Vector<4>::Zero(), 6, Vector<4>::UnitY()};
-    const auto distance = [&](const Vector<4>& x) { return signed_distance<4>(bowl, x); };
+    const auto distance = [&](const Vector<4>& x) { return signed_distance<4>(bowl, x).value; };
     EXPECT_DOUBLE_EQ(distance({0, -4, 0, 0}), 2);   // above its bottom
     EXPECT_DOUBLE_EQ(distance({0, -7, 0, 0}), -1);  // in the ground below
     EXPECT_DOUBLE_EQ(distance({0, 0, 5, 0}), 1);    // level with the rim

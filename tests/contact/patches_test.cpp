@@ -1,9 +1,9 @@
 #include "patches.h"
 
+#include "boxes_around.h"
+#include "closest_points_oracle.h"
 #include "gather.h"
 #include "scenes.h"
-
-#include <pent/contact/near_pairs.h>
 
 #include <gtest/gtest.h>
 
@@ -145,15 +145,15 @@ TYPED_TEST(PatchesTest, StayApartOnlyWhereAllTheirPairsDo) {
     int apart = 0;
     int others = 0;
     const auto expect_apart = [&](std::uint32_t i, std::uint32_t j, const auto& positions) {
-        const auto far =
-            closest_points<kDim, 2, kDim - 1>(gather<kDim, 2>(surface.edges, i, rest),
-                                              gather<kDim, kDim - 1>(surface.ridges, j, rest));
+        const auto far = test::closest_points<kDim, 2, kDim - 1>(
+            gather<kDim, 2>(surface.edges, i, rest),
+            gather<kDim, kDim - 1>(surface.ridges, j, rest));
         if (far.distance_squared < rest_distance * rest_distance) {
             return;
         }
-        const auto now =
-            closest_points<kDim, 2, kDim - 1>(gather<kDim, 2>(surface.edges, i, positions),
-                                              gather<kDim, kDim - 1>(surface.ridges, j, positions));
+        const auto now = test::closest_points<kDim, 2, kDim - 1>(
+            gather<kDim, 2>(surface.edges, i, positions),
+            gather<kDim, kDim - 1>(surface.ridges, j, positions));
         EXPECT_GT(now.distance_squared, distance * distance);
     };
     for (const Positions<kDim>& positions : TestFixture::deformed(rest)) {

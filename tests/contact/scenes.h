@@ -2,7 +2,7 @@
 
 #include "support/kuhn_box.h"
 
-#include <pent/contact/surface.h>
+#include <pent/contact/contact_finder.h>
 
 #include <array>
 #include <random>
@@ -29,6 +29,26 @@ struct Scene {
         return positions.middleCols(begin[i], begin[i + 1] - begin[i]);
     }
 };
+
+/// The bodies of a scene, called "a", "b" and so on, with these options, at rest where they are.
+/// All vertices are free.
+template <int Dim>
+[[nodiscard]] ContactScene<Dim> contact_scene(const Scene<Dim>& scene,
+                                              const ContactOptions& options,
+                                              const std::vector<Obstacle<Dim>>& obstacles = {}) {
+    ContactScene<Dim> result;
+    result.options = options;
+    result.rest = scene.positions;
+    for (const Surface<Dim>& surface : scene.surfaces) {
+        result.bodies.push_back(
+            {std::string(1, static_cast<char>('a' + result.bodies.size())), surface, false});
+    }
+    for (const Obstacle<Dim>& obstacle : obstacles) {
+        result.obstacles.push_back({obstacle, options.distance, 1000});
+    }
+    result.is_fixed.assign(static_cast<std::size_t>(scene.positions.cols()), false);
+    return result;
+}
 
 /// A box of `count` cells of 1 m along each axis.
 template <int Dim>

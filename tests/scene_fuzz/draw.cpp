@@ -210,9 +210,15 @@ Json draw_obstacle(Random& random, const Plan& plan) {
         obstacle["ball"] = {
             {"center", as_json({0, plan.lowest() - radius - gap, 0, 0}, plan.dimension)},
             {"radius", radius}};
-    } else if (which < 0.85) {
+    } else if (which < 0.8) {
         obstacle["cavity"] = {{"center", as_json({}, plan.dimension)},
                               {"radius", Random::short_of(reach + gap)}};
+    } else if (which < 0.9) {
+        const double side = Random::short_of(plan.size * random.number(0.5, 4));
+        Json sides = as_json({side, side, side, side}, plan.dimension);
+        obstacle["box"] = {
+            {"center", as_json({0, plan.lowest() - 0.5 * side - gap, 0, 0}, plan.dimension)},
+            {"sides", sides}};
     } else {
         obstacle["bowl"] = {{"center", as_json({0, 0.2 * plan.size, 0, 0}, plan.dimension)},
                             {"radius", Random::short_of(1.2 * reach + gap)}};

@@ -25,8 +25,7 @@ struct Summary {
 };
 
 struct Checked {
-    std::optional<Finding> finding;  ///< The first that is news.
-    std::vector<std::string> known;  ///< Defects that are known and were seen, see known.h.
+    std::optional<Finding> finding;  ///< The first.
     Summary summary;
 };
 

@@ -64,7 +64,7 @@ const std::vector<Part>& parts() {
          {"newton_iterations", "unbalanced"}},
         {"gravity",
          [](const Json& scene) {
-             for (const Json& entry : scene["scene"]["gravity"]) {
+             for (const Json& entry : value_at(scene, "scene.gravity")) {
                  if (entry != 0) {
                      return true;
                  }
@@ -78,10 +78,11 @@ const std::vector<Part>& parts() {
 
 // A folder of the run, and whether the scene has what writes it.
 std::string extra_folder(const Json& scene, const std::filesystem::path& run) {
-    const bool has_checkpoint =
-        scene.contains("sleep") || value_at(scene, "solver.integrator") == "bdf2";
+    const bool has_checkpoint = scene.contains("sleep")
+                                || value_at(scene, "solver.integrator") == "bdf2"
+                                || value_at(scene, "contact.model") == "barrier";
     if (!has_checkpoint && std::filesystem::exists(run / "checkpoint")) {
-        return "checkpoint/ is there without bdf2 and sleep";
+        return "checkpoint/ is there without bdf2, sleep and a barrier";
     }
     const bool has_table = value_at(scene, "output.contact_pairs") == true;
     return has_table == std::filesystem::exists(run / "contacts")

@@ -170,6 +170,9 @@ double signed_distance(const ObstacleShape& shape, const Eigen::VectorXd& point)
             const double inside = bowl.radius - (x - bowl.center).norm();
             return std::max(bowl.up.dot(x - bowl.center), inside);
         }
+        double operator()(const BoxObstacle& box) const {  // right inside, and outside in its sign
+            return ((x - box.center).cwiseAbs() - 0.5 * box.sides).maxCoeff();
+        }
     };
     return std::visit(Distance{point}, shape);
 }
@@ -180,7 +183,7 @@ public:
     explicit Watch(const Scene& scene)
         : scene_(scene),
           simulation_(
-              scene, read_meshes<Dim>(scene), {.on_move = [this](const auto& x, bool is_start) {
+              scene, read_meshes<Dim>(scene), {.on_iterate = [this](const auto& x, bool is_start) {
                   look_at_way(x, is_start);
               }}) {
         std::uint32_t first = 0;
@@ -234,7 +237,7 @@ private:
 
     // Held vertices go where the scene says.
     bool is_in_obstacle(const Positions<Dim>& positions) const {
-        for (const Obstacle& obstacle : scene_.obstacles) {
+        for (const simulator::Obstacle& obstacle : scene_.obstacles) {
             for (Eigen::Index v = 0; v < positions.cols(); ++v) {
                 if (scene_.constraints.empty()
                     && signed_distance(obstacle.shape, positions.col(v)) <= 0) {
@@ -311,8 +314,8 @@ private:
                               body, forces.norm(), others.norm(), step, report.asleep));
             }
         }
-        const double energy = report.energies.contact + report.energies.obstacle;
-        const double expected = other.energies.contact + other.energies.obstacle;
+        const double energy = report.energies.of("contact") + report.energies.of("obstacle");
+        const double expected = other.energies.of("contact") + other.energies.of("obstacle");
         if (std::abs(energy - expected) > 1e-9 * std::abs(expected)) {
             throw BrokenLaw(
                 formatted("the energy of contact is %.4g J with sleep, %.4g J without, at"

@@ -161,7 +161,7 @@ private:
 
     Simulation<Dim> make(const BarrierScene<Dim>& scene) {
         SimulationOptions options;
-        options.on_move = [this](const Eigen::MatrixXd& positions, bool is_start) {
+        options.on_iterate = [this](const Eigen::MatrixXd& positions, bool is_start) {
             const Positions<Dim> now = positions;
             if (!is_start) {
                 for_each_pair([&](const Surface& a, const Surface& b) {

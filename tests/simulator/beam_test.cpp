@@ -1,10 +1,10 @@
 // Iterations of the linear solver on the beam of the benchmarks. They are counted, not timed: the
 // same on every machine but for rounding.
 
-#include "aggregates.h"
-#include "conjugate_gradients.h"
-#include "elements.h"
-#include "preconditioner.h"
+#include "linear/aggregates.h"
+#include "linear/conjugate_gradients.h"
+#include "linear/preconditioner.h"
+#include "potentials/elements.h"
 #include "scenes.h"
 
 #include <pent/simulator/simulation.h>
@@ -32,10 +32,10 @@ int cold_iterations(const Scene& scene, const Simulation<4>& simulation) {
     for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
         is_held.push_back(mesh.positions(0, v) < 1e-6);
     }
-    const Numbering numbering = number_unknowns<4>(mesh.cells, is_held, mesh.columns, mesh.layers);
-    const BlockPattern pattern = make_pattern<4>(mesh.cells, numbering);
+    const DofMap dofs = number_dofs<4>(mesh.cells, is_held, {mesh.columns, mesh.layers});
+    const BlockPattern pattern = make_pattern<4>(mesh.cells, dofs);
     const std::vector<CellRange> ranges = {{0, mesh.cell_count(), scene.bodies[0].material}};
-    const Elements<4> elements(mesh.positions, mesh.cells, ranges, numbering, pattern);
+    const Elements<4> elements(mesh.positions, mesh.cells, ranges, dofs, pattern);
     const Workers workers(2);
     const Kernels<4>& isa = kernels<4>(best_isa());
     const double h = scene.dt();
@@ -45,7 +45,7 @@ int cold_iterations(const Scene& scene, const Simulation<4>& simulation) {
     elements.add_hessian(workers, isa, simulation.positions(0), h * h, Filter::Clamp, still, A, b);
     BlockVector<4> positions(4, pattern.rows());
     for (std::int64_t row = 0; row < pattern.rows(); ++row) {
-        const std::uint32_t vertex = numbering.vertex_of_unknown[static_cast<std::size_t>(row)];
+        const std::uint32_t vertex = dofs.vertex_of(static_cast<std::uint32_t>(row));
         const double mass = simulation.masses(0)[vertex];
         A.diagonal(row).diagonal().array() += static_cast<float>(mass);
         positions.col(row) = simulation.positions(0).col(vertex);
@@ -55,11 +55,11 @@ int cold_iterations(const Scene& scene, const Simulation<4>& simulation) {
     const std::vector<std::uint32_t> one_body(static_cast<std::size_t>(pattern.rows()), 0);
     const Aggregates aggregates = make_aggregates<4>(positions, one_body);
     const auto preconditioner = with_rigid_modes(workers, A, aggregates, positions,
-                                                 column_jacobi(workers, A, numbering.column_start));
+                                                 column_jacobi(workers, A, dofs.column_start()));
     LinearSolveSpace<4> space;
     BlockVector<4> dx = BlockVector<4>::Zero(4, pattern.rows());
-    const LinearSolveReport report =
-        solve(workers, isa, A, *preconditioner, b, {.tolerance = 1e-3}, space, dx);
+    const LinearSolveReport report = conjugate_gradients(workers, isa.blocks, A, *preconditioner, b,
+                                                         {.tolerance = 1e-3}, space, dx);
     EXPECT_TRUE(report.has_converged);
     return report.iterations;
 }

@@ -1,4 +1,4 @@
-#include "block_matrix.h"
+#include "linear/block_matrix.h"
 
 #include "elastic_box.h"
 
@@ -29,7 +29,7 @@ void expect_product_matches_dense() {
     const Eigen::VectorXd expected = ElasticBox<Dim>::dense(matrix) * x.reshaped();
     for (const Isa isa : test::supported_isas()) {
         BlockVector<Dim> y(Dim, matrix.rows());
-        matrix.multiply(Workers(2), kernels<Dim>(isa), x, y);
+        matrix.multiply(Workers(2), kernels<Dim>(isa).blocks, x, y);
         EXPECT_LT((y.reshaped() - expected).norm(), 1e-13 * expected.norm()) << isa_name(isa);
     }
 }
@@ -56,9 +56,9 @@ TEST(BlockPattern, HoldsEveryPairOfFreeVerticesOfACellOnceAndInOrder) {
     for (Eigen::Index cell = 0; cell < box.mesh.cell_count(); ++cell) {
         for (int a = 0; a <= 4; ++a) {
             for (int b = 0; b <= 4; ++b) {
-                const auto row = box.numbering.unknown_of_vertex[box.mesh.cells(a, cell)];
-                const auto column = box.numbering.unknown_of_vertex[box.mesh.cells(b, cell)];
-                if (row <= column && column < box.numbering.free_count()) {
+                const auto row = box.dofs.rank_of(box.mesh.cells(a, cell));
+                const auto column = box.dofs.rank_of(box.mesh.cells(b, cell));
+                if (row <= column && column < box.dofs.count()) {
                     const auto at = static_cast<std::size_t>(pattern.find(row, column));
                     EXPECT_EQ(pattern.columns[at], column);
                     EXPECT_LT(at, static_cast<std::size_t>(pattern.row_start[row + 1]));

@@ -101,7 +101,7 @@ TEST(ScrambledBody, CollapsesAndIsReported) {
     const StepReport report = release(scrambled, mesh, 20);
     EXPECT_EQ(report.collapsed, mesh.cell_count());
     // The energy density of F = 0 is (lambda + mu)/2 - mu; mu = 1e5 / 2.56, lambda = 3.5 mu.
-    EXPECT_NEAR(report.energies.elastic, 1.25e5 / 2.56, 1);
+    EXPECT_NEAR(report.energies.of("elastic"), 1.25e5 / 2.56, 1);
 }
 
 TEST(FlattenedBody, IsNotReportedAsCollapsed) {

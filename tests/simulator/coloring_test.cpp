@@ -1,4 +1,4 @@
-#include "coloring.h"
+#include "linear/coloring.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-#include "conjugate_gradients.h"
+#include "linear/conjugate_gradients.h"
 
-#include "direct_solver.h"
 #include "elastic_box.h"
 
 #include <Eigen/Cholesky>
@@ -47,10 +46,10 @@ TEST(ConjugateGradients, FindTheSolutionOfTheDenseFactorization) {
     Problem problem;
     const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
     const Workers workers(1);
-    const auto preconditioner = column_jacobi(workers, A, problem.box.numbering.column_start);
+    const auto preconditioner = column_jacobi(workers, A, problem.box.dofs.column_start());
     const LinearSolveReport report =
-        solve(workers, kernels<4>(best_isa()), A, *preconditioner, problem.b, {.tolerance = 1e-12},
-              problem.space, problem.x);
+        conjugate_gradients(workers, kernels<4>(best_isa()).blocks, A, *preconditioner, problem.b,
+                            {.tolerance = 1e-12}, problem.space, problem.x);
     EXPECT_TRUE(report.has_converged);
     EXPECT_LE(report.residual, 1e-12);
     const Eigen::VectorXd expected =
@@ -59,38 +58,14 @@ TEST(ConjugateGradients, FindTheSolutionOfTheDenseFactorization) {
     EXPECT_LT((problem.x.reshaped() - expected).norm(), 1e-8 * expected.norm());
 }
 
-TEST(DirectSolver, FindsTheSolutionOfTheDenseFactorization) {
-    Problem problem;
-    const BlockMatrix<4, float> A = definite_matrix<float>(problem.box, 0.01);
-    const LinearSolveReport report = solve_directly(A, problem.b, problem.x);
-    EXPECT_TRUE(report.has_converged);
-    const Eigen::MatrixXd dense = ElasticBox<4>::dense(A);
-    // Backward stable: the solution of a matrix a few roundings in double away, whatever the blocks
-    // are stored in.
-    const double roundings = 4 * std::numeric_limits<double>::epsilon();
-    EXPECT_LT(report.residual * problem.b.norm(), roundings * dense.norm() * problem.x.norm());
-    const Eigen::VectorXd expected = dense.ldlt().solve(problem.b.reshaped()).eval();
-    EXPECT_LT((problem.x.reshaped() - expected).norm(), 1e-10 * expected.norm());
-}
-
-TEST(DirectSolver, ReportsAMatrixThatIsNotPositiveDefinite) {
-    Problem problem;
-    BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
-    A.diagonal(3).setZero();
-    A.diagonal(3).diagonal().setConstant(-1);
-    const LinearSolveReport report = solve_directly(A, problem.b, problem.x);
-    EXPECT_TRUE(report.has_broken_down);
-    EXPECT_FALSE(report.has_converged);
-}
-
 TEST(ConjugateGradients, ReachOneMillionthWithAFloatMatrix) {
     Problem problem;
     const BlockMatrix<4, float> A = definite_matrix<float>(problem.box, 0.01);
     const Workers workers(1);
     const LinearSolveReport report =
-        solve(workers, kernels<4>(best_isa()), A,
-              *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b,
-              {.tolerance = 1e-6}, problem.space, problem.x);
+        conjugate_gradients(workers, kernels<4>(best_isa()).blocks, A,
+                            *column_jacobi(workers, A, problem.box.dofs.column_start()), problem.b,
+                            {.tolerance = 1e-6}, problem.space, problem.x);
     EXPECT_TRUE(report.has_converged);
     const Eigen::VectorXd gap =
         problem.b.reshaped() - ElasticBox<4>::dense(A) * problem.x.reshaped();
@@ -104,9 +79,9 @@ TEST(ConjugateGradients, ReportAMatrixThatIsNotPositiveDefinite) {
     A.diagonal(3).diagonal().setConstant(-1);
     const Workers workers(1);
     const LinearSolveReport report =
-        solve(workers, kernels<4>(best_isa()), A,
-              *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b,
-              {.tolerance = 1e-8}, problem.space, problem.x);
+        conjugate_gradients(workers, kernels<4>(best_isa()).blocks, A,
+                            *column_jacobi(workers, A, problem.box.dofs.column_start()), problem.b,
+                            {.tolerance = 1e-8}, problem.space, problem.x);
     EXPECT_TRUE(report.has_broken_down);
     EXPECT_FALSE(report.has_converged);
 }
@@ -116,9 +91,9 @@ TEST(ConjugateGradients, SayWhenIterationsRunOut) {
     const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
     const Workers workers(1);
     const LinearSolveReport report =
-        solve(workers, kernels<4>(best_isa()), A,
-              *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b,
-              {.tolerance = 1e-12, .max_iterations = 3}, problem.space, problem.x);
+        conjugate_gradients(workers, kernels<4>(best_isa()).blocks, A,
+                            *column_jacobi(workers, A, problem.box.dofs.column_start()), problem.b,
+                            {.tolerance = 1e-12, .max_iterations = 3}, problem.space, problem.x);
     EXPECT_FALSE(report.has_converged);
     EXPECT_EQ(report.iterations, 3);
     EXPECT_GT(report.residual, 1e-12);
@@ -131,9 +106,9 @@ TEST(ConjugateGradients, GiveZeroForZeroWithoutIterating) {
     problem.x.setOnes();
     const Workers workers(1);
     const LinearSolveReport report =
-        solve(workers, kernels<4>(best_isa()), A,
-              *column_jacobi(workers, A, problem.box.numbering.column_start), problem.b, {},
-              problem.space, problem.x);
+        conjugate_gradients(workers, kernels<4>(best_isa()).blocks, A,
+                            *column_jacobi(workers, A, problem.box.dofs.column_start()), problem.b,
+                            {}, problem.space, problem.x);
     EXPECT_TRUE(report.has_converged);
     EXPECT_EQ(report.iterations, 0);
     EXPECT_EQ(problem.x.norm(), 0);

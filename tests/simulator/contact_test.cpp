@@ -1,6 +1,6 @@
 #include "contact_scenes.h"
 
-#include <pent/contact/contacts.h>
+#include <pent/contact/contact.h>
 
 #include <gtest/gtest.h>
 
@@ -69,7 +69,7 @@ TYPED_TEST(ContactLaws, LetBodiesThrownAtEachOtherSeparateAgain) {
         for (int i = 0; i < 60; ++i) {
             report = simulation.step();
             ASSERT_TRUE(report.is_accepted) << report.failure;
-            has_touched |= report.energies.contact > 0;
+            has_touched |= report.energies.of("contact") > 0;
             ASSERT_LT(report.contact.deepest, 0.05) << i;  // nowhere near half of a cube
         }
         EXPECT_TRUE(has_touched);
@@ -148,7 +148,7 @@ TYPED_TEST(ContactLaws, BringADroppedBodyToRestOnTheFloor) {
     const double weight = 9.8 * simulation.masses(0).sum();
     EXPECT_NEAR(simulation.contact_forces(0).row(1).sum(), weight, 1e-3 * weight);
     EXPECT_GT(report.contact.obstacle, 0);
-    EXPECT_GT(report.energies.obstacle, 0);
+    EXPECT_GT(report.energies.of("obstacle"), 0);
     const Positions<kDim> rested = simulation.positions(0);
     for (int i = 0; i < 60; ++i) {
         ASSERT_TRUE(simulation.step().is_accepted);
@@ -287,7 +287,7 @@ TEST(NoContact, BuildsNoTreeSearchesNothingAndTakesNoMemory) {
     EXPECT_EQ(report.contact.trees_refit, 0);
     EXPECT_EQ(report.contact.candidates, 0);
     EXPECT_EQ(report.contact.seconds, 0);
-    EXPECT_EQ(report.energies.contact, 0);
+    EXPECT_EQ(report.energies.of("contact"), 0);
     EXPECT_TRUE(simulation.contacts().empty());
 }
 

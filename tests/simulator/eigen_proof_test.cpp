@@ -1,4 +1,4 @@
-#include "eigen_oracle.h"
+#include "theory/eigen_oracle.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "block_matrix.h"
-#include "elements.h"
-#include "numbering.h"
+#include "linear/block_matrix.h"
+#include "linear/dof_map.h"
+#include "potentials/elements.h"
 #include "support/kuhn_box.h"
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@ namespace pent::simulator::test {
 template <int Dim>
 struct ElasticBox {
     SimplexMesh<Dim> mesh;
-    Numbering numbering;
+    DofMap dofs;
     BlockPattern pattern;
     std::unique_ptr<Elements<Dim>> elements;
     Positions<Dim> positions;
@@ -34,10 +34,10 @@ struct ElasticBox {
         for (std::uint32_t v = 0; v < is_held.size(); ++v) {
             columns.push_back(v);
         }
-        numbering = number_unknowns<Dim>(mesh.cells, is_held, columns, columns);
+        dofs = number_dofs<Dim>(mesh.cells, is_held, {columns, columns});
         const std::vector<CellRange> ranges = {{0, mesh.cell_count(), material}};
         ElementLayout<Dim> layout =
-            lay_out_elements<Dim>(mesh.positions, mesh.cells, ranges, numbering, kind);
+            lay_out_elements<Dim>(mesh.positions, mesh.cells, ranges, dofs, kind);
         pattern = std::move(layout.pattern);
         elements = std::make_unique<Elements<Dim>>(std::move(layout.elements));
         positions = mesh.positions;
@@ -53,7 +53,9 @@ struct ElasticBox {
     /// Elastic energy and forces at positions p.
     RunEnergy forces(Isa isa, const Positions<Dim>& p, Positions<Dim>& out) const {
         out.setZero(Dim, p.cols());
-        return elements->add_forces(Workers(1), kernels<Dim>(isa), p, out);
+        const RunEnergy energy = elements->add_gradient(Workers(1), kernels<Dim>(isa), p, out);
+        out = -out;
+        return energy;
     }
 
     /// Filtered stiffness matrix of the free vertices, dense, unknowns in their own order.

@@ -1,4 +1,4 @@
-#include "kernels.h"
+#include "kernels/kernels.h"
 
 #include "elastic_box.h"
 
@@ -89,7 +89,7 @@ struct Reference {
               Filter filter,
               ElementKind kind) {
         const Eigen::Index vertices = box.mesh.vertex_count();
-        const auto unknowns = static_cast<Eigen::Index>(box.numbering.free_count());
+        const auto unknowns = static_cast<Eigen::Index>(box.dofs.count());
         forces.setZero(Dim, vertices);
         stiffness.setZero(Dim * unknowns, Dim * unknowns);
         for (const ReferenceElement& element : reference_elements<Dim>(box.mesh, kind)) {
@@ -110,12 +110,12 @@ struct Reference {
                    const ReferenceElement& element,
                    std::uint32_t a,
                    std::uint32_t b) {
-        if (!box.numbering.is_free(a) || !box.numbering.is_free(b)
-            || element.gradients.row(a).isZero(0) || element.gradients.row(b).isZero(0)) {
+        if (!box.dofs.has_dof(a) || !box.dofs.has_dof(b) || element.gradients.row(a).isZero(0)
+            || element.gradients.row(b).isZero(0)) {
             return;
         }
-        const Eigen::Index row = Dim * box.numbering.unknown_of_vertex[a];
-        const Eigen::Index column = Dim * box.numbering.unknown_of_vertex[b];
+        const Eigen::Index row = Dim * box.dofs.dof_of(a);
+        const Eigen::Index column = Dim * box.dofs.dof_of(b);
         for (int j = 0; j < Dim; ++j) {
             const MatrixXd dF = MatrixXd::Identity(Dim, Dim).col(j) * element.gradients.row(b);
             stiffness.block(row, column + j, Dim, 1) +=
@@ -273,8 +273,8 @@ TEST_P(KernelKinds, TakeColumnsOfHeldVerticesToTheRightSide) {
         shift.col(vertex) = Eigen::Vector4d(0.1, -0.2, 0.3, 0.05 * vertex);
     }
     BlockVector<4> all_shift(4, free_box.pattern.rows());
-    for (std::uint32_t u = 0; u < free_box.numbering.free_count(); ++u) {
-        all_shift.col(u) = shift.col(free_box.numbering.vertex_of_unknown[u]);
+    for (std::uint32_t u = 0; u < free_box.dofs.count(); ++u) {
+        all_shift.col(u) = shift.col(free_box.dofs.vertex_of(u));
     }
     const MatrixXd K = free_box.stiffness<double>(Isa::Scalar, Filter::Clamp);
     const Eigen::VectorXd pulled = 2.5 * K * all_shift.reshaped();
@@ -283,9 +283,9 @@ TEST_P(KernelKinds, TakeColumnsOfHeldVerticesToTheRightSide) {
         BlockVector<4> right = BlockVector<4>::Zero(4, box.pattern.rows());
         box.elements->add_hessian(Workers(1), kernels<4>(isa), box.positions, 2.5, Filter::Clamp,
                                   shift, matrix, right);
-        for (std::uint32_t u = 0; u < box.numbering.free_count(); ++u) {
-            const std::uint32_t vertex = box.numbering.vertex_of_unknown[u];
-            const Eigen::Index at = Eigen::Index{4} * free_box.numbering.unknown_of_vertex[vertex];
+        for (std::uint32_t u = 0; u < box.dofs.count(); ++u) {
+            const std::uint32_t vertex = box.dofs.vertex_of(u);
+            const Eigen::Index at = Eigen::Index{4} * free_box.dofs.dof_of(vertex);
             EXPECT_LT((right.col(u) + pulled.segment<4>(at)).norm(), 1e-10 * pulled.norm());
         }
     }

@@ -33,7 +33,7 @@ TEST_P(Kinks, NeitherStopNewtonsMethodNorMakeItGoInCircles) {
         EXPECT_EQ(report.refused, 0) << step;
         EXPECT_LE(report.unbalanced, 0.1) << step;
         iterations += report.newton_iterations;
-        loaded = std::max(loaded, report.energies.contact);
+        loaded = std::max(loaded, report.energies.of("contact"));
     }
     EXPECT_GT(loaded, 1);
     EXPECT_LT(iterations, 10 * kSteps);  // eight of them to see that it goes in circles

@@ -1,6 +1,6 @@
 #include "contact_scenes.h"
 #include "elastic_box.h"
-#include "rigid_fit.h"
+#include "model/rigid_fit.h"
 #include "scenes.h"
 #include "support/messages.h"
 
@@ -28,7 +28,7 @@ const HalfSpaceSelection kLeftEnd{.normal = Eigen::Vector4d(1, 0, 0, 0), .offset
 struct Patch {
     SimplexMesh<4> mesh = pent::test::kuhn_box<4>({3, 3, 3, 3}, {1, 1, 1, 1});
     std::vector<bool> is_boundary;
-    Numbering numbering;
+    DofMap dofs;
 
     Patch() {
         std::mt19937 random(1);
@@ -43,18 +43,17 @@ struct Patch {
             }
         }
         validate(mesh, "patch");
-        numbering = number_unknowns<4>(mesh.cells, is_boundary, own, own);
+        dofs = number_dofs<4>(mesh.cells, is_boundary, {own, own});
     }
 };
 
 // With its boundary moved linearly, a body of linear material ends in the linear field, exactly.
 TEST(PatchTest, LinearFieldsAreExact) {
     const Patch patch;
-    const BlockPattern pattern = make_pattern<4>(patch.mesh.cells, patch.numbering);
+    const BlockPattern pattern = make_pattern<4>(patch.mesh.cells, patch.dofs);
     const Material material{.model = Model::Linear, .lame = {.lambda = 1.5, .mu = 1}};
     const std::vector<CellRange> ranges = {{0, patch.mesh.cell_count(), material}};
-    const Elements<4> elements(patch.mesh.positions, patch.mesh.cells, ranges, patch.numbering,
-                               pattern);
+    const Elements<4> elements(patch.mesh.positions, patch.mesh.cells, ranges, patch.dofs, pattern);
     Eigen::Matrix4d gradient = Eigen::Matrix4d::Identity();
     gradient(0, 3) = 0.3;
     gradient(1, 1) = 1.2;
@@ -71,8 +70,8 @@ TEST(PatchTest, LinearFieldsAreExact) {
     elements.add_hessian(Workers(1), kernels<4>(best_isa()), patch.mesh.positions, 1, Filter::None,
                          held_shift, K, right);
     const Eigen::VectorXd moved = ElasticBox<4>::dense(K).ldlt().solve(right.reshaped());
-    for (std::uint32_t u = 0; u < patch.numbering.free_count(); ++u) {
-        const std::uint32_t vertex = patch.numbering.vertex_of_unknown[u];
+    for (std::uint32_t u = 0; u < patch.dofs.count(); ++u) {
+        const std::uint32_t vertex = patch.dofs.vertex_of(u);
         const Eigen::Vector4d expected = linear.col(vertex) - patch.mesh.positions.col(vertex);
         EXPECT_LT((moved.segment<4>(4 * u) - expected).norm(), 1e-12);
     }
@@ -287,13 +286,15 @@ struct Assembled {
     Assembled(const SimplexMesh<Dim>& mesh, const Positions<Dim>& x, const Material& material) {
         std::vector<std::uint32_t> own(static_cast<std::size_t>(mesh.vertex_count()));
         std::iota(own.begin(), own.end(), 0U);
-        const Numbering numbering =
-            number_unknowns<Dim>(mesh.cells, std::vector<bool>(own.size(), false), own, own);
-        const BlockPattern pattern = make_pattern<Dim>(mesh.cells, numbering);
+        const DofMap dofs =
+            number_dofs<Dim>(mesh.cells, std::vector<bool>(own.size(), false), {own, own});
+        const BlockPattern pattern = make_pattern<Dim>(mesh.cells, dofs);
         const std::vector<CellRange> ranges = {{0, mesh.cell_count(), material}};
-        const Elements<Dim> elements(mesh.positions, mesh.cells, ranges, numbering, pattern);
+        const Elements<Dim> elements(mesh.positions, mesh.cells, ranges, dofs, pattern);
         forces.setZero(Dim, mesh.vertex_count());
-        static_cast<void>(elements.add_forces(Workers(1), kernels<Dim>(Isa::Baseline), x, forces));
+        static_cast<void>(
+            elements.add_gradient(Workers(1), kernels<Dim>(Isa::Baseline), x, forces));
+        forces = -forces;
         BlockMatrix<Dim, double> K(pattern);
         const Positions<Dim> still = Positions<Dim>::Zero(Dim, mesh.vertex_count());
         BlockVector<Dim> right = BlockVector<Dim>::Zero(Dim, pattern.rows());
@@ -305,8 +306,8 @@ struct Assembled {
             for (Eigen::Index b = 0; b < mesh.vertex_count(); ++b) {
                 stiffness.template block<Dim, Dim>(Dim * a, Dim * b) =
                     by_unknown.template block<Dim, Dim>(
-                        Dim * numbering.unknown_of_vertex[static_cast<std::size_t>(a)],
-                        Dim * numbering.unknown_of_vertex[static_cast<std::size_t>(b)]);
+                        Dim * dofs.dof_of(static_cast<std::uint32_t>(a)),
+                        Dim * dofs.dof_of(static_cast<std::uint32_t>(b)));
             }
         }
     }
@@ -381,7 +382,7 @@ TEST(DirectSolver, TakesTheStepsOfConjugateGradients) {
     scene.constraints = {hold(kLeftEnd, still(4))};
     const SimplexMesh<4> mesh = pent::test::kuhn_box<4>({3, 1, 1, 1}, {0.9, 0.3, 0.3, 0.3});
     Simulation<4> iterated(scene, {mesh});
-    scene.solver.linear = LinearSolver::Direct;
+    scene.solver.linear = LinearSolverKind::Direct;
     Simulation<4> direct(scene, {mesh});
     for (int i = 0; i < 10; ++i) {
         ASSERT_TRUE(iterated.step().is_accepted);
@@ -398,7 +399,7 @@ TEST(DirectSolver, TakesTheStepsOfConjugateGradientsThroughContactToo) {
     scene.solver.tolerance = 1e-10;
     const std::vector<SimplexMesh<3>> meshes(2, test::cube<3>());
     Simulation<3> iterated(scene, meshes);
-    scene.solver.linear = LinearSolver::Direct;
+    scene.solver.linear = LinearSolverKind::Direct;
     Simulation<3> direct(scene, meshes);
     ASSERT_TRUE(iterated.step().is_accepted);
     const StepReport report = direct.step();
@@ -416,7 +417,7 @@ TEST(Simulation, WantsAMeshForEveryBody) {
 
 TEST(DirectSolver, IsRefusedWhereItWouldTakeMinutes) {
     Scene scene = soft_bar(Integrator::LinearEuler, 1);
-    scene.solver.linear = LinearSolver::Direct;
+    scene.solver.linear = LinearSolverKind::Direct;
     EXPECT_THROW(Simulation<4>(scene, {pent::test::kuhn_box<4>({8, 6, 6, 6}, {1, 1, 1, 1})}),
                  Error);
 }

@@ -1,7 +1,7 @@
-#include "preconditioner.h"
+#include "linear/preconditioner.h"
 
 #include "elastic_box.h"
-#include "rotation.h"
+#include "model/rotation.h"
 #include "scenes.h"
 
 #include <pent/simulator/simulation.h>
@@ -92,13 +92,13 @@ TEST(RigidModes, SolveExactlyForRigidMotionsOfEveryAggregate) {
     aggregates.members.resize(2);
     for (std::uint32_t unknown = 0; unknown < f.A.rows(); ++unknown) {
         const std::uint32_t piece =
-            f.box.mesh.positions(0, f.box.numbering.vertex_of_unknown[unknown]) > 0.6 ? 1 : 0;
+            f.box.mesh.positions(0, f.box.dofs.vertex_of(unknown)) > 0.6 ? 1 : 0;
         aggregates.of_unknown.push_back(piece);
         aggregates.members[piece].push_back(unknown);
     }
     BlockVector<4> positions(4, f.A.rows());
     for (std::uint32_t unknown = 0; unknown < f.A.rows(); ++unknown) {
-        positions.col(unknown) = f.box.positions.col(f.box.numbering.vertex_of_unknown[unknown]);
+        positions.col(unknown) = f.box.positions.col(f.box.dofs.vertex_of(unknown));
     }
     const auto coarse =
         with_rigid_modes(f.workers, f.A, aggregates, positions,
@@ -117,7 +117,7 @@ TEST(RigidModes, SolveExactlyForRigidMotionsOfEveryAggregate) {
     }
     BlockVector<4> image(4, f.A.rows());
     BlockVector<4> back(4, f.A.rows());
-    f.A.multiply(f.workers, kernels<4>(Isa::Baseline), motion, image);
+    f.A.multiply(f.workers, kernels<4>(Isa::Baseline).blocks, motion, image);
     coarse->apply(f.workers, image, back);
     EXPECT_LT((back - motion).norm(), 1e-7 * motion.norm());  // 1e-10 is added to the diagonal
 

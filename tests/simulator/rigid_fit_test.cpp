@@ -1,6 +1,6 @@
-#include "rigid_fit.h"
+#include "model/rigid_fit.h"
 
-#include "rotation.h"
+#include "model/rotation.h"
 #include "support/kuhn_box.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "rotation.h"
+#include "model/rotation.h"
 
 #include "support/kuhn_box.h"
 

@@ -1,6 +1,6 @@
-#include "selection.h"
+#include "model/selection.h"
 
-#include "rotation.h"
+#include "model/rotation.h"
 #include "support/kuhn_box.h"
 #include "support/messages.h"
 

@@ -1,7 +1,7 @@
 // Edge-based smoothed elements: what holds for them and not for linear ones, and that the rest of a
 // simulation takes them as it takes those. Their kernels are tested in kernels_test.cpp.
 
-#include "smoothing.h"
+#include "potentials/smoothing.h"
 
 #include "contact_scenes.h"
 #include "elastic_box.h"
@@ -122,8 +122,8 @@ TEST(SmoothedBody, OfOneSimplexIsTheLinearOne) {
         ASSERT_TRUE(smoothed.step().is_accepted);
     }
     EXPECT_LT((linear.positions(0) - smoothed.positions(0)).norm(), 1e-10);
-    EXPECT_NEAR(linear.energies().elastic, smoothed.energies().elastic,
-                1e-9 * linear.energies().elastic);
+    EXPECT_NEAR(linear.energies().of("elastic"), smoothed.energies().of("elastic"),
+                1e-9 * linear.energies().of("elastic"));
 }
 
 // Jensen's inequality for a convex energy: a mean deforms less than its parts.
@@ -148,12 +148,12 @@ void expect_rigid_modes_alone(const SimplexMesh<Dim>& mesh) {
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         own.push_back(v);
     }
-    const Numbering numbering =
-        number_unknowns<Dim>(mesh.cells, std::vector<bool>(own.size(), false), own, own);
+    const DofMap dofs =
+        number_dofs<Dim>(mesh.cells, std::vector<bool>(own.size(), false), {own, own});
     const std::vector<CellRange> ranges = {
         {0, mesh.cell_count(), Material{.lame = {.lambda = 1.3, .mu = 0.7}}}};
     const auto [pattern, elements] =
-        lay_out_elements<Dim>(mesh.positions, mesh.cells, ranges, numbering, ElementKind::Smoothed);
+        lay_out_elements<Dim>(mesh.positions, mesh.cells, ranges, dofs, ElementKind::Smoothed);
     BlockMatrix<Dim, double> K(pattern);
     BlockVector<Dim> right = BlockVector<Dim>::Zero(Dim, pattern.rows());
     const Positions<Dim> still = Positions<Dim>::Zero(Dim, mesh.vertex_count());

@@ -14,11 +14,27 @@
 namespace pent::viewer {
 namespace {
 
+// Whether a point is in a convex body.
+bool is_below_all_sides(const TriangleMesh& surface, const Eigen::Vector3d& x) {
+    const double size = bounding_box(surface).diagonal().norm();
+    for (Eigen::Index i = 0; i < surface.triangle_count(); ++i) {
+        const Eigen::Vector3d a = surface.positions.col(surface.triangles(0, i));
+        const Eigen::Vector3d b = surface.positions.col(surface.triangles(1, i));
+        const Eigen::Vector3d c = surface.positions.col(surface.triangles(2, i));
+        const Eigen::Vector3d normal = (b - a).cross(c - a);
+        if (normal.norm() > 1e-9 * size * size && normal.dot(x - a) >= 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
 // Whether a point is in what a slice has solid.
 bool is_solid(const ObstacleSlice& slice, const Eigen::Vector3d& x) {
     return !slice.is_empty && (!slice.plane || slice.plane->normal.dot(x) < slice.plane->offset)
            && (!slice.ball || (x - slice.ball->center).norm() < slice.ball->radius)
-           && (!slice.hollow || (x - slice.hollow->center).norm() > slice.hollow->radius);
+           && (!slice.hollow || (x - slice.hollow->center).norm() > slice.hollow->radius)
+           && (!slice.block || is_below_all_sides(*slice.block, x));
 }
 
 // The point of R^4 that is seen at x.
@@ -46,7 +62,8 @@ public:
     std::vector<Obstacle<Dim>> one_of_each() {
         return {HalfSpace<Dim>{point<Dim>().normalized(), number(-0.5, 0.5)},
                 Ball<Dim>{point<Dim>(), number(0.2, 1)}, Cavity<Dim>{point<Dim>(), number(0.2, 1)},
-                Bowl<Dim>{point<Dim>(), number(0.2, 1), point<Dim>().normalized()}};
+                Bowl<Dim>{point<Dim>(), number(0.2, 1), point<Dim>().normalized()},
+                Cuboid<Dim>{0.5 * point<Dim>(), 2.2 * point<Dim>().cwiseAbs().array() + 0.2}};
     }
 
 private:
@@ -66,7 +83,8 @@ TEST(ObstacleSlice, IsSolidWhereContactHoldsTheObstacleForSolid) {
             const ObstacleSlice cut = slice(obstacle, plane);
             for (int i = 0; i < 50; ++i) {
                 const Eigen::Vector3d x = 1.5 * random.point<3>();
-                const double distance = contact::signed_distance<4>(obstacle, point_at(plane, x));
+                const double distance =
+                    contact::signed_distance<4>(obstacle, point_at(plane, x)).value;
                 if (std::abs(distance) > kTouching) {
                     ASSERT_EQ(is_solid(cut, x), distance < 0) << obstacle.index() << " " << x;
                     solid += distance < 0 ? 1 : 0;
@@ -86,7 +104,7 @@ TEST(ObstacleSlice, InThreeDimensionsIsTheObstacleItself) {
             const ObstacleSlice all = whole(obstacle);
             for (int i = 0; i < 50; ++i) {
                 const Eigen::Vector3d x = 1.5 * random.point<3>();
-                const double distance = contact::signed_distance<3>(obstacle, x);
+                const double distance = contact::signed_distance<3>(obstacle, x).value;
                 if (std::abs(distance) > kTouching) {
                     ASSERT_EQ(is_solid(all, x), distance < 0) << obstacle.index() << " " << x;
                 }
@@ -130,9 +148,14 @@ TEST(ObstacleSlice, OfALeaningBowlLosesAHollowThatIsInTheAir) {
               under.plane->offset);  // buried
 }
 
-double radius_of(const ObstacleSlice& slice) {
+// How far off the surface solid and free are told apart: further than it bulges between corners,
+// 0.011 of a radius; flat sides do not, but may be close to each other.
+double step_off(const ObstacleSlice& slice) {
+    if (slice.block) {
+        return 1e-6;
+    }
     const std::optional<Sphere>& round = slice.ball ? slice.ball : slice.hollow;
-    return round ? round->radius : 1;
+    return 0.02 * std::min(1.0, round ? round->radius : 1);
 }
 
 // Whether a point is between a hollow and the plane over it, where the solid may be as thin as a
@@ -153,7 +176,8 @@ TEST(ObstacleSurface, LiesOnTheObstacleAndIsTurnedOutOfIt) {
             const ObstacleSlice cut = slice(obstacle, plane);
             const TriangleMesh mesh = obstacle_surface(cut, view, 24);
             for (const auto& x : mesh.positions.colwise()) {
-                EXPECT_NEAR(contact::signed_distance<4>(obstacle, point_at(plane, x)), 0, 1e-12);
+                EXPECT_NEAR(contact::signed_distance<4>(obstacle, point_at(plane, x)).value, 0,
+                            1e-12);
             }
             for (const auto& triangle : mesh.triangles.colwise()) {
                 const Eigen::Matrix3d corners = mesh.positions(Eigen::all, triangle);
@@ -164,8 +188,7 @@ TEST(ObstacleSurface, LiesOnTheObstacleAndIsTurnedOutOfIt) {
                 if (is_in_lip(cut, middle)) {
                     continue;
                 }
-                // Further off the surface than it bulges between corners: 0.011 of a radius.
-                const double step = 0.02 * std::min(1.0, radius_of(cut));
+                const double step = step_off(cut);
                 ASSERT_FALSE(is_solid(cut, middle + step * normal)) << obstacle.index();
                 ASSERT_TRUE(is_solid(cut, middle - step * normal)) << obstacle.index();
                 ++triangles;
@@ -231,6 +254,27 @@ TEST(ObstacleOutline, ReachesAsFarAsTheImagesOfTheBallsPoints) {
             EXPECT_NEAR(reach, reach_of_images(ball, projection, direction), 0.004);
         }
     }
+}
+
+TEST(ObstacleOutline, OfABoxReachesAsFarAsTheImagesOfItsCorners) {
+    Random random;
+    const Cuboid<4> box{Eigen::Vector4d(0.3, -0.2, 0.5, 0.4), Eigen::Vector4d(0.6, 0.8, 0.3, 0.7)};
+    for (const bool is_perspective : {false, true}) {
+        const Projection projection{
+            .film = hyperplane_across({0.2, 0.1, -0.3, 1}, 0.1),
+            .center = {0.1, 0.2, 0.3},
+            .eye_distance = is_perspective ? std::optional<double>(2.5) : std::nullopt};
+        const TriangleMesh mesh = outline(box, projection);
+        EXPECT_GT(enclosed_volume(mesh), 0);
+        const Positions<3> corners = project(to_mesh<4>(box).positions, projection);
+        for (int repeat = 0; repeat < 5; ++repeat) {
+            const Eigen::Vector3d direction = random.point<3>().normalized();
+            EXPECT_NEAR((direction.transpose() * mesh.positions).maxCoeff(),
+                        (direction.transpose() * corners).maxCoeff(), 1e-12);
+        }
+    }
+    const Projection near{.film = hyperplane_at(0), .eye_distance = 0.5};
+    EXPECT_EQ(outline(box, near).triangle_count(), 0);  // it reaches behind the eye
 }
 
 TEST(ObstacleOutline, IsNothingForABallThatReachesBesideOrBehindTheEye) {

@@ -1,5 +1,8 @@
 #include "pent/viewer/obstacle_slice.h"
 
+#include <pent/viewer/boundary.h>
+#include <pent/viewer/slice.h>
+
 #include <cmath>
 
 namespace pent::viewer {
@@ -63,6 +66,21 @@ struct Cut {
             ground.hollow = hollow;
         }
         return ground;
+    }
+    ObstacleSlice operator()(const Cuboid<Dim>& box) const {
+        const SimplexMesh<Dim> mesh = to_mesh<Dim>(box);
+        const Boundary<Dim> boundary = make_boundary<Dim>(mesh, "box");
+        Surface surface;
+        if constexpr (Dim == 4) {
+            surface = merge_coincident(
+                viewer::slice(boundary, mesh.positions, Hyperplane{.frame = frame, .offset = w}));
+        } else {
+            surface = skin(boundary, mesh.positions);
+        }
+        if (!(enclosed_volume(surface) > 0)) {
+            return {.is_empty = true};
+        }
+        return {.block = static_cast<TriangleMesh&&>(surface)};
     }
 };
 

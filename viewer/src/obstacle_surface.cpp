@@ -115,6 +115,9 @@ TriangleMesh wall_surface(const ObstacleSlice& slice, int circle) {
     if (slice.ball) {
         return ball_surface(*slice.ball, circle);
     }
+    if (slice.block) {
+        return *slice.block;
+    }
     if (!slice.hollow) {
         return {};
     }
@@ -140,6 +143,17 @@ TriangleMesh obstacle_surface(const ObstacleSlice& slice, const Sphere& view, in
     const double off = (middle - foot(slice.hollow->center)).norm();
     profile.emplace_back(std::max(2 * rim.x(), off + view.radius), rim.y());
     return revolve(profile, slice.hollow->center, plane.normal, circle);
+}
+
+TriangleMesh outline(const Cuboid<4>& box, const Projection& projection) {
+    const SimplexMesh<4> mesh = to_mesh<4>(box);
+    if (projection.eye_distance) {
+        const double eye = projection.film.offset + *projection.eye_distance;
+        if (!((projection.film.frame.row(3) * mesh.positions).maxCoeff() < eye)) {
+            return {};
+        }
+    }
+    return outline(make_boundary<4>(mesh, "box"), mesh.positions, projection);
 }
 
 // Tangents from the eye touch a ball in a sphere across the way to it; its image is the outline.

@@ -5,10 +5,16 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 namespace pent::viewer {
 
 namespace {
+
+// Angles between triangles of which an edge is seen, in radians: no edge of an ellipsoid is that
+// sharp, and every edge of a box is.
+constexpr double kSmooth = 1.0;
+constexpr double kFlat = 0.1;
 
 RenderObject to_object(TriangleMesh mesh, Positions<3> normals, const Color& color, float opacity) {
     RenderObject object;
@@ -26,21 +32,51 @@ Color obstacle_color() {
     return from_oklch(0.80F, 0.012F, 75);
 }
 
-RenderObject ball_object(const Sphere& ball, const Color& color, float opacity) {
-    TriangleMesh mesh = wall_surface({.ball = ball});
-    Positions<3> normals(3, 3 * mesh.triangle_count());
-    for (Eigen::Index corner = 0; corner < normals.cols(); ++corner) {
-        const Eigen::Vector3d point = mesh.positions.col(mesh.triangles(corner % 3, corner / 3));
-        normals.col(corner) = (point - ball.center) / ball.radius;
+RenderObject wall_object(const ObstacleSlice& slice, const Color& color, float opacity) {
+    TriangleMesh mesh = wall_surface(slice);
+    Positions<3> normals;
+    if (slice.ball) {
+        normals.resize(3, 3 * mesh.triangle_count());
+        for (Eigen::Index corner = 0; corner < normals.cols(); ++corner) {
+            const Eigen::Vector3d point =
+                mesh.positions.col(mesh.triangles(corner % 3, corner / 3));
+            normals.col(corner) = (point - slice.ball->center) / slice.ball->radius;
+        }
+    } else {
+        normals = corner_normals(mesh, kFlat);
     }
     return to_object(std::move(mesh), std::move(normals), color, opacity);
 }
 
-RenderObject outline_object(const Ball<4>& ball, const Projection& projection, float opacity) {
-    constexpr double kSmooth = 1.0;  // radians: no edge of an ellipsoid is that sharp
-    TriangleMesh mesh = outline(ball, projection);
-    Positions<3> normals = corner_normals(mesh, kSmooth);
+RenderObject outline_object(const Obstacle<4>& obstacle,
+                            const Projection& projection,
+                            float opacity) {
+    TriangleMesh mesh = obstacle_outline(obstacle, projection, kFineCircle);
+    Positions<3> normals =
+        corner_normals(mesh, std::holds_alternative<Ball<4>>(obstacle) ? kSmooth : kFlat);
     return to_object(std::move(mesh), std::move(normals), obstacle_color(), opacity);
+}
+
+TriangleMesh obstacle_outline(const Obstacle<4>& obstacle,
+                              const Projection& projection,
+                              int circle) {
+    if (const auto* ball = std::get_if<Ball<4>>(&obstacle)) {
+        return outline(*ball, projection, circle);
+    }
+    if (const auto* box = std::get_if<Cuboid<4>>(&obstacle)) {
+        return outline(*box, projection);
+    }
+    return {};
+}
+
+std::optional<double> radius_of(const ObstacleSlice& slice) {
+    if (slice.ball || slice.hollow) {
+        return (slice.ball ? slice.ball : slice.hollow)->radius;
+    }
+    if (slice.block) {
+        return 0.5 * bounding_box(*slice.block).diagonal().norm();
+    }
+    return std::nullopt;
 }
 
 bool has_ground_below(const std::vector<ObstacleSlice>& slices) {

@@ -7,6 +7,7 @@
 #include <pent/viewer/render.h>
 #include <pent/viewer/section.h>
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,13 +27,23 @@ template <int Dim>
     return slices;
 }
 
-/// A ball of an obstacle's slice as it is to be seen.
-[[nodiscard]] RenderObject ball_object(const Sphere& ball, const Color& color, float opacity);
+/// The ball or the block of an obstacle's slice as it is to be seen.
+[[nodiscard]] RenderObject wall_object(const ObstacleSlice& slice,
+                                       const Color& color,
+                                       float opacity);
 
-/// The outline of a four-dimensional ball; without triangles where it has none.
-[[nodiscard]] RenderObject outline_object(const Ball<4>& ball,
+/// The outline of a four-dimensional obstacle that has an end; without triangles where it has none.
+[[nodiscard]] RenderObject outline_object(const Obstacle<4>& obstacle,
                                           const Projection& projection,
                                           float opacity);
+
+/// The outline itself; empty for obstacles without an end.
+[[nodiscard]] TriangleMesh obstacle_outline(const Obstacle<4>& obstacle,
+                                            const Projection& projection,
+                                            int circle);
+
+/// How far a slice's ball, hollow or block reaches from its middle, m; nothing for a slice without.
+[[nodiscard]] std::optional<double> radius_of(const ObstacleSlice& slice);
 
 /// Whether one of them is under what is looked at, as ground or as a hollow around it.
 [[nodiscard]] bool has_ground_below(const std::vector<ObstacleSlice>& slices);

@@ -116,16 +116,15 @@ void RunRenderer<Dim>::look_at_obstacles(const Tile& tile, const Snapshot<Dim>& 
     for (const Obstacle<Dim>& obstacle : shown_obstacles(snapshot)) {
         for (const std::size_t section : tile.sections) {
             const ObstacleSlice slice = take_section<Dim>(obstacle, sections_[section]);
-            const std::optional<Sphere>& round = slice.ball ? slice.ball : slice.hollow;
-            if (round && (slice.ball || section == tile.solid)) {
-                framing_.add_round(wall_surface(slice, kCoarse).positions, round->radius);
+            const std::optional<double> radius = radius_of(slice);
+            if (radius && (!slice.hollow || section == tile.solid)) {
+                framing_.add_round(wall_surface(slice, kCoarse).positions, *radius);
             }
         }
         if constexpr (Dim == 4) {
-            const auto* ball = std::get_if<Ball<4>>(&obstacle);
-            if (ball != nullptr && options_.projection) {
-                framing_.add_round(outline(*ball, projection_of(tile), kCoarse).positions,
-                                   ball->radius);
+            if (options_.projection) {
+                const TriangleMesh image = obstacle_outline(obstacle, projection_of(tile), kCoarse);
+                framing_.add_round(image.positions, 0.5 * bounding_box(image).diagonal().norm());
             }
         }
     }
@@ -275,7 +274,7 @@ void RunRenderer<Dim>::add_items(const Tile& tile,
     }
 }
 
-// Balls are ghosts as bodies are; ground is not: it would lie over all the rest.
+// Balls and boxes are ghosts as bodies are; ground is not: it would lie over all the rest.
 template <int Dim>
 void RunRenderer<Dim>::add_obstacle_ghosts(const Tile& tile,
                                            const Snapshot<Dim>& snapshot,
@@ -284,14 +283,13 @@ void RunRenderer<Dim>::add_obstacle_ghosts(const Tile& tile,
         for (const std::size_t section : tile.sections) {
             const ObstacleSlice slice = take_section<Dim>(obstacle, sections_[section]);
             const std::optional<Color> tint = ghost_tint(tile, section);
-            if (tint && slice.ball) {
-                objects.push_back(ball_object(*slice.ball, *tint, kOnionOpacity));
+            if (tint && (slice.ball || slice.block)) {
+                objects.push_back(wall_object(slice, *tint, kOnionOpacity));
             }
         }
         if constexpr (Dim == 4) {
-            const auto* ball = std::get_if<Ball<4>>(&obstacle);
-            if (ball != nullptr && options_.projection) {
-                objects.push_back(outline_object(*ball, projection_of(tile), kOutlineOpacity));
+            if (options_.projection) {
+                objects.push_back(outline_object(obstacle, projection_of(tile), kOutlineOpacity));
             }
         }
     }
@@ -314,8 +312,8 @@ Image RunRenderer<Dim>::paint(const Snapshot<Dim>& snapshot,
     const std::vector<ObstacleSlice> obstacles =
         take_sections<Dim>(shown_obstacles(snapshot), sections_[tile.solid]);
     for (const ObstacleSlice& slice : obstacles) {
-        if (slice.ball && slice.ball->radius <= framing_.reach()) {
-            objects.push_back(ball_object(*slice.ball, obstacle_color(), 1));
+        if (slice.block || (slice.ball && slice.ball->radius <= framing_.reach())) {
+            objects.push_back(wall_object(slice, obstacle_color(), 1));
         } else if (!slice.is_empty) {
             render.grounds.push_back(slice);
         }

@@ -172,7 +172,7 @@ private:
                 SurfaceExtras extras;
                 extras.colors = obstacle_color().replicate(1, surface.vertex_count());
                 extras.comment = options_.created_by + ": obstacle " + std::to_string(i + 1) + ", "
-                                 + std::string(kind_of<Dim>(snapshot.obstacles[i]))
+                                 + std::string(name_of<Dim>(snapshot.obstacles[i]))
                                  + after_comma(section.label) + (cut.plane ? ", cut off" : "")
                                  + (cut.is_everything() ? ", solid everywhere" : "");
                 const std::string name = obstacle_name(i);

@@ -1,43 +1,143 @@
 #pragma once
 
+#include <pent/simplex_mesh.h>
+
 #include <Eigen/Core>
 
+#include <cstdint>
+#include <string>
+#include <string_view>
 #include <variant>
+#include <vector>
 
 namespace pent {
+
+/// Which parts of bodies an obstacle keeps out where nothing may cross.
+enum class Repels : std::uint8_t {
+    Vertices,  ///< Enough where the free side is convex: facets lie between their vertices.
+    Facets,    ///< Where a facet can cut the solid and no vertex does. The shape has a core, below.
+};
+
+/// What a field of a shape may be.
+enum class ShapeField : std::uint8_t {
+    Point,        ///< A vector, m.
+    Direction,    ///< A vector of unit length, which has to be given.
+    UpDirection,  ///< The same; along the second axis if it is not given.
+    Number,       ///< Any finite number, m; 0 if it is not given.
+    Length,       ///< A number above 0, m.
+};
+
+// A shape has a name, as scenes know it, and fields() calls visit(name, value, ShapeField) for each
+// of its fields: readers, writers and checks of scenes follow from it. Dim is 3, 4, or
+// Eigen::Dynamic in a scene, whose dimension is not known when it is compiled. A new shape is added
+// here, to the list Obstacle too, and its distance in contact/src/obstacles.cpp; nowhere else.
 
 /// Solid below a hyperplane: {x : normal . x < offset}.
 template <int Dim>
 struct HalfSpace {
+    static constexpr const char* kName = "half_space";
+    static constexpr Repels kRepels = Repels::Vertices;
+    static constexpr bool kIsFreeSideConvex = true;
     Eigen::Matrix<double, Dim, 1> normal;  ///< Unit length, out of the solid.
     double offset = 0;                     ///< m.
+
+    template <typename Shape, typename Visit>
+    static void fields(Shape& shape, const Visit& visit) {
+        visit("normal", shape.normal, ShapeField::Direction);
+        visit("offset", shape.offset, ShapeField::Number);
+    }
 };
 
 /// A solid ball; bodies stay outside.
 template <int Dim>
 struct Ball {
+    static constexpr const char* kName = "ball";
+    static constexpr Repels kRepels = Repels::Facets;
+    static constexpr bool kIsFreeSideConvex = false;
     Eigen::Matrix<double, Dim, 1> center;  ///< m.
     double radius = 0;                     ///< m, > 0.
+
+    template <typename Shape, typename Visit>
+    static void fields(Shape& shape, const Visit& visit) {
+        visit("center", shape.center, ShapeField::Point);
+        visit("radius", shape.radius, ShapeField::Length);
+    }
 };
 
 /// A hollow ball in a solid; bodies stay inside.
 template <int Dim>
 struct Cavity {
+    static constexpr const char* kName = "cavity";
+    static constexpr Repels kRepels = Repels::Vertices;
+    static constexpr bool kIsFreeSideConvex = true;
     Eigen::Matrix<double, Dim, 1> center;  ///< m.
     double radius = 0;                     ///< m, > 0.
+
+    template <typename Shape, typename Visit>
+    static void fields(Shape& shape, const Visit& visit) {
+        visit("center", shape.center, ShapeField::Point);
+        visit("radius", shape.radius, ShapeField::Length);
+    }
 };
 
 /// Half a hollow ball in solid ground: the ground is the half-space below the rim, the bowl is dug
-/// into it. What goes over the rim lies on the ground beside it.
+/// into it. What goes over the rim lies on the ground beside it; there a facet may hang into the
+/// ground between its vertices.
 template <int Dim>
 struct Bowl {
+    static constexpr const char* kName = "bowl";
+    static constexpr Repels kRepels = Repels::Vertices;
+    static constexpr bool kIsFreeSideConvex = false;
     Eigen::Matrix<double, Dim, 1> center;  ///< Of the ball and of its rim, m.
     double radius = 0;                     ///< m, > 0.
     Eigen::Matrix<double, Dim, 1> up;      ///< Unit length, out of the ground.
+
+    template <typename Shape, typename Visit>
+    static void fields(Shape& shape, const Visit& visit) {
+        visit("center", shape.center, ShapeField::Point);
+        visit("radius", shape.radius, ShapeField::Length);
+        visit("up", shape.up, ShapeField::UpDirection);
+    }
 };
 
-/// Something solid that has no mesh.
+/// A solid box along the axes, around its center; bodies stay outside.
 template <int Dim>
-using Obstacle = std::variant<HalfSpace<Dim>, Ball<Dim>, Cavity<Dim>, Bowl<Dim>>;
+struct Cuboid {
+    static constexpr const char* kName = "box";
+    static constexpr Repels kRepels = Repels::Facets;
+    static constexpr bool kIsFreeSideConvex = false;
+    Eigen::Matrix<double, Dim, 1> center;  ///< m.
+    Eigen::Matrix<double, Dim, 1> sides;   ///< Lengths, m, > 0.
+
+    template <typename Shape, typename Visit>
+    static void fields(Shape& shape, const Visit& visit) {
+        visit("center", shape.center, ShapeField::Point);
+        visit("sides", shape.sides, ShapeField::Length);
+    }
+};
+
+/// Something that does not move.
+template <int Dim>
+using Obstacle = std::variant<HalfSpace<Dim>, Ball<Dim>, Cavity<Dim>, Bowl<Dim>, Cuboid<Dim>>;
+
+/// The name of its shape, as scenes know it.
+template <int Dim>
+[[nodiscard]] std::string_view name_of(const Obstacle<Dim>& obstacle);
+
+/// The same obstacle with the dimension known.
+template <int Dim>
+[[nodiscard]] Obstacle<Dim> fixed_size(const Obstacle<Eigen::Dynamic>& obstacle);
+
+/// One of every shape, with its fields of the given dimension not set: for readers to choose from.
+[[nodiscard]] std::vector<Obstacle<Eigen::Dynamic>> all_shapes(int dimension);
+
+/// A box as a mesh of 6 tetrahedra or 24 pentachora, which have all of its corners for vertices.
+template <int Dim>
+[[nodiscard]] SimplexMesh<Dim> to_mesh(const Cuboid<Dim>& box);
+
+/// Throws an Error, beginning with `what`, unless numbers are finite, lengths > 0, directions of
+/// unit length (to 1e-9), and vectors of the dimension.
+template <int Dim>
+void check(const Obstacle<Dim>& obstacle, int dimension, const std::string& what);
 
 }  // namespace pent

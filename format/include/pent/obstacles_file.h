@@ -3,7 +3,6 @@
 #include <pent/obstacle.h>
 
 #include <filesystem>
-#include <string_view>
 #include <vector>
 
 namespace pent {
@@ -21,9 +20,5 @@ void write_obstacles(const std::filesystem::path& path,
 /// another dimension, of a kind or with a key that this reader does not know, or out of range.
 template <int Dim>
 [[nodiscard]] std::vector<Obstacle<Dim>> read_obstacles(const std::filesystem::path& path);
-
-/// "half_space", "ball", "cavity" or "bowl".
-template <int Dim>
-[[nodiscard]] std::string_view kind_of(const Obstacle<Dim>& obstacle);
 
 }  // namespace pent

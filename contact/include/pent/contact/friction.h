@@ -1,10 +1,9 @@
 #pragma once
 
-#include <pent/contact/length.h>
-#include <pent/contact/penalty.h>
+#include <pent/contact/contact.h>
+#include <pent/simplex_mesh.h>
 
-#include <array>
-#include <cstdint>
+#include <vector>
 
 namespace pent::contact {
 
@@ -15,40 +14,80 @@ struct Friction {
         1e-3;  ///< m/s, > 0: what moves slower than that sticks, as if in thick honey.
 };
 
-/// One contact as friction sees it, lagged: normal, force and weights are those at the start of the
-/// time step and are held during it, which makes friction the gradient of an energy. For a vertex and
-/// an obstacle there is one point, of weight 1; unused vertices have weight 0.
-/// Source: [li2020] section 5.4; the tangent space has Dim - 1 dimensions, so there is no basis to
-/// choose: what counts is the length of the slip u = (I - n n^T) sum w_i (x_i - x_i at the start).
-template <int Dim>
-struct FrictionContact {
-    std::array<std::uint32_t, Dim + 1> vertices{};
-    Weights<Dim> weights;
-    int count = Dim + 1;  ///< Vertices in use.
-    Vector<Dim> normal;   ///< n, unit length.
-    double force = 0;     ///< mu times the normal force, N, >= 0.
-};
-
 /// What friction does to the slip in one step.
 enum class FrictionLaw : std::uint8_t {
     Energy,  ///< Gradient and Hessian of the energy at the slip: for Newton's method.
-    Secant,  ///< The resistance that at this slip gives this force, held: for a single linear solve.
+    Secant,  ///< The resistance that gives this force at this slip, held: for one linear solve.
 };
 
-/// Response by the slip of sum w_i x_i: the force on point i is -w_i gradient, and block (i, j) of the
-/// Hessian is w_i w_j hessian.
-///
-/// The energy is force f0(|u|) with f0' = f1, f1(y) = 2 y/e - y^2/e^2 below e = slip_speed h and 1 beyond:
-/// convex, so the Hessian is positive semidefinite as it is, with eigenvalues f1' along the slip and
-/// f1/|u| across it. The force never points along the slip: friction only takes energy.
-///
-/// @param slip  sum w_i (x_i - x_i at the start), m; its part along the normal is of no effect.
-/// @param h     Length of the time step, s.
+/// Energy of the slip at one contact, and its derivatives by it.
 template <int Dim>
-[[nodiscard]] Response<Dim> friction_response(const FrictionContact<Dim>& contact,
-                                              const Vector<Dim>& slip,
-                                              const Friction& friction,
-                                              double h,
-                                              FrictionLaw law);
+struct FrictionResponse {
+    double energy = 0;     ///< J.
+    Vector<Dim> gradient;  ///< N.
+    Block<Dim> hessian;    ///< N/m, symmetric.
+};
+
+/// The energy is force f0(|u|) with f0' = f1, f1(y) = 2 y/e - y^2/e^2 below e and 1 beyond: convex,
+/// so the Hessian is positive semidefinite as it is, with eigenvalues f1' along the slip and f1/|u|
+/// across it. The force never points along the slip: friction only takes energy. Source: [li2020]
+/// section 5.4; the tangent space has Dim - 1 dimensions, so there is no basis to choose: what
+/// counts is the length of u.
+///
+/// @param normal  Unit length.
+/// @param force   mu times the normal force, N, >= 0.
+/// @param slip    m; u is its part normal to `normal`.
+/// @param e       m, > 0: slip_speed times the length of the step.
+template <int Dim>
+[[nodiscard]] FrictionResponse<Dim> friction_response(
+    const Vector<Dim>& normal, double force, const Vector<Dim>& slip, double e, FrictionLaw law);
+
+/// Friction of all contacts of a scene, with the normal forces, normals and weights that they have
+/// at the start of a step: held during it, which makes friction the gradient of an energy.
+template <int Dim>
+class LaggedFriction {
+public:
+    explicit LaggedFriction(const Friction& friction) : friction_(friction) {}
+
+    /// Starts a step of length h (s) at these positions and contacts.
+    ///
+    /// @param velocities  Null for a step that minimizes. For one of a single linear solve those at
+    ///                    its start, m/s: they tell how fast contacts slip, and so their resistance.
+    void begin_step(const std::vector<Contact<Dim>>& contacts,
+                    const Positions<Dim>& positions,
+                    const Positions<Dim>* velocities,
+                    double h);
+
+    /// Adds the gradient at these positions, N, and returns the energy, J: of use within a step
+    /// alone, since it starts anew with each.
+    double add_gradient(const Positions<Dim>& positions, Positions<Dim>& gradient) const;
+
+    /// One for each contact that has a force.
+    [[nodiscard]] StencilHessians<Dim> hessians(const Positions<Dim>& positions) const;
+
+    /// Contacts that have a force.
+    [[nodiscard]] std::size_t size() const { return lagged_.size(); }
+
+private:
+    struct Lagged {
+        std::array<std::uint32_t, Dim + 1> vertices{};
+        Weights<Dim> weights;
+        int count = 0;          // vertices in use
+        Vector<Dim> normal;     // unit length
+        double force = 0;       // mu times the normal force, N
+        Vector<Dim> start;      // sum w_i x_i at the start of the step, m
+        Block<Dim> resistance;  // held, for a single linear solve; N/m
+    };
+
+    [[nodiscard]] static Vector<Dim> weighted_sum(const Lagged& lagged,
+                                                  const Positions<Dim>& vectors);
+    [[nodiscard]] FrictionResponse<Dim> respond(const Lagged& lagged,
+                                                const Positions<Dim>& positions) const;
+
+    Friction friction_;
+    double slip_ = 0;  // slip_speed times the length of the step, m
+    bool is_linear_ = false;
+    std::vector<Lagged> lagged_;
+};
 
 }  // namespace pent::contact

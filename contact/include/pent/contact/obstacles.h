@@ -1,55 +1,70 @@
 #pragma once
 
-#include <pent/contact/barrier.h>
-#include <pent/contact/penalty.h>
+#include <pent/contact/surface.h>
 #include <pent/obstacle.h>
+
+#include <string>
+#include <vector>
 
 namespace pent::contact {
 
-// The shapes are in the format, as files of runs have them, too.
+// The shapes are part of the format: files of runs have them, too.
 using pent::Ball;
 using pent::Bowl;
 using pent::Cavity;
+using pent::Cuboid;
 using pent::HalfSpace;
 using pent::Obstacle;
+using pent::Repels;
+using pent::ShapeField;
 
-/// Signed distance of a point to the surface of an obstacle, m; negative in the solid. Exact, so its
-/// gradient has length 1 wherever it has one.
-template <int Dim>
-[[nodiscard]] double signed_distance(const Obstacle<Dim>& obstacle, const Vector<Dim>& point);
-
-/// Gradient: a unit vector, out of the solid.
+/// Signed distance of a point to the surface of an obstacle, negative in the solid, and its
+/// derivatives. It is exact, so that its gradient has length 1.
 ///
-/// At a center, where every direction is as good, it is the first axis; above the middle of a
-/// bowl, where the whole rim may be nearest, it is towards one point of the rim.
+/// Its Hessian is `along_tangent` on the tangent, and `sideways` on what is normal to tangent and
+/// gradient within the given axes.
 template <int Dim>
-[[nodiscard]] Vector<Dim> signed_distance_gradient(const Obstacle<Dim>& obstacle,
-                                                   const Vector<Dim>& point);
+struct SignedDistance {
+    double value = 0;                           ///< m.
+    Vector<Dim> gradient;                       ///< A unit vector, out of the solid.
+    Vector<Dim> tangent = Vector<Dim>::Zero();  ///< Unit length; zero where all are alike.
+    double along_tangent = 0;                   ///< Curvature, 1/m.
+    double sideways = 0;                        ///< Curvature, 1/m.
+    Vector<Dim> axes = Vector<Dim>::Ones();     ///< 1 for those along which it may bend, else 0.
 
-/// Hessian, 1/m, symmetric: normal curvature of the parallel surface through the point. Zero at the
-/// points named above.
-template <int Dim>
-[[nodiscard]] Eigen::Matrix<double, Dim, Dim> signed_distance_hessian(const Obstacle<Dim>& obstacle,
-                                                                      const Vector<Dim>& point);
+    /// n g g^T + t on the tangent + s sideways.
+    [[nodiscard]] Block<Dim> combine(double n, double t, double s) const {
+        Block<Dim> sum = (n - s) * gradient * gradient.transpose();
+        sum += (t - s) * tangent * tangent.transpose();
+        sum.diagonal() += s * axes;
+        return sum;
+    }
 
-/// Response of a point to an obstacle, at any depth: psi'' n n^T + psi' H, with the eigenvalues of H
-/// in closed form and filtered.
-template <int Dim>
-[[nodiscard]] Response<Dim> obstacle_response(const Obstacle<Dim>& obstacle,
-                                              const Vector<Dim>& point,
-                                              const Penalty& penalty,
-                                              Filter filter);
+    /// 1/m, symmetric: normal curvature of the parallel surface through the point.
+    [[nodiscard]] Block<Dim> hessian() const { return combine(0, along_tangent, sideways); }
+};
 
-/// The same for a barrier; the point must be further than its separation out of the solid.
+/// At a center, where every direction is as good, the gradient is the first axis; above the middle
+/// of a bowl, where the whole rim may be nearest, it is towards one point of the rim. The Hessian
+/// is zero there.
 template <int Dim>
-[[nodiscard]] Response<Dim> obstacle_response(const Obstacle<Dim>& obstacle,
-                                              const Vector<Dim>& point,
-                                              const Barrier& barrier,
-                                              Filter filter);
+[[nodiscard]] SignedDistance<Dim> signed_distance(const Obstacle<Dim>& obstacle,
+                                                  const Vector<Dim>& point);
 
-/// Throws an Error, beginning with `name`, unless numbers are finite, radii > 0 and normals of unit
-/// length (to 1e-9).
+[[nodiscard]] inline Repels repels(const auto& obstacle) {
+    return std::visit([](const auto& shape) { return shape.kRepels; }, obstacle);
+}
+
+/// Of an obstacle that repels facets: all points within `radius` of these simplices, and what they
+/// enclose, are the solid.
 template <int Dim>
-void check(const Obstacle<Dim>& obstacle, const char* name);
+struct ObstacleCore {
+    Surface<Dim> surface;   ///< Of vertices from 0; no faces where the core is a single point.
+    Positions<Dim> points;  ///< Of these vertices; none if the obstacle repels vertices.
+    double radius = 0;      ///< m, >= 0.
+};
+
+template <int Dim>
+[[nodiscard]] ObstacleCore<Dim> core_of(const Obstacle<Dim>& obstacle);
 
 }  // namespace pent::contact

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <pent/contact/box_tree.h>
+#include <pent/contact/stencil.h>
 #include <pent/simplex_mesh.h>
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace pent::contact {
@@ -30,6 +29,20 @@ struct Surface {
     std::vector<std::uint32_t> facet_begin;
     std::vector<std::uint32_t> facet_of;
 
+    /// Vertices, edges, ridges or facets: those with so many corners.
+    template <int Count>
+    [[nodiscard]] const Simplices<Count>& simplices() const {
+        if constexpr (Count == 1) {
+            return vertices;
+        } else if constexpr (Count == 2) {
+            return edges;
+        } else if constexpr (Count == Dim) {
+            return facets;
+        } else {
+            return ridges;
+        }
+    }
+
     [[nodiscard]] std::int64_t bytes() const {
         return static_cast<std::int64_t>(sizeof(std::uint32_t))
                * (vertices.size() + edges.size() + ridges.size() + facets.size()
@@ -51,37 +64,5 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] double mean_edge_length(const Surface<Dim>& surface,
                                       const PositionsView<Dim>& positions);
-
-/// Outward normal of a facet: length (Dim - 1)! times its area, so zero where it has collapsed.
-///
-/// @param corners  In the outward order.
-template <int Dim>
-[[nodiscard]] Vector<Dim> facet_normal(const Corners<Dim, Dim>& corners);
-
-/// Unit outward normals at surface.vertices, Dim x vertices: the area-weighted mean of the facets
-/// there; zero where they cancel. Parallel.
-template <int Dim>
-[[nodiscard]] Positions<Dim> vertex_normals(const Surface<Dim>& surface,
-                                            const PositionsView<Dim>& positions);
-
-/// Boxes around simplices at given positions, within `margin` (m). Parallel.
-template <int Dim, int Count>
-[[nodiscard]] std::vector<Box> boxes_around(const Simplices<Count>& simplices,
-                                            const PositionsView<Dim>& positions,
-                                            double margin);
-
-/// How many times the surface goes round a point: 1 inside, 0 outside, more where the body overlaps
-/// itself, and less where it is inside out. A point on the surface counts with either side.
-///
-/// Counts, with sign, the facets that a ray along an axis crosses. Which facet a ray crosses at a
-/// common face is decided by one exact rule for all facets of the face (a symbolic shift of
-/// the point [edelsbrunner1990]), so that none is counted twice or missed, on lattices either.
-///
-/// @param facets  Tree over boxes that hold the surface's facets, in their order.
-template <int Dim>
-[[nodiscard]] int winding_number(const Surface<Dim>& surface,
-                                 const BoxTree& facets,
-                                 const PositionsView<Dim>& positions,
-                                 const Vector<Dim>& point);
 
 }  // namespace pent::contact

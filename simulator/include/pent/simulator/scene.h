@@ -1,5 +1,7 @@
 #pragma once
 
+#include <pent/contact/contact_model.h>
+#include <pent/obstacle.h>
 #include <pent/simulator/material.h>
 #include <pent/simulator/solver_options.h>
 
@@ -120,32 +122,13 @@ struct Constraint {
     std::string source = {};  ///< Where its selection stands in a scene file; as Body::source.
 };
 
-/// Solid below a hyperplane: {p : normal . p < offset}.
-struct HalfSpaceObstacle {
-    Eigen::VectorXd normal;  ///< Unit length, out of the solid.
-    double offset = 0;       ///< m.
-};
-
-/// A solid ball; bodies stay outside.
-struct BallObstacle {
-    Eigen::VectorXd center;  ///< m.
-    double radius = 0;       ///< m, > 0.
-};
-
-/// A hollow ball in a solid; bodies stay inside.
-struct CavityObstacle {
-    Eigen::VectorXd center;  ///< m.
-    double radius = 0;       ///< m, > 0.
-};
-
-/// Half a hollow ball dug into flat ground.
-struct BowlObstacle {
-    Eigen::VectorXd center;  ///< Of the ball and of its rim, m.
-    double radius = 0;       ///< m, > 0.
-    Eigen::VectorXd up;      ///< Unit length, out of the ground.
-};
-
-using ObstacleShape = std::variant<HalfSpaceObstacle, BallObstacle, CavityObstacle, BowlObstacle>;
+/// Shapes of obstacles, with vectors of the scene's dimension: <pent/obstacle.h>.
+using HalfSpaceObstacle = pent::HalfSpace<Eigen::Dynamic>;
+using BallObstacle = pent::Ball<Eigen::Dynamic>;
+using CavityObstacle = pent::Cavity<Eigen::Dynamic>;
+using BowlObstacle = pent::Bowl<Eigen::Dynamic>;
+using BoxObstacle = pent::Cuboid<Eigen::Dynamic>;
+using ObstacleShape = pent::Obstacle<Eigen::Dynamic>;
 
 /// Something no body may enter, which does not move.
 ///
@@ -157,11 +140,8 @@ struct Obstacle {
     double stiffness = 1000;  ///< N/m for each vertex, > 0.
 };
 
-/// How bodies that touch push each other; docs/contact.md has the models.
-enum class ContactModel {
-    Penalty,  ///< Soft and fast; bodies can pass through each other.
-    Barrier,  ///< Nothing ever crosses; not with the linear Euler integrator.
-};
+/// How bodies that touch push each other; a barrier not with the linear Euler integrator.
+using contact::ContactModel;
 
 /// Contact between bodies, and within them if asked.
 struct Contact {

@@ -2,6 +2,7 @@
 
 #include <pent/parallel.h>
 #include <pent/simplex_mesh.h>
+#include <pent/simulator/energies.h>
 #include <pent/simulator/scene.h>
 
 #include <cstdint>
@@ -16,8 +17,6 @@
 namespace pent::contact {
 template <int Dim>
 struct Contact;
-template <int Dim>
-struct ObstacleContact;
 }  // namespace pent::contact
 
 namespace pent::simulator {
@@ -28,9 +27,10 @@ struct SimulationOptions {
         {};  ///< The host's, in place of `threads` of ours. Results do not depend on it.
     std::string isa =
         {};  ///< "scalar", "baseline", "avx2" or "avx512"; empty for the best there is.
-    /// Told, with a barrier, of the path that a step takes: all positions (Dim x vertices, m) where it
-    /// starts, with true, and after each move, with false. For proofs that nothing crosses.
-    std::function<void(const Eigen::MatrixXd& positions, bool is_start)> on_move = {};
+    /// Told of the path that Newton's method takes in a step: all positions (Dim x vertices, m) where it
+    /// starts, with true, and every iterate, with false. For plots of convergence, and proofs that nothing
+    /// crosses on the way.
+    std::function<void(const Eigen::MatrixXd& positions, bool is_start)> on_iterate = {};
 };
 
 /// How big a simulation is.
@@ -45,19 +45,6 @@ struct SimulationSize {
     std::int64_t matrix_bytes = 0;   ///< Of the matrix; part of `bytes`.
     std::int64_t contact_bytes = 0;  ///< Of surfaces and trees for contact; part of `bytes`.
     std::int64_t bytes = 0;          ///< Of what grows with the mesh, in memory.
-};
-
-/// Energies of a state, J. A part of the model that is absent has 0.
-struct Energies {
-    double kinetic = 0;
-    double elastic = 0;   ///< Of cells with a free vertex.
-    double gravity = 0;   ///< -sum of m g . x.
-    double obstacle = 0;  ///< Of free vertices and obstacles.
-    double contact = 0;   ///< Between bodies, and within them.
-    double friction = 0;  ///< What Newton's method minimizes for friction in a step: no energy that
-                          ///< could be had back, so not in the total.
-
-    [[nodiscard]] double total() const { return kinetic + elastic + gravity + obstacle + contact; }
 };
 
 /// What contact cost in a step. All zero without [contact] and [[obstacle]].
@@ -98,11 +85,28 @@ struct ContactSummary : ContactWork {
 };
 
 /// Whether a body sleeps, and what it takes to decide that; see Sleep.
-struct BodyRest {
+struct SleepState {
     bool is_asleep = false;
     std::uint64_t quiet_steps = 0;  ///< Steps in a row, up to now, that ended with it at rest.
+    double contact_stiffness =
+        0;  ///< Of a barrier when it fell asleep, N/m: it keeps those forces.
 
-    bool operator==(const BodyRest&) const = default;
+    bool operator==(const SleepState&) const = default;
+};
+
+/// All that a simulation carries from one step to the next, to be put back later: the same steps follow,
+/// to the bit.
+template <int Dim>
+struct Snapshot {
+    Positions<Dim> positions;   ///< Dim x vertices of all bodies, m.
+    Positions<Dim> velocities;  ///< Dim x vertices, m/s.
+    /// What BDF2 looks back to, the state one step ago; no columns after a step that was cut in two,
+    /// and for the other integrators.
+    Positions<Dim> previous_positions;
+    Positions<Dim> previous_velocities;
+    std::vector<SleepState> sleep;  ///< One a body.
+    std::uint64_t steps = 0;        ///< Taken so far.
+    double contact_stiffness = 0;   ///< To which a barrier has adapted, N/m; 0 without one.
 };
 
 /// What one step did.
@@ -137,7 +141,7 @@ struct StepReport {
 /// A scene in motion, which a host program steps.
 ///
 /// State is kept in double. Bodies are in the order of the scene; vertices in the order of their
-/// mesh. Views hold until the next step() or set_state(); then take them anew.
+/// mesh. Views hold until the next step(), set_state() or restore(); then take them anew.
 template <int Dim>
 class Simulation {
 public:
@@ -173,12 +177,9 @@ public:
     /// Forces of contact alone, of bodies and obstacles, on the vertices of a body, Dim x vertices, N.
     [[nodiscard]] Positions<Dim> contact_forces(int body) const;
 
-    /// Pairs in contact, by bodies, kind and place. Their vertices are counted through all bodies.
-    /// <pent/contact/contacts.h> has the type.
+    /// What touches: pairs by bodies, kind and place, then vertices at surfaces of obstacles. Vertices are
+    /// counted through all bodies. <pent/contact/contact.h> has the type.
     [[nodiscard]] std::span<const contact::Contact<Dim>> contacts() const;
-
-    /// Vertices in contact with obstacles, by obstacle and vertex.
-    [[nodiscard]] std::span<const contact::ObstacleContact<Dim>> obstacle_contacts() const;
 
     /// First vertex of a body where those of all bodies are counted through.
     [[nodiscard]] std::int64_t first_vertex(int body) const;
@@ -192,34 +193,25 @@ public:
     [[nodiscard]] SimulationSize size() const;
     [[nodiscard]] std::string isa() const;  ///< Name of the instruction set in use.
 
-    /// Puts a body where it was, for a resumed run or a host's own start. Held vertices follow their
-    /// motion from the next step on, whatever is said here. Throws an Error unless both arrays are
-    /// finite and Dim x vertices. What a barrier does not allow is found when something of the new state
-    /// is first asked for, so that bodies may change places: put all of them before asking.
+    /// Puts a body somewhere, awake: a host's own start. Dirichlet vertices follow their motion from the
+    /// next step on, whatever is said here. Throws an Error unless both arrays are finite and Dim x
+    /// vertices, and a CrossingError where a barrier does not allow it; nothing has changed then. To
+    /// move several bodies at once, change a snapshot.
     void set_state(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
 
-    /// What BDF2 looks back to: the state one step ago. False after a step that was cut in two, and
-    /// for the other integrators.
-    [[nodiscard]] bool has_history() const;
-    [[nodiscard]] View previous_positions(int body) const;   ///< m; has_history() must hold.
-    [[nodiscard]] View previous_velocities(int body) const;  ///< m/s; has_history() must hold.
-
-    /// Gives back the history of a body, for a resumed run; call it for all bodies, after set_state().
-    void set_history(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
-
     /// Whether each body sleeps; none does without Scene::sleep.
-    [[nodiscard]] const std::vector<BodyRest>& rest() const;
+    [[nodiscard]] const std::vector<SleepState>& sleep() const;
 
-    /// Gives back what rest() gave, for a resumed run; call it after set_state(), which wakes. Throws an Error unless there is one a body, and none sleeps without
-    /// Scene::sleep.
-    void set_rest(const std::vector<BodyRest>& rest);
+    [[nodiscard]] Snapshot<Dim> save() const;
 
-    /// Sets how many steps have been taken, and so the time.
-    void set_step_count(std::uint64_t steps);
+    /// Puts everything back. Throws an Error, and changes nothing, unless the snapshot fits the scene: as
+    /// many vertices and bodies, all finite, none asleep without Scene::sleep; and a CrossingError where
+    /// a barrier does not allow the positions.
+    void restore(const Snapshot<Dim>& snapshot);
 
 private:
-    class State;
-    std::unique_ptr<State> state_;
+    class Stepper;
+    std::unique_ptr<Stepper> stepper_;
 };
 
 }  // namespace pent::simulator

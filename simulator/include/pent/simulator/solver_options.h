@@ -22,7 +22,7 @@ enum class ElementKind {
 using contact::Filter;
 
 /// Conjugate gradients; sparse L D L^T, the reference for small scenes (2500 free vertices at most).
-enum class LinearSolver { Iterative, Direct };
+enum class LinearSolverKind { Iterative, Direct };
 
 /// Block Jacobi; Jacobi by whole extrusion columns; the latter with a coarse space of rigid modes.
 enum class PreconditionerKind { BlockJacobi, ColumnJacobi, RigidModes };
@@ -34,7 +34,7 @@ struct SolverOptions {
     Integrator integrator = Integrator::LinearEuler;
     ElementKind elements = ElementKind::Linear;
     Filter filter = Filter::Clamp;
-    LinearSolver linear = LinearSolver::Iterative;
+    LinearSolverKind linear = LinearSolverKind::Iterative;
     PreconditionerKind preconditioner = PreconditionerKind::RigidModes;
     Precision precision = Precision::Float;
     double tolerance = 1e-4;  ///< |b - A x| / |b| at which the linear solve stops, in (0, 1).

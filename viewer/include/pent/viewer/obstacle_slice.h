@@ -2,6 +2,7 @@
 
 #include <pent/obstacle.h>
 #include <pent/viewer/hyperplane.h>
+#include <pent/viewer/surface.h>
 
 #include <Eigen/Core>
 
@@ -20,16 +21,20 @@ struct Sphere {
     double radius = 0;       ///< m, > 0.
 };
 
-/// What a hyperplane meets of an obstacle: solid is what is below the plane, in the ball and out of
-/// the hollow, of those that are there. Where none is, all of the slice is solid.
+/// What a hyperplane meets of an obstacle: solid is what is below the plane, in the ball, out of
+/// the hollow and in the block, of those that are there. Where none is, all of the slice is solid.
 struct ObstacleSlice {
     bool is_empty = false;  ///< Nothing is solid; the others are not there then.
     std::optional<Plane> plane{};
     std::optional<Sphere> ball{};
     /// Reaches below the plane, if there is one.
     std::optional<Sphere> hollow{};
+    /// A convex body with flat sides, as its surface.
+    std::optional<TriangleMesh> block{};
 
-    [[nodiscard]] bool is_everything() const { return !is_empty && !plane && !ball && !hollow; }
+    [[nodiscard]] bool is_everything() const {
+        return !is_empty && !plane && !ball && !hollow && !block;
+    }
 };
 
 /// The slice of an obstacle, in the 3D frame of the hyperplane as slices of bodies are.

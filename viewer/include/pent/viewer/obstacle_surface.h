@@ -22,9 +22,13 @@ inline constexpr int kFineCircle = 192;
                                             const Sphere& view,
                                             int circle = kFineCircle);
 
-/// The wall of a slice's ball or hollow, as far as it is the obstacle's surface; empty without
-/// them.
+/// The wall of a slice's ball, hollow or block, as far as it is the obstacle's surface; empty
+/// without them.
 [[nodiscard]] TriangleMesh wall_surface(const ObstacleSlice& slice, int circle = kFineCircle);
+
+/// The outline of the image of a four-dimensional box, as outline() has it of a body. Empty for a
+/// box that is not wholly in front of the eye.
+[[nodiscard]] TriangleMesh outline(const Cuboid<4>& box, const Projection& projection);
 
 /// The outline of the image of a four-dimensional ball, as outline() has it of a body: in an
 /// orthographic projection a sphere of the ball's radius, in a perspective an ellipsoid. Empty for

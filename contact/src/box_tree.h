@@ -1,0 +1,285 @@
+#pragma once
+
+#include <pent/contact/stencil.h>
+#include <pent/simd.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace pent::contact {
+
+/// An axis-aligned box in R^3 or R^4, in float; closed. In R^3 the fourth interval is [0, 0].
+struct alignas(16) Box {
+    float low[4];   // NOLINT(modernize-avoid-c-arrays): loaded as one vector
+    float high[4];  // NOLINT(modernize-avoid-c-arrays)
+};
+
+/// Whether two boxes have a point in common. Never true for a box with a NaN.
+[[nodiscard, gnu::always_inline]] inline bool overlap(const Box& a, const Box& b) {
+    using Four = Pack<float, 4>;
+    return all(Four::load_aligned(a.low) <= Four::load_aligned(b.high)
+               && Four::load_aligned(b.low) <= Four::load_aligned(a.high));
+}
+
+/// The smallest box around both.
+[[nodiscard]] Box hull(const Box& a, const Box& b);
+
+/// A box that holds the points, one a column, and everything within `margin` of them, in exact
+/// arithmetic: rounded outward. Coordinates are below 1e37 m in size, not checked.
+template <int Dim, int Count>
+[[nodiscard]] Box box_around(const Eigen::Matrix<double, Dim, Count>& points, double margin);
+
+/// A bounding-volume tree over boxes: binary, balanced, each inner node with the boxes of both its
+/// children in 64 bytes. The children of a node follow from its place and its count of boxes, so
+/// nothing else is stored: a tree over n boxes has n - 1 nodes.
+///
+/// The tree depends on the boxes alone, not on the number of threads.
+class BoxTree {
+public:
+    /// A subtree: its root node, and which range of the leaves it holds. A single leaf has no node.
+    struct Range {
+        std::uint32_t node = 0;
+        std::uint32_t begin = 0;
+        std::uint32_t count = 0;
+        [[nodiscard]] bool is_leaf() const { return count == 1; }
+        [[nodiscard]] Range left() const { return {node + 1, begin, (count + 1) / 2}; }
+        [[nodiscard]] Range right() const {
+            const std::uint32_t in_left = (count + 1) / 2;
+            return {node + in_left, begin + in_left, count - in_left};
+        }
+    };
+
+    /// Two subtrees whose boxes overlap: a piece of work for one thread.
+    struct Work {
+        Range first;
+        Range second;
+        Box first_box{};
+        Box second_box{};
+    };
+
+    BoxTree() = default;
+
+    /// Splits at the median along the longest side of the centers, in time n log n.
+    explicit BoxTree(std::span<const Box> boxes);
+
+    /// Fits the same tree around moved boxes, of the same number and order; asserted. Linear time.
+    void refit(std::span<const Box> boxes);
+
+    [[nodiscard]] std::size_t size() const { return leaves_.size(); }
+    [[nodiscard]] bool is_empty() const { return leaves_.empty(); }
+    [[nodiscard]] std::int64_t bytes() const {
+        return static_cast<std::int64_t>(nodes_.size() * sizeof(Node)
+                                         + leaves_.size() * sizeof(std::uint32_t));
+    }
+    [[nodiscard]] const Box& root_box() const { return root_; }
+    [[nodiscard]] Range root() const { return {0, 0, static_cast<std::uint32_t>(size())}; }
+
+    /// Which box is at a leaf; leaves of near boxes are near each other.
+    [[nodiscard]] std::uint32_t leaf(std::uint32_t place) const { return leaves_[place]; }
+
+    /// Boxes around the two halves of a range, which is not a leaf.
+    [[nodiscard]] std::pair<Box, Box> child_boxes(const Range& range) const;
+
+    /// Sum of the sides of all node boxes, m: how much a query has to look at. A tree refit so
+    /// often that this has grown by a half is better built anew.
+    [[nodiscard]] double cost() const { return cost_; }
+
+    /// Calls visit(i) for each box i that overlaps `box`.
+    template <typename Visit>
+    void for_each_overlap(const Box& box, const Visit& visit) const;
+
+    /// Whether any box overlaps `box`.
+    [[nodiscard]] bool has_overlap(const Box& box) const;
+
+    /// Calls visit(i) for boxes i in an order that meets near ones first, and leaves out those
+    /// whose squared distance to the point is beyond the bound that the last visit returned.
+    ///
+    /// @param bound  Squared distance to start with, m^2.
+    /// @param visit  double visit(std::uint32_t i): the new bound, not above the last.
+    template <int Dim, typename Visit>
+    void for_each_near(const Vector<Dim>& point, double bound, const Visit& visit) const;
+
+    /// Pieces of work that together are all overlaps of two trees, or of one tree with itself: each
+    /// pair of different boxes once. At least `least` pieces where there is enough to do; their
+    /// order and number depend on the trees alone.
+    [[nodiscard]] static std::vector<Work> split(const BoxTree& first,
+                                                 const BoxTree& second,
+                                                 std::size_t least);
+
+    /// Calls visit(i, j) for each box i of the first and j of the second tree that overlap, within
+    /// one piece of work. Nothing is stored.
+    template <typename Visit>
+    static void for_each_overlap(const BoxTree& first,
+                                 const BoxTree& second,
+                                 const Work& work,
+                                 const Visit& visit);
+
+private:
+    struct alignas(64) Node {
+        Box left;
+        Box right;
+    };
+
+    struct Item {
+        float center[4];  // NOLINT(modernize-avoid-c-arrays)
+        std::uint32_t index;
+    };
+
+    static void sort_items(std::span<Item> items);
+    Box fit(const Range& range, std::span<const Box> boxes, double& cost);
+
+    [[nodiscard]] bool has_overlap(const Range& range, const Box& box) const;
+
+    template <typename Visit>
+    void visit_box(const Range& range, const Box& box, const Visit& visit) const;
+    template <int Dim, typename Visit>
+    void visit_near(const Range& range,
+                    const Vector<Dim>& point,
+                    double& bound,
+                    const Visit& visit) const;
+    // A subtree and the box around it.
+    struct Part {
+        Range range;
+        const Box& box;
+    };
+    template <typename Visit>
+    static void visit_pairs(const BoxTree& first,
+                            const Part& a,
+                            const BoxTree& second,
+                            const Part& b,
+                            const Visit& visit);
+    template <typename Visit>
+    static void visit_self(const BoxTree& tree, const Range& range, const Visit& visit);
+
+    std::vector<Node> nodes_;
+    std::vector<std::uint32_t> leaves_;  // index of the box at each leaf
+    Box root_{};
+    double cost_ = 0;
+};
+
+/// Squared distance of a point to a box, m^2; 0 inside.
+template <int Dim>
+[[nodiscard]] double distance_squared(const Vector<Dim>& point, const Box& box) {
+    double sum = 0;
+    for (int axis = 0; axis < Dim; ++axis) {
+        const double below = static_cast<double>(box.low[axis]) - point[axis];
+        const double above = point[axis] - static_cast<double>(box.high[axis]);
+        const double outside = std::max(std::max(below, above), 0.0);
+        sum += outside * outside;
+    }
+    return sum;
+}
+
+template <typename Visit>
+void BoxTree::for_each_overlap(const Box& box, const Visit& visit) const {
+    if (!is_empty() && overlap(root_, box)) {
+        visit_box(root(), box, visit);
+    }
+}
+
+template <typename Visit>
+void BoxTree::visit_box(const Range& range, const Box& box, const Visit& visit) const {
+    if (range.is_leaf()) {
+        visit(leaves_[range.begin]);
+        return;
+    }
+    const Node& node = nodes_[range.node];
+    if (overlap(node.left, box)) {
+        visit_box(range.left(), box, visit);
+    }
+    if (overlap(node.right, box)) {
+        visit_box(range.right(), box, visit);
+    }
+}
+
+template <int Dim, typename Visit>
+void BoxTree::for_each_near(const Vector<Dim>& point, double bound, const Visit& visit) const {
+    if (!is_empty() && distance_squared<Dim>(point, root_) <= bound) {
+        visit_near<Dim>(root(), point, bound, visit);
+    }
+}
+
+template <int Dim, typename Visit>
+void BoxTree::visit_near(const Range& range,
+                         const Vector<Dim>& point,
+                         double& bound,
+                         const Visit& visit) const {
+    if (range.is_leaf()) {
+        bound = visit(leaves_[range.begin]);
+        return;
+    }
+    const Node& node = nodes_[range.node];
+    const double left = distance_squared<Dim>(point, node.left);
+    const double right = distance_squared<Dim>(point, node.right);
+    const bool is_left_first = left <= right;
+    if ((is_left_first ? left : right) <= bound) {
+        visit_near<Dim>(is_left_first ? range.left() : range.right(), point, bound, visit);
+    }
+    if ((is_left_first ? right : left) <= bound) {
+        visit_near<Dim>(is_left_first ? range.right() : range.left(), point, bound, visit);
+    }
+}
+
+template <typename Visit>
+void BoxTree::for_each_overlap(const BoxTree& first,
+                               const BoxTree& second,
+                               const Work& work,
+                               const Visit& visit) {
+    const bool is_self = &first == &second && work.first.begin == work.second.begin
+                         && work.first.count == work.second.count;
+    if (is_self) {
+        visit_self(first, work.first, visit);
+    } else {
+        visit_pairs(first, {work.first, work.first_box}, second, {work.second, work.second_box},
+                    visit);
+    }
+}
+
+template <typename Visit>
+void BoxTree::visit_pairs(
+    const BoxTree& first, const Part& a, const BoxTree& second, const Part& b, const Visit& visit) {
+    if (a.range.is_leaf()) {
+        const std::uint32_t i = first.leaves_[a.range.begin];
+        second.visit_box(b.range, a.box, [&](std::uint32_t j) { visit(i, j); });
+        return;
+    }
+    if (b.range.is_leaf()) {
+        const std::uint32_t j = second.leaves_[b.range.begin];
+        first.visit_box(a.range, b.box, [&](std::uint32_t i) { visit(i, j); });
+        return;
+    }
+    const Node& m = first.nodes_[a.range.node];
+    const Node& n = second.nodes_[b.range.node];
+    if (overlap(m.left, n.left)) {
+        visit_pairs(first, {a.range.left(), m.left}, second, {b.range.left(), n.left}, visit);
+    }
+    if (overlap(m.left, n.right)) {
+        visit_pairs(first, {a.range.left(), m.left}, second, {b.range.right(), n.right}, visit);
+    }
+    if (overlap(m.right, n.left)) {
+        visit_pairs(first, {a.range.right(), m.right}, second, {b.range.left(), n.left}, visit);
+    }
+    if (overlap(m.right, n.right)) {
+        visit_pairs(first, {a.range.right(), m.right}, second, {b.range.right(), n.right}, visit);
+    }
+}
+
+template <typename Visit>
+void BoxTree::visit_self(const BoxTree& tree, const Range& range, const Visit& visit) {
+    if (range.is_leaf()) {
+        return;
+    }
+    visit_self(tree, range.left(), visit);
+    visit_self(tree, range.right(), visit);
+    const Node& node = tree.nodes_[range.node];
+    if (overlap(node.left, node.right)) {
+        visit_pairs(tree, {range.left(), node.left}, tree, {range.right(), node.right}, visit);
+    }
+}
+
+}  // namespace pent::contact

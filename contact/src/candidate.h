@@ -1,0 +1,120 @@
+#pragma once
+
+#include <pent/contact/surface.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+// Lists of what may come near what, and which of it a look is worth.
+
+namespace pent::contact {
+
+/// Two simplices, by their places in the lists of their surfaces.
+struct Candidate {
+    std::uint32_t first = 0;
+    std::uint32_t second = 0;
+    float distance = 0;  ///< m: where distances were measured they were this far apart, or farther.
+};
+
+[[nodiscard]] inline bool is_before(const Candidate& a, const Candidate& b) {
+    return a.first != b.first ? a.first < b.first : a.second < b.second;
+}
+
+/// The float at or below a distance.
+[[nodiscard]] inline float rounded_down(double distance) {
+    return static_cast<float>(distance * (1 - 1e-7));
+}
+
+/// Candidates in any order, but those whose distance is known come first. All others have the
+/// greatest distance that was measured.
+struct CandidateList {
+    std::vector<Candidate> pairs;
+    std::size_t known_count = 0;
+    std::int64_t overlaps = 0;  ///< Pairs of boxes that overlapped: the work of the search.
+};
+
+/// What of two colliders (or of one and itself) can come near.
+struct CandidatePairs {
+    int first = 0;
+    int second = 0;
+    CandidateList points_first = {};   ///< Vertices of the first, facets of the second.
+    CandidateList points_second = {};  ///< The other way round; none within one body.
+    CandidateList mixed_first = {};    ///< Edges of the first, ridges of the second.
+    CandidateList mixed_second = {};   ///< The other way round; in R^4 between two bodies.
+
+    [[nodiscard]] bool is_self() const { return first == second; }
+    [[nodiscard]] std::int64_t overlaps() const {
+        return points_first.overlaps + points_second.overlaps + mixed_first.overlaps
+               + mixed_second.overlaps;
+    }
+    [[nodiscard]] std::size_t size() const {
+        return points_first.pairs.size() + points_second.pairs.size() + mixed_first.pairs.size()
+               + mixed_second.pairs.size();
+    }
+};
+
+/// How far each vertex gets, at most, from where distances were measured, in m.
+struct Displacement {
+    Eigen::VectorXf of_vertex;
+    float max = 0;
+
+    template <int Count>
+    [[nodiscard]] float of(const Simplices<Count>& simplices, Eigen::Index i) const {
+        float of_corner = 0;
+        for (int corner = 0; corner < Count; ++corner) {
+            of_corner = std::max(of_corner, of_vertex[simplices(corner, i)]);
+        }
+        return of_corner;
+    }
+};
+
+/// Tells which candidates of a list may come within a distance, from how far they were apart and
+/// how far they have gone since: most are held back by two numbers, without a look at where they
+/// are.
+template <int K, int L>
+class DistanceCull {
+public:
+    /// All but the distance (m) are kept by reference.
+    DistanceCull(const CandidateList& list,
+                 const Simplices<K>& first,
+                 const Simplices<L>& second,
+                 const Displacement& displacement,
+                 double distance)
+        : list_(list),
+          first_(first),
+          second_(second),
+          displacement_(displacement),
+          distance_(distance) {
+        const std::size_t known = list.known_count;
+        const bool is_done =
+            known == list.pairs.size() || is_beyond(list.pairs[known], 2 * displacement.max);
+        size_ = is_done ? known : list.pairs.size();
+    }
+
+    /// Candidates from this place on do not pass.
+    [[nodiscard]] std::size_t size() const { return size_; }
+
+    [[nodiscard]] bool passes(std::size_t place) const {
+        const Candidate& pair = list_.pairs[place];
+        return !is_beyond(pair, 2 * displacement_.max)
+               && !is_beyond(pair, displacement_.of<K>(first_, pair.first)
+                                       + displacement_.of<L>(second_, pair.second));
+    }
+
+private:
+    [[nodiscard]] bool is_beyond(const Candidate& pair, float displacement) const {
+        constexpr double kRoundUp = 1 + 1e-6;  // floats have been added
+        return static_cast<double>(pair.distance)
+               > (distance_ + static_cast<double>(displacement)) * kRoundUp;
+    }
+
+    const CandidateList& list_;
+    const Simplices<K>& first_;
+    const Simplices<L>& second_;
+    const Displacement& displacement_;
+    double distance_;
+    std::size_t size_ = 0;
+};
+
+}  // namespace pent::contact

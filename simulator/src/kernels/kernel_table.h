@@ -1,0 +1,46 @@
+#pragma once
+
+#include "kernels/kernel_elements.h"
+#include "kernels/kernel_rows.h"
+#include "kernels/kernel_smoothed.h"
+
+// The table of kernels of one instruction set, from its packs of floats and of doubles.
+
+namespace pent::simulator {
+namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
+
+template <int Dim, typename Scalar, bool IsVectorized>
+constexpr auto choose_multiply() {
+    if constexpr (Dim == 4 && IsVectorized) {
+        return &multiply_rows_4<Scalar>;
+    } else {
+        return &multiply_rows<Dim, Scalar>;
+    }
+}
+
+template <int Dim, typename Real>
+RunEnergy add_gradient_of(const ElementRun& run, const double* positions, double* gradient) {
+    return run.corners == Dim + 1 ? add_gradient<Dim, Real>(run, positions, gradient)
+                                  : add_smoothed_gradient<Dim, Real>(run, positions, gradient);
+}
+
+template <int Dim, typename Real, typename Scalar>
+std::int64_t add_hessian_of(const ElementRun& run,
+                            const double* positions,
+                            const HessianTarget<Scalar>& target) {
+    return run.corners == Dim + 1 ? add_hessian<Dim, Real>(run, positions, target)
+                                  : add_smoothed_hessian<Dim, Real>(run, positions, target);
+}
+
+template <int Dim, typename FloatPack, typename DoublePack>
+constexpr Kernels<Dim> kernel_table() {
+    constexpr bool kIsVectorized = Lanes<DoublePack>::kCount > 1;
+    return {.gradient = &add_gradient_of<Dim, DoublePack>,
+            .hessian_float = &add_hessian_of<Dim, FloatPack, float>,
+            .hessian_double = &add_hessian_of<Dim, DoublePack, double>,
+            .blocks = {.multiply_float = choose_multiply<Dim, float, kIsVectorized>(),
+                       .multiply_double = choose_multiply<Dim, double, kIsVectorized>()}};
+}
+
+}  // namespace
+}  // namespace pent::simulator

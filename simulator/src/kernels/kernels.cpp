@@ -1,0 +1,81 @@
+#include "kernels/kernels.h"
+
+#include "kernels/kernels_isa.h"
+
+namespace pent::simulator {
+
+std::string_view isa_name(Isa isa) {
+    switch (isa) {
+        case Isa::Scalar:
+            return "scalar";
+        case Isa::Baseline:
+            return "baseline";
+        case Isa::Avx2:
+            return "avx2";
+        case Isa::Avx512:
+            return "avx512";
+    }
+    return "";  // GCOVR_EXCL_LINE: there are no others
+}
+
+bool is_supported(Isa isa) {
+    switch (isa) {
+        case Isa::Scalar:
+        case Isa::Baseline:
+            return true;
+#ifdef PENT_X86_KERNELS
+        case Isa::Avx2:
+            return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
+        case Isa::Avx512:
+            return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0
+                   && __builtin_cpu_supports("avx512bw") != 0
+                   && __builtin_cpu_supports("avx512vl") != 0;
+#else
+        case Isa::Avx2:
+        case Isa::Avx512:
+            return false;
+#endif
+    }
+    return false;  // GCOVR_EXCL_LINE: there are no others
+}
+
+Isa best_isa() {
+    if (is_supported(Isa::Avx512)) {
+        return Isa::Avx512;
+    }
+    return is_supported(Isa::Avx2) ? Isa::Avx2 : Isa::Baseline;  // GCOVR_EXCL_LINE: no AVX-512
+}
+
+template <>
+const Kernels<3>& kernels<3>(Isa isa) {
+    switch (isa) {
+        case Isa::Scalar:
+            return kernels_3_scalar();
+#ifdef PENT_X86_KERNELS
+        case Isa::Avx2:
+            return kernels_3_avx2();
+        case Isa::Avx512:
+            return kernels_3_avx512();
+#endif
+        default:
+            return kernels_3_baseline();
+    }
+}
+
+template <>
+const Kernels<4>& kernels<4>(Isa isa) {
+    switch (isa) {
+        case Isa::Scalar:
+            return kernels_4_scalar();
+#ifdef PENT_X86_KERNELS
+        case Isa::Avx2:
+            return kernels_4_avx2();
+        case Isa::Avx512:
+            return kernels_4_avx512();
+#endif
+        default:
+            return kernels_4_baseline();
+    }
+}
+
+}  // namespace pent::simulator

@@ -1,0 +1,103 @@
+#pragma once
+
+#include "linear/block_kernels.h"
+
+#include <pent/simulator/material.h>
+#include <pent/simulator/solver_options.h>
+
+#include <cstdint>
+#include <string_view>
+
+namespace pent::simulator {
+
+/// The inner loops, compiled once for each instruction set and chosen at run time.
+///
+/// This header, and what the kernels are made of, use plain pointers and no inline function of a
+/// library: a function the linker shares between files must not hold instructions a machine lacks.
+
+/// Elements are stored in groups of this many, one element a lane, whatever the vector width.
+inline constexpr int kGroup = 16;
+
+/// Blocks of the upper triangle of an element matrix: pairs a <= b of its corners. In kernels at compile time
+/// alone, see above.
+constexpr int pairs_of(int corners) {
+    return corners * (corners + 1) / 2;
+}
+
+/// The same for a simplex.
+template <int Dim>
+inline constexpr int kPairs = pairs_of(Dim + 1);
+
+/// A run of element groups of one material and one number of corners. Arrays are [group][row][lane].
+///
+/// An element deforms by F = sum over its corners of x_a g_a^T, with rest gradients g_a that add up to
+/// zero: a simplex has Dim + 1 of them, a smoothing domain may have more. The corners are in increasing
+/// order of their unknown, held ones last; an element with fewer than the others repeats its
+/// first, with zeros for gradients. Lanes behind the last element of a run repeat a real element with
+/// volume 0 and are not scattered.
+struct ElementRun {
+    Model model = Model::StableNeoHookean;
+    double mu = 0;             ///< Pa, of linear elasticity.
+    double lambda = 0;         ///< Pa, of linear elasticity.
+    double collapse_norm = 0;  ///< An element with |F|^2 below has collapsed; 0: none can.
+    int elements = 0;          ///< Elements in the run; groups = ceil(elements / kGroup).
+    int corners = 0;           ///< Of every element, at least Dim + 1.
+    const double* rest =
+        nullptr;  ///< (corners - 1) * Dim + 1 rows: the gradients of all corners but
+                  ///< the first, of a simplex the inverse of Dm; rest volume.
+    const std::uint32_t* vertices = nullptr;  ///< `corners` rows.
+    const std::uint32_t* unknowns = nullptr;  ///< `corners` rows; >= free_unknowns where held.
+    const std::int32_t* blocks =
+        nullptr;  ///< pairs_of(corners) rows: index of the matrix block, -1 for none.
+    std::uint32_t free_unknowns = 0;
+};
+
+struct RunEnergy {
+    double energy = 0;           ///< J, of all elements of the run.
+    std::int64_t inverted = 0;   ///< Elements with J <= 0.
+    std::int64_t collapsed = 0;  ///< Elements with |F|^2 < ElementRun::collapse_norm.
+};
+
+/// Where Hessian blocks go.
+template <typename Scalar>
+struct HessianTarget {
+    Scalar* values = nullptr;  ///< Dim x Dim blocks, column-major; added to.
+    double scale = 1;          ///< Factor on every block.
+    Filter filter = Filter::Clamp;
+    const double* held_shift = nullptr;  ///< Dim x vertices: how far held vertices move, m.
+    double* right = nullptr;  ///< Dim x unknowns: less block * held_shift for held columns.
+};
+
+/// The kernels of one instruction set.
+template <int Dim>
+struct Kernels {
+    /// Adds dPsi/dx of every element to `gradient` (Dim x vertices) and returns the energy.
+    RunEnergy (*gradient)(const ElementRun& run, const double* positions, double* gradient);
+
+    /// Adds the filtered Hessian of every element; returns how many of them the filter changed.
+    std::int64_t (*hessian_float)(const ElementRun& run,
+                                  const double* positions,
+                                  const HessianTarget<float>& target);
+    std::int64_t (*hessian_double)(const ElementRun& run,
+                                   const double* positions,
+                                   const HessianTarget<double>& target);
+
+    BlockKernels blocks;
+};
+
+/// Instruction sets there are kernels for. Scalar is the plain one that others are tested against.
+enum class Isa { Scalar, Baseline, Avx2, Avx512 };
+
+[[nodiscard]] std::string_view isa_name(Isa isa);
+
+/// Whether this build has kernels for it and this machine runs them.
+[[nodiscard]] bool is_supported(Isa isa);
+
+/// The widest supported one.
+[[nodiscard]] Isa best_isa();
+
+/// Kernels for a supported instruction set.
+template <int Dim>
+[[nodiscard]] const Kernels<Dim>& kernels(Isa isa);
+
+}  // namespace pent::simulator

@@ -1,0 +1,16 @@
+#include "kernels/kernel_table.h"
+#include "kernels/kernels_isa.h"
+
+namespace pent::simulator {
+
+const Kernels<3>& kernels_3_avx2() {
+    static constexpr Kernels<3> kTable = kernel_table<3, Widest<float>, Widest<double>>();
+    return kTable;
+}
+
+const Kernels<4>& kernels_4_avx2() {
+    static constexpr Kernels<4> kTable = kernel_table<4, Widest<float>, Widest<double>>();
+    return kTable;
+}
+
+}  // namespace pent::simulator

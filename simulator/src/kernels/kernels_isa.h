@@ -1,0 +1,17 @@
+#pragma once
+
+#include "kernels/kernels.h"
+
+namespace pent::simulator {
+
+/// The tables, one file each, compiled for its instruction set; see kernels.cpp for the choice.
+const Kernels<3>& kernels_3_scalar();
+const Kernels<4>& kernels_4_scalar();
+const Kernels<3>& kernels_3_baseline();
+const Kernels<4>& kernels_4_baseline();
+const Kernels<3>& kernels_3_avx2();
+const Kernels<4>& kernels_4_avx2();
+const Kernels<3>& kernels_3_avx512();
+const Kernels<4>& kernels_4_avx512();
+
+}  // namespace pent::simulator

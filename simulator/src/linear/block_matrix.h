@@ -1,0 +1,157 @@
+#pragma once
+
+#include "linear/block_kernels.h"
+#include "linear/block_pattern.h"
+
+#include <pent/parallel.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <new>
+#include <vector>
+
+namespace pent::simulator {
+
+/// Starts arrays at cache lines, so that no 4 x 4 block of floats lies across two.
+template <typename Value>
+struct LineAllocator {
+    using value_type = Value;  // NOLINT(readability-identifier-naming): as allocators must
+    static constexpr std::align_val_t kLine{64};
+
+    LineAllocator() = default;
+    template <typename Other>
+    explicit LineAllocator(const LineAllocator<Other>& /*other*/) {}
+
+    [[nodiscard]] Value* allocate(std::size_t count) {
+        return static_cast<Value*>(::operator new(count * sizeof(Value), kLine));
+    }
+    void deallocate(Value* memory, std::size_t /*count*/) { ::operator delete(memory, kLine); }
+    template <typename Other>
+    bool operator==(const LineAllocator<Other>& /*other*/) const {
+        return true;
+    }
+};
+
+/// Vectors of the unknowns, one block a column: Dim x rows.
+template <int Dim>
+using BlockVector = Positions<Dim>;
+
+/// Symmetric matrix of Dim x Dim blocks on a fixed pattern, upper triangle stored.
+///
+/// There may be a second part on another pattern over the same unknowns, which products include:
+/// what contact couples beyond elasticity.
+template <int Dim, typename Scalar>
+class BlockMatrix {
+public:
+    using Block = Eigen::Matrix<Scalar, Dim, Dim>;
+    static constexpr std::int64_t kEntries = std::int64_t{Dim} * Dim;
+
+    explicit BlockMatrix(const BlockPattern& pattern)
+        : pattern_(&pattern), values_(static_cast<std::size_t>(pattern.blocks() * kEntries), 0) {}
+
+    [[nodiscard]] const BlockPattern& pattern() const { return *pattern_; }
+    [[nodiscard]] Scalar* values() { return values_.data(); }
+    [[nodiscard]] const Scalar* values() const { return values_.data(); }
+    [[nodiscard]] std::int64_t rows() const { return pattern_->rows(); }
+
+    [[nodiscard]] Eigen::Map<Block> block(std::int64_t index) {
+        return Eigen::Map<Block>(values_.data() + index * kEntries);
+    }
+    [[nodiscard]] Eigen::Map<const Block> block(std::int64_t index) const {
+        return Eigen::Map<const Block>(values_.data() + index * kEntries);
+    }
+    [[nodiscard]] Eigen::Map<const Block> diagonal(std::int64_t row) const {
+        return block(pattern_->row_start[static_cast<std::size_t>(row)]);
+    }
+    [[nodiscard]] Eigen::Map<Block> diagonal(std::int64_t row) {
+        return block(pattern_->row_start[static_cast<std::size_t>(row)]);
+    }
+
+    /// The second part, or null.
+    [[nodiscard]] const BlockMatrix* coupling() const { return coupling_; }
+    /// @param coupling  Must outlive its use here; null for none.
+    void set_coupling(const BlockMatrix* coupling) { coupling_ = coupling; }
+
+    void set_zero(const Workers& workers) {
+        for_each_row_chunk(workers, [&](std::int64_t begin, std::int64_t end) {
+            const auto& start = pattern_->row_start;
+            std::fill(values_.begin() + start[static_cast<std::size_t>(begin)] * kEntries,
+                      values_.begin() + start[static_cast<std::size_t>(end)] * kEntries, Scalar(0));
+        });
+    }
+
+    /// A += factor other, on the same pattern.
+    template <typename Other>
+    void add_scaled(const Workers& workers, double factor, const BlockMatrix<Dim, Other>& other) {
+        for_each_row_chunk(workers, [&](std::int64_t begin, std::int64_t end) {
+            const auto& start = pattern_->row_start;
+            const std::int64_t last = start[static_cast<std::size_t>(end)] * kEntries;
+            for (std::int64_t k = start[static_cast<std::size_t>(begin)] * kEntries; k < last;
+                 ++k) {
+                values_[static_cast<std::size_t>(k)] +=
+                    static_cast<Scalar>(factor * static_cast<double>(other.values()[k]));
+            }
+        });
+    }
+
+    /// result = A x.
+    void multiply(const Workers& workers,
+                  const BlockKernels& kernels,
+                  const BlockVector<Dim>& x,
+                  BlockVector<Dim>& result) const {
+        for_each_row_chunk(workers, [&](std::int64_t begin, std::int64_t end) {
+            result.middleCols(begin, end - begin).setZero();
+        });
+        add_product(workers, kernels, x, result);
+        if (coupling_ != nullptr) {
+            coupling_->add_product(workers, kernels, x, result);
+        }
+    }
+
+    /// Sum of work(begin, end) over chunks of rows, in their order.
+    template <typename Work>
+    [[nodiscard]] auto sum_row_chunks(const Workers& workers, const Work& work) const {
+        return workers.sum(pattern_->chunks, [&](int chunk) {
+            const std::int64_t begin = chunk * BlockPattern::kChunkRows;
+            return work(begin, std::min(begin + BlockPattern::kChunkRows, rows()));
+        });
+    }
+
+    /// Calls work(begin, end) for chunks of rows, at the same time.
+    template <typename Work>
+    void for_each_row_chunk(const Workers& workers, const Work& work) const {
+        workers.for_each(pattern_->chunks, [&](int chunk) {
+            const std::int64_t begin = chunk * BlockPattern::kChunkRows;
+            work(begin, std::min(begin + BlockPattern::kChunkRows, rows()));
+        });
+    }
+
+private:
+    // result += A x, without the second part.
+    void add_product(const Workers& workers,
+                     const BlockKernels& kernels,
+                     const BlockVector<Dim>& x,
+                     BlockVector<Dim>& result) const {
+        for (const std::vector<int>& chunks : pattern_->coloring.colors) {
+            workers.for_each(static_cast<int>(chunks.size()), [&](int i) {
+                const std::int64_t begin =
+                    chunks[static_cast<std::size_t>(i)] * BlockPattern::kChunkRows;
+                const BlockRows<Scalar> rows{
+                    values_.data(), pattern_->row_start.data(), pattern_->columns.data(), begin,
+                    std::min(begin + BlockPattern::kChunkRows, this->rows())};
+                if constexpr (sizeof(Scalar) == sizeof(float)) {
+                    kernels.multiply_float(rows, x.data(), result.data());
+                } else {
+                    kernels.multiply_double(rows, x.data(), result.data());
+                }
+            });
+        }
+    }
+
+    const BlockPattern* pattern_;
+    const BlockMatrix* coupling_ = nullptr;
+    std::vector<Scalar, LineAllocator<Scalar>> values_;
+};
+
+}  // namespace pent::simulator

@@ -1,0 +1,17 @@
+#pragma once
+
+namespace pent::simulator {
+
+struct LinearSolveOptions {
+    double tolerance = 1e-4;  ///< On |b - A x| / |b|.
+    int max_iterations = 3000;
+};
+
+struct LinearSolveReport {
+    int iterations = 0;
+    double residual = 0;           ///< |b - A x| / |b| computed from x at the end; 0 if b = 0.
+    bool has_converged = false;    ///< residual <= tolerance.
+    bool has_broken_down = false;  ///< A direction p with p . A p <= 0 or not finite turned up.
+};
+
+}  // namespace pent::simulator

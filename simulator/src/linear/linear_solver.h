@@ -1,0 +1,63 @@
+#pragma once
+
+#include "linear/linear_solve.h"
+#include "linear/newton_system.h"
+
+#include <memory>
+#include <vector>
+
+namespace pent::simulator {
+
+template <int Dim>
+struct LinearSolution {
+    BlockVector<Dim> x;
+    LinearSolveReport report;
+};
+
+/// Solves the symmetric positive definite equations of Newton's method.
+template <int Dim>
+class LinearSolver {
+public:
+    LinearSolver() = default;
+    virtual ~LinearSolver() = default;
+    LinearSolver(const LinearSolver&) = delete;
+    LinearSolver& operator=(const LinearSolver&) = delete;
+    LinearSolver(LinearSolver&&) = delete;
+    LinearSolver& operator=(LinearSolver&&) = delete;
+
+    /// @param positions  Dim x dofs, m: where the vertices are now.
+    /// @param guess      Dim x dofs; of use to iterations alone.
+    [[nodiscard]] virtual LinearSolution<Dim> solve(const NewtonSystem<Dim>& system,
+                                                    const BlockVector<Dim>& positions,
+                                                    const LinearSolveOptions& options,
+                                                    BlockVector<Dim> guess) = 0;
+};
+
+/// What an iterative solver knows of the dofs.
+template <int Dim>
+struct DofGeometry {
+    std::vector<std::uint32_t> column_start;  ///< As DofMap::column_start().
+    BlockVector<Dim> rest;                    ///< Dim x dofs, m.
+    std::vector<std::uint32_t> bodies;        ///< The body of each dof.
+};
+
+/// Preconditioned conjugate gradients.
+///
+/// @param workers, kernels  Must outlive the solver.
+template <int Dim>
+[[nodiscard]] std::unique_ptr<LinearSolver<Dim>> make_iterative_solver(
+    const Workers& workers,
+    const BlockKernels& kernels,
+    PreconditionerKind preconditioner,
+    DofGeometry<Dim> geometry);
+
+/// Most free vertices a direct solve takes: in 4D that many take ten seconds a solve, and the time
+/// grows with their number to the power 2.9.
+inline constexpr std::int64_t kMaxDirectVertices = 2500;
+
+/// Sparse L D L^T in double: the reference that iterations are compared with. The residual is that
+/// of rounding; a pivot that is not positive counts as breakdown.
+template <int Dim>
+[[nodiscard]] std::unique_ptr<LinearSolver<Dim>> make_direct_solver();
+
+}  // namespace pent::simulator

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "linear/block_matrix.h"
+#include "linear/dof_map.h"
+#include "linear/hessian_stencil.h"
+#include "linear/stencil_assembly.h"
+
+#include <pent/simulator/solver_options.h>
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+namespace pent::simulator {
+
+/// The linear equation H dx = right of Newton's method while potentials put it together.
+///
+/// Vertices without a dof that are moved all the same (by `shift`) take their part of H to the right
+/// side. What elements couple lies on a fixed pattern; stencils may couple anything, and what is left
+/// over becomes a second part of the matrix, made anew by finish().
+template <int Dim>
+class NewtonSystem {
+public:
+    using Matrix = std::variant<BlockMatrix<Dim, float>, BlockMatrix<Dim, double>>;
+
+    /// @param workers, dofs, pattern  Must outlive this.
+    NewtonSystem(const Workers& workers,
+                 const DofMap& dofs,
+                 const BlockPattern& pattern,
+                 Precision precision);
+
+    /// Starts anew: H = 0.
+    ///
+    /// @param right  Dim x dofs.
+    /// @param shift  Dim x vertices: how far vertices without a dof move, m; 0 for all others.
+    void begin(BlockVector<Dim> right, Positions<Dim> shift);
+
+    /// Adds weight * masses to the diagonal. Elements must have been added, contact not yet: where
+    /// masses drown in the rounding of the stiffness that is there, has_lost_inertia() says so.
+    ///
+    /// @param masses  One a vertex, kg.
+    void add_masses(double weight, const Eigen::VectorXd& masses);
+
+    /// H += weight * matrix, on the same pattern.
+    void add_matrix(double weight, const BlockMatrix<Dim, double>& matrix);
+
+    void add_stencil(const HessianStencil& stencil) { stencils_.push_back(stencil); }
+    void reserve_stencils(std::size_t more) { stencils_.reserve(stencils_.size() + more); }
+
+    /// Sums up the stencils. Each row is summed by one thread in the order in which they were added.
+    void finish();
+
+    [[nodiscard]] bool has_lost_inertia() const { return has_lost_inertia_; }
+    [[nodiscard]] bool has_stencils() const { return !stencils_.empty(); }
+
+    [[nodiscard]] Matrix& matrix() { return matrix_; }
+    [[nodiscard]] const Matrix& matrix() const { return matrix_; }
+    [[nodiscard]] BlockVector<Dim>& right() { return right_; }
+    [[nodiscard]] const BlockVector<Dim>& right() const { return right_; }
+    [[nodiscard]] const Positions<Dim>& shift() const { return shift_; }
+
+private:
+    const Workers* workers_;
+    const DofMap* dofs_;
+    Matrix matrix_;
+    // What stencils couple beyond the pattern, or null.
+    std::variant<std::unique_ptr<CouplingMatrix<Dim, float>>,
+                 std::unique_ptr<CouplingMatrix<Dim, double>>>
+        coupling_;
+    BlockVector<Dim> right_;
+    Positions<Dim> shift_;
+    std::vector<HessianStencil> stencils_;
+    bool has_lost_inertia_ = false;
+};
+
+}  // namespace pent::simulator

@@ -1,0 +1,248 @@
+#include "potentials/contact_potential.h"
+
+#include "stopwatch.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pent::simulator {
+
+namespace {
+
+// How far vertices may move before pairs are searched again, over the distance of contact: the
+// evaluations of one Newton step stay within it.
+constexpr double kMargin = 0.25;
+
+// Gaps below these parts of the distance of contact: a step starts with the stiffness that would
+// balance its forces there, and an iteration that comes nearer still doubles it.
+constexpr double kDeep = 0.1;
+constexpr double kTight = 0.01;
+
+// The stiffness never is more than this times that of the scene.
+constexpr double kMaxStiffness = 1e8;
+
+// Without bodies that meet only obstacles are in it, which need no surfaces.
+template <int Dim>
+contact::ContactScene<Dim> contact_scene(const Scene& scene,
+                                         const Bodies<Dim>& bodies,
+                                         bool do_bodies_meet) {
+    const Contact contact = scene.contact.value_or(Contact{});
+    const bool is_searched_often = scene.solver.integrator != Integrator::LinearEuler;
+    contact::ContactScene<Dim> result;
+    result.options = {.model = contact.model,
+                      .distance = contact.distance,
+                      .separation = contact.separation,
+                      .self = contact.self,
+                      .margin = is_searched_often ? kMargin * contact.distance : 0};
+    for (std::size_t body = 0; body < bodies.count(); ++body) {
+        const SimplexMesh<Dim>& mesh = bodies.meshes[body];
+        const auto first = static_cast<std::uint32_t>(bodies.first_vertex[body]);
+        contact::Surface<Dim> surface;
+        surface.first_vertex = first;
+        if (do_bodies_meet) {
+            surface = contact::make_surface<Dim>(mesh.cells, mesh.vertex_count(), first);
+        }
+        result.bodies.push_back(
+            {scene.bodies[body].name, std::move(surface), bodies.is_kinematic(body)});
+    }
+    for (const Obstacle& obstacle : scene.obstacles) {
+        result.obstacles.push_back(
+            {fixed_size<Dim>(obstacle.shape), obstacle.distance, obstacle.stiffness});
+    }
+    result.is_fixed = bodies.is_dirichlet;
+    result.rest = bodies.rest;
+    return result;
+}
+
+}  // namespace
+
+template <int Dim>
+void add_stencils(double weight,
+                  const contact::StencilHessians<Dim>& hessians,
+                  std::size_t first,
+                  NewtonSystem<Dim>& system) {
+    const std::size_t weighted = hessians.weighted.size();
+    system.reserve_stencils(weighted + hessians.dense.size());
+    for (std::size_t k = 0; k < weighted; ++k) {
+        const contact::WeightedHessian<Dim>& hessian = hessians.weighted[(first + k) % weighted];
+        system.add_stencil({.vertices = hessian.vertices.data(),
+                            .weights = hessian.weights.data(),
+                            .matrix = hessian.block.data(),
+                            .count = hessian.count,
+                            .stride = Dim,
+                            .scale = weight});
+    }
+    for (const contact::DenseHessian<Dim>& hessian : hessians.dense) {
+        system.add_stencil({.vertices = hessian.vertices.data(),
+                            .weights = nullptr,
+                            .matrix = hessian.matrix.data(),
+                            .count = hessian.count,
+                            .stride = static_cast<std::int32_t>(hessian.matrix.rows()),
+                            .scale = weight});
+    }
+}
+
+template <int Dim>
+ContactPotential<Dim>::ContactPotential(const Workers& workers,
+                                        const Scene& scene,
+                                        const Bodies<Dim>& bodies)
+    : workers_(&workers), options_(scene.contact.value_or(Contact{})) {
+    is_barrier_ = scene.contact && options_.model == ContactModel::Barrier;
+    do_bodies_meet_ = is_barrier_ || (scene.contact && (bodies.count() > 1 || scene.contact->self));
+    has_obstacles_ = !scene.obstacles.empty();
+    stiffness_ = options_.stiffness;
+    if (do_bodies_meet_ || has_obstacles_) {
+        finder_ = std::make_unique<contact::ContactFinder<Dim>>(
+            contact_scene<Dim>(scene, bodies, do_bodies_meet_));
+    }
+}
+
+template <int Dim>
+double ContactPotential<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
+    if (is_empty()) {
+        return 0;
+    }
+    const Stopwatch watch;
+    x_ = &x;
+    gradient_.setZero(Dim, x.cols());
+    workers_->run([&] {
+        contacts_ = finder_->find(x, stiffness_);
+        contact::add_gradient<Dim>(contacts_, gradient_);
+    });
+    gradient += gradient_;
+    const contact::ContactReport& report = contacts_.report;
+    work_.searches += do_bodies_meet_ ? 1 : 0;
+    work_.obstacle_tests += report.obstacle_tests;
+    work_.candidates += report.candidates;
+    work_.trees_built += report.trees_built;
+    work_.trees_refit += report.trees_refit;
+    work_.seconds += watch.seconds();
+    return contacts_.body_energy + contacts_.obstacle_energy;
+}
+
+template <int Dim>
+ContactSummary ContactPotential<Dim>::summary() const {
+    const contact::ContactReport& report = contacts_.report;
+    ContactSummary summary;
+    summary.point_facet = report.point_facet;
+    summary.mixed = report.mixed;
+    summary.self = report.self;
+    summary.obstacle = report.obstacle;
+    summary.deepest = report.deepest;
+    summary.smallest_distance = report.smallest_distance;
+    return summary;
+}
+
+template <int Dim>
+void ContactPotential<Dim>::add_hessian(double weight,
+                                        Filter /*filter*/,
+                                        NewtonSystem<Dim>& system) {
+    if (is_empty()) {
+        return;
+    }
+    const Stopwatch watch;
+    hessians_ = workers_->run(
+        [&] { return finder_->hessians(contacts_, *x_, stiffness_, options_.filter); });
+    add_stencils<Dim>(weight, hessians_, is_barrier_ ? 0 : contacts_.pair_count, system);
+    work_.seconds += watch.seconds();
+}
+
+template <int Dim>
+std::vector<TermEnergy> ContactPotential<Dim>::energies() const {
+    std::vector<TermEnergy> parts;
+    if (has_obstacles_) {
+        parts.push_back({"obstacle", contacts_.obstacle_energy});
+    }
+    if (do_bodies_meet_) {
+        parts.push_back({"contact", contacts_.body_energy});
+    }
+    return parts;
+}
+
+template <int Dim>
+bool ContactPotential<Dim>::begin_step(const StepStart<Dim>& /*start*/) {
+    last_gap_ = gap();
+    return false;
+}
+
+template <int Dim>
+double ContactPotential<Dim>::max_step(const Positions<Dim>& from, const Positions<Dim>& to) {
+    if (!is_barrier_) {
+        return 1;
+    }
+    limit_ = workers_->run([&] { return finder_->limit_step(from, to); });
+    work_.seconds += limit_.seconds;
+    work_.ccd_seconds += limit_.seconds;
+    return limit_.fraction;
+}
+
+// The stiffness with which the barrier would balance, in the sense of least squares, all other forces
+// where bodies are now; that of the scene unless they are close [li2020, supplement].
+template <int Dim>
+bool ContactPotential<Dim>::balance(const BlockVector<Dim>& own, const BlockVector<Dim>& others) {
+    const double before = stiffness_;
+    if (own.cols() == 0) {
+        return false;  // all bodies sleep, and nothing is solved for
+    }
+    if (gap() < kDeep * options_.distance) {
+        const double squared = own.squaredNorm();
+        const double along = -others.cwiseProduct(own).sum();
+        const double balancing = squared > 0 ? stiffness_ * along / squared : 0;
+        stiffness_ = std::clamp(balancing, options_.stiffness, kMaxStiffness * options_.stiffness);
+    } else {
+        stiffness_ = options_.stiffness;
+    }
+    return stiffness_ != before;
+}
+
+template <int Dim>
+bool ContactPotential<Dim>::adapt() {
+    if (!is_barrier_) {
+        return false;
+    }
+    const bool is_tight = gap() < std::min(last_gap_, kTight * options_.distance)
+                          && stiffness_ < kMaxStiffness * options_.stiffness;
+    last_gap_ = gap();
+    if (is_tight) {
+        stiffness_ *= 2;
+    }
+    return is_tight;
+}
+
+template <int Dim>
+std::vector<contact::Crossing> ContactPotential<Dim>::find_crossings(
+    const Positions<Dim>& positions) const {
+    return workers_->run([&] {
+        return is_barrier_ ? finder_->find_crossings(positions) : std::vector<contact::Crossing>();
+    });
+}
+
+template <int Dim>
+std::string ContactPotential<Dim>::describe(const contact::Crossing& crossing) const {
+    return contact::describe<Dim>(crossing, finder_->scene());
+}
+
+template <int Dim>
+ContactWork ContactPotential<Dim>::take_work() {
+    return std::exchange(work_, {});
+}
+
+template <int Dim>
+std::vector<std::string> ContactPotential<Dim>::warnings() const {
+    return finder_ ? finder_->warnings() : std::vector<std::string>();
+}
+
+template <int Dim>
+std::int64_t ContactPotential<Dim>::bytes() const {
+    return finder_ ? finder_->bytes() : 0;
+}
+
+#define PENT_INSTANTIATE(Dim)                                                             \
+    template void add_stencils(double, const contact::StencilHessians<Dim>&, std::size_t, \
+                               NewtonSystem<Dim>&);                                       \
+    template class ContactPotential<Dim>;
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent::simulator

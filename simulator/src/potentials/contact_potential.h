@@ -1,0 +1,102 @@
+#pragma once
+
+#include "model/bodies.h"
+#include "potentials/potential.h"
+
+#include <pent/contact/contact_finder.h>
+#include <pent/parallel.h>
+#include <pent/simulator/simulation.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pent::simulator {
+
+/// Contact between bodies, within them, and with obstacles: by penalties or by a barrier.
+///
+/// One of a scene without [contact] and [[obstacle]] has nothing in it: no surface, no tree, no search.
+template <int Dim>
+class ContactPotential final : public Potential<Dim> {
+public:
+    ContactPotential(const Workers& workers, const Scene& scene, const Bodies<Dim>& bodies);
+
+    [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
+    void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) override;
+    [[nodiscard]] std::vector<TermEnergy> energies() const override;
+    [[nodiscard]] bool begin_step(const StepStart<Dim>& start) override;
+    [[nodiscard]] double max_step(const Positions<Dim>& from, const Positions<Dim>& to) override;
+    [[nodiscard]] bool is_bounded() const override { return is_barrier_; }
+    [[nodiscard]] bool wants_balance() const override { return is_barrier_; }
+    [[nodiscard]] bool balance(const BlockVector<Dim>& own,
+                               const BlockVector<Dim>& others) override;
+    [[nodiscard]] bool adapt() override;
+    [[nodiscard]] bool has_kink() const override {
+        return !is_barrier_ && contacts_.body_energy > 0;
+    }
+
+    [[nodiscard]] bool is_empty() const { return finder_ == nullptr; }
+
+    /// Contacts at the positions last evaluated: the same for any history and any number of threads.
+    [[nodiscard]] const contact::Contacts<Dim>& contacts() const { return contacts_; }
+
+    /// What is counted and measured of them, without work.
+    [[nodiscard]] ContactSummary summary() const;
+
+    /// Their gradient, Dim x vertices, N; no columns where nothing can touch.
+    [[nodiscard]] const Positions<Dim>& gradient() const { return gradient_; }
+
+    /// What was in the way where max_step() last was less than 1.
+    [[nodiscard]] const contact::StepLimit& limit() const { return limit_; }
+
+    /// What crosses where a barrier is to keep things apart; empty without one.
+    [[nodiscard]] std::vector<contact::Crossing> find_crossings(
+        const Positions<Dim>& positions) const;
+
+    /// One line about a crossing or what is in the way of a step.
+    [[nodiscard]] std::string describe(const contact::Crossing& crossing) const;
+
+    /// Stiffness of a barrier now, N/m, never below that of the scene; 0 without one.
+    [[nodiscard]] double stiffness() const { return is_barrier_ ? stiffness_ : 0; }
+    void set_stiffness(double stiffness) { stiffness_ = is_barrier_ ? stiffness : stiffness_; }
+    [[nodiscard]] const Contact& options() const { return options_; }
+
+    /// What it cost since this was last asked.
+    [[nodiscard]] ContactWork take_work();
+
+    /// Lines for the user about a distance of contact that does not suit the meshes.
+    [[nodiscard]] std::vector<std::string> warnings() const;
+
+    [[nodiscard]] std::int64_t bytes() const;
+
+private:
+    [[nodiscard]] double gap() const {
+        return contacts_.report.smallest_distance - options_.separation;
+    }
+
+    const Workers* workers_;
+    Contact options_;
+    bool is_barrier_ = false;
+    bool do_bodies_meet_ = false;
+    bool has_obstacles_ = false;
+    double stiffness_ = 0;                                 // of bodies, N/m
+    double last_gap_ = 0;                                  // m, of the last accepted iterate
+    std::unique_ptr<contact::ContactFinder<Dim>> finder_;  // null where nothing can touch
+    const Positions<Dim>* x_ = nullptr;                    // last evaluated
+    contact::Contacts<Dim> contacts_;                      // there
+    Positions<Dim> gradient_;                              // there
+    contact::StepLimit limit_;
+    contact::StencilHessians<Dim> hessians_;  // while a system is assembled
+    ContactWork work_;                        // since it was last taken
+};
+
+/// Hands Hessians of a few vertices to a system; they must last until it is assembled.
+///
+/// @param first  Of the weighted ones the first to go; those before it go last.
+template <int Dim>
+void add_stencils(double weight,
+                  const contact::StencilHessians<Dim>& hessians,
+                  std::size_t first,
+                  NewtonSystem<Dim>& system);
+
+}  // namespace pent::simulator

@@ -1,0 +1,114 @@
+#include "potentials/elasticity.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <variant>
+
+namespace pent::simulator {
+
+namespace {
+
+constexpr Eigen::Index kChunkCells = 1024;
+
+RunEnergy sum_of(const RunEnergy& a, const RunEnergy& b) {
+    return {.energy = a.energy + b.energy,
+            .inverted = a.inverted + b.inverted,
+            .collapsed = a.collapsed + b.collapsed};
+}
+
+}  // namespace
+
+template <int Dim>
+Elasticity<Dim>::Elasticity(const Workers& workers,
+                            const Kernels<Dim>& kernels,
+                            const Bodies<Dim>& bodies,
+                            ElementKind kind)
+    : workers_(&workers),
+      kernels_(&kernels),
+      bodies_(&bodies),
+      kind_(kind),
+      layout_(lay_out(number_dofs(bodies, std::vector<bool>(bodies.count(), true)))) {}
+
+template <int Dim>
+ElementLayout<Dim> Elasticity<Dim>::lay_out(const DofMap& dofs) const {
+    return lay_out_elements<Dim>(bodies_->rest, bodies_->cells, bodies_->ranges, dofs, kind_);
+}
+
+template <int Dim>
+void Elasticity<Dim>::set_dofs(const DofMap& dofs,
+                               const std::vector<bool>& asleep,
+                               const Positions<Dim>& positions) {
+    frozen_gradient_.resize(Dim, 0);
+    frozen_ = {};
+    if (std::find(asleep.begin(), asleep.end(), true) != asleep.end()) {
+        layout_ = lay_out(number_dofs(*bodies_, asleep));
+        frozen_gradient_.setZero(Dim, positions.cols());
+        frozen_ = layout_.elements.add_gradient(*workers_, *kernels_, positions, frozen_gradient_);
+    }
+    layout_ = lay_out(dofs);
+}
+
+template <int Dim>
+double Elasticity<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
+    x_ = &x;
+    energy_ = sum_of(layout_.elements.add_gradient(*workers_, *kernels_, x, gradient), frozen_);
+    if (frozen_gradient_.cols() > 0) {
+        gradient += frozen_gradient_;
+    }
+    return energy_.energy;
+}
+
+template <int Dim>
+void Elasticity<Dim>::add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) {
+    std::visit(
+        [&](auto& matrix) {
+            filtered_ +=
+                layout_.elements.add_hessian(*workers_, *kernels_, *x_, weight * hessian_factor_,
+                                             filter, system.shift(), matrix, system.right());
+        },
+        system.matrix());
+}
+
+template <int Dim>
+void Elasticity<Dim>::add_tangent(const Positions<Dim>& x,
+                                  Filter filter,
+                                  const Positions<Dim>& shift,
+                                  BlockMatrix<Dim, double>& matrix,
+                                  BlockVector<Dim>& right) const {
+    layout_.elements.add_hessian(*workers_, *kernels_, x, 1, filter, shift, matrix, right);
+}
+
+template <int Dim>
+double Elasticity<Dim>::rounding() const {
+    return bodies_->large_energy * std::numeric_limits<double>::epsilon();
+}
+
+// Smoothed elements may not be inside out where one of their cells is.
+template <int Dim>
+std::int64_t Elasticity<Dim>::inverted_cells() const {
+    if (kind_ == ElementKind::Linear) {
+        return energy_.inverted;
+    }
+    const Simplices<Dim + 1>& cells = bodies_->cells;
+    const auto chunks = static_cast<int>((cells.cols() + kChunkCells - 1) / kChunkCells);
+    return workers_->sum(chunks, [&](int chunk) {
+        const Eigen::Index begin = chunk * kChunkCells;
+        const Eigen::Index end = std::min(begin + kChunkCells, cells.cols());
+        std::int64_t inverted = 0;
+        for (Eigen::Index cell = begin; cell < end; ++cell) {
+            inverted += cell_volume<Dim>(*x_, cells, cell) > 0 ? 0 : 1;
+        }
+        return inverted;
+    });
+}
+
+template <int Dim>
+std::int64_t Elasticity<Dim>::take_filtered() {
+    return std::exchange(filtered_, 0);
+}
+
+template class Elasticity<3>;
+template class Elasticity<4>;
+
+}  // namespace pent::simulator

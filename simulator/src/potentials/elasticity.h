@@ -1,0 +1,82 @@
+#pragma once
+
+#include "kernels/kernels.h"
+#include "model/bodies.h"
+#include "potentials/elements.h"
+#include "potentials/potential.h"
+
+#include <pent/parallel.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pent::simulator {
+
+/// The elastic energy of all bodies.
+///
+/// Elements without a dof at any corner are left out: they do not change while a body is moved from outside.
+/// Those of bodies that sleep keep the energy and the forces with which these fell asleep.
+template <int Dim>
+class Elasticity final : public Potential<Dim> {
+public:
+    /// @param workers, kernels, bodies  Must outlive this.
+    Elasticity(const Workers& workers,
+               const Kernels<Dim>& kernels,
+               const Bodies<Dim>& bodies,
+               ElementKind kind);
+
+    /// Lays elements out anew.
+    ///
+    /// @param dofs       Of the bodies that are awake.
+    /// @param asleep     One entry a body.
+    /// @param positions  Dim x vertices: where sleeping bodies lie, m.
+    void set_dofs(const DofMap& dofs,
+                  const std::vector<bool>& asleep,
+                  const Positions<Dim>& positions);
+
+    /// Factor on the Hessian alone: Rayleigh damping in a step of a single linear solve.
+    void set_hessian_factor(double factor) { hessian_factor_ = factor; }
+
+    [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
+    void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) override;
+    [[nodiscard]] std::vector<TermEnergy> energies() const override {
+        return {{"elastic", energy_.energy}};
+    }
+    [[nodiscard]] double rounding() const override;
+
+    /// Adds the Hessian at positions x to a matrix on pattern(), and takes that of vertices that have no dof
+    /// and move by `shift` (Dim x vertices, m) off `right` (Dim x dofs).
+    void add_tangent(const Positions<Dim>& x,
+                     Filter filter,
+                     const Positions<Dim>& shift,
+                     BlockMatrix<Dim, double>& matrix,
+                     BlockVector<Dim>& right) const;
+
+    [[nodiscard]] const BlockPattern& pattern() const { return layout_.pattern; }
+    [[nodiscard]] double energy() const { return energy_.energy; }
+    [[nodiscard]] std::int64_t collapsed() const { return energy_.collapsed; }  ///< Elements.
+    [[nodiscard]] std::int64_t inverted_cells() const;
+    [[nodiscard]] std::int64_t element_count() const { return layout_.elements.count(); }
+    [[nodiscard]] std::int64_t bytes() const { return layout_.elements.bytes(); }
+
+    /// Elements whose Hessian the filter has changed, since this was last asked.
+    [[nodiscard]] std::int64_t take_filtered();
+
+private:
+    [[nodiscard]] ElementLayout<Dim> lay_out(const DofMap& dofs) const;
+
+    const Workers* workers_;
+    const Kernels<Dim>* kernels_;
+    const Bodies<Dim>* bodies_;
+    ElementKind kind_;
+    ElementLayout<Dim> layout_;
+    // Of bodies that sleep: what does not change.
+    Positions<Dim> frozen_gradient_;  // Dim x vertices, N; empty if none sleeps
+    RunEnergy frozen_;
+    const Positions<Dim>* x_ = nullptr;  // last evaluated
+    RunEnergy energy_;
+    double hessian_factor_ = 1;
+    std::int64_t filtered_ = 0;
+};
+
+}  // namespace pent::simulator

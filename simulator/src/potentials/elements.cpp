@@ -1,0 +1,357 @@
+#include "potentials/elements.h"
+
+#include <pent/error.h>
+#include <pent/simulator/energy.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace pent::simulator {
+
+namespace {
+
+constexpr int kChunkElements = 512;  // a multiple of kGroup
+static_assert(kChunkElements % kGroup == 0);
+
+// Domains are grouped by their number of corners within so many that are close in memory.
+constexpr std::size_t kNearElements = std::size_t{8} * kChunkElements;
+
+// Elements with a free corner by their lowest unknown, so that neighbors are close.
+//
+// @param corners_of  Calls its second argument with the corners of an element.
+template <typename CornersOf>
+std::vector<Eigen::Index> elastic_elements(Eigen::Index begin,
+                                           Eigen::Index end,
+                                           const DofMap& dofs,
+                                           const CornersOf& corners_of) {
+    std::vector<std::pair<std::uint32_t, Eigen::Index>> keyed;
+    for (Eigen::Index element = begin; element < end; ++element) {
+        std::uint32_t lowest = std::numeric_limits<std::uint32_t>::max();
+        corners_of(element,
+                   [&](std::uint32_t corner) { lowest = std::min(lowest, dofs.rank_of(corner)); });
+        if (lowest < dofs.count()) {
+            keyed.emplace_back(lowest, element);
+        }
+    }
+    std::sort(keyed.begin(), keyed.end());
+    std::vector<Eigen::Index> chosen;
+    chosen.reserve(keyed.size());
+    for (const auto& [lowest, element] : keyed) {
+        chosen.push_back(element);
+    }
+    return chosen;
+}
+
+}  // namespace
+
+template <int Dim>
+Elements<Dim>::Elements(const DofMap& dofs, const BlockPattern& pattern)
+    : dof_count_(dofs.count()) {
+    if (pattern.blocks() > std::numeric_limits<std::int32_t>::max()) {
+        // GCOVR_EXCL_START: 137 GB of blocks
+        throw Error("the mesh has " + std::to_string(pattern.blocks())
+                    + " matrix blocks; at most 2147483647 can be simulated");
+        // GCOVR_EXCL_STOP
+    }
+}
+
+template <int Dim>
+Elements<Dim>::Elements(const Positions<Dim>& rest,
+                        const Simplices<Dim + 1>& cells,
+                        const std::vector<CellRange>& ranges,
+                        const DofMap& dofs,
+                        const BlockPattern& pattern)
+    : Elements(dofs, pattern) {
+    const auto make = [&](Eigen::Index cell, Element& element) {
+        element.corners.assign(cells.col(cell).begin(), cells.col(cell).end());
+        std::sort(
+            element.corners.begin(), element.corners.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return dofs.rank_of(a) < dofs.rank_of(b); });
+        Eigen::Matrix<double, Dim, Dim> Dm;
+        for (int a = 0; a < Dim; ++a) {
+            Dm.col(a) = rest.col(element.corners[static_cast<std::size_t>(a) + 1])
+                        - rest.col(element.corners[0]);
+        }
+        element.gradients.resize(Dim, Dim + 1);
+        element.gradients.template rightCols<Dim>() = Dm.inverse().transpose();
+        element.volume = cell_volume<Dim>(rest, cells, cell);
+    };
+    for (const CellRange& range : ranges) {
+        const std::vector<Eigen::Index> chosen = elastic_elements(
+            range.begin, range.end, dofs, [&](Eigen::Index cell, const auto& visit) {
+                std::for_each(cells.col(cell).begin(), cells.col(cell).end(), visit);
+            });
+        for (std::size_t first = 0; first < chosen.size(); first += kChunkElements) {
+            append(chosen, first, std::min(first + kChunkElements, chosen.size()), Dim + 1,
+                   range.material, make, dofs, pattern);
+        }
+    }
+    color(dofs.vertex_count());
+}
+
+template <int Dim>
+Elements<Dim>::Elements(const std::vector<SmoothingDomains<Dim>>& domains,
+                        const std::vector<CellRange>& ranges,
+                        const DofMap& dofs,
+                        const BlockPattern& pattern)
+    : Elements(dofs, pattern) {
+    for (std::size_t body = 0; body < domains.size(); ++body) {
+        const SmoothingDomains<Dim>& of_body = domains[body];
+        const auto corner_count = [&](Eigen::Index domain) {
+            const auto d = static_cast<std::size_t>(domain);
+            return static_cast<int>(of_body.start[d + 1] - of_body.start[d]);
+        };
+        const auto make = [&](Eigen::Index domain, Element& element) {
+            const Eigen::Index start = of_body.start[static_cast<std::size_t>(domain)];
+            std::vector<std::pair<std::uint32_t, Eigen::Index>> keyed;
+            for (Eigen::Index i = start; i < start + corner_count(domain); ++i) {
+                const std::uint32_t corner = of_body.corners[static_cast<std::size_t>(i)];
+                keyed.emplace_back(dofs.rank_of(corner), i);
+            }
+            std::sort(keyed.begin(), keyed.end());
+            element.corners.clear();
+            element.gradients.resize(Dim, static_cast<Eigen::Index>(keyed.size()));
+            for (const auto& [unknown, i] : keyed) {
+                element.gradients.col(static_cast<Eigen::Index>(element.corners.size())) =
+                    of_body.gradients.col(i);
+                element.corners.push_back(of_body.corners[static_cast<std::size_t>(i)]);
+            }
+            element.volume = of_body.volumes[static_cast<std::size_t>(domain)];
+        };
+        std::vector<Eigen::Index> chosen =
+            elastic_elements(0, of_body.count(), dofs, [&](Eigen::Index domain, const auto& visit) {
+                const auto first =
+                    of_body.corners.begin() + of_body.start[static_cast<std::size_t>(domain)];
+                std::for_each(first, first + corner_count(domain), visit);
+            });
+        for (std::size_t near = 0; near < chosen.size(); near += kNearElements) {
+            const std::size_t end = std::min(near + kNearElements, chosen.size());
+            std::stable_sort(
+                chosen.begin() + static_cast<std::ptrdiff_t>(near),
+                chosen.begin() + static_cast<std::ptrdiff_t>(end),
+                [&](Eigen::Index a, Eigen::Index b) { return corner_count(a) < corner_count(b); });
+            for (std::size_t first = near; first < end; first += kChunkElements) {
+                const std::size_t last = std::min(first + kChunkElements, end);
+                append(chosen, first, last, corner_count(chosen[last - 1]), ranges[body].material,
+                       make, dofs, pattern);
+            }
+        }
+    }
+    color(dofs.vertex_count());
+}
+
+template <int Dim>
+template <typename Make>
+void Elements<Dim>::append(const std::vector<Eigen::Index>& chosen,
+                           std::size_t first,
+                           std::size_t last,
+                           int corners,
+                           const Material& material,
+                           const Make& make,
+                           const DofMap& dofs,
+                           const BlockPattern& pattern) {
+    const double scale = collapse_scale(material, Dim);
+    const Chunk chunk{.elements = static_cast<int>(last - first),
+                      .corners = corners,
+                      .material = material,
+                      .collapse_norm = Dim * scale * scale,
+                      .first_rest = rest_.size(),
+                      .first_corner = vertices_.size(),
+                      .first_block = blocks_.size()};
+    const std::size_t lanes = (last - first + kGroup - 1) / kGroup * kGroup;
+    const auto n = static_cast<std::size_t>(corners);
+    rest_.resize(rest_.size() + ((n - 1) * Dim + 1) * lanes);
+    vertices_.resize(vertices_.size() + n * lanes);
+    unknowns_.resize(unknowns_.size() + n * lanes);
+    blocks_.resize(blocks_.size() + static_cast<std::size_t>(pairs_of(corners)) * lanes, -1);
+    Element element;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        if (first + lane < last) {
+            make(chosen[first + lane], element);
+        } else {
+            element.volume = 0;  // padding
+        }
+        set_lane(element, chunk, lane, dofs, pattern);
+    }
+    chunks_.push_back(chunk);
+    count_ += chunk.elements;
+}
+
+template <int Dim>
+void Elements<Dim>::set_lane(const Element& element,
+                             const Chunk& chunk,
+                             std::size_t lane,
+                             const DofMap& dofs,
+                             const BlockPattern& pattern) {
+    const auto n = static_cast<std::size_t>(chunk.corners);
+    const std::size_t group = lane / kGroup * kGroup;
+    // Entry `row` of the lane in an array that has so many rows a group.
+    const auto at = [&](std::size_t begin, std::size_t rows, std::size_t row) {
+        return begin + group * rows + row * kGroup + lane % kGroup;
+    };
+    const std::size_t rest_rows = (n - 1) * Dim + 1;
+    const std::size_t pairs = n * (n + 1) / 2;
+    std::size_t pair = 0;
+    for (std::size_t a = 0; a < n; ++a) {
+        const bool is_there = a < element.corners.size();
+        const std::uint32_t vertex = element.corners[is_there ? a : 0];
+        const std::uint32_t row = dofs.rank_of(vertex);
+        vertices_[at(chunk.first_corner, n, a)] = vertex;
+        unknowns_[at(chunk.first_corner, n, a)] = row;
+        for (std::size_t i = 0; a > 0 && i < Dim; ++i) {
+            rest_[at(chunk.first_rest, rest_rows, (a - 1) * Dim + i)] =
+                is_there
+                    ? element.gradients(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a))
+                    : 0;
+        }
+        for (std::size_t b = a; b < n; ++b, ++pair) {
+            if (b >= element.corners.size()) {
+                continue;
+            }
+            const std::uint32_t column = dofs.rank_of(element.corners[b]);
+            if (column < dofs.count()) {
+                blocks_[at(chunk.first_block, pairs, pair)] =
+                    static_cast<std::int32_t>(pattern.find(row, column));
+            }
+        }
+    }
+    rest_[at(chunk.first_rest, rest_rows, rest_rows - 1)] = element.volume;
+}
+
+template <int Dim>
+void Elements<Dim>::color(std::size_t vertices) {
+    coloring_ = color_chunks(static_cast<int>(chunks_.size()), static_cast<std::int64_t>(vertices),
+                             [&](int chunk, const auto& touch) {
+                                 const auto c = static_cast<std::size_t>(chunk);
+                                 const std::size_t first = chunks_[c].first_corner;
+                                 const std::size_t last = c + 1 < chunks_.size()
+                                                              ? chunks_[c + 1].first_corner
+                                                              : vertices_.size();
+                                 for (std::size_t i = first; i < last; ++i) {
+                                     touch(vertices_[i]);
+                                 }
+                             });
+}
+
+template <int Dim>
+ElementRun Elements<Dim>::run(int chunk) const {
+    const Chunk& c = chunks_[static_cast<std::size_t>(chunk)];
+    return {.model = c.material.model,
+            .mu = c.material.lame.mu,
+            .lambda = c.material.lame.lambda,
+            .collapse_norm = c.collapse_norm,
+            .elements = c.elements,
+            .corners = c.corners,
+            .rest = rest_.data() + c.first_rest,
+            .vertices = vertices_.data() + c.first_corner,
+            .unknowns = unknowns_.data() + c.first_corner,
+            .blocks = blocks_.data() + c.first_block,
+            .free_unknowns = dof_count_};
+}
+
+template <int Dim>
+RunEnergy Elements<Dim>::add_gradient(const Workers& workers,
+                                      const Kernels<Dim>& kernels,
+                                      const Positions<Dim>& positions,
+                                      Positions<Dim>& gradient) const {
+    std::vector<RunEnergy> parts(chunks_.size());
+    for (const std::vector<int>& color : coloring_.colors) {
+        workers.for_each(static_cast<int>(color.size()), [&](int i) {
+            const int chunk = color[static_cast<std::size_t>(i)];
+            parts[static_cast<std::size_t>(chunk)] =
+                kernels.gradient(run(chunk), positions.data(), gradient.data());
+        });
+    }
+    RunEnergy total;
+    for (const RunEnergy& part : parts) {
+        total.energy += part.energy;
+        total.inverted += part.inverted;
+        total.collapsed += part.collapsed;
+    }
+    return total;
+}
+
+template <int Dim>
+template <typename Scalar>
+std::int64_t Elements<Dim>::add_hessian(const Workers& workers,
+                                        const Kernels<Dim>& kernels,
+                                        const Positions<Dim>& positions,
+                                        double scale,
+                                        Filter filter,
+                                        const Positions<Dim>& shift,
+                                        BlockMatrix<Dim, Scalar>& matrix,
+                                        BlockVector<Dim>& right) const {
+    const HessianTarget<Scalar> target{.values = matrix.values(),
+                                       .scale = scale,
+                                       .filter = filter,
+                                       .held_shift = shift.data(),
+                                       .right = right.data()};
+    std::int64_t filtered = 0;
+    for (const std::vector<int>& color : coloring_.colors) {
+        filtered += workers.sum(static_cast<int>(color.size()), [&](int i) {
+            const ElementRun elements = run(color[static_cast<std::size_t>(i)]);
+            if constexpr (sizeof(Scalar) == sizeof(float)) {
+                return kernels.hessian_float(elements, positions.data(), target);
+            } else {
+                return kernels.hessian_double(elements, positions.data(), target);
+            }
+        });
+    }
+    return filtered;
+}
+
+template <int Dim>
+std::int64_t Elements<Dim>::bytes() const {
+    return static_cast<std::int64_t>(rest_.size() * sizeof(double)
+                                     + (vertices_.size() + unknowns_.size() + blocks_.size())
+                                           * sizeof(std::uint32_t));
+}
+
+template <int Dim>
+ElementLayout<Dim> lay_out_elements(const Positions<Dim>& rest,
+                                    const Simplices<Dim + 1>& cells,
+                                    const std::vector<CellRange>& ranges,
+                                    const DofMap& dofs,
+                                    ElementKind kind) {
+    if (kind == ElementKind::Linear) {
+        BlockPattern pattern = make_pattern<Dim>(cells, dofs);
+        Elements<Dim> elements(rest, cells, ranges, dofs, pattern);
+        return {std::move(pattern), std::move(elements)};
+    }
+    std::vector<SmoothingDomains<Dim>> domains;
+    for (const CellRange& range : ranges) {
+        domains.push_back(smoothing_domains<Dim>(rest, cells, range.begin, range.end));
+    }
+    std::vector<const CornerLists*> lists;
+    for (const SmoothingDomains<Dim>& of_body : domains) {
+        lists.push_back(&of_body);
+    }
+    BlockPattern pattern = make_pattern(lists, dofs);
+    Elements<Dim> elements(domains, ranges, dofs, pattern);
+    return {std::move(pattern), std::move(elements)};
+}
+
+#define PENT_INSTANTIATE(Dim)                                                                      \
+    template ElementLayout<Dim> lay_out_elements(const Positions<Dim>&, const Simplices<Dim + 1>&, \
+                                                 const std::vector<CellRange>&, const DofMap&,     \
+                                                 ElementKind);
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
+
+template class Elements<3>;
+template class Elements<4>;
+#define PENT_INSTANTIATE(Dim, Scalar)                                               \
+    template std::int64_t Elements<Dim>::add_hessian<Scalar>(                       \
+        const Workers&, const Kernels<Dim>&, const Positions<Dim>&, double, Filter, \
+        const Positions<Dim>&, BlockMatrix<Dim, Scalar>&, BlockVector<Dim>&) const;
+PENT_INSTANTIATE(3, float)
+PENT_INSTANTIATE(3, double)
+PENT_INSTANTIATE(4, float)
+PENT_INSTANTIATE(4, double)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent::simulator

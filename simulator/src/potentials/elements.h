@@ -1,0 +1,123 @@
+#pragma once
+
+#include "kernels/kernels.h"
+#include "linear/block_matrix.h"
+#include "model/cell_range.h"
+#include "potentials/smoothing.h"
+
+#include <pent/parallel.h>
+#include <pent/simplex_mesh.h>
+#include <pent/simulator/scene.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pent::simulator {
+
+/// The elastic elements of all bodies, those with at least one vertex that has a dof, laid out for kernels: cells, or
+/// the domains of smoothed cells.
+template <int Dim>
+class Elements {
+public:
+    /// @param rest     Rest positions of all vertices, Dim x n.
+    /// @param cells    All cells, positively oriented.
+    /// @param ranges   One a body; they cover all cells.
+    /// @param pattern  Of the matrix that hessian() fills.
+    Elements(const Positions<Dim>& rest,
+             const Simplices<Dim + 1>& cells,
+             const std::vector<CellRange>& ranges,
+             const DofMap& dofs,
+             const BlockPattern& pattern);
+
+    /// @param domains  One a body, and so are the ranges, of which the materials count.
+    Elements(const std::vector<SmoothingDomains<Dim>>& domains,
+             const std::vector<CellRange>& ranges,
+             const DofMap& dofs,
+             const BlockPattern& pattern);
+
+    /// Adds the gradient of the elastic energy to `gradient` (Dim x vertices); returns the energy.
+    RunEnergy add_gradient(const Workers& workers,
+                           const Kernels<Dim>& kernels,
+                           const Positions<Dim>& positions,
+                           Positions<Dim>& gradient) const;
+
+    /// Adds `scale` times the filtered Hessian to the matrix, and takes scale * K shift off
+    /// `right`, the part of vertices that have no dof and move by `shift` (Dim x vertices, m). Returns how many elements the filter changed.
+    template <typename Scalar>
+    std::int64_t add_hessian(const Workers& workers,
+                             const Kernels<Dim>& kernels,
+                             const Positions<Dim>& positions,
+                             double scale,
+                             Filter filter,
+                             const Positions<Dim>& shift,
+                             BlockMatrix<Dim, Scalar>& matrix,
+                             BlockVector<Dim>& right) const;
+
+    [[nodiscard]] std::int64_t count() const { return count_; }
+    [[nodiscard]] std::int64_t bytes() const;
+
+private:
+    // One element, its corners by increasing unknown.
+    struct Element {
+        std::vector<std::uint32_t> corners;
+        Positions<Dim> gradients;  // a column each
+        double volume = 0;
+    };
+
+    // Elements of one body and, but for padding, as many corners.
+    struct Chunk {
+        int elements = 0;
+        int corners = 0;
+        Material material;
+        double collapse_norm = 0;
+        std::size_t first_rest = 0;  // where its rows begin in the arrays
+        std::size_t first_corner = 0;
+        std::size_t first_block = 0;
+    };
+
+    Elements(const DofMap& dofs, const BlockPattern& pattern);
+
+    template <typename Make>
+    void append(const std::vector<Eigen::Index>& chosen,
+                std::size_t first,
+                std::size_t last,
+                int corners,
+                const Material& material,
+                const Make& make,
+                const DofMap& dofs,
+                const BlockPattern& pattern);
+    void set_lane(const Element& element,
+                  const Chunk& chunk,
+                  std::size_t lane,
+                  const DofMap& dofs,
+                  const BlockPattern& pattern);
+    void color(std::size_t vertices);
+    [[nodiscard]] ElementRun run(int chunk) const;
+
+    std::vector<double> rest_;
+    std::vector<std::uint32_t> vertices_;
+    std::vector<std::uint32_t> unknowns_;
+    std::vector<std::int32_t> blocks_;
+    std::vector<Chunk> chunks_;
+    Coloring coloring_;
+    std::uint32_t dof_count_ = 0;
+    std::int64_t count_ = 0;
+};
+
+/// Elastic elements and the pattern of the matrix they fill.
+template <int Dim>
+struct ElementLayout {
+    BlockPattern pattern;
+    Elements<Dim> elements;
+};
+
+/// Lays out elements of one kind; parameters as for the constructors of Elements.
+template <int Dim>
+[[nodiscard]] ElementLayout<Dim> lay_out_elements(const Positions<Dim>& rest,
+                                                  const Simplices<Dim + 1>& cells,
+                                                  const std::vector<CellRange>& ranges,
+                                                  const DofMap& dofs,
+                                                  ElementKind kind);
+
+}  // namespace pent::simulator

@@ -1,0 +1,40 @@
+#include "potentials/friction_potential.h"
+
+#include <utility>
+
+namespace pent::simulator {
+
+template <int Dim>
+bool FrictionPotential<Dim>::begin_step(const StepStart<Dim>& start) {
+    friction_.begin_step(contacts_->contacts().list, start.positions,
+                         start.is_linear ? &start.velocities : nullptr, start.h);
+    return true;
+}
+
+template <int Dim>
+double FrictionPotential<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
+    x_ = &x;
+    gradient_.setZero(Dim, x.cols());
+    energy_ = friction_.add_gradient(x, gradient_);
+    gradient += gradient_;
+    count_ += static_cast<std::int64_t>(friction_.size());
+    return energy_;
+}
+
+template <int Dim>
+void FrictionPotential<Dim>::add_hessian(double weight,
+                                         Filter /*filter*/,
+                                         NewtonSystem<Dim>& system) {
+    hessians_ = friction_.hessians(*x_);
+    add_stencils<Dim>(weight, hessians_, 0, system);
+}
+
+template <int Dim>
+std::int64_t FrictionPotential<Dim>::take_count() {
+    return std::exchange(count_, 0);
+}
+
+template class FrictionPotential<3>;
+template class FrictionPotential<4>;
+
+}  // namespace pent::simulator

@@ -1,0 +1,20 @@
+#include "potentials/gravity.h"
+
+#include "potentials/vertex_chunks.h"
+
+namespace pent::simulator {
+
+template <int Dim>
+double Gravity<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
+    energy_ = sum_vertices(*workers_, x.cols(), [&](Eigen::Index v) {
+        const double mass = (*masses_)[v];
+        gradient.col(v) -= mass * acceleration_;
+        return -mass * acceleration_.dot(x.col(v));
+    });
+    return energy_;
+}
+
+template class Gravity<3>;
+template class Gravity<4>;
+
+}  // namespace pent::simulator

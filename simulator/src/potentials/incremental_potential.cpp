@@ -1,0 +1,268 @@
+#include "potentials/incremental_potential.h"
+
+#include "stopwatch.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pent::simulator {
+
+template <int Dim>
+IncrementalPotential<Dim>::IncrementalPotential(const Workers& workers,
+                                                const Kernels<Dim>& kernels,
+                                                const Bodies<Dim>& bodies,
+                                                const Scene& scene,
+                                                PotentialEnergy<Dim>& energy,
+                                                Elasticity<Dim>& elasticity)
+    : workers_(&workers),
+      kernels_(&kernels),
+      bodies_(&bodies),
+      options_(scene.solver),
+      damping_(scene.damping.value_or(Damping{})),
+      energy_(&energy),
+      elasticity_(&elasticity),
+      dofs_(number_dofs(bodies, std::vector<bool>(bodies.count(), true))),
+      inertia_(workers, dofs_, bodies.masses),
+      mass_drag_(workers, dofs_, bodies.masses),
+      stiffness_drag_(workers, kernels.blocks, elasticity, dofs_, scene.solver.filter) {
+    set_up_solver();
+}
+
+template <int Dim>
+void IncrementalPotential<Dim>::set_asleep(const std::vector<bool>& asleep,
+                                           const Positions<Dim>& positions) {
+    std::vector<bool> awake = asleep;
+    awake.flip();
+    dofs_ = number_dofs(*bodies_, awake);
+    elasticity_->set_dofs(dofs_, asleep, positions);
+    energy_->invalidate();
+    stiffness_drag_.forget();
+    set_up_solver();
+}
+
+template <int Dim>
+void IncrementalPotential<Dim>::set_up_solver() {
+    if (options_.linear == LinearSolverKind::Direct) {
+        solver_ = make_direct_solver<Dim>();
+    } else {
+        DofGeometry<Dim> geometry{dofs_.column_start(), at_dofs(dofs_, bodies_->rest), {}};
+        for (const std::uint32_t vertex : dofs_.vertices()) {
+            geometry.bodies.push_back(static_cast<std::uint32_t>(bodies_->body_of(vertex)));
+        }
+        solver_ = make_iterative_solver<Dim>(*workers_, kernels_->blocks, options_.preconditioner,
+                                             std::move(geometry));
+    }
+    float_system_.reset();
+    double_system_.reset();
+    auto& system = options_.precision == Precision::Float ? float_system_ : double_system_;
+    system = std::make_unique<NewtonSystem<Dim>>(*workers_, dofs_, elasticity_->pattern(),
+                                                 options_.precision);
+}
+
+template <int Dim>
+void IncrementalPotential<Dim>::begin_step(const StepProblem<Dim>& problem,
+                                           const StepStart<Dim>& start) {
+    problem_ = &problem;
+    inertia_.set_anchor(problem.target);
+    mass_drag_.set_anchor(problem.origin);
+    stiffness_drag_.set_origin(problem.origin);
+    energy_->begin_step(start);
+    elasticity_->set_hessian_factor(1);
+    if (damping_.stiffness > 0) {
+        static_cast<void>(stiffness_drag_.begin_step(start));
+        if (!stiffness_drag_.has_tangent()) {
+            elasticity_->set_hessian_factor(1 + problem.rate * damping_.stiffness);
+        }
+    }
+}
+
+template <int Dim>
+void IncrementalPotential<Dim>::balance(const Positions<Dim>& x) {
+    for (const auto& term : energy_->terms()) {
+        if (!term->wants_balance()) {
+            continue;
+        }
+        const Evaluation<Dim> all = evaluate(x);
+        const Positions<Dim> own = problem_->scale * energy_->gradient_of(*term);
+        if (term->balance(at_dofs<Dim>(dofs_, own), at_dofs<Dim>(dofs_, all.gradient - own))) {
+            energy_->invalidate();
+        }
+    }
+}
+
+template <int Dim>
+Evaluation<Dim> IncrementalPotential<Dim>::evaluate(const Positions<Dim>& x) {
+    x_ = x;
+    energy_->update(x_);
+    Evaluation<Dim> at;
+    at.value = problem_->scale * energy_->value();
+    at.rounding = problem_->scale * energy_->rounding();
+    at.has_kink = energy_->has_kink();
+    gradient_.setZero(Dim, x.cols());
+    Positions<Dim> part;
+    const auto add = [&](double weight, Potential<Dim>& term) {
+        if (weight != 0) {
+            part.setZero(Dim, x.cols());
+            at.value += weight * term.evaluate(x_, part);
+            gradient_ += weight * part;
+        }
+    };
+    const double drag = problem_->scale * problem_->rate;
+    add(problem_->inertia, inertia_);
+    add(drag * damping_.mass, mass_drag_);
+    gradient_ += problem_->scale * energy_->gradient();
+    add(drag * damping_.stiffness, stiffness_drag_);
+    for (std::uint32_t vertex = 0; vertex < dofs_.vertex_count(); ++vertex) {
+        if (!dofs_.has_dof(vertex)) {
+            gradient_.col(vertex).setZero();
+        }
+    }
+    at.gradient = gradient_;
+    return at;
+}
+
+template <int Dim>
+Positions<Dim> IncrementalPotential<Dim>::prescribed_shift(const Positions<Dim>& x) const {
+    Positions<Dim> shift = Positions<Dim>::Zero(Dim, x.cols());
+    for (const DirichletSet<Dim>& set : bodies_->dirichlet_sets) {
+        for (const std::uint32_t vertex : set.vertices) {
+            shift.col(vertex) = problem_->prescribed.col(vertex) - x.col(vertex);
+        }
+    }
+    return shift;
+}
+
+template <int Dim>
+bool IncrementalPotential<Dim>::accept(const Positions<Dim>& x) {
+    if (observer_) {
+        observer_(x, false);
+    }
+    return energy_->adapt();
+}
+
+template <int Dim>
+void IncrementalPotential<Dim>::tell_start(const Positions<Dim>& x) const {
+    if (observer_) {
+        observer_(x, true);
+    }
+}
+
+// Returns whether inertia is still there.
+template <int Dim>
+bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
+                                         Filter filter,
+                                         const Positions<Dim>& shift) {
+    const Stopwatch watch;
+    system.begin(-at_dofs(dofs_, gradient_), shift);
+    double others = 0;  // seconds, which terms count themselves
+    for (const auto& term : energy_->terms()) {
+        const Stopwatch own;
+        term->add_hessian(problem_->scale, filter, system);
+        others += term.get() == elasticity_ ? 0 : own.seconds();
+    }
+    const double drag = problem_->scale * problem_->rate;
+    if (problem_->inertia != 0) {
+        inertia_.add_hessian(problem_->inertia, filter, system);
+    }
+    if (drag * damping_.mass != 0) {
+        mass_drag_.add_hessian(drag * damping_.mass, filter, system);
+    }
+    if (drag * damping_.stiffness != 0) {
+        stiffness_drag_.add_hessian(drag * damping_.stiffness, filter, system);
+    }
+    work_.hessians += elasticity_->element_count();
+    work_.assembly_seconds += watch.seconds() - others;
+    if (system.has_lost_inertia()) {
+        return false;
+    }
+    work_.unknowns += std::int64_t{Dim} * dofs_.count();
+    const Stopwatch summing;
+    system.finish();
+    work_.stencil_seconds += summing.seconds();
+    return true;
+}
+
+// In float, or where masses would be lost in its rounding in double; null if they are lost there, too.
+template <int Dim>
+NewtonSystem<Dim>* IncrementalPotential<Dim>::assemble_somehow(Filter filter,
+                                                               const Positions<Dim>& shift) {
+    if (float_system_ && assemble(*float_system_, filter, shift)) {
+        return float_system_.get();
+    }
+    if (!double_system_) {
+        double_system_ = std::make_unique<NewtonSystem<Dim>>(
+            *workers_, dofs_, elasticity_->pattern(), Precision::Double);
+    }
+    return assemble(*double_system_, filter, shift) ? double_system_.get() : nullptr;
+}
+
+template <int Dim>
+LinearSolution<Dim> IncrementalPotential<Dim>::solve_filtered(const NewtonSystem<Dim>& system,
+                                                              double tolerance) {
+    const Stopwatch watch;
+    const LinearSolveOptions options{.tolerance = std::max(tolerance, options_.tolerance),
+                                     .max_iterations = options_.max_iterations};
+    // Where all is to be solved for at once, most of it is the motion that inertia alone leads to.
+    BlockVector<Dim> guess = tolerance == 0
+                                 ? at_dofs<Dim>(dofs_, problem_->target - x_)
+                                 : BlockVector<Dim>(BlockVector<Dim>::Zero(Dim, dofs_.count()));
+    LinearSolution<Dim> solution =
+        solver_->solve(system, at_dofs(dofs_, x_), options, std::move(guess));
+    work_.solve_seconds += watch.seconds();
+    work_.iterations += solution.report.iterations;
+    work_.residual = std::max(work_.residual, solution.report.residual);
+    return solution;
+}
+
+template <int Dim>
+NewtonDirection<Dim> IncrementalPotential<Dim>::solve(const Positions<Dim>& shift,
+                                                      double tolerance) {
+    NewtonDirection<Dim> direction{shift, ""};
+    if (dofs_.count() == 0) {  // all bodies sleep, or move from outside alone
+        return direction;
+    }
+    LinearSolution<Dim> solution;
+    // Clamped, the matrix is positive definite whatever the scene asks for.
+    for (const Filter filter : {options_.filter, Filter::Clamp}) {
+        NewtonSystem<Dim>* system = assemble_somehow(filter, shift);
+        if (system == nullptr) {
+            direction.failure_reason =
+                "the stiffness drowns the inertia; take smaller steps, softer or denser bodies, or"
+                " thicker cells";
+            return direction;
+        }
+        solution = solve_filtered(*system, tolerance);
+        if (!solution.report.has_broken_down || filter == Filter::Clamp) {
+            break;
+        }
+    }
+    if (!solution.report.has_converged) {
+        direction.failure_reason = solution.report.has_broken_down
+                                       ? "the matrix was not positive definite"
+                                       : "the linear solver did not reach its tolerance";
+        return direction;
+    }
+    for (std::uint32_t dof = 0; dof < dofs_.count(); ++dof) {
+        direction.step.col(dofs_.vertex_of(dof)) = solution.x.col(dof);
+    }
+    return direction;
+}
+
+template <int Dim>
+std::int64_t IncrementalPotential<Dim>::bytes_per_block() const {
+    constexpr std::int64_t kEntries = std::int64_t{Dim} * Dim;
+    const std::int64_t scalar = (float_system_ ? sizeof(float) : 0)  //
+                                + (double_system_ ? sizeof(double) : 0);
+    return kEntries * scalar + static_cast<std::int64_t>(sizeof(std::uint32_t));
+}
+
+template <int Dim>
+std::int64_t IncrementalPotential<Dim>::tangent_bytes() const {
+    constexpr std::int64_t kEntries = std::int64_t{Dim} * Dim;
+    return stiffness_drag_.tangent_blocks() * kEntries * static_cast<std::int64_t>(sizeof(double));
+}
+
+template class IncrementalPotential<3>;
+template class IncrementalPotential<4>;
+
+}  // namespace pent::simulator

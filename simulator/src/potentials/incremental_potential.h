@@ -1,0 +1,111 @@
+#pragma once
+
+#include "linear/linear_solver.h"
+#include "potentials/mass_distance.h"
+#include "potentials/potential_energy.h"
+#include "potentials/rayleigh_damping.h"
+#include "step/objective.h"
+#include "step/step_problem.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace pent::simulator {
+
+/// What linear solves did since this was last asked.
+struct SolveWork {
+    int iterations = 0;           ///< Of the linear solver.
+    double residual = 0;          ///< Largest |b - A x| / |b|.
+    std::int64_t unknowns = 0;    ///< Scalars solved for.
+    std::int64_t hessians = 0;    ///< Of elements that were assembled.
+    double assembly_seconds = 0;  ///< Without stencils.
+    double stencil_seconds = 0;   ///< Summing up stencils, of which contact makes most.
+    double solve_seconds = 0;
+};
+
+/// What the end of a time step minimizes, see StepProblem: a weighted sum of terms over the vertices that
+/// have dofs. The one place that knows how terms are weighted, which vertices are free, and how the
+/// linear equations are solved.
+template <int Dim>
+class IncrementalPotential final : public Objective<Dim> {
+public:
+    /// Told where vertices are on the path of a step, Dim x vertices, m; true where it starts.
+    using Observer = std::function<void(const Eigen::MatrixXd& positions, bool is_start)>;
+
+    /// The references must outlive this.
+    ///
+    /// @param elasticity  One of the terms of `energy`.
+    IncrementalPotential(const Workers& workers,
+                         const Kernels<Dim>& kernels,
+                         const Bodies<Dim>& bodies,
+                         const Scene& scene,
+                         PotentialEnergy<Dim>& energy,
+                         Elasticity<Dim>& elasticity);
+
+    /// Solves for some bodies alone from now on.
+    ///
+    /// @param asleep     One entry a body: those that are not solved for.
+    /// @param positions  Dim x vertices: where these lie, m.
+    void set_asleep(const std::vector<bool>& asleep, const Positions<Dim>& positions);
+
+    /// Starts a step; the energy must have been evaluated where it starts.
+    ///
+    /// @param problem, start  Must last while the step is solved.
+    void begin_step(const StepProblem<Dim>& problem, const StepStart<Dim>& start);
+
+    /// Lets terms choose their stiffness, see Potential::balance(); the energy as for begin_step().
+    void balance(const Positions<Dim>& x);
+
+    [[nodiscard]] Evaluation<Dim> evaluate(const Positions<Dim>& x) override;
+    [[nodiscard]] NewtonDirection<Dim> solve(const Positions<Dim>& shift,
+                                             double tolerance) override;
+    [[nodiscard]] Positions<Dim> prescribed_shift(const Positions<Dim>& x) const override;
+    [[nodiscard]] double max_step(const Positions<Dim>& from, const Positions<Dim>& to) override {
+        return energy_->max_step(from, to);
+    }
+    [[nodiscard]] bool accept(const Positions<Dim>& x) override;
+
+    void set_observer(Observer observer) { observer_ = std::move(observer); }
+    void tell_start(const Positions<Dim>& x) const;
+
+    [[nodiscard]] const DofMap& dofs() const { return dofs_; }
+    [[nodiscard]] SolveWork take_work() { return std::exchange(work_, {}); }
+    [[nodiscard]] std::int64_t take_damping_hessians() { return stiffness_drag_.take_hessians(); }
+
+    /// Bytes of a block of the matrix, with those of a tangent that damping keeps.
+    [[nodiscard]] std::int64_t bytes_per_block() const;
+    [[nodiscard]] std::int64_t tangent_bytes() const;
+
+private:
+    void set_up_solver();
+    [[nodiscard]] bool assemble(NewtonSystem<Dim>& system,
+                                Filter filter,
+                                const Positions<Dim>& shift);
+    [[nodiscard]] NewtonSystem<Dim>* assemble_somehow(Filter filter, const Positions<Dim>& shift);
+    [[nodiscard]] LinearSolution<Dim> solve_filtered(const NewtonSystem<Dim>& system,
+                                                     double tolerance);
+
+    const Workers* workers_;
+    const Kernels<Dim>* kernels_;
+    const Bodies<Dim>* bodies_;
+    SolverOptions options_;
+    Damping damping_;
+    PotentialEnergy<Dim>* energy_;
+    Elasticity<Dim>* elasticity_;
+    DofMap dofs_;
+    MassDistance<Dim> inertia_;
+    MassDistance<Dim> mass_drag_;
+    RayleighDamping<Dim> stiffness_drag_;
+    std::unique_ptr<LinearSolver<Dim>> solver_;
+    // Where float has turned out too coarse there are both.
+    std::unique_ptr<NewtonSystem<Dim>> float_system_;
+    std::unique_ptr<NewtonSystem<Dim>> double_system_;
+    const StepProblem<Dim>* problem_ = nullptr;
+    Positions<Dim> x_;         // last evaluated
+    Positions<Dim> gradient_;  // there, of all vertices
+    Observer observer_;
+    SolveWork work_;
+};
+
+}  // namespace pent::simulator

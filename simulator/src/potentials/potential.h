@@ -1,0 +1,86 @@
+#pragma once
+
+#include "linear/dof_map.h"
+#include "linear/newton_system.h"
+
+#include <pent/simplex_mesh.h>
+#include <pent/simulator/energies.h>
+#include <pent/simulator/solver_options.h>
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace pent::simulator {
+
+/// What a step starts from.
+template <int Dim>
+struct StepStart {
+    const Positions<Dim>& positions;   ///< Dim x vertices, m; where the energy was last evaluated.
+    const Positions<Dim>& velocities;  ///< Dim x vertices, m/s.
+    const Positions<Dim>&
+        dirichlet_travel;    ///< Dim x vertices: from the origin of the step to where
+                             ///< Dirichlet vertices will be, m; 0 for all others.
+    double h = 0;            ///< s.
+    bool is_linear = false;  ///< A single linear solve, no Newton's method behind it.
+};
+
+/// One term of what a step minimizes: a function of the positions of all vertices.
+///
+/// Terms know nothing of one another, of unknowns and of time. Arrays are Dim x vertices; what a term says
+/// of vertices without a dof is left out by those who sum up. Derivatives are tested against
+/// differences, each in a test of its own.
+template <int Dim>
+class Potential {
+public:
+    Potential() = default;
+    virtual ~Potential() = default;
+    Potential(const Potential&) = delete;
+    Potential& operator=(const Potential&) = delete;
+    Potential(Potential&&) = delete;
+    Potential& operator=(Potential&&) = delete;
+
+    /// Value at positions x, m; adds the gradient to `gradient`. The methods below without positions
+    /// speak of those last evaluated.
+    [[nodiscard]] virtual double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) = 0;
+
+    /// Adds weight times the Hessian, its negative eigenvalues as `filter` says.
+    virtual void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) = 0;
+
+    /// The parts of the value by name, for reports.
+    [[nodiscard]] virtual std::vector<TermEnergy> energies() const { return {}; }
+
+    /// Takes what is held during a step (normal forces, tangents) from its start. Returns whether the
+    /// value has changed.
+    [[nodiscard]] virtual bool begin_step(const StepStart<Dim>& /*start*/) { return false; }
+
+    /// The largest part of the way from one place to another, in [0, 1], at which the value is finite
+    /// all along.
+    [[nodiscard]] virtual double max_step(const Positions<Dim>& /*from*/,
+                                          const Positions<Dim>& /*to*/) {
+        return 1;
+    }
+
+    /// Whether it is infinite somewhere, so that max_step() may be less than 1.
+    [[nodiscard]] virtual bool is_bounded() const { return false; }
+
+    /// Gives way to the others, at the start of a step: chooses its stiffness from its own gradient
+    /// and that of all others, Dim x dofs. Returns whether the value has changed.
+    [[nodiscard]] virtual bool balance(const BlockVector<Dim>& /*own*/,
+                                       const BlockVector<Dim>& /*others*/) {
+        return false;
+    }
+    [[nodiscard]] virtual bool wants_balance() const { return false; }
+
+    /// Adapts itself after an iteration of Newton's method that was accepted. Returns whether the value has
+    /// changed.
+    [[nodiscard]] virtual bool adapt() { return false; }
+
+    /// What terms that cancel may leave of the value in rounding.
+    [[nodiscard]] virtual double rounding() const { return 0; }
+
+    /// Whether the gradient is not quite the derivative of the value here, as at kinks of contact.
+    [[nodiscard]] virtual bool has_kink() const { return false; }
+};
+
+}  // namespace pent::simulator

@@ -1,0 +1,56 @@
+#include "potentials/rayleigh_damping.h"
+
+#include <utility>
+
+namespace pent::simulator {
+
+template <int Dim>
+bool RayleighDamping<Dim>::begin_step(const StepStart<Dim>& start) {
+    is_on_ = !start.is_linear;
+    if (!is_on_) {
+        return true;
+    }
+    if (!tangent_) {
+        tangent_ = std::make_unique<BlockMatrix<Dim, double>>(elasticity_->pattern());
+    }
+    tangent_->set_zero(*workers_);
+    dirichlet_part_.setZero(Dim, dofs_->count());
+    elasticity_->add_tangent(start.positions, filter_, start.dirichlet_travel, *tangent_,
+                             dirichlet_part_);
+    dirichlet_part_ = -dirichlet_part_;
+    hessians_ += elasticity_->element_count();
+    return true;
+}
+
+template <int Dim>
+double RayleighDamping<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
+    if (!is_on_) {
+        return 0;
+    }
+    const BlockVector<Dim> travel = at_dofs<Dim>(*dofs_, x - *origin_);
+    BlockVector<Dim> resistance(Dim, travel.cols());
+    tangent_->multiply(*workers_, *kernels_, travel, resistance);
+    for (std::uint32_t dof = 0; dof < dofs_->count(); ++dof) {
+        gradient.col(dofs_->vertex_of(dof)) += resistance.col(dof) + dirichlet_part_.col(dof);
+    }
+    return 0.5 * resistance.cwiseProduct(travel).sum() + dirichlet_part_.cwiseProduct(travel).sum();
+}
+
+template <int Dim>
+void RayleighDamping<Dim>::add_hessian(double weight,
+                                       Filter /*filter*/,
+                                       NewtonSystem<Dim>& system) {
+    if (is_on_) {
+        system.add_matrix(weight, *tangent_);
+    }
+}
+
+template <int Dim>
+std::int64_t RayleighDamping<Dim>::take_hessians() {
+    return std::exchange(hessians_, 0);
+}
+
+template class RayleighDamping<3>;
+template class RayleighDamping<4>;
+
+}  // namespace pent::simulator

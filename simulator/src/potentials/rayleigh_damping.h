@@ -1,0 +1,63 @@
+#pragma once
+
+#include "potentials/elasticity.h"
+#include "potentials/potential.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace pent::simulator {
+
+/// The part of Rayleigh damping that stiffness makes: 1/2 |x - origin|_K^2, K being the elastic tangent at
+/// the start of the step.
+///
+/// A step of a single linear solve has that tangent in its matrix already: there this is nothing, and the
+/// elastic term takes its weight.
+template <int Dim>
+class RayleighDamping final : public Potential<Dim> {
+public:
+    /// @param elasticity, dofs  Must outlive this.
+    RayleighDamping(const Workers& workers,
+                    const BlockKernels& kernels,
+                    const Elasticity<Dim>& elasticity,
+                    const DofMap& dofs,
+                    Filter filter)
+        : workers_(&workers),
+          kernels_(&kernels),
+          elasticity_(&elasticity),
+          dofs_(&dofs),
+          filter_(filter) {}
+
+    /// @param origin  Dim x vertices, m; must outlive its use.
+    void set_origin(const Positions<Dim>& origin) { origin_ = &origin; }
+
+    /// After the dofs have changed.
+    void forget() { tangent_.reset(); }
+
+    [[nodiscard]] bool begin_step(const StepStart<Dim>& start) override;
+    [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
+    void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) override;
+
+    /// Whether this step has a tangent of its own.
+    [[nodiscard]] bool has_tangent() const { return is_on_; }
+
+    /// Elements assembled for tangents since this was last asked.
+    [[nodiscard]] std::int64_t take_hessians();
+    [[nodiscard]] std::int64_t tangent_blocks() const {
+        return tangent_ ? tangent_->pattern().blocks() : 0;
+    }
+
+private:
+    const Workers* workers_;
+    const BlockKernels* kernels_;
+    const Elasticity<Dim>* elasticity_;
+    const DofMap* dofs_;
+    Filter filter_;
+    const Positions<Dim>* origin_ = nullptr;
+    bool is_on_ = false;
+    std::unique_ptr<BlockMatrix<Dim, double>> tangent_;
+    BlockVector<Dim> dirichlet_part_;  // Dim x dofs: K times the travel of Dirichlet vertices
+    std::int64_t hessians_ = 0;
+};
+
+}  // namespace pent::simulator

@@ -1,0 +1,27 @@
+#include "potentials/scene_energy.h"
+
+#include "potentials/gravity.h"
+
+#include <memory>
+
+namespace pent::simulator {
+
+template <int Dim>
+SceneEnergy<Dim>::SceneEnergy(const Workers& workers,
+                              const Kernels<Dim>& kernels,
+                              const Bodies<Dim>& bodies,
+                              const Scene& scene) {
+    sum.add(std::make_unique<Gravity<Dim>>(workers, bodies.masses, scene.gravity));
+    elasticity = &sum.add(
+        std::make_unique<Elasticity<Dim>>(workers, kernels, bodies, scene.solver.elements));
+    contact = &sum.add(std::make_unique<ContactPotential<Dim>>(workers, scene, bodies));
+    if (scene.contact && scene.contact->friction > 0) {
+        const contact::Friction law{scene.contact->friction, scene.contact->slip_speed};
+        friction = &sum.add(std::make_unique<FrictionPotential<Dim>>(*contact, law));
+    }
+}
+
+template struct SceneEnergy<3>;
+template struct SceneEnergy<4>;
+
+}  // namespace pent::simulator

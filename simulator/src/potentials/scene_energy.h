@@ -1,0 +1,26 @@
+#pragma once
+
+#include "potentials/contact_potential.h"
+#include "potentials/elasticity.h"
+#include "potentials/friction_potential.h"
+#include "potentials/potential_energy.h"
+
+namespace pent::simulator {
+
+/// The potential energy of a scene: what a scene asks for becomes terms here, and nowhere else.
+template <int Dim>
+struct SceneEnergy {
+    /// The references must outlive this.
+    SceneEnergy(const Workers& workers,
+                const Kernels<Dim>& kernels,
+                const Bodies<Dim>& bodies,
+                const Scene& scene);
+
+    PotentialEnergy<Dim> sum;
+    // Terms that have more to say than the others.
+    Elasticity<Dim>* elasticity;
+    ContactPotential<Dim>* contact;
+    FrictionPotential<Dim>* friction = nullptr;  // null without friction
+};
+
+}  // namespace pent::simulator

@@ -1,0 +1,103 @@
+#include "step/crossing_error.h"
+
+#include <algorithm>
+#include <string>
+
+namespace pent::simulator {
+
+namespace {
+
+// Whether a cell has all corners of a simplex.
+template <int Dim>
+bool has_corners(const Simplices<Dim + 1>& cells,
+                 Eigen::Index cell,
+                 const std::vector<std::uint32_t>& corners) {
+    return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
+        return (cells.col(cell).array() == corner).any();
+    });
+}
+
+// The cells that have one of the simplices, with their own vertices alone.
+template <int Dim>
+SimplexMesh<Dim> cells_of(const Bodies<Dim>& bodies,
+                          const std::vector<std::vector<std::uint32_t>>& simplices,
+                          const Positions<Dim>& positions) {
+    constexpr std::uint32_t kNone = 0xffffffff;
+    std::vector<std::vector<std::uint32_t>> at_vertex(
+        static_cast<std::size_t>(bodies.vertex_count()));
+    for (std::uint32_t s = 0; s < simplices.size(); ++s) {
+        at_vertex[simplices[s].front()].push_back(s);
+    }
+    std::vector<Eigen::Index> cells;
+    SimplexMesh<Dim> mesh;
+    for (std::size_t body = 0; body < bodies.ranges.size(); ++body) {
+        for (Eigen::Index cell = bodies.ranges[body].begin; cell < bodies.ranges[body].end;
+             ++cell) {
+            bool is_one = false;
+            for (int corner = 0; corner <= Dim && !is_one; ++corner) {
+                for (const std::uint32_t s : at_vertex[bodies.cells(corner, cell)]) {
+                    is_one |= has_corners<Dim>(bodies.cells, cell, simplices[s]);
+                }
+            }
+            if (is_one) {
+                cells.push_back(cell);
+                mesh.regions.push_back(static_cast<std::uint16_t>(body));
+            }
+        }
+    }
+    std::vector<std::uint32_t> numbers(static_cast<std::size_t>(bodies.vertex_count()), kNone);
+    std::vector<std::uint32_t> vertices;
+    mesh.cells.resize(Dim + 1, static_cast<Eigen::Index>(cells.size()));
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        for (int corner = 0; corner <= Dim; ++corner) {
+            const std::uint32_t vertex = bodies.cells(corner, cells[k]);
+            if (numbers[vertex] == kNone) {
+                numbers[vertex] = static_cast<std::uint32_t>(vertices.size());
+                vertices.push_back(vertex);
+            }
+            mesh.cells(corner, static_cast<Eigen::Index>(k)) = numbers[vertex];
+        }
+    }
+    mesh.positions.resize(Dim, static_cast<Eigen::Index>(vertices.size()));
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        mesh.positions.col(static_cast<Eigen::Index>(v)) = positions.col(vertices[v]);
+    }
+    return mesh;
+}
+
+}  // namespace
+
+template <int Dim>
+CrossingError<Dim> crossing_error(const Bodies<Dim>& bodies,
+                                  const ContactPotential<Dim>& contacts,
+                                  const std::vector<contact::Crossing>& crossings,
+                                  const Positions<Dim>& positions) {
+    constexpr std::size_t kNamed = 3;
+    std::string message = "contact: the barrier needs a start at which nothing touches: ";
+    std::vector<std::vector<std::uint32_t>> simplices;
+    for (std::size_t i = 0; i < crossings.size(); ++i) {
+        if (i < kNamed) {
+            message += (i == 0 ? "" : ", ") + contacts.describe(crossings[i]);
+        }
+        for (const auto& corners : {crossings[i].first_corners, crossings[i].second_corners}) {
+            if (!corners.empty()) {
+                simplices.push_back(corners);
+            }
+        }
+    }
+    if (crossings.size() > kNamed) {
+        message += ", and " + std::to_string(crossings.size() - kNamed) + " more";
+    }
+    return {message, cells_of(bodies, simplices, positions)};
+}
+
+template CrossingError<3> crossing_error<3>(const Bodies<3>&,
+                                            const ContactPotential<3>&,
+                                            const std::vector<contact::Crossing>&,
+                                            const Positions<3>&);
+template CrossingError<4> crossing_error<4>(const Bodies<4>&,
+                                            const ContactPotential<4>&,
+                                            const std::vector<contact::Crossing>&,
+                                            const Positions<4>&);
+
+}  // namespace pent::simulator

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "model/bodies.h"
+#include "potentials/contact_potential.h"
+
+#include <pent/simulator/crossing_error.h>
+
+#include <vector>
+
+namespace pent::simulator {
+
+/// What to throw about crossings, of which there is at least one.
+template <int Dim>
+[[nodiscard]] CrossingError<Dim> crossing_error(const Bodies<Dim>& bodies,
+                                                const ContactPotential<Dim>& contacts,
+                                                const std::vector<contact::Crossing>& crossings,
+                                                const Positions<Dim>& positions);
+
+}  // namespace pent::simulator

@@ -1,0 +1,288 @@
+#include "step/newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace pent::simulator {
+
+namespace {
+
+// The linear solves of Newton's method need not be more exact than this: each iteration then gains
+// two digits, which is what its quadratic model is good for.
+constexpr double kForcing = 1e-2;
+
+// Least part of the decrease that the slope promises for a step to be taken [nocedal2006, 3.1].
+constexpr double kArmijo = 1e-4;
+constexpr double kRounding = 1e-13;  // of the value
+constexpr int kMaxBacktracks = 40;
+
+// Newton's method is at a kink when the gradient left over is below this part of that at the start, and
+// either a step that had to be cut gains less than this part of what all of them have, or the gradient has
+// not become less in so many iterations.
+constexpr double kKinkGradient = 0.1;
+constexpr double kKinkGain = 1e-4;
+constexpr int kKinkIterations = 8;
+
+// Near kinks the gradient is not quite the derivative of the value. Where it becomes less, the value may
+// therefore rise, by this part of what it has fallen so far.
+constexpr double kMaxRise = 1e-2;
+
+// Filtered Hessians are too stiff where bodies slide along each other, so that energy still falls behind
+// a whole step. One at whose end the slope is above this part of that at its start goes on, to where
+// the slope would vanish if it changed evenly, at most so many times as far, and so many times.
+constexpr double kSteep = 0.35;
+constexpr double kMaxStretch = 4;
+constexpr int kMaxStretches = 4;
+constexpr double kMinStretch = 1.3;  // anything less is not worth an evaluation
+
+// Prescribed points that get no further than this part of their way, so many times in a row, are stuck.
+constexpr double kStuck = 1e-3;
+constexpr int kMaxStuck = 10;
+
+template <int Dim>
+bool has_less_gradient(const Evaluation<Dim>& at, const Evaluation<Dim>& next, double factor) {
+    return next.gradient.norm() <= (1 - kArmijo * factor) * at.gradient.norm();
+}
+
+template <int Dim>
+class Minimizer {
+public:
+    Minimizer(Objective<Dim>& function, const NewtonOptions& options, Positions<Dim>& x)
+        : function_(function), options_(options), x_(x) {}
+
+    NewtonReport run() {
+        at_ = function_.evaluate(x_);
+        start_value_ = options_.start_norm ? options_.start_value : at_.value;
+        start_norm_ = options_.start_norm.value_or(at_.gradient.norm());
+        shift_ = function_.prescribed_shift(x_);
+        is_pending_ = !shift_.isZero(0);
+        while (report_.iterations < options_.max_iterations) {
+            if (!iterate()) {
+                return report_;
+            }
+        }
+        if (!is_at_kink()) {
+            fail("Newton's method did not reach its tolerance");
+        }
+        return report_;
+    }
+
+private:
+    // Returns whether to go on.
+    bool iterate() {
+        if (!std::isfinite(at_.value)) {
+            return fail("the energy grew beyond all bounds");
+        }
+        if (!is_pending_ && at_.gradient.norm() <= options_.tolerance * start_norm_) {
+            return finish(at_.gradient.norm());
+        }
+        if (!is_current_) {
+            at_ = function_.evaluate(x_);
+            is_current_ = true;
+        }
+        ++report_.iterations;
+        const NewtonDirection<Dim> direction = function_.solve(shift_, kForcing);
+        if (!direction.failure_reason.empty()) {
+            return fail(direction.failure_reason);
+        }
+        const double correction = direction.step.template lpNorm<Eigen::Infinity>();
+        if (!is_pending_ && correction < options_.min_correction) {
+            return finish(0);
+        }
+        const double limit = function_.max_step(x_, x_ + direction.step);
+        const double value_before = at_.value;
+        const std::optional<double> factor = search(direction.step, limit);
+        if (factor && at_.has_kink) {
+            remember();
+        }
+        const bool is_cut = !factor || *factor < 1;
+        const bool has_stalled =
+            is_cut && value_before - at_.value <= kKinkGain * (start_value_ - at_.value);
+        if ((has_stalled || best_age_ >= kKinkIterations) && is_at_kink()) {
+            return false;
+        }
+        if (!factor) {
+            return fail("the line search found no decrease");
+        }
+        const bool has_changed = function_.accept(x_);
+        if (!is_pending_ && *factor >= 1
+            && *factor * correction < options_.settled * options_.min_correction
+            && at_.gradient.norm() <= options_.settled * options_.tolerance * start_norm_) {
+            return finish(at_.gradient.norm());
+        }
+        if (is_pending_ && !carry_on(limit)) {
+            return false;
+        }
+        if (has_changed) {
+            at_ = function_.evaluate(x_);
+            is_current_ = true;
+        }
+        return true;
+    }
+
+    // Goes along a direction: `factor` of it, half of that and so on; more where `factor` is 1 and
+    // the value goes on falling. Returns how many times the direction was gone; nothing if the value does
+    // not fall.
+    std::optional<double> search(const Positions<Dim>& step, double factor) {
+        const double slope = at_.gradient.cwiseProduct(step).sum();
+        if (!is_pending_ && !(slope < 0)) {
+            return std::nullopt;  // it leads up
+        }
+        const Positions<Dim> from = x_;
+        for (int k = 0; k < kMaxBacktracks; ++k, factor /= 2) {
+            Evaluation<Dim> next = try_out(from, step, factor);
+            if (is_pending_ ? std::isfinite(next.value) : has_improved(next, factor, slope)) {
+                take(std::move(next));
+                if (factor == 1 && !is_pending_ && options_.extends_steps) {
+                    factor = extend(from, step, slope);
+                }
+                return factor;
+            }
+        }
+        is_current_ = false;
+        return std::nullopt;
+    }
+
+    // Goes on from a whole step while the value falls; returns how far in all.
+    double extend(const Positions<Dim>& from, const Positions<Dim>& step, double first_slope) {
+        double factor = 1;
+        for (int k = 0; k < kMaxStretches; ++k) {
+            const double slope = at_.gradient.cwiseProduct(step).sum();
+            if (!(slope < kSteep * first_slope)) {
+                break;
+            }
+            const double most = kMaxStretch * factor;
+            const double bend = (slope - first_slope) / factor;
+            const double wanted = bend > 0 ? std::min(most, -first_slope / bend) : most;
+            const double limit = function_.max_step(from, from + wanted * step);
+            if (limit * wanted < kMinStretch * factor) {
+                break;
+            }
+            Evaluation<Dim> next = try_out(from, step, limit * wanted);
+            if (!(next.value < at_.value)) {
+                is_current_ = false;
+                break;
+            }
+            take(std::move(next));
+            factor = limit * wanted;
+        }
+        return factor;
+    }
+
+    Evaluation<Dim> try_out(const Positions<Dim>& from, const Positions<Dim>& step, double factor) {
+        trial_ = from + factor * step;
+        return function_.evaluate(trial_);
+    }
+
+    void take(Evaluation<Dim>&& next) {
+        std::swap(x_, trial_);
+        at_ = std::move(next);
+        is_current_ = true;
+    }
+
+    // Sufficient decrease of the value; where that drowns in rounding, or near kinks, of the gradient.
+    [[nodiscard]] bool has_improved(const Evaluation<Dim>& next,
+                                    double factor,
+                                    double slope) const {
+        const double change = next.value - at_.value;
+        return change <= kArmijo * factor * slope + kRounding * std::abs(at_.value)
+               || (change <= at_.rounding && has_less_gradient(at_, next, factor))
+               || (next.has_kink && change <= kMaxRise * (start_value_ - at_.value)
+                   && has_less_gradient(at_, next, factor));
+    }
+
+    // After a step of prescribed points: whether they can go on, or have arrived.
+    bool carry_on(double limit) {
+        shift_ = function_.prescribed_shift(x_);
+        is_pending_ = shift_.cwiseAbs().maxCoeff() > options_.arrival;
+        if (!is_pending_) {
+            shift_.setZero();
+        }
+        start_norm_ = std::max(start_norm_, at_.gradient.norm());
+        stuck_ = limit < kStuck ? stuck_ + 1 : 0;
+        if (is_pending_ && stuck_ == kMaxStuck) {
+            report_.is_stuck = true;
+            return fail("prescribed points cannot go on");
+        }
+        return true;
+    }
+
+    // Keeps the point with the least gradient that was come by near kinks.
+    void remember() {
+        ++best_age_;
+        if (at_.gradient.norm() < best_norm_) {
+            best_ = x_;
+            best_norm_ = at_.gradient.norm();
+            best_age_ = 0;
+        }
+    }
+
+    bool is_at_kink() {
+        if (best_norm_ > kKinkGradient * start_norm_) {
+            return false;
+        }
+        x_ = best_;
+        static_cast<void>(finish(best_norm_));
+        return true;
+    }
+
+    bool finish(double gradient_norm) {
+        report_.has_converged = true;
+        report_.residual = start_norm_ > 0 ? gradient_norm / start_norm_ : 0;
+        return false;
+    }
+
+    bool fail(const std::string& reason) {
+        report_.failure_reason = reason;
+        return false;
+    }
+
+    Objective<Dim>& function_;
+    const NewtonOptions& options_;
+    Positions<Dim>& x_;
+    Positions<Dim> trial_;
+    Evaluation<Dim> at_;       // at x
+    bool is_current_ = true;   // whether the function was last evaluated there
+    Positions<Dim> shift_;     // of prescribed points, to their places
+    bool is_pending_ = false;  // whether they are still on their way
+    int stuck_ = 0;            // steps in a row that hardly moved them
+    double start_value_ = 0;
+    double start_norm_ = 0;
+    Positions<Dim> best_;
+    double best_norm_ = std::numeric_limits<double>::infinity();
+    int best_age_ = 0;  // iterations since
+    NewtonReport report_;
+};
+
+}  // namespace
+
+template <int Dim>
+NewtonReport newton(Objective<Dim>& function, const NewtonOptions& options, Positions<Dim>& x) {
+    return Minimizer<Dim>(function, options, x).run();
+}
+
+template <int Dim>
+NewtonReport newton_step(Objective<Dim>& function, Positions<Dim>& x) {
+    NewtonReport report;
+    static_cast<void>(function.evaluate(x));
+    const NewtonDirection<Dim> direction = function.solve(function.prescribed_shift(x), 0);
+    report.failure_reason = direction.failure_reason;
+    report.has_converged = direction.failure_reason.empty();
+    if (report.has_converged) {
+        report.iterations = 1;
+        x += direction.step;
+    }
+    return report;
+}
+
+#define PENT_INSTANTIATE(Dim)                                                             \
+    template NewtonReport newton(Objective<Dim>&, const NewtonOptions&, Positions<Dim>&); \
+    template NewtonReport newton_step(Objective<Dim>&, Positions<Dim>&);
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent::simulator

@@ -1,0 +1,177 @@
+#include "step/stepper.h"
+
+#include <pent/error.h>
+#include <pent/simulator/simulation.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace pent::simulator {
+
+template <int Dim>
+Simulation<Dim>::Simulation(const Scene& scene,
+                            std::vector<SimplexMesh<Dim>> meshes,
+                            const SimulationOptions& options)
+    : stepper_(std::make_unique<Stepper>(scene, std::move(meshes), options)) {}
+
+template <int Dim>
+Simulation<Dim>::~Simulation() = default;
+template <int Dim>
+Simulation<Dim>::Simulation(Simulation&&) noexcept = default;
+template <int Dim>
+Simulation<Dim>& Simulation<Dim>::operator=(Simulation&&) noexcept = default;
+
+template <int Dim>
+StepReport Simulation<Dim>::step() {
+    return stepper_->step();
+}
+
+template <int Dim>
+int Simulation<Dim>::body_count() const {
+    return static_cast<int>(stepper_->bodies().meshes.size());
+}
+
+template <int Dim>
+const SimplexMesh<Dim>& Simulation<Dim>::mesh(int body) const {
+    return stepper_->bodies().meshes[static_cast<std::size_t>(body)];
+}
+
+namespace {
+
+template <int Dim>
+Eigen::Map<const Positions<Dim>> view(const Bodies<Dim>& bodies,
+                                      const Positions<Dim>& all,
+                                      int body) {
+    const auto range = bodies.vertices(static_cast<std::size_t>(body));
+    return {all.data() + Dim * range.begin, Dim, range.size};
+}
+
+template <int Dim>
+void check_state(const std::string& what,
+                 const Positions<Dim>& positions,
+                 const Positions<Dim>& velocities,
+                 Eigen::Index count) {
+    if (positions.cols() != count || velocities.cols() != count || !positions.allFinite()
+        || !velocities.allFinite()) {
+        throw Error("the state of " + what + " must be finite positions and velocities of its "
+                    + std::to_string(count) + " vertices");
+    }
+}
+
+void check_sleep(const std::vector<SleepState>& sleep, std::size_t bodies, bool can_sleep) {
+    const bool is_right =
+        sleep.size() == bodies
+        && (can_sleep || std::all_of(sleep.begin(), sleep.end(), [](const SleepState& body) {
+                return body == SleepState();
+            }));
+    if (!is_right) {
+        throw Error("the sleep of " + std::to_string(sleep.size()) + " bodies was given; expected "
+                    + std::to_string(bodies)
+                    + (can_sleep ? "" : ", all of them awake, as the scene has no [sleep]"));
+    }
+}
+
+}  // namespace
+
+template <int Dim>
+typename Simulation<Dim>::View Simulation<Dim>::positions(int body) const {
+    return view(stepper_->bodies(), stepper_->current().positions, body);
+}
+
+template <int Dim>
+typename Simulation<Dim>::View Simulation<Dim>::velocities(int body) const {
+    return view(stepper_->bodies(), stepper_->current().velocities, body);
+}
+
+template <int Dim>
+typename Simulation<Dim>::View Simulation<Dim>::forces(int body) const {
+    return view(stepper_->bodies(), stepper_->forces(), body);
+}
+
+template <int Dim>
+Positions<Dim> Simulation<Dim>::contact_forces(int body) const {
+    return view(stepper_->bodies(), stepper_->contact_forces(), body);
+}
+
+template <int Dim>
+std::span<const contact::Contact<Dim>> Simulation<Dim>::contacts() const {
+    return stepper_->contact().contacts().list;
+}
+
+template <int Dim>
+std::int64_t Simulation<Dim>::first_vertex(int body) const {
+    return stepper_->bodies().first_vertex[static_cast<std::size_t>(body)];
+}
+
+template <int Dim>
+std::vector<std::string> Simulation<Dim>::warnings() const {
+    return stepper_->contact().warnings();
+}
+
+template <int Dim>
+Eigen::Map<const Eigen::VectorXd> Simulation<Dim>::masses(int body) const {
+    const Bodies<Dim>& bodies = stepper_->bodies();
+    const auto range = bodies.vertices(static_cast<std::size_t>(body));
+    return {bodies.masses.data() + range.begin, range.size};
+}
+
+template <int Dim>
+double Simulation<Dim>::time() const {
+    return stepper_->time();
+}
+
+template <int Dim>
+std::uint64_t Simulation<Dim>::step_count() const {
+    return stepper_->steps();
+}
+
+template <int Dim>
+Energies Simulation<Dim>::energies() const {
+    return stepper_->energies();
+}
+
+template <int Dim>
+SimulationSize Simulation<Dim>::size() const {
+    return stepper_->size();
+}
+
+template <int Dim>
+std::string Simulation<Dim>::isa() const {
+    return std::string(isa_name(stepper_->isa()));
+}
+
+template <int Dim>
+void Simulation<Dim>::set_state(int body,
+                                const Positions<Dim>& positions,
+                                const Positions<Dim>& velocities) {
+    const Eigen::Index count = stepper_->bodies().vertices(static_cast<std::size_t>(body)).size;
+    check_state("a body", positions, velocities, count);
+    stepper_->set_body(body, positions, velocities);
+}
+
+template <int Dim>
+const std::vector<SleepState>& Simulation<Dim>::sleep() const {
+    return stepper_->sleep();
+}
+
+template <int Dim>
+Snapshot<Dim> Simulation<Dim>::save() const {
+    return stepper_->save();
+}
+
+template <int Dim>
+void Simulation<Dim>::restore(const Snapshot<Dim>& snapshot) {
+    const Eigen::Index vertices = stepper_->bodies().vertex_count();
+    check_state("a snapshot", snapshot.positions, snapshot.velocities, vertices);
+    if (snapshot.previous_positions.cols() > 0 || snapshot.previous_velocities.cols() > 0) {
+        check_state("a snapshot one step ago", snapshot.previous_positions,
+                    snapshot.previous_velocities, vertices);
+    }
+    check_sleep(snapshot.sleep, stepper_->sleep().size(), stepper_->scene().sleep.has_value());
+    stepper_->restore(snapshot);
+}
+
+template class Simulation<3>;
+template class Simulation<4>;
+
+}  // namespace pent::simulator

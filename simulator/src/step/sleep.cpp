@@ -1,0 +1,157 @@
+#include "step/sleep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pent::simulator {
+
+namespace {
+
+using BodyPair = std::pair<std::size_t, std::size_t>;
+
+// Pairs of different bodies in contact, each once.
+template <int Dim>
+std::vector<BodyPair> touching(const contact::Contacts<Dim>& contacts) {
+    std::vector<BodyPair> pairs;
+    for (const contact::Contact<Dim>& contact : contacts.list) {
+        if (!contact.second.is_obstacle() && !contact.is_self()) {
+            pairs.emplace_back(std::minmax(contact.first.index, contact.second.index));
+        }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+}
+
+// Marks what touches something marked that may pass it on, until nothing is new.
+template <typename CanTake>
+void spread(const std::vector<BodyPair>& pairs, const CanTake& can_take, std::vector<bool>& marks) {
+    for (bool has_changed = true; has_changed;) {
+        has_changed = false;
+        for (const auto& [a, b] : pairs) {
+            for (const auto& [from, to] : {BodyPair(a, b), BodyPair(b, a)}) {
+                if (marks[from] && !marks[to] && can_take(to)) {
+                    marks[to] = true;
+                    has_changed = true;
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+
+template <int Dim>
+Islands<Dim>::Islands(const Scene& scene, const Bodies<Dim>& bodies)
+    : bodies_(&bodies), is_on_(scene.sleep.has_value()), states_(bodies.count()) {
+    if (!is_on_) {
+        return;
+    }
+    // A time of so many steps is not to become one more by rounding.
+    steps_to_sleep_ =
+        static_cast<std::uint64_t>(std::max(1.0, std::ceil(scene.sleep->time / scene.dt() - 1e-6)));
+    for (std::size_t body = 0; body < states_.size(); ++body) {
+        const auto& positions = bodies.meshes[body].positions;
+        const double size =
+            (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).norm();
+        speed_.push_back(scene.sleep->speed * size);
+        is_kinematic_.push_back(bodies.is_kinematic(body));
+    }
+}
+
+template <int Dim>
+int Islands<Dim>::asleep_count() const {
+    return static_cast<int>(std::count_if(states_.begin(), states_.end(),
+                                          [](const SleepState& state) { return state.is_asleep; }));
+}
+
+template <int Dim>
+std::vector<bool> Islands<Dim>::asleep() const {
+    std::vector<bool> asleep;
+    for (const SleepState& state : states_) {
+        asleep.push_back(state.is_asleep);
+    }
+    return asleep;
+}
+
+template <int Dim>
+bool Islands<Dim>::wake(const contact::Contacts<Dim>& contacts,
+                        const Positions<Dim>& from,
+                        const Positions<Dim>& to) {
+    if (asleep_count() == 0) {
+        return false;
+    }
+    std::vector<bool> is_moving(states_.size());
+    for (std::size_t body = 0; body < states_.size(); ++body) {
+        is_moving[body] = !states_[body].is_asleep && !is_kinematic_[body];
+        for (Eigen::Index v = bodies_->first_vertex[body]; v < bodies_->first_vertex[body + 1];
+             ++v) {
+            if (bodies_->is_dirichlet[static_cast<std::size_t>(v)] && from.col(v) != to.col(v)) {
+                is_moving[body] = true;
+            }
+        }
+    }
+    spread(
+        touching(contacts), [&](std::size_t body) { return states_[body].is_asleep; }, is_moving);
+    bool has_woken = false;
+    for (std::size_t body = 0; body < states_.size(); ++body) {
+        if (states_[body].is_asleep && is_moving[body]) {
+            states_[body] = {};
+            has_woken = true;
+        }
+    }
+    return has_woken;
+}
+
+// Dirichlet vertices have to be still: what they are about to do would wake the body at once.
+template <int Dim>
+bool Islands<Dim>::is_quiet(std::size_t body, const Positions<Dim>& velocities) const {
+    for (Eigen::Index v = bodies_->first_vertex[body]; v < bodies_->first_vertex[body + 1]; ++v) {
+        const double most = bodies_->is_dirichlet[static_cast<std::size_t>(v)] ? 0 : speed_[body];
+        if (velocities.col(v).norm() > most) {
+            return false;
+        }
+    }
+    return true;
+}
+
+template <int Dim>
+bool Islands<Dim>::put_to_sleep(const contact::Contacts<Dim>& contacts,
+                                const Positions<Dim>& velocities,
+                                double stiffness) {
+    if (!is_on_) {
+        return false;
+    }
+    std::vector<bool> is_moving(states_.size());  // or has been until lately
+    bool can_sleep = false;
+    for (std::size_t body = 0; body < states_.size(); ++body) {
+        SleepState& state = states_[body];
+        if (state.is_asleep) {
+            continue;
+        }
+        state.quiet_steps = is_quiet(body, velocities) ? state.quiet_steps + 1 : 0;
+        is_moving[body] = state.quiet_steps < (is_kinematic_[body] ? 1 : steps_to_sleep_);
+        can_sleep = can_sleep || !(is_moving[body] || is_kinematic_[body]);
+    }
+    if (!can_sleep) {
+        return false;
+    }
+    // What is kinematic passes nothing on: it moves as told.
+    spread(
+        touching(contacts), [&](std::size_t body) { return !is_kinematic_[body]; }, is_moving);
+    bool has_slept = false;
+    for (std::size_t body = 0; body < states_.size(); ++body) {
+        if (!states_[body].is_asleep && !is_moving[body] && !is_kinematic_[body]) {
+            states_[body].is_asleep = true;
+            states_[body].contact_stiffness = stiffness;
+            has_slept = true;
+        }
+    }
+    return has_slept;
+}
+
+template class Islands<3>;
+template class Islands<4>;
+
+}  // namespace pent::simulator

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "model/bodies.h"
+#include "potentials/contact_potential.h"
+
+#include <pent/simulator/simulation.h>
+
+#include <vector>
+
+namespace pent::simulator {
+
+/// Which bodies of a scene sleep; see Sleep. Bodies that touch each other fall asleep and wake together,
+/// as islands. Without Scene::sleep none ever does, and nothing is looked at.
+template <int Dim>
+class Islands {
+public:
+    /// @param bodies  Must outlive this.
+    Islands(const Scene& scene, const Bodies<Dim>& bodies);
+
+    [[nodiscard]] int asleep_count() const;
+    [[nodiscard]] const std::vector<SleepState>& states() const { return states_; }
+    void set_states(const std::vector<SleepState>& states) { states_ = states; }
+
+    /// One entry a body: whether it sleeps.
+    [[nodiscard]] std::vector<bool> asleep() const;
+
+    /// Wakes bodies whose Dirichlet vertices move, bodies in contact with what moves or is awake, and
+    /// what these touch in turn.
+    ///
+    /// @param from, to  Dim x vertices: where Dirichlet vertices are and will be.
+    /// @return          Whether any has woken.
+    bool wake(const contact::Contacts<Dim>& contacts,
+              const Positions<Dim>& from,
+              const Positions<Dim>& to);
+
+    void wake(int body) { states_[static_cast<std::size_t>(body)] = {}; }
+
+    /// Counts a step; islands that have been at rest for long fall asleep.
+    ///
+    /// @param stiffness  Of a barrier now, N/m.
+    /// @return           Whether any has.
+    bool put_to_sleep(const contact::Contacts<Dim>& contacts,
+                      const Positions<Dim>& velocities,
+                      double stiffness);
+
+private:
+    [[nodiscard]] bool is_quiet(std::size_t body, const Positions<Dim>& velocities) const;
+
+    const Bodies<Dim>* bodies_;
+    bool is_on_;
+    std::uint64_t steps_to_sleep_ = 0;
+    std::vector<double> speed_;       // below which a body is at rest, m/s
+    std::vector<bool> is_kinematic_;  // neither awake nor asleep
+    std::vector<SleepState> states_;
+};
+
+}  // namespace pent::simulator

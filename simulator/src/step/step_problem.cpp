@@ -1,0 +1,44 @@
+#include "step/step_problem.h"
+
+namespace pent::simulator {
+
+template <int Dim>
+StepProblem<Dim> euler_problem(const State<Dim>& now, double h) {
+    StepProblem<Dim> problem;
+    problem.scale = h * h;
+    problem.rate = 1 / h;
+    problem.target = now.positions + h * now.velocities;
+    problem.origin = now.positions;
+    return problem;
+}
+
+template <int Dim>
+StepProblem<Dim> bdf2_problem(const State<Dim>& now, const State<Dim>& before, double h) {
+    StepProblem<Dim> problem;
+    problem.scale = 4 * h * h / 9;
+    problem.rate = 1.5 / h;
+    problem.origin = (4 * now.positions - before.positions) / 3;
+    problem.target = problem.origin + (2 * h / 9) * (4 * now.velocities - before.velocities);
+    return problem;
+}
+
+template <int Dim>
+StepProblem<Dim> static_problem(const State<Dim>& now, double h) {
+    StepProblem<Dim> problem;
+    problem.inertia = 0;
+    problem.scale = 1;
+    problem.rate = 1 / h;
+    problem.target = now.positions;
+    problem.origin = now.positions;
+    return problem;
+}
+
+#define PENT_INSTANTIATE(Dim)                                                             \
+    template StepProblem<Dim> euler_problem(const State<Dim>&, double);                   \
+    template StepProblem<Dim> bdf2_problem(const State<Dim>&, const State<Dim>&, double); \
+    template StepProblem<Dim> static_problem(const State<Dim>&, double);
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent::simulator

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <pent/simplex_mesh.h>
+#include <pent/simulator/simulation.h>
+
+namespace pent::simulator {
+
+/// Positions and velocities of all vertices, Dim x vertices.
+template <int Dim>
+struct State {
+    Positions<Dim> positions;   ///< m.
+    Positions<Dim> velocities;  ///< m/s.
+};
+
+/// What the end x of a time step minimizes, Dirichlet vertices being where their motion has them:
+///
+///     phi(x) = inertia/2 |x - target|_M^2 + scale E(x)
+///            + scale rate/2 (a |x - origin|_M^2 + b |x - origin|_K^2)
+///
+/// E is the potential energy; a and b are those of Rayleigh damping, K the tangent at the start of the
+/// step, and rate (x - origin) the velocity at its end. Backward Euler, BDF2 and statics differ in the
+/// numbers alone.
+template <int Dim>
+struct StepProblem {
+    double inertia = 1;         ///< 0 for statics.
+    double scale = 0;           ///< s^2; m^0 for statics.
+    double rate = 0;            ///< 1/s.
+    double time = 0;            ///< At the end of the step, s.
+    Positions<Dim> target;      ///< Dim x vertices: where inertia alone would carry them, m.
+    Positions<Dim> origin;      ///< Dim x vertices, m.
+    Positions<Dim> prescribed;  ///< Dim x vertices: Dirichlet ones at the end of the step, m.
+};
+
+/// x_(n+1) - x_n = h v_(n+1), v_(n+1) - v_n = h a_(n+1).
+template <int Dim>
+[[nodiscard]] StepProblem<Dim> euler_problem(const State<Dim>& now, double h);
+
+/// 3 x_(n+1) - 4 x_n + x_(n-1) = 2 h v_(n+1), and the same for v: second order in h.
+template <int Dim>
+[[nodiscard]] StepProblem<Dim> bdf2_problem(const State<Dim>& now,
+                                            const State<Dim>& before,
+                                            double h);
+
+/// No inertia: every step ends in equilibrium with where the Dirichlet vertices are.
+template <int Dim>
+[[nodiscard]] StepProblem<Dim> static_problem(const State<Dim>& now, double h);
+
+}  // namespace pent::simulator

@@ -1,0 +1,493 @@
+#include "step/stepper.h"
+
+#include "potentials/vertex_chunks.h"
+#include "step/crossing_error.h"
+#include "stopwatch.h"
+
+#include <pent/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace pent::simulator {
+
+namespace {
+
+// Corrections below this part of the scene's extent are none.
+constexpr double kNegligible = 1e-10;
+
+// With a barrier, Newton's method has converged as well where a correction, taken whole, was below this many
+// times its tolerance of the distance of contact, and the residual is below as many times what it asks
+// for: two thousandths of either, by default.
+constexpr double kSettled = 20;
+
+// Dirichlet vertices have arrived when they are this part of the scene's extent from their place.
+constexpr double kArrived = 1e-14;
+
+constexpr int kMaxIterations = 50;
+constexpr int kMaxBoundedIterations = 150;
+
+Isa choose_isa(const std::string& name) {
+    if (name.empty()) {
+        return best_isa();
+    }
+    for (const Isa isa : {Isa::Scalar, Isa::Baseline, Isa::Avx2, Isa::Avx512}) {
+        if (name == isa_name(isa)) {
+            if (!is_supported(isa)) {
+                // GCOVR_EXCL_START: a machine that has all of them
+                throw Error("the instruction set " + name + " is not supported by this machine; "
+                            + std::string(isa_name(best_isa())) + " is");
+                // GCOVR_EXCL_STOP
+            }
+            return isa;
+        }
+    }
+    throw Error("the instruction set \"" + name
+                + "\" is not known; expected scalar, baseline, avx2 or avx512");
+}
+
+// Shortest side of the boxes around bodies at rest, m.
+template <int Dim>
+double thinnest(const Bodies<Dim>& bodies) {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const SimplexMesh<Dim>& mesh : bodies.meshes) {
+        const Eigen::Matrix<double, Dim, 1> sides =
+            mesh.positions.rowwise().maxCoeff() - mesh.positions.rowwise().minCoeff();
+        shortest = std::min(shortest, sides.minCoeff());
+    }
+    return shortest;
+}
+
+}  // namespace
+
+template <int Dim>
+Simulation<Dim>::Stepper::Stepper(const Scene& scene,
+                                  std::vector<SimplexMesh<Dim>> meshes,
+                                  const SimulationOptions& options)
+    : scene_(scene),
+      workers_(options.tasks ? Workers(*options.tasks) : Workers(options.threads)),
+      isa_(choose_isa(options.isa)),
+      kernels_(&kernels<Dim>(isa_)),
+      bodies_(make_bodies(scene, std::move(meshes))),
+      energy_(workers_, *kernels_, bodies_, scene),
+      potential_(workers_, *kernels_, bodies_, scene, energy_.sum, *energy_.elasticity),
+      islands_(scene, bodies_),
+      asleep_(islands_.asleep()),
+      extent_((bodies_.rest.rowwise().maxCoeff() - bodies_.rest.rowwise().minCoeff()).norm()),
+      thinnest_(thinnest(bodies_)) {
+    const std::uint32_t dofs = potential_.dofs().count();
+    if (scene.solver.linear == LinearSolverKind::Direct && dofs > kMaxDirectVertices) {
+        throw Error("solver.linear = \"direct\" takes at most " + std::to_string(kMaxDirectVertices)
+                    + " free vertices; this scene has " + std::to_string(dofs) + ": use \"cg\"");
+    }
+    potential_.set_observer(options.on_iterate);
+    current_.positions = bodies_.rest;
+    current_.velocities = start_velocities(scene, bodies_);
+    place_dirichlet(bodies_, 0, current_.positions, &current_.velocities);
+    refuse_crossings(current_.positions);
+    evaluate_current();
+}
+
+template <int Dim>
+void Simulation<Dim>::Stepper::evaluate_current() {
+    energy_.sum.update(current_.positions);
+    forces_ = -energy_.sum.gradient();
+}
+
+template <int Dim>
+void Simulation<Dim>::Stepper::set_body(int body,
+                                        const Positions<Dim>& positions,
+                                        const Positions<Dim>& velocities) {
+    const auto range = bodies_.vertices(static_cast<std::size_t>(body));
+    Positions<Dim> all = current_.positions;
+    all.middleCols(range.begin, range.size) = positions;
+    refuse_crossings(all);
+    current_.positions = std::move(all);
+    current_.velocities.middleCols(range.begin, range.size) = velocities;
+    islands_.wake(body);
+    number_dofs_of_the_awake();
+    evaluate_current();
+}
+
+template <int Dim>
+Snapshot<Dim> Simulation<Dim>::Stepper::save() const {
+    return {.positions = current_.positions,
+            .velocities = current_.velocities,
+            .previous_positions = history_.positions,
+            .previous_velocities = history_.velocities,
+            .sleep = islands_.states(),
+            .steps = steps_,
+            .contact_stiffness = energy_.contact->stiffness()};
+}
+
+template <int Dim>
+void Simulation<Dim>::Stepper::restore(const Snapshot<Dim>& snapshot) {
+    refuse_crossings(snapshot.positions);
+    current_ = {snapshot.positions, snapshot.velocities};
+    history_ = {snapshot.previous_positions, snapshot.previous_velocities};
+    islands_.set_states(snapshot.sleep);
+    steps_ = snapshot.steps;
+    if (energy_.contact->stiffness() != snapshot.contact_stiffness) {
+        energy_.contact->set_stiffness(snapshot.contact_stiffness);
+        energy_.sum.invalidate();
+    }
+    number_dofs_of_the_awake();
+    evaluate_current();
+}
+
+template <int Dim>
+StepProblem<Dim> Simulation<Dim>::Stepper::make_problem(double time, double h) const {
+    const auto choose = [&] {
+        switch (scene_.solver.integrator) {
+            case Integrator::Quasistatic:
+                return static_problem(current_, h);
+            case Integrator::Bdf2:
+                if (history_.positions.cols() > 0 && h == scene_.dt()) {
+                    return bdf2_problem(current_, history_, h);
+                }
+                break;  // the first step, and steps cut in two, which have no even past
+            case Integrator::LinearEuler:
+            case Integrator::NewtonEuler:
+                break;
+        }
+        return euler_problem(current_, h);
+    };
+    StepProblem<Dim> problem = choose();
+    problem.time = time + h;
+    problem.prescribed = current_.positions;
+    place_dirichlet<Dim>(bodies_, time + h, problem.prescribed, nullptr);
+    return problem;
+}
+
+template <int Dim>
+void Simulation<Dim>::Stepper::set_velocities(const StepProblem<Dim>& problem, double time) {
+    next_.velocities = problem.rate * (next_.positions - problem.origin);
+    place_dirichlet(bodies_, time, next_.positions, &next_.velocities);
+    still(next_.velocities);
+}
+
+template <int Dim>
+double Simulation<Dim>::Stepper::kinetic_energy(const Positions<Dim>& velocities) const {
+    return sum_vertices(workers_, velocities.cols(), [&](Eigen::Index v) {
+        return 0.5 * bodies_.masses[v] * velocities.col(v).squaredNorm();
+    });
+}
+
+template <int Dim>
+Energies Simulation<Dim>::Stepper::energies() const {
+    return {kinetic_energy(current_.velocities), energy_.sum.energies()};
+}
+
+// Why the new state is none; empty unless it is beyond bounds that only a failed step leaves.
+template <int Dim>
+std::string Simulation<Dim>::Stepper::failure_reason(const Energies& before) const {
+    constexpr double kMaxExtents = 1e3;
+    constexpr double kMaxGrowth = 1e2;
+    if (!next_.positions.allFinite() || !next_.velocities.allFinite()
+        || !energy_.sum.gradient().allFinite()
+        || (next_.positions - current_.positions).cwiseAbs().maxCoeff() >= kMaxExtents * extent_) {
+        return "the motion grew beyond all bounds";
+    }
+    const double budget = bodies_.large_energy + before.of("elastic") + before.kinetic
+                          + kinetic_energy(next_.velocities);
+    if (!(energy_.elasticity->energy() < kMaxGrowth * budget)) {
+        return "the elastic energy grew a hundred times; take smaller steps, or newton_euler, which"
+               " comes back from far";
+    }
+    return may_have_tunneled()
+               ? "in contact something moved by more than the extent of the thinnest body:"
+                 " bodies could pass through each other unseen; take smaller steps"
+               : "";
+}
+
+// Whether penalties, which see only what is near or inside at the end of a step, can have missed something.
+template <int Dim>
+bool Simulation<Dim>::Stepper::may_have_tunneled() const {
+    if (!scene_.contact || scene_.contact->model != ContactModel::Penalty) {
+        return false;
+    }
+    const Positions<Dim> moves = next_.positions - current_.positions;
+    const Eigen::Matrix<double, Dim, 1> mean = moves.rowwise().mean();
+    return (moves.colwise() - mean).colwise().norm().maxCoeff() > thinnest_;
+}
+
+// Throws unless the barrier finds nothing that crosses.
+template <int Dim>
+void Simulation<Dim>::Stepper::refuse_crossings(const Positions<Dim>& positions) const {
+    const std::vector<contact::Crossing> crossings = energy_.contact->find_crossings(positions);
+    if (!crossings.empty()) {
+        throw crossing_error(bodies_, *energy_.contact, crossings, positions);
+    }
+}
+
+// Gives dofs to the bodies that are awake, and to no other.
+template <int Dim>
+void Simulation<Dim>::Stepper::number_dofs_of_the_awake() {
+    std::vector<bool> asleep = islands_.asleep();
+    if (asleep != asleep_) {
+        asleep_ = std::move(asleep);
+        potential_.set_asleep(asleep_, current_.positions);
+    }
+}
+
+// What sleeps does not move: exactly, where a formula would leave a rounding error.
+template <int Dim>
+void Simulation<Dim>::Stepper::still(Positions<Dim>& velocities) const {
+    for (std::size_t body = 0; body < bodies_.count(); ++body) {
+        if (islands_.states()[body].is_asleep) {
+            const auto range = bodies_.vertices(body);
+            velocities.middleCols(range.begin, range.size).setZero();
+        }
+    }
+}
+
+// Wakes bodies that a step from the current state moves, or that something touches where the energy was
+// evaluated last.
+template <int Dim>
+bool Simulation<Dim>::Stepper::wake(const Positions<Dim>& prescribed) {
+    if (!islands_.wake(energy_.contact->contacts(), current_.positions, prescribed)) {
+        return false;
+    }
+    number_dofs_of_the_awake();
+    return true;
+}
+
+// Lets bodies fall asleep at the end of a step.
+template <int Dim>
+void Simulation<Dim>::Stepper::put_to_sleep() {
+    if (!islands_.put_to_sleep(energy_.contact->contacts(), current_.velocities,
+                               energy_.contact->stiffness())) {
+        return;
+    }
+    still(current_.velocities);
+    if (history_.positions.cols() > 0) {  // what BDF2 looks back to is rest, too
+        for (std::size_t body = 0; body < bodies_.count(); ++body) {
+            if (islands_.states()[body].is_asleep) {
+                const auto range = bodies_.vertices(body);
+                history_.positions.middleCols(range.begin, range.size) =
+                    current_.positions.middleCols(range.begin, range.size);
+            }
+        }
+        still(history_.velocities);
+    }
+    number_dofs_of_the_awake();
+    evaluate_current();
+}
+
+// Newton's method without a barrier: Dirichlet vertices are at their places from the beginning, and the
+// first iteration spreads their motion over all. If the value is larger there than with every free vertex
+// where it was, the method begins here.
+template <int Dim>
+NewtonReport Simulation<Dim>::Stepper::minimize() {
+    Positions<Dim> begin = current_.positions + potential_.prescribed_shift(current_.positions);
+    const Evaluation<Dim> start = potential_.evaluate(begin);
+    next_.positions = current_.positions;
+    NewtonReport first = newton_step(potential_, next_.positions);
+    if (!first.has_converged) {
+        return first;
+    }
+    if (!(potential_.evaluate(next_.positions).value <= start.value)) {
+        next_.positions = std::move(begin);
+    }
+    return newton(potential_,
+                  {.tolerance = scene_.solver.newton_tolerance,
+                   .min_correction = kNegligible * extent_,
+                   .max_iterations = kMaxIterations,
+                   .start_value = start.value,
+                   .start_norm = start.gradient.norm()},
+                  next_.positions);
+}
+
+// Newton's method with a barrier: every iterate, and the straight way from one to the next, is free of
+// crossings. Begins where everything is; Dirichlet vertices go on as far as each iteration lets them.
+template <int Dim>
+NewtonReport Simulation<Dim>::Stepper::minimize_bounded(const StepProblem<Dim>& problem) {
+    const double tolerance = scene_.solver.newton_tolerance;
+    next_.positions = current_.positions;
+    potential_.tell_start(next_.positions);
+    potential_.balance(next_.positions);
+    NewtonReport report =
+        newton(potential_,
+               {.tolerance = tolerance,
+                // Corrections that nobody can see, next to the distance of contact.
+                .min_correction = std::max(kNegligible * extent_,
+                                           tolerance * std::min(scene_.contact->distance, extent_)),
+                .settled = kSettled,
+                .arrival = kArrived * extent_,
+                .max_iterations = kMaxBoundedIterations,
+                .extends_steps = true},
+               next_.positions);
+    if (report.is_stuck) {
+        std::ostringstream message;
+        message << "held vertices cannot go on without a crossing at t = " << problem.time
+                << " s: " << energy_.contact->describe(energy_.contact->limit().limiting);
+        report.failure_reason = message.str();
+    }
+    report.iterations = std::max(0, report.iterations - 1);  // the first is that of a linear step
+    return report;
+}
+
+template <int Dim>
+NewtonReport Simulation<Dim>::Stepper::solve(const StepProblem<Dim>& problem, bool is_linear) {
+    if (is_linear) {
+        next_.positions = current_.positions;
+        NewtonReport report = newton_step(potential_, next_.positions);
+        report.iterations = 0;
+        return report;
+    }
+    return energy_.sum.is_bounded() ? minimize_bounded(problem) : minimize();
+}
+
+template <int Dim>
+bool Simulation<Dim>::Stepper::attempt(double time, double h, StepReport& report) {
+    const StepProblem<Dim> problem = make_problem(time, h);
+    energy_.sum.update(current_.positions);
+    static_cast<void>(wake(problem.prescribed));
+    energy_.sum.update(current_.positions);
+    const Energies before{kinetic_energy(current_.velocities), energy_.sum.energies()};
+    const bool is_linear = scene_.solver.integrator == Integrator::LinearEuler
+                           || (potential_.dofs().count() == 0 && islands_.asleep_count() == 0
+                               && !energy_.contact->is_bounded());
+    Positions<Dim> travel = Positions<Dim>::Zero(Dim, current_.positions.cols());
+    for (std::uint32_t vertex = 0; vertex < bodies_.is_dirichlet.size(); ++vertex) {
+        if (bodies_.is_dirichlet[vertex]) {
+            travel.col(vertex) = problem.prescribed.col(vertex) - problem.origin.col(vertex);
+        }
+    }
+    potential_.begin_step(problem, {current_.positions, current_.velocities, travel, h, is_linear});
+    const NewtonReport solved = solve(problem, is_linear);
+    report.newton_iterations += solved.iterations;
+    report.unbalanced = std::max(report.unbalanced, solved.residual);
+    if (!solved.has_converged) {
+        report.failure = solved.failure_reason;
+        return false;
+    }
+    set_velocities(problem, time + h);
+    energy_.sum.update(next_.positions);
+    if (std::string reason = failure_reason(before); !reason.empty()) {
+        report.failure = std::move(reason);
+        return false;
+    }
+    // Newton's method has forces at the end of the step: what was run into there has to give way.
+    if (!is_linear && wake(problem.prescribed)) {
+        return attempt(time, h, report);
+    }
+    if (scene_.solver.integrator == Integrator::Bdf2) {
+        history_ = h == scene_.dt() ? current_ : State<Dim>();
+    }
+    std::swap(current_, next_);
+    return true;
+}
+
+template <int Dim>
+bool Simulation<Dim>::Stepper::advance(double time, double h, int depth, StepReport& report) {
+    if (attempt(time, h, report)) {
+        ++report.substeps;
+        return true;
+    }
+    ++report.refused;
+    return depth < scene_.solver.max_halvings && advance(time, h / 2, depth + 1, report)
+           && advance(time + h / 2, h / 2, depth + 1, report);
+}
+
+template <int Dim>
+void Simulation<Dim>::Stepper::add_work(StepReport& report) {
+    const SolveWork work = potential_.take_work();
+    report.iterations = work.iterations;
+    report.residual = work.residual;
+    report.unknowns = work.unknowns;
+    report.hessians = work.hessians;
+    report.filtered = energy_.elasticity->take_filtered();
+    report.damping_hessians = potential_.take_damping_hessians();
+    report.assembly_seconds = work.assembly_seconds;
+    report.solve_seconds = work.solve_seconds;
+    report.contact = energy_.contact->summary();
+    static_cast<ContactWork&>(report.contact) = energy_.contact->take_work();
+    report.contact.seconds += energy_.contact->is_empty() ? 0 : work.stencil_seconds;
+    report.contact.friction = energy_.friction != nullptr ? energy_.friction->take_count() : 0;
+    report.contact.stiffness = energy_.contact->stiffness();
+}
+
+template <int Dim>
+StepReport Simulation<Dim>::Stepper::step() {
+    const Stopwatch watch;
+    const State<Dim> before = current_;
+    const State<Dim> history_before = history_;
+    const double stiffness_before = energy_.contact->stiffness();
+    StepReport work_between;  // of looking at the state between steps: of nobody's step
+    add_work(work_between);
+    StepReport report;
+    report.is_accepted = workers_.run([&] { return advance(time(), scene_.dt(), 0, report); });
+    if (report.is_accepted) {
+        ++steps_;
+        evaluate_current();
+        put_to_sleep();
+    } else {
+        current_ = before;
+        history_ = history_before;
+        energy_.contact->set_stiffness(stiffness_before);
+        energy_.sum.invalidate();
+        evaluate_current();
+    }
+    report.step = steps_;
+    report.time = time();
+    report.asleep = islands_.asleep_count();
+    report.inverted = energy_.elasticity->inverted_cells();
+    report.collapsed = energy_.elasticity->collapsed();
+    report.energies = energies();
+    add_work(report);
+    report.seconds = watch.seconds();
+    return report;
+}
+
+// A body that sleeps keeps the forces with which it fell asleep: what touches it sleeps, too, or moves from
+// outside, and those forces were made by the stiffness of that time.
+template <int Dim>
+Positions<Dim> Simulation<Dim>::Stepper::contact_forces() const {
+    Positions<Dim> all = Positions<Dim>::Zero(Dim, bodies_.vertex_count());
+    if (energy_.contact->is_empty()) {
+        return all;
+    }
+    all = -energy_.contact->gradient();
+    for (std::size_t body = 0; body < bodies_.count(); ++body) {
+        const SleepState& state = islands_.states()[body];
+        if (state.is_asleep && energy_.contact->stiffness() > 0) {
+            const auto range = bodies_.vertices(body);
+            all.middleCols(range.begin, range.size) *=
+                state.contact_stiffness / energy_.contact->stiffness();
+        }
+    }
+    if (energy_.friction != nullptr && energy_.friction->gradient().cols() > 0) {
+        all -= energy_.friction->gradient();
+    }
+    return all;
+}
+
+template <int Dim>
+SimulationSize Simulation<Dim>::Stepper::size() const {
+    SimulationSize size;
+    size.vertices = bodies_.vertex_count();
+    size.cells = bodies_.cells.cols();
+    size.free_vertices = potential_.dofs().count();
+    size.elements = energy_.elasticity->element_count();
+    size.matrix_blocks = energy_.elasticity->pattern().blocks();
+    // Per vertex: positions, velocities, forces and their copies; per unknown: the solver's.
+    constexpr std::int64_t kVertexVectors = 8;
+    constexpr std::int64_t kUnknownVectors = 6;
+    size.element_bytes = energy_.elasticity->bytes();
+    size.matrix_bytes = size.matrix_blocks * potential_.bytes_per_block();
+    size.contact_bytes = energy_.contact->bytes();
+    size.bytes = size.element_bytes + size.contact_bytes + size.matrix_bytes
+                 + potential_.tangent_bytes()
+                 + static_cast<std::int64_t>(sizeof(double)) * Dim
+                       * (kVertexVectors * size.vertices + kUnknownVectors * size.free_vertices);
+    return size;
+}
+
+template class Simulation<3>::Stepper;
+template class Simulation<4>::Stepper;
+
+}  // namespace pent::simulator

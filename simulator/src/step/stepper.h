@@ -1,0 +1,82 @@
+#pragma once
+
+#include "model/bodies.h"
+#include "potentials/incremental_potential.h"
+#include "potentials/scene_energy.h"
+#include "step/newton.h"
+#include "step/sleep.h"
+#include "step/step_problem.h"
+
+#include <pent/parallel.h>
+#include <pent/simulator/simulation.h>
+
+#include <string>
+#include <vector>
+
+namespace pent::simulator {
+
+/// What is behind a Simulation: the state, how it takes a step, and who sleeps. Between calls the potential
+/// energy is that of the current positions.
+template <int Dim>
+class Simulation<Dim>::Stepper {
+public:
+    Stepper(const Scene& scene,
+            std::vector<SimplexMesh<Dim>> meshes,
+            const SimulationOptions& options);
+
+    StepReport step();
+    void set_body(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
+    [[nodiscard]] Snapshot<Dim> save() const;
+    void restore(const Snapshot<Dim>& snapshot);
+
+    [[nodiscard]] double time() const { return static_cast<double>(steps_) * scene_.dt(); }
+    [[nodiscard]] std::uint64_t steps() const { return steps_; }
+    [[nodiscard]] const Scene& scene() const { return scene_; }
+    [[nodiscard]] const Bodies<Dim>& bodies() const { return bodies_; }
+    [[nodiscard]] const State<Dim>& current() const { return current_; }
+    [[nodiscard]] const Positions<Dim>& forces() const { return forces_; }
+    [[nodiscard]] Positions<Dim> contact_forces() const;
+    [[nodiscard]] const ContactPotential<Dim>& contact() const { return *energy_.contact; }
+    [[nodiscard]] const std::vector<SleepState>& sleep() const { return islands_.states(); }
+    [[nodiscard]] Energies energies() const;
+    [[nodiscard]] SimulationSize size() const;
+    [[nodiscard]] Isa isa() const { return isa_; }
+
+private:
+    bool advance(double time, double h, int depth, StepReport& report);
+    bool attempt(double time, double h, StepReport& report);
+    [[nodiscard]] NewtonReport solve(const StepProblem<Dim>& problem, bool is_linear);
+    [[nodiscard]] NewtonReport minimize();
+    [[nodiscard]] NewtonReport minimize_bounded(const StepProblem<Dim>& problem);
+    [[nodiscard]] StepProblem<Dim> make_problem(double time, double h) const;
+    void set_velocities(const StepProblem<Dim>& problem, double time);
+    [[nodiscard]] std::string failure_reason(const Energies& before) const;
+    [[nodiscard]] bool may_have_tunneled() const;
+    [[nodiscard]] bool wake(const Positions<Dim>& prescribed);
+    void put_to_sleep();
+    void still(Positions<Dim>& velocities) const;
+    void number_dofs_of_the_awake();
+    void evaluate_current();
+    void refuse_crossings(const Positions<Dim>& positions) const;
+    void add_work(StepReport& report);
+    [[nodiscard]] double kinetic_energy(const Positions<Dim>& velocities) const;
+
+    Scene scene_;
+    Workers workers_;
+    Isa isa_;
+    const Kernels<Dim>* kernels_;
+    Bodies<Dim> bodies_;
+    SceneEnergy<Dim> energy_;
+    IncrementalPotential<Dim> potential_;
+    Islands<Dim> islands_;
+    std::vector<bool> asleep_;  // bodies that have no dofs now
+    double extent_;             // diagonal of the box around all bodies at rest, m
+    double thinnest_;           // shortest side of the boxes around bodies at rest, m
+    State<Dim> current_;
+    State<Dim> next_;
+    Positions<Dim> forces_;  // at the current positions, N
+    State<Dim> history_;     // one step of full length ago, for BDF2; else no columns
+    std::uint64_t steps_ = 0;
+};
+
+}  // namespace pent::simulator

@@ -1,0 +1,276 @@
+#include "candidates.h"
+
+#include "apart.h"
+#include "closest_points_oracle.h"
+#include "gather.h"
+#include "scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+#include <utility>
+
+namespace pent::contact {
+namespace {
+
+using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+
+template <typename T>
+class CandidatesTest : public testing::Test {
+protected:
+    static constexpr int kSpace = T::value;
+    static constexpr double kReach = 0.2;
+    static constexpr double kInflation = 0.05;
+
+    void SetUp() override {
+        scene_.add(test::cube<kSpace>(1), Vector<kSpace>::Zero());
+        Vector<kSpace> aside = Vector<kSpace>::Constant(0.13);
+        aside[0] = 1.3;
+        scene_.add(test::cube<kSpace>(1), aside);
+        test::shake<kSpace>(scene_.positions, 0.02, 4);
+        options_ = {.model = ContactModel::Barrier, .distance = kReach};
+        model_ = test::contact_scene<kSpace>(scene_, options_);
+    }
+
+    // The first body flies at the second and past it, turning; all of them shake.
+    [[nodiscard]] Positions<kSpace> target(double way) const {
+        Positions<kSpace> to = scene_.positions;
+        auto first = to.leftCols(scene_.begin[1]);
+        first = test::tilt<kSpace>() * first;
+        first.row(0).array() += way;
+        test::shake<kSpace>(to, 0.1, 5);
+        return to;
+    }
+
+    // Pairs nearer than a distance, by looking at all.
+    template <int K, int L>
+    [[nodiscard]] Pairs near(const Simplices<K>& first,
+                             const Simplices<L>& second,
+                             const Positions<kSpace>& x,
+                             double distance) const {
+        Pairs pairs;
+        for (std::uint32_t i = 0; i < first.cols(); ++i) {
+            for (std::uint32_t j = 0; j < second.cols(); ++j) {
+                const auto a = gather<kSpace, K>(first, i, x);
+                const auto b = gather<kSpace, L>(second, j, x);
+                if (test::closest_points<kSpace, K, L>(a, b).distance_squared
+                    < distance * distance) {
+                    pairs.insert({i, j});
+                }
+            }
+        }
+        return pairs;
+    }
+
+    // Whether the cull lets all of them through, on a way that ends at x.
+    template <int K, int L>
+    void expect_passing(const CandidateList& list,
+                        const Simplices<K>& first,
+                        const Simplices<L>& second,
+                        const Displacement& displacement,
+                        const Positions<kSpace>& x,
+                        double distance) {
+        const DistanceCull<K, L> cull(list, first, second, displacement, distance);
+        Pairs passing;
+        for (std::size_t k = 0; k < cull.size(); ++k) {
+            if (cull.passes(k)) {
+                passing.insert({list.pairs[k].first, list.pairs[k].second});
+            }
+        }
+        const Pairs wanted = near<K, L>(first, second, x, distance);
+        EXPECT_TRUE(std::includes(passing.begin(), passing.end(), wanted.begin(), wanted.end()));
+        near_ += wanted.size();
+        held_back_ += list.pairs.size() - passing.size();
+    }
+
+    void expect_complete(const Candidates<kSpace>& candidates,
+                         const Displacement& displacement,
+                         const Positions<kSpace>& x,
+                         double distance) {
+        ASSERT_LE(candidates.pairs().size(), 1U);
+        const CandidatePairs pairs =  // none where the bodies are apart
+            candidates.pairs().empty() ? CandidatePairs() : candidates.pairs()[0];
+        const Surface<kSpace>& a = scene_.surfaces[0];
+        const Surface<kSpace>& b = scene_.surfaces[1];
+        expect_passing<1, kSpace>(pairs.points_first, a.vertices, b.facets, displacement, x,
+                                  distance);
+        expect_passing<1, kSpace>(pairs.points_second, b.vertices, a.facets, displacement, x,
+                                  distance);
+        expect_passing<2, kSpace - 1>(pairs.mixed_first, a.edges, b.ridges, displacement, x,
+                                      distance);
+        if constexpr (kSpace > 3) {
+            expect_passing<2, kSpace - 1>(pairs.mixed_second, b.edges, a.ridges, displacement, x,
+                                          distance);
+        }
+    }
+
+    test::Scene<kSpace> scene_;
+    ContactOptions options_;
+    ContactScene<kSpace> model_;
+    std::size_t near_ = 0;
+    std::size_t held_back_ = 0;
+};
+
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+TYPED_TEST_SUITE(CandidatesTest, Dimensions);
+
+TYPED_TEST(CandidatesTest, HoldAllThatComesNearOnTheWay) {
+    constexpr int kDim = TypeParam::value;
+    for (const double way : {0.05, 0.4, 3.0}) {
+        const Colliders<kDim> colliders(this->model_);
+        Candidates<kDim> candidates(colliders);
+        const Positions<kDim>& from = this->scene_.positions;
+        const Positions<kDim> to = this->target(way);
+        candidates.cover(from, to);
+        for (int k = 0; k <= 10; ++k) {
+            const Positions<kDim> x = from + 0.1 * k * (to - from);
+            candidates.cover(x);
+            EXPECT_EQ(candidates.work().searches, 1);  // the way is covered
+            this->expect_complete(candidates, candidates.displacement(x, x), x, this->kReach);
+            this->expect_complete(candidates, candidates.displacement(from, to), x,
+                                  0.1 * this->kReach);
+        }
+    }
+    EXPECT_GT(this->near_, 100U);  // the test is about something
+}
+
+TYPED_TEST(CandidatesTest, HoldWhileVerticesStayNearTheirPaths) {
+    constexpr int kDim = TypeParam::value;
+    const Colliders<kDim> colliders(this->model_);
+    Candidates<kDim> candidates(colliders);
+    const Positions<kDim>& from = this->scene_.positions;
+    const Positions<kDim> to = this->target(0.2);
+    candidates.cover(from, to);
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        Positions<kDim> x = from + (seed % 4) / 3.0 * (to - from);
+        // Less far than the inflation, even where shaking moves the time that fits best.
+        test::shake<kDim>(x, 0.9 * this->kInflation / std::sqrt(kDim), seed);
+        candidates.cover(x);
+        EXPECT_EQ(candidates.work().searches, 1);
+        this->expect_complete(candidates, candidates.displacement(x, x), x, this->kReach);
+    }
+    EXPECT_GT(this->held_back_, 100U);  // the cull is of use
+    Positions<kDim> away = to;
+    away(1, 0) += 1;
+    candidates.cover(away);
+    EXPECT_EQ(candidates.work().searches, 2);
+    this->expect_complete(candidates, candidates.displacement(away, away), away, this->kReach);
+}
+
+TYPED_TEST(CandidatesTest, AreSearchedAnewForMotionsThatAreMuchShorterElsewhere) {
+    constexpr int kDim = TypeParam::value;
+    const Colliders<kDim> colliders(this->model_);
+    Candidates<kDim> candidates(colliders);
+    const Positions<kDim>& from = this->scene_.positions;
+    const Positions<kDim> to = this->target(3);
+    candidates.cover(from, to);
+    const std::size_t of_flight = candidates.pairs()[0].points_first.pairs.size();
+    const Positions<kDim> near = from + 0.01 * (to - from);
+    candidates.cover(from, near);
+    EXPECT_EQ(candidates.work().searches, 2);
+    EXPECT_LT(candidates.pairs()[0].points_first.pairs.size(), of_flight);
+    candidates.cover(near, from);  // short, and where distances are known
+    EXPECT_EQ(candidates.work().searches, 2);
+}
+
+// A margin of a penalty is a path of no length: what it keeps holds until a vertex has moved that
+// far.
+TYPED_TEST(CandidatesTest, OfAMarginHoldWhileNoVertexMovesFarther) {
+    constexpr int kDim = TypeParam::value;
+    this->scene_.body(1).row(0).array() -= 0.25;  // near one another
+    const ContactOptions options{.distance = this->kReach, .margin = 0.1};
+    const ContactScene<kDim> model = test::contact_scene<kDim>(this->scene_, options);
+    const Colliders<kDim> colliders(model);
+    Candidates<kDim> candidates(colliders);
+    for (unsigned seed = 0; seed < 10; ++seed) {
+        Positions<kDim> x = this->scene_.positions;
+        if (seed > 0) {
+            test::shake<kDim>(x, 0.09 / std::sqrt(kDim), seed);
+        }
+        candidates.cover(x);
+        candidates.drop_what_is_not_kept();
+        EXPECT_EQ(candidates.work().searches, 1);
+        this->expect_complete(candidates, candidates.displacement(x, x), x, this->kReach);
+    }
+    EXPECT_GT(this->near_, 100U);
+    Positions<kDim> away = this->scene_.positions;
+    away(1, 0) += 0.2;
+    candidates.cover(away);
+    EXPECT_EQ(candidates.work().searches, 2);
+}
+
+TYPED_TEST(CandidatesTest, WithoutAMarginAreExactAndNotKept) {
+    constexpr int kDim = TypeParam::value;
+    this->scene_.body(1).row(0).array() -= 0.25;
+    const ContactScene<kDim> model =
+        test::contact_scene<kDim>(this->scene_, {.distance = this->kReach});
+    const Colliders<kDim> colliders(model);
+    Candidates<kDim> candidates(colliders);
+    const Positions<kDim>& x = this->scene_.positions;
+    candidates.cover(x);
+    EXPECT_TRUE(candidates.is_exact());
+    ASSERT_EQ(candidates.pairs().size(), 1U);
+    const Surface<kDim>& a = this->scene_.surfaces[0];
+    const Surface<kDim>& b = this->scene_.surfaces[1];
+    EXPECT_EQ(candidates.pairs()[0].points_first.pairs.size(),
+              (this->template near<1, kDim>(a.vertices, b.facets, x, this->kReach).size()));
+    int inside = 0;
+    for (std::uint32_t i = 0; i < a.edges.cols(); ++i) {
+        for (std::uint32_t j = 0; j < b.ridges.cols(); ++j) {
+            const auto edge = gather<kDim, 2>(a.edges, i, x);
+            const auto ridge = gather<kDim, kDim - 1>(b.ridges, j, x);
+            inside +=
+                ClosestPointSearch<kDim, 2, kDim - 1>(edge, ridge, this->kReach * this->kReach)
+                        .run_interior()
+                    ? 1
+                    : 0;
+        }
+    }
+    EXPECT_EQ(candidates.pairs()[0].mixed_first.pairs.size(), static_cast<std::size_t>(inside));
+    candidates.drop_what_is_not_kept();
+    EXPECT_TRUE(candidates.pairs().empty());
+    candidates.cover(x);
+    EXPECT_EQ(candidates.work().searches, 2);
+}
+
+TYPED_TEST(CandidatesTest, PathsAreApartOnlyIfPointsAreAtAllTimes) {
+    constexpr int kDim = TypeParam::value;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    const auto corners = [&]<int Count>(double at) {
+        Corners<kDim, Count> points =
+            Corners<kDim, Count>::NullaryExpr([&] { return 0.5 * coordinate(random); });
+        points.row(0).array() += at;
+        return points;
+    };
+    int apart = 0;
+    for (int k = 0; k < 2000; ++k) {
+        const double drift = 10 * coordinate(random);  // of both: it does not matter
+        const auto a = corners.template operator()<2>(0);
+        const auto b = corners.template operator()<3>(1.5 + coordinate(random));
+        const auto a_end = corners.template operator()<2>(drift);
+        const auto b_end = corners.template operator()<3>(drift + 1.5 + coordinate(random));
+        const double distance = 0.4;
+        if (!are_paths_apart<kDim, 2, 3>(a, a_end, b, b_end, distance * distance)) {
+            continue;
+        }
+        ++apart;
+        for (int s = 0; s <= 20; ++s) {
+            const double t = 0.05 * s;
+            const Corners<kDim, 2> p = (1 - t) * a + t * a_end;
+            const Corners<kDim, 3> q = (1 - t) * b + t * b_end;
+            // A linear bound by any direction holds for the hulls; boxes give the best of the axes.
+            const Vector<kDim> gap = (q.rowwise().minCoeff() - p.rowwise().maxCoeff())
+                                         .cwiseMax(p.rowwise().minCoeff() - q.rowwise().maxCoeff())
+                                         .cwiseMax(0);
+            EXPECT_GE(gap.norm(), distance * (1 - 1e-12));
+        }
+    }
+    EXPECT_GT(apart, 200);
+    EXPECT_LT(apart, 1800);
+}
+
+}  // namespace
+}  // namespace pent::contact

@@ -1,0 +1,485 @@
+#include "scenes.h"
+#include "support/host_tasks.h"
+#include "support/messages.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pent::contact {
+namespace {
+
+constexpr double kEps = 0.2;  // the cells of the bodies are 1 m
+constexpr double kStiffness = 1000;
+constexpr ContactOptions kOptions{.distance = kEps};
+
+template <int Dim>
+Contacts<Dim> contacts_of(const test::Scene<Dim>& scene, const ContactOptions& options = kOptions) {
+    return ContactFinder<Dim>(test::contact_scene<Dim>(scene, options))
+        .find(scene.positions, kStiffness);
+}
+
+template <int Dim>
+Positions<Dim> forces_of(const Contacts<Dim>& contacts, Eigen::Index vertices) {
+    Positions<Dim> gradient = Positions<Dim>::Zero(Dim, vertices);
+    add_gradient<Dim>(contacts, gradient);
+    return -gradient;
+}
+
+// Everything of two results, to the bit.
+template <int Dim>
+void expect_identical(const Contacts<Dim>& a, const Contacts<Dim>& b) {
+    ASSERT_EQ(a.list.size(), b.list.size());
+    EXPECT_EQ(a.body_energy, b.body_energy);
+    for (std::size_t i = 0; i < a.list.size(); ++i) {
+        EXPECT_EQ(a.list[i].vertices, b.list[i].vertices);
+        EXPECT_EQ(a.list[i].weights, b.list[i].weights);
+        EXPECT_EQ(a.list[i].distance, b.list[i].distance);
+        EXPECT_EQ(a.list[i].direction, b.list[i].direction);
+        EXPECT_EQ(a.list[i].energy, b.list[i].energy);
+        EXPECT_EQ(a.list[i].slope, b.list[i].slope);
+        EXPECT_EQ(a.list[i].kind, b.list[i].kind);
+    }
+}
+
+template <typename T>
+class ContactFinderTest : public testing::Test {
+protected:
+    static constexpr int kD = T::value;
+
+    // A box, and a tilted one above it, whose lowest corner is at a height of `gap`.
+    static test::Scene<kD> corner_over_box(double gap) {
+        test::Scene<kD> scene;
+        const SimplexMesh<kD> box = test::cube<kD>(2);
+        SimplexMesh<kD> tilted = test::cube<kD>(1);
+        tilted.positions = test::tilt<kD>() * tilted.positions;
+        Eigen::Index lowest = 0;
+        tilted.positions.row(1).minCoeff(&lowest);
+        Vector<kD> offset = Vector<kD>::LinSpaced(0.9, 1.07);
+        offset[1] = 2 + gap;
+        offset -= tilted.positions.col(lowest);
+        scene.add(box, Vector<kD>::Zero());
+        scene.add(tilted, offset);
+        return scene;
+    }
+
+    // Two boxes face to face, with shaken vertices, at a distance of about `gap`.
+    //
+    // @param turn  Of the upper one within the plane of the faces, rad.
+    static test::Scene<kD> face_to_face(double gap, double shaken = 0.03, double turn = 0) {
+        test::Scene<kD> scene;
+        scene.add(test::cube<kD>(kD == 3 ? 3 : 2), Vector<kD>::Zero());
+        Vector<kD> offset = Vector<kD>::LinSpaced(0.31, 0.44);
+        offset[1] = (kD == 3 ? 3 : 2) + gap;
+        SimplexMesh<kD> upper = test::cube<kD>(kD == 3 ? 3 : 2);
+        for (int axis = 2; axis < kD; ++axis) {
+            Eigen::Matrix<double, kD, kD> rotation = Eigen::Matrix<double, kD, kD>::Identity();
+            rotation(0, 0) = rotation(axis, axis) = std::cos(turn);
+            rotation(axis, 0) = std::sin(turn);
+            rotation(0, axis) = -std::sin(turn);
+            upper.positions = rotation * upper.positions;
+        }
+        scene.add(upper, offset);
+        test::shake<kD>(scene.positions, shaken, 3);
+        return scene;
+    }
+};
+
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+TYPED_TEST_SUITE(ContactFinderTest, Dimensions);
+
+TYPED_TEST(ContactFinderTest, AreNoneApart) {
+    constexpr int kDim = TypeParam::value;
+    const Contacts<kDim> contacts = contacts_of(TestFixture::face_to_face(0.5));
+    EXPECT_TRUE(contacts.list.empty());
+    EXPECT_EQ(contacts.body_energy, 0);
+    EXPECT_EQ(contacts.report.deepest, 0);
+}
+
+TYPED_TEST(ContactFinderTest, OfACornerOverAFaceIsTheHandWorkedOne) {
+    constexpr int kDim = TypeParam::value;
+    for (const double gap : {0.15, 0.05, 1e-12, 0.0, -1e-12, -0.1, -0.5}) {
+        const test::Scene<kDim> scene = TestFixture::corner_over_box(gap);
+        const Contacts<kDim> contacts = contacts_of(scene);
+        const Contact<kDim>* deepest = nullptr;
+        for (const Contact<kDim>& contact : contacts.list) {
+            if (contact.kind == ContactKind::PointFacet && contact.first.index == 1
+                && (deepest == nullptr || contact.distance < deepest->distance)) {
+                deepest = &contact;
+            }
+        }
+        ASSERT_NE(deepest, nullptr);
+        EXPECT_NEAR(deepest->distance, gap, 1e-14);
+        EXPECT_NEAR(deepest->energy, 1000 * (gap - kEps) * (gap - kEps), 1e-11);
+        const Vector<kDim> expected = 2000 * (kEps - gap) * Vector<kDim>::UnitY();
+        EXPECT_LT((deepest->force(0) - expected).norm(), 1e-10);
+        EXPECT_NEAR(deepest->weights.sum(), 0, 1e-15);
+        EXPECT_NEAR(contacts.report.deepest, std::max(0.0, -gap), 1e-14);
+    }
+}
+
+TYPED_TEST(ContactFinderTest, PushBodiesApartWithoutNetForceOrTorque) {
+    constexpr int kDim = TypeParam::value;
+    for (const double gap : {0.15, 0.05, -0.02, -0.25}) {
+        const test::Scene<kDim> scene = TestFixture::face_to_face(gap);
+        const Contacts<kDim> contacts = contacts_of(scene);
+        ASSERT_FALSE(contacts.list.empty());
+        const Positions<kDim> forces = forces_of(contacts, scene.positions.cols());
+        const double size = forces.cwiseAbs().sum();
+        EXPECT_LT(forces.rowwise().sum().norm(), 1e-14 * size);
+        const Eigen::Matrix<double, kDim, kDim> moment = forces * scene.positions.transpose();
+        EXPECT_LT((moment - moment.transpose()).norm(), 1e-10 * size);
+        const Vector<kDim> on_upper =
+            forces.rightCols(scene.begin[2] - scene.begin[1]).rowwise().sum();
+        EXPECT_GT(on_upper[1], 0.9 * on_upper.norm());
+    }
+}
+
+// By distance alone: at the closest points the weights do not change the distance to first order,
+// so that forces with the weights held are exact derivatives of the energy.
+TYPED_TEST(ContactFinderTest, ForcesOfVerticesAndFacetsAreDerivativesOfTheirEnergy) {
+    constexpr int kDim = TypeParam::value;
+    for (const double gap : {0.05, -0.3}) {
+        test::Scene<kDim> scene = TestFixture::face_to_face(gap);
+        ContactFinder<kDim> finder(test::contact_scene<kDim>(scene, kOptions));
+        const auto energy = [&](const Positions<kDim>& positions) {
+            double sum = 0;
+            for (const Contact<kDim>& contact : finder.find(positions, kStiffness).list) {
+                sum += contact.kind == ContactKind::PointFacet ? contact.energy : 0;
+            }
+            return sum;
+        };
+        Positions<kDim> gradient = Positions<kDim>::Zero(kDim, scene.positions.cols());
+        for (const Contact<kDim>& contact : finder.find(scene.positions, kStiffness).list) {
+            for (int i = 0; contact.kind == ContactKind::PointFacet && i <= kDim; ++i) {
+                gradient.col(contact.vertices[i]) -= contact.force(i);
+            }
+        }
+        for (unsigned trial = 0; trial < 6; ++trial) {
+            Positions<kDim> step = Positions<kDim>::Zero(kDim, scene.positions.cols());
+            test::shake<kDim>(step, 1, 40 + trial);
+            if (trial == 0) {
+                step = gradient / gradient.cwiseAbs().maxCoeff();
+            }
+            const double h = 1e-6;
+            const double slope =
+                (energy(scene.positions + h * step) - energy(scene.positions - h * step)) / (2 * h);
+            // Contacts that begin within a step of 1e-6 m add k h^2; truncation is of that order
+            // too.
+            EXPECT_NEAR(slope, gradient.cwiseProduct(step).sum(), 1e-5 * gradient.norm());
+        }
+    }
+}
+
+TYPED_TEST(ContactFinderTest, FinderFindsTheSameWhereItIsMovedTo) {
+    constexpr int kDim = TypeParam::value;
+    const test::Scene<kDim> scene = TestFixture::face_to_face(0.05);
+    ContactFinder<kDim> made(test::contact_scene<kDim>(scene, kOptions));
+    ContactFinder<kDim> moved = std::move(made);
+    expect_identical(moved.find(scene.positions, kStiffness), contacts_of(scene));
+    ContactOptions wide = kOptions;
+    wide.distance *= 2;
+    ContactFinder<kDim> assigned(test::contact_scene<kDim>(scene, wide));
+    assigned = std::move(moved);
+    expect_identical(assigned.find(scene.positions, kStiffness), contacts_of(scene));
+}
+
+// The share of a mixed pair changes where faces slide along each other, and with it the energy; as
+// it is held, no pair within two flat faces pushes along them, whichever way its edges run.
+TYPED_TEST(ContactFinderTest, FlatFacesPushAlongTheirNormalAlone) {
+    constexpr int kDim = TypeParam::value;
+    constexpr double kGap = 0.05;
+    for (const double turn : {0.0, 0.1, 0.3}) {
+        const test::Scene<kDim> scene = TestFixture::face_to_face(kGap, 0, turn);
+        const double top = scene.positions.row(1).head(scene.begin[1]).maxCoeff();
+        int within = 0;
+        for (const Contact<kDim>& contact : contacts_of(scene).list) {
+            const bool is_within = std::all_of(
+                contact.vertices.begin(), contact.vertices.end(), [&](std::uint32_t vertex) {
+                    const double above = scene.positions(1, vertex) - top;
+                    return above > -1e-12 && above < kGap + 1e-12;
+                });
+            if (contact.kind == ContactKind::Mixed && is_within) {
+                ++within;
+                for (int i = 0; i <= kDim; ++i) {
+                    Vector<kDim> force = contact.force(i);
+                    const double size = force.norm();
+                    force[1] = 0;
+                    EXPECT_LE(force.norm(), 1e-12 * size) << turn;
+                }
+            }
+        }
+        EXPECT_GT(within, 10) << turn;
+    }
+}
+
+TYPED_TEST(ContactFinderTest, EnergyOfVerticesAndFacetsIsContinuousAtAnyDepth) {
+    constexpr int kDim = TypeParam::value;
+    test::Scene<kDim> scene = TestFixture::face_to_face(0.25);
+    ContactFinder<kDim> finder(test::contact_scene<kDim>(scene, kOptions));
+    double last = 0;
+    const double step = 0.004;
+    for (int i = 0; i < 200; ++i) {
+        scene.body(1).row(1).array() -= step;
+        const Contacts<kDim> contacts = finder.find(scene.positions, kStiffness);
+        double energy = 0;
+        double force = 0;
+        for (const Contact<kDim>& contact : contacts.list) {
+            if (contact.kind == ContactKind::PointFacet) {
+                energy += contact.energy;
+                force += std::abs(contact.slope);
+            }
+        }
+        // The slope is at most the sum of all forces; contacts that begin in the step add k step^2.
+        EXPECT_LE(std::abs(energy - last),
+                  1.05 * force * step
+                      + 1000 * step * step * static_cast<double>(contacts.list.size()) + 1e-9);
+        last = energy;
+    }
+    EXPECT_GT(last, 0);
+}
+
+TYPED_TEST(ContactFinderTest, AreTheSameForAnyNumberOfThreads) {
+    constexpr int kDim = TypeParam::value;
+    const test::Scene<kDim> scene = TestFixture::face_to_face(0.02);
+    Contacts<kDim> expected;
+    for (const int threads : {1, 2, 3, 8}) {
+        const Contacts<kDim> contacts =
+            Workers(pent::test::host_tasks(threads)).run([&] { return contacts_of(scene); });
+        if (threads == 1) {
+            expected = contacts;
+        }
+        expect_identical(contacts, expected);
+    }
+    EXPECT_GT(expected.report.point_facet, 0);
+    EXPECT_GT(expected.report.mixed, 0);
+}
+
+TYPED_TEST(ContactFinderTest, DoNotDependOnEarlierCallsNorOnTheMargin) {
+    constexpr int kDim = TypeParam::value;
+    for (const bool self : {false, true}) {
+        ContactOptions options = kOptions;
+        options.self = self;
+        test::Scene<kDim> scene = TestFixture::face_to_face(0.1);
+        const ContactScene<kDim> model = test::contact_scene<kDim>(scene, options);
+        ContactScene<kDim> with_margin = model;
+        with_margin.options.margin = 0.05;
+        ContactFinder<kDim> used(model);
+        ContactFinder<kDim> keeping(with_margin);
+        for (unsigned i = 0; i < 12; ++i) {
+            test::shake<kDim>(scene.positions, i == 7 ? 0.3 : 0.015, 60 + i);
+            scene.body(1).row(1).array() -= 0.02;
+            ContactFinder<kDim> fresh(model);
+            const Contacts<kDim> expected = fresh.find(scene.positions, kStiffness);
+            expect_identical(used.find(scene.positions, kStiffness), expected);
+            expect_identical(keeping.find(scene.positions, kStiffness), expected);
+            EXPECT_FALSE(expected.list.empty());
+        }
+    }
+}
+
+TYPED_TEST(ContactFinderTest, AreNoneBetweenKinematicBodies) {
+    constexpr int kDim = TypeParam::value;
+    const test::Scene<kDim> scene = TestFixture::face_to_face(0.02);
+    ContactScene<kDim> model = test::contact_scene<kDim>(scene, kOptions);
+    model.bodies[0].is_kinematic = true;
+    EXPECT_FALSE(ContactFinder<kDim>(model).find(scene.positions, kStiffness).list.empty());
+    model.bodies[1].is_kinematic = true;
+    EXPECT_TRUE(ContactFinder<kDim>(model).find(scene.positions, kStiffness).list.empty());
+}
+
+TYPED_TEST(ContactFinderTest, AreNoneWithinABodyUnlessAskedFor) {
+    constexpr int kDim = TypeParam::value;
+    test::Scene<kDim> scene;
+    scene.add(test::cube<kDim>(2), Vector<kDim>::Zero());
+    const Contacts<kDim> contacts = contacts_of(scene);
+    EXPECT_TRUE(contacts.list.empty());
+    EXPECT_EQ(contacts.report.candidates, 0);  // nothing was even looked for
+}
+
+// A box of 3 cells along y with the middle one taken out but for a column: a mouth.
+template <int Dim>
+SimplexMesh<Dim> mouth() {
+    std::array<int, Dim> count{};
+    std::array<double, Dim> size{};
+    count.fill(1);
+    size.fill(1);
+    count[0] = 3;
+    count[1] = 3;
+    size[0] = 3;
+    size[1] = 3;
+    SimplexMesh<Dim> box = pent::test::kuhn_box<Dim>(count, size);
+    Simplices<Dim + 1> kept(Dim + 1, box.cell_count());
+    Eigen::Index cells = 0;
+    for (Eigen::Index c = 0; c < box.cell_count(); ++c) {
+        Vector<Dim> center = Vector<Dim>::Zero();
+        for (const std::uint32_t v : box.cells.col(c)) {
+            center += box.positions.col(v) / (Dim + 1);
+        }
+        if (center[0] < 1 || center[1] < 1 || center[1] > 2) {
+            kept.col(cells++) = box.cells.col(c);
+        }
+    }
+    box.cells = kept.leftCols(cells);
+    return box;
+}
+
+TYPED_TEST(ContactFinderTest, WithinABodyBeginWhereItsPartsMeet) {
+    constexpr int kDim = TypeParam::value;
+    test::Scene<kDim> scene;
+    scene.add(mouth<kDim>(), Vector<kDim>::Zero());
+    const Positions<kDim> rest = scene.positions;
+    ContactOptions options = kOptions;
+    options.self = true;
+    ContactFinder<kDim> finder(test::contact_scene<kDim>(scene, options));
+    EXPECT_TRUE(finder.find(rest, kStiffness).list.empty());
+    // The upper lip comes down, and goes a little into the lower one.
+    for (const double gap : {0.5, 0.15, 0.01, -0.05}) {
+        Positions<kDim> closed = rest;
+        for (Eigen::Index v = 0; v < rest.cols(); ++v) {
+            if (rest(0, v) > 0.5 && rest(1, v) > 1.5) {
+                closed(1, v) -= (1 - gap) * std::min(rest(0, v) - 0.5, 1.5) / 1.5;
+                closed(0, v) += 0.1 * (rest(0, v) - 1);  // not vertex upon vertex
+            }
+        }
+        const Contacts<kDim> contacts = finder.find(closed, kStiffness);
+        EXPECT_EQ(contacts.list.empty(), gap > kEps) << gap;
+        EXPECT_EQ(contacts.report.self, static_cast<std::int64_t>(contacts.list.size()));
+        if (gap < kEps) {
+            const Positions<kDim> forces = forces_of(contacts, rest.cols());
+            double on_upper = 0;
+            for (Eigen::Index v = 0; v < rest.cols(); ++v) {
+                on_upper += rest(1, v) > 1.5 ? forces(1, v) : 0;
+            }
+            EXPECT_GT(on_upper, 0) << gap;
+            EXPECT_LT(forces.rowwise().sum().norm(), 1e-13 * forces.norm());
+        }
+    }
+}
+
+TYPED_TEST(ContactFinderTest, WithinABodyAreNoneAtRestNorInSomethingThinThatIsSqueezed) {
+    constexpr int kDim = TypeParam::value;
+    ContactOptions options = kOptions;
+    options.self = true;
+    for (const double thickness : {0.5, 1.5, 2.5}) {  // of the distance of contact
+        test::Scene<kDim> scene;
+        SimplexMesh<kDim> sheet = test::cube<kDim>(2);
+        sheet.positions.row(1) *= thickness * kEps / 2;
+        scene.add(sheet, Vector<kDim>::Zero());
+        ContactFinder<kDim> finder(test::contact_scene<kDim>(scene, options));
+        EXPECT_TRUE(finder.find(scene.positions, kStiffness).list.empty());
+        const Positions<kDim> squeezed =
+            Vector<kDim>(Vector<kDim>::Ones() - 0.7 * Vector<kDim>::UnitY()).asDiagonal()
+            * scene.positions;
+        EXPECT_TRUE(finder.find(squeezed, kStiffness).list.empty()) << thickness;
+    }
+}
+
+TYPED_TEST(ContactFinderTest, TwoRigidBoxesThrownAtEachOtherSeparateAgain) {
+    constexpr int kDim = TypeParam::value;
+    test::Scene<kDim> scene = TestFixture::face_to_face(0.3);
+    ContactFinder<kDim> finder(test::contact_scene<kDim>(scene, kOptions));
+    // Each of 1000 kg, moving as a whole; symplectic Euler with 30 steps in contact.
+    Eigen::Matrix<double, kDim, 2> velocity = Eigen::Matrix<double, kDim, 2>::Zero();
+    velocity(1, 0) = 0.5;
+    velocity(1, 1) = -0.5;
+    const double dt = 0.01;
+    double deepest = 0;
+    bool have_met = false;
+    for (int step = 0; step < 250; ++step) {
+        const Contacts<kDim> contacts = finder.find(scene.positions, kStiffness);
+        const Positions<kDim> forces = forces_of(contacts, scene.positions.cols());
+        have_met = have_met || !contacts.list.empty();
+        deepest = std::max(deepest, contacts.report.deepest);
+        for (int body = 0; body < 2; ++body) {
+            const Vector<kDim> force =
+                forces.middleCols(scene.begin[body], scene.begin[body + 1] - scene.begin[body])
+                    .rowwise()
+                    .sum();
+            velocity.col(body) += dt * force / 1000;
+            scene.body(body).colwise() += dt * velocity.col(body);
+        }
+    }
+    EXPECT_TRUE(have_met);
+    EXPECT_LT(deepest, kEps);
+    EXPECT_LT(velocity(1, 0), -0.3);
+    EXPECT_GT(velocity(1, 1), 0.3);
+    EXPECT_LT((velocity.col(0) + velocity.col(1)).norm(), 1e-12);  // momentum
+    EXPECT_TRUE(finder.find(scene.positions, kStiffness).list.empty());
+}
+
+TYPED_TEST(ContactFinderTest, NothingThatFallsIntoTheBowlEverLeavesIt) {
+    constexpr int kDim = TypeParam::value;
+    const Vector<kDim> up = Vector<kDim>::UnitY();
+    const Bowl<kDim> bowl{Vector<kDim>::Zero(), 2, up};
+    Positions<kDim> x(kDim, 40);
+    x.setZero();
+    test::shake<kDim>(x, 1, 8);
+    Positions<kDim> velocity = Positions<kDim>::Zero(kDim, x.cols());
+    ContactFinder<kDim> finder(
+        ContactScene<kDim>{.options = {.distance = 1},
+                           .bodies = {},
+                           .obstacles = {{bowl, 0.05, 5e4}},
+                           .is_fixed = std::vector<bool>(static_cast<std::size_t>(x.cols())),
+                           .rest = x});
+    // Points of 1 kg; drag damps the slowest swinging by exp(-1.5 t); the stiffest mode has a
+    // period of 20 steps.
+    const double dt = 1e-3;
+    for (int step = 0; step < 15000; ++step) {
+        Positions<kDim> force = -3 * velocity;
+        force.row(1).array() -= 9.8;
+        force += forces_of<kDim>(finder.find(x, 1), x.cols());
+        velocity += dt * force;
+        x += dt * velocity;
+        ASSERT_LT(x.colwise().norm().maxCoeff(), 2 + 0.01);
+    }
+    // At rest at the bottom, where the force of the bowl is the weight.
+    const double rest = 0.05 - 9.8 / (2 * 5e4);
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+        EXPECT_NEAR(signed_distance<kDim>(bowl, x.col(i)).value, rest, 1e-6);
+        EXPECT_LT(velocity.col(i).norm(), 1e-6);
+    }
+}
+
+TYPED_TEST(ContactFinderTest, WarnsWhereTheDistanceIsNearTheEdgeLength) {
+    constexpr int kDim = TypeParam::value;
+    const test::Scene<kDim> scene = TestFixture::face_to_face(0.5);
+    ContactOptions options = kOptions;
+    EXPECT_TRUE(ContactFinder<kDim>(test::contact_scene<kDim>(scene, options)).warnings().empty());
+    options.distance = 0.8;
+    const auto warnings = ContactFinder<kDim>(test::contact_scene<kDim>(scene, options)).warnings();
+    ASSERT_EQ(warnings.size(), 2U);
+    pent::test::expect_contains(warnings[1], {"distance 0.8 m", "'b'", "a quarter"});
+}
+
+TYPED_TEST(ContactFinderTest, WithOptionsOutOfRangeAreRefused) {
+    constexpr int kDim = TypeParam::value;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto message = [&](const ContactOptions& options) {
+        return pent::test::error_of(
+            [&] { ContactFinder<kDim>(test::contact_scene<kDim>(test::Scene<kDim>(), options)); });
+    };
+    pent::test::expect_contains(message({.distance = 0}), {"distance", "above 0"});
+    pent::test::expect_contains(message({.distance = nan}), {"distance", "above 0"});
+    pent::test::expect_contains(message({.distance = 1, .separation = -1}), {"separation", "-1"});
+    pent::test::expect_contains(message({.distance = 1, .margin = -1}), {"margin", "-1"});
+    const std::string obstacle = pent::test::error_of([&] {
+        ContactFinder<kDim>(test::contact_scene<kDim>(
+            test::Scene<kDim>(), kOptions,
+            {HalfSpace<kDim>{Vector<kDim>::UnitX(), 0}, Ball<kDim>{Vector<kDim>::Zero(), -1}}));
+    });
+    pent::test::expect_contains(obstacle, {"obstacle 1", "radius"});
+}
+
+TYPED_TEST(ContactFinderTest, OfASceneWithoutBodiesAreNone) {
+    constexpr int kDim = TypeParam::value;
+    const Positions<kDim> none(kDim, 0);
+    EXPECT_TRUE(ContactFinder<kDim>(test::contact_scene<kDim>(test::Scene<kDim>(), kOptions))
+                    .find(none, kStiffness)
+                    .list.empty());
+}
+
+}  // namespace
+}  // namespace pent::contact

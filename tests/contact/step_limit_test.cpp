@@ -1,0 +1,117 @@
+#include "step_limit.h"
+
+#include "ccd.h"
+#include "support/host_tasks.h"
+#include "two_cubes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace pent::contact {
+namespace {
+
+template <typename T>
+class StepLimitTest : public testing::Test {
+protected:
+    static constexpr int kSpace = T::value;
+
+    // The least safe fraction of all pairs of two lists, one by one.
+    template <int K, int L>
+    void shorten(const Simplices<K>& a,
+                 const Simplices<L>& b,
+                 const Positions<kSpace>& motion,
+                 double& least) const {
+        const Positions<kSpace>& x = cubes_.scene.positions;
+        for (Eigen::Index i = 0; i < a.cols(); ++i) {
+            for (Eigen::Index j = 0; j < b.cols(); ++j) {
+                least =
+                    std::min(least, safe_fraction<kSpace, K, L>(
+                                        gather<kSpace, K>(a, i, x), gather<kSpace, K>(a, i, motion),
+                                        gather<kSpace, L>(b, j, x), gather<kSpace, L>(b, j, motion),
+                                        {cubes_.options.separation, cubes_.options.distance}));
+            }
+        }
+    }
+
+    test::TwoCubes<kSpace> cubes_;
+};
+
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+TYPED_TEST_SUITE(StepLimitTest, Dimensions);
+
+TYPED_TEST(StepLimitTest, IsTheLeastOfAllPairsForAnyNumberOfThreads) {
+    constexpr int kDim = TypeParam::value;
+    ContactFinder<kDim> finder(this->cubes_.model());
+    const Positions<kDim>& x = this->cubes_.scene.positions;
+    for (const double speed : {0.05, 0.3, 20.0}) {
+        Positions<kDim> to = this->cubes_.pushed(speed);
+        test::shake<kDim>(to, 0.01, 9);
+        const Positions<kDim> motion = to - x;
+        double least = 1;
+        const Surface<kDim>& first = this->cubes_.scene.surfaces[0];
+        const Surface<kDim>& second = this->cubes_.scene.surfaces[1];
+        this->template shorten<1, kDim>(first.vertices, second.facets, motion, least);
+        this->template shorten<1, kDim>(second.vertices, first.facets, motion, least);
+        this->template shorten<2, kDim - 1>(first.edges, second.ridges, motion, least);
+        this->template shorten<2, kDim - 1>(second.edges, first.ridges, motion, least);
+        const StepLimit limit = finder.limit_step(x, to);
+        EXPECT_DOUBLE_EQ(limit.fraction, least);
+        if (least < 1) {
+            EXPECT_EQ(limit.limiting.first_corners.size() + limit.limiting.second_corners.size(),
+                      kDim + 1U);
+        }
+        Workers(pent::test::host_tasks(3)).run([&] {
+            ContactFinder<kDim> fresh(this->cubes_.model());
+            const StepLimit again = fresh.limit_step(x, to);
+            EXPECT_EQ(again.fraction, limit.fraction);
+            EXPECT_EQ(again.limiting.first_corners, limit.limiting.first_corners);
+        });
+    }
+}
+
+TYPED_TEST(StepLimitTest, IsTheWholeStepUnderAPenalty) {
+    constexpr int kDim = TypeParam::value;
+    this->cubes_.options.model = ContactModel::Penalty;
+    ContactFinder<kDim> finder(this->cubes_.model());
+    EXPECT_EQ(finder.limit_step(this->cubes_.scene.positions, this->cubes_.pushed(20)).fraction, 1);
+}
+
+// Below the middle of the lowest side of the first cube: facets meet them between their vertices.
+TYPED_TEST(StepLimitTest, LetsNoFacetCutABallOrABoxBetweenItsVertices) {
+    constexpr int kDim = TypeParam::value;
+    for (const Obstacle<kDim>& obstacle :
+         {Obstacle<kDim>(Ball<kDim>{this->cubes_.below(0.35), 0.2}),
+          Obstacle<kDim>(Cuboid<kDim>{this->cubes_.below(0.3), Vector<kDim>::Constant(0.3)})}) {
+        ContactFinder<kDim> finder(this->cubes_.model({obstacle}));
+        const Positions<kDim>& x = this->cubes_.scene.positions;
+        Positions<kDim> to = x;
+        to.row(kDim - 1).array() -= 0.3;
+        const StepLimit limit = finder.limit_step(x, to);
+        EXPECT_LT(limit.fraction, 0.5);
+        EXPECT_GT(limit.fraction, 0.2);
+        EXPECT_EQ(limit.limiting.second, (Collider{Collider::Kind::Obstacle, 0}));
+        EXPECT_FALSE(limit.limiting.first_corners.empty());
+        const Positions<kDim> near = x + 0.9 * limit.fraction * (to - x);
+        Positions<kDim> gradient = Positions<kDim>::Zero(kDim, x.cols());
+        add_gradient<kDim>(finder.find(near, 1), gradient);
+        EXPECT_LT(gradient.row(kDim - 1).sum(), 0);  // pushed up
+    }
+}
+
+TYPED_TEST(StepLimitTest, KeepsVerticesOutOfHalfSpaces) {
+    constexpr int kDim = TypeParam::value;
+    ContactFinder<kDim> finder(this->cubes_.model({HalfSpace<kDim>{Vector<kDim>::Unit(1), -0.1}}));
+    const Positions<kDim>& x = this->cubes_.scene.positions;
+    Positions<kDim> to = x;
+    to.row(1).array() -= 1;
+    const StepLimit limit = finder.limit_step(x, to);
+    EXPECT_LT(limit.fraction, 0.15);
+    EXPECT_EQ(limit.limiting.first_corners.size(), 1U);
+    EXPECT_EQ(limit.limiting.second, (Collider{Collider::Kind::Obstacle, 0}));
+    const Positions<kDim> at = x + limit.fraction * (to - x);
+    EXPECT_GT(at.row(1).minCoeff(), -0.1 + this->cubes_.options.separation);
+}
+
+}  // namespace
+}  // namespace pent::contact

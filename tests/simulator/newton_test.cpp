@@ -1,0 +1,407 @@
+#include "step/newton.h"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+// Newton's method on plain functions: no scene, no bodies, no contact.
+
+namespace pent::simulator {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// What to do with a Hessian that is not positive definite.
+enum class Curvature { AsItIs, Absolute };
+
+// A function of some coordinates and its derivatives.
+struct Formula {
+    std::function<double(const Eigen::VectorXd&)> value;
+    std::function<Eigen::VectorXd(const Eigen::VectorXd&)> gradient;
+    std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> hessian;
+};
+
+class PlainFunction : public Objective<3>, public Formula {
+public:
+    using Vector = Eigen::VectorXd;
+    using Matrix = Eigen::MatrixXd;
+
+    explicit PlainFunction(Formula formula = {}) : Formula(std::move(formula)) {}
+
+    std::function<bool(const Vector&)> is_in_domain = [](const Vector&) { return true; };
+    Curvature curvature = Curvature::Absolute;
+    bool has_kink = false;
+    int evaluations = 0;
+    int outside = 0;  // evaluations where the function is infinite
+
+    Evaluation<3> evaluate(const Positions<3>& x) override {
+        x_ = x.reshaped();
+        ++evaluations;
+        outside += is_in_domain(x_) ? 0 : 1;
+        return {.value = is_in_domain(x_) ? value(x_) : kInfinity,
+                .rounding = 0,
+                .has_kink = has_kink,
+                .gradient = gradient(x_).reshaped(3, x.cols())};
+    }
+
+    NewtonDirection<3> solve(const Positions<3>& /*shift*/, double /*tolerance*/) override {
+        Matrix H = hessian(x_);
+        if (curvature == Curvature::Absolute) {
+            const Eigen::SelfAdjointEigenSolver<Matrix> parts(H);
+            H = parts.eigenvectors() * parts.eigenvalues().cwiseAbs().asDiagonal()
+                * parts.eigenvectors().transpose();
+        }
+        const Vector step = -H.fullPivLu().solve(gradient(x_));
+        return {step.reshaped(3, step.size() / 3), ""};
+    }
+
+    // The part of the way that stays in the domain, found by halving: nine tenths of it.
+    double max_step(const Positions<3>& from, const Positions<3>& to) override {
+        double fraction = 1;
+        const auto at = [&](double t) { return Vector((from + t * (to - from)).reshaped()); };
+        while (!is_in_domain(at(fraction)) && fraction > 1e-12) {
+            fraction /= 2;
+        }
+        return fraction < 1 ? 0.9 * fraction : 1;
+    }
+
+private:
+    Vector x_;
+};
+
+Positions<3> point(double a, double b, double c) {
+    return Eigen::Vector3d(a, b, c);
+}
+
+// sum of 100 (x_(i+1) - x_i^2)^2 + (1 - x_i)^2: a bent valley with its end at (1, 1, 1).
+Formula rosenbrock() {
+    Formula f;
+    f.value = [](const Eigen::VectorXd& x) {
+        double sum = 0;
+        for (int i = 0; i < 2; ++i) {
+            sum += 100 * std::pow(x[i + 1] - x[i] * x[i], 2) + std::pow(1 - x[i], 2);
+        }
+        return sum;
+    };
+    f.gradient = [](const Eigen::VectorXd& x) {
+        Eigen::VectorXd g = Eigen::Vector3d::Zero();
+        for (int i = 0; i < 2; ++i) {
+            const double off = x[i + 1] - x[i] * x[i];
+            g[i] += -400 * x[i] * off - 2 * (1 - x[i]);
+            g[i + 1] += 200 * off;
+        }
+        return g;
+    };
+    f.hessian = [](const Eigen::VectorXd& x) {
+        Eigen::MatrixXd H = Eigen::Matrix3d::Zero();
+        for (int i = 0; i < 2; ++i) {
+            H(i, i) += 1200 * x[i] * x[i] - 400 * x[i + 1] + 2;
+            H(i + 1, i + 1) += 200;
+            H(i, i + 1) -= 400 * x[i];
+            H(i + 1, i) -= 400 * x[i];
+        }
+        return H;
+    };
+    return f;
+}
+
+TEST(Newton, FindsTheEndOfRosenbrocksValley) {
+    PlainFunction f(rosenbrock());
+    Positions<3> x = point(-1.2, 1, 1);
+    const NewtonReport report = newton<3>(f, {.tolerance = 1e-12}, x);
+    EXPECT_TRUE(report.has_converged) << report.failure_reason;
+    EXPECT_LT((x - point(1, 1, 1)).norm(), 1e-10);
+    EXPECT_LE(report.residual, 1e-12);
+    EXPECT_GT(report.iterations, 5);  // the valley is bent
+    EXPECT_LT(report.iterations, 60);
+}
+
+// From near the end digits double with every iteration: two more of them for 1e-3 to 1e-12.
+TEST(Newton, GainsDigitsQuadratically) {
+    const auto iterations = [](double tolerance) {
+        PlainFunction f(rosenbrock());
+        Positions<3> x = point(1.001, 1.002, 1.003);
+        const NewtonReport report = newton<3>(f, {.tolerance = tolerance}, x);
+        EXPECT_TRUE(report.has_converged);
+        return report.iterations;
+    };
+    EXPECT_LE(iterations(1e-12), iterations(1e-3) + 2);
+}
+
+// sum of x_i - m log x_i: the lowest point is m, and there is no value below 0.
+TEST(Newton, NeverLeavesTheDomainOfALogBarrier) {
+    static constexpr double kWeight = 1e-3;
+    PlainFunction f;
+    f.is_in_domain = [](const Eigen::VectorXd& x) { return x.minCoeff() > 0; };
+    f.value = [](const Eigen::VectorXd& x) {
+        return (x.array() - kWeight * x.array().log()).sum();
+    };
+    f.gradient = [](const Eigen::VectorXd& x) { return Eigen::VectorXd(1 - kWeight / x.array()); };
+    f.hessian = [](const Eigen::VectorXd& x) {
+        return Eigen::MatrixXd((kWeight / x.array().square()).matrix().asDiagonal());
+    };
+    Positions<3> x = point(5, 0.3, 1e-5);
+    const NewtonReport report = newton<3>(f, {.tolerance = 1e-10, .max_iterations = 150}, x);
+    EXPECT_TRUE(report.has_converged) << report.failure_reason;
+    EXPECT_EQ(f.outside, 0);
+    EXPECT_LT((x.array() - kWeight).abs().maxCoeff(), 1e-9);
+}
+
+// 50 (x - a)^2 + |x|, lowest at the kink for small a: the gradient jumps from -1 to 1 there and
+// vanishes nowhere.
+TEST(Newton, EndsAtAKinkWhereNoGradientVanishes) {
+    const Eigen::Vector3d a(0.003, -0.004, 0.002);
+    PlainFunction f;
+    f.has_kink = true;
+    f.value = [&](const Eigen::VectorXd& x) { return 50 * (x - a).squaredNorm() + x.lpNorm<1>(); };
+    f.gradient = [&](const Eigen::VectorXd& x) {
+        return Eigen::VectorXd(100 * (x - a) + x.cwiseSign());
+    };
+    f.hessian = [](const Eigen::VectorXd&) {
+        return Eigen::MatrixXd(100 * Eigen::Matrix3d::Identity());
+    };
+    Positions<3> x = point(1, -2, 0.5);
+    const double start = f.value(x);
+    const NewtonReport report = newton<3>(f, {.tolerance = 1e-10, .max_iterations = 50}, x);
+    EXPECT_TRUE(report.has_converged) << report.failure_reason;
+    EXPECT_LT(x.lpNorm<Eigen::Infinity>(), 0.02);
+    EXPECT_LT(f.value(x) - 50 * a.squaredNorm(), 1e-3 * start);
+    EXPECT_GT(report.residual, 0);  // and says so
+    EXPECT_LT(report.residual, 0.1);
+    EXPECT_LT(report.iterations, 50);
+}
+
+// The same without saying that there is a kink: no point is found, and nothing goes on for ever.
+TEST(Newton, FailsOnAnAbsoluteValueThatItWasNotTold) {
+    PlainFunction f;
+    f.value = [](const Eigen::VectorXd& x) { return x.lpNorm<1>(); };
+    f.gradient = [](const Eigen::VectorXd& x) { return Eigen::VectorXd(x.cwiseSign()); };
+    f.hessian = [](const Eigen::VectorXd&) { return Eigen::MatrixXd(Eigen::Matrix3d::Identity()); };
+    Positions<3> x = point(0.3, -2.4, 0.5);
+    const NewtonReport report = newton<3>(f, {.tolerance = 1e-8, .max_iterations = 60}, x);
+    EXPECT_FALSE(report.has_converged);
+    EXPECT_NE(report.failure_reason, "");
+    EXPECT_LE(report.iterations, 60);
+    EXPECT_LT(x.lpNorm<1>(), 3.2);  // lower than where it began, all the same
+}
+
+// x^2 + (y^2 - 1)^2 + z^2 bends downwards along y near the start.
+TEST(Newton, GoesDownWhereTheHessianIsIndefinite) {
+    PlainFunction f;
+    f.value = [](const Eigen::VectorXd& x) {
+        return x[0] * x[0] + std::pow(x[1] * x[1] - 1, 2) + x[2] * x[2];
+    };
+    f.gradient = [](const Eigen::VectorXd& x) {
+        return Eigen::VectorXd(Eigen::Vector3d(2 * x[0], 4 * x[1] * (x[1] * x[1] - 1), 2 * x[2]));
+    };
+    f.hessian = [](const Eigen::VectorXd& x) {
+        return Eigen::MatrixXd(Eigen::Vector3d(2, 12 * x[1] * x[1] - 4, 2).asDiagonal());
+    };
+    Positions<3> x = point(0.5, 0.1, -1);
+    const NewtonReport report = newton<3>(f, {.tolerance = 1e-10}, x);
+    EXPECT_TRUE(report.has_converged) << report.failure_reason;
+    EXPECT_LT((x - point(0, 1, 0)).norm(), 1e-8);
+
+    // With the Hessian as it is the direction leads up to y = 0, where nothing is won.
+    f.curvature = Curvature::AsItIs;
+    x = point(0, 0.1, 0);
+    const NewtonReport raw = newton<3>(f, {.tolerance = 1e-10}, x);
+    EXPECT_FALSE(raw.has_converged);
+    EXPECT_EQ(raw.failure_reason, "the line search found no decrease");
+    EXPECT_EQ(x, point(0, 0.1, 0));
+}
+
+// x^2 - y^2 has no lowest point.
+TEST(Newton, GivesUpOnAFunctionWithoutALowestPoint) {
+    PlainFunction f;
+    f.value = [](const Eigen::VectorXd& x) { return x[0] * x[0] - x[1] * x[1] + x[2] * x[2]; };
+    f.gradient = [](const Eigen::VectorXd& x) {
+        return Eigen::VectorXd(Eigen::Vector3d(2 * x[0], -2 * x[1], 2 * x[2]));
+    };
+    f.hessian = [](const Eigen::VectorXd&) {
+        return Eigen::MatrixXd(Eigen::Vector3d(2, -2, 2).asDiagonal());
+    };
+    Positions<3> x = point(1, 0.1, 1);
+    const NewtonReport report = newton<3>(f, {.max_iterations = 40}, x);
+    EXPECT_FALSE(report.has_converged);
+    EXPECT_EQ(report.iterations, 40);
+    EXPECT_LT(f.value(x.reshaped()), -1);
+}
+
+TEST(Newton, SaysWhereAValueIsNotANumber) {
+    PlainFunction f(rosenbrock());
+    f.value = [](const Eigen::VectorXd&) { return std::nan(""); };
+    Positions<3> x = point(0, 0, 0);
+    const NewtonReport report = newton<3>(f, {}, x);
+    EXPECT_FALSE(report.has_converged);
+    EXPECT_EQ(report.failure_reason, "the energy grew beyond all bounds");
+}
+
+// 1/2 x A x - b x, in which the first step is the solution.
+Formula quadratic(const Eigen::Matrix3d& A, const Eigen::Vector3d& b) {
+    Formula f;
+    f.value = [=](const Eigen::VectorXd& x) { return 0.5 * x.dot(A * x) - b.dot(x); };
+    f.gradient = [=](const Eigen::VectorXd& x) { return Eigen::VectorXd(A * x - b); };
+    f.hessian = [=](const Eigen::VectorXd&) { return Eigen::MatrixXd(A); };
+    return f;
+}
+
+Eigen::Matrix3d definite() {
+    Eigen::Matrix3d A;
+    A << 4, 1, 0, 1, 3, -1, 0, -1, 2;
+    return A;
+}
+
+TEST(NewtonStep, SolvesAQuadraticAtOnce) {
+    const Eigen::Vector3d b(1, -2, 3);
+    PlainFunction f(quadratic(definite(), b));
+    Positions<3> x = point(7, 8, 9);
+    const NewtonReport report = newton_step<3>(f, x);
+    EXPECT_TRUE(report.has_converged);
+    EXPECT_EQ(report.iterations, 1);
+    EXPECT_LT((x - definite().ldlt().solve(b)).norm(), 1e-13);
+    EXPECT_EQ(f.evaluations, 1);
+}
+
+TEST(NewtonStep, IsTheFirstIterationOfNewtonsMethod) {
+    PlainFunction f(rosenbrock());
+    Positions<3> step = point(1.1, 1.2, 1.4);
+    ASSERT_TRUE(newton_step<3>(f, step).has_converged);
+    Positions<3> x = point(1.1, 1.2, 1.4);
+    static_cast<void>(newton<3>(f, {.max_iterations = 1}, x));
+    EXPECT_EQ(x, step);
+}
+
+// A Hessian four times too stiff gains a quarter of the way in each iteration, unless steps go on.
+TEST(Newton, StretchesStepsOfAHessianThatIsTooStiff) {
+    const auto iterations = [](bool extends) {
+        PlainFunction f(quadratic(definite(), Eigen::Vector3d(1, -2, 3)));
+        f.hessian = [](const Eigen::VectorXd&) { return Eigen::MatrixXd(4 * definite()); };
+        Positions<3> x = point(7, 8, 9);
+        const NewtonReport report =
+            newton<3>(f, {.tolerance = 1e-8, .max_iterations = 200, .extends_steps = extends}, x);
+        EXPECT_TRUE(report.has_converged);
+        EXPECT_LT((x - definite().ldlt().solve(Eigen::Vector3d(1, -2, 3))).norm(), 1e-6);
+        return report.iterations;
+    };
+    EXPECT_GT(iterations(false), 40);
+    EXPECT_LT(iterations(true), 10);
+}
+
+// Three points on a line, joined by springs of rest length 1; the first is to be brought to a place.
+// A wall may be in its way.
+class Chain : public Objective<3> {
+public:
+    explicit Chain(double goal, double wall = kInfinity) : goal_(goal), wall_(wall) {}
+
+    Evaluation<3> evaluate(const Positions<3>& x) override {
+        x_ = x;
+        Evaluation<3> at;
+        at.gradient.setZero(3, 3);
+        for (int i = 0; i < 2; ++i) {
+            const Eigen::Vector3d off = x.col(i + 1) - x.col(i) - Eigen::Vector3d::UnitX();
+            at.value += 0.5 * off.squaredNorm();
+            at.gradient.col(i + 1) += off;
+            at.gradient.col(i) -= off;
+        }
+        at.gradient.col(0).setZero();
+        farthest_ = std::max(farthest_, x(0, 0));
+        return at;
+    }
+    NewtonDirection<3> solve(const Positions<3>& shift, double /*tolerance*/) override {
+        // Where springs are at rest behind the first point, wherever that goes.
+        Positions<3> step = shift;
+        step.col(1) = x_.col(0) + shift.col(0) + Eigen::Vector3d::UnitX() - x_.col(1);
+        step.col(2) = x_.col(1) + step.col(1) + Eigen::Vector3d::UnitX() - x_.col(2);
+        return {step, ""};
+    }
+    Positions<3> prescribed_shift(const Positions<3>& x) const override {
+        Positions<3> shift = Positions<3>::Zero(3, 3);
+        shift(0, 0) = goal_ - x(0, 0);
+        return shift;
+    }
+    double max_step(const Positions<3>& from, const Positions<3>& to) override {
+        const double way = to(0, 0) - from(0, 0);
+        const double most = way > 0 ? (wall_ - from(0, 0)) / way : 1;
+        return most > 1 ? 1 : 0.5 * most;
+    }
+    [[nodiscard]] double farthest() const { return farthest_; }
+
+private:
+    double goal_;
+    double wall_;
+    double farthest_ = -kInfinity;
+    Positions<3> x_;
+};
+
+Positions<3> chain_at_rest() {
+    Positions<3> x = Positions<3>::Zero(3, 3);
+    x.row(0) << 0, 1, 2;
+    return x;
+}
+
+TEST(Newton, BringsPrescribedPointsToTheirPlaces) {
+    Chain chain(3);
+    Positions<3> x = chain_at_rest();
+    const NewtonReport report = newton<3>(chain, {.tolerance = 1e-10, .arrival = 1e-12}, x);
+    EXPECT_TRUE(report.has_converged) << report.failure_reason;
+    EXPECT_LT((x.row(0) - Eigen::RowVector3d(3, 4, 5)).norm(), 1e-9);
+}
+
+TEST(Newton, SaysWherePrescribedPointsAreStuck) {
+    Chain chain(3, 1.5);
+    Positions<3> x = chain_at_rest();
+    const NewtonReport report = newton<3>(chain, {.arrival = 1e-12, .max_iterations = 150}, x);
+    EXPECT_FALSE(report.has_converged);
+    EXPECT_TRUE(report.is_stuck);
+    EXPECT_LT(chain.farthest(), 1.5);
+    EXPECT_GT(x(0, 0), 1.4);  // as far as it gets
+}
+
+// A function that stiffens when it is told of a point, as barriers do.
+class Stiffening : public PlainFunction {
+public:
+    Stiffening() : PlainFunction(quadratic(definite(), Eigen::Vector3d(1, -2, 3))) {
+        const auto soft_value = value;
+        const auto soft_gradient = gradient;
+        const auto soft_hessian = hessian;
+        value = [=, this](const Eigen::VectorXd& x) {
+            return soft_value(x) + 0.5 * stiffness_ * x.squaredNorm();
+        };
+        gradient = [=, this](const Eigen::VectorXd& x) {
+            return Eigen::VectorXd(soft_gradient(x) + stiffness_ * x);
+        };
+        hessian = [=, this](const Eigen::VectorXd& x) {
+            return Eigen::MatrixXd(soft_hessian(x) + stiffness_ * Eigen::Matrix3d::Identity());
+        };
+    }
+    bool accept(const Positions<3>& /*x*/) override {
+        if (told_++ >= 3) {
+            return false;
+        }
+        stiffness_ = 2 * stiffness_ + 1;
+        return true;
+    }
+    [[nodiscard]] double stiffness() const { return stiffness_; }
+
+private:
+    double stiffness_ = 0;
+    int told_ = 0;
+};
+
+TEST(Newton, GoesOnFromAFunctionThatHasChanged) {
+    Stiffening f;
+    Positions<3> x = point(7, 8, 9);
+    const NewtonReport report = newton<3>(f, {.tolerance = 1e-12}, x);
+    EXPECT_TRUE(report.has_converged) << report.failure_reason;
+    EXPECT_EQ(f.stiffness(), 7);
+    const Eigen::Matrix3d A = definite() + 7 * Eigen::Matrix3d::Identity();
+    EXPECT_LT((x - A.ldlt().solve(Eigen::Vector3d(1, -2, 3))).norm(), 1e-10);
+}
+
+}  // namespace
+}  // namespace pent::simulator
