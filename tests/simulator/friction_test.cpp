@@ -143,5 +143,29 @@ TYPED_TEST(FrictionSlopeTest, SingleLinearSolvesHaveItToo) {
     EXPECT_NEAR(speed_after(kFriction), 1.5 - 0.2 * kFriction * kGravity, 0.15);
 }
 
+// A soft block without damping that slides just off the angle keeps ringing for seconds: that is what an
+// undamped body does, not what friction adds. Whatever friction does, energy never rises.
+TYPED_TEST(FrictionSlopeTest, AddsNoEnergyToABlockThatRings) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : {Integrator::NewtonEuler, Integrator::Bdf2}) {
+        BarrierScene<kDim> scene = slope<kDim>(ContactModel::Penalty, 1.04 * kFriction);
+        scene.scene.damping.reset();
+        scene.scene.bodies[0].material.lame = lame_from_young(kDim, 1e5, 0.28);
+        scene.scene.bodies[0].place.translate[1] += 0.01;  // lands, which sets it ringing
+        scene.scene.solver.integrator = integrator;
+        Simulation<kDim> simulation(scene.scene, scene.meshes);
+        const double start = simulation.energies().total();
+        double before = start;
+        for (int k = 0; k < 60; ++k) {
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.is_accepted) << report.failure;
+            // What Newton's method leaves unbalanced.
+            ASSERT_LE(report.energies.total(), before + 1e-6 * std::abs(start)) << k;
+            before = report.energies.total();
+        }
+        EXPECT_LT(before, start);
+    }
+}
+
 }  // namespace
 }  // namespace pent::simulator
