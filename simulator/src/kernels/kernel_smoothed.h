@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/kernel_elements.h"
+#include "kernels/kernel_hessian.h"
 
 // Forces and Hessians of elements with any number of corners, in lanes: the domains of smoothing.h.
 

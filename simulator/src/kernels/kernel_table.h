@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/kernel_elements.h"
+#include "kernels/kernel_hessian.h"
 #include "kernels/kernel_rows.h"
 #include "kernels/kernel_smoothed.h"
 

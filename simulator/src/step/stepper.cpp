@@ -9,26 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 namespace pent::simulator {
 
 namespace {
-
-// Corrections below this part of the scene's extent are none.
-constexpr double kNegligible = 1e-10;
-
-// With a barrier, Newton's method has converged as well where a correction, taken whole, was below this many
-// times its tolerance of the distance of contact, and the residual is below as many times what it asks
-// for: two thousandths of either, by default.
-constexpr double kSettled = 20;
-
-// Dirichlet vertices have arrived when they are this part of the scene's extent from their place.
-constexpr double kArrived = 1e-14;
-
-constexpr int kMaxIterations = 50;
-constexpr int kMaxBoundedIterations = 150;
 
 Isa choose_isa(const std::string& name) {
     if (name.empty()) {
@@ -139,37 +124,6 @@ void Simulation<Dim>::Stepper::restore(const Snapshot<Dim>& snapshot) {
 }
 
 template <int Dim>
-StepProblem<Dim> Simulation<Dim>::Stepper::make_problem(double time, double h) const {
-    const auto choose = [&] {
-        switch (scene_.solver.integrator) {
-            case Integrator::Quasistatic:
-                return static_problem(current_, h);
-            case Integrator::Bdf2:
-                if (history_.positions.cols() > 0 && h == scene_.dt()) {
-                    return bdf2_problem(current_, history_, h);
-                }
-                break;  // the first step, and steps cut in two, which have no even past
-            case Integrator::LinearEuler:
-            case Integrator::NewtonEuler:
-                break;
-        }
-        return euler_problem(current_, h);
-    };
-    StepProblem<Dim> problem = choose();
-    problem.time = time + h;
-    problem.prescribed = current_.positions;
-    place_dirichlet<Dim>(bodies_, time + h, problem.prescribed, nullptr);
-    return problem;
-}
-
-template <int Dim>
-void Simulation<Dim>::Stepper::set_velocities(const StepProblem<Dim>& problem, double time) {
-    next_.velocities = problem.rate * (next_.positions - problem.origin);
-    place_dirichlet(bodies_, time, next_.positions, &next_.velocities);
-    still(next_.velocities);
-}
-
-template <int Dim>
 double Simulation<Dim>::Stepper::kinetic_energy(const Positions<Dim>& velocities) const {
     return sum_vertices(workers_, velocities.cols(), [&](Eigen::Index v) {
         return 0.5 * bodies_.masses[v] * velocities.col(v).squaredNorm();
@@ -179,39 +133,6 @@ double Simulation<Dim>::Stepper::kinetic_energy(const Positions<Dim>& velocities
 template <int Dim>
 Energies Simulation<Dim>::Stepper::energies() const {
     return {kinetic_energy(current_.velocities), energy_.sum.energies()};
-}
-
-// Why the new state is none; empty unless it is beyond bounds that only a failed step leaves.
-template <int Dim>
-std::string Simulation<Dim>::Stepper::failure_reason(const Energies& before) const {
-    constexpr double kMaxExtents = 1e3;
-    constexpr double kMaxGrowth = 1e2;
-    if (!next_.positions.allFinite() || !next_.velocities.allFinite()
-        || !energy_.sum.gradient().allFinite()
-        || (next_.positions - current_.positions).cwiseAbs().maxCoeff() >= kMaxExtents * extent_) {
-        return "the motion grew beyond all bounds";
-    }
-    const double budget = bodies_.large_energy + before.of("elastic") + before.kinetic
-                          + kinetic_energy(next_.velocities);
-    if (!(energy_.elasticity->energy() < kMaxGrowth * budget)) {
-        return "the elastic energy grew a hundred times; take smaller steps, or newton_euler, which"
-               " comes back from far";
-    }
-    return may_have_tunneled()
-               ? "in contact something moved by more than the extent of the thinnest body:"
-                 " bodies could pass through each other unseen; take smaller steps"
-               : "";
-}
-
-// Whether penalties, which see only what is near or inside at the end of a step, can have missed something.
-template <int Dim>
-bool Simulation<Dim>::Stepper::may_have_tunneled() const {
-    if (!scene_.contact || scene_.contact->model != ContactModel::Penalty) {
-        return false;
-    }
-    const Positions<Dim> moves = next_.positions - current_.positions;
-    const Eigen::Matrix<double, Dim, 1> mean = moves.rowwise().mean();
-    return (moves.colwise() - mean).colwise().norm().maxCoeff() > thinnest_;
 }
 
 // Throws unless the barrier finds nothing that crosses.
@@ -275,122 +196,6 @@ void Simulation<Dim>::Stepper::put_to_sleep() {
     }
     number_dofs_of_the_awake();
     evaluate_current();
-}
-
-// Newton's method without a barrier: Dirichlet vertices are at their places from the beginning, and the
-// first iteration spreads their motion over all. If the value is larger there than with every free vertex
-// where it was, the method begins here.
-template <int Dim>
-NewtonReport Simulation<Dim>::Stepper::minimize() {
-    Positions<Dim> begin = current_.positions + potential_.prescribed_shift(current_.positions);
-    const Evaluation<Dim> start = potential_.evaluate(begin);
-    next_.positions = current_.positions;
-    NewtonReport first = newton_step(potential_, next_.positions);
-    if (!first.has_converged) {
-        return first;
-    }
-    if (!(potential_.evaluate(next_.positions).value <= start.value)) {
-        next_.positions = std::move(begin);
-    }
-    return newton(potential_,
-                  {.tolerance = scene_.solver.newton_tolerance,
-                   .min_correction = kNegligible * extent_,
-                   .max_iterations = kMaxIterations,
-                   .start_value = start.value,
-                   .start_norm = start.gradient.norm()},
-                  next_.positions);
-}
-
-// Newton's method with a barrier: every iterate, and the straight way from one to the next, is free of
-// crossings. Begins where everything is; Dirichlet vertices go on as far as each iteration lets them.
-template <int Dim>
-NewtonReport Simulation<Dim>::Stepper::minimize_bounded(const StepProblem<Dim>& problem) {
-    const double tolerance = scene_.solver.newton_tolerance;
-    next_.positions = current_.positions;
-    potential_.tell_start(next_.positions);
-    potential_.balance(next_.positions);
-    NewtonReport report =
-        newton(potential_,
-               {.tolerance = tolerance,
-                // Corrections that nobody can see, next to the distance of contact.
-                .min_correction = std::max(kNegligible * extent_,
-                                           tolerance * std::min(scene_.contact->distance, extent_)),
-                .settled = kSettled,
-                .arrival = kArrived * extent_,
-                .max_iterations = kMaxBoundedIterations,
-                .extends_steps = true},
-               next_.positions);
-    if (report.is_stuck) {
-        std::ostringstream message;
-        message << "held vertices cannot go on without a crossing at t = " << problem.time
-                << " s: " << energy_.contact->describe(energy_.contact->limit().limiting);
-        report.failure_reason = message.str();
-    }
-    report.iterations = std::max(0, report.iterations - 1);  // the first is that of a linear step
-    return report;
-}
-
-template <int Dim>
-NewtonReport Simulation<Dim>::Stepper::solve(const StepProblem<Dim>& problem, bool is_linear) {
-    if (is_linear) {
-        next_.positions = current_.positions;
-        NewtonReport report = newton_step(potential_, next_.positions);
-        report.iterations = 0;
-        return report;
-    }
-    return energy_.sum.is_bounded() ? minimize_bounded(problem) : minimize();
-}
-
-template <int Dim>
-bool Simulation<Dim>::Stepper::attempt(double time, double h, StepReport& report) {
-    const StepProblem<Dim> problem = make_problem(time, h);
-    energy_.sum.update(current_.positions);
-    static_cast<void>(wake(problem.prescribed));
-    energy_.sum.update(current_.positions);
-    const Energies before{kinetic_energy(current_.velocities), energy_.sum.energies()};
-    const bool is_linear = scene_.solver.integrator == Integrator::LinearEuler
-                           || (potential_.dofs().count() == 0 && islands_.asleep_count() == 0
-                               && !energy_.contact->is_bounded());
-    Positions<Dim> travel = Positions<Dim>::Zero(Dim, current_.positions.cols());
-    for (std::uint32_t vertex = 0; vertex < bodies_.is_dirichlet.size(); ++vertex) {
-        if (bodies_.is_dirichlet[vertex]) {
-            travel.col(vertex) = problem.prescribed.col(vertex) - problem.origin.col(vertex);
-        }
-    }
-    potential_.begin_step(problem, {current_.positions, current_.velocities, travel, h, is_linear});
-    const NewtonReport solved = solve(problem, is_linear);
-    report.newton_iterations += solved.iterations;
-    report.unbalanced = std::max(report.unbalanced, solved.residual);
-    if (!solved.has_converged) {
-        report.failure = solved.failure_reason;
-        return false;
-    }
-    set_velocities(problem, time + h);
-    energy_.sum.update(next_.positions);
-    if (std::string reason = failure_reason(before); !reason.empty()) {
-        report.failure = std::move(reason);
-        return false;
-    }
-    // Newton's method has forces at the end of the step: what was run into there has to give way.
-    if (!is_linear && wake(problem.prescribed)) {
-        return attempt(time, h, report);
-    }
-    if (scene_.solver.integrator == Integrator::Bdf2) {
-        history_ = h == scene_.dt() ? current_ : State<Dim>();
-    }
-    std::swap(current_, next_);
-    return true;
-}
-
-template <int Dim>
-bool Simulation<Dim>::Stepper::advance(double time, double h, int depth, StepReport& report) {
-    if (attempt(time, h, report)) {
-        ++report.substeps;
-        return true;
-    }
-    ++report.refused;
-    return depth < scene_.solver.max_halvings && advance(time, h / 2, depth + 1, report)
-           && advance(time + h / 2, h / 2, depth + 1, report);
 }
 
 template <int Dim>

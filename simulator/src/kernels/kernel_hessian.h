@@ -1,0 +1,288 @@
+#pragma once
+
+#include "kernels/kernel_elements.h"
+
+// Hessians of element groups, in lanes.
+
+// NOLINTBEGIN(cppcoreguidelines-pro-type-member-init): see kernel_elements.h
+
+namespace pent::simulator {
+namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
+
+// The blocks of one pack of elements: [pair][column * Dim + row][lane].
+template <typename Real, int Dim>
+struct BlockPack {
+    alignas(64) typename Lanes<Real>::Number at[kPairs<Dim>][Dim * Dim][Lanes<Real>::kCount];
+};
+
+// Place of the pair (a, b), a <= b, in the order (0,0) (0,1) .. (0,Dim) (1,1) ..
+template <int Dim>
+constexpr int pair_index(int a, int b) {
+    return a * (Dim + 1) - a * (a - 1) / 2 + b - a;
+}
+
+// With beta_a = V^T b_a (b_a: rest gradient of corner a), block (a, b) is U K U^T, where
+//   K_ik = stretch_ik beta_ai beta_bk + swap_ik beta_ak beta_bi                 (i != k)
+//   K_ii = stretch_ii beta_ai beta_bi + sum over j != i of keep_ij beta_aj beta_bj
+// and keep, swap = (twist + flip) / 2, (flip - twist) / 2.
+template <typename Real, int Dim>
+struct RotatedHessian {
+    Tensor<Real, Dim> U;
+    Tensor<Real, Dim> stretch;
+    Tensor<Real, Dim> keep;
+    Tensor<Real, Dim> swap;
+    Tensor<Real, Dim> beta;  // row a - 1: beta of corner a
+    Real is_filtered;        // 1 in lanes that the filter changed, else 0
+};
+
+template <typename Real, int Dim>
+RotatedHessian<Real, Dim> rotated_hessian(const Tensor<Real, Dim>& F,
+                                          const Tensor<Real, Dim>& rest,
+                                          const Moduli& moduli,
+                                          Filter filter) {
+    using Number = typename Lanes<Real>::Number;
+    SignedSvd<Real, Dim> svd;
+    if (moduli.model == Model::Linear) {  // does not depend on F: any frame will do
+        svd.U = identity<Real, Dim>();
+        svd.turned_rest = rest;
+        for (int i = 0; i < Dim; ++i) {
+            svd.sigma[i] = Real(Number(1));
+        }
+    } else {
+        svd = signed_svd(F, rest);
+    }
+    const Spectrum<Real, Dim> spectrum = spectrum_of(svd.sigma, moduli);
+    RotatedHessian<Real, Dim> hessian;
+    hessian.U = svd.U;
+    hessian.beta = svd.turned_rest;
+    hessian.is_filtered = Real(Number(0));
+    hessian.stretch = filtered(spectrum.stretch, filter, hessian.is_filtered);
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = i + 1; j < Dim; ++j) {
+            const Real flip = filtered(spectrum.flip[i][j], filter, hessian.is_filtered);
+            const Real twist = filtered(spectrum.twist[i][j], filter, hessian.is_filtered);
+            hessian.keep[i][j] = Real(Number(0.5)) * (twist + flip);
+            hessian.keep[j][i] = hessian.keep[i][j];
+            hessian.swap[i][j] = Real(Number(0.5)) * (flip - twist);
+            hessian.swap[j][i] = hessian.swap[i][j];
+        }
+    }
+    return hessian;
+}
+
+template <typename Real, int Dim>
+Tensor<Real, Dim> hessian_block(const RotatedHessian<Real, Dim>& hessian,
+                                const Real (&beta_a)[Dim],
+                                const Real (&beta_b)[Dim]) {
+    Tensor<Real, Dim> K;
+    for (int i = 0; i < Dim; ++i) {
+        Real sum = hessian.stretch[i][i] * (beta_a[i] * beta_b[i]);
+        for (int j = 0; j < Dim; ++j) {
+            if (j != i) {
+                sum += hessian.keep[i][j] * (beta_a[j] * beta_b[j]);
+                K[i][j] = hessian.stretch[i][j] * (beta_a[i] * beta_b[j])
+                          + hessian.swap[i][j] * (beta_a[j] * beta_b[i]);
+            }
+        }
+        K[i][i] = sum;
+    }
+    Tensor<Real, Dim> left;  // U K
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) {
+            Real sum = hessian.U[i][0] * K[0][j];
+            for (int k = 1; k < Dim; ++k) {
+                sum += hessian.U[i][k] * K[k][j];
+            }
+            left[i][j] = sum;
+        }
+    }
+    Tensor<Real, Dim> block;  // U K U^T
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) {
+            Real sum = left[i][0] * hessian.U[j][0];
+            for (int k = 1; k < Dim; ++k) {
+                sum += left[i][k] * hessian.U[j][k];
+            }
+            block[i][j] = sum;
+        }
+    }
+    return block;
+}
+
+// Column-major entries of a block; symmetric ones to the bit, from the upper triangle.
+template <typename Real, int Dim, typename Stored>
+void store_block(const Tensor<Real, Dim>& block, bool is_symmetric, Stored& stored) {
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) {
+            const bool is_mirrored = is_symmetric && i > j;
+            Lanes<Real>::store(is_mirrored ? block[j][i] : block[i][j], stored[j * Dim + i]);
+        }
+    }
+}
+
+// All pairs of corners. Rest gradients add up to zero, so the blocks of corner 0 follow from the
+// others: K_0b = - sum over a >= 1 of K_ab.
+template <typename Real, int Dim>
+void hessian_blocks(const RotatedHessian<Real, Dim>& hessian,
+                    const Real& scale,
+                    BlockPack<Real, Dim>& pack) {
+    using Number = typename Lanes<Real>::Number;
+    const Real zero = Real(Number(0));
+    Tensor<Real, Dim> first[Dim + 1];
+    for (Tensor<Real, Dim>& block : first) {
+        for (int i = 0; i < Dim; ++i) {
+            for (int j = 0; j < Dim; ++j) {
+                block[i][j] = zero;
+            }
+        }
+    }
+    for (int a = 1; a <= Dim; ++a) {
+        Real beta_a[Dim];
+        for (int i = 0; i < Dim; ++i) {
+            beta_a[i] = scale * hessian.beta[a - 1][i];
+        }
+        for (int b = a; b <= Dim; ++b) {
+            const Tensor<Real, Dim> block = hessian_block(hessian, beta_a, hessian.beta.at[b - 1]);
+            store_block(block, b == a, pack.at[pair_index<Dim>(a, b)]);
+            for (int i = 0; i < Dim; ++i) {
+                for (int j = 0; j < Dim; ++j) {
+                    first[b][i][j] -= block[i][j];
+                    if (b != a) {
+                        first[a][i][j] -= block[j][i];
+                    }
+                }
+            }
+        }
+    }
+    for (int b = 1; b <= Dim; ++b) {
+        store_block(first[b], false, pack.at[pair_index<Dim>(0, b)]);
+        for (int i = 0; i < Dim; ++i) {
+            for (int j = 0; j < Dim; ++j) {
+                first[0][i][j] -= first[b][i][j];
+            }
+        }
+    }
+    store_block(first[0], true, pack.at[0]);
+}
+
+// Element after element, all blocks of one before the next: neighbors in a pack share blocks, and
+// adding to the same one again at once would wait for the addition before.
+template <int Dim, typename Real, typename Scalar>
+void scatter_blocks(const BlockPack<Real, Dim>& pack,
+                    const Group<Dim>& group,
+                    int first_lane,
+                    Scalar* values) {
+    constexpr int kEntries = Dim * Dim;
+    constexpr int kWidth = Lanes<Real>::kCount;
+    const int lanes = group.elements - first_lane < kWidth ? group.elements - first_lane : kWidth;
+    alignas(64) Scalar entries[kPairs<Dim>][kWidth][kEntries];
+    for (int pair = 0; pair < kPairs<Dim>; ++pair) {
+        transpose<kEntries, kWidth>(pack.at[pair], entries[pair]);
+    }
+    for (int l = 0; l < lanes; ++l) {
+        for (int pair = 0; pair < kPairs<Dim>; ++pair) {
+            const std::int32_t block = group.blocks[pair * kGroup + first_lane + l];
+            if (block >= 0) {
+                add_to<kEntries, kWidth>(entries[pair][l], values + std::int64_t{block} * kEntries);
+            }
+        }
+    }
+}
+
+// Moves the columns of held corners, whose displacement is known, to the right side.
+template <int Dim, typename Real, typename Scalar>
+void scatter_held(const BlockPack<Real, Dim>& pack,
+                  const Group<Dim>& group,
+                  int first_lane,
+                  std::uint32_t free_unknowns,
+                  const HessianTarget<Scalar>& target) {
+    for (int l = 0; l < Lanes<Real>::kCount && first_lane + l < group.elements; ++l) {
+        const int lane = first_lane + l;
+        for (int b = 1; b <= Dim; ++b) {
+            if (group.unknowns[b * kGroup + lane] < free_unknowns) {
+                continue;
+            }
+            const double* shift =
+                target.held_shift + std::int64_t{Dim} * group.vertices[b * kGroup + lane];
+            for (int a = 0; a < b; ++a) {
+                const std::uint32_t row = group.unknowns[a * kGroup + lane];
+                if (row >= free_unknowns) {
+                    continue;
+                }
+                const auto& block = pack.at[pair_index<Dim>(a, b)];
+                double* right = target.right + std::int64_t{Dim} * row;
+                for (int i = 0; i < Dim; ++i) {
+                    for (int j = 0; j < Dim; ++j) {
+                        right[i] -= static_cast<double>(block[j * Dim + i][l]) * shift[j];
+                    }
+                }
+            }
+        }
+    }
+}
+
+// Brings the blocks of a group near while its Hessian is computed: a matrix does not fit in the
+// caches close by.
+template <int Dim, typename Scalar>
+void prefetch_blocks(const Group<Dim>& group, const Scalar* values) {
+    for (int i = 0; i < kPairs<Dim> * kGroup; ++i) {
+        const std::int64_t block = group.blocks[i] < 0 ? 0 : group.blocks[i];
+        __builtin_prefetch(values + block * Dim * Dim, 1);
+    }
+}
+
+// How many of the first lanes are marked by 1.
+template <typename Real>
+int count_marked(const Real& marks, int lanes) {
+    using Number = typename Lanes<Real>::Number;
+    if (!Lanes<Real>::any(marks > Real(Number(0)))) {
+        return 0;
+    }
+    int count = 0;
+    for (int lane = 0; lane < lanes && lane < Lanes<Real>::kCount; ++lane) {
+        count += Lanes<Real>::lane(marks, lane) > Number(0) ? 1 : 0;
+    }
+    return count;
+}
+
+template <int Dim, typename Real, typename Scalar>
+std::int64_t add_hessian(const ElementRun& run,
+                         const double* positions,
+                         const HessianTarget<Scalar>& target) {
+    using Number = typename Lanes<Real>::Number;
+    constexpr int kWidth = Lanes<Real>::kCount;
+    const Moduli moduli = moduli_of(run);
+    const int groups = (run.elements + kGroup - 1) / kGroup;
+    const Real scale = Real(static_cast<Number>(target.scale));
+    Edges<Dim> edges;
+    BlockPack<Real, Dim> pack;
+    std::int64_t filtered_elements = 0;
+    for (int g = 0; g < groups; ++g) {
+        const Group<Dim> group = group_at<Dim>(run, g);
+        prefetch_blocks(group, target.values);
+        gather_edges(group, positions, edges);
+        bool has_held = false;
+        for (int lane = 0; lane < group.elements; ++lane) {  // the last corner is held if any is
+            has_held = has_held || group.unknowns[Dim * kGroup + lane] >= run.free_unknowns;
+        }
+        for (int lane = 0; lane < group.elements; lane += kWidth) {
+            const Tensor<Real, Dim> rest = load_rest<Real>(group, lane);
+            const Real volume = Lanes<Real>::load(group.volume + lane);
+            const Tensor<Real, Dim> F = deformation(edges, rest, lane);
+            const RotatedHessian<Real, Dim> hessian =
+                rotated_hessian(F, rest, moduli, target.filter);
+            filtered_elements += count_marked(hessian.is_filtered, group.elements - lane);
+            hessian_blocks(hessian, scale * volume, pack);
+            scatter_blocks(pack, group, lane, target.values);
+            if (has_held && target.held_shift != nullptr) {
+                scatter_held(pack, group, lane, run.free_unknowns, target);
+            }
+        }
+    }
+    return filtered_elements;
+}
+
+}  // namespace
+}  // namespace pent::simulator
+
+// NOLINTEND(cppcoreguidelines-pro-type-member-init)
