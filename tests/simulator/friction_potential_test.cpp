@@ -1,0 +1,56 @@
+#include "potentials/friction_potential.h"
+
+#include "potential_laws.h"
+
+namespace pent::simulator {
+namespace {
+
+using test::barrier_scene;
+using test::Dimensions;
+using test::expect_derivatives;
+using test::gradient_of;
+using test::Setting;
+using test::shaken;
+using test::value_of;
+
+template <typename T>
+class FrictionPotentialTest : public testing::Test {};
+TYPED_TEST_SUITE(FrictionPotentialTest, Dimensions);
+
+TYPED_TEST(FrictionPotentialTest, HasTheDerivativesOfItsEnergyAndNeverPushesAlongTheSlip) {
+    constexpr int kDim = TypeParam::value;
+    const Setting<kDim> setting(barrier_scene<kDim>(), 2);
+    ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies);
+    const Positions<kDim> start = shaken<kDim>(setting.bodies.rest, 0.006, 17);
+    ASSERT_GT(value_of<kDim>(contact, start), 0);
+    const Positions<kDim> still = Positions<kDim>::Zero(kDim, start.cols());
+    for (const double slip_speed : {1e-3, 1.0}) {  // sliding, and sticking
+        FrictionPotential<kDim> friction(contact, {.coefficient = 0.4, .slip_speed = slip_speed});
+        static_cast<void>(friction.begin_step({start, still, still, 0.01, false}));
+        EXPECT_EQ(value_of<kDim>(friction, start), 0);
+        const Positions<kDim> x = shaken<kDim>(start, 1e-3, 18);
+        expect_derivatives<kDim>(setting, friction, x, 1e-7);
+        const Positions<kDim> gradient = gradient_of<kDim>(friction, x);
+        EXPECT_GT(gradient.cwiseProduct(x - start).sum(), 0);
+        EXPECT_GT(value_of<kDim>(friction, x), 0);
+    }
+}
+
+TYPED_TEST(FrictionPotentialTest, BetweenBodiesKeepsTheirMomentum) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = barrier_scene<kDim>();
+    scene.obstacles.clear();
+    const Setting<kDim> setting(scene, 2);
+    ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies);
+    const Positions<kDim> start = shaken<kDim>(setting.bodies.rest, 0.006, 19);
+    ASSERT_GT(value_of<kDim>(contact, start), 0);
+    FrictionPotential<kDim> friction(contact, {.coefficient = 0.4, .slip_speed = 1e-3});
+    const Positions<kDim> still = Positions<kDim>::Zero(kDim, start.cols());
+    static_cast<void>(friction.begin_step({start, still, still, 0.01, false}));
+    const Positions<kDim> gradient = gradient_of<kDim>(friction, shaken<kDim>(start, 1e-3, 20));
+    EXPECT_GT(gradient.norm(), 0);
+    EXPECT_LT(gradient.rowwise().sum().norm(), 1e-12 * gradient.norm());
+}
+
+}  // namespace
+}  // namespace pent::simulator

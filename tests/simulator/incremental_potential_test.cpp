@@ -1,0 +1,167 @@
+#include "potentials/incremental_potential.h"
+
+#include "potential_laws.h"
+#include "potentials/scene_energy.h"
+#include "step/newton.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+// The weighted sum that a step minimizes, over the vertices that are solved for.
+
+namespace pent::simulator {
+namespace {
+
+using test::barrier_scene;
+using test::Dimensions;
+using test::Setting;
+using test::shaken;
+
+template <typename T>
+class IncrementalPotentialTest : public testing::Test {};
+TYPED_TEST_SUITE(IncrementalPotentialTest, Dimensions);
+
+// Two bodies in contact with friction and damping, one of them held at a side that moves, at the start of
+// a step.
+template <int Dim>
+struct Step {
+    Setting<Dim> setting;
+    SceneEnergy<Dim> energy;
+    IncrementalPotential<Dim> potential;
+    Positions<Dim> start;
+    Positions<Dim> velocities;
+    Positions<Dim> travel;
+    StepProblem<Dim> problem;
+
+    explicit Step(const Scene& scene)
+        : setting(scene, 2),
+          energy(setting.workers, setting.isa, setting.bodies, setting.scene),
+          potential(setting.workers,
+                    setting.isa,
+                    setting.bodies,
+                    setting.scene,
+                    energy.sum,
+                    *energy.elasticity),
+          start(shaken<Dim>(setting.bodies.rest, 0.006, 1)),
+          velocities(shaken<Dim>(0 * start, 0.3, 2)),
+          travel(0 * start),
+          problem(euler_problem<Dim>({start, velocities}, 0.01)) {
+        energy.sum.update(start);
+        problem.prescribed = start;
+        for (const DirichletSet<Dim>& set : setting.bodies.dirichlet_sets) {
+            for (const std::uint32_t vertex : set.vertices) {
+                travel.col(vertex).setConstant(1e-3);
+                problem.prescribed.col(vertex) += travel.col(vertex);
+            }
+        }
+        potential.begin_step(problem, {start, velocities, travel, 0.01, false});
+    }
+};
+
+template <int Dim>
+Scene busy_scene() {
+    Scene scene = barrier_scene<Dim>();
+    scene.gravity[1] = -9.8;
+    scene.contact->friction = 0.3;
+    scene.damping = Damping{.mass = 2, .stiffness = 0.003};
+    scene.solver.filter = Filter::None;
+    scene.solver.precision = Precision::Double;
+    scene.constraints = {
+        {.body = "b",
+         .select = {HalfSpaceSelection{.normal = -Eigen::VectorXd::Unit(Dim, 1), .offset = -0.95}},
+         .motion = {}}};
+    return scene;
+}
+
+TYPED_TEST(IncrementalPotentialTest, HasTheGradientOfItsValueAndNoneWhereNothingIsSolvedFor) {
+    constexpr int kDim = TypeParam::value;
+    Step<kDim> step(busy_scene<kDim>());
+    const DofMap& dofs = step.potential.dofs();
+    ASSERT_LT(dofs.count(), dofs.vertex_count());
+    const Positions<kDim> x = shaken<kDim>(step.start, 1e-3, 3);
+    const Positions<kDim> gradient = step.potential.evaluate(x).gradient;
+    constexpr double kStep = 1e-6;
+    for (unsigned seed = 4; seed < 8; ++seed) {
+        Positions<kDim> way = shaken<kDim>(0 * x, 1, seed);
+        for (std::uint32_t vertex = 0; vertex < dofs.vertex_count(); ++vertex) {
+            if (!dofs.has_dof(vertex)) {
+                EXPECT_EQ(gradient.col(vertex).norm(), 0);
+                way.col(vertex).setZero();
+            }
+        }
+        const double slope = (step.potential.evaluate(x + kStep * way).value
+                              - step.potential.evaluate(x - kStep * way).value)
+                             / (2 * kStep);
+        EXPECT_NEAR(slope, gradient.cwiseProduct(way).sum(), 1e-6 * gradient.norm() * way.norm());
+    }
+}
+
+// With the Hessian as it is, near the lowest point: H d = -g, H being the difference of gradients.
+TYPED_TEST(IncrementalPotentialTest, SolvesForTheDirectionThatItsGradientsAskFor) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = busy_scene<kDim>();
+    scene.solver.filter = Filter::Clamp;
+    scene.contact->filter = Filter::Clamp;
+    scene.solver.tolerance = 1e-8;
+    Step<kDim> step(scene);
+    Positions<kDim> x = step.start;
+    const auto report =
+        newton<kDim>(step.potential, {.tolerance = 1e-9, .min_correction = 0, .arrival = 1e-12}, x);
+    ASSERT_TRUE(report.has_converged) << report.failure_reason;
+    x = shaken<kDim>(x, 1e-9, 9);
+    for (std::uint32_t vertex = 0; vertex < step.potential.dofs().vertex_count(); ++vertex) {
+        if (!step.potential.dofs().has_dof(vertex)) {
+            x.col(vertex) = step.problem.prescribed.col(vertex);
+        }
+    }
+    const Positions<kDim> gradient = step.potential.evaluate(x).gradient;
+    const NewtonDirection<kDim> direction =
+        step.potential.solve(step.potential.prescribed_shift(x), 0);
+    ASSERT_EQ(direction.failure_reason, "");
+    const Positions<kDim> after = step.potential.evaluate(x + direction.step).gradient;
+    EXPECT_LT(after.norm(), 1e-3 * gradient.norm());
+}
+
+// The part of the Hessian between what is solved for and what is moved goes to the right side.
+TYPED_TEST(IncrementalPotentialTest, CarriesTheMotionOfPrescribedVerticesIntoTheOthers) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = busy_scene<kDim>();
+    scene.contact.reset();
+    scene.obstacles.clear();
+    scene.bodies[0].material.model = Model::Linear;
+    scene.bodies[1].material.model = Model::Linear;
+    scene.solver.tolerance = 1e-12;
+    Step<kDim> step(scene);
+    const Positions<kDim> shift = step.potential.prescribed_shift(step.start);
+    EXPECT_GT(shift.norm(), 0);
+    static_cast<void>(step.potential.evaluate(step.start));
+    const NewtonDirection<kDim> direction = step.potential.solve(shift, 0);
+    ASSERT_EQ(direction.failure_reason, "");
+    // A quadratic: its lowest point in one step, with the others where they were to go.
+    const Positions<kDim> end = step.start + direction.step;
+    EXPECT_LT((step.potential.prescribed_shift(end)).norm(), 1e-15);
+    const double before = step.potential.evaluate(step.start + shift).gradient.norm();
+    EXPECT_LT(step.potential.evaluate(end).gradient.norm(), 1e-9 * before);
+}
+
+TYPED_TEST(IncrementalPotentialTest, LeavesOutBodiesThatSleep) {
+    constexpr int kDim = TypeParam::value;
+    Step<kDim> step(busy_scene<kDim>());
+    const std::uint32_t all = step.potential.dofs().count();
+    step.potential.set_asleep({true, false}, step.start);
+    const DofMap& dofs = step.potential.dofs();
+    EXPECT_LT(dofs.count(), all);
+    step.energy.sum.update(step.start);
+    step.potential.begin_step(step.problem,
+                              {step.start, step.velocities, step.travel, 0.01, false});
+    const Evaluation<kDim> at = step.potential.evaluate(step.start);
+    const auto first = step.setting.bodies.vertices(0);
+    EXPECT_EQ(at.gradient.middleCols(first.begin, first.size).norm(), 0);
+    EXPECT_GT(at.gradient.norm(), 0);
+    const NewtonDirection<kDim> direction = step.potential.solve(0 * step.start, 0);
+    EXPECT_EQ(direction.step.middleCols(first.begin, first.size).norm(), 0);
+}
+
+}  // namespace
+}  // namespace pent::simulator

@@ -1,0 +1,42 @@
+#include "potentials/rayleigh_damping.h"
+
+#include "potential_laws.h"
+
+namespace pent::simulator {
+namespace {
+
+using test::Dimensions;
+using test::expect_derivatives;
+using test::Setting;
+using test::shaken;
+using test::value_of;
+
+template <typename T>
+class RayleighDampingTest : public testing::Test {};
+TYPED_TEST_SUITE(RayleighDampingTest, Dimensions);
+
+TYPED_TEST(RayleighDampingTest, IsAQuadraticOfTheTangentThatPullsBack) {
+    constexpr int kDim = TypeParam::value;
+    const Setting<kDim> setting(test::box_scene<kDim>(), 2);
+    Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, ElementKind::Linear);
+    RayleighDamping<kDim> damping(setting.workers, setting.isa.blocks, elasticity, setting.dofs,
+                                  Filter::Clamp);
+    const Positions<kDim> start = shaken<kDim>(setting.bodies.rest, 0.05, 10);
+    const Positions<kDim> still = Positions<kDim>::Zero(kDim, start.cols());
+    static_cast<void>(value_of<kDim>(elasticity, start));
+    damping.set_origin(start);
+    static_cast<void>(damping.begin_step({start, still, still, 0.01, false}));
+    const Positions<kDim> x = shaken<kDim>(start, 0.05, 11);
+    expect_derivatives<kDim>(setting, damping, x);
+    EXPECT_GT(value_of<kDim>(damping, x), 0);
+    EXPECT_EQ(value_of<kDim>(damping, start), 0);
+    // Twice as far costs four times as much, and a shift of everything nothing.
+    const Positions<kDim> far = start + 2 * (x - start);
+    EXPECT_NEAR(value_of<kDim>(damping, far), 4 * value_of<kDim>(damping, x),
+                1e-9 * value_of<kDim>(damping, far));
+    const Positions<kDim> shifted = start.array() + 0.3;
+    EXPECT_LT(std::abs(value_of<kDim>(damping, shifted)), 1e-9 * value_of<kDim>(damping, far));
+}
+
+}  // namespace
+}  // namespace pent::simulator
