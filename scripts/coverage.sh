@@ -20,7 +20,7 @@ ctest --preset coverage "$@" \
 report=build/coverage/report
 mkdir -p $report
 trap 'rm -f ./*.gcov' EXIT  # gcovr leaves them when it is interrupted
-gcovr -j "$(nproc)" --root . --filter '(format|mesher|contact|simulator|viewer|study|apps)/' \
+gcovr -j "$(nproc)" --root . --filter '(format|mesher|contact|simulator|runs|viewer|study|apps)/' \
     --exclude-unreachable-branches --exclude-throw-branches \
     --html-details $report/index.html --json $report/coverage.json build/coverage
 python3 scripts/coverage_table.py $report/coverage.json

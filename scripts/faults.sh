@@ -13,6 +13,6 @@ cmake --build --preset dev --target faults_test resume_table_test pent-sim
 build/dev/tests/apps/faults_test --gtest_filter='Faults.RunKilled*' --gtest_shuffle \
     --gtest_repeat="${1:-20}" --gtest_fail_fast --gtest_brief=1
 echo "faults: $((5 * ${1:-20})) kills, every run the same to the byte"
-build/dev/tests/simulator/resume_table_test --gtest_also_run_disabled_tests --gtest_filter='*EveryCombination*' \
+build/dev/tests/runs/resume_table_test --gtest_also_run_disabled_tests --gtest_filter='*EveryCombination*' \
     --gtest_brief=1
 echo "faults: every combination of settings stopped at each of ten steps, every run the same to the byte"

@@ -4,9 +4,9 @@
 
 #include <pent/formatted.h>
 #include <pent/printable.h>
-#include <pent/simulator/explain.h>
-#include <pent/simulator/run.h>
-#include <pent/simulator/scene_file.h>
+#include <pent/runs/explain.h>
+#include <pent/runs/run.h>
+#include <pent/runs/scene_file.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -17,9 +17,9 @@ namespace {
 
 using pent::apps::Program;
 using pent::apps::Verdict;
-using pent::simulator::FrameReport;
-using pent::simulator::RunReport;
-using pent::simulator::RunVerdict;
+using pent::runs::FrameReport;
+using pent::runs::RunReport;
+using pent::runs::RunVerdict;
 using pent::simulator::StepReport;
 
 struct Arguments {
@@ -131,7 +131,7 @@ std::string parts_text(const RunReport& report) {
     if (report.parts.size() < 2) {
         return "";
     }
-    const auto died = std::ranges::count(report.parts, "died", &pent::simulator::RunPart::verdict);
+    const auto died = std::ranges::count(report.parts, "died", &pent::runs::RunPart::verdict);
     return " in " + std::to_string(report.parts.size()) + " parts"
            + (died > 0 ? ", of which " + std::to_string(died) + " died" : "");
 }
@@ -181,15 +181,15 @@ void summarize(Program& program, const RunReport& report, const std::string& fol
 }
 
 Verdict explain_scene(Program& program, const pent::simulator::Scene& scene) {
-    pent::simulator::Explanation explanation;
+    pent::runs::Explanation explanation;
     {
         pent::apps::Heartbeat heartbeat(program.common().quiet);
         heartbeat.begin("one step in memory");
-        explanation = explain(scene, program.common().threads);
+        explanation = pent::runs::explain(scene, program.common().threads);
     }
     program.say(explanation_text(explanation));
     nlohmann::ordered_json terms = nlohmann::ordered_json::array();
-    for (const pent::simulator::Term& term : explanation.terms) {
+    for (const pent::runs::Term& term : explanation.terms) {
         terms.push_back({{"name", term.name},
                          {"is_on", term.is_on},
                          {"why", term.why},
@@ -209,7 +209,7 @@ Verdict explain_scene(Program& program, const pent::simulator::Scene& scene) {
 pent::simulator::Scene read_inputs(Program& program, const std::string& path) {
     std::vector<pent::apps::NamedFile> inputs = {{"the scene", path}};
     program.require_apart(inputs, {});
-    pent::simulator::Scene scene = pent::simulator::read_scene(path);
+    pent::simulator::Scene scene = pent::runs::read_scene(path);
     for (const pent::simulator::Body& body : scene.bodies) {
         inputs.push_back({"the mesh of \"" + body.name + "\"", body.mesh});
     }
@@ -223,7 +223,7 @@ RunReport run_scene(Program& program,
     pent::apps::Progress progress("frame", scene.frames, program.common().quiet);
     pent::apps::Heartbeat heartbeat(program.common().quiet);
     heartbeat.begin("setting up");
-    pent::simulator::RunCallbacks callbacks;
+    pent::runs::RunCallbacks callbacks;
     callbacks.should_stop = pent::apps::stop_requested;
     callbacks.on_frame = [&](const FrameReport& frame, const StepReport& step) {
         if (frame.frame > 0
@@ -238,15 +238,15 @@ RunReport run_scene(Program& program,
     };
     callbacks.on_warning = [&](const std::string& line) { say("warning: " + line); };
     callbacks.on_resume = say;
-    return run(scene,
-               {.folder = arguments.output,
-                .force = arguments.force,
-                .scene_file = arguments.scene,
-                .resume = arguments.resume,
-                .threads = program.common().threads,
-                .isa = arguments.isa,
-                .created_by = program.name_and_version()},
-               callbacks);
+    return pent::runs::run(scene,
+                           {.folder = arguments.output,
+                            .force = arguments.force,
+                            .scene_file = arguments.scene,
+                            .resume = arguments.resume,
+                            .threads = program.common().threads,
+                            .isa = arguments.isa,
+                            .created_by = program.name_and_version()},
+                           callbacks);
 }
 
 Verdict simulate(Program& program, const Arguments& arguments) {

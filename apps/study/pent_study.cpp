@@ -5,7 +5,7 @@
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/output_file.h>
-#include <pent/simulator/scene_file.h>
+#include <pent/runs/scene_file.h>
 #include <pent/study/study.h>
 
 #include <filesystem>
@@ -85,7 +85,7 @@ void require_apart(Program& program, const Arguments& arguments) {
     const fs::path& scene = arguments.study.scene;
     std::vector<pent::apps::NamedFile> inputs = {{"the scene", scene}};
     program.require_apart(inputs, {});
-    for (const pent::simulator::Body& body : pent::simulator::read_scene(scene).bodies) {
+    for (const pent::simulator::Body& body : pent::runs::read_scene(scene).bodies) {
         inputs.push_back({"the mesh of \"" + body.name + "\"", body.mesh});
     }
     program.require_apart(inputs, {{"--write-scene", arguments.write_scene}});

@@ -11,7 +11,7 @@
 
 #include <pent/error.h>
 #include <pent/pent_file.h>
-#include <pent/simulator/scene_file.h>
+#include <pent/runs/scene_file.h>
 #include <pent/simulator/simulation.h>
 
 #include <algorithm>
@@ -81,7 +81,7 @@ Case noodles(double part) {
 }
 
 Case read_case(const std::string& path) {
-    Case result{.name = path.substr(path.find_last_of('/') + 1), .scene = read_scene(path)};
+    Case result{.name = path.substr(path.find_last_of('/') + 1), .scene = runs::read_scene(path)};
     for (const Body& body : result.scene.bodies) {
         result.meshes.push_back(read_mesh<4>(body.mesh).mesh);
     }

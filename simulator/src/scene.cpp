@@ -1,8 +1,7 @@
-#include "scene_checks.h"
-
 #include <pent/error.h>
 #include <pent/number_bounds.h>
 #include <pent/simulator/scene.h>
+#include <pent/simulator/scene_checks.h>
 
 #include <algorithm>
 #include <cmath>

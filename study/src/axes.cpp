@@ -3,7 +3,7 @@
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/nearest_name.h>
-#include <pent/simulator/scene_file.h>
+#include <pent/runs/scene_file.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,7 +77,7 @@ simulator::SolverOptions preset_solver(const Setting& setting) {
     const std::string text =
         "[[body]]\nname = \"a\"\nmesh = \"a.pent\"\n[solver]\npreset = \"" + setting.value + "\"\n";
     try {
-        return simulator::parse_scene(text, kText, "").solver;
+        return runs::parse_scene(text, kText, "").solver;
     } catch (const Error& error) {
         throw Error(place_of(setting) + ": " + without_place(error.what()));
     }
@@ -206,14 +206,14 @@ simulator::Scene with_settings(simulator::Scene scene, const Settings& settings)
             scene = with_dt(std::move(scene), setting.value);
         }
     }
-    std::string text = simulator::scene_text(scene);
+    std::string text = runs::scene_text(scene);
     for (const Setting& setting : settings) {
         if (!is_mesh_axis(setting.axis) && setting.axis != "preset" && setting.axis != "dt") {
             text = with_key(text, setting);
         }
     }
     try {
-        return simulator::parse_scene(text, kText, "");
+        return runs::parse_scene(text, kText, "");
     } catch (const Error& error) {
         throw Error(place + ": " + without_place(error.what()));
     }

@@ -11,7 +11,7 @@
 #include <pent/error.h>
 #include <pent/output_file.h>
 #include <pent/output_folder.h>
-#include <pent/simulator/scene_file.h>
+#include <pent/runs/scene_file.h>
 #include <pent/study/study.h>
 
 #include <algorithm>
@@ -72,7 +72,7 @@ public:
         : options_(options),
           callbacks_(callbacks),
           folder_(options.folder, kStudyFolder),
-          scene_(shortened(simulator::read_scene(options.scene), options.frames)) {
+          scene_(shortened(runs::read_scene(options.scene), options.frames)) {
         for (const std::string& text : options.vary) {
             axes_.push_back(parse_axis(text));
             const bool is_twice =
@@ -93,7 +93,7 @@ public:
         combinations_ = combinations(axes_);
         report_.scene = options.scene.filename().string();
         report_.frames = scene_.frames;
-        report_.scene_frames = simulator::read_scene(options.scene).frames;
+        report_.scene_frames = runs::read_scene(options.scene).frames;
         report_.threads = options.threads;
     }
 
@@ -159,7 +159,7 @@ void Study::open_folder() {
         folder_.clear(inputs);
     }
     folder_.remove_temporaries();
-    claim("scene.toml", simulator::scene_text(scene_), "of another scene");
+    claim("scene.toml", runs::scene_text(scene_), "of another scene");
     claim("program.txt", fingerprint(options_.programs / "pent-sim") + "\n", "by another pent-sim");
 }
 
@@ -177,7 +177,7 @@ void Study::claim(const char* file, const std::string& text, const char* other) 
 ChildOutcome Study::simulate(const Scene& scene, const std::string& name, bool resume) {
     const fs::path scene_path = folder_.claim(name + ".toml");
     const fs::path folder = folder_.claim(name + "/").parent_path();
-    write_text(scene_path, simulator::scene_text(scene));
+    write_text(scene_path, runs::scene_text(scene));
     return run_child(options_.programs / "pent-sim",
                      {scene_path.string(), "-o", folder.string(), "--quiet", "--threads",
                       std::to_string(options_.threads), resume ? "--resume" : "--force"},
@@ -188,7 +188,7 @@ ChildOutcome Study::simulate(const Scene& scene, const std::string& name, bool r
 void Study::run_level(const Scene& scene, const std::string& name) {
     tell("reference, dt = " + short_number(scene.dt()) + " s");
     const fs::path folder = options_.folder / name;
-    const bool is_same = read_text(folder.string() + ".toml") == simulator::scene_text(scene);
+    const bool is_same = read_text(folder.string() + ".toml") == runs::scene_text(scene);
     const std::optional<RunVerdict> before = verdict_of(folder);
     if (is_same && before && before->verdict == "finished") {
         return;
@@ -235,7 +235,7 @@ void Study::run_reference() {
         run_level(scene, name);
         levels.push_back(std::make_unique<Trajectory>(scene, folder));
         report_.reference.dt.push_back(scene.dt());
-        reference_text_ = simulator::scene_text(scene);
+        reference_text_ = runs::scene_text(scene);
     }
     reference_meshes_ = mesh_checksum(base);
     ReferenceReport& report = report_.reference;
@@ -328,7 +328,7 @@ void Study::run_combinations() {
             fresh.verdict = "refused";
             fresh.message = error.what();
         }
-        fresh.scene = simulator::scene_text(scenes_.back());
+        fresh.scene = runs::scene_text(scenes_.back());
         fresh.meshes = mesh_checksum(scenes_.back());
         const std::optional<Record> before =
             read_record(options_.folder / "runs" / (file_name(settings) + ".json"));
@@ -397,14 +397,14 @@ StudyReport run_study(const StudyOptions& options, const StudyCallbacks& callbac
 
 std::string scene_with(const StudyOptions& options, const Result& result, const fs::path& where) {
     // Of a mesh that was made for the study the text names the file in its folder.
-    const Scene scene = with_settings(
-        with_meshes(simulator::read_scene(options.scene), result.settings, options, {}),
-        result.settings);
+    const Scene scene =
+        with_settings(with_meshes(runs::read_scene(options.scene), result.settings, options, {}),
+                      result.settings);
     Scene moved = scene;
     for (simulator::Body& body : moved.bodies) {
         body.mesh = fs::proximate(body.mesh, fs::absolute(where)).string();
     }
-    return simulator::scene_text(moved);
+    return runs::scene_text(moved);
 }
 
 }  // namespace pent::study

@@ -1,8 +1,8 @@
 #include "readers.h"
 
-#include "checkpoint_file.h"
-#include "journal.h"
-#include "run_report.h"
+#include "record/checkpoint_file.h"
+#include "record/journal.h"
+#include "record/run_report.h"
 #include "support/temp_folder.h"
 #ifdef PENT_FUZZ_STUDY
 #include "record.h"
@@ -15,7 +15,7 @@
 #include <pent/obstacles_file.h>
 #include <pent/output_folder.h>
 #include <pent/pent_file.h>
-#include <pent/simulator/scene_file.h>
+#include <pent/runs/scene_file.h>
 #ifdef PENT_FUZZ_MESHER
 #include <pent/mesher/edge_order.h>
 #include <pent/mesher/profile.h>
@@ -118,10 +118,10 @@ void try_pent_with_checksum(const fs::path& path) {
 
 void try_scene(const fs::path& path) {
     const auto read_again = [](const simulator::Scene& scene) {
-        return simulator::parse_scene(simulator::scene_text(scene), "again", "");
+        return runs::parse_scene(runs::scene_text(scene), "again", "");
     };
-    const simulator::Scene scene = read_again(simulator::read_scene(path));
-    require(simulator::scene_text(scene) == simulator::scene_text(read_again(scene)),
+    const simulator::Scene scene = read_again(runs::read_scene(path));
+    require(runs::scene_text(scene) == runs::scene_text(read_again(scene)),
             "a scene that is accepted survives being written and read");
 }
 
@@ -145,10 +145,10 @@ void try_obstacles(const fs::path& path) {
 
 // What a run left beside its last frame to be resumed from.
 void try_checkpoint(const fs::path& path) {
-    const simulator::StateBlocks blocks = simulator::read_checkpoint(path, 1, 2);
+    const runs::StateBlocks blocks = runs::read_checkpoint(path, 1, 2);
     const fs::path copy = folder() / "copy.state";
-    simulator::write_checkpoint(copy, 1, 2, blocks);
-    require(simulator::read_checkpoint(copy, 1, 2) == blocks,
+    runs::write_checkpoint(copy, 1, 2, blocks);
+    require(runs::read_checkpoint(copy, 1, 2) == blocks,
             "a checkpoint that is accepted survives being written and read");
 }
 
@@ -165,12 +165,12 @@ void try_checkpoint_with_checksum(const fs::path& path) {
 
 void try_journal(const fs::path& path) {
     const std::vector<std::string> bodies = {"bar"};
-    std::optional<simulator::Journal> journal = simulator::read_journal(path, bodies);
+    std::optional<runs::Journal> journal = runs::read_journal(path, bodies);
     require(journal.has_value(), "a file that is there is a journal");
     journal->cut(1);
     const fs::path copy = folder() / "copy.txt";
-    std::ofstream(copy, std::ios::binary) << simulator::journal_text(*journal, bodies);
-    static_cast<void>(simulator::read_journal(copy, bodies));
+    std::ofstream(copy, std::ios::binary) << runs::journal_text(*journal, bodies);
+    static_cast<void>(runs::read_journal(copy, bodies));
 }
 
 // The same with the checksum of each line put right.
@@ -204,14 +204,13 @@ void try_report(const fs::path& path) {
     static_cast<void>(study::verdict_of(folder()));
     static_cast<void>(study::Trajectory(simulator::Scene(), folder()));  // no bodies: no meshes
 #endif
-    simulator::RunReport report;
+    runs::RunReport report;
     report.bodies = {"bar"};
-    simulator::ReportHistory history =
-        simulator::parse_history(content(path), path.string(), report.bodies);
+    runs::ReportHistory history = runs::parse_history(content(path), path.string(), report.bodies);
     report.frames = std::move(history.frames);
     report.steps = std::move(history.steps);
     report.parts = {history.part};
-    static_cast<void>(simulator::report_text(report));
+    static_cast<void>(runs::report_text(report));
 }
 
 #ifdef PENT_FUZZ_STUDY

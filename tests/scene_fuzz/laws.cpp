@@ -8,9 +8,9 @@
 #include "written_law.h"
 
 #include <pent/error.h>
-#include <pent/simulator/explain.h>
-#include <pent/simulator/run.h>
-#include <pent/simulator/scene_file.h>
+#include <pent/runs/explain.h>
+#include <pent/runs/run.h>
+#include <pent/runs/scene_file.h>
 
 #include <algorithm>
 #include <csignal>
@@ -62,18 +62,18 @@ public:
     [[nodiscard]] const ChildResult& first() const { return first_; }
 
     void run_whole(const std::string& name, const fs::path& scene, int threads) const {
-        static_cast<void>(simulator::run(simulator::read_scene(scene),
-                                         {.folder = run_path(name), .threads = threads}));
+        static_cast<void>(
+            runs::run(runs::read_scene(scene), {.folder = run_path(name), .threads = threads}));
     }
 
     // Takes up to `steps` steps of a run, a new one or one that goes on; says whether it came to its end.
     bool run_part(const std::string& name, int threads, int steps, bool is_new) const {
         int left = steps;
-        const simulator::RunReport report =
-            simulator::run(simulator::read_scene(scene_path()),
-                           {.folder = run_path(name), .resume = !is_new, .threads = threads},
-                           {.should_stop = [&left] { return left-- == 0; }, .on_frame = {}});
-        return report.verdict != simulator::RunVerdict::Stopped;
+        const runs::RunReport report =
+            runs::run(runs::read_scene(scene_path()),
+                      {.folder = run_path(name), .resume = !is_new, .threads = threads},
+                      {.should_stop = [&left] { return left-- == 0; }, .on_frame = {}});
+        return report.verdict != runs::RunVerdict::Stopped;
     }
 
     // Empty if another run went well and is the same as the first.
@@ -203,15 +203,15 @@ std::string goes_on_after_a_kill(const Trial& trial) {
     int left = (trial.steps() + 1) / 2;
     const fs::path run = trial.run_path("kill");
     const ChildResult killed = trial.in_child("killed", [&] {
-        static_cast<void>(simulator::run(simulator::read_scene(trial.scene_path()), {.folder = run},
-                                         {.should_stop =
-                                              [&left] {
-                                                  if (left-- == 0) {
-                                                      raise(SIGKILL);
-                                                  }
-                                                  return false;
-                                              },
-                                          .on_frame = {}}));
+        static_cast<void>(runs::run(runs::read_scene(trial.scene_path()), {.folder = run},
+                                    {.should_stop =
+                                         [&left] {
+                                             if (left-- == 0) {
+                                                 raise(SIGKILL);
+                                             }
+                                             return false;
+                                         },
+                                     .on_frame = {}}));
     });
     if (killed.ended == Ended::Well) {
         return "";  // it diverged before
@@ -237,8 +237,8 @@ std::string goes_on_after_a_kill(const Trial& trial) {
 
 std::string is_explained(const Trial& trial) {
     const ChildResult result = trial.in_child("explain", [&] {
-        const std::string text = simulator::explanation_text(
-            simulator::explain(simulator::read_scene(trial.scene_path()), 1));
+        const std::string text =
+            runs::explanation_text(runs::explain(runs::read_scene(trial.scene_path()), 1));
         for (const char* word : {" nan", "-nan", " inf", "-inf"}) {
             if (text.find(word) != std::string::npos) {
                 throw BrokenLaw("the explanation has a number that is none:\n" + text);
@@ -251,7 +251,7 @@ std::string is_explained(const Trial& trial) {
 template <void (*law)(const Scene&)>
 std::string physics(const Trial& trial) {
     const ChildResult result =
-        trial.in_child("physics", [&] { law(simulator::read_scene(trial.scene_path())); });
+        trial.in_child("physics", [&] { law(runs::read_scene(trial.scene_path())); });
     return result.ended == Ended::Well ? "" : result.text;
 }
 

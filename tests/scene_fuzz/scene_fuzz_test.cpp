@@ -9,7 +9,7 @@
 #include "written_law.h"
 
 #include <pent/error.h>
-#include <pent/simulator/scene_file.h>
+#include <pent/runs/scene_file.h>
 
 #include <gtest/gtest.h>
 
@@ -27,8 +27,7 @@ constexpr std::uint64_t kSeeds = 1500;
 
 // The scene as the simulator writes it, every default filled in.
 Json written(const Json& scene) {
-    return parse_document(
-        simulator::scene_text(simulator::parse_scene(toml_text(scene), "drawn", "")));
+    return parse_document(runs::scene_text(runs::parse_scene(toml_text(scene), "drawn", "")));
 }
 
 // ------------------------------------------------------------------------------------- the generator

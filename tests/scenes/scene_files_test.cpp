@@ -1,4 +1,4 @@
-#include <pent/simulator/scene_file.h>
+#include <pent/runs/scene_file.h>
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ std::filesystem::path path_of(const std::string& name) {
 class EveryScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryScene, IsReadAndHasARecipeForEachMeshAndAnExpectation) {
-    const Scene scene = read_scene(path_of(GetParam()));
+    const Scene scene = runs::read_scene(path_of(GetParam()));
     std::ifstream file(path_of(GetParam()));
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     for (const Body& body : scene.bodies) {
@@ -67,7 +67,7 @@ void PrintTo(const Row& row, std::ostream* out) {  // NOLINT(readability-identif
 class PaperScene : public testing::TestWithParam<Row> {};
 
 TEST_P(PaperScene, HasTheStepAndTheContactOfTheTable) {
-    const Scene scene = read_scene(path_of(GetParam().scene));
+    const Scene scene = runs::read_scene(path_of(GetParam().scene));
     EXPECT_NEAR(1 / scene.dt(), GetParam().steps_per_second, 1e-9);
     EXPECT_EQ(scene.contact.has_value(), GetParam().distance > 0);
     if (scene.contact) {
@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(All,
                          [](const auto& one) { return std::string(one.param.scene); });
 
 TEST(Cantilevers, HaveThePapersRatiosOfStiffness) {
-    const Scene scene = read_scene(path_of("cantilevers"));
+    const Scene scene = runs::read_scene(path_of("cantilevers"));
     ASSERT_EQ(scene.bodies.size(), 5U);
     const double softest = young_from_lame(4, scene.bodies[0].material.lame).young;
     const std::vector<double> expected = {275, 550, 1010, 2000, 4000};
@@ -102,7 +102,7 @@ TEST(Cantilevers, HaveThePapersRatiosOfStiffness) {
 // A prism of length 20 over a ball of radius 1 has 80 pi / 3, half a 4D ball of radius 6 has
 // pi^2 / 4 6^4: 13.1%. In 3D, 20 pi over 2 pi / 3 6^3, five times, is 69.4%.
 TEST(Noodles, FillAnEighthOfTheBowlTheyFallInto) {
-    const Scene scene = read_scene(path_of("noodles"));
+    const Scene scene = runs::read_scene(path_of("noodles"));
     ASSERT_EQ(scene.bodies.size(), 5U);
     const auto& bowl = std::get<BowlObstacle>(scene.obstacles.at(0).shape);
     EXPECT_EQ(bowl.radius, 6);

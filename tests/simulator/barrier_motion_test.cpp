@@ -1,22 +1,14 @@
 #include "barrier_scenes.h"
-#include "support/temp_folder.h"
 
 #include <pent/error.h>
-#include <pent/pent_file.h>
-#include <pent/simulator/run.h>
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
-// The barrier with every integrator that takes it, with bodies that are moved from outside, and in runs.
+// The barrier with every integrator that takes it, and with bodies that are moved from outside.
 
 namespace pent::simulator {
 namespace {
 
-namespace fs = std::filesystem;
-using pent::test::TempFolder;
 using test::BarrierScene;
 using test::box;
 using test::vector;
@@ -110,21 +102,6 @@ TYPED_TEST(BarrierMotionTest, KinematicBodyPushesAFreeOneAndIsNotPushed) {
     EXPECT_GT(run.simulation().velocities(1).row(0).mean(), 2);
 }
 
-std::string read_text(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-Scene written(BarrierScene<4> scene, const TempFolder& folder, int frames) {
-    for (std::size_t body = 0; body < scene.meshes.size(); ++body) {
-        const fs::path path = folder / scene.scene.bodies[body].mesh;
-        write_mesh(path, scene.meshes[body]);
-        scene.scene.bodies[body].mesh = path.string();
-    }
-    scene.scene.frames = frames;
-    return scene.scene;
-}
-
 TYPED_TEST(BarrierMotionTest, BodiesMayBePutInEachOthersPlaces) {
     constexpr int kDim = TypeParam::value;
     BarrierScene<kDim> scene = collision<kDim>(Integrator::NewtonEuler);
@@ -158,27 +135,6 @@ TYPED_TEST(BarrierMotionTest, BodiesHeldEverywhereDoNotPassThroughEachOther) {
         EXPECT_EQ(run.crossings(), 0);
         EXPECT_NE(run.failure().find("held vertices cannot go on"), std::string::npos)
             << run.failure();
-    }
-}
-
-TEST(RunWithBarrier, ResumesToTheSameBytes) {
-    for (const Integrator integrator : {Integrator::NewtonEuler, Integrator::Bdf2}) {
-        const TempFolder folder;
-        BarrierScene<4> apart = collision<4>(integrator);
-        apart.scene.contact->friction = 0.3;
-        const Scene scene = written(apart, folder, 6);
-        const RunReport whole = run(scene, {.folder = folder / "whole"});
-        ASSERT_EQ(whole.verdict, RunVerdict::Finished);
-        EXPECT_GT(whole.steps.back().contact.point_facet + whole.steps.back().contact.mixed, 0);
-        int asked = 0;
-        static_cast<void>(run(scene, {.folder = folder / "cut"},
-                              {.should_stop = [&] { return ++asked > 4; }, .on_frame = nullptr}));
-        const RunReport resumed =
-            run(scene, {.folder = folder / "cut", .resume = true, .threads = 2});
-        EXPECT_EQ(resumed.verdict, RunVerdict::Finished);
-        for (const char* file : {"frames/a_000006.pent", "frames/b_000006.pent"}) {
-            EXPECT_EQ(read_text(folder / "whole" / file), read_text(folder / "cut" / file)) << file;
-        }
     }
 }
 

@@ -1,5 +1,6 @@
-# Installs the package into a folder of its own, then configures, builds and runs a program that finds
-# it there. Call with -DBUILD=<build folder> -DSOURCE=<consumer> -DWORK=<folder>.
+# Installs the package into a folder of its own, then configures, builds and runs two programs that find
+# it there; the one that links no more than the simulator must have nothing of files in it. Call with
+# -DBUILD=<build folder> -DSOURCE=<consumer> -DWORK=<folder> -DNM=<nm>.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT code EQUAL 0)
@@ -12,3 +13,33 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix)
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
+run(${WORK}/build/core)
+
+# Of the libraries that read and write: nothing is in the host of the simulator, and, so that this test can
+# fail, something is in the other.
+set(readers "toml::|nlohmann::|pent::runs::")
+# What our code calls for files; sanitizers and counters call some of it as well.
+set(calls " U (open|openat|creat|fsync|fdatasync|rename|flock|fcntl|mkdir|unlink|opendir|mmap)(64)?(@|$)")
+function(count_symbols program pattern count)
+  execute_process(COMMAND ${NM} -C ${WORK}/build/${program} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE ";" "," symbols "${symbols}")
+  string(REPLACE "\n" ";" symbols "${symbols}")
+  list(FILTER symbols INCLUDE REGEX "${pattern}")
+  list(LENGTH symbols length)
+  set(${count} ${length} PARENT_SCOPE)
+  set(found "${symbols}" PARENT_SCOPE)
+endfunction()
+set(patterns "${readers}")
+if(NOT "$ENV{CXXFLAGS}" MATCHES "-fsanitize|--coverage")
+  list(APPEND patterns "${calls}")
+endif()
+foreach(pattern IN LISTS patterns)
+  count_symbols(consumer "${pattern}" count)
+  if(count EQUAL 0)
+    message(FATAL_ERROR "no symbol of the program that reads a scene matches ${pattern}: this test looks for nothing")
+  endif()
+  count_symbols(core "${pattern}" count)
+  if(NOT count EQUAL 0)
+    message(FATAL_ERROR "a program that links pent::simulator alone has ${count} symbols of files in it:\n${found}")
+  endif()
+endforeach()

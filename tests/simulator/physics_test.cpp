@@ -1,11 +1,11 @@
 #include "contact_scenes.h"
 #include "elastic_box.h"
-#include "model/rigid_fit.h"
 #include "scenes.h"
 #include "support/messages.h"
 
 #include <pent/error.h>
 #include <pent/simulator/energy.h>
+#include <pent/simulator/rigid_fit.h>
 #include <pent/simulator/simulation.h>
 
 #include <Eigen/Cholesky>

@@ -1,7 +1,7 @@
-#include "model/rigid_fit.h"
-
 #include "model/rotation.h"
 #include "support/kuhn_box.h"
+
+#include <pent/simulator/rigid_fit.h>
 
 #include <gtest/gtest.h>
 

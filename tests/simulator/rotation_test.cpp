@@ -3,6 +3,7 @@
 #include "support/kuhn_box.h"
 
 #include <pent/error.h>
+#include <pent/simulator/placed_mesh.h>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,9 @@
-#include "model/selection.h"
-
 #include "model/rotation.h"
 #include "support/kuhn_box.h"
 #include "support/messages.h"
 
 #include <pent/error.h>
+#include <pent/simulator/placed_mesh.h>
 
 #include <gtest/gtest.h>
 

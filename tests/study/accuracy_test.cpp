@@ -1,7 +1,7 @@
 #include "compare.h"
 #include "support/kuhn_box.h"
 
-#include <pent/simulator/scene_file.h>
+#include <pent/runs/scene_file.h>
 #include <pent/simulator/simulation.h>
 
 #include <gtest/gtest.h>
@@ -24,10 +24,10 @@ struct Motion {
 };
 
 Scene bar(const std::string& preset, int steps_per_frame) {
-    Scene scene = simulator::read_scene(PENT_STUDY_DATA "/bar.toml");
+    Scene scene = runs::read_scene(PENT_STUDY_DATA "/bar.toml");
     scene.steps_per_frame = steps_per_frame;
     const std::string text = "[[body]]\nname = \"a\"\nmesh = \"a.pent\"\n[solver]\npreset = \"";
-    scene.solver = simulator::parse_scene(text + preset + "\"\n", preset, "").solver;
+    scene.solver = runs::parse_scene(text + preset + "\"\n", preset, "").solver;
     return scene;
 }
 

@@ -3,7 +3,7 @@
 #include "scene.h"
 #include "support/messages.h"
 
-#include <pent/simulator/scene_file.h>
+#include <pent/runs/scene_file.h>
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using pent::test::expect_contains;
 using pent::test::TempFolder;
 
 simulator::Scene bar_scene(const TempFolder& folder) {
-    return simulator::read_scene(test::write_bar(folder));
+    return runs::read_scene(test::write_bar(folder));
 }
 
 TEST(ParseAxis, TakesANameAndItsValues) {
@@ -76,7 +76,7 @@ TEST(WithSettings, SetsEveryKeyOfTheSolver) {
 TEST(WithSettings, TakesAPresetInPlaceOfAllKeysOfTheSolver) {
     const TempFolder folder;
     const simulator::Scene scene =
-        simulator::read_scene(test::write_bar(folder, "[solver]\nfilter = \"none\"\n"));
+        runs::read_scene(test::write_bar(folder, "[solver]\nfilter = \"none\"\n"));
     const simulator::Scene accurate = with_settings(scene, {{"preset", "accurate"}});
     EXPECT_EQ(accurate.solver.integrator, simulator::Integrator::Bdf2);
     EXPECT_EQ(accurate.solver.filter, simulator::Filter::Clamp);
@@ -89,7 +89,7 @@ TEST(WithSettings, LeavesEverythingElseAsItIs) {
     const simulator::Scene scene = bar_scene(folder);
     simulator::Scene changed = with_settings(scene, {{"integrator", "bdf2"}});
     changed.solver.integrator = scene.solver.integrator;
-    EXPECT_EQ(simulator::scene_text(changed), simulator::scene_text(scene));
+    EXPECT_EQ(runs::scene_text(changed), runs::scene_text(scene));
 }
 
 TEST(CheckSetting, NamesTheNearestAxisAndRefusesBadValues) {
@@ -118,8 +118,8 @@ TEST(WithSettings, DoNotDependOnTheirOrder) {
     const Setting barrier{"contact", "barrier"};  // not with linear_euler, which the scene has
     const Setting newton{"integrator", "newton_euler"};
     const Setting preset{"preset", "fast"};
-    EXPECT_EQ(simulator::scene_text(with_settings(scene, {barrier, newton, preset})),
-              simulator::scene_text(with_settings(scene, {preset, newton, barrier})));
+    EXPECT_EQ(runs::scene_text(with_settings(scene, {barrier, newton, preset})),
+              runs::scene_text(with_settings(scene, {preset, newton, barrier})));
     const simulator::Scene all = with_settings(scene, {barrier, newton, preset, {"dt", "1/60"}});
     EXPECT_EQ(all.contact->model, simulator::ContactModel::Barrier);
     EXPECT_EQ(all.solver.tolerance, 1e-2);  // of the preset

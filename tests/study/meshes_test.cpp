@@ -3,7 +3,7 @@
 #include "scene.h"
 #include "support/messages.h"
 
-#include <pent/simulator/scene_file.h>
+#include <pent/runs/scene_file.h>
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ TEST(MeshArguments, TakeTheLevelInPlaceOfTheRecipesOwn) {
 
 TEST(WithMeshes, KeepsMeshesThatAreThere) {
     const pent::test::TempFolder folder;
-    const simulator::Scene scene = simulator::read_scene(test::write_bar(folder));
+    const simulator::Scene scene = runs::read_scene(test::write_bar(folder));
     const StudyOptions options{.scene = folder / "bar.toml", .folder = folder / "study"};
     EXPECT_EQ(with_meshes(scene, {}, options, {}).bodies[0].mesh,
               std::filesystem::absolute(folder / "bar.pent"));
@@ -28,7 +28,7 @@ TEST(WithMeshes, KeepsMeshesThatAreThere) {
 
 TEST(WithMeshes, NeedsARecipeForLevelsAndForAMeshThatIsMissing) {
     const pent::test::TempFolder folder;
-    simulator::Scene scene = simulator::read_scene(test::write_bar(folder));
+    simulator::Scene scene = runs::read_scene(test::write_bar(folder));
     const StudyOptions options{.scene = folder / "bar.toml", .folder = folder / "study"};
     const auto message = [&](const Settings& settings) {
         return pent::test::error_of(

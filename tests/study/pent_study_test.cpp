@@ -2,7 +2,7 @@
 #include "scene.h"
 #include "support/messages.h"
 
-#include <pent/simulator/scene_file.h>
+#include <pent/runs/scene_file.h>
 #include <pent/study/study.h>
 
 #include <gtest/gtest.h>
@@ -218,7 +218,7 @@ TEST(PentStudy, ChoosesSettingsAndWritesASceneThatRuns) {
                     + " --json " + (folder / "study.json").string());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     expect_contains(outcome.out, {"converged, observed order", "within", "chosen", "frontier.png"});
-    const simulator::Scene written = simulator::read_scene(chosen);
+    const simulator::Scene written = runs::read_scene(chosen);
     EXPECT_EQ(std::filesystem::weakly_canonical(written.bodies[0].mesh),
               std::filesystem::weakly_canonical(folder / "bar.pent"));
     EXPECT_EQ(written.frames, 4);
@@ -358,7 +358,7 @@ preset = "accurate"
     EXPECT_LT(error(3), error(1));  // 2 layers, subdivided or not, at 1/120
     EXPECT_LT(error(3), error(7));  // 2 layers or 1, both subdivided
     // The chosen scene names the mesh that was made for it.
-    const simulator::Scene chosen = simulator::parse_scene(
+    const simulator::Scene chosen = runs::parse_scene(
         scene_with(options, report.results[3], folder / "study"), "chosen", folder / "study");
     EXPECT_TRUE(std::filesystem::exists(chosen.bodies[0].mesh)) << chosen.bodies[0].mesh;
 }

@@ -1,9 +1,9 @@
 #include "model/bodies.h"
 
 #include "model/rotation.h"
-#include "model/selection.h"
 
 #include <pent/error.h>
+#include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
 #include <cmath>

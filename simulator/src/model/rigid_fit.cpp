@@ -1,4 +1,4 @@
-#include "model/rigid_fit.h"
+#include <pent/simulator/rigid_fit.h>
 
 #include <Eigen/LU>
 #include <Eigen/SVD>

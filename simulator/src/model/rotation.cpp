@@ -1,5 +1,7 @@
 #include "model/rotation.h"
 
+#include <pent/simulator/placed_mesh.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

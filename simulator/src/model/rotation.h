@@ -1,9 +1,8 @@
 #pragma once
 
-#include <pent/simplex_mesh.h>
 #include <pent/simulator/scene.h>
 
-#include <vector>
+#include <Eigen/Core>
 
 namespace pent::simulator {
 
@@ -15,12 +14,6 @@ using Matrix = Eigen::Matrix<double, Dim, Dim>;
 /// Rotation in a plane by an angle in radians: takes axis `from` towards axis `to`.
 template <int Dim>
 [[nodiscard]] Matrix<Dim> plane_rotation(const Plane& plane, double angle);
-
-/// The mesh scaled, turned about its origin and moved; cells and labels stay as they are.
-///
-/// Throws an Error that names the body if the placed mesh no longer passes validate().
-template <int Dim>
-[[nodiscard]] SimplexMesh<Dim> place(SimplexMesh<Dim> mesh, const Body& body);
 
 /// Where a motion takes the points it moves at one moment: X goes to
 /// `rotation` (X - about) + about + `shift`, with velocity `rate` (X - about) + `velocity`.

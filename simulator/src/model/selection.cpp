@@ -1,9 +1,8 @@
-#include "model/selection.h"
-
 #include "model/rotation.h"
 
 #include <pent/error.h>
 #include <pent/formatted.h>
+#include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
 #include <limits>

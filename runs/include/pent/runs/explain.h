@@ -1,0 +1,50 @@
+#pragma once
+
+#include <pent/simplex_mesh.h>
+#include <pent/simulator/scene.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pent::runs {
+
+/// One part of the model of a scene.
+struct Term {
+    std::string name = {};  ///< "elasticity of octopus", "contact between bodies", ...
+    bool is_on = false;
+    std::string why = {};       ///< What in the scene switches it on or off, and its numbers.
+    std::int64_t unknowns = 0;  ///< Scalars it solves for; 0 for a force on those of others.
+    std::int64_t bytes = 0;     ///< Memory of its own; 0 where it has none.
+    double seconds = 0;         ///< Of a step; 0 where it costs nothing worth naming.
+};
+
+/// What will be modeled, at what cost, and what to think about before running.
+struct Explanation {
+    std::vector<Term> terms;
+    std::vector<std::string> advice;  ///< What could be left out or is missing, a line each.
+    std::int64_t unknowns = 0;        ///< Scalars.
+    std::int64_t bytes = 0;           ///< Of what grows with the meshes.
+    double seconds_per_step = 0;      ///< Measured on one step in memory.
+    double seconds = 0;               ///< The same for all steps of the scene.
+};
+
+/// Sets the scene up, takes one step in memory to time it, and writes nothing.
+///
+/// The time of a step changes in the course of a scene, with contact and with iterations. Throws an
+/// Error as Simulation does.
+///
+/// @param threads  At least 1.
+[[nodiscard]] Explanation explain(const simulator::Scene& scene, int threads);
+
+/// The explanation as a table and lines, for people.
+[[nodiscard]] std::string explanation_text(const Explanation& explanation);
+
+/// How many cells a body is thick where it is thickest, or one less: twice the edges from there to its
+/// boundary, or 1 where every vertex is on the boundary.
+///
+/// Linear simplices bend too little: the fewer cells across, the less.
+template <int Dim>
+[[nodiscard]] int cells_across(const SimplexMesh<Dim>& mesh);
+
+}  // namespace pent::runs

@@ -1,0 +1,267 @@
+#include "explain/doubts.h"
+
+#include <pent/contact/contact.h>
+#include <pent/contact/obstacles.h>
+#include <pent/facets.h>
+#include <pent/formatted.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace pent::runs {
+
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+template <int Dim>
+using Vector = Eigen::Matrix<double, Dim, 1>;
+
+template <int Dim>
+Vector<Dim> sides(const Simulation<Dim>& simulation, int body) {
+    const Positions<Dim>& positions = simulation.mesh(body).positions;
+    return positions.rowwise().maxCoeff() - positions.rowwise().minCoeff();
+}
+
+// How far the body is from an obstacle, or from the nearest other body by their boxes, m; infinite
+// from nothing.
+template <int Dim>
+double gap(const Scene& scene,
+           const Simulation<Dim>& simulation,
+           int body,
+           const Obstacle* obstacle) {
+    const Positions<Dim>& positions = simulation.mesh(body).positions;
+    double least = kFar;
+    if (obstacle != nullptr) {
+        const pent::Obstacle<Dim> shape = fixed_size<Dim>(obstacle->shape);
+        for (Eigen::Index vertex = 0; vertex < positions.cols(); ++vertex) {
+            least =
+                std::min(least, contact::signed_distance<Dim>(shape, positions.col(vertex)).value);
+        }
+        return std::max(least, 0.0);
+    }
+    using Box = Eigen::AlignedBox<double, Dim>;
+    const auto box = [&](int i) {
+        const Positions<Dim>& of = simulation.mesh(i).positions;
+        return Box(of.rowwise().minCoeff(), of.rowwise().maxCoeff());
+    };
+    for (int other = 0; other < static_cast<int>(scene.bodies.size()); ++other) {
+        least = other == body ? least : std::min(least, box(body).exteriorDistance(box(other)));
+    }
+    return least;
+}
+
+// Vertices of one of the 2 Dim sides of a body, as if it were a box.
+template <int Dim>
+double vertices_of_a_side(const SimplexMesh<Dim>& mesh) {
+    const FacetMatch<Dim> facets = match_facets<Dim>(mesh.cells, mesh.vertex_count());
+    std::vector<bool> is_on(static_cast<std::size_t>(mesh.vertex_count()), false);
+    for (const std::uint32_t vertex : facets.boundary.reshaped()) {
+        is_on[vertex] = true;
+    }
+    const auto count = static_cast<double>(std::count(is_on.begin(), is_on.end(), true));
+    return std::max(1.0, count / (2 * Dim));
+}
+
+double speed_of(const Eigen::VectorXd& velocity) {
+    return velocity.size() > 0 ? velocity.norm() : 0;
+}
+
+// Largest speed of a body against what it may meet: another body, or what does not move.
+double start_speed(const Scene& scene, std::size_t body, bool meets_obstacle) {
+    const Eigen::VectorXd& own = scene.bodies[body].velocity;
+    double most = speed_of(own);
+    for (std::size_t other = 0; !meets_obstacle && other < scene.bodies.size(); ++other) {
+        most = std::max(most, speed_of(own) + speed_of(scene.bodies[other].velocity));
+    }
+    return most;
+}
+
+}  // namespace
+
+template <int Dim>
+double thinnest_side(const Simulation<Dim>& simulation) {
+    double least = kFar;
+    for (int body = 0; body < simulation.body_count(); ++body) {
+        least = std::min(least, sides(simulation, body).minCoeff());
+    }
+    return least;
+}
+
+template <int Dim>
+std::vector<std::string> doubts_of_units(const Scene& scene, const Simulation<Dim>& simulation) {
+    constexpr double kMostOfABody = 0.1;
+    constexpr double kFewestSteps = 1e-4;
+    constexpr double kMostSteps = 1e4;
+    constexpr double kLeastMass = 1e-6;  // kg
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const Body& body = scene.bodies[i];
+        const int at = static_cast<int>(i);
+        const double thin = sides(simulation, at).minCoeff();
+        const auto doubt_distance = [&](double distance, const std::string& block) {
+            if (distance > kMostOfABody * thin) {
+                lines.push_back(formatted(
+                    "%s distance = %.3g m is more than a tenth of \"%s\", which is %.3g m thick: is"
+                    " the body as large as meant (place.scale)?",
+                    block.c_str(), distance, body.name.c_str(), thin));
+            }
+        };
+        if (scene.contact) {
+            doubt_distance(scene.contact->distance, "[contact]");
+        }
+        const bool has_barrier = scene.contact && scene.contact->model == ContactModel::Barrier;
+        for (std::size_t o = 0; !has_barrier && o < scene.obstacles.size(); ++o) {
+            doubt_distance(scene.obstacles[o].distance, "[[obstacle]] " + std::to_string(o + 1));
+        }
+        const Material& material = body.material;
+        const double wave =
+            std::sqrt(std::max(material.lame.lambda + 2 * material.lame.mu, material.lame.mu)
+                      / material.density);
+        const double steps = thin / wave / scene.dt();
+        if (scene.solver.integrator != Integrator::Quasistatic
+            && (steps < kFewestSteps || steps > kMostSteps)) {
+            lines.push_back(
+                formatted("a wave crosses \"%s\" (%.3g m, %.3g m/s) in %.2g steps: are its size,"
+                          " young (Pa) and density (kg/m^%d) as meant?",
+                          body.name.c_str(), thin, wave, steps, Dim));
+        }
+        const double mass = simulation.masses(at).sum();
+        if (mass < kLeastMass) {
+            lines.push_back(
+                formatted("\"%s\" weighs %.3g kg: are its size and density (kg/m^%d) as meant?",
+                          body.name.c_str(), mass, Dim));
+        }
+    }
+    return lines;
+}
+
+template <int Dim>
+std::vector<std::string> overlaps_at_start(const Scene& scene, const Simulation<Dim>& simulation) {
+    std::map<std::pair<std::string, std::string>, double> deepest;
+    const auto note = [&](const std::string& a, const std::string& b, double depth, double reach) {
+        if (depth > 0.1 * reach) {
+            double& most = deepest[{a, b}];
+            most = std::max(most, depth);
+        }
+    };
+    const auto name = [&](std::size_t body) { return "\"" + scene.bodies[body].name + "\""; };
+    for (const contact::Contact<Dim>& pair : simulation.contacts()) {
+        const std::size_t second = pair.second.index;
+        if (pair.second.is_obstacle()) {
+            note(name(pair.first.index), "[[obstacle]] " + std::to_string(second + 1),
+                 -pair.distance, scene.obstacles[second].distance);
+        } else {
+            note(name(std::min(pair.first.index, pair.second.index)),
+                 name(std::max(pair.first.index, pair.second.index)), -pair.distance,
+                 scene.contact->distance);
+        }
+    }
+    std::vector<std::string> lines;
+    for (const auto& [pair, depth] : deepest) {
+        lines.push_back(
+            formatted("%s and %s overlap at the start, by %.3g m: what holds them apart pushes from"
+                      " the first step on; move them apart",
+                      pair.first.c_str(), pair.second.c_str(), depth));
+    }
+    return lines;
+}
+
+template <int Dim>
+std::vector<std::string> soft_contacts(const Scene& scene, const Simulation<Dim>& simulation) {
+    std::vector<std::string> lines;
+    const bool has_barrier = scene.contact && scene.contact->model == ContactModel::Barrier;
+    const double g = scene.gravity.norm();
+    const double duration = scene.frames / scene.frames_per_second;
+    const auto judge = [&](std::size_t i, const Obstacle* obstacle, double stiffness,
+                           const std::string& block) {
+        const int body = static_cast<int>(i);
+        const double height = gap(scene, simulation, body, obstacle);
+        const double speed = start_speed(scene, i, obstacle != nullptr);
+        const double fall = std::min(height, 0.5 * g * duration * duration);
+        if (!(height <= speed * duration + 0.5 * g * duration * duration)) {
+            return;  // they do not meet
+        }
+        const double mass = simulation.masses(body).sum();
+        const double count = vertices_of_a_side(simulation.mesh(body));
+        const double arrival = std::sqrt(speed * speed + 2 * g * fall);
+        const double deepest = kDeep * sides(simulation, body).minCoeff();
+        const double by_weight = mass * g / (2 * count * deepest);
+        const double by_impact = mass * arrival * arrival / (2 * count * deepest * deepest);
+        const double needed = std::max(by_weight, by_impact);
+        if (stiffness < needed) {
+            lines.push_back(formatted(
+                "\"%s\" (%.3g kg, arriving at %.2g m/s) may go deeper than a tenth of its thickness"
+                " into what it meets: %s stiffness is %.3g N/m, about %.2g would do",
+                scene.bodies[i].name.c_str(), mass, arrival, block.c_str(), stiffness, needed));
+        }
+    };
+    for (std::size_t i = 0; !has_barrier && i < scene.bodies.size(); ++i) {
+        const bool is_held =
+            std::any_of(scene.constraints.begin(), scene.constraints.end(),
+                        [&](const Constraint& held) { return held.body == scene.bodies[i].name; });
+        if (is_held) {
+            continue;  // what holds it bears its weight
+        }
+        for (std::size_t o = 0; o < scene.obstacles.size(); ++o) {
+            judge(i, &scene.obstacles[o], scene.obstacles[o].stiffness,
+                  "[[obstacle]] " + std::to_string(o + 1));
+        }
+        if (scene.contact && scene.bodies.size() > 1) {
+            judge(i, nullptr, scene.contact->stiffness, "[contact]");
+        }
+    }
+    return lines;
+}
+
+std::string deep_penetration(const Scene& scene, const RunReport& report) {
+    double deepest = 0;
+    for (const StepReport& step : report.steps) {
+        deepest = std::max(deepest, step.contact.deepest);
+    }
+    const double part = deepest / report.thinnest;
+    if (!(part > kDeep)) {
+        return "";
+    }
+    // Under weight depth goes with 1/k, after an impact with its root: enough for both.
+    const double factor = part / kDeep * part / kDeep;
+    std::string which;
+    if (scene.contact) {
+        which = formatted("[contact] stiffness = %.2g", factor * scene.contact->stiffness);
+    }
+    for (std::size_t o = 0; o < scene.obstacles.size(); ++o) {
+        which += formatted("%s[[obstacle]] %d stiffness = %.2g", which.empty() ? "" : ", ",
+                           static_cast<int>(o + 1), factor * scene.obstacles[o].stiffness);
+    }
+    return formatted("penetration reached %.3g m, %.0f%% of the thinnest extent (%.3g m): ",
+                     deepest, 100 * part, report.thinnest)
+           + which + " at least would keep it below a tenth, or model = \"barrier\"";
+}
+
+std::string remedy(const std::string& failure, const std::vector<std::string>& doubts) {
+    if (!doubts.empty()) {
+        return "look at the units first: " + doubts.front();
+    }
+    if (failure.find("linear solver") != std::string::npos) {
+        return "try a larger solver.max_iterations, precision = \"double\", or more "
+               "steps_per_frame";
+    }
+    return "try more steps_per_frame, or stiffer or slower motion";
+}
+
+#define PENT_INSTANTIATE(Dim)                                                                     \
+    template double thinnest_side<Dim>(const Simulation<Dim>&);                                   \
+    template std::vector<std::string> doubts_of_units<Dim>(const Scene&, const Simulation<Dim>&); \
+    template std::vector<std::string> overlaps_at_start<Dim>(const Scene&,                        \
+                                                             const Simulation<Dim>&);             \
+    template std::vector<std::string> soft_contacts<Dim>(const Scene&, const Simulation<Dim>&);
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent::runs

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "simulator_names.h"
+
+#include <pent/runs/run.h>
+
+#include <string>
+#include <vector>
+
+namespace pent::runs {
+
+/// What makes a scene, or how it ran, look as if something else had been meant: a line each, for
+/// people.
+
+/// Penetration beyond this part of the thinnest extent of a body is said to be deep.
+inline constexpr double kDeep = 0.1;
+
+/// Shortest side of the boxes around all bodies as placed, m.
+template <int Dim>
+[[nodiscard]] double thinnest_side(const Simulation<Dim>& simulation);
+
+/// Units that do not fit one another: distances of contact or obstacles above a tenth of a body,
+/// waves that cross a body in 1e-4 of a step or in 1e4 steps, bodies of micrograms.
+template <int Dim>
+[[nodiscard]] std::vector<std::string> doubts_of_units(const Scene& scene,
+                                                       const Simulation<Dim>& simulation);
+
+/// Bodies that overlap, or begin inside an obstacle, by more than a tenth of the distance at which
+/// contact begins.
+///
+/// @param simulation  At its start.
+template <int Dim>
+[[nodiscard]] std::vector<std::string> overlaps_at_start(const Scene& scene,
+                                                         const Simulation<Dim>& simulation);
+
+/// Bodies that penalties are too soft for: by weight, or by the speed with which they arrive after
+/// the fall that gravity gives them, they would go deep. With the stiffness that would do;
+/// docs/contact.md has the formulas. Nothing for a barrier.
+template <int Dim>
+[[nodiscard]] std::vector<std::string> soft_contacts(const Scene& scene,
+                                                     const Simulation<Dim>& simulation);
+
+/// Of a run in which something went deep: how deep, and the stiffness that would do; else empty.
+[[nodiscard]] std::string deep_penetration(const Scene& scene, const RunReport& report);
+
+/// What to try after a step that failed for a reason.
+///
+/// @param doubts  Of units: what is wrong there shows first.
+[[nodiscard]] std::string remedy(const std::string& failure,
+                                 const std::vector<std::string>& doubts);
+
+}  // namespace pent::runs

@@ -1,0 +1,293 @@
+#include "explain/advice.h"
+#include "scene/scene_names.h"
+
+#include <pent/formatted.h>
+#include <pent/runs/explain.h>
+
+#include <algorithm>
+
+namespace pent::runs {
+
+namespace {
+
+// "1.2 ms", "3.4 s"; "-" for nothing.
+std::string time_text(double seconds) {
+    if (seconds <= 0) {
+        return "-";
+    }
+    return seconds < 1 ? formatted("%.3g ms", 1e3 * seconds) : formatted("%.3g s", seconds);
+}
+
+std::string bytes_text(std::int64_t bytes) {
+    return bytes == 0 ? "-" : formatted("%.3g MB", 1e-6 * static_cast<double>(bytes));
+}
+
+template <int Dim>
+class Explainer {
+public:
+    Explainer(const Scene& scene, int threads)
+        : trial_(scene, threads), scene_(scene), step_(trial_.step), size_(trial_.size) {}
+
+    Explanation operator()() {
+        result_.unknowns = Dim * size_.free_vertices;
+        result_.bytes = size_.bytes;
+        result_.seconds_per_step = step_.seconds;
+        result_.seconds = step_.seconds * scene_.frames * scene_.steps_per_frame;
+        inertia();
+        elasticity();
+        gravity();
+        damping();
+        constraints();
+        contact_between_bodies();
+        contact_within_bodies();
+        obstacles();
+        friction();
+        sleeping();
+        solver();
+        output();
+        result_.advice = advice(trial_);
+        return std::move(result_);
+    }
+
+private:
+    void add(Term term) { result_.terms.push_back(std::move(term)); }
+    void add_off(const std::string& name, const std::string& why) {
+        add({.name = name, .is_on = false, .why = why});
+    }
+    [[nodiscard]] std::int64_t cells_of(std::size_t body) const {
+        return trial_.simulation.mesh(static_cast<int>(body)).cell_count();
+    }
+    [[nodiscard]] bool has_barrier() const {
+        return scene_.contact && scene_.contact->model == ContactModel::Barrier;
+    }
+
+    void inertia() {
+        if (scene_.solver.integrator == Integrator::Quasistatic) {
+            add_off("inertia", "integrator quasistatic: every step is an equilibrium");
+            return;
+        }
+        const std::string word(word_of(kIntegrators, scene_.solver.integrator));
+        constexpr std::int64_t kScalars = Dim + 1;  // velocity and mass
+        add({.name = "inertia",
+             .is_on = true,
+             .why = "integrator " + word + formatted(", dt = %.4g s", scene_.dt()),
+             .unknowns = result_.unknowns,
+             .bytes = kScalars * static_cast<std::int64_t>(sizeof(double)) * size_.vertices});
+    }
+
+    void elasticity() {
+        std::int64_t all_cells = 0;  // of bodies that are solved for
+        for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+            all_cells += trial_.is_kinematic(i) ? 0 : cells_of(i);
+        }
+        for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+            const Body& body = scene_.bodies[i];
+            const std::string name = "elasticity of " + body.name;
+            if (trial_.is_kinematic(i)) {
+                add_off(name, "all of it is held: it moves as told, at no cost");
+                continue;
+            }
+            const YoungPoisson young = young_from_lame(Dim, body.material.lame);
+            const double share = static_cast<double>(cells_of(i)) / static_cast<double>(all_cells);
+            add({.name = name,
+                 .is_on = true,
+                 .why = std::string(word_of(kModels, body.material.model))
+                        + formatted(", young %.4g Pa, poisson %.3g, ", young.young, young.poisson)
+                        + std::to_string(cells_of(i)) + " cells, "
+                        + std::string(word_of(kElementKinds, scene_.solver.elements)) + ", filter "
+                        + std::string(word_of(kFilters, scene_.solver.filter)),
+                 .unknowns = Dim * trial_.free_vertices[i],
+                 .bytes =
+                     static_cast<std::int64_t>(share * static_cast<double>(size_.element_bytes)),
+                 .seconds = share * step_.assembly_seconds});
+        }
+    }
+
+    void gravity() {
+        const double g = scene_.gravity.norm();
+        add({.name = "gravity",
+             .is_on = g > 0,
+             .why = g > 0 ? formatted("%.4g m/s^2", g) : "[scene] has no gravity"});
+    }
+
+    // Newton's method keeps the tangent of a step as a matrix of its own, assembled once; a single linear
+    // solve has it in its matrix anyway.
+    void damping() {
+        const Damping damping = scene_.damping.value_or(Damping{});
+        if (damping.mass == 0 && damping.stiffness == 0) {
+            add_off("damping", scene_.damping ? "[damping] is all zero"
+                                              : "no [damping]; implicit steps damp by themselves");
+            return;
+        }
+        const double share = static_cast<double>(step_.damping_hessians)
+                             / static_cast<double>(std::max<std::int64_t>(step_.hessians, 1));
+        add({.name = "damping",
+             .is_on = true,
+             .why = formatted("mass %.3g / s, stiffness %.3g s; implicit steps damp too",
+                              damping.mass, damping.stiffness),
+             .bytes = step_.damping_hessians > 0 ? size_.matrix_blocks * Dim * Dim
+                                                       * static_cast<std::int64_t>(sizeof(double))
+                                                 : 0,
+             .seconds = share * step_.assembly_seconds});
+    }
+
+    void constraints() {
+        const std::int64_t held = size_.vertices - size_.free_vertices;
+        add({.name = "constraints",
+             .is_on = held > 0,
+             .why = held > 0 ? std::to_string(held) + " of " + std::to_string(size_.vertices)
+                                   + " vertices are held; they have no unknowns"
+                             : "no [[constraint]]"});
+    }
+
+    void contact_between_bodies() {
+        const std::string name = "contact between bodies";
+        if (!scene_.contact) {
+            add_off(name, "no [contact]: bodies pass through one another");
+        } else if (scene_.bodies.size() == 1) {
+            add_off(name, "there is one body");
+        } else {
+            add({.name = name,
+                 .is_on = true,
+                 .why = contact_text(step_.contact.point_facet + step_.contact.mixed
+                                     - step_.contact.self),
+                 .bytes = size_.contact_bytes,
+                 .seconds = step_.contact.seconds});
+        }
+    }
+
+    // Contact of all kinds is found and measured together: the first kind that is on has the cost.
+    void contact_within_bodies() {
+        const std::string name = "contact within bodies";
+        if (!scene_.contact) {
+            add_off(name, "no [contact]");
+        } else if (!scene_.contact->self) {
+            add_off(name, "contact.self = false");
+        } else {
+            const bool is_first = scene_.bodies.size() == 1;
+            add({.name = name,
+                 .is_on = true,
+                 .why = contact_text(step_.contact.self)
+                        + (is_first ? "" : "; memory and time are above"),
+                 .bytes = is_first ? size_.contact_bytes : 0,
+                 .seconds = is_first ? step_.contact.seconds : 0});
+        }
+    }
+
+    void obstacles() {
+        if (scene_.obstacles.empty()) {
+            add_off("obstacles", "no [[obstacle]]");
+            return;
+        }
+        const bool is_first =
+            !scene_.contact || (scene_.bodies.size() == 1 && !scene_.contact->self);
+        add({.name = "obstacles",
+             .is_on = true,
+             .why = std::to_string(scene_.obstacles.size()) + ", "
+                    + (has_barrier() ? "barrier" : "penalty") + "; "
+                    + std::to_string(step_.contact.obstacle) + " vertices touch after a step, of "
+                    + std::to_string(size_.free_vertices)
+                    + (is_first ? "" : "; memory and time are above"),
+             .bytes = is_first ? size_.contact_bytes : 0,
+             .seconds = is_first ? step_.contact.seconds : 0});
+    }
+
+    [[nodiscard]] std::string contact_text(std::int64_t pairs) const {
+        std::string text = std::string(word_of(kContactModels, scene_.contact->model))
+                           + formatted(" within %.3g m; ", scene_.contact->distance)
+                           + std::to_string(pairs) + " pairs touch after a step";
+        if (has_barrier()) {
+            text += ", " + time_text(step_.contact.ccd_seconds)
+                    + " of the time is that nothing crosses";
+        }
+        return text;
+    }
+
+    void friction() {
+        if (!scene_.contact || scene_.contact->friction == 0) {
+            add_off("friction",
+                    scene_.contact ? "contact.friction = 0" : "no [contact], which would have it");
+            return;
+        }
+        add({.name = "friction",
+             .is_on = true,
+             .why =
+                 formatted("coefficient %.3g, sticks below %.3g m/s; its time is that of contact",
+                           scene_.contact->friction, scene_.contact->slip_speed)});
+    }
+
+    void sleeping() {
+        if (!scene_.sleep) {
+            add_off("sleeping", "no [sleep]: bodies at rest are solved for like all others");
+            return;
+        }
+        add({.name = "sleeping",
+             .is_on = true,
+             .why = formatted("after %.3g s below %.3g of its size a second a body is solved for no"
+                              " more, until something moves it",
+                              scene_.sleep->time, scene_.sleep->speed)});
+    }
+
+    void solver() {
+        const SolverOptions& options = scene_.solver;
+        const std::string method =
+            options.linear == LinearSolverKind::Direct
+                ? "direct"
+                : std::string(word_of(kPreconditioners, options.preconditioner));
+        add({.name = "linear solver",
+             .is_on = size_.free_vertices > 0,
+             .why =
+                 method + ", " + std::string(word_of(kPrecisions, options.precision))
+                 + formatted(" matrix, to %.1g: %d iterations", options.tolerance, step_.iterations)
+                 + (step_.newton_iterations > 0
+                        ? formatted(", %d of Newton's method", step_.newton_iterations)
+                        : ""),
+             .unknowns = result_.unknowns,
+             .bytes = size_.matrix_bytes,
+             .seconds = step_.solve_seconds});
+    }
+
+    void output() {
+        const Output& output = scene_.output;
+        add({.name = "output of contact",
+             .is_on = output.contact_forces || output.contact_pairs,
+             .why = std::string(output.contact_forces ? "forces" : "no forces") + ", "
+                    + (output.contact_pairs ? "pairs" : "no pairs") + " in the run folder"});
+    }
+
+    Trial<Dim> trial_;
+    const Scene& scene_;
+    const StepReport& step_;
+    const SimulationSize& size_;
+    Explanation result_;
+};
+
+}  // namespace
+
+Explanation explain(const Scene& scene, int threads) {
+    check(scene);
+    return scene.dimension == 3 ? Explainer<3>(scene, threads)() : Explainer<4>(scene, threads)();
+}
+
+std::string explanation_text(const Explanation& explanation) {
+    std::string text = formatted("%-26s %-4s %10s %10s %10s  %s\n", "term", "", "unknowns",
+                                 "memory", "per step", "why");
+    for (const Term& term : explanation.terms) {
+        text +=
+            formatted("%-26s %-4s %10s %10s %10s  ", term.name.c_str(), term.is_on ? "on" : "off",
+                      term.is_on && term.unknowns > 0 ? std::to_string(term.unknowns).c_str() : "-",
+                      term.is_on ? bytes_text(term.bytes).c_str() : "-",
+                      term.is_on ? time_text(term.seconds).c_str() : "-")
+            + term.why + "\n";
+    }
+    text += "all: " + std::to_string(explanation.unknowns) + " unknowns, "
+            + bytes_text(explanation.bytes) + ", " + time_text(explanation.seconds_per_step)
+            + " a step (measured on one), about " + time_text(explanation.seconds)
+            + " for the scene";
+    for (const std::string& line : explanation.advice) {
+        text += "\nnote: " + line;
+    }
+    return text;
+}
+
+}  // namespace pent::runs

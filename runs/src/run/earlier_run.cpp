@@ -1,0 +1,73 @@
+#include "run/earlier_run.h"
+
+#include "record/run_report.h"
+#include "run/resume.h"
+#include "run/run_files.h"
+
+#include <pent/error.h>
+#include <pent/output_folder.h>
+#include <pent/pent_file.h>
+#include <pent/read_text.h>
+
+#include <optional>
+#include <utility>
+
+namespace pent::runs {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> names_of_bodies(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const Body& body : scene.bodies) {
+        names.push_back(body.name);
+    }
+    return names;
+}
+
+Journal read_earlier_parts(const Scene& scene, const fs::path& folder) {
+    if (!fs::exists(folder / kSceneFile)) {
+        throw Error(folder.string() + ": holds no run to resume (no scene.toml)");
+    }
+    check_same_scene(folder / kSceneFile, scene);
+    const std::vector<std::string> bodies = names_of_bodies(scene);
+    if (std::optional<Journal> journal = read_journal(folder / kJournalFile, bodies)) {
+        return *std::move(journal);
+    }
+    if (OutputFolder(folder, kRunFolder).has_list()) {
+        throw Error((folder / kJournalFile).string()
+                    + ": is missing; put it back, or use --force to start again");
+    }
+    const fs::path report = folder / kReportFile;
+    if (!fs::exists(report)) {
+        return {};
+    }
+    ReportHistory history =
+        parse_history(read_text(report, "the report of a run"), report.string(), bodies);
+    const std::size_t frames = history.frames.size();
+    return {.parts = {history.part},
+            .frames = std::move(history.frames),
+            .has_checkpoint = std::vector<bool>(frames),
+            .steps = std::move(history.steps)};
+}
+
+fs::path crossings_path(const fs::path& folder, const std::string& created_by) {
+    fs::path base = fs::absolute(folder).lexically_normal();
+    base = base.filename().empty() ? base.parent_path() : base;
+    for (int number = 1;; ++number) {
+        fs::path path = base;
+        path += "-crossings" + (number > 1 ? "-" + std::to_string(number) : "") + ".pent";
+        std::error_code ignored;
+        if (!fs::exists(fs::symlink_status(path, ignored))) {
+            return path;
+        }
+        try {
+            if (read_info(path).created_by == created_by) {
+                return path;
+            }
+        } catch (const Error&) {
+            continue;  // no .pent file at all
+        }
+    }
+}
+
+}  // namespace pent::runs

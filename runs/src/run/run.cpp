@@ -1,0 +1,369 @@
+#include "explain/doubts.h"
+#include "record/checkpoint_file.h"
+#include "record/journal.h"
+#include "record/run_report.h"
+#include "run/contact_table.h"
+#include "run/earlier_run.h"
+#include "run/resume.h"
+#include "run/resumption.h"
+#include "run/run_files.h"
+#include "scene/scene_meshes.h"
+
+#include <pent/error.h>
+#include <pent/obstacles_file.h>
+#include <pent/output_file.h>
+#include <pent/output_folder.h>
+#include <pent/pent_file.h>
+#include <pent/runs/run.h>
+#include <pent/runs/scene_file.h>
+#include <pent/simulator/crossing_error.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace pent::runs {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// Between two writings of report.json while a run goes on.
+constexpr double kReportSeconds = 10;
+
+// The scene as written in the run folder: mesh paths relative to that folder.
+Scene relocated(const Scene& scene, const fs::path& folder) {
+    Scene moved = scene;
+    for (Body& body : moved.bodies) {
+        body.mesh = fs::proximate(fs::absolute(body.mesh), fs::absolute(folder)).string();
+    }
+    return moved;
+}
+
+template <int Dim>
+class Run {
+public:
+    // @param before  Of the run that is to be resumed.
+    Run(const Scene& scene,
+        const RunOptions& options,
+        const RunCallbacks& callbacks,
+        Journal before)
+        : scene_(scene),
+          options_(options),
+          callbacks_(callbacks),
+          before_(std::move(before)),
+          folder_(options.folder, kRunFolder),
+          meshes_(read_meshes<Dim>(scene)),
+          simulation_(
+              scene, std::move(meshes_.meshes), {.threads = options.threads, .isa = options.isa}) {
+        report_.size = simulation_.size();
+        report_.thinnest = thinnest_side(simulation_);
+        report_.isa = simulation_.isa();
+        report_.warnings = std::move(meshes_.warnings);
+        for (const auto& lines : {simulation_.warnings(), doubts_of_units(scene, simulation_),
+                                  overlaps_at_start(scene, simulation_)}) {
+            report_.warnings.insert(report_.warnings.end(), lines.begin(), lines.end());
+        }
+        report_.bodies = names_of_bodies(scene);
+    }
+
+    RunReport operator()();
+
+private:
+    [[nodiscard]] fs::path path(const std::string& name) const { return options_.folder / name; }
+    [[nodiscard]] double seconds() const {
+        return std::chrono::duration<double>(Clock::now() - start_).count();
+    }
+    void start_folder();
+    void write_scene();
+    void begin_part(int frame);
+    void write_meshes();
+    [[nodiscard]] int resume_folder();
+    void tell_resume(const Resumption<Dim>& found) const;
+    void write_frame_files(int frame);
+    [[nodiscard]] Frame<Dim> frame_header(int body, int frame) const;
+    [[nodiscard]] FrameReport measure(int frame) const;
+    bool step_to_frame(int frame);
+    void write_report();
+
+    const Scene& scene_;
+    const RunOptions& options_;
+    const RunCallbacks& callbacks_;
+    Journal before_;  // until it is resumed
+    OutputFolder folder_;
+    SceneMeshes<Dim> meshes_;  // empty once the simulation has them
+    Simulation<Dim> simulation_;
+    std::vector<std::uint32_t> mesh_crcs_;
+    std::string lines_;  // of the journal, to be written with the next frame
+    RunReport report_;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point last_report_ = start_;
+};
+
+template <int Dim>
+void Run<Dim>::start_folder() {
+    folder_.refuse_foreign();
+    if (!folder_.has_list()) {
+        return;
+    }
+    if (!options_.force) {
+        throw Error(options_.folder.string()
+                    + ": holds a run; use another folder, --resume to go on with that run, or"
+                      " --force to replace it");
+    }
+    std::vector<fs::path> inputs;
+    if (!options_.scene_file.empty()) {
+        inputs.push_back(options_.scene_file);
+    }
+    for (const Body& body : scene_.bodies) {
+        inputs.emplace_back(body.mesh);
+    }
+    folder_.clear(inputs);
+}
+
+// The scene that is being run stays as its author wrote it, wherever it is.
+template <int Dim>
+void Run<Dim>::write_scene() {
+    const fs::path file = folder_.claim(kSceneFile);
+    std::error_code ignored;
+    if (!fs::equivalent(options_.scene_file, file, ignored)) {
+        write_text(file, scene_text(relocated(scene_, options_.folder)));
+    }
+    std::vector<pent::Obstacle<Dim>> obstacles;
+    for (const Obstacle& obstacle : scene_.obstacles) {
+        obstacles.push_back(fixed_size<Dim>(obstacle.shape));
+    }
+    if (!obstacles.empty()) {
+        write_obstacles(folder_.claim(kObstaclesFile), obstacles);
+    }
+}
+
+template <int Dim>
+void Run<Dim>::begin_part(int frame) {
+    report_.parts.push_back({.created_by = options_.created_by,
+                             .threads = options_.threads,
+                             .isa = report_.isa,
+                             .first_frame = frame,
+                             .last_frame = frame});
+    append_text(folder_.claim(kJournalFile), part_line(report_.parts.back()));
+}
+
+template <int Dim>
+void Run<Dim>::write_meshes() {
+    for (int body = 0; body < simulation_.body_count(); ++body) {
+        const std::string& name = report_.bodies[static_cast<std::size_t>(body)];
+        mesh_crcs_.push_back(write_mesh(folder_.claim(mesh_file(name)), simulation_.mesh(body),
+                                        {.created_by = options_.created_by}));
+    }
+}
+
+template <int Dim>
+void Run<Dim>::tell_resume(const Resumption<Dim>& found) const {
+    if (!callbacks_.on_resume || found.history.parts.empty()) {
+        return;
+    }
+    const RunPart& last = found.history.parts.back();
+    const std::string where = "frame " + std::to_string(found.frame);
+    callbacks_.on_resume(last.verdict == "died"
+                             ? "the run had died (it was killed or crashed) behind " + where
+                                   + "; it goes on from there"
+                             : "the run had " + last.verdict + "; it goes on from " + where);
+}
+
+// Puts the simulation at the last whole frame of the folder, and gives its number.
+template <int Dim>
+int Run<Dim>::resume_folder() {
+    Resumption<Dim> found = find_resumption<Dim>(
+        {.scene = scene_, .folder = options_.folder, .has_list = folder_.has_list()}, simulation_,
+        std::move(before_));
+    const int frame = found.frame;
+    simulation_.restore(found.snapshot);
+    mesh_crcs_ = std::move(found.mesh_crcs);
+    tell_resume(found);
+    if (!folder_.has_list()) {
+        for (const std::string& name : files_of_old_run(report_.bodies, frame)) {
+            if (fs::exists(path(name))) {
+                folder_.adopt(name);
+            }
+        }
+    }
+    folder_.remove_temporaries();
+    if (!found.carried.is_empty()) {  // that of an old run is in other files
+        write_checkpoint(folder_.claim(checkpoint_file(frame)), static_cast<std::uint64_t>(frame),
+                         step_of(scene_, frame), found.carried);
+        found.history.has_checkpoint.back() = true;
+    }
+    write_text(folder_.claim(kJournalFile), journal_text(found.history, report_.bodies));
+    report_.parts = std::move(found.history.parts);
+    report_.frames = std::move(found.history.frames);
+    report_.steps = std::move(found.history.steps);
+    return frame;
+}
+
+template <int Dim>
+FrameReport Run<Dim>::measure(int frame) const {
+    FrameReport report;
+    report.frame = frame;
+    report.step = simulation_.step_count();
+    report.time = simulation_.time();
+    for (int body = 0; body < simulation_.body_count(); ++body) {
+        report.non_rigid.push_back(non_rigid<Dim>(simulation_.mesh(body).positions,
+                                                  simulation_.positions(body),
+                                                  simulation_.masses(body)));
+    }
+    return report;
+}
+
+template <int Dim>
+Frame<Dim> Run<Dim>::frame_header(int body, int frame) const {
+    Frame<Dim> file;
+    file.mesh_name = report_.bodies[static_cast<std::size_t>(body)] + ".pent";
+    file.mesh_crc = mesh_crcs_[static_cast<std::size_t>(body)];
+    file.frame = static_cast<std::uint64_t>(frame);
+    file.step = simulation_.step_count();
+    file.time = simulation_.time();
+    return file;
+}
+
+// Two checkpoints are kept: should the last frame be damaged, the one before is there to resume
+// from.
+template <int Dim>
+void Run<Dim>::write_frame_files(int frame) {
+    const StateBlocks carried = carried_state(simulation_, report_.bodies);
+    report_.frames.push_back(measure(frame));
+    report_.parts.back().last_frame = frame;
+    lines_ += frame_line(report_.frames.back(), report_.bodies, !carried.is_empty(), seconds());
+    append_text(path(kJournalFile), std::exchange(lines_, ""));
+    if (!carried.is_empty()) {
+        write_checkpoint(folder_.claim(checkpoint_file(frame)), static_cast<std::uint64_t>(frame),
+                         simulation_.step_count(), carried);
+    }
+    for (int body = 0; body < simulation_.body_count(); ++body) {
+        Frame<Dim> file = frame_header(body, frame);
+        file.positions = simulation_.positions(body);
+        file.velocities = simulation_.velocities(body);
+        if (scene_.output.contact_forces) {
+            file.contact_forces = simulation_.contact_forces(body);
+        }
+        const std::string& name = report_.bodies[static_cast<std::size_t>(body)];
+        write_frame(folder_.claim(frame_file(name, frame)), file,
+                    {.created_by = options_.created_by});
+    }
+    if (scene_.output.contact_pairs) {
+        write_text(folder_.claim(contacts_file(frame)), contact_table(simulation_, report_.bodies));
+    }
+    folder_.remove(checkpoint_file(frame - 2));
+    if (callbacks_.on_frame) {
+        callbacks_.on_frame(report_.frames.back(),
+                            report_.steps.empty() ? StepReport{} : report_.steps.back());
+    }
+}
+
+// Takes the steps of one frame; false if the run ends within.
+template <int Dim>
+bool Run<Dim>::step_to_frame(int frame) {
+    while (simulation_.step_count() < step_of(scene_, frame)) {
+        if (callbacks_.should_stop && callbacks_.should_stop()) {
+            report_.verdict = RunVerdict::Stopped;
+            return false;
+        }
+        const StepReport step = simulation_.step();
+        if (!step.is_accepted) {
+            report_.verdict = RunVerdict::Diverged;
+            report_.message = "step " + std::to_string(simulation_.step_count() + 1) + ": "
+                              + step.failure + ", also in steps cut "
+                              + std::to_string(scene_.solver.max_halvings) + " times; "
+                              + remedy(step.failure, doubts_of_units(scene_, simulation_));
+            return false;
+        }
+        report_.steps.push_back(step);
+        lines_ += step_line(step);
+    }
+    return true;
+}
+
+template <int Dim>
+void Run<Dim>::write_report() {
+    last_report_ = Clock::now();
+    report_.parts.back().seconds = seconds();
+    report_.seconds = 0;
+    for (const RunPart& part : report_.parts) {
+        report_.seconds += part.seconds;
+    }
+    write_text(folder_.claim(kReportFile), report_text(report_));
+}
+
+template <int Dim>
+RunReport Run<Dim>::operator()() {
+    if (callbacks_.on_warning) {
+        std::for_each(report_.warnings.begin(), report_.warnings.end(), callbacks_.on_warning);
+    }
+    int frame = 0;
+    if (options_.resume) {
+        frame = resume_folder();
+        begin_part(frame);
+        write_scene();
+    } else {
+        start_folder();
+        begin_part(0);
+        write_scene();
+        write_meshes();
+        write_frame_files(0);
+    }
+    write_report();
+    while (frame < scene_.frames && step_to_frame(frame + 1)) {
+        write_frame_files(++frame);
+        if (std::chrono::duration<double>(Clock::now() - last_report_).count() > kReportSeconds) {
+            write_report();  // GCOVR_EXCL_LINE: of runs longer than a test may be
+        }
+    }
+    report_.parts.back().verdict = verdict_name(report_.verdict);
+    report_.penetration = deep_penetration(scene_, report_);
+    write_report();
+    append_text(path(kJournalFile), end_line(report_.parts.back()));
+    return std::move(report_);
+}
+
+// A scene that its barrier refuses leaves the cells that are in each other's way beside the folder.
+template <int Dim>
+RunReport run_in(const Scene& scene, const RunOptions& options, const RunCallbacks& callbacks) {
+    RunOptions chosen = options;
+    Journal before;
+    if (options.resume) {
+        before = read_earlier_parts(scene, options.folder);
+    }
+    if (options.isa.empty() && !before.parts.empty()) {
+        chosen.isa = before.parts.back().isa;  // frames agree to the bit on one only
+    }
+    try {
+        return Run<Dim>(scene, chosen, callbacks, std::move(before))();
+    } catch (const CrossingError<Dim>& error) {
+        const std::string created_by = options.created_by + ", cells that cross";
+        const std::string path = crossings_path(options.folder, created_by).string();
+        write_mesh<Dim>(path, error.offenders(), {.created_by = created_by});
+        throw Error(std::string(error.what()) + "; " + path + " has the cells");
+    }
+}
+
+}  // namespace
+
+RunReport run(const Scene& scene, const RunOptions& options, const RunCallbacks& callbacks) {
+    check(scene);
+    return scene.dimension == 3 ? run_in<3>(scene, options, callbacks)
+                                : run_in<4>(scene, options, callbacks);
+}
+
+std::string_view verdict_name(RunVerdict verdict) {
+    switch (verdict) {
+        case RunVerdict::Finished:
+            return "finished";
+        case RunVerdict::Stopped:
+            return "stopped";
+        case RunVerdict::Diverged:
+            break;
+    }
+    return "diverged";
+}
+
+}  // namespace pent::runs

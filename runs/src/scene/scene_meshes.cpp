@@ -1,0 +1,116 @@
+#include "scene/scene_meshes.h"
+
+#include <pent/error.h>
+#include <pent/facets.h>
+#include <pent/formatted.h>
+#include <pent/number_bounds.h>
+#include <pent/pent_file.h>
+#include <pent/simulator/placed_mesh.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace pent::runs {
+
+namespace {
+
+std::string at(const std::string& source) {
+    return source.empty() ? "" : source + ": ";
+}
+
+template <int Dim>
+SimplexMesh<Dim> read_body(const Body& body) {
+    try {
+        const FileInfo info = read_info(body.mesh);
+        if (info.dimension != Dim) {
+            throw Error(body.mesh + ": is of dimension " + std::to_string(info.dimension)
+                        + ", the scene of " + std::to_string(Dim) + "; expected another mesh, or"
+                        " [scene] dimension = " + std::to_string(info.dimension));
+        }
+        return read_mesh<Dim>(body.mesh).mesh;
+    } catch (const Error& error) {
+        throw Error(at(body.source) + error.what());
+    }
+}
+
+template <int Dim>
+void check_size(const SimplexMesh<Dim>& mesh, const Body& body) {
+    const double extent =
+        body.place.scale
+        * (mesh.positions.rowwise().maxCoeff() - mesh.positions.rowwise().minCoeff()).norm();
+    if (!is_size(extent)) {
+        throw Error(at(body.source) + "body \"" + body.name + "\" is placed "
+                    + formatted("%.3g m large; expected a size from %.0e to %.0e m", extent,
+                                kSmallestNumber, kLargestNumber));
+    }
+}
+
+// What is wrong with how cells meet; "" if nothing is.
+template <int Dim>
+std::string misfit(const SimplexMesh<Dim>& mesh) {
+    const FacetMatch<Dim> facets = match_facets<Dim>(mesh.cells, mesh.vertex_count());
+    if (facets.is_conforming()) {
+        return "";
+    }
+    const std::string what =
+        facets.overfull > 0
+            ? std::to_string(facets.overfull) + " of its facets have more than two cells"
+            : std::to_string(facets.one_sided) + " of its facets have both cells on one side";
+    return what + ", first at " + std::string(cell_name(Dim)) + " "
+           + std::to_string(facets.first_fault) + " (pent-check says more)";
+}
+
+// Throws where a vertex is held by two constraints.
+template <int Dim>
+void check_constraints(const Scene& scene, const std::vector<SimplexMesh<Dim>>& meshes) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const Body& body = scene.bodies[i];
+        const SimplexMesh<Dim> placed = place(meshes[i], body);
+        std::map<std::uint32_t, const Constraint*> held;
+        for (const Constraint& constraint : scene.constraints) {
+            if (constraint.body != body.name) {
+                continue;
+            }
+            for (const std::uint32_t vertex : select_vertices(placed, constraint)) {
+                const auto [other, is_new] = held.emplace(vertex, &constraint);
+                if (!is_new) {
+                    throw Error(at(constraint.source) + "vertex " + std::to_string(vertex)
+                                + " of body \"" + body.name + "\" is selected by two constraints"
+                                + (other->second->source.empty()
+                                       ? ""
+                                       : ", this one and that at " + other->second->source)
+                                + "; make their selections disjoint");
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+
+template <int Dim>
+SceneMeshes<Dim> read_meshes(const Scene& scene) {
+    SceneMeshes<Dim> result;
+    for (const Body& body : scene.bodies) {
+        SimplexMesh<Dim> mesh = read_body<Dim>(body);
+        check_size(mesh, body);
+        if (const std::string what = misfit(mesh); !what.empty()) {
+            const std::string line = body.mesh + ": its cells do not fit together: " + what;
+            if (scene.contact) {
+                throw Error(at(body.source) + line
+                            + "; contact needs a closed surface: mend the mesh or leave out"
+                              " [contact]");
+            }
+            result.warnings.push_back(line);
+        }
+        result.meshes.push_back(std::move(mesh));
+    }
+    check_constraints(scene, result.meshes);
+    return result;
+}
+
+template SceneMeshes<3> read_meshes<3>(const Scene&);
+template SceneMeshes<4> read_meshes<4>(const Scene&);
+
+}  // namespace pent::runs
