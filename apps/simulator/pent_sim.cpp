@@ -285,6 +285,16 @@ int main(int argc, char** argv) {
         ->excludes(force);
     options.add_option("--isa", arguments.isa,
                        "Instruction set: scalar, baseline, avx2 or avx512; default: the widest");
+    options
+        .add_flag_callback(
+            "--schema",
+            [] {
+                std::fputs(pent::runs::schema_text().c_str(), stdout);
+                throw CLI::Success();
+            },
+            "Print every key of scene files and end")
+        ->trigger_on_parse()
+        ->configurable(false);
     options.callback([&] {
         if (!arguments.explain && arguments.output.empty()) {
             throw CLI::RequiredError("--output");

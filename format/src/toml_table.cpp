@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace pent {
 
@@ -13,40 +12,6 @@ namespace {
 
 std::string at(const std::string& file, const toml::source_position& position) {
     return file + ":" + std::to_string(position.line) + ":" + std::to_string(position.column);
-}
-
-std::string readable(double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
-}
-
-std::string readable(const Range& range) {
-    const bool has_low = std::isfinite(range.low);
-    const bool has_high = std::isfinite(range.high);
-    std::string text = "a number";
-    if (has_low) {
-        text += (range.low_included ? " of at least " : " above ") + readable(range.low);
-    }
-    if (has_high) {
-        text += has_low ? " and" : "";
-        text += (range.high_included ? " at most " : " below ") + readable(range.high);
-    }
-    return text;
-}
-
-bool is_within(const Range& range, double value) {
-    const bool above = range.low_included ? value >= range.low : value > range.low;
-    const bool below = range.high_included ? value <= range.high : value < range.high;
-    return above && below && std::isfinite(value);
-}
-
-bool is_absurd(const Range& range, double value) {
-    return value != 0 && (std::abs(value) < range.smallest || std::abs(value) > range.largest);
-}
-
-std::string sane(const Range& range) {
-    return "0 or a size from " + readable(range.smallest) + " to " + readable(range.largest);
 }
 
 // A message may quote what it found, and that may be the end of a line.
@@ -136,8 +101,7 @@ void TableReader::fail_unknown(const std::string& key, const std::string& expect
     for (const auto& [present, node] : *table_) {
         where = present.str() == key ? at(file_, present.source().begin) : where;
     }
-    throw Error(where + ": unknown key " + in_quotes(key) + " in " + name_ + expected
-                + did_you_mean(key, known_));
+    throw Error(where + ": unknown key " + in_quotes(key) + " in " + name_ + expected);
 }
 
 void TableReader::fail_missing(std::string_view key, std::string_view type) const {
@@ -153,16 +117,15 @@ double TableReader::number(std::string_view key,
     const toml::node* node = find(key);
     if (node == nullptr) {
         if (!fallback) {
-            fail_missing(key, readable(range));
+            fail_missing(key, text_of(range));
         }
         return *fallback;
     }
     const std::optional<double> value = node->value<double>();
-    if (!node->is_number() || !value || !is_within(range, *value)) {
-        fail(key, in_quotes(key) + " is " + type_of(*node) + "; expected " + readable(range));
-    }
-    if (is_absurd(range, *value)) {
-        fail(key, in_quotes(key) + " is " + type_of(*node) + "; expected " + sane(range));
+    const std::string expected =
+        node->is_number() && value ? expected_in(range, *value) : text_of(range);
+    if (!expected.empty()) {
+        fail(key, in_quotes(key) + " is " + type_of(*node) + "; expected " + expected);
     }
     return *value;
 }
@@ -238,7 +201,7 @@ Eigen::VectorXd TableReader::vector(std::string_view key,
         }
         if (std::abs(*value) > kLargestNumber) {  // the small ones are roundings of 0
             fail(key, in_quotes(key) + " has the entry " + type_of(entry) + "; expected "
-                          + sane(kAnyNumber));
+                          + expected_in(kAnyNumber, *value));
         }
         vector[axis] = *value;
     }
@@ -314,7 +277,8 @@ std::string TableReader::one_of(const std::vector<std::string>& kinds) {
     }
     const std::vector<std::string> others = unknown();
     if (count == 0 && !others.empty()) {  // a kind that is misspelled or that there is not
-        fail_unknown(others.front(), "; expected one of " + list);
+        fail_unknown(others.front(),
+                     "; expected one of " + list + did_you_mean(others.front(), known_));
     }
     fail("", name_ + " has " + std::to_string(count) + " of " + list + "; expected one");
 }
@@ -329,9 +293,10 @@ void TableReader::refuse(std::string_view key, std::string_view reason) {
     }
 }
 
-void TableReader::finish() const {
+void TableReader::finish(const std::function<std::string(const std::string&)>& hint) const {
     for (const std::string& key : unknown()) {
-        fail_unknown(key, "");
+        const std::string text = hint ? hint(key) : "";
+        fail_unknown(key, text.empty() ? did_you_mean(key, known_) : "; " + text);
     }
 }
 

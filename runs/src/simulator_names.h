@@ -8,9 +8,7 @@
 namespace pent::runs {
 
 // What this library speaks of all the time.
-using simulator::BallSelection;
 using simulator::Body;
-using simulator::BoxSelection;
 using simulator::Constraint;
 using simulator::Contact;
 using simulator::ContactModel;
@@ -19,36 +17,26 @@ using simulator::CrossingError;
 using simulator::Damping;
 using simulator::ElementKind;
 using simulator::EverythingSelection;
-using simulator::Filter;
-using simulator::HalfSpaceObstacle;
-using simulator::HalfSpaceSelection;
 using simulator::Integrator;
 using simulator::lame_from_young;
-using simulator::LayerSelection;
 using simulator::LinearSolverKind;
 using simulator::Material;
-using simulator::Model;
 using simulator::Motion;
 using simulator::non_rigid;
 using simulator::Obstacle;
 using simulator::ObstacleShape;
 using simulator::Output;
-using simulator::Placement;
 using simulator::Plane;
-using simulator::Precision;
-using simulator::PreconditionerKind;
 using simulator::RegionSelection;
 using simulator::Scene;
 using simulator::Selection;
 using simulator::Simulation;
 using simulator::SimulationSize;
-using simulator::Sleep;
 using simulator::SleepState;
 using simulator::Snapshot;
 using simulator::SolverOptions;
 using simulator::Spin;
 using simulator::StepReport;
-using simulator::Turn;
 using simulator::YoungPoisson;
 
 }  // namespace pent::runs

@@ -1,6 +1,6 @@
 #include "resume_table.h"
 
-#include "scene/scene_names.h"
+#include <pent/simulator/scene_words.h>
 
 #include <array>
 #include <cstddef>
@@ -50,22 +50,21 @@ bool is_allowed(const ResumeRow& row) {
 }  // namespace
 
 std::string text_of(const ResumeRow& row) {
-    return std::string(word_of(kIntegrators, row.integrator)) + ", "
-           + (row.contact ? std::string(word_of(kContactModels, *row.contact)) : "no contact")
+    return std::string(word_of(row.integrator)) + ", "
+           + (row.contact ? std::string(word_of(*row.contact)) : "no contact")
            + (row.friction > 0 ? ", friction" : "") + (row.is_self ? ", self" : "")
-           + (row.has_sleep ? ", sleep" : "") + ", "
-           + std::string(word_of(kElementKinds, row.elements)) + ", "
-           + std::string(word_of(kModels, row.model)) + ", " + std::to_string(row.dimension) + "D";
+           + (row.has_sleep ? ", sleep" : "") + ", " + std::string(word_of(row.elements)) + ", "
+           + std::string(word_of(row.model)) + ", " + std::to_string(row.dimension) + "D";
 }
 
 std::vector<ResumeRow> every_row(int dimension) {
     std::vector<ResumeRow> rows;
     const std::array<std::optional<ContactModel>, 3> contacts = {
         std::nullopt, ContactModel::Penalty, ContactModel::Barrier};
-    for (const auto& integrator : kIntegrators) {
+    for (const auto& integrator : kWords<Integrator>) {
         for (const auto& contact : contacts) {
-            for (const auto& elements : kElementKinds) {
-                for (const auto& model : kModels) {
+            for (const auto& elements : kWords<ElementKind>) {
+                for (const auto& model : kWords<Model>) {
                     for (unsigned bits = 0; bits < 8; ++bits) {
                         const ResumeRow row{.integrator = integrator.value,
                                             .contact = contact,

@@ -2,12 +2,12 @@
 
 // For the readers of the other parts; not installed, so that hosts need no toml++.
 
-#include <pent/number_bounds.h>
+#include <pent/range.h>
 
 #include <Eigen/Core>
 
 #include <cstdint>
-#include <limits>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,21 +43,6 @@ struct BrokenToml {};
 #pragma pop_macro("NDEBUG")
 
 namespace pent {
-
-/// Which numbers a key takes; the text completes "expected a number ...".
-struct Range {
-    double low = -std::numeric_limits<double>::infinity();
-    bool low_included = true;
-    double high = std::numeric_limits<double>::infinity();
-    bool high_included = true;
-    double smallest = kSmallestNumber;  ///< Of the size, but for 0.
-    double largest = kLargestNumber;
-};
-
-inline constexpr Range kAnyNumber{};
-inline constexpr Range kPositive{.low = 0, .low_included = false};
-inline constexpr Range kNotNegative{.low = 0};
-inline constexpr Range kAngle{.low = -kMostDegrees, .high = kMostDegrees};
 
 /// One table of a TOML file, read strictly: every function knows a key, checks its value, and
 /// throws an Error with file:line:column; finish() refuses the keys that no function asked for.
@@ -105,7 +90,9 @@ public:
     void refuse(std::string_view key, std::string_view reason);
 
     /// Throws an Error for the first key that nobody asked for, with the nearest known one.
-    void finish() const;
+    ///
+    /// @param hint  What to say of such a key instead; empty for nothing.
+    void finish(const std::function<std::string(const std::string& key)>& hint = nullptr) const;
 
     /// Where the value of `key` stands, or the table if there is none: "scene.toml:4:8".
     [[nodiscard]] std::string place(std::string_view key) const;
@@ -118,7 +105,7 @@ public:
 private:
     const toml::node* find(std::string_view key);
     [[nodiscard]] std::vector<std::string> unknown() const;  // keys that nobody asked for
-    // @param expected  "" or begins with ";".
+    // @param expected  "" or begins with ";": what might have been meant.
     [[noreturn]] void fail_unknown(const std::string& key, const std::string& expected) const;
     [[noreturn]] void fail_missing(std::string_view key, std::string_view type) const;
 

@@ -1,8 +1,8 @@
 #include "explain/advice.h"
-#include "scene/scene_names.h"
 
 #include <pent/formatted.h>
 #include <pent/runs/explain.h>
+#include <pent/simulator/scene_words.h>
 
 #include <algorithm>
 
@@ -66,7 +66,7 @@ private:
             add_off("inertia", "integrator quasistatic: every step is an equilibrium");
             return;
         }
-        const std::string word(word_of(kIntegrators, scene_.solver.integrator));
+        const std::string word(simulator::word_of(scene_.solver.integrator));
         constexpr std::int64_t kScalars = Dim + 1;  // velocity and mass
         add({.name = "inertia",
              .is_on = true,
@@ -91,11 +91,11 @@ private:
             const double share = static_cast<double>(cells_of(i)) / static_cast<double>(all_cells);
             add({.name = name,
                  .is_on = true,
-                 .why = std::string(word_of(kModels, body.material.model))
+                 .why = std::string(simulator::word_of(body.material.model))
                         + formatted(", young %.4g Pa, poisson %.3g, ", young.young, young.poisson)
                         + std::to_string(cells_of(i)) + " cells, "
-                        + std::string(word_of(kElementKinds, scene_.solver.elements)) + ", filter "
-                        + std::string(word_of(kFilters, scene_.solver.filter)),
+                        + std::string(simulator::word_of(scene_.solver.elements)) + ", filter "
+                        + std::string(simulator::word_of(scene_.solver.filter)),
                  .unknowns = Dim * trial_.free_vertices[i],
                  .bytes =
                      static_cast<std::int64_t>(share * static_cast<double>(size_.element_bytes)),
@@ -193,7 +193,7 @@ private:
     }
 
     [[nodiscard]] std::string contact_text(std::int64_t pairs) const {
-        std::string text = std::string(word_of(kContactModels, scene_.contact->model))
+        std::string text = std::string(simulator::word_of(scene_.contact->model))
                            + formatted(" within %.3g m; ", scene_.contact->distance)
                            + std::to_string(pairs) + " pairs touch after a step";
         if (has_barrier()) {
@@ -230,14 +230,13 @@ private:
 
     void solver() {
         const SolverOptions& options = scene_.solver;
-        const std::string method =
-            options.linear == LinearSolverKind::Direct
-                ? "direct"
-                : std::string(word_of(kPreconditioners, options.preconditioner));
+        const std::string method = options.linear == LinearSolverKind::Direct
+                                       ? "direct"
+                                       : std::string(simulator::word_of(options.preconditioner));
         add({.name = "linear solver",
              .is_on = size_.free_vertices > 0,
              .why =
-                 method + ", " + std::string(word_of(kPrecisions, options.precision))
+                 method + ", " + std::string(simulator::word_of(options.precision))
                  + formatted(" matrix, to %.1g: %d iterations", options.tolerance, step_.iterations)
                  + (step_.newton_iterations > 0
                         ? formatted(", %d of Newton's method", step_.newton_iterations)

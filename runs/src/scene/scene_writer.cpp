@@ -1,12 +1,18 @@
-#include "scene/scene_names.h"
+#include "simulator_names.h"
 
 #include <pent/real_text.h>
 #include <pent/runs/scene_file.h>
+#include <pent/simulator/scene_schema.h>
+#include <pent/simulator/scene_words.h>
 
 #include <cassert>
 #include <cmath>
+#include <concepts>
+#include <optional>
 #include <string>
 #include <type_traits>
+#include <variant>
+#include <vector>
 
 namespace pent::runs {
 
@@ -51,10 +57,6 @@ std::string in_quotes(std::string_view value) {
     return text + "\"";
 }
 
-std::string line(std::string_view key, const std::string& value) {
-    return std::string(key) + " = " + value + "\n";
-}
-
 template <typename List, typename Write>
 std::string list(const List& entries, const Write& write) {
     std::string text = "[";
@@ -64,166 +66,164 @@ std::string list(const List& entries, const Write& write) {
     return text + "]";
 }
 
-std::string placement(const Placement& place) {
-    const std::string turns = list(place.rotate, [](const Turn& turn) {
-        return "{ plane = " + in_quotes(plane_name(turn.plane))
-               + ", degrees = " + number(turn.degrees) + " }";
-    });
-    return "{ scale = " + number(place.scale) + ", rotate = " + turns
-           + ", translate = " + vector(place.translate) + " }";
+template <typename Part>
+std::string record(const Part& part);
+
+// Texts of values, but for those that are lists or tables.
+std::string value_text(double value) {
+    return number(value);
+}
+std::string value_text(bool value) {
+    return value ? "true" : "false";
+}
+std::string value_text(const std::string& value) {
+    return in_quotes(value);
+}
+std::string value_text(const Eigen::VectorXd& value) {
+    return vector(value);
+}
+std::string value_text(const std::optional<Eigen::VectorXd>& value) {
+    return vector(*value);
+}
+std::string value_text(const Plane& plane) {
+    return in_quotes(plane_name(plane));
 }
 
-std::string material(const Material& material) {
-    return "{ model = " + in_quotes(word_of(kModels, material.model))
-           + ", mu = " + number(material.lame.mu) + ", lambda = " + number(material.lame.lambda)
-           + ", density = " + number(material.density) + " }";
+template <std::integral Value>
+std::string value_text(Value value) {
+    return std::to_string(value);
+}
+template <typename Value>
+requires std::is_enum_v<Value> std::string value_text(Value value) {
+    return in_quotes(simulator::word_of(value));
+}
+template <typename Part>
+requires std::is_class_v<Part> std::string value_text(const Part& part) {
+    return record(part);
+}
+template <typename Part>
+std::string value_text(const std::vector<Part>& parts) {
+    return list(parts, [](const Part& part) { return value_text(part); });
 }
 
-struct SelectionWriter {
-    std::string operator()(const BallSelection& ball) const {
-        return "{ ball = { center = " + vector(ball.center) + ", radius = " + number(ball.radius)
-               + " } }";
+std::string value_text(const Selection& selection) {
+    return std::visit(
+        [&](const auto& kind) {
+            const std::string table = record(kind);
+            const bool is_inline = std::holds_alternative<RegionSelection>(selection);
+            const std::string_view name = simulator::kSelectionNames[selection.index()];
+            return is_inline ? table : "{ " + std::string(name) + " = " + table + " }";
+        },
+        selection);
+}
+
+std::string value_text(const std::vector<Selection>& select) {
+    for (const Selection& selection : select) {
+        if (std::holds_alternative<EverythingSelection>(selection)) {
+            return in_quotes(
+                simulator::kSelectionNames[selection.index()]);  // whatever else there is
+        }
     }
-    std::string operator()(const BoxSelection& box) const {
-        return "{ box = { low = " + vector(box.low) + ", high = " + vector(box.high) + " } }";
+    return list(select, [](const Selection& selection) { return value_text(selection); });
+}
+
+std::string value_text(const std::vector<Motion>& motion) {
+    return motion.empty() ? in_quotes(simulator::kFixed)
+                          : list(motion, [](const Motion& one) { return record(one); });
+}
+
+bool is_absent(double value) {
+    return !std::isfinite(value);
+}
+bool is_absent(const std::string& value) {
+    return value.empty();
+}
+bool is_absent(const Eigen::VectorXd& value) {
+    return value.size() == 0;
+}
+bool is_absent(const std::optional<Eigen::VectorXd>& value) {
+    return !value;
+}
+template <typename Value>
+bool is_absent(const Value& /*value*/) {
+    return false;
+}
+
+// A visitor of the schema: appends key and value, of a block a line each, else with commas between.
+struct PartWriter {
+    using Field = simulator::Field;
+
+    std::string& text;
+    int dimension = 0;  // of a block; 0 within a line
+
+    template <typename Value>
+    void operator()(const Field& field, const Value& value) const {
+        if (!(field.may_lack && is_absent(value))) {
+            put(field.key, value_text(value));
+        }
     }
-    std::string operator()(const HalfSpaceSelection& half_space) const {
-        return "{ half_space = { normal = " + vector(half_space.normal)
-               + ", offset = " + number(half_space.offset) + " } }";
+    void operator()(const Field& /*field*/, const simulator::Lame& lame) const {
+        put(simulator::kMu.key, number(lame.mu));
+        put(simulator::kLambda.key, number(lame.lambda));
     }
-    std::string operator()(const LayerSelection& layers) const {
-        return "{ layers = { first = " + std::to_string(layers.first)
-               + ", last = " + std::to_string(layers.last) + " } }";
+    void operator()(const Field& field, const Material& material) const {
+        const YoungPoisson young = young_from_lame(dimension, material.lame);
+        text += "# young = " + number(young.young) + ", poisson = " + number(young.poisson) + "\n";
+        put(field.key, record(material));
     }
-    std::string operator()(const RegionSelection& region) const {
-        return "{ region = " + std::to_string(region.region) + " }";
+    void operator()(const Field& /*field*/, const ObstacleShape& shape) const {
+        std::visit([&](const auto& one) { put(one.kName, record(one)); }, shape);
     }
-    std::string operator()(const EverythingSelection& /*everything*/) const {
-        return in_quotes("everything");
+
+private:
+    void put(std::string_view key, const std::string& value) const {
+        text += (dimension == 0 && !text.empty() ? ", " : "") + std::string(key) + " = " + value
+                + (dimension == 0 ? "" : "\n");
     }
 };
 
-std::string selections(const std::vector<Selection>& select) {
-    for (const Selection& selection : select) {
-        if (std::holds_alternative<EverythingSelection>(selection)) {
-            return SelectionWriter{}(EverythingSelection{});  // whatever else there is
+template <typename Part>
+std::string record(const Part& part) {
+    std::string text;
+    simulator::fields(part, PartWriter{text});
+    return "{ " + text + " }";
+}
+
+template <typename Part>
+std::string block(const std::string& head, const Part& part, int dimension) {
+    std::string text = head + "\n";
+    simulator::fields(part, PartWriter{text, dimension});
+    return text;
+}
+
+struct BlockWriter {
+    std::string& text;
+    int dimension;
+
+    template <typename Part>
+    void operator()(const std::string& name, const std::vector<Part>& parts) const {
+        for (const Part& part : parts) {
+            text += "\n" + block("[[" + name + "]]", part, dimension);
         }
     }
-    return list(select, [](const Selection& selection) {
-        return std::visit(SelectionWriter{}, selection);
-    });
-}
-
-std::string spins(const std::vector<Spin>& rotate) {
-    return list(rotate, [](const Spin& spin) {
-        return "{ plane = " + in_quotes(plane_name(spin.plane))
-               + ", degrees_per_s = " + number(spin.degrees_per_s) + " }";
-    });
-}
-
-std::string motion(const Motion& motion) {
-    return "{ translate = " + vector(motion.translate) + ", rotate = " + spins(motion.rotate)
-           + (motion.about ? ", about = " + vector(*motion.about) : "")
-           + ", from = " + number(motion.from)
-           + (std::isfinite(motion.to) ? ", to = " + number(motion.to) : "") + " }";
-}
-
-std::string body_text(const Body& body, int dimension) {
-    const YoungPoisson young = young_from_lame(dimension, body.material.lame);
-    return "\n[[body]]\n" + line("name", in_quotes(body.name)) + line("mesh", in_quotes(body.mesh))
-           + (body.recipe.empty() ? "" : line("recipe", in_quotes(body.recipe)))
-           + line("place", placement(body.place)) + "# young = " + number(young.young)
-           + ", poisson = " + number(young.poisson) + "\n"
-           + line("material", material(body.material))
-           + (body.velocity.size() > 0 ? line("velocity", vector(body.velocity)) : "")
-           + line("spin", spins(body.spin));
-}
-
-std::string shape_text(const ObstacleShape& shape) {
-    return std::visit(
-        [](const auto& one) {
-            std::string fields;
-            one.fields(one, [&](const char* name, const auto& value, ShapeField) {
-                fields += (fields.empty() ? "" : ", ") + std::string(name) + " = ";
-                if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>) {
-                    fields += number(value);
-                } else {
-                    fields += vector(value);
-                }
-            });
-            return line(one.kName, "{ " + fields + " }");
-        },
-        shape);
-}
-
-std::string obstacle_text(const Obstacle& obstacle) {
-    return "\n[[obstacle]]\n" + shape_text(obstacle.shape)
-           + line("distance", number(obstacle.distance))
-           + line("stiffness", number(obstacle.stiffness));
-}
-
-std::string contact_text(const Contact& contact) {
-    return "\n[contact]\n" + line("model", in_quotes(word_of(kContactModels, contact.model)))
-           + line("distance", number(contact.distance))
-           + line("stiffness", number(contact.stiffness))
-           + line("self", contact.self ? "true" : "false")
-           + line("filter", in_quotes(word_of(kFilters, contact.filter)))
-           + line("separation", number(contact.separation))
-           + line("friction", number(contact.friction))
-           + line("slip_speed", number(contact.slip_speed));
-}
-
-std::string output_text(const Output& output) {
-    return "\n[output]\n" + line("contact_forces", output.contact_forces ? "true" : "false")
-           + line("contact_pairs", output.contact_pairs ? "true" : "false");
-}
-
-std::string solver_text(const SolverOptions& solver) {
-    return "\n[solver]\n" + line("integrator", in_quotes(word_of(kIntegrators, solver.integrator)))
-           + line("elements", in_quotes(word_of(kElementKinds, solver.elements)))
-           + line("filter", in_quotes(word_of(kFilters, solver.filter)))
-           + line("linear", in_quotes(word_of(kLinearSolvers, solver.linear)))
-           + line("preconditioner", in_quotes(word_of(kPreconditioners, solver.preconditioner)))
-           + line("precision", in_quotes(word_of(kPrecisions, solver.precision)))
-           + line("tolerance", number(solver.tolerance))
-           + line("newton_tolerance", number(solver.newton_tolerance))
-           + line("max_iterations", std::to_string(solver.max_iterations))
-           + line("max_halvings", std::to_string(solver.max_halvings));
-}
+    template <typename Part>
+    void operator()(const std::string& name, const std::optional<Part>& part) const {
+        if (part) {
+            (*this)(name, *part);
+        }
+    }
+    template <typename Part>
+    void operator()(const std::string& name, const Part& part) const {
+        text += "\n" + block("[" + name + "]", part, dimension);
+    }
+};
 
 }  // namespace
 
 std::string scene_text(const Scene& scene) {
-    std::string text = "[scene]\n";
-    text += line("dimension", std::to_string(scene.dimension));
-    text += line("gravity", vector(scene.gravity));
-    text += line("frames", std::to_string(scene.frames));
-    text += line("frames_per_second", number(scene.frames_per_second));
-    text += line("steps_per_frame", std::to_string(scene.steps_per_frame));
-    for (const Body& body : scene.bodies) {
-        text += body_text(body, scene.dimension);
-    }
-    for (const Constraint& constraint : scene.constraints) {
-        text += "\n[[constraint]]\n" + line("body", in_quotes(constraint.body))
-                + line("select", selections(constraint.select))
-                + line("motion", constraint.motion.empty() ? in_quotes("fixed")
-                                                           : list(constraint.motion, motion));
-    }
-    for (const Obstacle& obstacle : scene.obstacles) {
-        text += obstacle_text(obstacle);
-    }
-    if (scene.contact) {
-        text += contact_text(*scene.contact);
-    }
-    if (scene.damping) {
-        text += "\n[damping]\n" + line("mass", number(scene.damping->mass))
-                + line("stiffness", number(scene.damping->stiffness));
-    }
-    if (scene.sleep) {
-        text += "\n[sleep]\n" + line("speed", number(scene.sleep->speed))
-                + line("time", number(scene.sleep->time));
-    }
-    return text + solver_text(scene.solver) + output_text(scene.output);
+    std::string text = block("[scene]", scene, scene.dimension);
+    blocks(scene, BlockWriter{text, scene.dimension});
+    return text;
 }
 
 }  // namespace pent::runs

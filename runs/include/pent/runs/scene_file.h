@@ -30,4 +30,7 @@ namespace pent::runs {
 /// Numbers are written so that they are read back to the last bit.
 [[nodiscard]] std::string scene_text(const simulator::Scene& scene);
 
+/// Every key of scene files, as the tables in Markdown that docs/simulator.md has.
+[[nodiscard]] std::string schema_text();
+
 }  // namespace pent::runs

@@ -2,10 +2,29 @@
 
 #include <pent/simulator/scene.h>
 
+#include <optional>
+#include <string>
+#include <string_view>
+
 namespace pent::simulator {
 
 /// Parts of check(Scene) that several blocks of a scene decide together, so that a reader of scene
 /// files can say where. Each throws an Error.
+
+/// What is wrong with the keys of one part taken together.
+struct Fault {
+    std::string_view key;  ///< Where to say it.
+    std::string message;
+};
+
+template <typename Part>
+[[nodiscard]] std::optional<Fault> fault_of(const Part& /*part*/) {
+    return std::nullopt;
+}
+template <>
+[[nodiscard]] std::optional<Fault> fault_of(const BoxSelection& box);
+template <>
+[[nodiscard]] std::optional<Fault> fault_of(const LayerSelection& layers);
 
 /// A barrier needs an integrator that iterates.
 void check_model(ContactModel model, Integrator integrator);

@@ -1,0 +1,206 @@
+#include "scene/schema_table.h"
+
+#include "scene/presets.h"
+
+#include <pent/runs/scene_file.h>
+#include <pent/simulator/scene_schema.h>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <optional>
+#include <type_traits>
+#include <variant>
+
+namespace pent::runs {
+
+namespace {
+
+using simulator::Field;
+
+std::string in_code(std::string_view text) {
+    return "`" + std::string(text) + "`";
+}
+
+std::string comma(const std::string& before, const std::string& after) {
+    return before + (before.empty() || after.empty() ? "" : ", ") + after;
+}
+
+std::string range_text(const Range& range) {
+    const bool has_low = std::isfinite(range.low);
+    if (!has_low || std::abs(range.low) >= kMostDegrees) {
+        return "";
+    }
+    if (std::isfinite(range.high)) {
+        return "in (" + readable(range.low) + ", " + readable(range.high) + ")";
+    }
+    return (range.low_included ? ">= " : "> ") + readable(range.low);
+}
+
+std::string whole_text(const Range& range) {
+    const auto low = static_cast<std::int64_t>(range.low);
+    const auto high = static_cast<std::int64_t>(range.high);
+    return std::to_string(low) + (high - low == 1 ? ", " : "..") + std::to_string(high);
+}
+
+std::string number_text(const Field& field) {
+    return comma(comma("number", std::string(field.unit)), range_text(field.range));
+}
+
+// "{ center, radius }"
+template <typename Part>
+std::string keys_of(const Part& part) {
+    std::string keys;
+    simulator::fields(
+        part, [&](const Field& field, const auto&) { keys = comma(keys, std::string(field.key)); });
+    return "{ " + keys + " }";
+}
+
+// A visitor of the schema that collects rows, of a part with every default.
+struct RowCollector {
+    std::vector<SchemaRow>& rows;
+    std::string block;
+    std::string prefix = {};
+
+    void operator()(const Field& field, double value) const {
+        const double standard = field.fallback.value_or(value);
+        add(field, number_text(field), std::isfinite(standard) ? readable(standard) : "none");
+    }
+    void operator()(const Field& field, bool value) const {
+        add(field, "true or false", value ? "true" : "false");
+    }
+    void operator()(const Field& field, const std::string& /*text*/) const {
+        add(field, "text", "none");
+    }
+    void operator()(const Field& field, const Eigen::VectorXd& /*value*/) const {
+        add(field, comma("vector", std::string(field.unit)), "zero");
+    }
+    void operator()(const Field& field, const std::optional<Eigen::VectorXd>& /*value*/) const {
+        add(field, comma("vector", std::string(field.unit)), "none");
+    }
+    void operator()(const Field& field, const std::vector<Selection>& /*select*/) const {
+        add(field, "a selection, or a list of them", "none");
+    }
+    void operator()(const Field& field, const std::vector<Motion>& /*motion*/) const {
+        add(field, "a table, or a list of them",
+            in_code("\"" + std::string(simulator::kFixed) + "\""));
+        (*this)(field, Motion());
+    }
+    void operator()(const Field& /*field*/, const simulator::Lame& /*lame*/) const {
+        for (const Field& one : simulator::kLamePairs) {
+            add(one, number_text(one), one.fallback ? readable(*one.fallback) : "");
+        }
+    }
+    void operator()(const Field& field, const ObstacleShape& /*shape*/) const {
+        for (const ObstacleShape& shape : all_shapes(3)) {
+            std::visit(
+                [&](const auto& one) {
+                    const std::string key = std::string(one.kName) + " = " + keys_of(one);
+                    add(simulator::key(key).default_is("one of the shapes"),
+                        comma("table", std::string(field.unit)), "");
+                },
+                shape);
+        }
+    }
+    template <std::integral Value>
+    void operator()(const Field& field, Value value) const {
+        add(field, comma("integer", whole_text(field.range)), std::to_string(value));
+    }
+    template <typename Value>
+    requires std::is_enum_v<Value>
+    void operator()(const Field& field, Value value) const {
+        std::string words;
+        for (const std::string_view word : simulator::words<Value>()) {
+            words = comma(words, in_code("\"" + std::string(word) + "\""));
+        }
+        add(field, words, in_code("\"" + std::string(simulator::word_of(value)) + "\""));
+    }
+    template <typename Part>
+    void operator()(const Field& field, const std::vector<Part>& /*parts*/) const {
+        add(field, "list of " + in_code(keys_of(Part())), "none");
+    }
+    template <typename Part>
+    requires std::is_class_v<Part>
+    void operator()(const Field& field, const Part& part) const {
+        simulator::fields(part, RowCollector{rows, block, prefix + std::string(field.key) + "."});
+    }
+
+private:
+    void add(const Field& field, const std::string& values, const std::string& standard) const {
+        std::string said(field.default_says);
+        said = field.is_required ? "required" : said.empty() ? standard : said;
+        rows.push_back({.block = block,
+                        .key = prefix + std::string(field.key),
+                        .values = values,
+                        .standard = said,
+                        .says = std::string(field.says)});
+    }
+};
+
+struct BlockCollector {
+    std::vector<SchemaRow>& rows;
+
+    template <typename Part>
+    void operator()(std::string_view name, const std::vector<Part>& /*parts*/) const {
+        const Part part;
+        simulator::fields(part, RowCollector{rows, "[[" + std::string(name) + "]]"});
+    }
+    template <typename Part>
+    void operator()(std::string_view name, const std::optional<Part>& /*part*/) const {
+        (*this)(name, Part());
+    }
+    template <typename Part>
+    void operator()(std::string_view name, const Part& part) const {
+        const RowCollector collector{rows, "[" + std::string(name) + "]"};
+        if constexpr (std::is_same_v<Part, SolverOptions>) {
+            collector(kPreset, Preset::Balanced);
+        }
+        simulator::fields(part, collector);
+    }
+};
+
+// "", "place" of [[body]] or [contact]: the table that has a key.
+std::string owner_of(const SchemaRow& row, const std::string& key) {
+    const std::string path = row.key.substr(0, row.key.find(' '));
+    const auto dot = path.rfind('.');
+    if (path.substr(dot == std::string::npos ? 0 : dot + 1) != key) {
+        return "";
+    }
+    return (dot == std::string::npos ? "" : "\"" + path.substr(0, dot) + "\" of ") + row.block;
+}
+
+}  // namespace
+
+std::vector<SchemaRow> schema_rows() {
+    std::vector<SchemaRow> rows;
+    const Scene scene;
+    simulator::fields(scene, RowCollector{rows, "[scene]"});
+    simulator::blocks(scene, BlockCollector{rows});
+    return rows;
+}
+
+std::string owners_text(const std::string& key) {
+    std::string owners;
+    for (const SchemaRow& row : schema_rows()) {
+        const std::string owner = owner_of(row, key);
+        owners += (owners.empty() || owner.empty() ? "" : " or ") + owner;
+    }
+    return owners.empty() ? "" : "\"" + key + "\" belongs to " + owners;
+}
+
+std::string schema_text() {
+    std::string text;
+    std::string block;
+    for (const SchemaRow& row : schema_rows()) {
+        if (row.block != block) {
+            text += (block.empty() ? "**" : "\n**") + row.block
+                    + "**\n\n| key | value | default | |\n| --- | --- | --- | --- |\n";
+            block = row.block;
+        }
+        text += "| " + in_code(row.key) + " | " + row.values + " | " + row.standard + " | "
+                + row.says + " |\n";
+    }
+    return text;
+}
+
+}  // namespace pent::runs

@@ -1,0 +1,81 @@
+#include <pent/error.h>
+#include <pent/read_text.h>
+#include <pent/runs/scene_file.h>
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <sstream>
+
+// What follows from a schema that has every key once.
+
+namespace pent::runs {
+namespace {
+
+using Tables = std::map<std::string, std::string>;
+
+// The first table behind each line that begins with **[block]** or **[[block]]**.
+Tables tables_of(const std::string& text) {
+    Tables tables;
+    std::istringstream lines(text);
+    std::string line;
+    std::string block;
+    bool is_within = false;
+    while (std::getline(lines, line)) {
+        if (line.rfind("**[", 0) == 0) {
+            block = line.substr(2, line.find("**", 2) - 2);
+        }
+        const bool is_row = !line.empty() && line[0] == '|';
+        if (is_row && !block.empty()) {
+            tables[block] += line + "\n";
+        } else if (is_within) {
+            block.clear();
+        }
+        is_within = is_row;
+    }
+    return tables;
+}
+
+TEST(SchemaText, IsWhatTheDocsHave) {
+    const Tables docs = tables_of(read_text(PENT_DOCS "/simulator.md", "the docs"));
+    const Tables schema = tables_of(schema_text());
+    EXPECT_EQ(schema.size(), 9U);
+    for (const auto& [block, table] : schema) {
+        const auto found = docs.find(block);
+        ASSERT_NE(found, docs.end()) << block;
+        EXPECT_EQ(found->second, table) << block << ": put in what pent-sim --schema prints";
+    }
+}
+
+std::string error_of(const std::string& block) {
+    try {
+        static_cast<void>(
+            parse_scene("[[body]]\nname = \"a\"\nmesh = \"a.pent\"\n" + block, "s.toml", ""));
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(ParseSceneErrors, NameTheBlockThatAKeyBelongsTo) {
+    EXPECT_EQ(error_of("[solver]\nfriction = 1\n"),
+              "s.toml:5:1: unknown key \"friction\" in \"solver\"; \"friction\" belongs to"
+              " [contact]");
+    EXPECT_EQ(error_of("young = 1\n"),
+              "s.toml:4:1: unknown key \"young\" in \"body\"; \"young\" belongs to \"material\" of"
+              " [[body]]");
+    EXPECT_EQ(error_of("[output]\nstiffness = 1\n"),
+              "s.toml:5:1: unknown key \"stiffness\" in \"output\"; \"stiffness\" belongs to"
+              " [[obstacle]] or [contact] or [damping]");
+}
+
+// Members of the schema that no key has.
+TEST(ParseSceneErrors, RefuseWhatIsNoKeyInAFile) {
+    EXPECT_NE(error_of("material = { lame = 1 }\n").find("unknown key \"lame\""),
+              std::string::npos);
+    EXPECT_NE(error_of("[[obstacle]]\nshape = 1\n").find("unknown key \"shape\""),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace pent::runs
