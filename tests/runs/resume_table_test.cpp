@@ -43,7 +43,9 @@ BarrierScene<Dim> busy_scene(const ResumeRow& row) {
     }
     fork = test::without<Dim>(fork, {-0.03, 0}, {0.03, 1});
     made.add(fork, vector<Dim>(0, 0));
-    made.hold(vector<Dim>(-0.2, 0.1, -9), vector<Dim>(-0.02, 9, 9), vector<Dim>(1.1, 0));
+    // Where there is inertia the other prong is left behind less: the bend has to be quicker.
+    const double bend = row.integrator == Integrator::Quasistatic ? 0.6 : 1.1;
+    made.hold(vector<Dim>(-0.2, 0.1, -9), vector<Dim>(-0.02, 9, 9), vector<Dim>(bend, 0));
     made.add(box<Dim>(1, 1, 1, small), vector<Dim>(0.12, 0.22)).velocity = vector<Dim>(-0.4, -0.5);
     made.hold(vector<Dim>(-9, 0.26, -9), all, vector<Dim>(-0.4, -0.5));
     made.add(box<Dim>(1, 1, 1, small), vector<Dim>(1, 0.5));
