@@ -1,7 +1,8 @@
 #include "ceilings.h"
 
 #include "ceilings_isa.h"
-#include "stopwatch.h"
+
+#include <pent/stopwatch.h>
 
 #include <algorithm>
 #include <vector>

@@ -4,7 +4,8 @@
 #include "linear/preconditioner.h"
 #include "shaken_beam.h"
 #include "step_work.h"
-#include "stopwatch.h"
+
+#include <pent/stopwatch.h>
 
 #include <Eigen/SparseCore>
 

@@ -1,8 +1,7 @@
 #include "report.h"
 
-#include "stopwatch.h"
-
 #include <pent/formatted.h>
+#include <pent/stopwatch.h>
 
 #include <algorithm>
 #include <cmath>

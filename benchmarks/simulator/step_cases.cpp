@@ -3,10 +3,10 @@
 #include "dense_oracle.h"
 #include "linear/aggregates.h"
 #include "step_work.h"
-#include "stopwatch.h"
 
 #include <pent/formatted.h>
 #include <pent/simulator/simulation.h>
+#include <pent/stopwatch.h>
 
 #include <bit>
 

@@ -3,7 +3,8 @@
 #include "apart.h"
 #include "near_pairs.h"
 #include "pairs_within.h"
-#include "stopwatch.h"
+
+#include <pent/stopwatch.h>
 
 #include <algorithm>
 #include <cmath>

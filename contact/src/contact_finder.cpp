@@ -7,9 +7,9 @@
 #include "obstacle_contacts.h"
 #include "penalty_contacts.h"
 #include "step_limit.h"
-#include "stopwatch.h"
 
 #include <pent/error.h>
+#include <pent/stopwatch.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "potentials/incremental_potential.h"
+#include "step/incremental_potential.h"
 
 #include "potential_laws.h"
 #include "potentials/scene_energy.h"

@@ -1,6 +1,6 @@
 #include "potentials/contact_potential.h"
 
-#include "stopwatch.h"
+#include <pent/stopwatch.h>
 
 #include <algorithm>
 #include <utility>

@@ -2,9 +2,9 @@
 
 #include "potentials/vertex_chunks.h"
 #include "step/crossing_error.h"
-#include "stopwatch.h"
 
 #include <pent/error.h>
+#include <pent/stopwatch.h>
 
 #include <algorithm>
 #include <cmath>

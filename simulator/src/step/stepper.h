@@ -1,8 +1,8 @@
 #pragma once
 
 #include "model/bodies.h"
-#include "potentials/incremental_potential.h"
 #include "potentials/scene_energy.h"
+#include "step/incremental_potential.h"
 #include "step/newton.h"
 #include "step/sleep.h"
 #include "step/step_problem.h"

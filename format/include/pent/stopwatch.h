@@ -2,8 +2,9 @@
 
 #include <chrono>
 
-namespace pent::simulator {
+namespace pent {
 
+/// Seconds since it was made.
 class Stopwatch {
 public:
     [[nodiscard]] double seconds() const {
@@ -14,4 +15,4 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace pent::simulator
+}  // namespace pent

@@ -1,6 +1,6 @@
-#include "potentials/incremental_potential.h"
+#include "step/incremental_potential.h"
 
-#include "stopwatch.h"
+#include <pent/stopwatch.h>
 
 #include <algorithm>
 #include <utility>
