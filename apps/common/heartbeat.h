@@ -9,8 +9,8 @@
 
 namespace pent::apps {
 
-/// Says on stdout what is being done and for how long whenever nothing has been said for two seconds: in
-/// one line that renews itself on a terminal, in plain lines when piped.
+/// Says on stdout what is being done and for how long whenever nothing has been said for two
+/// seconds: in one line that renews itself on a terminal, in plain lines when piped.
 class Heartbeat {
 public:
     explicit Heartbeat(bool quiet, std::chrono::milliseconds between = std::chrono::seconds(2));
@@ -33,8 +33,8 @@ private:
     void say_so_far();
     void clear_line();
 
-    // No allocation and no stream on the thread: the mesher forks meanwhile, and a child would inherit
-    // their locks.
+    // No allocation and no stream on the thread: the mesher forks meanwhile, and a child would
+    // inherit their locks.
     static constexpr std::size_t kLongestStage = 64;
     std::array<char, kLongestStage> stage_{};
     Clock::time_point start_;  // of the stage

@@ -74,8 +74,8 @@ std::string one_line(std::string text) {
     return text;
 }
 
-// What an option wants whose value is no number: "--layers: found "many", expected a whole number", or ""
-// if another option is meant.
+// What an option wants whose value is no number: "--layers: found "many", expected a whole number",
+// or "" if another option is meant.
 std::string misread_value(const CLI::App& cli, const CLI::ConversionError& error) {
     const std::string text = error.what();  // "Could not convert: --layers = many"
     for (const CLI::Option* option : cli.get_options()) {

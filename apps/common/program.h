@@ -45,8 +45,8 @@ public:
     /// One line for the user on stdout, unless --quiet.
     void say(const std::string& line) const;
 
-    /// As the free function, with the --json report among the outputs; where it is the one that would
-    /// do harm, no report is written. For the start of the body.
+    /// As the free function, with the --json report among the outputs; where it is the one that
+    /// would do harm, no report is written. For the start of the body.
     void require_apart(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
     /// Parses, runs the body with --threads workers, reports, and returns the exit code.

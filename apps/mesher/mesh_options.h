@@ -42,7 +42,8 @@ struct MeshArguments {
 /// Adds every option of pent-mesh but the common ones.
 void add_options(CLI::App& cli, MeshArguments& arguments);
 
-/// Fills the request from the other fields, after parsing. Throws an Error if the output is no .pent file.
+/// Fills the request from the other fields, after parsing. Throws an Error if the output is no
+/// .pent file.
 void complete(const CLI::App& cli, MeshArguments& arguments);
 
 }  // namespace pent::apps

@@ -12,8 +12,8 @@ namespace pent::apps {
 
 Watchdog::Watchdog(Program& program, double seconds)
     : program_(program), thread_([this, seconds] { watch(seconds); }) {
-    // Steps of the mesher are forks. One that is made while a thread starts may inherit a lock that nobody
-    // will ever open: allocators of sanitizers have such locks.
+    // Steps of the mesher are forks. One that is made while a thread starts may inherit a lock that
+    // nobody will ever open: allocators of sanitizers have such locks.
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return is_watching_; });
 }

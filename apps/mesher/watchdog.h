@@ -11,7 +11,8 @@ namespace pent::apps {
 /// Ends the program when it takes too long or is asked to stop, while work is done that cannot be
 /// interrupted: by Program::abandon(), as refused or as stopped.
 ///
-/// Let it live only while nothing is written, and the program is not used: the process ends at once.
+/// Let it live only while nothing is written, and the program is not used: the process ends at
+/// once.
 class Watchdog {
 public:
     /// @param seconds  Limit, above 0.

@@ -204,8 +204,8 @@ Verdict explain_scene(Program& program, const pent::simulator::Scene& scene) {
     return Verdict::Finished;
 }
 
-// Throws an Error if the --json report would replace the scene or one of its meshes, the scene first: a report
-// says why it could not be read.
+// Throws an Error if the --json report would replace the scene or one of its meshes, the scene
+// first: a report says why it could not be read.
 pent::simulator::Scene read_inputs(Program& program, const std::string& path) {
     std::vector<pent::apps::NamedFile> inputs = {{"the scene", path}};
     program.require_apart(inputs, {});

@@ -33,8 +33,9 @@ struct ViewArguments {
 
 void add_view_options(CLI::App& cli, ViewArguments& arguments);
 
-/// What is read of `input`, a mesh or a run, for Program::require_apart(): of a run the scene, report,
-/// obstacles, meshes, frames, contacts and checkpoints, and its folder, but nothing else in that.
+/// What is read of `input`, a mesh or a run, for Program::require_apart(): of a run the scene,
+/// report, obstacles, meshes, frames, contacts and checkpoints, and its folder, but nothing else in
+/// that.
 [[nodiscard]] std::vector<NamedFile> inputs_of(const std::string& input);
 
 /// The hyperplanes meant. Throws an Error that says what was found and what was expected.

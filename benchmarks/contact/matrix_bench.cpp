@@ -1,5 +1,5 @@
-// What contacts cost the linear solver, on one thread: their blocks summed into matrices once a step, and
-// the part of a product that is theirs.
+// What contacts cost the linear solver, on one thread: their blocks summed into matrices once a
+// step, and the part of a product that is theirs.
 
 #include "kernels/kernels.h"
 #include "potentials/contact_potential.h"

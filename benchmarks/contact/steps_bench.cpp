@@ -1,5 +1,5 @@
-// Steps of scenes where contact is all there is; counters: iterations, pairs, and the share of contact
-// in the time of a step.
+// Steps of scenes where contact is all there is; counters: iterations, pairs, and the share of
+// contact in the time of a step.
 
 #include "step_scenes.h"
 
@@ -98,8 +98,8 @@ BENCHMARK_CAPTURE(hug, newton, false, Integrator::NewtonEuler)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-// A beam of 50 x 6 x 6 x 6 cells, 259,200 pentachora, held at one end under gravity, without contact
-// and where it may meet itself.
+// A beam of 50 x 6 x 6 x 6 cells, 259,200 pentachora, held at one end under gravity, without
+// contact and where it may meet itself.
 void beam(benchmark::State& state, bool self) {
     Scene scene = one_body();
     scene.gravity[1] = -9.8;

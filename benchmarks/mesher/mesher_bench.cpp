@@ -151,8 +151,8 @@ void body_of_300k(benchmark::State& state) {
 }
 BENCHMARK(body_of_300k)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// Peak memory of the whole program for the same body, bytes. To be asked before this process has used
-// much itself: a new process is counted from what the one that started it had.
+// Peak memory of the whole program for the same body, bytes. To be asked before this process has
+// used much itself: a new process is counted from what the one that started it had.
 double peak_memory_of_300k() {
     const auto output = std::filesystem::temp_directory_path() / "pent_mesher_bench.pent";
     const pent::mesher::File nothing = pent::mesher::temporary_file();

@@ -1,11 +1,12 @@
-// What it costs that nothing can cross: the barrier against the penalty, on the same scenes in one run.
+// What it costs that nothing can cross: the barrier against the penalty, on the same scenes in one
+// run.
 //
 //     bench_barrier [--part FRACTION] [--frames N] [--threads N] [SCENE.toml ...]
 //
-// Without a scene: two of boxes, like the paper's hug and noodles, at a part of their size. The penalty
-// takes a scene's steps with its integrator; the barrier takes one step a frame. Frames of both take
-// turns, so that other work on the machine slows both. Times are per simulated second, of the clock and of
-// the processor.
+// Without a scene: two of boxes, like the paper's hug and noodles, at a part of their size. The
+// penalty takes a scene's steps with its integrator; the barrier takes one step a frame. Frames of
+// both take turns, so that other work on the machine slows both. Times are per simulated second, of
+// the clock and of the processor.
 
 #include "beams.h"
 
@@ -43,8 +44,8 @@ Body body(const char* name, const Eigen::Vector4d& at, const Eigen::Vector4d& ve
     return body;
 }
 
-// Two boxes pushed against each other face to face, a little aside: everything is in contact. The paper's
-// hug takes 200 steps a second.
+// Two boxes pushed against each other face to face, a little aside: everything is in contact. The
+// paper's hug takes 200 steps a second.
 Case hug(double part) {
     const int length = std::max(2, static_cast<int>(std::lround(60 * part)));
     Case result{.name = "hug", .meshes = {box({length, 12, 3, 2}), box({length, 12, 3, 2})}};
@@ -57,7 +58,8 @@ Case hug(double part) {
     return result;
 }
 
-// Bars that fall crosswise upon one another onto the ground. The paper's noodles take 150 steps a second.
+// Bars that fall crosswise upon one another onto the ground. The paper's noodles take 150 steps a
+// second.
 Case noodles(double part) {
     const int length = std::max(4, static_cast<int>(std::lround(40 * part)));
     Case result{.name = "noodles"};

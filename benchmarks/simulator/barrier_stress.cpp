@@ -1,6 +1,6 @@
-// Scenes that are hard on the barrier, at larger sizes than the tests', in R^3 and R^4: each to its end, with a
-// brute-force checker, which shares no code with search and collision detection, looking at every accepted
-// step and at the whole way of Newton's method there.
+// Scenes that are hard on the barrier, at larger sizes than the tests', in R^3 and R^4: each to its
+// end, with a brute-force checker, which shares no code with search and collision detection,
+// looking at every accepted step and at the whole way of Newton's method there.
 //
 //     stress_barrier [--fine N]
 //

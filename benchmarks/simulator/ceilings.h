@@ -6,8 +6,8 @@
 
 namespace pent::simulator::bench {
 
-/// What the machine can do, measured with the threads of a kernel in the same minute: what no kernel can
-/// pass.
+/// What the machine can do, measured with the threads of a kernel in the same minute: what no
+/// kernel can pass.
 struct Ceilings {
     double memory = 0;  ///< Bytes a second of a triad over 192 MB.
     double cache = 0;   ///< Bytes a second of a triad over 16 MB, the size of the beam's matrix.
@@ -27,8 +27,8 @@ struct Work {
     Work& operator+=(const Work& other);
 };
 
-/// Seconds below which the work cannot be done: the longer one of arithmetic and traffic, the latter at
-/// the speed of the cache where all of it fits there.
+/// Seconds below which the work cannot be done: the longer one of arithmetic and traffic, the
+/// latter at the speed of the cache where all of it fits there.
 [[nodiscard]] double least_seconds(const Work& work, const Ceilings& ceilings);
 
 }  // namespace pent::simulator::bench

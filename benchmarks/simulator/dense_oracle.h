@@ -5,8 +5,8 @@
 
 namespace pent::simulator::bench {
 
-/// The plain way to do what the kernels do, for a ratio: closed formulas, general-purpose dense and sparse
-/// algebra, one thread, double.
+/// The plain way to do what the kernels do, for a ratio: closed formulas, general-purpose dense and
+/// sparse algebra, one thread, double.
 
 /// Energy gradients of all cells: stress of the stable neo-Hookean energy times rest gradients.
 ///
@@ -15,8 +15,8 @@ namespace pent::simulator::bench {
                                          const Material& material,
                                          const Positions<4>& positions);
 
-/// The 16 x 16 Hessian of the energy density in F, its negative eigenvalues clamped by a dense eigensolver,
-/// and carried over to the 20 coordinates of the cell; for the first `count` cells.
+/// The 16 x 16 Hessian of the energy density in F, its negative eigenvalues clamped by a dense
+/// eigensolver, and carried over to the 20 coordinates of the cell; for the first `count` cells.
 ///
 /// @return  Sum over all matrices of their norms, so that nothing is optimized away.
 [[nodiscard]] double oracle_hessians(const SimplexMesh<4>& mesh,
@@ -24,8 +24,8 @@ namespace pent::simulator::bench {
                                      const Positions<4>& positions,
                                      Eigen::Index count);
 
-/// One linear implicit Euler step of a body held at x = 0: dense projected Hessians, a sparse matrix from
-/// triplets, sparse LDL^T.
+/// One linear implicit Euler step of a body held at x = 0: dense projected Hessians, a sparse
+/// matrix from triplets, sparse LDL^T.
 ///
 /// @return  Displacements, 4 x vertices, m.
 [[nodiscard]] Positions<4> oracle_step(const SimplexMesh<4>& mesh,

@@ -4,8 +4,8 @@
 
 namespace pent::simulator::bench {
 
-/// Operations (additions, multiplications, divisions, roots) that the kernels take for one element of
-/// stable neo-Hookean material, counted by running them on a number that counts.
+/// Operations (additions, multiplications, divisions, roots) that the kernels take for one element
+/// of stable neo-Hookean material, counted by running them on a number that counts.
 struct FlopCount {
     double forces = 0;   ///< In double.
     double hessian = 0;  ///< Projected, all blocks, in float; sums into the matrix not counted.

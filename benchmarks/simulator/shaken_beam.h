@@ -8,8 +8,8 @@
 
 namespace pent::simulator::bench {
 
-/// A free box of E = 1e7 Pa, nu = 0.28 and 1000 kg/m^4, every vertex moved by a tenth of an edge of 0.1 m:
-/// about half of the elements have negative eigenvalues to clamp.
+/// A free box of E = 1e7 Pa, nu = 0.28 and 1000 kg/m^4, every vertex moved by a tenth of an edge of
+/// 0.1 m: about half of the elements have negative eigenvalues to clamp.
 struct ShakenBeam {
     SimplexMesh<4> mesh;
     Material material;

@@ -78,8 +78,8 @@ Case beam_case(const std::string& name, const Scene& scene, double thickness, in
     return c;
 }
 
-// 23,040 tetrahedra, where the yardstick has 22,706: no gravity can stretch it, so a step is assembly,
-// set-up and the few iterations that find a translation.
+// 23,040 tetrahedra, where the yardstick has 22,706: no gravity can stretch it, so a step is
+// assembly, set-up and the few iterations that find a translation.
 Case fall_case() {
     Scene scene = beam_scene();
     scene.dimension = 3;

@@ -29,7 +29,8 @@ Work StepWork::setup() const {
     const auto rows = static_cast<double>(size.free_vertices);
     const auto blocks = static_cast<double>(size.matrix_blocks);
     const double coarse = kModes * aggregates;
-    // A block times 10 modes: 4 columns as they are, 6 rotations of 3 operations an entry, and the sum.
+    // A block times 10 modes: 4 columns as they are, 6 rotations of 3 operations an entry, and the
+    // sum.
     constexpr double kProjection = 6 * 4 * 3 + 40;
     // A row: 10 modes times 4 x 10, and two factors of the column blocks.
     constexpr double kRow = 400 + 300;

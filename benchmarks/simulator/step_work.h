@@ -7,8 +7,8 @@
 
 namespace pent::simulator::bench {
 
-/// The least that parts of a step in 4D have to compute, read and write, float blocks: every array that
-/// is used once, however often it could stay in a cache.
+/// The least that parts of a step in 4D have to compute, read and write, float blocks: every array
+/// that is used once, however often it could stay in a cache.
 struct StepWork {
     SimulationSize size;
     FlopCount flops;

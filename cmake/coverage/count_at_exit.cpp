@@ -6,7 +6,8 @@
 
 extern "C" {
 
-// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming): names of libgcov and of the linker
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming): names of libgcov and of
+// the linker
 void __gcov_dump();
 [[noreturn]] void __real__exit(int code);
 [[noreturn]] void __wrap__exit(int code);

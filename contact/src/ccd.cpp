@@ -95,7 +95,8 @@ double safe_fraction(const Corners<Dim, K>& first,
         a = a_start + t * first_path;
         b = b_start + t * second_path;
     }
-    return t;  // GCOVR_EXCL_LINE: flat simplices part or meet in far fewer advances, but for rounding
+    return t;  // GCOVR_EXCL_LINE: flat simplices part or meet in far fewer advances, but for
+               // rounding
 }
 
 template <int Dim>

@@ -11,8 +11,8 @@ namespace pent {
 
 namespace {
 
-// Loops deep in a computation find its workers here, as those of oneTBB find their arena. Set for the
-// time of a task or a run() alone, so nothing is left behind on a host's threads.
+// Loops deep in a computation find its workers here, as those of oneTBB find their arena. Set for
+// the time of a task or a run() alone, so nothing is left behind on a host's threads.
 // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables)
 thread_local const Workers* current_workers = nullptr;
 thread_local bool is_in_task = false;

@@ -14,7 +14,8 @@ namespace pent {
 
 namespace {
 
-// Reads a text that has a number's form, with the point that files have, whatever the host's locale.
+// Reads a text that has a number's form, with the point that files have, whatever the host's
+// locale.
 template <typename Real>
 Real value_of(const char* text) {
     static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
@@ -71,13 +72,14 @@ Decimal next(Decimal decimal) {
 // The fewest digits that read back as the value, and of those the nearest.
 template <typename Real>
 Decimal shortest(Real value) {
-    // With so many digits every decimal number survives a normal one; those of less precision need fewer.
+    // With so many digits every decimal number survives a normal one; those of less precision need
+    // fewer.
     constexpr int kSafe = std::numeric_limits<Real>::digits10;
     const int least = value < std::numeric_limits<Real>::min() ? 1 : kSafe;
     for (int count = least;; ++count) {
         Decimal decimal = rounded(static_cast<double>(value), count);
-        // Below a power of two numbers are half as far apart: where the nearest decimal is below, and too
-        // far, the one above may still do.
+        // Below a power of two numbers are half as far apart: where the nearest decimal is below,
+        // and too far, the one above may still do.
         for (const Decimal& candidate : {decimal, next(decimal)}) {
             if (reads_back(candidate, value)) {
                 decimal = candidate;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <thread>
 
-// For the thread sanitizer, which has to see every fork and join, and cannot in the oneTBB that Debian
-// ships. Threads are not reused and nothing is fast. Tasks are dealt out like cards: no two neighbors
-// run on the same thread, and nothing orders the threads between the fork and the join, so what two
-// tasks may not do at the same time is seen whatever the timing, on a single core too.
+// For the thread sanitizer, which has to see every fork and join, and cannot in the oneTBB that
+// Debian ships. Threads are not reused and nothing is fast. Tasks are dealt out like cards: no two
+// neighbors run on the same thread, and nothing orders the threads between the fork and the join,
+// so what two tasks may not do at the same time is seen whatever the timing, on a single core too.
 
 namespace pent {
 

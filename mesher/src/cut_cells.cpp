@@ -96,10 +96,10 @@ std::vector<Diagonal> wanted_diagonals(const Faces& faces) {
     return wanted;
 }
 
-// Vertices in an order in which every diagonal's quadrilateral has one of its ends first; those without
-// a say are left out. A vertex is free to come next as long as no diagonal that has no end yet has it
-// among its others. To take a free one never takes another's freedom, so that the search meets every
-// wish if any order does.
+// Vertices in an order in which every diagonal's quadrilateral has one of its ends first; those
+// without a say are left out. A vertex is free to come next as long as no diagonal that has no end
+// yet has it among its others. To take a free one never takes another's freedom, so that the search
+// meets every wish if any order does.
 std::vector<std::uint32_t> order_for(const std::vector<Diagonal>& diagonals,
                                      const std::string& name) {
     struct Say {
@@ -137,8 +137,8 @@ std::vector<std::uint32_t> order_for(const std::vector<Diagonal>& diagonals,
     const auto unmet = std::count(is_met.begin(), is_met.end(), false);
     if (unmet > 0) {
         throw Error(name + ": " + std::to_string(unmet)
-                    + " quadrilateral faces lie against triangles that cut them along diagonals which"
-                      " no common cut of their cells has; put pyramids between them, or write"
+                    + " quadrilateral faces lie against triangles that cut them along diagonals"
+                      " which no common cut of their cells has; put pyramids between them, or write"
                       " tetrahedra");
     }
     return order;
@@ -192,7 +192,8 @@ double six_volume(const CellSoup& soup, const Tet& tet) {
     return edges.determinant();
 }
 
-// Turns the tetrahedra of one cell over if together they are negative; whether all are positive then.
+// Turns the tetrahedra of one cell over if together they are negative; whether all are positive
+// then.
 bool orient(const CellSoup& soup, std::span<Tet> tets, std::int64_t& turned_cells) {
     double sum = 0;
     for (const Tet& tet : tets) {

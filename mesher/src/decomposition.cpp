@@ -209,8 +209,8 @@ std::int64_t count_fillings(int n, const std::vector<Corners>& all, const Orient
     return count_fillings(n, allowed, 0, chosen);
 }
 
-// The facets with which simplices cut the side of the prism opposite to a base vertex; base vertices
-// by the names given.
+// The facets with which simplices cut the side of the prism opposite to a base vertex; base
+// vertices by the names given.
 std::vector<std::uint64_t> cuts_of_side(const std::vector<Corners>& simplices,
                                         const std::vector<int>& names,
                                         int opposite) {

@@ -5,8 +5,8 @@
 
 namespace pent::mesher {
 
-/// The format of a file as the ending of a name, as in ".obj": in small letters, from its name unless
-/// one is given ("obj").
+/// The format of a file as the ending of a name, as in ".obj": in small letters, from its name
+/// unless one is given ("obj").
 [[nodiscard]] std::string format_of(const std::filesystem::path& path, const std::string& given);
 
 /// What errors call a file: its path, or "standard input" for "-".

@@ -16,13 +16,13 @@ struct Pieces {
     Simplices<Corners> cells;
 };
 
-/// Runs a step in a child process and brings its result back. A step that crashes, aborts, or passes
-/// a limit costs the child alone; what it prints is lost.
+/// Runs a step in a child process and brings its result back. A step that crashes, aborts, or
+/// passes a limit costs the child alone; what it prints is lost.
 ///
-/// The child is a copy of this process with this thread only: the step must not use threads. It ends
-/// with this process. Instantiated for 3 and 4 corners.
-/// Throws an Error if the step throws one (the same text), throws anything else, or does not live to
-/// give a result; `name` begins the line, as in "the wrap".
+/// The child is a copy of this process with this thread only: the step must not use threads. It
+/// ends with this process. Instantiated for 3 and 4 corners. Throws an Error if the step throws one
+/// (the same text), throws anything else, or does not live to give a result; `name` begins the
+/// line, as in "the wrap".
 template <int Corners>
 [[nodiscard]] Pieces<Corners> run_isolated(const std::string& name,
                                            const StepLimits& limits,

@@ -79,8 +79,9 @@ bool is_connected(const Link& link) {
     return joins + 1 == link.names;
 }
 
-// Whether two triangles share each edge, and those around each corner are one circle, not several that touch
-// there: then the corners of triangles that are one across edges are as many as there are names.
+// Whether two triangles share each edge, and those around each corner are one circle, not several
+// that touch there: then the corners of triangles that are one across edges are as many as there
+// are names.
 bool is_surface(const Link& link) {
     struct Side {
         std::uint32_t low;

@@ -72,7 +72,8 @@ void refuse_filling(const BodyRequest& request) {
     }
 }
 
-// Moves the mesh where it is asked for, proves and measures it; subdivides it first if that is asked for.
+// Moves the mesh where it is asked for, proves and measures it; subdivides it first if that is
+// asked for.
 template <int Dim>
 Body<Dim> finish(SimplexMesh<Dim> mesh,
                  double expected_volume,

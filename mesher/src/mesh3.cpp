@@ -91,7 +91,8 @@ Tetrahedra fill_with_mesh3(const Surface& surface, const TetrahedraOptions& opti
         options.edge_length > 0 ? options.edge_length : mean_edge_of(surface);
     Tetrahedra tetrahedra;
     tetrahedra.generator = "CGAL Mesh_3";
-    // It crashes on some surfaces, runs away on others, and breaks its own assumptions on some more.
+    // It crashes on some surfaces, runs away on others, and breaks its own assumptions on some
+    // more.
     Pieces<4> pieces = run_isolated<4>("Mesh_3", options.limits, [&]() -> Pieces<4> {
         SimplexMesh<3> mesh;
         for (const Surface& body : bodies_of(surface)) {

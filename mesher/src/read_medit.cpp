@@ -10,8 +10,8 @@ namespace pent::mesher {
 
 namespace {
 
-// A section of numbers: what each of its lines is, if it is a cell, and how many whole numbers it has
-// beside a label at the end.
+// A section of numbers: what each of its lines is, if it is a cell, and how many whole numbers it
+// has beside a label at the end.
 struct Section {
     std::string_view name;
     std::optional<CellKind> kind;

@@ -26,8 +26,9 @@ std::vector<std::uint32_t> read_polygon(TextReader& text, std::int64_t points) {
     return polygon;
 }
 
-// The keyword is OFF behind letters for what each line of a point has: texture (ST), color (C), normal (N),
-// which all stand behind its coordinates; but 4 and n say that there are more coordinates than three.
+// The keyword is OFF behind letters for what each line of a point has: texture (ST), color (C),
+// normal (N), which all stand behind its coordinates; but 4 and n say that there are more
+// coordinates than three.
 void check_keyword(const TextReader& text, std::string_view keyword) {
     if (!keyword.ends_with("OFF")) {
         text.fail("no OFF at the start; expected a file in OFF format");

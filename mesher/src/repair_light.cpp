@@ -73,8 +73,8 @@ Surface drop_useless_triangles(const Surface& surface) {
             balance[key.corners] += key.is_even ? 1 : -1;
         }
     }
-    // Walls go, both of their sides; but where all triangles come in pairs, the surface as a whole is
-    // two-sided, as renderers like it, and one side stays.
+    // Walls go, both of their sides; but where all triangles come in pairs, the surface as a whole
+    // is two-sided, as renderers like it, and one side stays.
     const bool is_two_sided = std::all_of(balance.begin(), balance.end(),
                                           [](const auto& entry) { return entry.second == 0; });
     std::vector<std::uint32_t> corners;

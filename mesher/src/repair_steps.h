@@ -14,8 +14,8 @@ namespace pent::mesher {
 /// may intersect itself.
 [[nodiscard]] Surface close_holes(const Surface& surface);
 
-/// Unites components that cross or touch each other, each taken as a body. The surface comes back as it
-/// is if a component crosses itself, or if the union touches itself in points or edges.
+/// Unites components that cross or touch each other, each taken as a body. The surface comes back
+/// as it is if a component crosses itself, or if the union touches itself in points or edges.
 /// @param surface  Closed.
 [[nodiscard]] Surface unite_crossing_components(const Surface& surface);
 

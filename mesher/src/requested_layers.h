@@ -18,14 +18,14 @@ template <int Dim>
     return (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).maxCoeff();
 }
 
-/// The whole straight extrusion that is asked for, m. Throws an Error unless it is finite and leads out
-/// of the base.
+/// The whole straight extrusion that is asked for, m. Throws an Error unless it is finite and leads
+/// out of the base.
 template <int Dim>
 [[nodiscard]] Eigen::Matrix<double, Dim, 1> extrusion_direction(const ExtrusionRequest& request,
                                                                 double largest_side);
 
-/// Along which length layers are counted, m: that of the extrusion, or of half a meridian of a round body.
-/// Throws an Error as extrusion_direction() does.
+/// Along which length layers are counted, m: that of the extrusion, or of half a meridian of a
+/// round body. Throws an Error as extrusion_direction() does.
 [[nodiscard]] double extrusion_length(const ExtrusionRequest& request, double largest_side);
 
 /// The layers that are asked for, and what is known of the volume they enclose.

@@ -163,8 +163,8 @@ constexpr std::array<std::array<int, 3>, 20> kFaces = {
      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
 
-// Point of face `face` with barycentric steps i, j, f - i - j. Two faces see a point of their common
-// edge alike to the last bit: the sum runs over corners in the order of their numbers.
+// Point of face `face` with barycentric steps i, j, f - i - j. Two faces see a point of their
+// common edge alike to the last bit: the sum runs over corners in the order of their numbers.
 Eigen::Vector3d face_point(int face, int i, int j, int frequency) {
     std::array<std::pair<int, int>, 3> weights = {
         {{kFaces[face][0], frequency - i - j}, {kFaces[face][1], i}, {kFaces[face][2], j}}};

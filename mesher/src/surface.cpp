@@ -60,10 +60,11 @@ TriangleSoup read_soup(const std::filesystem::path& path, const std::string& giv
             return read(path);
         }
     }
-    throw Error(input_name(path) + ": "
-                + (format.empty() ? "a name without an ending" : "a name that ends in \"" + format + "\"")
-                + "; surfaces end in .obj, .off, .ply, .stl, .gltf or .glb, tetrahedra in .node, .ele,"
-                  " .mesh, .msh, .vtk or .tobj; for others, and standard input, give the format");
+    const std::string ending =
+        format.empty() ? "a name without an ending" : "a name that ends in \"" + format + "\"";
+    throw Error(input_name(path) + ": " + ending
+                + "; surfaces end in .obj, .off, .ply, .stl, .gltf or .glb, tetrahedra in .node,"
+                  " .ele, .mesh, .msh, .vtk or .tobj; for others, and standard input, give the format");
 }
 
 }  // namespace

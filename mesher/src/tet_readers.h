@@ -6,8 +6,8 @@
 
 namespace pent::mesher {
 
-/// Readers of one format each. Every one throws an Error that names file and line (or byte) for what is
-/// damaged, and allocates no more than the size of the file bears out.
+/// Readers of one format each. Every one throws an Error that names file and line (or byte) for
+/// what is damaged, and allocates no more than the size of the file bears out.
 
 [[nodiscard]] CellSoup read_tetgen(const std::filesystem::path& path);
 [[nodiscard]] CellSoup read_medit(const std::filesystem::path& path);

@@ -3,12 +3,13 @@
 
 #include <stdint.h>
 
-/// Plain C interface to the simulator, for game engines, ctypes and other hosts of shared libraries.
+/// Plain C interface to the simulator, for game engines, ctypes and other hosts of shared
+/// libraries.
 ///
-/// Everything returned belongs to the simulation; arrays hold until the next pent_step() and are gone
-/// after pent_close(). No exception leaves the library: a function that fails returns NULL or a
-/// negative number, and pent_last_error() says why. A simulation must not be used by two threads at
-/// once; different simulations may.
+/// Everything returned belongs to the simulation; arrays hold until the next pent_step() and are
+/// gone after pent_close(). No exception leaves the library: a function that fails returns NULL or
+/// a negative number, and pent_last_error() says why. A simulation must not be used by two threads
+/// at once; different simulations may.
 
 #ifdef __cplusplus
 extern "C" {
@@ -38,8 +39,8 @@ typedef struct pent_step_report {
     double obstacle;
 } pent_step_report;
 
-/// What touched at the end of the last step. All zero, and the smallest distance infinite, before the
-/// first step and in a scene without contact.
+/// What touched at the end of the last step. All zero, and the smallest distance infinite, before
+/// the first step and in a scene without contact.
 typedef struct pent_contact_report {
     int64_t point_facet; /**< Vertices in contact with facets of bodies. */
     int64_t mixed;       /**< Edges in contact with triangles (with edges in three dimensions). */

@@ -17,22 +17,23 @@ struct Axis {
 /// "dt=1/30,1/60" as an axis. Throws an Error unless there is a name and values, none twice.
 [[nodiscard]] Axis parse_axis(const std::string& text);
 
-/// Every combination of the values of the axes, the last axis fastest; one without settings if there
-/// are no axes.
+/// Every combination of the values of the axes, the last axis fastest; one without settings if
+/// there are no axes.
 [[nodiscard]] std::vector<Settings> combinations(const std::vector<Axis>& axes);
 
 /// Whether an axis changes the mesh: layers or subdivide.
 [[nodiscard]] bool is_mesh_axis(const std::string& name);
 
-/// The scene with settings: dt, preset, contact (its model), and keys of [solver], in any order. A preset
-/// stands in place of all of [solver], and other settings on it. Axes of the mesh leave the scene as it is.
+/// The scene with settings: dt, preset, contact (its model), and keys of [solver], in any order. A
+/// preset stands in place of all of [solver], and other settings on it. Axes of the mesh leave the
+/// scene as it is.
 ///
 /// dt must divide the time between two frames into whole steps. Throws an Error as check_setting()
 /// does, and for settings that do not go together, as a barrier and linear_euler.
 [[nodiscard]] simulator::Scene with_settings(simulator::Scene scene, const Settings& settings);
 
-/// Throws an Error for an unknown axis (with the nearest known one), a value that the key cannot have
-/// whatever the others are, and contact in a scene without.
+/// Throws an Error for an unknown axis (with the nearest known one), a value that the key cannot
+/// have whatever the others are, and contact in a scene without.
 void check_setting(simulator::Scene scene, const Setting& setting);
 
 /// "1/60" or "0.01" in seconds. Throws an Error unless it is a positive number.

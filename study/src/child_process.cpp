@@ -45,8 +45,8 @@ double seconds(const timeval& time) {
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-// The high-water mark of a process that still runs; 0 if it does not. The one that wait4() gives starts
-// from that of the parent.
+// The high-water mark of a process that still runs; 0 if it does not. The one that wait4() gives
+// starts from that of the parent.
 double peak_bytes(pid_t child) {
     std::ifstream status("/proc/" + std::to_string(child) + "/status");
     std::string line;

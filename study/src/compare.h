@@ -30,12 +30,12 @@ struct Window {
 /// Angular momentum about the center of mass in each plane, xy, xz, (xw,) yz, ..., kg m^2/s.
 [[nodiscard]] Eigen::VectorXd angular_momentum(const Moment& moment, const Eigen::VectorXd& masses);
 
-/// Work done against contacts and obstacles, J: the sum of all rises of the energy in them. What friction
-/// takes is not part of it.
+/// Work done against contacts and obstacles, J: the sum of all rises of the energy in them. What
+/// friction takes is not part of it.
 [[nodiscard]] double contact_work(const std::vector<StepRecord>& steps);
 
-/// Everything of Errors. Both runs have the same frames; the meshes may differ, and `where` then says
-/// where in the reference the vertices of the run are.
+/// Everything of Errors. Both runs have the same frames; the meshes may differ, and `where` then
+/// says where in the reference the vertices of the run are.
 [[nodiscard]] Errors compare(const Trajectory& run,
                              const Trajectory& reference,
                              const Interpolation& where,

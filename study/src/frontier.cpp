@@ -10,7 +10,8 @@ namespace pent::study {
 
 namespace {
 
-// A gain in error smaller than this part of it does not make a setting another point of the frontier.
+// A gain in error smaller than this part of it does not make a setting another point of the
+// frontier.
 constexpr double kLeastGain = 0.05;
 constexpr double kLevels[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 

@@ -6,9 +6,9 @@
 
 namespace pent::study {
 
-/// Error against seconds per frame, both logarithmic: every result a dot, colored by its value on one
-/// axis of the study; the frontier as a line, its dots numbered and listed beside; the reference's
-/// cost as a vertical and its error bar as a horizontal dashed line.
+/// Error against seconds per frame, both logarithmic: every result a dot, colored by its value on
+/// one axis of the study; the frontier as a line, its dots numbered and listed beside; the
+/// reference's cost as a vertical and its error bar as a horizontal dashed line.
 [[nodiscard]] Drawing frontier_plot(const StudyReport& report);
 
 }  // namespace pent::study

@@ -39,11 +39,12 @@ inline std::string text_of(const std::filesystem::path& path) {
             text_of(folder / "err")};
 }
 
-/// What to put before a command that writes its files by halves, by a limit or a kill: counts of coverage
-/// are written into files, too, and would damage those of other runs.
+/// What to put before a command that writes its files by halves, by a limit or a kill: counts of
+/// coverage are written into files, too, and would damage those of other runs.
 inline constexpr const char* kUncounted = "env GCOV_PREFIX=/dev/null GCOV_ERROR_FILE=/dev/null ";
 
-/// What to put before a command so that no file of over so many bytes can be written, as on a full disk.
+/// What to put before a command so that no file of over so many bytes can be written, as on a full
+/// disk.
 [[nodiscard]] inline std::string full_disk(int bytes) {
     return std::string(kUncounted) + "prlimit --fsize=" + std::to_string(bytes);
 }

@@ -17,8 +17,8 @@
 namespace pent {
 namespace {
 
-// A host whose job system is used from one thread at a time, last task first; it fails the test if it is
-// called from within a task, which it does not take.
+// A host whose job system is used from one thread at a time, last task first; it fails the test if
+// it is called from within a task, which it does not take.
 TaskSystem backward_host() {
     const auto is_busy = std::make_shared<bool>(false);
     const auto run = [is_busy](std::size_t count, const std::function<void(std::size_t)>& task) {

@@ -65,8 +65,8 @@ Reading<Real> read_portably(std::string_view text) {
     return reading;
 }
 
-// Powers of two and their neighbors, where the distance of numbers changes; ends of the range; decimals;
-// any bits.
+// Powers of two and their neighbors, where the distance of numbers changes; ends of the range;
+// decimals; any bits.
 template <typename Real, typename Bits>
 std::vector<Real> numbers() {
     using Limits = std::numeric_limits<Real>;

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// Every operation on packs against the same on single numbers. In an unnamed namespace and without the
-// inline functions of a library, like the kernels: one copy for each instruction set.
+// Every operation on packs against the same on single numbers. In an unnamed namespace and without
+// the inline functions of a library, like the kernels: one copy for each instruction set.
 
 namespace pent::test {
 

@@ -135,7 +135,8 @@ TEST(CutCells, AgreeWithTheirNeighborsInEveryOrderOfAllVertices) {
 }
 
 TEST(CutCells, OfAllKindsAgree) {
-    // A cube; a pyramid above it, a tetrahedron at the pyramid's side; a prism at x = 1; a cube at x = -1.
+    // A cube; a pyramid above it, a tetrahedron at the pyramid's side; a prism at x = 1; a cube at
+    // x = -1.
     const std::vector<Eigen::Vector3d> points = with(kCube, {{0.5, 0.5, 2},
                                                              {2, 0.5, 2},
                                                              {2, 0, 0},
@@ -149,8 +150,8 @@ TEST(CutCells, OfAllKindsAgree) {
                                      {CellKind::Tetrahedron, {5, 6, 8, 9}},
                                      {CellKind::Prism, {1, 10, 5, 2, 11, 6}},
                                      {CellKind::Hexahedron, {12, 0, 3, 13, 14, 4, 7, 15}}};
-    // Outside are 3 + 5 squares of the cubes, 3 triangles of the pyramid, 3 of the tetrahedron, and two
-    // of each kind of the prism.
+    // Outside are 3 + 5 squares of the cubes, 3 triangles of the pyramid, 3 of the tetrahedron, and
+    // two of each kind of the prism.
     expect_cut_in_random_orders(
         points, cells,
         {2 + 1.0 / 3 + 0.25 + 0.5, 2 * (3 + 5) + 3 + 3 + 2 + 2 * 2, 6 + 2 + 1 + 3 + 6});
@@ -181,7 +182,8 @@ TEST(CutCells, FitAGridOfHexahedraWithBentFaces) {
     Corners names = in_order(points.size());
     for (int i = 0; i < 20; ++i) {
         std::shuffle(names.begin(), names.end(), random);
-        // Bent faces belong to whatever their diagonals make of them: the volume is that of the boundary.
+        // Bent faces belong to whatever their diagonals make of them: the volume is that of the
+        // boundary.
         expect_cut(renamed(points, cells, names), {0, 6 * 2 * kSide * kSide, 6 * 64});
     }
 }
@@ -206,7 +208,8 @@ TEST(CutCells, TakeTheDiagonalThatTrianglesOnTheOtherSideHave) {
 }
 
 TEST(CutCells, MeetTheDiagonalsOfAllSidesWhereAnyOrderDoes) {
-    // A tip in front of every side; by the parity of its corners each side has an even and an odd diagonal.
+    // A tip in front of every side; by the parity of its corners each side has an even and an odd
+    // diagonal.
     const std::vector<Eigen::Vector3d> points = with(
         kCube, {{-1, .5, .5}, {2, .5, .5}, {.5, -1, .5}, {.5, 2, .5}, {.5, .5, -1}, {.5, .5, 2}});
     const std::vector<Corners> sides = {{0, 4, 7, 3}, {2, 1, 5, 6}, {0, 1, 5, 4},

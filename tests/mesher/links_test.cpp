@@ -46,9 +46,9 @@ TEST(CheckLinks, NoticesCubesThatTouchInOnePoint) {
 
 TEST(CheckLinks, NoticesBodiesThatTouchAlongAClosedCurve) {
     // In the plane of x and y the middle square of 3 x 3, and the 8 squares around it, each times a
-    // square of z and w: the two squares of z and w share a point, so the bodies share the edges of the
-    // middle square. Around its corners are two spheres with two points in common, which has the
-    // Euler characteristic of a sphere: 2 + 2 - 2.
+    // square of z and w: the two squares of z and w share a point, so the bodies share the edges of
+    // the middle square. Around its corners are two spheres with two points in common, which has
+    // the Euler characteristic of a sphere: 2 + 2 - 2.
     std::vector<int> cubes = {4};  // cube x + 3 y + 9 z + 18 w
     for (const int square : {0, 1, 2, 3, 5, 6, 7, 8}) {
         cubes.push_back(square + 9 + 18);
@@ -59,8 +59,8 @@ TEST(CheckLinks, NoticesBodiesThatTouchAlongAClosedCurve) {
 }
 
 TEST(CheckLinks, NoticesALinkThatIsATorus) {
-    // The cone over a solid torus in the hyperplane w = 0: its boundary has a torus around the apex.
-    // The solid torus: a box of 4 x 4 x 1 cubes without the 2 x 2 in its middle.
+    // The cone over a solid torus in the hyperplane w = 0: its boundary has a torus around the
+    // apex. The solid torus: a box of 4 x 4 x 1 cubes without the 2 x 2 in its middle.
     const SimplexMesh<3> ring = some_cubes(test::kuhn_box<3>({4, 4, 1}, {1, 1, 1}),
                                            {0, 1, 2, 3, 4, 7, 8, 11, 12, 13, 14, 15}, 6);
     SimplexMesh<4> cone;

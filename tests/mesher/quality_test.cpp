@@ -53,7 +53,8 @@ TYPED_TEST(QualityInDimension, DependsOnTheShapeAlone) {
         if (simplex_volume<kDim>(corners) < 0) {
             corners.col(0).swap(corners.col(1));
         }
-        // Of dynamic size: decompositions are slow to compile, and one is enough for all dimensions.
+        // Of dynamic size: decompositions are slow to compile, and one is enough for all
+        // dimensions.
         const Eigen::MatrixXd any =
             Eigen::MatrixXd::NullaryExpr(kDim, kDim, [&] { return coordinate(random); });
         Eigen::MatrixXd Q = any.householderQr().householderQ();

@@ -58,8 +58,8 @@ std::string words(const Values& values) {
     return text.str();
 }
 
-// A unit cube, a pyramid on it, a tetrahedron at the pyramid's side, a prism at the cube's; and a triangle
-// and a line. Corners count from 0.
+// A unit cube, a pyramid on it, a tetrahedron at the pyramid's side, a prism at the cube's; and a
+// triangle and a line. Corners count from 0.
 const std::vector<double> kCoordinates = {0, 0, 0, 1, 0, 0, 1,  1,  0, 0, 1,  0, 0, 0, 1, 1, 0, 1,
                                           1, 1, 1, 0, 1, 1, .5, .5, 2, 2, .5, 2, 2, 0, 0, 2, 1, 0};
 constexpr std::int64_t kPoints = 12;

@@ -98,8 +98,9 @@ TEST(Stuff, MakesSoundMeshesOfSmoothShapesAtAnyRotation) {
     }
 }
 
-// The estimate knows the hypervolume alone. Along the boundary lattice cells become several pieces or none,
-// and in bodies of a few edges most cells are there: twice as many or half of them, at the most.
+// The estimate knows the hypervolume alone. Along the boundary lattice cells become several pieces
+// or none, and in bodies of a few edges most cells are there: twice as many or half of them, at the
+// most.
 TEST(Stuff, SaysAboutHowManyCellsItWillMake) {
     for (const Case& c : smooth_cases()) {
         const auto cells = static_cast<double>(stuff(c.solid, c.edge_length).mesh.cell_count());
@@ -121,8 +122,8 @@ TEST(Stuff, MakesSoundMeshesOfSharpShapesAtAnyRotation) {
 }
 
 TEST(Stuff, HasHypervolumesOfSecondOrder) {
-    // Chords cut off what is proportional to the square of their length: half of it leaves a quarter,
-    // here within the scatter of where the lattice lies.
+    // Chords cut off what is proportional to the square of their length: half of it leaves a
+    // quarter, here within the scatter of where the lattice lies.
     for (const Case& c : smooth_cases()) {
         const double coarse = 1 - total_volume(stuff(c.solid, c.edge_length).mesh) / c.hypervolume;
         const double fine =

@@ -31,8 +31,8 @@ inline void PrintTo(const ResumeRow& row, std::ostream* out) {
 /// Every combination that check() allows.
 [[nodiscard]] std::vector<ResumeRow> every_row(int dimension);
 
-/// Rows such that every two settings that occur together in some row of `all` occur together in one of
-/// these: each row is the first of those that have most pairs not yet seen.
+/// Rows such that every two settings that occur together in some row of `all` occur together in one
+/// of these: each row is the first of those that have most pairs not yet seen.
 [[nodiscard]] std::vector<ResumeRow> covering_rows(const std::vector<ResumeRow>& all);
 
 }  // namespace pent::runs

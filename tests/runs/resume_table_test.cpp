@@ -12,8 +12,8 @@
 #include <fstream>
 #include <iterator>
 
-// A run stopped at any step goes on to the same bytes, whatever it carries from step to step: previous
-// states, who sleeps, stiffness that a barrier has adapted, friction of the last contacts.
+// A run stopped at any step goes on to the same bytes, whatever it carries from step to step:
+// previous states, who sleeps, stiffness that a barrier has adapted, friction of the last contacts.
 
 namespace pent::runs {
 namespace {
@@ -28,9 +28,9 @@ using test::vector;
 
 constexpr int kSteps = 10;
 
-// A fork whose left prong is bent to the right one, while a block comes down upon that, sliding; both are
-// above ground. Aside from them a pebble flies at a block at rest, which by then has fallen asleep. Some
-// vertices of each are held, as statics need it.
+// A fork whose left prong is bent to the right one, while a block comes down upon that, sliding;
+// both are above ground. Aside from them a pebble flies at a block at rest, which by then has
+// fallen asleep. Some vertices of each are held, as statics need it.
 template <int Dim>
 BarrierScene<Dim> busy_scene(const ResumeRow& row) {
     BarrierScene<Dim> made;

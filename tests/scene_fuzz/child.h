@@ -20,8 +20,8 @@ struct ChildResult {
         text;  ///< The message of the Error, or what is known of the end and what was printed.
 };
 
-/// Runs work in a fork, so that whatever it does ends nothing but itself. What it prints goes to `log`.
-/// The calling process must have no threads.
+/// Runs work in a fork, so that whatever it does ends nothing but itself. What it prints goes to
+/// `log`. The calling process must have no threads.
 ///
 /// @param seconds  Of processor time; many times as much of the clock, for what waits forever.
 [[nodiscard]] ChildResult run_in_child(const std::function<void()>& work,

@@ -16,9 +16,8 @@ using Json = nlohmann::ordered_json;
 /// The tree of a TOML file. Throws pent::Error where the text is none.
 [[nodiscard]] Json parse_document(const std::string& text);
 
-/// All paths of keys that hold values, such as "body.place.rotate.plane"; lists add nothing to a path,
-/// and empty ones have none.
-/// In order, each once.
+/// All paths of keys that hold values, such as "body.place.rotate.plane"; lists add nothing to a
+/// path, and empty ones have none. In order, each once.
 [[nodiscard]] std::vector<std::string> key_paths(const Json& scene);
 
 }  // namespace pent::scene_fuzz

@@ -10,10 +10,10 @@ namespace pent::scene_fuzz {
 
 namespace {
 
-// Every key that scene files know is a line of the tables below; scene_fuzz_test.cpp compares them with
-// what the simulator writes.
+// Every key that scene files know is a line of the tables below; scene_fuzz_test.cpp compares them
+// with what the simulator writes.
 
-// ---------------------------------------------------------------------------------------------- scene
+// ------------------------------------------------------------------------------------------- scene
 
 Json gravity(Random& random, const Plan& plan) {
     return random.chance(0.8) ? as_json({0, -9.8, 0, 0}, plan.dimension)
@@ -29,7 +29,7 @@ const Keys kScene = {
     {"steps_per_frame", 1, [](Random&, const Plan& plan) -> Json { return plan.steps_per_frame; }},
 };
 
-// --------------------------------------------------------------------------------------------- bodies
+// ------------------------------------------------------------------------------------------ bodies
 
 // A turn a run, at most.
 Json turn_rate(Random& random, const Plan& plan) {
@@ -88,7 +88,7 @@ const Keys kBody = {
     {"spin", 0.25, tables(kSpin)},
 };
 
-// ---------------------------------------------------------------------------------------- constraints
+// ------------------------------------------------------------------------------------- constraints
 
 // Half of a body along an axis: of its box, so never nothing.
 Json half_space_selection(Random& random, const Plan& plan) {
@@ -185,7 +185,7 @@ const Keys kConstraint = {
      }},
 };
 
-// ------------------------------------------------------------------------------ obstacles and contact
+// --------------------------------------------------------------------------- obstacles and contact
 
 // Newtons a meter that go with the bodies' stiffness, which is not known here: with their mass.
 Json contact_stiffness(Random& random, const Plan& plan) {
@@ -246,7 +246,7 @@ const Keys kContact = {
     {"slip_speed", 0.3, magnitude(1e-4, 0.1)},
 };
 
-// -------------------------------------------------------------------------------- damping, sleep, rest
+// ---------------------------------------------------------------------------- damping, sleep, rest
 
 const Keys kDamping = {
     {"mass", 0.7,
@@ -284,7 +284,7 @@ const Keys kSolver = {
 
 const Keys kOutput = {{"contact_forces", 0.6, flag()}, {"contact_pairs", 0.6, flag()}};
 
-// ---------------------------------------------------------------------------------- what goes together
+// ------------------------------------------------------------------------------ what goes together
 
 std::string integrator_of(const Json& scene) {
     const Json solver = scene.value("solver", Json::object());

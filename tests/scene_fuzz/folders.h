@@ -11,8 +11,8 @@ namespace pent::scene_fuzz {
 /// What of report.json and journal.txt may differ between runs that are otherwise the same.
 enum class Apart {
     Times,         ///< Seconds and threads.
-    TimesAndWork,  ///< Also the parts, and how often trees were built and walked: a resumed run is another
-                   ///< part and begins with new trees.
+    TimesAndWork,  ///< Also the parts, and how often trees were built and walked: a resumed run is
+                   ///< another part and begins with new trees.
 };
 
 /// Says in what two run folders differ first; empty if they are the same to the byte.

@@ -66,7 +66,8 @@ public:
             runs::run(runs::read_scene(scene), {.folder = run_path(name), .threads = threads}));
     }
 
-    // Takes up to `steps` steps of a run, a new one or one that goes on; says whether it came to its end.
+    // Takes up to `steps` steps of a run, a new one or one that goes on; says whether it came to
+    // its end.
     bool run_part(const std::string& name, int threads, int steps, bool is_new) const {
         int left = steps;
         const runs::RunReport report =
@@ -136,8 +137,8 @@ std::string is_silent(const Trial& trial) {
     return trial.first().text.empty() ? "" : "printed: " + trial.first().text;
 }
 
-// No number of the report is missing, which is how JSON has those that are not finite; frames with such
-// numbers cannot be written.
+// No number of the report is missing, which is how JSON has those that are not finite; frames with
+// such numbers cannot be written.
 std::string is_finite(const Trial& trial) {
     std::string found;
     const std::function<void(const Json&, const std::string&)> look = [&](const Json& value,

@@ -37,8 +37,8 @@ struct CheckOptions {
 /// In the order in which they are checked.
 [[nodiscard]] std::vector<std::string> law_names();
 
-/// Runs a scene in every way that a law is about, in child processes, and looks for the first law that
-/// does not hold. `folder` must be empty; the scene, its meshes and its runs stay there.
+/// Runs a scene in every way that a law is about, in child processes, and looks for the first law
+/// that does not hold. `folder` must be empty; the scene, its meshes and its runs stay there.
 [[nodiscard]] Checked check(const Json& scene,
                             const std::filesystem::path& folder,
                             const CheckOptions& options = {});

@@ -10,8 +10,8 @@
 
 namespace pent::scene_fuzz {
 
-/// A small mesh, which its name says all of: "box-2x1x1-0.6x0.3x0.3.pent". Its box has its center at
-/// the origin, and may be cut and marked:
+/// A small mesh, which its name says all of: "box-2x1x1-0.6x0.3x0.3.pent". Its box has its center
+/// at the origin, and may be cut and marked:
 ///
 ///     box        cubes, each cut into Dim! simplices
 ///     layered    the same with columns and layers, as an extruded mesh has along its last axis

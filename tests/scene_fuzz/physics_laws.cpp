@@ -73,12 +73,13 @@ std::string text_of(const Eigen::Matrix<double, Dim, 1>& vector) {
     return text + ")";
 }
 
-// ------------------------------------------------------------------------------------------- momentum
+// ---------------------------------------------------------------------------------------- momentum
 
-// The elastic and contact forces add up to zero, so of a step's equations summed over all vertices only
-// what is left unsolved stays: |sum| <= sqrt(vertices) |residual|, the residual being the reported part of
-// what the step started with, h |M v| + h^2 |f| at most. Twice that, since BDF2 carries an error on with
-// 4/3 of it less 1/3, and twice again for parts of a step that are measured at its start alone.
+// The elastic and contact forces add up to zero, so of a step's equations summed over all vertices
+// only what is left unsolved stays: |sum| <= sqrt(vertices) |residual|, the residual being the
+// reported part of what the step started with, h |M v| + h^2 |f| at most. Twice that, since BDF2
+// carries an error on with 4/3 of it less 1/3, and twice again for parts of a step that are
+// measured at its start alone.
 constexpr double kMomentumFactor = 4;
 
 // Corrections below this are not made, m: a part of the extent, and with a barrier of its distance.
@@ -89,8 +90,8 @@ double smallest_correction(const Scene& scene, double extent) {
                     has_barrier ? scene.solver.newton_tolerance * scene.contact->distance : 0);
 }
 
-// What is left unsolved of a step, as a part of what it started with. A step that reaches the tolerance
-// may leave all of that.
+// What is left unsolved of a step, as a part of what it started with. A step that reaches the
+// tolerance may leave all of that.
 double unsolved(const Scene& scene, const StepReport& report) {
     return scene.solver.integrator == Integrator::LinearEuler
                ? report.residual
@@ -132,7 +133,7 @@ void check_momentum_in(Scene scene) {
     }
 }
 
-// ------------------------------------------------------------------------------------------- reaction
+// ---------------------------------------------------------------------------------------- reaction
 
 template <int Dim>
 void check_reaction_in(const Scene& scene) {
@@ -141,7 +142,8 @@ void check_reaction_in(const Scene& scene) {
         const Positions<Dim> forces = of_all(simulation, [&](int body) -> Positions<Dim> {
             return simulation.contact_forces(body);
         });
-        // Weights of a pair add up to zero but for rounding; a held or fixed point takes its share too.
+        // Weights of a pair add up to zero but for rounding; a held or fixed point takes its share
+        // too.
         const double error = forces.rowwise().sum().norm();
         const double most = forces.colwise().norm().sum();
         if (!(error <= 1e-9 * most)) {
@@ -151,7 +153,7 @@ void check_reaction_in(const Scene& scene) {
     }
 }
 
-// ------------------------------------------------------------------------------------------ crossings
+// --------------------------------------------------------------------------------------- crossings
 
 double signed_distance(const ObstacleShape& shape, const Eigen::VectorXd& point) {
     struct Distance {
@@ -260,7 +262,7 @@ private:
     Simulation<Dim> simulation_;
 };
 
-// ---------------------------------------------------------------------------------------------- sleep
+// ------------------------------------------------------------------------------------------- sleep
 
 template <int Dim>
 class SleepLaw {
@@ -324,9 +326,10 @@ private:
         }
     }
 
-    // What was at rest for n steps at less than `speed` is accelerated by less than speed / (n h), which
-    // moves it by speed T (1 + T / (2 n h)) in a time T. Three times that, for forces that grow. This says
-    // nothing of what has just been let go, and of rest that lasts less than three steps.
+    // What was at rest for n steps at less than `speed` is accelerated by less than speed / (n h),
+    // which moves it by speed T (1 + T / (2 n h)) in a time T. Three times that, for forces that
+    // grow. This says nothing of what has just been let go, and of rest that lasts less than three
+    // steps.
     void compare_places(int step) const {
         const double h = scene_.dt();
         const double quiet = std::ceil(scene_.sleep->time / h - 1e-6);

@@ -22,8 +22,8 @@ struct PlannedBody {
     Vector velocity = {};
 };
 
-/// What the keys of a scene are drawn from: sizes, places and times that fit each other, so that bodies
-/// meet within few steps and stiffness, mass and step go together.
+/// What the keys of a scene are drawn from: sizes, places and times that fit each other, so that
+/// bodies meet within few steps and stiffness, mass and step go together.
 struct Plan {
     int dimension = 3;
     int frames = 5;

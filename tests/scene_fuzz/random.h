@@ -10,8 +10,8 @@
 
 namespace pent::scene_fuzz {
 
-/// Draws that are the same everywhere: the generator is specified by the standard, its distributions
-/// are not.
+/// Draws that are the same everywhere: the generator is specified by the standard, its
+/// distributions are not.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}

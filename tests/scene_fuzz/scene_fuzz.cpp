@@ -1,5 +1,6 @@
-// Draws small scenes at random, runs each in every way that a law is about, and shrinks those that break
-// one; docs/testing.md has the laws. scripts/scene_fuzz.sh builds it with the sanitizers and runs it.
+// Draws small scenes at random, runs each in every way that a law is about, and shrinks those that
+// break one; docs/testing.md has the laws. scripts/scene_fuzz.sh builds it with the sanitizers and
+// runs it.
 
 #include "child.h"
 #include "draw.h"
@@ -91,7 +92,7 @@ Checked check_in_memory(const Json& scene, const std::string& law) {
     return check(scene, folder.path(), {.only = law});
 }
 
-// ------------------------------------------------------------------------------------ what was found
+// ---------------------------------------------------------------------------------- what was found
 
 std::string report_text(const std::string& from, const Finding& finding) {
     return from + "\nlaw: " + finding.law + "\n" + finding.what
@@ -140,7 +141,7 @@ void keep_shrunk(const Options& options,
     std::fflush(stdout);
 }
 
-// -------------------------------------------------------------------------------------- many scenes
+// ------------------------------------------------------------------------------------- many scenes
 
 struct Tally {
     std::uint64_t scenes = 0;

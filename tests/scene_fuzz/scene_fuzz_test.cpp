@@ -30,7 +30,7 @@ Json written(const Json& scene) {
     return parse_document(runs::scene_text(runs::parse_scene(toml_text(scene), "drawn", "")));
 }
 
-// ------------------------------------------------------------------------------------- the generator
+// ----------------------------------------------------------------------------------- the generator
 
 TEST(DrawScene, GivesTheSameSceneForASeedAndAnotherForAnother) {
     EXPECT_EQ(toml_text(draw_scene(7)), toml_text(draw_scene(7)));
@@ -67,7 +67,8 @@ TEST(DrawScene, DrawsEveryKeyThatAWrittenSceneHas) {
     }
 }
 
-// What a scene has, as words such as "solver.integrator=bdf2"; of a count or a number whether it is there.
+// What a scene has, as words such as "solver.integrator=bdf2"; of a count or a number whether it is
+// there.
 std::set<std::string> features(const Json& scene) {
     std::set<std::string> found;
     for (const char* path :
@@ -150,7 +151,7 @@ TEST(MeshNames, SayAllOfAMesh) {
     EXPECT_THROW(static_cast<void>(parse_mesh_name("torus-1x1x1-1x1x1.pent")), Error);
 }
 
-// -------------------------------------------------------------------------------------- the shrinker
+// ------------------------------------------------------------------------------------ the shrinker
 
 TEST(Shrink, LeavesWhatAFailureTakesAndNothingElse) {
     const auto fails = [](const Json& scene) {
@@ -175,7 +176,7 @@ TEST(Shrink, LeavesWhatAFailureTakesAndNothingElse) {
     }
 }
 
-// ------------------------------------------------------------------------------- what laws stand upon
+// ---------------------------------------------------------------------------- what laws stand upon
 
 TEST(RunInChild, TellsEndsApart) {
     const test::TempFolder folder;
@@ -272,9 +273,11 @@ TEST_F(Folders, OfARunShowWorkOfWhatIsOff) {
                         {"output", {{"contact_pairs", false}}}};
     const std::string zero =
         R"("gravity": 0, "contact_energy": 0, "obstacle": 0, "damping_hessians": 0, "asleep": 0,
-           "newton_iterations": 0, "unbalanced": 0, "contact": {"point_facet": 0, "mixed": 0, "self": 0,
+           "newton_iterations": 0, "unbalanced": 0,
+           "contact": {"point_facet": 0, "mixed": 0, "self": 0,
            "searches": 0, "candidates": 0, "trees_built": 0, "trees_refit": 0, "ccd_seconds": 0,
-           "stiffness": 0, "obstacle": 0, "obstacle_tests": 0, "seconds": 0, "deepest": 0, "friction": )";
+           "stiffness": 0, "obstacle": 0, "obstacle_tests": 0, "seconds": 0, "deepest": 0,
+           "friction": )";
     write("a/report.json", R"({"steps": [{"step": 1, )" + zero + "0}}]}");
     EXPECT_EQ(work_of_what_is_off(scene, folder_ / "a"), "");
     write("a/report.json", R"({"steps": [{"step": 1, )" + zero + "2}}]}");
@@ -282,7 +285,7 @@ TEST_F(Folders, OfARunShowWorkOfWhatIsOff) {
               "contact.friction of step 1 is 2 without friction");
 }
 
-// ------------------------------------------------------------------------------------------- samples
+// ----------------------------------------------------------------------------------------- samples
 
 std::vector<std::string> samples() {
     std::vector<std::string> names;

@@ -159,8 +159,8 @@ std::vector<Json> simpler_scenes(const Json& scene) {
 
 Json shrink(const Json& scene, const std::function<bool(const Json&)>& fails, int tries) {
     Json least = scene;
-    // After a step that holds, the steps behind it are tried on the simpler scene before the first again:
-    // what could not be left out a moment ago can seldom be left out now.
+    // After a step that holds, the steps behind it are tried on the simpler scene before the first
+    // again: what could not be left out a moment ago can seldom be left out now.
     std::size_t next = 0;
     std::size_t since_last = 0;
     std::vector<Json> steps = simpler_scenes(least);

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <support/kuhn_box.h>
 
-// What must come out of the paper's scenes, on boxes of some thousand pentachora. The thresholds are
-// those of scripts/paper_table.py, which checks the scenes themselves.
+// What must come out of the paper's scenes, on boxes of some thousand pentachora. The thresholds
+// are those of scripts/paper_table.py, which checks the scenes themselves.
 
 namespace pent::simulator {
 namespace {
@@ -55,8 +55,8 @@ void take_steps(Simulation<4>& simulation, int steps) {
     }
 }
 
-// The two ends along w turn by 30 degrees each way. If all fibers along w stayed straight, the middle
-// would be narrower by cos 30 along x and z, to 0.75 of its volume; a body that resists the
+// The two ends along w turn by 30 degrees each way. If all fibers along w stayed straight, the
+// middle would be narrower by cos 30 along x and z, to 0.75 of its volume; a body that resists the
 // change of volume is somewhere between that and its first state.
 TEST(SmallTwist, CrushesTheMiddleSliceButNotTheBody) {
     Scene scene = empty_scene();

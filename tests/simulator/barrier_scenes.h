@@ -120,8 +120,8 @@ template <int Dim>
     return rest;
 }
 
-/// Runs a scene and looks for crossings with code of its own: at every accepted step, and all along the
-/// path that it took there.
+/// Runs a scene and looks for crossings with code of its own: at every accepted step, and all along
+/// the path that it took there.
 template <int Dim>
 class WatchedRun {
 public:

@@ -191,8 +191,8 @@ TYPED_TEST(BarrierTest, EnergyThatIsNotANumberIsAFailureOfTheStep) {
     expect_failure(scene, "the energy grew beyond all bounds");
 }
 
-// The forces of something so soft are small next to its masses, but its energy is not a number even a
-// trillionth of the way along.
+// The forces of something so soft are small next to its masses, but its energy is not a number even
+// a trillionth of the way along.
 TYPED_TEST(BarrierTest, MotionThatIsFarTooFarIsAFailureOfTheStep) {
     constexpr int kDim = TypeParam::value;
     BarrierScene<kDim> scene;

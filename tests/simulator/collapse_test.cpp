@@ -91,7 +91,8 @@ TEST(CollapsedBody, ReturnsFromAUniformScaleAboveTheLimitAndNotFromBelow) {
     EXPECT_EQ(release(0.41 * mesh.positions, mesh, 60).collapsed, mesh.cell_count());
 }
 
-// Vertices exchanged at random: about half of the elements are inside out, and all shrink to nothing.
+// Vertices exchanged at random: about half of the elements are inside out, and all shrink to
+// nothing.
 TEST(ScrambledBody, CollapsesAndIsReported) {
     const SimplexMesh<4> mesh = pent::test::kuhn_box<4>({2, 2, 2, 2}, {1, 1, 1, 1});
     std::vector<Eigen::Index> order(static_cast<std::size_t>(mesh.vertex_count()));

@@ -41,7 +41,8 @@ TYPED_TEST(ContactPotentialTest, ABarrierBetweenBodiesPushesBothAlike) {
     expect_invariance_under_rigid_motion<kDim>(contact, x);
 }
 
-// Two cubes, the second on a corner over the middle of the first, at a fraction of the distance of contact.
+// Two cubes, the second on a corner over the middle of the first, at a fraction of the distance of
+// contact.
 template <int Dim>
 Positions<Dim> on_a_corner(const Bodies<Dim>& bodies) {
     Positions<Dim> x = bodies.rest;
@@ -70,10 +71,10 @@ std::vector<std::array<std::uint32_t, Dim + 1>> pairs_at(ContactPotential<Dim>& 
     return pairs;
 }
 
-// Of a penalty the gradient is that of the energy between vertices and facets, but for the moment in
-// which another facet becomes the nearest. Mixed pairs fade towards the
-// ends of their edges by a share that is held; the Hessian holds the weights of closest points. Where
-// neither moves, at obstacles, that is tested below.
+// Of a penalty the gradient is that of the energy between vertices and facets, but for the moment
+// in which another facet becomes the nearest. Mixed pairs fade towards the ends of their edges by a
+// share that is held; the Hessian holds the weights of closest points. Where neither moves, at
+// obstacles, that is tested below.
 
 TYPED_TEST(ContactPotentialTest, APenaltyOfVerticesAndFacetsHasTheGradientOfItsEnergy) {
     constexpr int kDim = TypeParam::value;

@@ -18,8 +18,8 @@ SimplexMesh<Dim> cube(int cells = 2) {
     return pent::test::kuhn_box<Dim>(count, size);
 }
 
-/// Bodies "a" and "b", b above a along y (both cubes of 0.5 m) by `gap` m, without gravity, that see
-/// each other at 0.05 m. b is moved sideways a little, so that no vertex is above another.
+/// Bodies "a" and "b", b above a along y (both cubes of 0.5 m) by `gap` m, without gravity, that
+/// see each other at 0.05 m. b is moved sideways a little, so that no vertex is above another.
 template <int Dim>
 Scene two_cubes(double gap) {
     Scene scene = box_scene<Dim>();

@@ -125,7 +125,8 @@ TYPED_TEST(ContactLaws, LeadEveryIntegratorToTheSameMotion) {
     }
 }
 
-// Dropped from 0.1 m, with damping: at rest the floor carries the weight, and all stays where it is.
+// Dropped from 0.1 m, with damping: at rest the floor carries the weight, and all stays where it
+// is.
 TYPED_TEST(ContactLaws, BringADroppedBodyToRestOnTheFloor) {
     constexpr int kDim = TypeParam::value;
     Scene scene = test::box_scene<kDim>();
@@ -156,7 +157,8 @@ TYPED_TEST(ContactLaws, BringADroppedBodyToRestOnTheFloor) {
     EXPECT_LT((simulation.positions(0) - rested).cwiseAbs().maxCoeff(), 1e-4);
 }
 
-// Two bodies one upon the other in a bowl of 0.8 m: nothing ever leaves it, and in the end all rests.
+// Two bodies one upon the other in a bowl of 0.8 m: nothing ever leaves it, and in the end all
+// rests.
 TYPED_TEST(ContactLaws, KeepEverythingInTheBowlAndBringItToRest) {
     constexpr int kDim = TypeParam::value;
     Scene scene = two_cubes<kDim>(0.1);
@@ -189,7 +191,8 @@ TYPED_TEST(ContactLaws, KeepEverythingInTheBowlAndBringItToRest) {
     }
     EXPECT_GT(touched, 0);
     for (int body = 0; body < 2; ++body) {
-        // A frictionless bowl is a pendulum that only damping stops: exp(-3/2 * 6.7 s) of its start.
+        // A frictionless bowl is a pendulum that only damping stops: exp(-3/2 * 6.7 s) of its
+        // start.
         EXPECT_LT(simulation.velocities(body).cwiseAbs().maxCoeff(), 5e-3);
     }
 }

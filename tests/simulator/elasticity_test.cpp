@@ -68,7 +68,8 @@ TYPED_TEST(ElasticityTest, DoesNotSeeRigidMotions) {
     }
 }
 
-// Held ends, a body that sleeps: what the elastic term says of vertices without dofs stays what it is.
+// Held ends, a body that sleeps: what the elastic term says of vertices without dofs stays what it
+// is.
 
 TYPED_TEST(ElasticityTest, OfSleepingBodiesIsThatWithWhichTheyFellAsleep) {
     constexpr int kDim = TypeParam::value;

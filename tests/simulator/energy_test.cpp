@@ -93,7 +93,8 @@ TEST_P(Models, LinearizeToTheLameParametersOfTheMaterial) {
     }
 }
 
-// Central differences with step h are off by h^2 f'''/6 and by 1e-16 f / h, both about 1e-10 of f here.
+// Central differences with step h are off by h^2 f'''/6 and by 1e-16 f / h, both about 1e-10 of f
+// here.
 constexpr double kStep = 1e-5;
 
 TEST_P(Models, HaveStressEqualToTheDifferenceOfEnergyAlongEveryDirection) {
@@ -165,8 +166,8 @@ MatrixXd neo_hookean_product(const Lame& lame, const MatrixXd& F, const MatrixXd
            + (lambda * (J - 1) - lame.mu) * (trace * cofactor - J * (G * d * G).transpose());
 }
 
-// Matrix-free, so that it reaches n = 100: sampled eigenpairs satisfy H q = lambda q, all modes have
-// norm 1 and sampled ones are orthogonal, and eigenvalues add up to the trace of H.
+// Matrix-free, so that it reaches n = 100: sampled eigenpairs satisfy H q = lambda q, all modes
+// have norm 1 and sampled ones are orthogonal, and eigenvalues add up to the trace of H.
 TEST(NeoHookeanEigensystem, HoldsInDimensionsUpTo100) {
     std::mt19937 random(9);
     const Material material = soft(Model::StableNeoHookean);

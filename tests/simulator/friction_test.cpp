@@ -38,8 +38,8 @@ BarrierScene<Dim> slope(ContactModel model, double tangent) {
     return scene;
 }
 
-// How fast it is along the slope after 2 s. Two per cent off the angle what it gains or loses is a small
-// part of g, 0.07 m/s^2, so it takes time to stop what settling has set in motion.
+// How fast it is along the slope after 2 s. Two per cent off the angle what it gains or loses is a
+// small part of g, 0.07 m/s^2, so it takes time to stop what settling has set in motion.
 template <int Dim>
 double speed_on(ContactModel model, double tangent) {
     const BarrierScene<Dim> scene = slope<Dim>(model, tangent);
@@ -143,8 +143,8 @@ TYPED_TEST(FrictionSlopeTest, SingleLinearSolvesHaveItToo) {
     EXPECT_NEAR(speed_after(kFriction), 1.5 - 0.2 * kFriction * kGravity, 0.15);
 }
 
-// A soft block without damping that slides just off the angle keeps ringing for seconds: that is what an
-// undamped body does, not what friction adds. Whatever friction does, energy never rises.
+// A soft block without damping that slides just off the angle keeps ringing for seconds: that is
+// what an undamped body does, not what friction adds. Whatever friction does, energy never rises.
 TYPED_TEST(FrictionSlopeTest, AddsNoEnergyToABlockThatRings) {
     constexpr int kDim = TypeParam::value;
     for (const Integrator integrator : {Integrator::NewtonEuler, Integrator::Bdf2}) {

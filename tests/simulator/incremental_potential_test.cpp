@@ -22,8 +22,8 @@ template <typename T>
 class IncrementalPotentialTest : public testing::Test {};
 TYPED_TEST_SUITE(IncrementalPotentialTest, Dimensions);
 
-// Two bodies in contact with friction and damping, one of them held at a side that moves, at the start of
-// a step.
+// Two bodies in contact with friction and damping, one of them held at a side that moves, at the
+// start of a step.
 template <int Dim>
 struct Step {
     Setting<Dim> setting;

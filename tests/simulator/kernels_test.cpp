@@ -260,7 +260,8 @@ TEST_P(KernelKinds, CountCollapsedElements) {
     EXPECT_EQ(box.forces(best_isa(), box.positions, forces).collapsed, box.elements->count());
 }
 
-// The columns of held vertices go to the right side: K_fh shift, from the full matrix of a free box.
+// The columns of held vertices go to the right side: K_fh shift, from the full matrix of a free
+// box.
 TEST_P(KernelKinds, TakeColumnsOfHeldVerticesToTheRightSide) {
     const Material material = soft(Model::StableNeoHookean);
     const std::vector<std::uint32_t> held = {1, 4, 9};

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-// Penalty contact between cubes that meet at corners and edges: the forces jump where a vertex changes its
-// facet, and Newton's method finds no point where they balance.
+// Penalty contact between cubes that meet at corners and edges: the forces jump where a vertex
+// changes its facet, and Newton's method finds no point where they balance.
 
 namespace pent::simulator {
 namespace {

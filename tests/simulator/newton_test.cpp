@@ -292,8 +292,8 @@ TEST(Newton, StretchesStepsOfAHessianThatIsTooStiff) {
     EXPECT_LT(iterations(true), 10);
 }
 
-// Three points on a line, joined by springs of rest length 1; the first is to be brought to a place.
-// A wall may be in its way.
+// Three points on a line, joined by springs of rest length 1; the first is to be brought to a
+// place. A wall may be in its way.
 class Chain : public Objective<3> {
 public:
     explicit Chain(double goal, double wall = kInfinity) : goal_(goal), wall_(wall) {}

@@ -57,7 +57,8 @@ TEST(ContactWithinBodies, LooksAtNoPairUnlessAsked) {
     for (const bool self : {false, true}) {
         scene.contact->self = self;
         Simulation<4> simulation(scene, {cube<4>(), cube<4>()});
-        // Pressed flat: the two sides of a body are nearer to each other than the distance of contact.
+        // Pressed flat: the two sides of a body are nearer to each other than the distance of
+        // contact.
         Positions<4> flat = simulation.positions(0);
         flat.row(0) *= 0.01;
         simulation.set_state(0, flat, simulation.velocities(0));
@@ -98,7 +99,8 @@ TEST(Filter, TakesNoSecondAssemblyWhereNothingIsNegative) {
     }
 }
 
-// The first step of a cube that is `stretch` times as large as at rest, short enough for every filter.
+// The first step of a cube that is `stretch` times as large as at rest, short enough for every
+// filter.
 StepReport step_stretched(Filter filter, double stretch) {
     Scene scene = test::box_scene<4>();
     scene.frames_per_second = 3000;
@@ -111,8 +113,8 @@ StepReport step_stretched(Filter filter, double stretch) {
     return report;
 }
 
-// Of a simplex 0.7 times as large the twists are negative, mu (1 - 0.49) + (lambda + mu)(0.24 - 1) 0.49;
-// of one 1.02 times as large nothing is.
+// Of a simplex 0.7 times as large the twists are negative, mu (1 - 0.49) + (lambda + mu)(0.24 - 1)
+// 0.49; of one 1.02 times as large nothing is.
 TEST(Filter, ChangesNoElementWhereItIsOffAndThoseWithNegativeEigenvaluesWhereItIsOn) {
     EXPECT_EQ(step_stretched(Filter::None, 0.7).filtered, 0);
     for (const Filter filter : {Filter::Clamp, Filter::Absolute}) {

@@ -365,7 +365,8 @@ TEST(Quasistatic, EndsWhereADampedMotionComesToRest) {
     Simulation<4> at_once(scene, {mesh});
     ASSERT_TRUE(at_once.step().is_accepted);
     scene.solver.integrator = Integrator::NewtonEuler;
-    // The slowest mode has 1.7 rad/s: nearly critical damping takes it down by exp(-20) in 400 steps.
+    // The slowest mode has 1.7 rad/s: nearly critical damping takes it down by exp(-20) in 400
+    // steps.
     scene.damping = Damping{.mass = 3, .stiffness = 0};
     Simulation<4> slowly(scene, {mesh});
     for (int i = 0; i < 400; ++i) {

@@ -364,7 +364,8 @@ TEST(CheckScene, NamesTheBodyWhoseMaterialIsOutOfRange) {
                                 {"body \"box\": the density is 0", "more than 0"});
 }
 
-// Of so little mass that the linear solver copes, while squares of the way to go are beyond all numbers.
+// Of so little mass that the linear solver copes, while squares of the way to go are beyond all
+// numbers.
 TEST(FailedStep, IsOneWhoseMotionHasAnEnergyThatIsNotANumber) {
     Scene scene = box_scene<4>();
     scene.solver.integrator = Integrator::NewtonEuler;
@@ -385,8 +386,8 @@ double kinetic_energy(const Simulation<4>& simulation, const Positions<4>& befor
            * (simulation.velocities(0) - before).colwise().squaredNorm().dot(simulation.masses(0));
 }
 
-// Of backward Euler it is h^2 (1/2 |v - v0|_M^2 + E): no more behind a step than with all where it was,
-// from however far the linear step that the search begins with may have leapt.
+// Of backward Euler it is h^2 (1/2 |v - v0|_M^2 + E): no more behind a step than with all where it
+// was, from however far the linear step that the search begins with may have leapt.
 TEST(NewtonsMethod, NeverEndsAboveWhereTheStepBegan) {
     Scene scene = box_scene<4>();
     scene.solver.integrator = Integrator::NewtonEuler;

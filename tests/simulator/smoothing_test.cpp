@@ -208,7 +208,8 @@ double sag(ElementKind kind, double poisson, int across) {
     return down / count * kYoung / (256.0 * 12 / 8 + by_shear);
 }
 
-// What docs/simulator.md promises. Never less than linear ones: they have no more energy at any bend.
+// What docs/simulator.md promises. Never less than linear ones: they have no more energy at any
+// bend.
 TEST(SmoothedBody, BendsBetterThanALinearOneOfTwiceTheCellsAcross) {
     for (const double poisson : {0.0, 0.28, 0.32}) {
         const double smoothed = sag(ElementKind::Smoothed, poisson, 2);

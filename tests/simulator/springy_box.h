@@ -10,8 +10,8 @@ namespace pent::simulator::test {
 
 inline constexpr int kBoxDim = 4;
 
-// The system of a step of a scrambled box: its stiffness, masses, and a spring between two far corners,
-// which share no cell.
+// The system of a step of a scrambled box: its stiffness, masses, and a spring between two far
+// corners, which share no cell.
 struct SpringyBox {
     ElasticBox<kBoxDim> box{{.lame = {.lambda = 2, .mu = 1}}, {3, 7}};
     Workers workers{2};

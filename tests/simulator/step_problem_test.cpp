@@ -7,8 +7,8 @@
 namespace pent::simulator {
 namespace {
 
-// One particle of mass 1 on a spring of stiffness k: with the numbers of a StepProblem the end of a step
-// solves inertia (x - target) + scale k x = 0, and its velocity is rate (x - origin).
+// One particle of mass 1 on a spring of stiffness k: with the numbers of a StepProblem the end of a
+// step solves inertia (x - target) + scale k x = 0, and its velocity is rate (x - origin).
 State<3> step_of(const StepProblem<3>& problem, double k) {
     State<3> end;
     end.positions = problem.inertia * problem.target / (problem.inertia + problem.scale * k);

@@ -4,13 +4,13 @@
 
 #include <cmath>
 
-// Scenes that are hard on a barrier, in R^3 and R^4, with cells as fine as asked: edges are cut into
-// `fine` times as many pieces as the least that shows what the scene is about.
+// Scenes that are hard on a barrier, in R^3 and R^4, with cells as fine as asked: edges are cut
+// into `fine` times as many pieces as the least that shows what the scene is about.
 
 namespace pent::simulator::test {
 
-/// A bullet at 100 of its lengths a second. Each step is two bodies long: after the first, it would be
-/// behind the target.
+/// A bullet at 100 of its lengths a second. Each step is two bodies long: after the first, it would
+/// be behind the target.
 template <int Dim>
 [[nodiscard]] BarrierScene<Dim> fast_impact(int fine) {
     BarrierScene<Dim> scene;
@@ -39,7 +39,8 @@ template <int Dim>
     return scene;
 }
 
-/// A needle, body 2, pushed at a gap narrower than itself: 0.1 wide, the soft needle 0.16, its tip 0.05.
+/// A needle, body 2, pushed at a gap narrower than itself: 0.1 wide, the soft needle 0.16, its tip
+/// 0.05.
 template <int Dim>
 [[nodiscard]] BarrierScene<Dim> needle_at_gap(int fine) {
     BarrierScene<Dim> scene;

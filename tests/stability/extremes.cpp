@@ -25,9 +25,10 @@ std::string number(double value) {
     return formatted("%.6g", value);
 }
 
-// Gravity that shears the corner of a single pentachoron of the first body by 0.3 along three axes and
-// stretches it by 0.1 along the fourth. With F = I + t e_w^T the stress along e_w is linear in t:
-// P e_w = mu t, and (lambda + 2 mu) t_w along w, which balances a fifth of the weight, rho g h / 5.
+// Gravity that shears the corner of a single pentachoron of the first body by 0.3 along three axes
+// and stretches it by 0.1 along the fourth. With F = I + t e_w^T the stress along e_w is linear in
+// t: P e_w = mu t, and (lambda + 2 mu) t_w along w, which balances a fifth of the weight, rho g h
+// / 5.
 Eigen::Vector4d loading_gravity(const Extreme& extreme) {
     const simulator::Lame lame = simulator::lame_from_young(
         4, extreme.young * std::min(1.0, extreme.ratio), extreme.poisson);
@@ -187,7 +188,8 @@ std::vector<Case> make_corners() {
     for (Case& one : all) {
         Extreme& extreme = one.extreme;
         if (extreme.ratio != 1) {
-            // Forces are compared with the largest of the scene, which the softer body's vanish beside.
+            // Forces are compared with the largest of the scene, which the softer body's vanish
+            // beside.
             extreme.newton_tolerance = 1e-10;
         }
         const double edge = extreme.size / extreme.cells * std::min(1.0, extreme.aspect);

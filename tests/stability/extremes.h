@@ -7,8 +7,8 @@
 
 namespace pent::stability {
 
-/// How far out a simulation can go: tables of cases, which the tests judge and docs/stability.md shows.
-/// A case changes some numbers of a small body and asks for motions whose end is known.
+/// How far out a simulation can go: tables of cases, which the tests judge and docs/stability.md
+/// shows. A case changes some numbers of a small body and asks for motions whose end is known.
 
 /// The numbers of a case. Lengths of the body are multiples of `size`, so that a case is one thing.
 struct Extreme {
@@ -39,13 +39,15 @@ struct Case {
 [[nodiscard]] const std::vector<Case>& cases();
 
 /// The corners of the box, every number at one of its ends, all at once. Inside are those where the
-/// inertia of a vertex does not drown: stiffness times the square of the time step up to 1e8 masses.
+/// inertia of a vertex does not drown: stiffness times the square of the time step up to 1e8
+/// masses.
 [[nodiscard]] const std::vector<Case>& corners();
 
 /// A body of a million pentachora: for the report alone, too slow for a test.
 [[nodiscard]] Case million();
 
-/// What is asked of every case. Each has an exact answer that depends on nothing but the motion told.
+/// What is asked of every case. Each has an exact answer that depends on nothing but the motion
+/// told.
 enum class Motion {
     Fall,  ///< Nothing held, implicit Euler: x = x0 + g h^2 n (n + 1) / 2 after n steps, exactly.
     Descend,  ///< The same by Newton's method.
@@ -82,9 +84,9 @@ struct Start {
                           simulator::Integrator integrator,
                           simulator::Precision precision);
 
-/// Two bodies and contact at its extremes. Right if momentum is kept, which is the error, no coordinate
-/// leaves the world, and with a barrier nothing crosses. Penalties promise less: Reported where
-/// vertices end deeper in the other body than they began, as StepReport says.
+/// Two bodies and contact at its extremes. Right if momentum is kept, which is the error, no
+/// coordinate leaves the world, and with a barrier nothing crosses. Penalties promise less:
+/// Reported where vertices end deeper in the other body than they began, as StepReport says.
 struct Touch {
     std::string name;
     double gap = 0.05;      ///< Between the bodies, edges; negative: they overlap.

@@ -108,9 +108,10 @@ Outcome step_all(simulator::Simulation<4>& simulation, int steps) {
 }
 
 double bound(simulator::Precision precision) {
-    // The turn ends where forces have fallen to 1e-6 of those of a turn by 10 degrees; the softest mode of
-    // a slender, nearly incompressible bar is up to 1e3 times softer than the stiffest. The fall has the
-    // tolerance of the linear solver, and with a float matrix its rounding, up to 1e-3.
+    // The turn ends where forces have fallen to 1e-6 of those of a turn by 10 degrees; the softest
+    // mode of a slender, nearly incompressible bar is up to 1e3 times softer than the stiffest. The
+    // fall has the tolerance of the linear solver, and with a float matrix its rounding, up to
+    // 1e-3.
     return precision == simulator::Precision::Float ? 2e-3 : 1e-3;
 }
 

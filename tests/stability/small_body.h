@@ -5,12 +5,13 @@
 #include <pent/error.h>
 #include <pent/simulator/simulation.h>
 
-// What all the tables have in common: the small body of a case, its scene, and how outcomes are judged.
+// What all the tables have in common: the small body of a case, its scene, and how outcomes are
+// judged.
 
 namespace pent::stability {
 
-/// A bar along x, 4 axes: along, two across, and the layers; or a single pentachoron, whose corner 4 is
-/// the only one above w = 0.
+/// A bar along x, 4 axes: along, two across, and the layers; or a single pentachoron, whose corner
+/// 4 is the only one above w = 0.
 [[nodiscard]] SimplexMesh<4> mesh_of(const Extreme& extreme);
 
 /// One body, and a second beside it where their stiffness differs; nothing held, no gravity.
@@ -24,8 +25,8 @@ void hold_ends(simulator::Scene& scene,
 /// Whether positions and velocities of all bodies are finite.
 [[nodiscard]] bool is_finite(const simulator::Simulation<4>& simulation);
 
-/// Takes steps to the end. Right, or Reported from the first that was not taken as told, or with elements
-/// that are inverted at the end; Wrong if what a step leaves is not finite.
+/// Takes steps to the end. Right, or Reported from the first that was not taken as told, or with
+/// elements that are inverted at the end; Wrong if what a step leaves is not finite.
 [[nodiscard]] Outcome step_all(simulator::Simulation<4>& simulation, int steps);
 
 /// Right if the error is within bound(), else Wrong.

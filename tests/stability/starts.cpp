@@ -69,8 +69,8 @@ Outcome run(const Start& start, simulator::Integrator integrator, Precision prec
         Simulation<4> simulation(scene, {mesh_of(extreme)});
         const Positions<4> rest = simulation.mesh(0).positions;
         simulation.set_state(0, started(start.name, rest), Positions<4>::Zero(4, rest.cols()));
-        // 6 s. Damping takes 0.1 s, but a body that falls back from far may fold on the way, and first
-        // has to slide off an equilibrium that is not stable.
+        // 6 s. Damping takes 0.1 s, but a body that falls back from far may fold on the way, and
+        // first has to slide off an equilibrium that is not stable.
         constexpr int kToRest = 180;
         StepReport report;
         for (int i = 0; i < kToRest; ++i) {

@@ -38,7 +38,8 @@ TEST(AngularMomentum, OfASpinInOnePlaneIsInThatPlaneAlone) {
     }
 }
 
-// Two bodies that meet and part put in and take out 3 J; then one comes to rest on 2 J, by way of 5.
+// Two bodies that meet and part put in and take out 3 J; then one comes to rest on 2 J, by way
+// of 5.
 TEST(ContactWork, IsTheSumOfAllRisesOfTheEnergyInContacts) {
     std::vector<StepRecord> steps;
     for (const double energy : {0.0, 1.0, 3.0, 2.0, 0.0, 0.0, 5.0, 1.0, 2.0, 2.0}) {

@@ -11,8 +11,8 @@
 #include <limits>
 #include <vector>
 
-// Whether bodies cross, by trying every pair of simplices: no trees, no closest points and no advancement
-// of the library. All in long double.
+// Whether bodies cross, by trying every pair of simplices: no trees, no closest points and no
+// advancement of the library. All in long double.
 
 namespace pent::test {
 
@@ -92,8 +92,9 @@ template <int Dim, int K, int L>
     return best;
 }
 
-/// Counts, over a motion on straight lines, the pairs of K + L = Dim + 1 corners that meet: at a root in
-/// [0, 1] of the volume their corners span, a polynomial of degree Dim in t, at which their distance is 0.
+/// Counts, over a motion on straight lines, the pairs of K + L = Dim + 1 corners that meet: at a
+/// root in [0, 1] of the volume their corners span, a polynomial of degree Dim in t, at which their
+/// distance is 0.
 template <int Dim, int K, int L>
 class SweptPair {
 public:
@@ -199,7 +200,8 @@ template <int Dim, int K, int L>
     return false;
 }
 
-/// The extents of simplices along every axis over a motion: lowest and highest, Dim x simplices each.
+/// The extents of simplices along every axis over a motion: lowest and highest, Dim x simplices
+/// each.
 template <int Dim>
 struct Extents {
     Eigen::Matrix<double, Dim, Eigen::Dynamic> low;
@@ -232,8 +234,8 @@ template <int Dim, int Count>
     return extents;
 }
 
-/// Calls visit(i, j) for all pairs of simplices, but those that share a corner or whose extents do not
-/// meet.
+/// Calls visit(i, j) for all pairs of simplices, but those that share a corner or whose extents do
+/// not meet.
 template <int Dim, int K, int L, typename Visit>
 void for_each_near_pair(const Simplices<K>& a,
                         const Simplices<L>& b,
@@ -276,8 +278,8 @@ template <int Dim>
     return count;
 }
 
-/// Pairs of two surfaces (or one and itself) that meet while all vertices go straight from one place to
-/// another.
+/// Pairs of two surfaces (or one and itself) that meet while all vertices go straight from one
+/// place to another.
 template <int Dim>
 [[nodiscard]] int count_swept_crossings(const contact::Surface<Dim>& first,
                                         const contact::Surface<Dim>& second,

@@ -9,7 +9,8 @@
 
 namespace pent::test {
 
-/// A host's task system: as many threads as asked for, whatever the machine has, anew for each loop.
+/// A host's task system: as many threads as asked for, whatever the machine has, anew for each
+/// loop.
 inline TaskSystem host_tasks(int workers) {
     const auto run = [workers](std::size_t count, const std::function<void(std::size_t)>& task) {
         std::atomic<std::size_t> next = 0;

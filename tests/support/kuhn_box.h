@@ -8,8 +8,8 @@
 
 namespace pent::test {
 
-/// A box of cubes, each cut into Dim! simplices along the paths from its lowest to its highest corner
-/// (Kuhn). Vertex i of the grid is numbered with the first axis fastest.
+/// A box of cubes, each cut into Dim! simplices along the paths from its lowest to its highest
+/// corner (Kuhn). Vertex i of the grid is numbered with the first axis fastest.
 ///
 /// @param count  Cubes along each axis.
 /// @param size   Edge of the box along each axis, m.

@@ -50,8 +50,8 @@ std::string ranges(const std::vector<int>& frames) {
     return text + "]";
 }
 
-// Whether pent-sim may still be at work: report.json says so near its start. Without a report it has
-// just begun.
+// Whether pent-sim may still be at work: report.json says so near its start. Without a report it
+// has just begun.
 bool is_growing(const fs::path& run) {
     std::ifstream file(run / "report.json", std::ios::binary);
     std::string head(1024, '\0');

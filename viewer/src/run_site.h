@@ -7,8 +7,8 @@
 
 namespace pent::viewer {
 
-/// What a browser may see of a disk: the page of web/, and one run or mesh. Nothing else, whatever it
-/// asks for.
+/// What a browser may see of a disk: the page of web/, and one run or mesh. Nothing else, whatever
+/// it asks for.
 ///
 ///     /                          the page
 ///     /NAME/run.json             bodies and frames there are now, and whether more may come
@@ -21,7 +21,8 @@ public:
     /// Throws an Error if one of them is not what it should be.
     RunSite(const std::filesystem::path& page, const std::filesystem::path& run);
 
-    /// @param port  That the request came to: its Host must be this machine's own with this port, so
+    /// @param port  That the request came to: its Host must be this machine's own with this port,
+    /// so
     ///              that pages of others cannot read the run by a name that leads here.
     [[nodiscard]] HttpResponse answer(const HttpRequest& request, int port) const;
 

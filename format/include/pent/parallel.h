@@ -9,9 +9,9 @@
 
 namespace pent {
 
-/// All threads of the libraries come from here. A loop is a count of tasks that does not depend on the
-/// number of threads; each writes results of its own, and sums are added in the order of the tasks:
-/// same in, same out, whatever runs them.
+/// All threads of the libraries come from here. A loop is a count of tasks that does not depend on
+/// the number of threads; each writes results of its own, and sums are added in the order of the
+/// tasks: same in, same out, whatever runs them.
 
 /// What runs tasks at the same time: the library's own threads, or a host program's job system.
 struct TaskSystem {
@@ -26,8 +26,8 @@ struct TaskSystem {
     bool can_nest = false;
 };
 
-/// The task system that the library was built with: oneTBB, none (one worker, whatever was asked for),
-/// or plain threads for the thread sanitizer; see PENT_THREADS in CMakeLists.txt.
+/// The task system that the library was built with: oneTBB, none (one worker, whatever was asked
+/// for), or plain threads for the thread sanitizer; see PENT_THREADS in CMakeLists.txt.
 ///
 /// @param threads  At least 1; oneTBB runs no more at a time than the machine has cores.
 [[nodiscard]] TaskSystem own_task_system(int threads);
@@ -44,13 +44,13 @@ public:
     /// How many tasks may run at the same time.
     [[nodiscard]] int threads() const { return tasks_.workers; }
 
-    /// Runs `work` with these as the workers of every loop within it, on whatever thread, and returns
-    /// its result. With oneTBB, loops of other libraries keep to them as well.
+    /// Runs `work` with these as the workers of every loop within it, on whatever thread, and
+    /// returns its result. With oneTBB, loops of other libraries keep to them as well.
     template <typename Work>
     auto run(const Work& work) const;
 
-    /// Calls work(i) for every i in [0, count), each a task. Of exceptions that of the lowest i comes
-    /// through, when all tasks have ended; those behind it may not have run.
+    /// Calls work(i) for every i in [0, count), each a task. Of exceptions that of the lowest i
+    /// comes through, when all tasks have ended; those behind it may not have run.
     template <typename Index, typename Work>
     void for_each(Index count, const Work& work) const;
 

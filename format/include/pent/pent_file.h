@@ -28,7 +28,8 @@ struct FileInfo {
     bool is_frame = false;    ///< Positions (and velocities) without cells.
 };
 
-/// Positions, velocities and contact forces of a body at one moment; the cells are those of its mesh.
+/// Positions, velocities and contact forces of a body at one moment; the cells are those of its
+/// mesh.
 template <int Dim>
 struct Frame {
     Positions<Dim> positions;       ///< Dim x vertices, m.

@@ -13,8 +13,8 @@
 
 /// Numbers side by side in the vector types of g++ and clang, which lower what a machine lacks.
 ///
-/// Every function is inlined wherever it is called, at every level of optimization: files compiled for
-/// different instruction sets never share a copy of one.
+/// Every function is inlined wherever it is called, at every level of optimization: files compiled
+/// for different instruction sets never share a copy of one.
 #define PENT_SIMD_INLINE [[nodiscard, gnu::always_inline]] inline
 
 namespace pent {
@@ -58,8 +58,8 @@ struct Mask {
     PENT_SIMD_INLINE friend Mask operator!(const Mask& a) { return {~a.lanes}; }
 };
 
-/// Count floats or doubles; Count is a power of two, at least 2. Arithmetic is lane by lane and as that of
-/// one Number, NaN and signed zeros included.
+/// Count floats or doubles; Count is a power of two, at least 2. Arithmetic is lane by lane and as
+/// that of one Number, NaN and signed zeros included.
 template <typename Number, int Count>
 struct Pack {
     using Vector = typename detail::VectorOf<Number, Count>::Type;
@@ -161,7 +161,8 @@ PENT_SIMD_INLINE Pack<Number, Count> abs(const Pack<Number, Count>& a) {
     return Pack<Number, Count>(reinterpret_cast<Vector>(~sign & reinterpret_cast<Bits>(a.lanes)));
 }
 
-/// a * b + c, lane by lane: rounded once where this file is compiled for fused multiply-add, else twice.
+/// a * b + c, lane by lane: rounded once where this file is compiled for fused multiply-add, else
+/// twice.
 template <typename Number, int Count>
 PENT_SIMD_INLINE Pack<Number, Count> multiply_add(const Pack<Number, Count>& a,
                                                   const Pack<Number, Count>& b,

@@ -44,8 +44,9 @@ public:
 
     void move(std::uint32_t vertex, const Eigen::Vector4d& place) { places_[vertex] = place; }
 
-    /// Puts a new vertex into an edge, triangle or tetrahedron of the mesh: each cell that has it becomes as
-    /// many as it has corners. Conforming as the mesh was. Returns the vertex, which is the last.
+    /// Puts a new vertex into an edge, triangle or tetrahedron of the mesh: each cell that has it
+    /// becomes as many as it has corners. Conforming as the mesh was. Returns the vertex, which is
+    /// the last.
     std::uint32_t split(std::span<const std::uint32_t> simplex, const Eigen::Vector4d& place);
 
     [[nodiscard]] SimplexMesh<4> mesh() const;

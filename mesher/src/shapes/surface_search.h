@@ -12,12 +12,12 @@ struct Sample {
     double value = 0;
 };
 
-/// The part of the way from one point to the other where a solid's function is zero, to rounding; its
-/// values at the two have different signs.
+/// The part of the way from one point to the other where a solid's function is zero, to rounding;
+/// its values at the two have different signs.
 [[nodiscard]] double zero_between(const Solid& solid, const Sample& from, const Sample& to);
 
-/// The zero that Newton's method reaches along the slope of the function; nothing if it does not get
-/// there.
+/// The zero that Newton's method reaches along the slope of the function; nothing if it does not
+/// get there.
 /// @param scale  Of the cells, m: derivatives are differences over a small part of it.
 [[nodiscard]] std::optional<Eigen::Vector4d> nearest_zero(const Solid& solid,
                                                           const Eigen::Vector4d& start,

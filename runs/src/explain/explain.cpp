@@ -110,8 +110,8 @@ private:
              .why = g > 0 ? formatted("%.4g m/s^2", g) : "[scene] has no gravity"});
     }
 
-    // Newton's method keeps the tangent of a step as a matrix of its own, assembled once; a single linear
-    // solve has it in its matrix anyway.
+    // Newton's method keeps the tangent of a step as a matrix of its own, assembled once; a single
+    // linear solve has it in its matrix anyway.
     void damping() {
         const Damping damping = scene_.damping.value_or(Damping{});
         if (damping.mass == 0 && damping.stiffness == 0) {

@@ -247,8 +247,8 @@ StateBlocks carried_state_of_old_run(const fs::path& folder,
                                      int frame) {
     if (scene.contact && scene.contact->model == ContactModel::Barrier) {
         throw Error(folder.string()
-                    + ": was begun by version 0.1.0, which did not keep the stiffness of its barrier:"
-                      " going on would lead elsewhere; use --force to start again");
+                    + ": was begun by version 0.1.0, which did not keep the stiffness of its"
+                      " barrier: going on would lead elsewhere; use --force to start again");
     }
     StateBlocks blocks;
     const auto checkpoint = [&](const std::string& name, int number) {

@@ -35,8 +35,8 @@ struct Resumption {
 
 /// Reads nothing but the folder and changes nothing in it.
 ///
-/// Throws an Error that names the file if a mesh is another one, a file is damaged or of another run, or
-/// no frame is whole.
+/// Throws an Error that names the file if a mesh is another one, a file is damaged or of another
+/// run, or no frame is whole.
 ///
 /// @param simulation  Of the same scene, at its start.
 /// @param history     Of the run so far.

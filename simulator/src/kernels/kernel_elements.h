@@ -6,9 +6,8 @@
 
 // Groups of elements and their gradients, in lanes.
 
-// Tensors of lanes are filled entry by entry right after they are declared; zeroing them first would
-// cost as much as using them.
-// NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
+// Tensors of lanes are filled entry by entry right after they are declared; zeroing them first
+// would cost as much as using them. NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
 
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h

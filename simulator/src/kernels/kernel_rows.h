@@ -44,8 +44,8 @@ void multiply_rows(const BlockRows<Scalar>& rows, const double* x, double* y) {
     }
 }
 
-// The same for 4 x 4 blocks, a column of a block in one vector. Written with the vector types of the
-// compiler, for packs have no shuffles; a machine without vectors of four gets pairs.
+// The same for 4 x 4 blocks, a column of a block in one vector. Written with the vector types of
+// the compiler, for packs have no shuffles; a machine without vectors of four gets pairs.
 using Four [[gnu::vector_size(32)]] = double;
 
 template <typename Scalar>

@@ -4,9 +4,8 @@
 
 // Forces and Hessians of elements with any number of corners, in lanes: the domains of smoothing.h.
 
-// Tensors of lanes are filled entry by entry right after they are declared; zeroing them first would
-// cost as much as using them.
-// NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
+// Tensors of lanes are filled entry by entry right after they are declared; zeroing them first
+// would cost as much as using them. NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
 
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
@@ -134,8 +133,8 @@ RunEnergy add_smoothed_gradient(const ElementRun& run, const double* positions, 
     return total;
 }
 
-// Second derivatives of the energy by F: at[l][m][i][j] = d^2 / dF_il dF_jm for l <= m; the others are
-// their transposes.
+// Second derivatives of the energy by F: at[l][m][i][j] = d^2 / dF_il dF_jm for l <= m; the others
+// are their transposes.
 template <typename Real, int Dim>
 struct EnergyHessian {
     Tensor<Real, Dim> at[Dim][Dim];

@@ -18,8 +18,8 @@ namespace pent::simulator {
 /// Elements are stored in groups of this many, one element a lane, whatever the vector width.
 inline constexpr int kGroup = 16;
 
-/// Blocks of the upper triangle of an element matrix: pairs a <= b of its corners. In kernels at compile time
-/// alone, see above.
+/// Blocks of the upper triangle of an element matrix: pairs a <= b of its corners. In kernels at
+/// compile time alone, see above.
 constexpr int pairs_of(int corners) {
     return corners * (corners + 1) / 2;
 }
@@ -28,13 +28,14 @@ constexpr int pairs_of(int corners) {
 template <int Dim>
 inline constexpr int kPairs = pairs_of(Dim + 1);
 
-/// A run of element groups of one material and one number of corners. Arrays are [group][row][lane].
+/// A run of element groups of one material and one number of corners. Arrays are
+/// [group][row][lane].
 ///
-/// An element deforms by F = sum over its corners of x_a g_a^T, with rest gradients g_a that add up to
-/// zero: a simplex has Dim + 1 of them, a smoothing domain may have more. The corners are in increasing
-/// order of their unknown, held ones last; an element with fewer than the others repeats its
-/// first, with zeros for gradients. Lanes behind the last element of a run repeat a real element with
-/// volume 0 and are not scattered.
+/// An element deforms by F = sum over its corners of x_a g_a^T, with rest gradients g_a that add up
+/// to zero: a simplex has Dim + 1 of them, a smoothing domain may have more. The corners are in
+/// increasing order of their unknown, held ones last; an element with fewer than the others repeats
+/// its first, with zeros for gradients. Lanes behind the last element of a run repeat a real
+/// element with volume 0 and are not scattered.
 struct ElementRun {
     Model model = Model::StableNeoHookean;
     double mu = 0;             ///< Pa, of linear elasticity.

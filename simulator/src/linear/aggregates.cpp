@@ -11,9 +11,9 @@ namespace pent::simulator {
 namespace {
 
 constexpr double kAggregateSize = 550;
-// The dense coarse matrix of 10 modes for each aggregate is factored in every step and read in every
-// iteration. Beyond this number of aggregates it grows as the root of the number of unknowns, so that
-// it stays a sixth of the matrix of the mesh.
+// The dense coarse matrix of 10 modes for each aggregate is factored in every step and read in
+// every iteration. Beyond this number of aggregates it grows as the root of the number of unknowns,
+// so that it stays a sixth of the matrix of the mesh.
 constexpr double kManyAggregates = 100;
 
 // Most unknowns of an aggregate; halving leaves pieces of half of that or more.

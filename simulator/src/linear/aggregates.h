@@ -16,8 +16,8 @@ struct Aggregates {
 };
 
 /// Cuts the unknowns of each body in two along the longest side of their box, until the pieces
-/// are small: at most 550 unknowns, or more where that would make over 100 pieces, whose number then
-/// grows as the root of that of the unknowns.
+/// are small: at most 550 unknowns, or more where that would make over 100 pieces, whose number
+/// then grows as the root of that of the unknowns.
 ///
 /// @param rest    Dim x unknowns, rest positions, m.
 /// @param bodies  The body of each unknown.

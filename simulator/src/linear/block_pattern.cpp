@@ -29,7 +29,8 @@ void color_rows(BlockPattern& pattern) {
 
 namespace {
 
-// @param for_each_pair  Calls its argument with each pair of vertices that share an element, both ways
+// @param for_each_pair  Calls its argument with each pair of vertices that share an element, both
+// ways
 //                       round, as often as it likes.
 template <typename ForEachPair>
 BlockPattern make_pattern_of(const DofMap& dofs, const ForEachPair& for_each_pair) {

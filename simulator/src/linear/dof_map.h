@@ -11,9 +11,9 @@ namespace pent::simulator {
 
 /// Which vertices are solved for, and in which order: the only place that knows.
 ///
-/// A dof is a vertex with Dim unknowns. Vertices of one extrusion column come one after the other, from
-/// layer to layer; columns (single vertices, where a mesh knows no columns) in reverse Cuthill-McKee
-/// order, which keeps neighbors close in memory [cuthill1969].
+/// A dof is a vertex with Dim unknowns. Vertices of one extrusion column come one after the other,
+/// from layer to layer; columns (single vertices, where a mesh knows no columns) in reverse
+/// Cuthill-McKee order, which keeps neighbors close in memory [cuthill1969].
 class DofMap {
 public:
     DofMap() = default;
@@ -39,8 +39,8 @@ public:
     /// One a dof.
     [[nodiscard]] const std::vector<std::uint32_t>& vertices() const { return vertex_of_dof_; }
 
-    /// The dof of a vertex, or count() + vertex for one that has none: an order of all vertices in which
-    /// those come last.
+    /// The dof of a vertex, or count() + vertex for one that has none: an order of all vertices in
+    /// which those come last.
     [[nodiscard]] std::uint32_t rank_of(std::uint32_t vertex) const { return rank_[vertex]; }
 
     /// Dofs of column c: [start[c], start[c + 1]).

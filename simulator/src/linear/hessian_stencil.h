@@ -7,8 +7,8 @@ namespace pent::simulator {
 /// Stands in the vertices of a stencil for a point that does not move, which has no row.
 inline constexpr std::uint32_t kNoVertex = 0xffffffff;
 
-/// The second derivatives of one energy by a few vertices: a view of numbers that must last until the
-/// system is assembled. Block (i, j) is
+/// The second derivatives of one energy by a few vertices: a view of numbers that must last until
+/// the system is assembled. Block (i, j) is
 ///
 ///     scale weights[i] weights[j] K,     K = the first Dim x Dim numbers at `matrix`,
 ///

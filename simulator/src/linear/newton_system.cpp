@@ -38,8 +38,8 @@ void NewtonSystem<Dim>::begin(BlockVector<Dim> right, Positions<Dim> shift) {
         matrix_);
 }
 
-// In a free body the stiffness cancels for rigid motions, and the rounding that is left takes the place
-// of inertia: at most 1e-2 of it here, as rounding is not all of one sign.
+// In a free body the stiffness cancels for rigid motions, and the rounding that is left takes the
+// place of inertia: at most 1e-2 of it here, as rounding is not all of one sign.
 template <int Dim>
 void NewtonSystem<Dim>::add_masses(double weight, const Eigen::VectorXd& masses) {
     const auto add = [&](auto& matrix) {

@@ -15,9 +15,9 @@ namespace pent::simulator {
 
 /// The linear equation H dx = right of Newton's method while potentials put it together.
 ///
-/// Vertices without a dof that are moved all the same (by `shift`) take their part of H to the right
-/// side. What elements couple lies on a fixed pattern; stencils may couple anything, and what is left
-/// over becomes a second part of the matrix, made anew by finish().
+/// Vertices without a dof that are moved all the same (by `shift`) take their part of H to the
+/// right side. What elements couple lies on a fixed pattern; stencils may couple anything, and what
+/// is left over becomes a second part of the matrix, made anew by finish().
 template <int Dim>
 class NewtonSystem {
 public:
@@ -47,7 +47,8 @@ public:
     void add_stencil(const HessianStencil& stencil) { stencils_.push_back(stencil); }
     void reserve_stencils(std::size_t more) { stencils_.reserve(stencils_.size() + more); }
 
-    /// Sums up the stencils. Each row is summed by one thread in the order in which they were added.
+    /// Sums up the stencils. Each row is summed by one thread in the order in which they were
+    /// added.
     void finish();
 
     [[nodiscard]] bool has_lost_inertia() const { return has_lost_inertia_; }

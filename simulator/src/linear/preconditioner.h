@@ -25,8 +25,8 @@ public:
                        const BlockVector<Dim>& r,
                        BlockVector<Dim>& z) const = 0;
 
-    /// Adds to x what a coarse space, if there is one, makes of the residual r: a better first guess.
-    /// Bodies that move rigidly are then solved for at once.
+    /// Adds to x what a coarse space, if there is one, makes of the residual r: a better first
+    /// guess. Bodies that move rigidly are then solved for at once.
     ///
     /// @return  Whether x has changed.
     [[nodiscard]] virtual bool correct(const Workers& /*workers*/,

@@ -29,8 +29,8 @@ struct CouplingMatrix {
 ///
 /// Blocks that `matrix` has a place for go there. The others (in contact all those between the two
 /// simplices of a pair) are returned on a pattern of their own: a matrix that is small where little
-/// touches, made anew each time, since what touches changes. Each row is summed by one thread in the
-/// order of the stencils.
+/// touches, made anew each time, since what touches changes. Each row is summed by one thread in
+/// the order of the stencils.
 ///
 /// @param shift  Dim x vertices: how far vertices without a dof move, m.
 /// @param right  Dim x dofs: less K_fixed shift.

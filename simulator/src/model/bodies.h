@@ -25,8 +25,8 @@ struct DirichletSet {
     std::vector<CenteredMotion<Dim>> motions;  ///< Applied one after the other.
 };
 
-/// All bodies of a scene as one mesh: vertices and cells of the bodies one after the other. Nothing in
-/// here changes while a simulation runs.
+/// All bodies of a scene as one mesh: vertices and cells of the bodies one after the other. Nothing
+/// in here changes while a simulation runs.
 template <int Dim>
 struct Bodies {
     std::vector<SimplexMesh<Dim>> meshes;    ///< As placed.

@@ -176,8 +176,8 @@ double ContactPotential<Dim>::max_step(const Positions<Dim>& from, const Positio
     return limit_.fraction;
 }
 
-// The stiffness with which the barrier would balance, in the sense of least squares, all other forces
-// where bodies are now; that of the scene unless they are close [li2020, supplement].
+// The stiffness with which the barrier would balance, in the sense of least squares, all other
+// forces where bodies are now; that of the scene unless they are close [li2020, supplement].
 template <int Dim>
 bool ContactPotential<Dim>::balance(const BlockVector<Dim>& own, const BlockVector<Dim>& others) {
     const double before = stiffness_;

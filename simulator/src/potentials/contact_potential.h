@@ -15,7 +15,8 @@ namespace pent::simulator {
 
 /// Contact between bodies, within them, and with obstacles: by penalties or by a barrier.
 ///
-/// One of a scene without [contact] and [[obstacle]] has nothing in it: no surface, no tree, no search.
+/// One of a scene without [contact] and [[obstacle]] has nothing in it: no surface, no tree, no
+/// search.
 template <int Dim>
 class ContactPotential final : public Potential<Dim> {
 public:
@@ -37,7 +38,8 @@ public:
 
     [[nodiscard]] bool is_empty() const { return finder_ == nullptr; }
 
-    /// Contacts at the positions last evaluated: the same for any history and any number of threads.
+    /// Contacts at the positions last evaluated: the same for any history and any number of
+    /// threads.
     [[nodiscard]] const contact::Contacts<Dim>& contacts() const { return contacts_; }
 
     /// What is counted and measured of them, without work.

@@ -14,8 +14,8 @@ namespace pent::simulator {
 
 /// The elastic energy of all bodies.
 ///
-/// Elements without a dof at any corner are left out: they do not change while a body is moved from outside.
-/// Those of bodies that sleep keep the energy and the forces with which these fell asleep.
+/// Elements without a dof at any corner are left out: they do not change while a body is moved from
+/// outside. Those of bodies that sleep keep the energy and the forces with which these fell asleep.
 template <int Dim>
 class Elasticity final : public Potential<Dim> {
 public:
@@ -44,8 +44,8 @@ public:
     }
     [[nodiscard]] double rounding() const override;
 
-    /// Adds the Hessian at positions x to a matrix on pattern(), and takes that of vertices that have no dof
-    /// and move by `shift` (Dim x vertices, m) off `right` (Dim x dofs).
+    /// Adds the Hessian at positions x to a matrix on pattern(), and takes that of vertices that
+    /// have no dof and move by `shift` (Dim x vertices, m) off `right` (Dim x dofs).
     void add_tangent(const Positions<Dim>& x,
                      Filter filter,
                      const Positions<Dim>& shift,

@@ -15,8 +15,8 @@
 
 namespace pent::simulator {
 
-/// The elastic elements of all bodies, those with at least one vertex that has a dof, laid out for kernels: cells, or
-/// the domains of smoothed cells.
+/// The elastic elements of all bodies, those with at least one vertex that has a dof, laid out for
+/// kernels: cells, or the domains of smoothed cells.
 template <int Dim>
 class Elements {
 public:
@@ -43,7 +43,8 @@ public:
                            Positions<Dim>& gradient) const;
 
     /// Adds `scale` times the filtered Hessian to the matrix, and takes scale * K shift off
-    /// `right`, the part of vertices that have no dof and move by `shift` (Dim x vertices, m). Returns how many elements the filter changed.
+    /// `right`, the part of vertices that have no dof and move by `shift` (Dim x vertices, m).
+    /// Returns how many elements the filter changed.
     template <typename Scalar>
     std::int64_t add_hessian(const Workers& workers,
                              const Kernels<Dim>& kernels,

@@ -9,8 +9,8 @@
 
 namespace pent::simulator {
 
-/// Friction of all contacts of a scene, with the normal forces, normals and weights that they have at
-/// the start of a step: held, so that it has an energy. Nothing before the first step.
+/// Friction of all contacts of a scene, with the normal forces, normals and weights that they have
+/// at the start of a step: held, so that it has an energy. Nothing before the first step.
 template <int Dim>
 class FrictionPotential final : public Potential<Dim> {
 public:
@@ -25,7 +25,8 @@ public:
         return {{.name = "friction", .energy = energy_, .is_stored = false}};
     }
 
-    /// Its gradient at the positions last evaluated, Dim x vertices, N; no columns before the first step.
+    /// Its gradient at the positions last evaluated, Dim x vertices, N; no columns before the first
+    /// step.
     [[nodiscard]] const Positions<Dim>& gradient() const { return gradient_; }
 
     /// Contacts whose friction was computed, since this was last asked.

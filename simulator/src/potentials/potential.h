@@ -27,9 +27,9 @@ struct StepStart {
 
 /// One term of what a step minimizes: a function of the positions of all vertices.
 ///
-/// Terms know nothing of one another, of unknowns and of time. Arrays are Dim x vertices; what a term says
-/// of vertices without a dof is left out by those who sum up. Derivatives are tested against
-/// differences, each in a test of its own.
+/// Terms know nothing of one another, of unknowns and of time. Arrays are Dim x vertices; what a
+/// term says of vertices without a dof is left out by those who sum up. Derivatives are tested
+/// against differences, each in a test of its own.
 template <int Dim>
 class Potential {
 public:
@@ -40,8 +40,8 @@ public:
     Potential(Potential&&) = delete;
     Potential& operator=(Potential&&) = delete;
 
-    /// Value at positions x, m; adds the gradient to `gradient`. The methods below without positions
-    /// speak of those last evaluated.
+    /// Value at positions x, m; adds the gradient to `gradient`. The methods below without
+    /// positions speak of those last evaluated.
     [[nodiscard]] virtual double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) = 0;
 
     /// Adds weight times the Hessian, its negative eigenvalues as `filter` says.
@@ -50,12 +50,12 @@ public:
     /// The parts of the value by name, for reports.
     [[nodiscard]] virtual std::vector<TermEnergy> energies() const { return {}; }
 
-    /// Takes what is held during a step (normal forces, tangents) from its start. Returns whether the
-    /// value has changed.
+    /// Takes what is held during a step (normal forces, tangents) from its start. Returns whether
+    /// the value has changed.
     [[nodiscard]] virtual bool begin_step(const StepStart<Dim>& /*start*/) { return false; }
 
-    /// The largest part of the way from one place to another, in [0, 1], at which the value is finite
-    /// all along.
+    /// The largest part of the way from one place to another, in [0, 1], at which the value is
+    /// finite all along.
     [[nodiscard]] virtual double max_step(const Positions<Dim>& /*from*/,
                                           const Positions<Dim>& /*to*/) {
         return 1;
@@ -72,8 +72,8 @@ public:
     }
     [[nodiscard]] virtual bool wants_balance() const { return false; }
 
-    /// Adapts itself after an iteration of Newton's method that was accepted. Returns whether the value has
-    /// changed.
+    /// Adapts itself after an iteration of Newton's method that was accepted. Returns whether the
+    /// value has changed.
     [[nodiscard]] virtual bool adapt() { return false; }
 
     /// What terms that cancel may leave of the value in rounding.

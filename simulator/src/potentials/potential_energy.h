@@ -8,8 +8,8 @@
 
 namespace pent::simulator {
 
-/// The potential energy of a scene: the sum of elasticity, gravity, contact and whatever else has an energy.
-/// Its gradient is minus the force on every vertex.
+/// The potential energy of a scene: the sum of elasticity, gravity, contact and whatever else has
+/// an energy. Its gradient is minus the force on every vertex.
 template <int Dim>
 class PotentialEnergy {
 public:

@@ -1,4 +1,5 @@
-// How a Stepper takes one step, or throws the attempt away: Stepper::advance() and what it is made of.
+// How a Stepper takes one step, or throws the attempt away: Stepper::advance() and what it is made
+// of.
 
 #include "step/newton.h"
 #include "step/stepper.h"
@@ -14,9 +15,9 @@ namespace {
 // Corrections below this part of the scene's extent are none.
 constexpr double kNegligible = 1e-10;
 
-// With a barrier, Newton's method has converged as well where a correction, taken whole, was below this many
-// times its tolerance of the distance of contact, and the residual is below as many times what it asks
-// for: two thousandths of either, by default.
+// With a barrier, Newton's method has converged as well where a correction, taken whole, was below
+// this many times its tolerance of the distance of contact, and the residual is below as many times
+// what it asks for: two thousandths of either, by default.
 constexpr double kSettled = 20;
 
 // Dirichlet vertices have arrived when they are this part of the scene's extent from their place.
@@ -80,7 +81,8 @@ std::string Simulation<Dim>::Stepper::failure_reason(const Energies& before) con
                : "";
 }
 
-// Whether penalties, which see only what is near or inside at the end of a step, can have missed something.
+// Whether penalties, which see only what is near or inside at the end of a step, can have missed
+// something.
 template <int Dim>
 bool Simulation<Dim>::Stepper::may_have_tunneled() const {
     if (!scene_.contact || scene_.contact->model != ContactModel::Penalty) {
@@ -91,9 +93,9 @@ bool Simulation<Dim>::Stepper::may_have_tunneled() const {
     return (moves.colwise() - mean).colwise().norm().maxCoeff() > thinnest_;
 }
 
-// Newton's method without a barrier: Dirichlet vertices are at their places from the beginning, and the
-// first iteration spreads their motion over all. If the value is larger there than with every free vertex
-// where it was, the method begins here.
+// Newton's method without a barrier: Dirichlet vertices are at their places from the beginning, and
+// the first iteration spreads their motion over all. If the value is larger there than with every
+// free vertex where it was, the method begins here.
 template <int Dim>
 NewtonReport Simulation<Dim>::Stepper::minimize() {
     Positions<Dim> begin = current_.positions + potential_.prescribed_shift(current_.positions);
@@ -115,8 +117,9 @@ NewtonReport Simulation<Dim>::Stepper::minimize() {
                   next_.positions);
 }
 
-// Newton's method with a barrier: every iterate, and the straight way from one to the next, is free of
-// crossings. Begins where everything is; Dirichlet vertices go on as far as each iteration lets them.
+// Newton's method with a barrier: every iterate, and the straight way from one to the next, is free
+// of crossings. Begins where everything is; Dirichlet vertices go on as far as each iteration lets
+// them.
 template <int Dim>
 NewtonReport Simulation<Dim>::Stepper::minimize_bounded(const StepProblem<Dim>& problem) {
     const double tolerance = scene_.solver.newton_tolerance;

@@ -182,7 +182,8 @@ bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
     return true;
 }
 
-// In float, or where masses would be lost in its rounding in double; null if they are lost there, too.
+// In float, or where masses would be lost in its rounding in double; null if they are lost there,
+// too.
 template <int Dim>
 NewtonSystem<Dim>* IncrementalPotential<Dim>::assemble_somehow(Filter filter,
                                                                const Positions<Dim>& shift) {

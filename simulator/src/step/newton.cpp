@@ -19,26 +19,28 @@ constexpr double kArmijo = 1e-4;
 constexpr double kRounding = 1e-13;  // of the value
 constexpr int kMaxBacktracks = 40;
 
-// Newton's method is at a kink when the gradient left over is below this part of that at the start, and
-// either a step that had to be cut gains less than this part of what all of them have, or the gradient has
-// not become less in so many iterations.
+// Newton's method is at a kink when the gradient left over is below this part of that at the start,
+// and either a step that had to be cut gains less than this part of what all of them have, or the
+// gradient has not become less in so many iterations.
 constexpr double kKinkGradient = 0.1;
 constexpr double kKinkGain = 1e-4;
 constexpr int kKinkIterations = 8;
 
-// Near kinks the gradient is not quite the derivative of the value. Where it becomes less, the value may
-// therefore rise, by this part of what it has fallen so far.
+// Near kinks the gradient is not quite the derivative of the value. Where it becomes less, the
+// value may therefore rise, by this part of what it has fallen so far.
 constexpr double kMaxRise = 1e-2;
 
-// Filtered Hessians are too stiff where bodies slide along each other, so that energy still falls behind
-// a whole step. One at whose end the slope is above this part of that at its start goes on, to where
-// the slope would vanish if it changed evenly, at most so many times as far, and so many times.
+// Filtered Hessians are too stiff where bodies slide along each other, so that energy still falls
+// behind a whole step. One at whose end the slope is above this part of that at its start goes on,
+// to where the slope would vanish if it changed evenly, at most so many times as far, and so many
+// times.
 constexpr double kSteep = 0.35;
 constexpr double kMaxStretch = 4;
 constexpr int kMaxStretches = 4;
 constexpr double kMinStretch = 1.3;  // anything less is not worth an evaluation
 
-// Prescribed points that get no further than this part of their way, so many times in a row, are stuck.
+// Prescribed points that get no further than this part of their way, so many times in a row, are
+// stuck.
 constexpr double kStuck = 1e-3;
 constexpr int kMaxStuck = 10;
 
@@ -124,8 +126,8 @@ private:
     }
 
     // Goes along a direction: `factor` of it, half of that and so on; more where `factor` is 1 and
-    // the value goes on falling. Returns how many times the direction was gone; nothing if the value does
-    // not fall.
+    // the value goes on falling. Returns how many times the direction was gone; nothing if the
+    // value does not fall.
     std::optional<double> search(const Positions<Dim>& step, double factor) {
         const double slope = at_.gradient.cwiseProduct(step).sum();
         if (!is_pending_ && !(slope < 0)) {
@@ -183,7 +185,8 @@ private:
         is_current_ = true;
     }
 
-    // Sufficient decrease of the value; where that drowns in rounding, or near kinks, of the gradient.
+    // Sufficient decrease of the value; where that drowns in rounding, or near kinks, of the
+    // gradient.
     [[nodiscard]] bool has_improved(const Evaluation<Dim>& next,
                                     double factor,
                                     double slope) const {

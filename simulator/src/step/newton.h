@@ -31,12 +31,12 @@ struct NewtonReport {
 /// Minimizes a function by Newton's method with line search, from x, where the result goes.
 ///
 /// Steps stay where the function is finite. They are halved until the value falls by a part of what
-/// the slope promises, or, where that drowns in rounding, until the gradient does [nocedal2006, 3.1].
-/// While prescribed points are on their way to their places the value may rise.
+/// the slope promises, or, where that drowns in rounding, until the gradient does
+/// [nocedal2006, 3.1]. While prescribed points are on their way to their places the value may rise.
 ///
 /// At kinks the lowest point has no vanishing gradient. There the method ends where the gradient is
-/// below a tenth of that at the start, and either a step that had to be cut gains almost nothing or the
-/// gradient has not become less for long.
+/// below a tenth of that at the start, and either a step that had to be cut gains almost nothing or
+/// the gradient has not become less for long.
 template <int Dim>
 [[nodiscard]] NewtonReport newton(Objective<Dim>& function,
                                   const NewtonOptions& options,

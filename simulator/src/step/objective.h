@@ -39,7 +39,8 @@ public:
 
     /// -(Hessian)^-1 gradient at the point last evaluated, prescribed points moving by `shift`.
     ///
-    /// @param tolerance  Residual of the linear solve over that at its start; 0 for the best there is.
+    /// @param tolerance  Residual of the linear solve over that at its start; 0 for the best there
+    /// is.
     [[nodiscard]] virtual NewtonDirection<Dim> solve(const Positions<Dim>& shift,
                                                      double tolerance) = 0;
 

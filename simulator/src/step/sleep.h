@@ -9,8 +9,8 @@
 
 namespace pent::simulator {
 
-/// Which bodies of a scene sleep; see Sleep. Bodies that touch each other fall asleep and wake together,
-/// as islands. Without Scene::sleep none ever does, and nothing is looked at.
+/// Which bodies of a scene sleep; see Sleep. Bodies that touch each other fall asleep and wake
+/// together, as islands. Without Scene::sleep none ever does, and nothing is looked at.
 template <int Dim>
 class Islands {
 public:
@@ -24,8 +24,8 @@ public:
     /// One entry a body: whether it sleeps.
     [[nodiscard]] std::vector<bool> asleep() const;
 
-    /// Wakes bodies whose Dirichlet vertices move, bodies in contact with what moves or is awake, and
-    /// what these touch in turn.
+    /// Wakes bodies whose Dirichlet vertices move, bodies in contact with what moves or is awake,
+    /// and what these touch in turn.
     ///
     /// @param from, to  Dim x vertices: where Dirichlet vertices are and will be.
     /// @return          Whether any has woken.

@@ -17,9 +17,9 @@ struct State {
 ///     phi(x) = inertia/2 |x - target|_M^2 + scale E(x)
 ///            + scale rate/2 (a |x - origin|_M^2 + b |x - origin|_K^2)
 ///
-/// E is the potential energy; a and b are those of Rayleigh damping, K the tangent at the start of the
-/// step, and rate (x - origin) the velocity at its end. Backward Euler, BDF2 and statics differ in the
-/// numbers alone.
+/// E is the potential energy; a and b are those of Rayleigh damping, K the tangent at the start of
+/// the step, and rate (x - origin) the velocity at its end. Backward Euler, BDF2 and statics differ
+/// in the numbers alone.
 template <int Dim>
 struct StepProblem {
     double inertia = 1;         ///< 0 for statics.

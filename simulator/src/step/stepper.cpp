@@ -165,8 +165,8 @@ void Simulation<Dim>::Stepper::still(Positions<Dim>& velocities) const {
     }
 }
 
-// Wakes bodies that a step from the current state moves, or that something touches where the energy was
-// evaluated last.
+// Wakes bodies that a step from the current state moves, or that something touches where the energy
+// was evaluated last.
 template <int Dim>
 bool Simulation<Dim>::Stepper::wake(const Positions<Dim>& prescribed) {
     if (!islands_.wake(energy_.contact->contacts(), current_.positions, prescribed)) {
@@ -248,8 +248,8 @@ StepReport Simulation<Dim>::Stepper::step() {
     return report;
 }
 
-// A body that sleeps keeps the forces with which it fell asleep: what touches it sleeps, too, or moves from
-// outside, and those forces were made by the stiffness of that time.
+// A body that sleeps keeps the forces with which it fell asleep: what touches it sleeps, too, or
+// moves from outside, and those forces were made by the stiffness of that time.
 template <int Dim>
 Positions<Dim> Simulation<Dim>::Stepper::contact_forces() const {
     Positions<Dim> all = Positions<Dim>::Zero(Dim, bodies_.vertex_count());

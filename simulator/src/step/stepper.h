@@ -15,8 +15,8 @@
 
 namespace pent::simulator {
 
-/// What is behind a Simulation: the state, how it takes a step, and who sleeps. Between calls the potential
-/// energy is that of the current positions.
+/// What is behind a Simulation: the state, how it takes a step, and who sleeps. Between calls the
+/// potential energy is that of the current positions.
 template <int Dim>
 class Simulation<Dim>::Stepper {
 public:

@@ -16,10 +16,11 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// The determinant of a polynomial family det(F + t q) has cofactors that are polynomials in t. Their
-// coefficients of 1 and t by Cauchy's integral on |t| = 0.1, where the trapezoidal rule of 16 points
-// leaves out t^16 and up: 1e-14 even for the q that enlarges all of 100 directions alike. Away from
-// t = 0 the matrix can be inverted where F cannot. Points below the real axis give conjugate values.
+// The determinant of a polynomial family det(F + t q) has cofactors that are polynomials in t.
+// Their coefficients of 1 and t by Cauchy's integral on |t| = 0.1, where the trapezoidal rule of 16
+// points leaves out t^16 and up: 1e-14 even for the q that enlarges all of 100 directions alike.
+// Away from t = 0 the matrix can be inverted where F cannot. Points below the real axis give
+// conjugate values.
 struct Cofactors {
     MatrixXd at_zero;
     MatrixXd slope;
@@ -55,7 +56,8 @@ double first_minor(const MatrixXd& F, Index row, Index column) {
 }
 
 // cof F = d det F / dF and its derivative along q, by minors of minors: d cof_ij / dF_pq is, up to
-// sign, the determinant without rows i, p and columns j, q ([shi2025] section 4.3.4, sign corrected).
+// sign, the determinant without rows i, p and columns j, q ([shi2025] section 4.3.4, sign
+// corrected).
 Cofactors cofactors_by_minors(const MatrixXd& F, const MatrixXd& q) {
     const Index n = F.rows();
     Cofactors result{MatrixXd(n, n), MatrixXd::Zero(n, n)};

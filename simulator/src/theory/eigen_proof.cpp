@@ -31,8 +31,8 @@ struct State {
     VectorXd sigma;
 };
 
-// The kinds of singular values that formulas may trip over. All others are near 1, so that products of
-// a hundred of them are.
+// The kinds of singular values that formulas may trip over. All others are near 1, so that products
+// of a hundred of them are.
 std::vector<State> states(Index n) {
     const double spread = n <= 8 ? 0.6 : 0.05;
     const VectorXd distinct = VectorXd::LinSpaced(n, 1 + spread, 1 - spread);

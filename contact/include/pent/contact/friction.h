@@ -52,7 +52,8 @@ public:
     /// Starts a step of length h (s) at these positions and contacts.
     ///
     /// @param velocities  Null for a step that minimizes. For one of a single linear solve those at
-    ///                    its start, m/s: they tell how fast contacts slip, and so their resistance.
+    ///                    its start, m/s: they tell how fast contacts slip, and so their
+    ///                    resistance.
     void begin_step(const std::vector<Contact<Dim>>& contacts,
                     const Positions<Dim>& positions,
                     const Positions<Dim>* velocities,

@@ -6,7 +6,8 @@
 namespace pent::mesher {
 
 /// What enumeration proves about cutting the prism over a simplex into simplices without adding
-/// points, when each rectangle above an edge is cut by the diagonal that the edge's direction names.
+/// points, when each rectangle above an edge is cut by the diagonal that the edge's direction
+/// names.
 struct DecompositionProof {
     int base_vertices = 0;  ///< n; the prism has dimension n, 2 n corners and n simplices.
 

@@ -48,8 +48,8 @@ template <int Dim>
 /// Moves vertices in the order so that the worst simplices around them become better.
 ///
 /// Vertices are taken in turn, those around the worst simplices first, and each gets the rank among
-/// its neighbors' that is best for the prisms around it. The worst mean ratio of a slab never falls.
-/// Takes some 10 us a vertex and sweep.
+/// its neighbors' that is best for the prisms around it. The worst mean ratio of a slab never
+/// falls. Takes some 10 us a vertex and sweep.
 /// @param ranks   One a vertex, all different.
 /// @param slab    From a base vertex to its copy, m.
 /// @param sweeps  At most.

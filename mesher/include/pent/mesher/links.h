@@ -17,8 +17,8 @@ struct LinkReport {
 };
 
 /// Checks the link of every boundary vertex: the facets around it, each without it. The boundary is
-/// a manifold if all are spheres: two points, one circle, or one surface of Euler characteristic 2 in
-/// dimension 2, 3, 4.
+/// a manifold if all are spheres: two points, one circle, or one surface of Euler characteristic 2
+/// in dimension 2, 3, 4.
 ///
 /// @param mesh  Conforming with a closed boundary: see prove().
 template <int Dim>

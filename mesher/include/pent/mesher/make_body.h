@@ -62,9 +62,8 @@ struct ExpectedSize {
 
 /// What pent-mesh is asked for.
 struct BodyRequest {
-    /// A file with a surface, a tet mesh or a shape (see read_surface, read_tetrahedra, read_solid), or a
-    /// shape that needs no file.
-    /// The path "-" is standard input.
+    /// A file with a surface, a tet mesh or a shape (see read_surface, read_tetrahedra,
+    /// read_solid), or a shape that needs no file. The path "-" is standard input.
     std::variant<std::filesystem::path, SphereShape, BallShape, BoxShape> input;
     std::string format;           ///< Of the file, as in "obj"; empty: by the ending of its name.
     double scale = 1;             ///< Coordinates in the file times this are m; above 0.
@@ -133,18 +132,18 @@ struct Body {
     BodyReport report;
 };
 
-/// Makes a pentachoral body from a surface (read, mend, resample, fill, extrude, prove), from a tet mesh
-/// (read, extrude, prove) or from a shape file (read, stuff with edges of edge_length, prove).
+/// Makes a pentachoral body from a surface (read, mend, resample, fill, extrude, prove), from a tet
+/// mesh (read, extrude, prove) or from a shape file (read, stuff with edges of edge_length, prove).
 ///
 /// If a surface that was clean or lightly mended cannot be filled, and a wrap is allowed, its wrap
-/// is. An edge length beyond that of the surface coarsens it. Throws an Error if the surface cannot be
-/// made clean, with what, how many and where; if a stage fails; or if the result does not pass
+/// is. An edge length beyond that of the surface coarsens it. Throws an Error if the surface cannot
+/// be made clean, with what, how many and where; if a stage fails; or if the result does not pass
 /// prove(); or if something is asked for that the input does not need, as layers of a box.
 [[nodiscard]] Body<4> make_body(const BodyRequest& request);
 
-/// Makes a tetrahedral body: of a surface (read, mend, resample, fill, prove), of a tet mesh, a ball or a
-/// box as they are, or of a flat triangle mesh, where all z are equal: the base of an extrusion along z.
-/// Throws as make_body() does.
+/// Makes a tetrahedral body: of a surface (read, mend, resample, fill, prove), of a tet mesh, a
+/// ball or a box as they are, or of a flat triangle mesh, where all z are equal: the base of an
+/// extrusion along z. Throws as make_body() does.
 [[nodiscard]] Body<3> make_solid(const BodyRequest& request);
 
 }  // namespace pent::mesher

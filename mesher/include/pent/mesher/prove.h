@@ -27,9 +27,9 @@ struct Proof {
 /// Verifies that a mesh is conforming: every interior facet is shared by two cells that see it from
 /// opposite sides; the boundary is a closed oriented pseudo-manifold; the volume is as expected.
 ///
-/// The tolerance is 8 eps times the sum over cells of the product of the edges at their first corner
-/// over Dim! (determinants), plus eps times cells times volume (the sum), plus 4 eps times the
-/// largest coordinate times the boundary's measure (rounded positions).
+/// The tolerance is 8 eps times the sum over cells of the product of the edges at their first
+/// corner over Dim! (determinants), plus eps times cells times volume (the sum), plus 4 eps times
+/// the largest coordinate times the boundary's measure (rounded positions).
 ///
 /// @param mesh      Passes validate().
 /// @param expected  Volume, m^Dim, by another way; 0 if there is none.

@@ -27,8 +27,8 @@ struct Spread {
 struct QualityReport {
     /// c V^(2/Dim) / (mean squared edge): 1 for the regular simplex, 0 for a flat one.
     Spread mean_ratio;
-    /// |S| |S^-1| / Dim in the Frobenius norm, S the map from the regular simplex to the cell: 1 for
-    /// the regular simplex, without bound for a flat one [knupp2001].
+    /// |S| |S^-1| / Dim in the Frobenius norm, S the map from the regular simplex to the cell: 1
+    /// for the regular simplex, without bound for a flat one [knupp2001].
     Spread condition;
     Spread smallest_angle;  ///< The smallest dihedral angle of each cell, degrees.
     Spread largest_angle;   ///< The largest, degrees.

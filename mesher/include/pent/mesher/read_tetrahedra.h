@@ -23,13 +23,14 @@ struct TetrahedraFile {
     std::int64_t curved_cells = 0;  ///< Cells of higher order, of which the corners are taken.
 };
 
-/// Reads a tet mesh: TetGen .node or .ele (either name; both files), Medit .mesh, HOBAK .tobj as text,
-/// Gmsh .msh 2.2 and 4.1 and legacy VTK .vtk as text or binary.
+/// Reads a tet mesh: TetGen .node or .ele (either name; both files), Medit .mesh, HOBAK .tobj as
+/// text, Gmsh .msh 2.2 and 4.1 and legacy VTK .vtk as text or binary.
 ///
 /// All but TetGen's are read from standard input, too, by the path "-".
 /// Pyramids, prisms and hexahedra are cut into tetrahedra such that neighbors agree; other cells of
-/// three dimensions are refused. Throws an Error that names file and line for what is damaged, and one for a mesh that does not
-/// pass validate(). Allocates no more than the size of the file bears out.
+/// three dimensions are refused. Throws an Error that names file and line for what is damaged, and
+/// one for a mesh that does not pass validate(). Allocates no more than the size of the file bears
+/// out.
 [[nodiscard]] TetrahedraFile read_tetrahedra(const std::filesystem::path& path,
                                              const std::string& format = {});
 

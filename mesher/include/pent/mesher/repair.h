@@ -38,8 +38,8 @@ struct Repaired {
 /// Makes a clean surface of one that may not be.
 ///
 /// Throws an Error if all points lie in a plane (there is nothing to fill), if the diagonal is not
-/// within 1e-30 to 1e30 m, if the surface is not clean and may not be mended, or if the means allowed
-/// do not suffice.
+/// within 1e-30 to 1e30 m, if the surface is not clean and may not be mended, or if the means
+/// allowed do not suffice.
 [[nodiscard]] Repaired repair(const Surface& surface, const RepairOptions& options = {});
 
 /// "none", "light", "wrap" or "auto".

@@ -27,12 +27,13 @@ struct StuffedSolid {
 ///
 /// The same bytes at any number of threads.
 /// @param edge_length  Mean length of the edges inside, m, above 0.
-/// Throws an Error for a solid that is empty, without bounds, thinner than an edge, or too large for
-/// such edges.
+/// Throws an Error for a solid that is empty, without bounds, thinner than an edge, or too large
+/// for such edges.
 [[nodiscard]] StuffedSolid stuff(const Solid& solid, double edge_length);
 
 /// About how many cells stuff() gives, without the work: of the part of 16^4 points that is inside.
-/// Throws as stuff() does for edges that the solid's parts are too thin for, and for one without bounds.
+/// Throws as stuff() does for edges that the solid's parts are too thin for, and for one without
+/// bounds.
 [[nodiscard]] double estimate_cells(const Solid& solid, double edge_length);
 
 }  // namespace pent::mesher

@@ -6,7 +6,8 @@
 
 namespace pent::mesher {
 
-/// A triangle surface in R^3, usually closed; seen from outside its triangles turn counterclockwise.
+/// A triangle surface in R^3, usually closed; seen from outside its triangles turn
+/// counterclockwise.
 struct Surface {
     Positions<3> points;     ///< 3 x points, m; no two at the same place, each used by a triangle.
     Simplices<3> triangles;  ///< 3 x triangles.
@@ -23,7 +24,8 @@ struct SurfaceFile {
     std::int64_t unused_points = 0;  ///< Points without a triangle, left out.
 };
 
-/// Reads a surface from an OBJ, OFF, PLY, STL or glTF file, in double precision where the file has it.
+/// Reads a surface from an OBJ, OFF, PLY, STL or glTF file, in double precision where the file has
+/// it.
 ///
 /// The ending of the name tells the format. Polygons are cut into triangles, points at the same
 /// place become one, unused ones go. Nothing is checked beyond that: see check_surface().
@@ -31,15 +33,15 @@ struct SurfaceFile {
 /// index out of range, or a file without a triangle.
 [[nodiscard]] SurfaceFile read_surface(const std::filesystem::path& path);
 
-/// Makes a surface of loose triangles: merges points at the same place, drops unused ones, keeps the
-/// order of what is left. Triangles may come out with a corner twice; they are kept.
+/// Makes a surface of loose triangles: merges points at the same place, drops unused ones, keeps
+/// the order of what is left. Triangles may come out with a corner twice; they are kept.
 [[nodiscard]] SurfaceFile weld(const Positions<3>& points, const Simplices<3>& triangles);
 
 /// Sum of the areas of the triangles, m^2.
 [[nodiscard]] double area(const Surface& surface);
 
-/// Volume enclosed by a closed surface, m^3: positive when it is oriented outward. Without a meaning
-/// for an open one.
+/// Volume enclosed by a closed surface, m^3: positive when it is oriented outward. Without a
+/// meaning for an open one.
 [[nodiscard]] double enclosed_volume(const Surface& surface);
 
 /// Length of the diagonal of the bounding box, m.

@@ -46,8 +46,8 @@ struct Tetrahedra {
 /// Cavities stay empty. The tetrahedra are positively oriented, none flatter than a mean ratio of
 /// 1e-4 (see quality.h), and fill the surface's volume to 1e-6 of it (TetGen) or 5% (Mesh_3).
 /// @param surface  Clean (see check_surface) and oriented (see orient).
-/// Throws an Error if that cannot be had from the generator, with the reason of each that was tried:
-/// worker missing, failed or past a limit; volume or shape out of bounds.
+/// Throws an Error if that cannot be had from the generator, with the reason of each that was
+/// tried: worker missing, failed or past a limit; volume or shape out of bounds.
 [[nodiscard]] Tetrahedra tetrahedralize(const Surface& surface,
                                         const TetrahedraOptions& options = {});
 

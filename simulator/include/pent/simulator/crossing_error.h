@@ -7,8 +7,8 @@
 
 namespace pent::simulator {
 
-/// Bodies that a barrier is to keep apart cross, touch or are inside one another from the start. The
-/// message names the first pairs.
+/// Bodies that a barrier is to keep apart cross, touch or are inside one another from the start.
+/// The message names the first pairs.
 template <int Dim>
 class CrossingError : public Error {
 public:

@@ -10,10 +10,11 @@
 namespace pent::simulator {
 
 /// The eigensystems of energy.h against second derivatives computed in other ways, which share no
-/// formula with them: second minors of F, Cauchy's integral over complex F, the Lyapunov equation of
-/// the polar decomposition, and the product rule.
+/// formula with them: second minors of F, Cauchy's integral over complex F, the Lyapunov equation
+/// of the polar decomposition, and the product rule.
 
-/// A function of F with an eigensystem: an invariant, or an energy density of lambda = 1.3, mu = 0.7.
+/// A function of F with an eigensystem: an invariant, or an energy density of lambda = 1.3, mu =
+/// 0.7.
 using EigenFunction = std::variant<Invariant, Model>;
 
 /// "I1", "stable neo-Hookean" and so on.
@@ -28,7 +29,8 @@ struct UndefinedModes {
     std::int64_t modes = 0;
 };
 
-/// The largest errors found. All are relative: to the largest |eigenvalue|, or to what is summed up.
+/// The largest errors found. All are relative: to the largest |eigenvalue|, or to what is summed
+/// up.
 struct EigenProof {
     int dim = 0;
     int states = 0;            ///< Matrices F tried.
@@ -42,7 +44,8 @@ struct EigenProof {
     /// Whether all errors are below 1e-10, which leaves rounding six digits.
     [[nodiscard]] bool holds() const;
 
-    /// Takes over what another proof tried, perhaps in another dimension; dim becomes the larger one.
+    /// Takes over what another proof tried, perhaps in another dimension; dim becomes the larger
+    /// one.
     void merge(const EigenProof& other);
 };
 

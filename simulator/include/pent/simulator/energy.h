@@ -31,8 +31,8 @@ enum class Invariant { I1, I2, I3 };
 ///     linear                  mu |e|^2 + lambda/2 (tr e)^2,   e = (F + F^T)/2 - I
 ///
 /// mu and lambda are those of the material: at small strain each energy is linear elasticity with
-/// them (arap with lambda = 0). The first is [smith2018] and [shi2025] Eq. 4 up to a constant; taken
-/// literally Eq. 4 linearizes to (mu, lambda - mu), hence the lambda + mu.
+/// them (arap with lambda = 0). The first is [smith2018] and [shi2025] Eq. 4 up to a constant;
+/// taken literally Eq. 4 linearizes to (mu, lambda - mu), hence the lambda + mu.
 [[nodiscard]] double energy_density(const Material& material, const Eigen::MatrixXd& F);
 
 /// First Piola-Kirchhoff stress dPsi/dF, Pa.
@@ -40,22 +40,22 @@ enum class Invariant { I1, I2, I3 };
 
 /// The uniform scale s of an element below which its own energy pulls it to a point, in [0, 1).
 ///
-/// F = 0 is a strict local minimum of the stable neo-Hookean energy for n >= 3. The slope along s R, R a
-/// rotation, vanishes at s = 0, at rest, and once in between, where
+/// F = 0 is a strict local minimum of the stable neo-Hookean energy for n >= 3. The slope along s
+/// R, R a rotation, vanishes at s = 0, at rest, and once in between, where
 ///
 ///     mu (1 - s^(n-2)) = (lambda + mu) (1 - s^n) s^(n-2).
 ///
 /// For n = 3 and 4 everything with |F| < sqrt(n) s is driven to F = 0: det F <= (|F| / sqrt(n))^n
-/// makes P : F, the slope along F itself, positive there, so that |F| shrinks as the energy does. It
-/// is the largest such ball. At nu = 0.28 in 4D the scale is 0.43. 0 for n = 2 and for the other
+/// makes P : F, the slope along F itself, positive there, so that |F| shrinks as the energy does.
+/// It is the largest such ball. At nu = 0.28 in 4D the scale is 0.43. 0 for n = 2 and for the other
 /// models, which have no such minimum.
 [[nodiscard]] double collapse_scale(const Material& material, int dim);
 
 /// Second derivative of an isotropic function of F, in the frame of its singular vectors.
 ///
 /// With dF = U D V^T the result is U (H : D) V^T, where H couples the diagonal of D with itself
-/// through `stretch`, and each pair D_ij, D_ji only with itself: D_ij + D_ji is scaled by `flip`, and
-/// D_ij - D_ji by `twist`.
+/// through `stretch`, and each pair D_ij, D_ji only with itself: D_ij + D_ji is scaled by `flip`,
+/// and D_ij - D_ji by `twist`.
 struct HessianFrame {
     Eigen::MatrixXd U;        ///< n x n rotation.
     Eigen::MatrixXd V;        ///< n x n rotation.

@@ -8,11 +8,11 @@
 /// The schema of scenes: every key is written once, here and in the two headers of bodies and
 /// constraints.
 ///
-/// fields(part, visit) calls visit(Field, member) for each key of a part of a scene, in the order in
-/// which files have them; blocks(scene, visit) calls visit(name, member) for each block. check(), the
-/// reader and the writer of scene files, what a resumed run is compared by and the tables of the docs
-/// are such visitors: a member that gets its line here is read, checked, written, compared and
-/// documented.
+/// fields(part, visit) calls visit(Field, member) for each key of a part of a scene, in the order
+/// in which files have them; blocks(scene, visit) calls visit(name, member) for each block.
+/// check(), the reader and the writer of scene files, what a resumed run is compared by and the
+/// tables of the docs are such visitors: a member that gets its line here is read, checked,
+/// written, compared and documented.
 namespace pent::simulator {
 
 /// Of the shapes of obstacles, which know their own fields.

@@ -27,9 +27,9 @@ struct SimulationOptions {
         {};  ///< The host's, in place of `threads` of ours. Results do not depend on it.
     std::string isa =
         {};  ///< "scalar", "baseline", "avx2" or "avx512"; empty for the best there is.
-    /// Told of the path that Newton's method takes in a step: all positions (Dim x vertices, m) where it
-    /// starts, with true, and every iterate, with false. For plots of convergence, and proofs that nothing
-    /// crosses on the way.
+    /// Told of the path that Newton's method takes in a step: all positions (Dim x vertices, m)
+    /// where it starts, with true, and every iterate, with false. For plots of convergence, and
+    /// proofs that nothing crosses on the way.
     std::function<void(const Eigen::MatrixXd& positions, bool is_start)> on_iterate = {};
 };
 
@@ -94,14 +94,14 @@ struct SleepState {
     bool operator==(const SleepState&) const = default;
 };
 
-/// All that a simulation carries from one step to the next, to be put back later: the same steps follow,
-/// to the bit.
+/// All that a simulation carries from one step to the next, to be put back later: the same steps
+/// follow, to the bit.
 template <int Dim>
 struct Snapshot {
     Positions<Dim> positions;   ///< Dim x vertices of all bodies, m.
     Positions<Dim> velocities;  ///< Dim x vertices, m/s.
-    /// What BDF2 looks back to, the state one step ago; no columns after a step that was cut in two,
-    /// and for the other integrators.
+    /// What BDF2 looks back to, the state one step ago; no columns after a step that was cut in
+    /// two, and for the other integrators.
     Positions<Dim> previous_positions;
     Positions<Dim> previous_velocities;
     std::vector<SleepState> sleep;  ///< One a body.
@@ -162,9 +162,10 @@ public:
 
     /// One time step of Scene::dt().
     ///
-    /// An attempt fails when the linear solver does not reach its tolerance or the state stops being
-    /// finite; it is then thrown away and the step cut in two, up to SolverOptions::max_halvings
-    /// times. If that does not help, the report says so and the state stays as it was.
+    /// An attempt fails when the linear solver does not reach its tolerance or the state stops
+    /// being finite; it is then thrown away and the step cut in two, up to
+    /// SolverOptions::max_halvings times. If that does not help, the report says so and the state
+    /// stays as it was.
     [[nodiscard]] StepReport step();
 
     [[nodiscard]] int body_count() const;
@@ -174,11 +175,12 @@ public:
     [[nodiscard]] View forces(int body) const;  ///< Elastic, gravity and contact, N.
     [[nodiscard]] Eigen::Map<const Eigen::VectorXd> masses(int body) const;  ///< Lumped, kg.
 
-    /// Forces of contact alone, of bodies and obstacles, on the vertices of a body, Dim x vertices, N.
+    /// Forces of contact alone, of bodies and obstacles, on the vertices of a body, Dim x vertices,
+    /// N.
     [[nodiscard]] Positions<Dim> contact_forces(int body) const;
 
-    /// What touches: pairs by bodies, kind and place, then vertices at surfaces of obstacles. Vertices are
-    /// counted through all bodies. <pent/contact/contact.h> has the type.
+    /// What touches: pairs by bodies, kind and place, then vertices at surfaces of obstacles.
+    /// Vertices are counted through all bodies. <pent/contact/contact.h> has the type.
     [[nodiscard]] std::span<const contact::Contact<Dim>> contacts() const;
 
     /// First vertex of a body where those of all bodies are counted through.
@@ -193,10 +195,10 @@ public:
     [[nodiscard]] SimulationSize size() const;
     [[nodiscard]] std::string isa() const;  ///< Name of the instruction set in use.
 
-    /// Puts a body somewhere, awake: a host's own start. Dirichlet vertices follow their motion from the
-    /// next step on, whatever is said here. Throws an Error unless both arrays are finite and Dim x
-    /// vertices, and a CrossingError where a barrier does not allow it; nothing has changed then. To
-    /// move several bodies at once, change a snapshot.
+    /// Puts a body somewhere, awake: a host's own start. Dirichlet vertices follow their motion
+    /// from the next step on, whatever is said here. Throws an Error unless both arrays are finite
+    /// and Dim x vertices, and a CrossingError where a barrier does not allow it; nothing has
+    /// changed then. To move several bodies at once, change a snapshot.
     void set_state(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
 
     /// Whether each body sleeps; none does without Scene::sleep.
@@ -204,9 +206,9 @@ public:
 
     [[nodiscard]] Snapshot<Dim> save() const;
 
-    /// Puts everything back. Throws an Error, and changes nothing, unless the snapshot fits the scene: as
-    /// many vertices and bodies, all finite, none asleep without Scene::sleep; and a CrossingError where
-    /// a barrier does not allow the positions.
+    /// Puts everything back. Throws an Error, and changes nothing, unless the snapshot fits the
+    /// scene: as many vertices and bodies, all finite, none asleep without Scene::sleep; and a
+    /// CrossingError where a barrier does not allow the positions.
     void restore(const Snapshot<Dim>& snapshot);
 
 private:

@@ -7,9 +7,9 @@
 
 namespace pent::viewer {
 
-/// Shows a run in browsers of this machine: a small HTTP server on 127.0.0.1 that gives out the page
-/// of web/ and the files of one run, and nothing else. Requests that do not name this machine as
-/// their host are refused, and only GET is understood. A run may grow while it is served.
+/// Shows a run in browsers of this machine: a small HTTP server on 127.0.0.1 that gives out the
+/// page of web/ and the files of one run, and nothing else. Requests that do not name this machine
+/// as their host are refused, and only GET is understood. A run may grow while it is served.
 class RunServer {
 public:
     /// Begins to listen.
