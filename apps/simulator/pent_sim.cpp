@@ -32,15 +32,9 @@ struct Arguments {
 };
 
 Verdict verdict_of(RunVerdict verdict) {
-    switch (verdict) {
-        case RunVerdict::Finished:
-            return Verdict::Finished;
-        case RunVerdict::Stopped:
-            return Verdict::Stopped;
-        case RunVerdict::Diverged:
-            return Verdict::Diverged;
-    }
-    return Verdict::Diverged;  // GCOVR_EXCL_LINE: there are no others
+    return verdict == RunVerdict::Finished  ? Verdict::Finished
+           : verdict == RunVerdict::Stopped ? Verdict::Stopped
+                                            : Verdict::Diverged;
 }
 
 std::string percent(double fraction) {
@@ -131,21 +125,18 @@ std::string parts_text(const RunReport& report) {
     if (report.parts.size() < 2) {
         return "";
     }
-    const auto died = std::ranges::count(report.parts, "died", &pent::runs::RunPart::verdict);
+    const auto died =
+        std::ranges::count(report.parts, RunVerdict::Died, &pent::runs::RunPart::verdict);
     return " in " + std::to_string(report.parts.size()) + " parts"
            + (died > 0 ? ", of which " + std::to_string(died) + " died" : "");
 }
 
 void summarize(Program& program, const RunReport& report, const std::string& folder) {
     nlohmann::ordered_json bodies = nlohmann::ordered_json::array();
-    for (std::size_t body = 0; body < report.bodies.size(); ++body) {
-        double most = 0;
-        for (const FrameReport& frame : report.frames) {
-            most = std::max(most, frame.non_rigid[body]);
-        }
-        program.say(report.bodies[body] + ": differs from a rigid motion by up to " + percent(most)
-                    + " of its size");
-        bodies.push_back({{"name", report.bodies[body]}, {"non_rigid_max", most}});
+    for (const pent::runs::BodyReport& body : report.bodies) {
+        program.say(body.name + ": differs from a rigid motion by up to "
+                    + percent(body.non_rigid_max) + " of its size");
+        bodies.push_back({{"name", body.name}, {"non_rigid_max", body.non_rigid_max}});
     }
     std::int64_t iterations = 0;
     const std::int64_t refused = count_refused(report);
@@ -289,7 +280,9 @@ int main(int argc, char** argv) {
         .add_flag_callback(
             "--schema",
             [] {
-                std::fputs(pent::runs::schema_text().c_str(), stdout);
+                std::fputs(
+                    (pent::runs::schema_text() + "\n" + pent::runs::report_schema_text()).c_str(),
+                    stdout);
                 throw CLI::Success();
             },
             "Print every key of scene files and end")

@@ -189,16 +189,15 @@ void Study::run_level(const Scene& scene, const std::string& name) {
     tell("reference, dt = " + short_number(scene.dt()) + " s");
     const fs::path folder = options_.folder / name;
     const bool is_same = read_text(folder.string() + ".toml") == runs::scene_text(scene);
-    const std::optional<RunVerdict> before = verdict_of(folder);
-    if (is_same && before && before->verdict == "finished") {
+    const std::optional<runs::RunVerdict> before = verdict_of(folder);
+    if (is_same && before == runs::RunVerdict::Finished) {
         return;
     }
     const ChildOutcome outcome = simulate(scene, name, is_same && before.has_value());
     if (is_stopping()) {
         throw Stopped{};
     }
-    const std::optional<RunVerdict> verdict = verdict_of(folder);
-    if (outcome.exit_code != 0 || !verdict || verdict->verdict != "finished") {
+    if (outcome.exit_code != 0 || verdict_of(folder) != runs::RunVerdict::Finished) {
         throw Error("the reference (" + options_.reference_integrator + ", dt = "
                     + short_number(scene.dt()) + " s) does not run to its end: " + outcome.error);
     }

@@ -1,55 +1,29 @@
 #include "trajectory.h"
 
-#include "json_count.h"
-
 #include <pent/error.h>
 #include <pent/pent_file.h>
 
 #include <algorithm>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 namespace pent::study {
 
 namespace {
 
-using Json = nlohmann::json;
+constexpr const char* kReportFile = "report.json";
 
-// What `read` takes from the report of a run.
-template <typename Read>
-auto from_report(const std::filesystem::path& folder, const Read& read) {
-    const std::filesystem::path path = folder / "report.json";
-    std::ifstream file(path);
-    try {
-        return read(Json::parse(file));
-    } catch (const Json::exception& error) {
-        throw Error(path.string() + ": not the report of a run (" + error.what() + ")");
-    }
-}
-
-StepRecord read_step(const Json& json) {
+StepRecord record_of(const simulator::StepReport& report) {
+    const simulator::ContactSummary& contact = report.contact;
     StepRecord step;
-    step.time = json.at("time");
-    step.internal = json.at("kinetic").get<double>() + json.at("elastic").get<double>();
-    step.contact_energy =
-        json.at("obstacle").get<double>() + json.at("contact_energy").get<double>();
-    step.total = step.internal + json.at("gravity").get<double>() + step.contact_energy;
-    const Json& contact = json.at("contact");
-    step.has_contact = count_of(contact.at("point_facet")) > 0 || count_of(contact.at("mixed")) > 0
-                       || count_of(contact.at("obstacle")) > 0;
-    step.penetration = contact.at("deepest");
-    step.iterations = count_of(json.at("iterations"));
-    step.newton_iterations = count_of(json.at("newton_iterations"));
-    step.refused = count_of(json.at("refused"));
+    step.time = report.time;
+    step.internal = report.energies.kinetic + report.energies.of("elastic");
+    step.contact_energy = report.energies.of("obstacle") + report.energies.of("contact");
+    step.total = report.energies.total();
+    step.has_contact = contact.point_facet > 0 || contact.mixed > 0 || contact.obstacle > 0;
+    step.penetration = contact.deepest;
+    step.iterations = report.iterations;
+    step.newton_iterations = report.newton_iterations;
+    step.refused = report.refused;
     return step;
-}
-
-std::vector<StepRecord> read_steps(const Json& report) {
-    std::vector<StepRecord> steps;
-    for (const Json& step : report.at("steps")) {
-        steps.push_back(read_step(step));
-    }
-    return steps;
 }
 
 template <int Dim>
@@ -73,13 +47,10 @@ double cell_measure(int dimension,
 
 }  // namespace
 
-std::optional<RunVerdict> verdict_of(const std::filesystem::path& folder) {
-    if (!std::filesystem::exists(folder / "report.json")) {
-        return std::nullopt;
-    }
-    return from_report(folder, [](const Json& report) {
-        return RunVerdict{report.value("verdict", ""), report.value("message", "")};
-    });
+std::optional<runs::RunVerdict> verdict_of(const std::filesystem::path& folder) {
+    const std::filesystem::path path = folder / kReportFile;
+    return std::filesystem::exists(path) ? std::optional(runs::read_report(path).verdict)
+                                         : std::nullopt;
 }
 
 Trajectory::Trajectory(const simulator::Scene& scene, std::filesystem::path folder)
@@ -92,7 +63,9 @@ Trajectory::Trajectory(const simulator::Scene& scene, std::filesystem::path fold
     } else {
         read_meshes<4>(scene);
     }
-    steps_ = from_report(folder_, read_steps);
+    for (const simulator::StepReport& step : runs::read_report(folder_ / kReportFile).steps) {
+        steps_.push_back(record_of(step));
+    }
 }
 
 template <int Dim>

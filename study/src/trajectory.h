@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/runs/report.h>
 #include <pent/simulator/scene.h>
 
 #include <Eigen/Core>
@@ -76,11 +77,7 @@ private:
     std::vector<StepRecord> steps_;
 };
 
-/// The verdict and, if there is one, the message of a run's report.json; nothing if there is none.
-struct RunVerdict {
-    std::string verdict;
-    std::string message;
-};
-[[nodiscard]] std::optional<RunVerdict> verdict_of(const std::filesystem::path& folder);
+/// The verdict of a run; nothing if there is no report of one.
+[[nodiscard]] std::optional<runs::RunVerdict> verdict_of(const std::filesystem::path& folder);
 
 }  // namespace pent::study

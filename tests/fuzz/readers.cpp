@@ -204,13 +204,7 @@ void try_report(const fs::path& path) {
     static_cast<void>(study::verdict_of(folder()));
     static_cast<void>(study::Trajectory(simulator::Scene(), folder()));  // no bodies: no meshes
 #endif
-    runs::RunReport report;
-    report.bodies = {"bar"};
-    runs::ReportHistory history = runs::parse_history(content(path), path.string(), report.bodies);
-    report.frames = std::move(history.frames);
-    report.steps = std::move(history.steps);
-    report.parts = {history.part};
-    static_cast<void>(runs::report_text(report));
+    static_cast<void>(runs::report_text(runs::read_report(path)));
 }
 
 #ifdef PENT_FUZZ_STUDY

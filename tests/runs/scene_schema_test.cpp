@@ -1,5 +1,6 @@
 #include <pent/error.h>
 #include <pent/read_text.h>
+#include <pent/runs/report.h>
 #include <pent/runs/scene_file.h>
 
 #include <gtest/gtest.h>
@@ -14,7 +15,8 @@ namespace {
 
 using Tables = std::map<std::string, std::string>;
 
-// The first table behind each line that begins with **[block]** or **[[block]]**.
+// The first table behind each line that begins with the name of a block, bold: **[block]** of scenes,
+// **`steps`** of reports.
 Tables tables_of(const std::string& text) {
     Tables tables;
     std::istringstream lines(text);
@@ -22,7 +24,7 @@ Tables tables_of(const std::string& text) {
     std::string block;
     bool is_within = false;
     while (std::getline(lines, line)) {
-        if (line.rfind("**[", 0) == 0) {
+        if (line.starts_with("**[") || line.starts_with("**`") || line.starts_with("**Each of `")) {
             block = line.substr(2, line.find("**", 2) - 2);
         }
         const bool is_row = !line.empty() && line[0] == '|';
@@ -38,8 +40,8 @@ Tables tables_of(const std::string& text) {
 
 TEST(SchemaText, IsWhatTheDocsHave) {
     const Tables docs = tables_of(read_text(PENT_DOCS "/simulator.md", "the docs"));
-    const Tables schema = tables_of(schema_text());
-    EXPECT_EQ(schema.size(), 9U);
+    const Tables schema = tables_of(schema_text() + report_schema_text());
+    EXPECT_EQ(schema.size(), 15U);
     for (const auto& [block, table] : schema) {
         const auto found = docs.find(block);
         ASSERT_NE(found, docs.end()) << block;

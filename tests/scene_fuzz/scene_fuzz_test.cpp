@@ -272,7 +272,7 @@ TEST_F(Folders, OfARunShowWorkOfWhatIsOff) {
                         {"solver", {{"integrator", "linear_euler"}}},
                         {"output", {{"contact_pairs", false}}}};
     const std::string zero =
-        R"("gravity": 0, "contact_energy": 0, "obstacle": 0, "damping_hessians": 0, "asleep": 0,
+        R"("energies": {"kinetic": 1, "elastic": 1}, "damping_hessians": 0, "asleep": 0,
            "newton_iterations": 0, "unbalanced": 0,
            "contact": {"point_facet": 0, "mixed": 0, "self": 0,
            "searches": 0, "candidates": 0, "trees_built": 0, "trees_refit": 0, "ccd_seconds": 0,
@@ -283,6 +283,10 @@ TEST_F(Folders, OfARunShowWorkOfWhatIsOff) {
     write("a/report.json", R"({"steps": [{"step": 1, )" + zero + "2}}]}");
     EXPECT_EQ(work_of_what_is_off(scene, folder_ / "a"),
               "contact.friction of step 1 is 2 without friction");
+    write("a/report.json", R"({"steps": [{"step": 1, "energies": {"gravity": 0}, )"
+                               + zero.substr(zero.find("\"damping_hessians\"")) + "0}}]}");
+    EXPECT_EQ(work_of_what_is_off(scene, folder_ / "a"),
+              "step 1 has the energy of gravity without gravity");
 }
 
 // ----------------------------------------------------------------------------------------- samples

@@ -1,6 +1,6 @@
 #include "record/journal.h"
 
-#include "record/run_json.h"
+#include "record/json_record.h"
 
 #include <pent/crc32c.h>
 #include <pent/error.h>
@@ -24,48 +24,45 @@ std::string line(const char* key, Json json) {
 }
 
 // Adds what a line says to the journal; the checksum of its text is right.
-void take(const std::string& text, const std::vector<std::string>& bodies, Journal& journal) {
+void take(const std::string& text, Journal& journal) {
     const Json entry = Json::parse(text);
     const Json& value = entry.front();
     const std::string key = entry.begin().key();
     if (key == "part") {
-        journal.parts.push_back(parse_part(value));
-        journal.parts.back().verdict = "died";  // unless its end follows
+        journal.parts.push_back(read_record<RunPart>(value));
+        journal.parts.back().verdict = RunVerdict::Died;  // unless its end follows
     } else if (key == "step") {
-        journal.steps.push_back(parse_step(value));
+        journal.steps.push_back(read_record<StepReport>(value));
     } else if (key == "frame") {
-        journal.frames.push_back(parse_frame(value, bodies));
+        journal.frames.push_back(read_record<FrameReport>(value));
         journal.has_checkpoint.push_back(value.at("has_checkpoint").get<bool>());
         RunPart& part = journal.parts.at(journal.parts.size() - 1);
         part.last_frame = journal.frames.back().frame;
         value.at("seconds").get_to(part.seconds);
     } else {
-        journal.parts.at(journal.parts.size() - 1) = parse_part(value);
+        journal.parts.at(journal.parts.size() - 1) = read_record<RunPart>(value);
     }
 }
 
 }  // namespace
 
 std::string part_line(const RunPart& part) {
-    return line("part", part_json(part));
+    return line("part", write_record(part));
 }
 
 std::string step_line(const StepReport& step) {
-    return line("step", step_json(step));
+    return line("step", write_record(step));
 }
 
-std::string frame_line(const FrameReport& frame,
-                       const std::vector<std::string>& bodies,
-                       bool has_checkpoint,
-                       double seconds) {
-    Json json = frame_json(frame, bodies);
+std::string frame_line(const FrameReport& frame, bool has_checkpoint, double seconds) {
+    Json json = write_record(frame);
     json["has_checkpoint"] = has_checkpoint;
     json["seconds"] = seconds;
     return line("frame", std::move(json));
 }
 
 std::string end_line(const RunPart& part) {
-    return line("end", part_json(part));
+    return line("end", write_record(part));
 }
 
 void Journal::cut(int last_frame) {
@@ -79,7 +76,7 @@ void Journal::cut(int last_frame) {
     }
 }
 
-std::string journal_text(const Journal& journal, const std::vector<std::string>& bodies) {
+std::string journal_text(const Journal& journal) {
     std::string text;
     auto step = journal.steps.begin();
     std::size_t frame = 0;
@@ -91,15 +88,14 @@ std::string journal_text(const Journal& journal, const std::vector<std::string>&
             for (; step != journal.steps.end() && step->step <= now.step; ++step) {
                 text += step_line(*step);
             }
-            text += frame_line(now, bodies, journal.has_checkpoint[frame], part.seconds);
+            text += frame_line(now, journal.has_checkpoint[frame], part.seconds);
         }
         text += end_line(part);
     }
     return text;
 }
 
-std::optional<Journal> read_journal(const std::filesystem::path& path,
-                                    const std::vector<std::string>& bodies) {
+std::optional<Journal> read_journal(const std::filesystem::path& path) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) {
         return std::nullopt;
@@ -115,11 +111,11 @@ std::optional<Journal> read_journal(const std::filesystem::path& path,
         const std::string_view line = std::string_view(text).substr(at, end - at);
         const std::string content(line.substr(std::min(line.size(), kDigits + 1)));
         try {
-            if (line.substr(0, kDigits)
-                != formatted("%08x", crc32c(content.data(), content.size()))) {
+            if (line.substr(0, kDigits + 1)
+                != formatted("%08x ", crc32c(content.data(), content.size()))) {
                 throw Error("its checksum does not fit");
             }
-            take(content, bodies, journal);
+            take(content, journal);
         } catch (const std::exception& error) {
             throw Error(path.string() + ":" + std::to_string(number)
                         + ": is damaged, or the journal of another run (" + error.what()

@@ -33,19 +33,14 @@ struct Journal {
 [[nodiscard]] std::string part_line(const RunPart& part);
 [[nodiscard]] std::string step_line(const StepReport& step);
 /// @param seconds  Of the part, so far.
-[[nodiscard]] std::string frame_line(const FrameReport& frame,
-                                     const std::vector<std::string>& bodies,
-                                     bool has_checkpoint,
-                                     double seconds);
+[[nodiscard]] std::string frame_line(const FrameReport& frame, bool has_checkpoint, double seconds);
 [[nodiscard]] std::string end_line(const RunPart& part);
 
 /// All lines of a journal whose last part has ended or died.
-[[nodiscard]] std::string journal_text(const Journal& journal,
-                                       const std::vector<std::string>& bodies);
+[[nodiscard]] std::string journal_text(const Journal& journal);
 
 /// Nothing if there is no such file. A last line that is not whole is left out; parts without an
 /// end have the verdict "died". Throws an Error that names the line for anything else.
-[[nodiscard]] std::optional<Journal> read_journal(const std::filesystem::path& path,
-                                                  const std::vector<std::string>& bodies);
+[[nodiscard]] std::optional<Journal> read_journal(const std::filesystem::path& path);
 
 }  // namespace pent::runs

@@ -1,95 +1,113 @@
 #include "record/run_report.h"
 
-#include "record/run_json.h"
+#include "record/json_record.h"
 
 #include <pent/error.h>
-
-#include <algorithm>
+#include <pent/read_text.h>
 
 namespace pent::runs {
 
 namespace {
 
-Json body_json(const RunReport& report, std::size_t body) {
-    double most = 0;
-    for (const FrameReport& frame : report.frames) {
-        most = std::max(most, frame.non_rigid[body]);
+// A visitor of the schema that writes the tables of the docs: one for the keys of a part, and behind
+// it one for each of its keys that has keys of its own.
+struct TableWriter {
+    using Field = simulator::Field;
+
+    std::string& rows;
+    std::string& tables_behind;
+
+    void operator()(const Field& field, const double& /*value*/) const { add(field, "number"); }
+    void operator()(const Field& field, const std::string& /*text*/) const { add(field, "text"); }
+    void operator()(const Field& field, const std::vector<std::string>& /*texts*/) const {
+        add(field, "list of texts");
     }
-    return {{"name", report.bodies[body]}, {"non_rigid_max", most}};
-}
+    void operator()(const Field& field, const std::vector<NonRigidity>& /*bodies*/) const {
+        add(field, "number for each name");
+    }
+    void operator()(const Field& field, const simulator::Energies& /*energies*/) const {
+        add(field, "number for each name");
+    }
+    template <std::integral Value>
+    void operator()(const Field& field, const Value& /*count*/) const {
+        add(field, "count");
+    }
+    template <typename Value>
+    requires std::is_enum_v<Value>
+    void operator()(const Field& field, const Value& /*value*/) const {
+        std::string words;
+        for (const std::string_view word : simulator::words<Value>()) {
+            words += (words.empty() ? "`" : ", `") + std::string(word) + "`";
+        }
+        add(field, words);
+    }
+    template <typename Part>
+    void operator()(const Field& field, const std::vector<Part>& /*parts*/) const {
+        add(field, "list");
+        add_table(field, "Each of ", Part());
+    }
+    template <typename Part>
+    requires std::is_class_v<Part>
+    void operator()(const Field& field, const Part& part) const {
+        add(field, "table");
+        add_table(field, "", part);
+    }
+
+    template <typename Part>
+    static std::string table(const std::string& title, const Part& part) {
+        std::string rows;
+        std::string tables_behind;
+        fields(part, TableWriter{rows, tables_behind});
+        return "**" + title + "**\n\n| key | value | |\n| --- | --- | --- |\n" + rows
+               + tables_behind;
+    }
+
+private:
+    void add(const Field& field, const std::string& kind) const {
+        const std::string unit = field.unit.empty() ? "" : ", " + std::string(field.unit);
+        rows += "| `" + std::string(field.key) + "` | " + kind + unit + " | "
+                + std::string(field.says) + " |\n";
+    }
+    template <typename Part>
+    void add_table(const Field& field, const std::string& before, const Part& part) const {
+        tables_behind += "\n" + table(before + "`" + std::string(field.key) + "`", part);
+    }
+};
 
 }  // namespace
 
 std::string report_text(const RunReport& report) {
-    const RunPart& last = report.parts.back();
-    Json json;
-    json["created_by"] = last.created_by;
-    json["verdict"] = last.verdict;
-    if (!report.message.empty()) {
-        json["message"] = report.message;
-    }
-    if (!report.penetration.empty()) {
-        json["penetration"] = report.penetration;
-    }
-    json["seconds"] = report.seconds;
-    json["threads"] = last.threads;
-    json["isa"] = last.isa;
-    json["size"] = {{"vertices", report.size.vertices},
-                    {"cells", report.size.cells},
-                    {"free_vertices", report.size.free_vertices},
-                    {"elements", report.size.elements},
-                    {"matrix_blocks", report.size.matrix_blocks},
-                    {"contact_bytes", report.size.contact_bytes},
-                    {"bytes", report.size.bytes}};
-    if (!report.warnings.empty()) {
-        json["warnings"] = report.warnings;
-    }
-    json["parts"] = Json::array();
-    for (const RunPart& part : report.parts) {
-        json["parts"].push_back(part_json(part));
-    }
-    json["bodies"] = Json::array();
-    for (std::size_t body = 0; body < report.bodies.size(); ++body) {
-        json["bodies"].push_back(body_json(report, body));
-    }
-    json["frames"] = Json::array();
-    for (const FrameReport& frame : report.frames) {
-        json["frames"].push_back(frame_json(frame, report.bodies));
-    }
-    json["steps"] = Json::array();
-    for (const StepReport& step : report.steps) {
-        json["steps"].push_back(step_json(step));
-    }
     // Messages name files, whose names may have bytes that are not UTF-8.
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return write_record(report).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-ReportHistory parse_history(const std::string& text,
-                            const std::string& name,
-                            const std::vector<std::string>& bodies) {
-    ReportHistory history;
+RunReport read_report(const std::filesystem::path& path) {
+    const std::string text = read_text(path, "the report of a run");
     try {
         const Json json = Json::parse(text);
-        for (const Json& entry : json.at("frames")) {
-            history.frames.push_back(parse_frame(entry, bodies));
+        RunReport report;
+        report.parts.resize(1);
+        fields(report, RecordReader{json});
+        if (!json.contains("parts")) {  // of version 0.1.0
+            RunPart& part = report.parts.back();
+            part.last_frame = report.frames.empty() ? 0 : report.frames.back().frame;
+            part.seconds = report.seconds;
+            part.verdict = report.verdict;
         }
-        for (const Json& entry : json.at("steps")) {
-            history.steps.push_back(parse_step(entry));
-        }
-        history.part = {.created_by = json.value("created_by", ""),
-                        .threads = json.value("threads", 1),
-                        .isa = json.value("isa", ""),
-                        .last_frame = history.frames.empty() ? 0 : history.frames.back().frame,
-                        .seconds = json.value("seconds", 0.0),
-                        .verdict = json.value("verdict", "")};
-        if (history.part.verdict == "running") {
-            history.part.verdict = "died";
-        }
-    } catch (const nlohmann::json::exception& error) {
-        throw Error(name + ": not the report of a run (" + error.what()
-                    + "); remove it or start again with --force");
+        return report;
+    } catch (const std::exception& error) {
+        throw Error(path.string() + ": not the report of a run (" + error.what() + ")");
     }
-    return history;
+}
+
+std::string_view verdict_name(RunVerdict verdict) {
+    return simulator::word_of(verdict);
+}
+
+std::string report_schema_text() {
+    RunReport report;
+    report.parts.resize(1);
+    return TableWriter::table("`report.json`", report);
 }
 
 }  // namespace pent::runs

@@ -24,13 +24,29 @@ std::vector<std::string> names_of_bodies(const Scene& scene) {
     return names;
 }
 
+namespace {
+
+// The report.json of a run without a journal, as version 0.1.0 left it.
+RunReport read_old_report(const fs::path& path) {
+    try {
+        RunReport report = read_report(path);
+        if (report.verdict == RunVerdict::Running) {
+            report.parts.back().verdict = RunVerdict::Died;
+        }
+        return report;
+    } catch (const Error& error) {
+        throw Error(std::string(error.what()) + "; remove it or start again with --force");
+    }
+}
+
+}  // namespace
+
 Journal read_earlier_parts(const Scene& scene, const fs::path& folder) {
     if (!fs::exists(folder / kSceneFile)) {
         throw Error(folder.string() + ": holds no run to resume (no scene.toml)");
     }
     check_same_scene(folder / kSceneFile, scene);
-    const std::vector<std::string> bodies = names_of_bodies(scene);
-    if (std::optional<Journal> journal = read_journal(folder / kJournalFile, bodies)) {
+    if (std::optional<Journal> journal = read_journal(folder / kJournalFile)) {
         return *std::move(journal);
     }
     if (OutputFolder(folder, kRunFolder).has_list()) {
@@ -41,13 +57,12 @@ Journal read_earlier_parts(const Scene& scene, const fs::path& folder) {
     if (!fs::exists(report)) {
         return {};
     }
-    ReportHistory history =
-        parse_history(read_text(report, "the report of a run"), report.string(), bodies);
-    const std::size_t frames = history.frames.size();
-    return {.parts = {history.part},
-            .frames = std::move(history.frames),
+    RunReport known = read_old_report(report);
+    const std::size_t frames = known.frames.size();
+    return {.parts = std::move(known.parts),
+            .frames = std::move(known.frames),
             .has_checkpoint = std::vector<bool>(frames),
-            .steps = std::move(history.steps)};
+            .steps = std::move(known.steps)};
 }
 
 fs::path crossings_path(const fs::path& folder, const std::string& created_by) {

@@ -106,9 +106,10 @@ void Finder<Dim>::complete_history(int last_frame) {
                            .time = files->front().time,
                            .non_rigid = {}};
         for (int body = 0; body < simulation_.body_count(); ++body) {
-            report.non_rigid.push_back(non_rigid<Dim>(
-                simulation_.mesh(body).positions,
-                (*files)[static_cast<std::size_t>(body)].positions, simulation_.masses(body)));
+            const auto of = static_cast<std::size_t>(body);
+            const double value = non_rigid<Dim>(simulation_.mesh(body).positions,
+                                                (*files)[of].positions, simulation_.masses(body));
+            report.non_rigid.push_back({bodies_[of], value});
         }
         history_.frames.insert(history_.frames.begin() + frame, std::move(report));
         history_.has_checkpoint.insert(history_.has_checkpoint.begin() + frame, false);

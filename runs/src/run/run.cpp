@@ -59,13 +59,14 @@ public:
               scene, std::move(meshes_.meshes), {.threads = options.threads, .isa = options.isa}) {
         report_.size = simulation_.size();
         report_.thinnest = thinnest_side(simulation_);
-        report_.isa = simulation_.isa();
         report_.warnings = std::move(meshes_.warnings);
         for (const auto& lines : {simulation_.warnings(), doubts_of_units(scene, simulation_),
                                   overlaps_at_start(scene, simulation_)}) {
             report_.warnings.insert(report_.warnings.end(), lines.begin(), lines.end());
         }
-        report_.bodies = names_of_bodies(scene);
+        for (const Body& body : scene.bodies) {
+            report_.bodies.push_back({.name = body.name});
+        }
     }
 
     RunReport operator()();
@@ -74,6 +75,9 @@ private:
     [[nodiscard]] fs::path path(const std::string& name) const { return options_.folder / name; }
     [[nodiscard]] double seconds() const {
         return std::chrono::duration<double>(Clock::now() - start_).count();
+    }
+    [[nodiscard]] const std::string& name_of(int body) const {
+        return scene_.bodies[static_cast<std::size_t>(body)].name;
     }
     void start_folder();
     void write_scene();
@@ -143,7 +147,7 @@ template <int Dim>
 void Run<Dim>::begin_part(int frame) {
     report_.parts.push_back({.created_by = options_.created_by,
                              .threads = options_.threads,
-                             .isa = report_.isa,
+                             .isa = simulation_.isa(),
                              .first_frame = frame,
                              .last_frame = frame});
     append_text(folder_.claim(kJournalFile), part_line(report_.parts.back()));
@@ -152,7 +156,7 @@ void Run<Dim>::begin_part(int frame) {
 template <int Dim>
 void Run<Dim>::write_meshes() {
     for (int body = 0; body < simulation_.body_count(); ++body) {
-        const std::string& name = report_.bodies[static_cast<std::size_t>(body)];
+        const std::string& name = name_of(body);
         mesh_crcs_.push_back(write_mesh(folder_.claim(mesh_file(name)), simulation_.mesh(body),
                                         {.created_by = options_.created_by}));
     }
@@ -165,10 +169,11 @@ void Run<Dim>::tell_resume(const Resumption<Dim>& found) const {
     }
     const RunPart& last = found.history.parts.back();
     const std::string where = "frame " + std::to_string(found.frame);
-    callbacks_.on_resume(last.verdict == "died"
+    callbacks_.on_resume(last.verdict == RunVerdict::Died
                              ? "the run had died (it was killed or crashed) behind " + where
                                    + "; it goes on from there"
-                             : "the run had " + last.verdict + "; it goes on from " + where);
+                             : "the run had " + std::string(verdict_name(last.verdict))
+                                   + "; it goes on from " + where);
 }
 
 // Puts the simulation at the last whole frame of the folder, and gives its number.
@@ -182,7 +187,7 @@ int Run<Dim>::resume_folder() {
     mesh_crcs_ = std::move(found.mesh_crcs);
     tell_resume(found);
     if (!folder_.has_list()) {
-        for (const std::string& name : files_of_old_run(report_.bodies, frame)) {
+        for (const std::string& name : files_of_old_run(names_of_bodies(scene_), frame)) {
             if (fs::exists(path(name))) {
                 folder_.adopt(name);
             }
@@ -194,7 +199,7 @@ int Run<Dim>::resume_folder() {
                          step_of(scene_, frame), found.carried);
         found.history.has_checkpoint.back() = true;
     }
-    write_text(folder_.claim(kJournalFile), journal_text(found.history, report_.bodies));
+    write_text(folder_.claim(kJournalFile), journal_text(found.history));
     report_.parts = std::move(found.history.parts);
     report_.frames = std::move(found.history.frames);
     report_.steps = std::move(found.history.steps);
@@ -208,9 +213,9 @@ FrameReport Run<Dim>::measure(int frame) const {
     report.step = simulation_.step_count();
     report.time = simulation_.time();
     for (int body = 0; body < simulation_.body_count(); ++body) {
-        report.non_rigid.push_back(non_rigid<Dim>(simulation_.mesh(body).positions,
-                                                  simulation_.positions(body),
-                                                  simulation_.masses(body)));
+        report.non_rigid.push_back(
+            {name_of(body), non_rigid<Dim>(simulation_.mesh(body).positions,
+                                           simulation_.positions(body), simulation_.masses(body))});
     }
     return report;
 }
@@ -218,7 +223,7 @@ FrameReport Run<Dim>::measure(int frame) const {
 template <int Dim>
 Frame<Dim> Run<Dim>::frame_header(int body, int frame) const {
     Frame<Dim> file;
-    file.mesh_name = report_.bodies[static_cast<std::size_t>(body)] + ".pent";
+    file.mesh_name = name_of(body) + ".pent";
     file.mesh_crc = mesh_crcs_[static_cast<std::size_t>(body)];
     file.frame = static_cast<std::uint64_t>(frame);
     file.step = simulation_.step_count();
@@ -230,10 +235,10 @@ Frame<Dim> Run<Dim>::frame_header(int body, int frame) const {
 // from.
 template <int Dim>
 void Run<Dim>::write_frame_files(int frame) {
-    const StateBlocks carried = carried_state(simulation_, report_.bodies);
+    const StateBlocks carried = carried_state(simulation_, names_of_bodies(scene_));
     report_.frames.push_back(measure(frame));
     report_.parts.back().last_frame = frame;
-    lines_ += frame_line(report_.frames.back(), report_.bodies, !carried.is_empty(), seconds());
+    lines_ += frame_line(report_.frames.back(), !carried.is_empty(), seconds());
     append_text(path(kJournalFile), std::exchange(lines_, ""));
     if (!carried.is_empty()) {
         write_checkpoint(folder_.claim(checkpoint_file(frame)), static_cast<std::uint64_t>(frame),
@@ -246,12 +251,13 @@ void Run<Dim>::write_frame_files(int frame) {
         if (scene_.output.contact_forces) {
             file.contact_forces = simulation_.contact_forces(body);
         }
-        const std::string& name = report_.bodies[static_cast<std::size_t>(body)];
+        const std::string& name = name_of(body);
         write_frame(folder_.claim(frame_file(name, frame)), file,
                     {.created_by = options_.created_by});
     }
     if (scene_.output.contact_pairs) {
-        write_text(folder_.claim(contacts_file(frame)), contact_table(simulation_, report_.bodies));
+        write_text(folder_.claim(contacts_file(frame)),
+                   contact_table(simulation_, names_of_bodies(scene_)));
     }
     folder_.remove(checkpoint_file(frame - 2));
     if (callbacks_.on_frame) {
@@ -291,6 +297,12 @@ void Run<Dim>::write_report() {
     for (const RunPart& part : report_.parts) {
         report_.seconds += part.seconds;
     }
+    for (std::size_t body = 0; body < report_.bodies.size(); ++body) {
+        double& most = report_.bodies[body].non_rigid_max;
+        for (const FrameReport& frame : report_.frames) {
+            most = std::max(most, frame.non_rigid[body].value);
+        }
+    }
     write_text(folder_.claim(kReportFile), report_text(report_));
 }
 
@@ -318,7 +330,10 @@ RunReport Run<Dim>::operator()() {
             write_report();  // GCOVR_EXCL_LINE: of runs longer than a test may be
         }
     }
-    report_.parts.back().verdict = verdict_name(report_.verdict);
+    if (report_.verdict == RunVerdict::Running) {
+        report_.verdict = RunVerdict::Finished;
+    }
+    report_.parts.back().verdict = report_.verdict;
     report_.penetration = deep_penetration(scene_, report_);
     write_report();
     append_text(path(kJournalFile), end_line(report_.parts.back()));
@@ -352,18 +367,6 @@ RunReport run(const Scene& scene, const RunOptions& options, const RunCallbacks&
     check(scene);
     return scene.dimension == 3 ? run_in<3>(scene, options, callbacks)
                                 : run_in<4>(scene, options, callbacks);
-}
-
-std::string_view verdict_name(RunVerdict verdict) {
-    switch (verdict) {
-        case RunVerdict::Finished:
-            return "finished";
-        case RunVerdict::Stopped:
-            return "stopped";
-        case RunVerdict::Diverged:
-            break;
-    }
-    return "diverged";
 }
 
 }  // namespace pent::runs

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <pent/runs/report.h>
 #include <pent/simulator/scene.h>
-#include <pent/simulator/simulation.h>
 
 #include <filesystem>
 #include <functional>
@@ -34,48 +34,6 @@ struct RunOptions {
     std::string created_by = "pent-sim";  ///< Goes into the files.
 };
 
-enum class RunVerdict { Finished, Stopped, Diverged };
-
-/// What is known when a frame has been written.
-struct FrameReport {
-    int frame = 0;
-    std::uint64_t step = 0;
-    double time = 0;                ///< s.
-    std::vector<double> non_rigid;  ///< One a body, in the order of the scene: RMS distance to the
-                                    ///< best-fitting rigid motion of the start over its RMS radius.
-};
-
-/// One call of run(): a run that was stopped and resumed has several.
-struct RunPart {
-    std::string created_by;
-    int threads = 1;
-    std::string isa;
-    int first_frame = 0;  ///< The frame it went on from; 0 at the start.
-    int last_frame = 0;   ///< The last that it wrote.
-    double seconds = 0;   ///< Of a part that died: up to its last frame.
-    std::string verdict =
-        "running";  ///< "finished", "stopped", "diverged", or "died": it was killed or
-                    ///< crashed.
-};
-
-struct RunReport {
-    RunVerdict verdict = RunVerdict::Finished;
-    std::string message;  ///< Why a run diverged and what to try; empty otherwise.
-    /// How deep bodies went into something, and the stiffness that would do; empty where that stays
-    /// below a tenth of the thinnest extent of a body.
-    std::string penetration;
-    /// Of meshes, settings, units, and of what overlaps at the start.
-    std::vector<std::string> warnings;
-    simulator::SimulationSize size;
-    double thinnest = 0;  ///< Shortest side of the boxes around the bodies at rest, m.
-    std::string isa;
-    std::vector<std::string> bodies;           ///< Names, in the order of the scene.
-    std::vector<FrameReport> frames;           ///< Every frame in the folder, frame 0 included.
-    std::vector<simulator::StepReport> steps;  ///< Every step behind them.
-    std::vector<RunPart> parts;                ///< The last is this call.
-    double seconds = 0;                        ///< Spent in all parts.
-};
-
 struct RunCallbacks {
     /// Asked before every step; true ends the run with verdict Stopped.
     std::function<bool()> should_stop;
@@ -98,8 +56,5 @@ struct RunCallbacks {
 [[nodiscard]] RunReport run(const simulator::Scene& scene,
                             const RunOptions& options,
                             const RunCallbacks& callbacks = {});
-
-/// "finished", "stopped" or "diverged".
-[[nodiscard]] std::string_view verdict_name(RunVerdict verdict);
 
 }  // namespace pent::runs

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -7,8 +8,8 @@ namespace pent::simulator {
 
 /// A named part of the energy of a scene.
 struct TermEnergy {
-    std::string_view name;  ///< Of static storage: "elastic", "contact" and so on.
-    double energy = 0;      ///< J.
+    std::string name;   ///< "elastic", "contact" and so on.
+    double energy = 0;  ///< J.
     bool is_stored =
         true;  ///< Whether it can be had back: friction's, of use to a line search, cannot.
 };

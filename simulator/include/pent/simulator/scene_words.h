@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -91,6 +92,14 @@ template <typename Value>
 template <typename Value>
 [[nodiscard]] std::string_view word_of(Value value) {
     return kWords<Value>[place_of(value)].word;
+}
+
+/// The value that has a word; nothing if none has.
+template <typename Value>
+[[nodiscard]] std::optional<Value> value_of(std::string_view word) {
+    const auto found = std::find_if(kWords<Value>.begin(), kWords<Value>.end(),
+                                    [&](const Word<Value>& one) { return one.word == word; });
+    return found == kWords<Value>.end() ? std::nullopt : std::optional(found->value);
 }
 
 }  // namespace pent::simulator

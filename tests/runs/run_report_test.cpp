@@ -1,0 +1,91 @@
+#include "record/run_report.h"
+
+#include "falling_bar.h"
+#include "old_report.h"
+#include "support/messages.h"
+
+#include <pent/runs/run.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+namespace pent::runs {
+namespace {
+
+using pent::test::TempFolder;
+
+class ReportFile : public testing::Test {
+protected:
+    ReportFile() : report_(run(test::falling_bar(folder_, 2), {.folder = folder_ / "run"})) {}
+
+    RunReport read_with(const std::string& text) const {
+        std::ofstream(folder_ / "report.json") << text;
+        return read_report(folder_ / "report.json");
+    }
+    std::string error_with(const std::string& from, const std::string& to) const {
+        std::string text = report_text(report_);
+        text.replace(text.find(from), from.size(), to);
+        return pent::test::error_of([&] { static_cast<void>(read_with(text)); });
+    }
+
+    TempFolder folder_;
+    RunReport report_;
+};
+
+// Texts, counts, lists, words, and a distance that is infinite.
+TEST_F(ReportFile, IsReadAsItWasWritten) {
+    report_.message = "why";
+    report_.warnings = {"one", "two"};
+    report_.parts.push_back({.created_by = "b", .threads = 3, .isa = "c"});
+    report_.parts.back().verdict = RunVerdict::Died;
+    report_.steps[0].failure = "\"quoted\"";
+    report_.steps[1].contact.smallest_distance = -0.25;
+    report_.steps[1].energies.terms.push_back({"a new term", 1e-300});
+    const RunReport again = read_with(report_text(report_));
+    EXPECT_EQ(report_text(again), report_text(report_));
+    EXPECT_EQ(again.steps[1].energies.of("a new term"), 1e-300);
+    EXPECT_TRUE(std::isinf(again.steps[0].contact.smallest_distance));
+    EXPECT_TRUE(again.steps[0].is_accepted);
+    EXPECT_EQ(again.frames[2].non_rigid[0].body, "box");
+    EXPECT_EQ(again.bodies[0].non_rigid_max,
+              std::max(report_.frames[1].non_rigid[0].value, report_.frames[2].non_rigid[0].value));
+}
+
+TEST_F(ReportFile, OfVersion010IsRead) {
+    const RunReport old = read_with(test::report_text_of_version_010(report_));
+    ASSERT_EQ(old.steps.size(), report_.steps.size());
+    for (std::size_t i = 0; i < old.steps.size(); ++i) {
+        for (const char* name : {"elastic", "gravity"}) {
+            EXPECT_EQ(old.steps[i].energies.of(name), report_.steps[i].energies.of(name));
+        }
+        EXPECT_EQ(old.steps[i].energies.kinetic, report_.steps[i].energies.kinetic);
+    }
+    ASSERT_EQ(old.parts.size(), 1U);
+    EXPECT_EQ(old.parts[0].verdict, RunVerdict::Finished);
+    EXPECT_EQ(old.parts[0].last_frame, 2);
+    EXPECT_EQ(old.parts[0].seconds, old.seconds);
+}
+
+// What is used by a line search but cannot be had back is no energy of a report.
+TEST_F(ReportFile, HasTheEnergiesThatAreStored) {
+    report_.steps[0].energies.terms.push_back({"friction", 1, false});
+    const RunReport again = read_with(report_text(report_));
+    EXPECT_EQ(again.steps[0].energies.of("friction"), 0);
+    EXPECT_EQ(again.steps[0].energies.terms.size() + 1, report_.steps[0].energies.terms.size());
+}
+
+TEST_F(ReportFile, IsRefusedWithItsNameWhereItIsNotOne) {
+    pent::test::expect_contains(error_with("\"substeps\"", "\"steps\""),
+                                {"report.json: not the report of a run", "substeps"});
+    for (const char* wrong : {"-1", "1.5", "\"1\"", "null"}) {
+        EXPECT_NE(error_with("\"substeps\": 1", std::string("\"substeps\": ") + wrong), "")
+            << wrong;
+    }
+    pent::test::expect_contains(error_with("\"finished\"", "\"fine\""), {"\"fine\""});
+    pent::test::expect_contains(error_with("{", "["), {"report.json: not the report of a run"});
+}
+
+}  // namespace
+}  // namespace pent::runs
