@@ -41,32 +41,5 @@ TEST(BlockMatrix, MultipliesAsTheDenseMatrixDoes) {
     expect_product_matches_dense<4, double>();
 }
 
-TEST(BlockPattern, HoldsEveryPairOfFreeVerticesOfACellOnceAndInOrder) {
-    ElasticBox<4> box({.lame = {.lambda = 1, .mu = 1}}, {5, 6});
-    const BlockPattern& pattern = box.pattern;
-    EXPECT_EQ(pattern.rows(), box.mesh.vertex_count() - 2);
-    for (std::int64_t row = 0; row < pattern.rows(); ++row) {
-        const auto r = static_cast<std::size_t>(row);
-        EXPECT_EQ(pattern.columns[static_cast<std::size_t>(pattern.row_start[r])], row);
-        for (std::int64_t k = pattern.row_start[r] + 1; k < pattern.row_start[r + 1]; ++k) {
-            const auto i = static_cast<std::size_t>(k);
-            EXPECT_GT(pattern.columns[i], pattern.columns[i - 1]);
-        }
-    }
-    for (Eigen::Index cell = 0; cell < box.mesh.cell_count(); ++cell) {
-        for (int a = 0; a <= 4; ++a) {
-            for (int b = 0; b <= 4; ++b) {
-                const auto row = box.dofs.rank_of(box.mesh.cells(a, cell));
-                const auto column = box.dofs.rank_of(box.mesh.cells(b, cell));
-                if (row <= column && column < box.dofs.count()) {
-                    const auto at = static_cast<std::size_t>(pattern.find(row, column));
-                    EXPECT_EQ(pattern.columns[at], column);
-                    EXPECT_LT(at, static_cast<std::size_t>(pattern.row_start[row + 1]));
-                }
-            }
-        }
-    }
-}
-
 }  // namespace
 }  // namespace pent::simulator

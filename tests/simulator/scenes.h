@@ -32,6 +32,22 @@ inline Motion still(int dim) {
     return motion;
 }
 
+/// What is at x = 0, in four dimensions.
+inline HalfSpaceSelection left_end() {
+    return {.normal = Eigen::Vector4d(1, 0, 0, 0), .offset = 1e-6};
+}
+
+/// Of a bar() that is turned by its left end, falls and is damped.
+inline Scene swinging_bar() {
+    Scene scene = box_scene<4>();
+    scene.gravity[1] = -9.8;
+    Motion motion = still(4);
+    motion.rotate = {{{3, 0}, 60}};
+    scene.constraints = {hold(left_end(), motion)};
+    scene.damping = Damping{.mass = 0.1, .stiffness = 0.002};
+    return scene;
+}
+
 /// A bar along x with labeled columns and layers along w.
 inline SimplexMesh<4> bar(int length = 6) {
     SimplexMesh<4> mesh =

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <support/host_tasks.h>
 #include <utility>
 
 namespace pent::simulator {
@@ -17,8 +16,9 @@ using test::bar;
 using test::box_scene;
 using test::hold;
 using test::still;
+using test::swinging_bar;
 
-const HalfSpaceSelection kLeftEnd{.normal = Eigen::Vector4d(1, 0, 0, 0), .offset = 1e-6};
+const HalfSpaceSelection kLeftEnd = test::left_end();
 
 // Implicit Euler under constant g: v_n = n h g, x_n = h^2 g n (n + 1) / 2, whatever the body.
 template <int Dim>
@@ -202,39 +202,6 @@ TEST(Simulation, RefusesASceneOfAnotherDimension) {
     EXPECT_THROW(Simulation<4>(box_scene<3>(), {bar(2)}), Error);
 }
 
-Scene swinging_bar() {
-    Scene scene = box_scene<4>();
-    scene.gravity[1] = -9.8;
-    Motion motion = still(4);
-    motion.rotate = {{{3, 0}, 60}};
-    scene.constraints = {hold(kLeftEnd, motion)};
-    scene.damping = Damping{.mass = 0.1, .stiffness = 0.002};
-    return scene;
-}
-
-// All bits of positions and velocities after some steps.
-std::vector<double> state_after(int steps, TaskSystem tasks, const Scene& scene, int length) {
-    Simulation<4> simulation(scene, {bar(length)}, {.tasks = std::move(tasks)});
-    for (int i = 0; i < steps; ++i) {
-        EXPECT_TRUE(simulation.step().is_accepted);
-    }
-    const auto positions = simulation.positions(0).reshaped();
-    const auto velocities = simulation.velocities(0).reshaped();
-    std::vector<double> state(positions.begin(), positions.end());
-    state.insert(state.end(), velocities.begin(), velocities.end());
-    return state;
-}
-
-TEST(Simulation, IsTheSameToTheBitForAnyNumberOfThreads) {
-    const std::vector<double> one =
-        state_after(3, own_task_system(1), swinging_bar(), 80);  // 30,720 cells
-    EXPECT_EQ(state_after(3, own_task_system(2), swinging_bar(), 80), one);
-    for (const int threads : {2, 3, 8}) {
-        EXPECT_EQ(state_after(3, pent::test::host_tasks(threads), swinging_bar(), 80), one)
-            << threads << " threads of a host";
-    }
-}
-
 TEST(Simulation, AgreesBetweenInstructionSetsToTheSolversTolerance) {
     Scene scene = swinging_bar();
     scene.solver.precision = Precision::Double;
@@ -330,88 +297,6 @@ TEST(Floor, CarriesTheWeightOfABodyAtRest) {
     EXPECT_GT(simulation.positions(0).row(1).minCoeff(), 0);
 }
 
-TEST(FailedStep, IsCutAndRetriedAndThenReportedWithTheStateAsItWas) {
-    Scene scene = swinging_bar();
-    scene.solver.max_iterations = 2;
-    scene.solver.max_halvings = 2;
-    Simulation<4> simulation(scene, {bar()});
-    const Positions<4> before = simulation.positions(0);
-    const StepReport report = simulation.step();
-    EXPECT_FALSE(report.is_accepted);
-    EXPECT_NE(report.failure.find("tolerance"), std::string::npos);
-    EXPECT_EQ(report.refused, 3);
-    EXPECT_EQ(simulation.positions(0), before);
-    EXPECT_EQ(simulation.step_count(), 0U);
-}
-
-TEST(FailedStep, SucceedsInHalvesWhereThoseAreEasier) {
-    Scene scene = swinging_bar();
-    scene.damping.reset();
-    Simulation<4> whole(scene, {bar()});
-    scene.solver.max_iterations = whole.step().iterations * 3 / 4;
-    Simulation<4> halved(scene, {bar()});
-    const StepReport report = halved.step();
-    EXPECT_TRUE(report.is_accepted);
-    EXPECT_GE(report.substeps, 2);
-    EXPECT_DOUBLE_EQ(halved.time(), scene.dt());
-    EXPECT_NE(report.failure.find("the linear solver did not reach"), std::string::npos);
-}
-
-TEST(CheckScene, NamesTheBodyWhoseMaterialIsOutOfRange) {
-    Scene scene = box_scene<4>();
-    scene.bodies[0].material.density = 0;
-    pent::test::expect_contains(pent::test::error_of([&] { check(scene); }),
-                                {"body \"box\": the density is 0", "more than 0"});
-}
-
-// Of so little mass that the linear solver copes, while squares of the way to go are beyond all
-// numbers.
-TEST(FailedStep, IsOneWhoseMotionHasAnEnergyThatIsNotANumber) {
-    Scene scene = box_scene<4>();
-    scene.solver.integrator = Integrator::NewtonEuler;
-    scene.solver.precision = Precision::Double;
-    scene.solver.max_halvings = 0;
-    scene.bodies[0].material.density = 1e-20;
-    scene.bodies[0].material.lame = lame_from_young(4, 1e-18, 0.28);
-    scene.bodies[0].velocity = Eigen::Vector4d(1e165, 0, 0, 0);
-    Simulation<4> simulation(scene, {bar(2)});
-    const StepReport report = simulation.step();
-    EXPECT_FALSE(report.is_accepted);
-    EXPECT_EQ(report.failure, "the motion grew beyond all bounds");
-}
-
-// Sum of 1/2 m |v - before|^2, J.
-double kinetic_energy(const Simulation<4>& simulation, const Positions<4>& before) {
-    return 0.5
-           * (simulation.velocities(0) - before).colwise().squaredNorm().dot(simulation.masses(0));
-}
-
-// Of backward Euler it is h^2 (1/2 |v - v0|_M^2 + E): no more behind a step than with all where it
-// was, from however far the linear step that the search begins with may have leapt.
-TEST(NewtonsMethod, NeverEndsAboveWhereTheStepBegan) {
-    Scene scene = box_scene<4>();
-    scene.solver.integrator = Integrator::NewtonEuler;
-    for (const double frames_per_second : {1000.0, 30.0, 3.0}) {
-        for (const double stretch : {0.05, 0.5, 2.0, 6.0}) {
-            scene.frames_per_second = frames_per_second;
-            Simulation<4> simulation(scene, {bar(3)});
-            Positions<4> positions = simulation.positions(0);
-            positions.row(0) *= stretch;
-            positions.row(2) *= -1;  // inside out
-            Positions<4> velocities = 0.3 * positions;
-            velocities.row(1).swap(velocities.row(3));
-            simulation.set_state(0, positions, velocities);
-            const Energies before = simulation.energies();
-            const StepReport report = simulation.step();
-            ASSERT_TRUE(report.is_accepted) << report.failure;
-            ASSERT_EQ(report.substeps, 1) << frames_per_second << ' ' << stretch;
-            EXPECT_LE(kinetic_energy(simulation, velocities) + report.energies.of("elastic"),
-                      before.kinetic + before.of("elastic"))
-                << frames_per_second << ' ' << stretch;
-        }
-    }
-}
-
 TEST(SetState, RefusesWhatIsNotFinite) {
     Simulation<4> simulation(box_scene<4>(), {bar(2)});
     Positions<4> positions = simulation.positions(0);
@@ -436,21 +321,6 @@ TEST(Simulation, GoesOnWhereItIsMovedTo) {
     ASSERT_TRUE(assigned.step().is_accepted);
     EXPECT_EQ(assigned.step_count(), 3U);
     EXPECT_EQ(Positions<4>(assigned.positions(0)), Positions<4>(stays.positions(0)));
-}
-
-TEST(Simulation, ContinuesToTheBitFromASavedState) {
-    const Scene scene = swinging_bar();
-    Simulation<4> first(scene, {bar()});
-    for (int i = 0; i < 3; ++i) {
-        ASSERT_TRUE(first.step().is_accepted);
-    }
-    Simulation<4> second(scene, {bar()});
-    second.restore(first.save());
-    for (int i = 0; i < 3; ++i) {
-        ASSERT_TRUE(first.step().is_accepted);
-        ASSERT_TRUE(second.step().is_accepted);
-    }
-    EXPECT_EQ(Positions<4>(first.positions(0)), Positions<4>(second.positions(0)));
 }
 
 }  // namespace
