@@ -69,6 +69,12 @@ TEST(ParseSceneErrors, NameTheBlockThatAKeyBelongsTo) {
     EXPECT_EQ(error_of("[output]\nstiffness = 1\n"),
               "s.toml:5:1: unknown key \"stiffness\" in \"output\"; \"stiffness\" belongs to"
               " [[obstacle]] or [contact] or [damping]");
+    EXPECT_EQ(error_of("[solver]\nup = 1\n"),
+              "s.toml:5:1: unknown key \"up\" in \"solver\"; \"up\" belongs to \"bowl\" of"
+              " [[obstacle]]");
+    EXPECT_EQ(error_of("[[constraint]]\nbody = \"a\"\nlow = 1\n"),
+              "s.toml:6:1: unknown key \"low\" in \"constraint\"; \"low\" belongs to"
+              " \"select.box\" of [[constraint]]");
 }
 
 // Members of the schema that no key has.

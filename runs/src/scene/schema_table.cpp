@@ -10,6 +10,7 @@
 #include <concepts>
 #include <optional>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 namespace pent::runs {
@@ -61,6 +62,7 @@ struct RowCollector {
     std::vector<SchemaRow>& rows;
     std::string block;
     std::string prefix = {};
+    bool is_within = false;
 
     void operator()(const Field& field, double value) const {
         const double standard = field.fallback.value_or(value);
@@ -78,8 +80,12 @@ struct RowCollector {
     void operator()(const Field& field, const std::optional<Eigen::VectorXd>& /*value*/) const {
         add(field, comma("vector", std::string(field.unit)), "none");
     }
+    void operator()(const Field& field, const simulator::Plane& plane) const {
+        add(field, "two axes", in_code("\"" + simulator::plane_name(plane) + "\""));
+    }
     void operator()(const Field& field, const std::vector<Selection>& /*select*/) const {
         add(field, "a selection, or a list of them", "none");
+        add_kinds(field, std::make_index_sequence<std::variant_size_v<Selection>>());
     }
     void operator()(const Field& field, const std::vector<Motion>& /*motion*/) const {
         add(field, "a table, or a list of them",
@@ -98,6 +104,7 @@ struct RowCollector {
                     const std::string key = std::string(one.kName) + " = " + keys_of(one);
                     add(simulator::key(key).default_is("one of the shapes"),
                         comma("table", std::string(field.unit)), "");
+                    add_within(std::string(one.kName) + ".", one);
                 },
                 shape);
         }
@@ -118,14 +125,31 @@ struct RowCollector {
     template <typename Part>
     void operator()(const Field& field, const std::vector<Part>& /*parts*/) const {
         add(field, "list of " + in_code(keys_of(Part())), "none");
+        add_within(std::string(field.key) + ".", Part());
     }
     template <typename Part>
     requires std::is_class_v<Part>
     void operator()(const Field& field, const Part& part) const {
-        simulator::fields(part, RowCollector{rows, block, prefix + std::string(field.key) + "."});
+        simulator::fields(
+            part, RowCollector{rows, block, prefix + std::string(field.key) + ".", is_within});
     }
 
 private:
+    template <typename Part>
+    void add_within(const std::string& path, const Part& part) const {
+        simulator::fields(part, RowCollector{rows, block, prefix + path, true});
+    }
+    template <std::size_t... Kind>
+    void add_kinds(const Field& field, std::index_sequence<Kind...> /*kinds*/) const {
+        const std::string path = std::string(field.key) + ".";
+        const auto add_kind = [&](std::string_view name, const auto& selection) {
+            using Type = std::remove_cvref_t<decltype(selection)>;
+            const bool is_inline = std::is_same_v<Type, simulator::RegionSelection>;
+            add_within(path + (is_inline ? "" : std::string(name) + "."), selection);
+        };
+        (add_kind(simulator::kSelectionNames[Kind], std::variant_alternative_t<Kind, Selection>()),
+         ...);
+    }
     void add(const Field& field, const std::string& values, const std::string& standard) const {
         std::string said(field.default_says);
         said = field.is_required ? "required" : said.empty() ? standard : said;
@@ -133,7 +157,8 @@ private:
                         .key = prefix + std::string(field.key),
                         .values = values,
                         .standard = said,
-                        .says = std::string(field.says)});
+                        .says = std::string(field.says),
+                        .is_within = is_within});
     }
 };
 
@@ -192,6 +217,9 @@ std::string schema_text() {
     std::string text;
     std::string block;
     for (const SchemaRow& row : schema_rows()) {
+        if (row.is_within) {
+            continue;
+        }
         if (row.block != block) {
             text += (block.empty() ? "**" : "\n**") + row.block
                     + "**\n\n| key | value | default | |\n| --- | --- | --- | --- |\n";

@@ -13,6 +13,8 @@ struct SchemaRow {
     std::string values;    ///< Type, words, unit and range.
     std::string standard;  ///< Its default, or "required".
     std::string says;
+    bool is_within =
+        false;  ///< A key of a table that is the value of another: not in the docs' tables.
 };
 
 /// All keys, by blocks, as the schema has them.
