@@ -37,6 +37,8 @@ TYPED_TEST(SceneEnergyTest, TheSumHasTheTermsOfTheSceneAndNoOthers) {
     };
     Scene scene = two_cubes<kDim>(0.03);
     scene.contact.reset();
+    EXPECT_EQ(names(scene), (std::vector<std::string>{"elastic"}));
+    scene.gravity[1] = -9.8;
     EXPECT_EQ(names(scene), (std::vector<std::string>{"gravity", "elastic"}));
     scene.contact = Contact{.distance = 0.05, .stiffness = 2e3, .friction = 0.3};
     EXPECT_EQ(names(scene),

@@ -11,7 +11,9 @@ SceneEnergy<Dim>::SceneEnergy(const Workers& workers,
                               const Kernels<Dim>& kernels,
                               const Bodies<Dim>& bodies,
                               const Scene& scene) {
-    sum.add(std::make_unique<Gravity<Dim>>(workers, bodies.masses, scene.gravity));
+    if (!scene.gravity.isZero(0)) {
+        sum.add(std::make_unique<Gravity<Dim>>(workers, bodies.masses, scene.gravity));
+    }
     elasticity = &sum.add(
         std::make_unique<Elasticity<Dim>>(workers, kernels, bodies, scene.solver.elements));
     contact = &sum.add(std::make_unique<ContactPotential<Dim>>(workers, scene, bodies));
