@@ -1,6 +1,7 @@
 #include "common/program.h"
 #include "view_options.h"
 
+#include <pent/child_process.h>
 #include <pent/error.h>
 #include <pent/viewer/export_page.h>
 #include <pent/viewer/run_folder.h>
@@ -9,7 +10,6 @@
 #include <array>
 #include <filesystem>
 #include <functional>
-#include <spawn.h>
 #include <string>
 #include <system_error>
 #include <unistd.h>
@@ -64,19 +64,12 @@ std::filesystem::path page_of(const Arguments& arguments) {
 }
 
 bool open_browser(const std::string& address) {
-    std::string program = "xdg-open";
-    std::string argument = address;
-    const std::array<char*, 3> command = {program.data(), argument.data(), nullptr};
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    for (const int stream : {1, 2}) {  // what it says is not ours
-        posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", 1, 0);
+    try {
+        ChildProcess("xdg-open", {address}).detach();
+        return true;
+    } catch (const Error&) {
+        return false;
     }
-    pid_t child = 0;
-    const int failure =
-        posix_spawnp(&child, program.c_str(), &actions, nullptr, command.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    return failure == 0;
 }
 
 Verdict export_run(Program& program, const Arguments& arguments) {

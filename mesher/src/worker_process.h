@@ -1,20 +1,13 @@
 #pragma once
 
+#include <pent/child_process.h>
+
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace pent::mesher {
-
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
-/// A nameless temporary file, gone when closed. Throws an Error if there is no room for one.
-[[nodiscard]] File temporary_file();
 
 /// How a process ended and what it wrote to stderr.
 struct ProcessResult {

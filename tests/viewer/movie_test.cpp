@@ -162,7 +162,7 @@ TEST_F(FakeFfmpeg, NeedsTwoFilesAndAConnection) {
         ::setrlimit(RLIMIT_NOFILE, &before);
     }
     expect_contains(messages[0], {"a.mp4", "cannot be written", "Too many open files"});
-    expect_contains(messages[1], {"a.mp4", "no temporary file can be made", "Too many open files"});
+    expect_contains(messages[1], {"a.mp4", "cannot make a temporary file", "Too many open files"});
     expect_contains(messages[2], {"a.mp4", "no connection to ffmpeg", "Too many open files"});
     expect_nothing_left();
 }

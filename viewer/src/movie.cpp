@@ -1,5 +1,6 @@
 #include "pent/viewer/movie.h"
 
+#include <pent/child_process.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/output_file.h>
@@ -11,13 +12,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <fstream>
-#include <spawn.h>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
 
@@ -35,34 +34,6 @@ std::string find_in_path(const std::string& program) {
         }
     }
     return "";
-}
-
-// Starts a program with the given standard input and standard error, and no output.
-pid_t start(const std::vector<std::string>& words, int input, int errors) {
-    std::vector<char*> arguments;
-    arguments.reserve(words.size() + 1);
-    for (const std::string& word : words) {
-        arguments.push_back(const_cast<char*>(word.c_str()));  // posix_spawn does not write to them
-    }
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
-    // In its own process group, so that Ctrl-C in a terminal reaches us alone and we decide.
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    pid_t process = -1;
-    const int error = posix_spawn(&process, words.front().c_str(), &actions, &attributes,
-                                  arguments.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    if (error != 0) {
-        throw Error(words.front() + ": cannot be started: " + std::strerror(error));
-    }
-    return process;
 }
 
 // Whether the boxes an MP4 file is made of fill it exactly, pictures and index among them. ffmpeg
@@ -97,23 +68,12 @@ bool is_whole_mp4(const std::filesystem::path& path) {
     return at == size && has_pictures && has_index;
 }
 
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
 }  // namespace
 
 struct Movie::Encoder {
     explicit Encoder(const std::filesystem::path& path)
-        : name(path.string()), file(path), messages(std::tmpfile()) {
-        if (!messages) {
-            throw Error(name + ": no temporary file can be made: " + std::strerror(errno));
-        }
-    }
-    ~Encoder() {
-        close_input();
-        wait();
-    }
+        : name(path.string()), file(path), messages(temporary_file(name)) {}
+    ~Encoder() { close_input(); }
     Encoder(const Encoder&) = delete;
     Encoder& operator=(const Encoder&) = delete;
     Encoder(Encoder&&) = delete;
@@ -126,20 +86,15 @@ struct Movie::Encoder {
         }
     }
 
-    // The exit status of ffmpeg; 0 if there is none to wait for.
-    int wait() {
-        int status = 0;
-        if (process > 0) {
-            while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
-            }
-            process = -1;
-        }
-        return status;
+    // Whether ffmpeg ended well; also if it never began.
+    [[nodiscard]] bool wait() {
+        const ChildEnd end = process ? process->wait() : ChildEnd();
+        return end.signal == 0 && end.exit_code == 0;
     }
 
     [[noreturn]] void give_up() {
         close_input();
-        wait();
+        static_cast<void>(wait());
         std::rewind(messages.get());
         std::string last = "it wrote only a part; is the disk full?";
         std::array<char, 512> line{};
@@ -151,9 +106,9 @@ struct Movie::Encoder {
 
     std::string name;
     OutputFile file;
-    std::unique_ptr<std::FILE, CloseFile> messages;
+    File messages;
+    std::optional<ChildProcess> process;  // is waited for when its input has been closed
     int input = -1;
-    pid_t process = -1;
 };
 
 bool Movie::is_possible() {
@@ -172,37 +127,40 @@ Movie::Movie(const std::filesystem::path& path, int width, int height, double fr
         throw Error(path.string() + ": no connection to ffmpeg: " + std::strerror(errno));
     }
     encoder_->input = ends[0];
-    const std::vector<std::string> words = {program,
-                                            "-hide_banner",
-                                            "-loglevel",
-                                            "error",
-                                            "-nostdin",
-                                            "-y",
-                                            "-f",
-                                            "rawvideo",
-                                            "-pixel_format",
-                                            "rgb24",
-                                            "-video_size",
-                                            std::to_string(width) + "x" + std::to_string(height),
-                                            "-framerate",
-                                            formatted("%.9g", frames_per_second),
-                                            "-i",
-                                            "pipe:0",
-                                            "-c:v",
-                                            "libx264",
-                                            "-preset",
-                                            "fast",
-                                            "-crf",
-                                            "18",
-                                            "-pix_fmt",
-                                            "yuv420p",
-                                            "-movflags",
-                                            "+faststart",
-                                            "-f",
-                                            "mp4",
-                                            encoder_->file.temporary().string()};
+    const std::vector<std::string> arguments = {
+        "-hide_banner",
+        "-loglevel",
+        "error",
+        "-nostdin",
+        "-y",
+        "-f",
+        "rawvideo",
+        "-pixel_format",
+        "rgb24",
+        "-video_size",
+        std::to_string(width) + "x" + std::to_string(height),
+        "-framerate",
+        formatted("%.9g", frames_per_second),
+        "-i",
+        "pipe:0",
+        "-c:v",
+        "libx264",
+        "-preset",
+        "fast",
+        "-crf",
+        "18",
+        "-pix_fmt",
+        "yuv420p",
+        "-movflags",
+        "+faststart",
+        "-f",
+        "mp4",
+        encoder_->file.temporary().string()};
     try {
-        encoder_->process = start(words, ends[1], ::fileno(encoder_->messages.get()));
+        encoder_->process.emplace(program, arguments,
+                                  ChildOptions{.input = ends[1],
+                                               .errors = ::fileno(encoder_->messages.get()),
+                                               .has_own_group = true});
     } catch (...) {
         ::close(ends[1]);
         throw;
@@ -227,7 +185,7 @@ void Movie::add(const Image& picture) {
 
 void Movie::finish() {
     encoder_->close_input();
-    if (encoder_->wait() != 0 || !is_whole_mp4(encoder_->file.temporary())) {
+    if (!encoder_->wait() || !is_whole_mp4(encoder_->file.temporary())) {
         encoder_->give_up();
     }
     encoder_->file.commit();
