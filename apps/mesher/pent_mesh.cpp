@@ -69,7 +69,7 @@ void say_cells(const Program& program, const BodyReport& report) {
                               report.curved_cells == 1 ? "" : "s"));
     }
     if (!report.left_out.empty()) {
-        program.say("left out   " + report.left_out + ": of fewer than three dimensions");
+        program.say("left out   " + report.left_out + ": no part of a body");
     }
 }
 

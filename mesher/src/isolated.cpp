@@ -88,6 +88,7 @@ void answer(std::FILE* pipe,
         write_all(pipe, &header, 1);
         write_all(pipe, pieces.points.data(), pieces.points.size());
         write_all(pipe, pieces.cells.data(), pieces.cells.size());
+        write_all(pipe, pieces.left_out.data(), kCellKinds);
     } catch (const std::bad_alloc&) {
         const Header header{Answer::OutOfMemory};
         write_all(pipe, &header, 1);
@@ -122,7 +123,8 @@ bool read_answer(std::FILE* pipe,
     pieces.points.resize(3, header.points);
     pieces.cells.resize(Corners, header.cells);
     return read_all(pipe, pieces.points.data(), pieces.points.size())
-           && read_all(pipe, pieces.cells.data(), pieces.cells.size());
+           && read_all(pipe, pieces.cells.data(), pieces.cells.size())
+           && read_all(pipe, pieces.left_out.data(), kCellKinds);
 }
 
 // Waits for the child in any case, also when its answer was an error.

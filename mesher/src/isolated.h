@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cells.h"
+
 #include <pent/mesher/step_limits.h>
 #include <pent/simplex_mesh.h>
 
@@ -14,6 +16,7 @@ template <int Corners>
 struct Pieces {
     Positions<3> points;
     Simplices<Corners> cells;
+    CellCounts left_out{};  ///< What a file had beside them.
 };
 
 /// Runs a step in a child process and brings its result back. A step that crashes, aborts, or

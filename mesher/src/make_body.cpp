@@ -319,6 +319,7 @@ Body<4> make_body(const BodyRequest& request) {
         return extrude_and_prove<4>(base, request, extrusion, std::move(report), clock);
     }
     const SurfaceFile file = clock.time("read", [&] { return surface_of(request); });
+    report.left_out = file.left_out;
     const SimplexMesh<3> base = filled_base<4>(file, request, extrusion, report, clock);
     return extrude_and_prove<4>(base, request, extrusion, std::move(report), clock);
 }
@@ -340,6 +341,7 @@ Body<3> make_solid(const BodyRequest& request) {
         return finish_solid(std::move(mesh), request, std::move(report), clock);
     }
     const SurfaceFile file = clock.time("read", [&] { return surface_of(request); });
+    report.left_out = file.left_out;
     if (is_flat(file.surface)) {
         refuse_filling(request);
         report.merged_points = file.merged_points;

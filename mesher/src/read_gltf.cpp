@@ -48,8 +48,10 @@ void add_mesh(const aiMesh& mesh,
             }
             polygon.push_back(first + face.mIndices[i]);
         }
-        if (polygon.size() >= 3) {  // glTF may hold points and lines beside triangles
+        if (polygon.size() >= 3) {
             builder.add_polygon(polygon);
+        } else {
+            builder.leave_out(polygon.size() == 2 ? CellKind::Line : CellKind::Point);
         }
     }
 }
@@ -86,9 +88,9 @@ TriangleSoup read_gltf(const std::filesystem::path& path) {
     Pieces<3> pieces =
         run_isolated<3>(path.string() + ": reading it by assimp", {}, [&]() -> Pieces<3> {
             TriangleSoup soup = import_by_assimp(path);
-            return {std::move(soup.points), std::move(soup.triangles)};
+            return {std::move(soup.points), std::move(soup.triangles), soup.left_out};
         });
-    return {std::move(pieces.points), std::move(pieces.cells)};
+    return {std::move(pieces.points), std::move(pieces.cells), pieces.left_out};
 }
 
 }  // namespace pent::mesher

@@ -40,6 +40,8 @@ TriangleSoup read_obj(const std::filesystem::path& path) {
             builder.add_point(text.point());
         } else if (keyword == "f") {
             builder.add_polygon(read_polygon(text, builder.point_count()));
+        } else if (keyword == "l" || keyword == "p") {
+            builder.leave_out(keyword == "l" ? CellKind::Line : CellKind::Point);
         } else if (keyword == "surf" || keyword == "bsp" || keyword == "bzp" || keyword == "cdp"
                    || keyword == "con") {
             text.fail("a free-form surface (" + std::string(keyword)

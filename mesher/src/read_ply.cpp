@@ -225,6 +225,9 @@ TriangleSoup read_ply(const std::filesystem::path& path) {
                 read_vertex(element, values, builder);
                 continue;
             }
+            if (element.name == "edge") {
+                builder.leave_out(CellKind::Line);
+            }
             read_row(element, values, builder.point_count(), text.size(), polygon);
             if (polygon.size() >= 3) {
                 builder.add_polygon(polygon);

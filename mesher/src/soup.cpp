@@ -48,6 +48,7 @@ TriangleSoup SoupBuilder::soup() const {
     }
     soup.triangles = Eigen::Map<const Simplices<3>>(corners_.data(), 3,
                                                     static_cast<Eigen::Index>(corners_.size() / 3));
+    soup.left_out = left_out_;
     return soup;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cells.h"
+
 #include <pent/simplex_mesh.h>
 
 #include <cstdint>
@@ -12,6 +14,7 @@ namespace pent::mesher {
 struct TriangleSoup {
     Positions<3> points;     ///< 3 x n, finite.
     Simplices<3> triangles;  ///< Indices in range.
+    CellCounts left_out{};   ///< Lines and points of the file.
 };
 
 /// Collects points and polygons one by one, and cuts the polygons into triangles.
@@ -22,6 +25,9 @@ public:
     /// Cuts a polygon into a fan, from the first corner that turns no triangle over.
     /// @param polygon  Three corners or more, each an index of a point added before.
     void add_polygon(std::span<const std::uint32_t> polygon);
+
+    /// Counts a line or a point, which is no part of a surface.
+    void leave_out(CellKind kind) { ++left_out_[static_cast<std::size_t>(kind)]; }
 
     [[nodiscard]] std::int64_t point_count() const {
         return static_cast<std::int64_t>(points_.size());
@@ -34,6 +40,7 @@ private:
 
     std::vector<Eigen::Vector3d> points_;
     std::vector<std::uint32_t> corners_;  // three a triangle
+    CellCounts left_out_{};
 };
 
 }  // namespace pent::mesher

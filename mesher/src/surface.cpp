@@ -103,7 +103,9 @@ SurfaceFile read_surface(const std::filesystem::path& path, const std::string& f
     if (soup.triangles.cols() == 0) {
         throw Error(input_name(path) + ": no triangle in it; expected a surface");
     }
-    return weld(soup.points, soup.triangles);
+    SurfaceFile file = weld(soup.points, soup.triangles);
+    file.left_out = list_counts(soup.left_out, CellKind::Line, CellKind::Point);
+    return file;
 }
 
 SurfaceFile read_surface(const std::filesystem::path& path) {

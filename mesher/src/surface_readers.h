@@ -10,7 +10,7 @@ namespace pent::mesher {
 /// Error that names file and line (or offset) for what is damaged, and allocates no more than the
 /// size of the file bears out.
 
-/// `v` and `f` lines of a Wavefront OBJ file; all else is skipped.
+/// `v` and `f` lines of a Wavefront OBJ file; `l` and `p` are counted, all else is skipped.
 [[nodiscard]] TriangleSoup read_obj(const std::filesystem::path& path);
 
 /// OFF as text, also COFF, NOFF and the like: what follows coordinates and corners is skipped.

@@ -133,7 +133,7 @@ TEST(PentMesh, SaysWhichCellsItCutAndLeftOut) {
     test::expect_contains(outcome.out,
                           {"cut        1 prism into 3 tetrahedra\n",
                            "straight   1 cell of higher order, by their corners alone\n",
-                           "left out   1 triangle: of fewer than three dimensions\n"});
+                           "left out   1 triangle: no part of a body\n"});
     test::expect_contains(
         test::text_of(folder / "report.json"),
         {R"("cut": "1 prism into 3 tetrahedra")", R"("left_out": "1 triangle")", R"("curved": 1)"});

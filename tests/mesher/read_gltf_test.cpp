@@ -89,6 +89,19 @@ TEST(ReadGltf, TakesTrianglesWithoutIndicesAndNoPointsOrLines) {
                           {"a.gltf", "no triangle"});
 }
 
+TEST(ReadGltf, CountsThePointsAndLinesBesideTriangles) {
+    const auto left_out = [](const std::string& mode) {
+        return read_text(
+                   gltf(kTetrahedron,
+                        R"("indices": 1}, {"attributes": {"POSITION": 0}, "indices": 1, "mode": )"
+                            + mode))
+            .left_out;
+    };
+    EXPECT_EQ(left_out("0"), "12 points");
+    EXPECT_EQ(left_out("1"), "6 lines");
+    EXPECT_EQ(left_out("4"), "");
+}
+
 TEST(ReadGltf, PlacesNodesWithinNodes) {
     std::string text = gltf(kTetrahedron, R"("indices": 1)");
     const std::string node = R"("nodes": [{"mesh": 0, "translation": [10, 0, 0]}])";

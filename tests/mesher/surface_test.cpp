@@ -54,6 +54,22 @@ TEST(ReadObj, SkipsCommentsOtherLinesAndCarriageReturns) {
     EXPECT_EQ(file.surface.points(1, 2), 1.0);
 }
 
+// What a surface has no use for is counted, whatever the format.
+TEST(ReadSurface, CountsTheLinesAndPointsThatItLeavesOut) {
+    const SurfaceFile obj =
+        read_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\nl 1 2 3\np 1\n");
+    EXPECT_EQ(obj.left_out, "2 lines, 1 point");
+    EXPECT_EQ(obj.surface.triangle_count(), 1);
+    const SurfaceFile ply = read_text(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
+        "float"
+        " z\nelement face 1\nproperty list uchar int vertex_indices\nelement edge 1\nproperty int"
+        " vertex1\nproperty int vertex2\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n0 1\n");
+    EXPECT_EQ(ply.left_out, "1 line");
+    EXPECT_EQ(read_text("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").left_out, "");
+}
+
 TEST(ReadObj, CutsAConcavePolygonWithoutTurningTrianglesOver) {
     // A dart: the fan from its first corner would reach over the notch. Its area is 1.
     const SurfaceFile file =

@@ -101,7 +101,7 @@ struct BodyReport {
     std::int64_t components = 0;
     std::int64_t cavities = 0;
     std::string cut;                ///< Cells of a tet mesh that were cut, see TetrahedraFile.
-    std::string left_out;           ///< Its cells of fewer dimensions.
+    std::string left_out;           ///< Its cells of fewer dimensions than tetrahedra or triangles.
     std::int64_t curved_cells = 0;  ///< Its cells of higher order, of which the corners were taken.
     Repair repair = Repair::None;   ///< How the surface was mended, if it had to be.
     double repair_distance = 0;     ///< From the mended surface to the one read, m.

@@ -2,7 +2,9 @@
 
 #include <pent/simplex_mesh.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace pent::mesher {
 
@@ -22,6 +24,7 @@ struct SurfaceFile {
     std::int64_t points_in_file = 0;
     std::int64_t merged_points = 0;  ///< Points at the place of an earlier one.
     std::int64_t unused_points = 0;  ///< Points without a triangle, left out.
+    std::string left_out;            ///< Lines and points, as in "3 lines, 1 point".
 };
 
 /// Reads a surface from an OBJ, OFF, PLY, STL or glTF file, in double precision where the file has
