@@ -155,7 +155,7 @@ BENCHMARK(body_of_300k)->Unit(benchmark::kMillisecond)->UseRealTime();
 // used much itself: a new process is counted from what the one that started it had.
 double peak_memory_of_300k() {
     const auto output = std::filesystem::temp_directory_path() / "pent_mesher_bench.pent";
-    const pent::mesher::File nothing = pent::mesher::temporary_file();
+    const pent::File nothing = pent::temporary_file();
     const pent::mesher::ProcessResult result = pent::mesher::run_process(
         PENT_MESH, {octopus(), "-o", output.string(), "--quiet"}, nothing.get(), nothing.get());
     std::filesystem::remove(output);

@@ -164,13 +164,12 @@ void try_checkpoint_with_checksum(const fs::path& path) {
 }
 
 void try_journal(const fs::path& path) {
-    const std::vector<std::string> bodies = {"bar"};
-    std::optional<runs::Journal> journal = runs::read_journal(path, bodies);
+    std::optional<runs::Journal> journal = runs::read_journal(path);
     require(journal.has_value(), "a file that is there is a journal");
     journal->cut(1);
     const fs::path copy = folder() / "copy.txt";
-    std::ofstream(copy, std::ios::binary) << runs::journal_text(*journal, bodies);
-    static_cast<void>(runs::read_journal(copy, bodies));
+    std::ofstream(copy, std::ios::binary) << runs::journal_text(*journal);
+    static_cast<void>(runs::read_journal(copy));
 }
 
 // The same with the checksum of each line put right.
