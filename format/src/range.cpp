@@ -27,7 +27,8 @@ std::string expected_in(const Range& range, double value) {
     }
     return is_of_size(range, value)
                ? ""
-               : "0 or a size from " + readable(range.smallest) + " to " + readable(range.largest);
+               : (is_between(range, 0) ? "0 or a size from " : "a size from ")
+                     + readable(range.smallest) + " to " + readable(range.largest);
 }
 
 std::string text_of(const Range& range) {

@@ -31,7 +31,7 @@ inline constexpr Range kFraction{
 [[nodiscard]] bool is_of_size(const Range& range, double value);
 
 /// "" if the range has the number, else what completes "expected ...": "a
-/// number above 0", or "0 or a size from 1e-30 to 1e+30".
+/// number above 0", or "0 or a size from 1e-30 to 1e+30", without the 0 if that is not in it.
 [[nodiscard]] std::string expected_in(const Range& range, double value);
 
 /// "a number above 0 and below 1".
