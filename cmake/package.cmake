@@ -1,8 +1,8 @@
-# The installed package: find_package(pent) gives pent::format, pent::contact, pent::simulator and
-# pent::runs, the permissive part a host program links. The mesher and the viewer are installed as programs only.
+# The installed package: find_package(pent) gives pent::format, pent::exchange, pent::contact,
+# pent::simulator and pent::runs, the permissive part a host program links. The mesher and the viewer are installed as programs only.
 
 include(CMakePackageConfigHelpers)
-install(TARGETS pent_format pent_contact pent_simulator pent_runs EXPORT pentTargets FILE_SET HEADERS)
+install(TARGETS pent_format pent_exchange pent_contact pent_simulator pent_runs EXPORT pentTargets FILE_SET HEADERS)
 install(EXPORT pentTargets NAMESPACE pent:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pent)
 write_basic_package_version_file(pentConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 if(PENT_THREADS STREQUAL tbb)

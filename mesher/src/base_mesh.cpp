@@ -1,9 +1,9 @@
 #include "base_mesh.h"
 
-#include "file_format.h"
 #include "size_limits.h"
 
 #include <pent/error.h>
+#include <pent/input_path.h>
 #include <pent/mesher/orient.h>
 #include <pent/mesher/read_surface.h>
 #include <pent/mesher/read_tetrahedra.h>

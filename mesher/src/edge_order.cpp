@@ -1,7 +1,7 @@
-#include "text_reader.h"
 
 #include <pent/error.h>
 #include <pent/mesher/edge_order.h>
+#include <pent/text_reader.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "text_reader.h"
+#include <pent/text_reader.h>
 
 #include <algorithm>
 #include <array>

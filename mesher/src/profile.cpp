@@ -1,7 +1,7 @@
-#include "text_reader.h"
 
 #include <pent/error.h>
 #include <pent/mesher/profile.h>
+#include <pent/text_reader.h>
 
 #include <array>
 #include <cassert>

@@ -1,5 +1,6 @@
 #include "surface_readers.h"
-#include "text_reader.h"
+
+#include <pent/text_reader.h>
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "surface_readers.h"
-#include "text_reader.h"
 
 #include <pent/error.h>
+#include <pent/text_reader.h>
 
 #include <array>
 #include <bit>

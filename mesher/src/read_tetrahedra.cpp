@@ -1,8 +1,8 @@
 #include "cut_cells.h"
-#include "file_format.h"
 #include "tet_readers.h"
 
 #include <pent/error.h>
+#include <pent/input_path.h>
 #include <pent/mesher/read_tetrahedra.h>
 
 #include <array>

@@ -1,5 +1,6 @@
 #include "tet_readers.h"
-#include "text_reader.h"
+
+#include <pent/text_reader.h>
 
 #include <array>
 #include <string>

@@ -1,7 +1,7 @@
-#include "file_format.h"
 #include "surface_readers.h"
 
 #include <pent/error.h>
+#include <pent/input_path.h>
 #include <pent/mesher/read_surface.h>
 
 #include <Eigen/Geometry>

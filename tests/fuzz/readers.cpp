@@ -9,6 +9,7 @@
 #include "trajectory.h"
 #endif
 
+#include <pent/exchange/exchange.h>
 #include <pent/crc32c.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
@@ -257,6 +258,18 @@ void try_profile(const fs::path& path) {
 }
 #endif
 
+void try_exchange(const fs::path& path) {
+    const exchange::Content found = exchange::read(path);
+    if (const auto* mesh = std::get_if<SimplexMesh<4>>(&found)) {
+        validate(*mesh, "accepted mesh");
+        return;
+    }
+    const auto& surface = std::get<exchange::TetSurface>(found);
+    require(surface.points.allFinite() && surface.tetrahedra.cols() > 0
+                && surface.tetrahedra.maxCoeff() < surface.points.cols(),
+            "a boundary has tetrahedra of its finite points");
+}
+
 }  // namespace
 
 const std::vector<Reader>& readers() {
@@ -271,6 +284,12 @@ const std::vector<Reader>& readers() {
         {"journal", ".txt", try_journal},
         {"journal_checksum", ".txt", try_journal_with_checksum},
         {"list", ".txt", try_list},
+        {"4do", ".4do", try_exchange},
+        {"4obj", ".obj", try_exchange},
+        {"4off", ".4off", try_exchange},
+        {"g4mf", ".g4tf", try_exchange},
+        {"g4mf_chunks", ".g4b", try_exchange},
+        {"mfem", ".mfem", try_exchange},
 #ifdef PENT_FUZZ_STUDY
         {"record", ".json", try_record},
 #endif

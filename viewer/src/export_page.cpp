@@ -3,6 +3,7 @@
 #include "http.h"
 #include "web_page.h"
 
+#include <pent/base64.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/output_file.h>
@@ -54,25 +55,8 @@ Shell shell_of(const Body<Dim>& body) {
     return shell;
 }
 
-void append_base64(std::string& text, std::string_view bytes) {
-    constexpr std::string_view kDigits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t three = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const char byte = i + k < bytes.size() ? bytes[i + k] : '\0';
-            three = three << 8 | static_cast<unsigned char>(byte);
-        }
-        for (std::size_t k = 0; k < 4; ++k) {
-            text += i + k <= bytes.size() ? kDigits[three >> (18 - 6 * k) & 63] : '=';
-        }
-    }
-}
-
 std::string data_element(const std::string& id, std::string_view bytes) {
-    std::string text = "<script type=\"text/plain\" id=\"" + id + "\">";
-    append_base64(text, bytes);
-    return text + "</script>\n";
+    return "<script type=\"text/plain\" id=\"" + id + "\">" + to_base64(bytes) + "</script>\n";
 }
 
 std::string numbers(const Eigen::VectorXd& values) {

@@ -7,10 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace pent::mesher {
-
-/// The name that stands for standard input.
-inline constexpr std::string_view kStandardInput = "-";
+namespace pent {
 
 /// A text file, handed out by lines and words; every error names the file and the line.
 ///
@@ -84,4 +81,4 @@ private:
     bool is_in_bytes_ = false;
 };
 
-}  // namespace pent::mesher
+}  // namespace pent

@@ -1,14 +1,11 @@
-#include "file_format.h"
-
-#include "text_reader.h"
-
 #include <pent/error.h>
+#include <pent/input_path.h>
 
 #include <algorithm>
 #include <cctype>
 #include <system_error>
 
-namespace pent::mesher {
+namespace pent {
 
 std::string format_of(const std::filesystem::path& path, const std::string& given) {
     std::string ending = given.empty() ? path.extension().string() : "." + given;
@@ -43,4 +40,4 @@ void require_file(const std::filesystem::path& path) {
     refuse_folder(path);
 }
 
-}  // namespace pent::mesher
+}  // namespace pent

@@ -2,8 +2,12 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
-namespace pent::mesher {
+namespace pent {
+
+/// The name that stands for standard input.
+inline constexpr std::string_view kStandardInput = "-";
 
 /// The format of a file as the ending of a name, as in ".obj": in small letters, from its name
 /// unless one is given ("obj").
@@ -18,4 +22,4 @@ void refuse_folder(const std::filesystem::path& path);
 /// Throws an Error unless the file is there, and no folder. Standard input is there.
 void require_file(const std::filesystem::path& path);
 
-}  // namespace pent::mesher
+}  // namespace pent

@@ -1,8 +1,7 @@
-#include "text_reader.h"
-
-#include "file_format.h"
-
 #include <pent/error.h>
+#include <pent/input_path.h>
+#include <pent/real_text.h>
+#include <pent/text_reader.h>
 
 #include <algorithm>
 #include <charconv>
@@ -12,7 +11,7 @@
 #include <iterator>
 #include <system_error>
 
-namespace pent::mesher {
+namespace pent {
 
 namespace {
 
@@ -109,7 +108,7 @@ std::string_view TextReader::next_word(std::string_view expected) {
 double TextReader::number(std::string_view word, std::string_view expected) const {
     double value = 0;
     const std::string_view digits = !word.empty() && word.front() == '+' ? word.substr(1) : word;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const auto [end, error] = real_from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error == std::errc::result_out_of_range || end != digits.data() + digits.size()
         || digits.empty() || !std::isfinite(value)) {
         fail("found " + quoted(word) + ", expected " + std::string(expected) + ", a finite number");
@@ -185,4 +184,4 @@ void TextReader::fail(const std::string& message) const {
         + ": " + message);
 }
 
-}  // namespace pent::mesher
+}  // namespace pent

@@ -1,0 +1,94 @@
+#include "common/program.h"
+
+#include <pent/exchange/exchange.h>
+#include <pent/formatted.h>
+
+#include <string>
+#include <variant>
+
+namespace pent::apps {
+
+namespace {
+
+struct Arguments {
+    std::string input;
+    std::string output;
+    exchange::WriteOptions options;
+};
+
+void add_options(CLI::App& cli, Arguments& arguments) {
+    cli.add_option("input", arguments.input,
+                   "A body (.pent, .mesh) or a boundary (.off, .4off, .g4tf,"
+                   " .g4b, .4do, .obj)")
+        ->required()
+        ->type_name("IN");
+    cli.add_option("output", arguments.output, "The same in the format that its ending stands for")
+        ->required()
+        ->type_name("OUT");
+    cli.add_flag("--double", arguments.options.in_double,
+                 "G4MF: coordinates in double, which not every program reads");
+    cli.add_flag(
+        "--mfem-attributes", arguments.options.has_mfem_attributes,
+        "MFEM: number the boundary behind the labels of the cells, as MFEM's own meshes have"
+        " it; default: 1 bottom, 2 lateral, 3 top");
+}
+
+void say_surface(Program& program, const exchange::TetSurface& surface) {
+    const exchange::SurfaceCheck check = exchange::check(surface);
+    const std::string size = std::to_string(surface.points.cols()) + " points, "
+                             + std::to_string(surface.tetrahedra.cols()) + " tetrahedra";
+    if (check.is_oriented()) {
+        program.say("boundary   " + size + ", closed, around "
+                    + formatted("%.6g m^4", exchange::enclosed_hypervolume(surface)));
+        program.report()["hypervolume"] = exchange::enclosed_hypervolume(surface);
+    } else {
+        program.say("boundary   " + size + ", not closed: " + std::to_string(check.open)
+                    + " open triangles, " + std::to_string(check.overfull) + " of more than two");
+    }
+    program.report()["points"] = surface.points.cols();
+    program.report()["tetrahedra"] = surface.tetrahedra.cols();
+    program.report()["open"] = check.open;
+    program.report()["overfull"] = check.overfull;
+}
+
+void say_body(Program& program, const SimplexMesh<4>& mesh) {
+    program.say("body       " + std::to_string(mesh.vertex_count()) + " vertices, "
+                + std::to_string(mesh.cell_count()) + " pentachora, "
+                + formatted("%.6g m^4", total_volume(mesh)));
+    program.report()["vertices"] = mesh.vertex_count();
+    program.report()["cells"] = mesh.cell_count();
+    program.report()["hypervolume"] = total_volume(mesh);
+}
+
+Verdict convert(Program& program, Arguments& arguments) {
+    program.require_apart({{"the input", arguments.input}}, {{"OUT", arguments.output}});
+    static_cast<void>(exchange::format_of(arguments.output));  // before any work
+    arguments.options.created_by = program.name_and_version();
+    const exchange::Content content = exchange::read(arguments.input);
+    if (const auto* surface = std::get_if<exchange::TetSurface>(&content)) {
+        say_surface(program, *surface);
+    } else {
+        say_body(program, std::get<SimplexMesh<4>>(content));
+    }
+    exchange::write(arguments.output, content, arguments.options);
+    program.report()["output"] = arguments.output;
+    program.say("finished: " + arguments.output);
+    return Verdict::Finished;
+}
+
+}  // namespace
+
+}  // namespace pent::apps
+
+int main(int argc, char** argv) {
+    pent::apps::Program program(
+        "pent-convert",
+        "Converts bodies of four dimensions and their boundaries to and from the files of other"
+        " programs. Of a body, formats of boundaries get the boundary; a boundary becomes a body "
+        "if a"
+        " point sees all of it.",
+        "pent-convert octopus.pent octopus.g4b");
+    pent::apps::Arguments arguments;
+    add_options(program.options(), arguments);
+    return program.run(argc, argv, [&] { return convert(program, arguments); });
+}

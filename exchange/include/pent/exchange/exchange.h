@@ -1,0 +1,55 @@
+#pragma once
+
+#include <pent/exchange/tet_surface.h>
+#include <pent/simplex_mesh.h>
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace pent::exchange {
+
+/// What a file of four dimensions holds: the boundary of a body, or a body.
+using Content = std::variant<TetSurface, SimplexMesh<4>>;
+
+struct WriteOptions {
+    std::string created_by = "pentimento";
+    bool in_double = false;  ///< Coordinates of G4MF: many programs read float alone.
+    /// Labels of the boundary of MFEM meshes of extruded bodies: 1 bottom, 2 lateral, 3 top; or as
+    /// MFEM numbers those of its own, behind the labels of the cells.
+    bool has_mfem_attributes = false;
+};
+
+/// A file format. Orientation is ours whichever the file's is.
+struct Format {
+    std::string_view name;
+    std::span<const std::string_view> endings;  ///< ".g4tf" and so on, in small letters.
+    bool has_cells = false;                     ///< Holds bodies, else boundaries.
+    Content (*read)(const std::filesystem::path& path);
+    void (*write)(const std::filesystem::path& path,
+                  const Content& content,
+                  const WriteOptions& options);
+};
+
+/// All formats: .pent, 4OFF, G4MF, 4DO, tesserxel's OBJ and MFEM.
+[[nodiscard]] std::span<const Format> formats();
+
+/// The format that the ending of a name stands for. Throws an Error that lists all for others.
+[[nodiscard]] const Format& format_of(const std::filesystem::path& path);
+
+/// Reads a boundary, oriented outward if it is closed, or a body.
+///
+/// Throws an Error that names the file and the place for what cannot be read, is not finite, has
+/// indices out of range or ends too soon; nothing is allocated from a count that the file does not
+/// bear out.
+[[nodiscard]] Content read(const std::filesystem::path& path);
+
+/// Writes a boundary or a body, whole or not at all: what the format holds of it, the boundary of a
+/// body or the cone_of() a boundary.
+void write(const std::filesystem::path& path,
+           const Content& content,
+           const WriteOptions& options = {});
+
+}  // namespace pent::exchange

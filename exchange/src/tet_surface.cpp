@@ -1,0 +1,304 @@
+#include <pent/error.h>
+#include <pent/exchange/tet_surface.h>
+#include <pent/facets.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pent::exchange {
+
+namespace {
+
+using Eigen::Vector4d;
+
+// A triangle of a tetrahedron: its corners increasing, and whether that is the side from which the
+// tetrahedron sees it.
+struct Side {
+    std::array<std::uint32_t, 3> corners{};
+    std::uint32_t tetrahedron = 0;
+    bool is_turned = false;
+
+    bool operator<(const Side& other) const {
+        return corners != other.corners ? corners < other.corners : tetrahedron < other.tetrahedron;
+    }
+};
+
+// All triangles, those with the same corners side by side.
+std::vector<Side> sides_of(const Simplices<4>& tetrahedra) {
+    std::vector<Side> sides;
+    sides.reserve(static_cast<std::size_t>(4 * tetrahedra.cols()));
+    for (Eigen::Index t = 0; t < tetrahedra.cols(); ++t) {
+        for (int without = 0; without < 4; ++without) {
+            Side side{.tetrahedron = static_cast<std::uint32_t>(t), .is_turned = without % 2 == 1};
+            for (int corner = 0, at = 0; corner < 4; ++corner) {
+                if (corner != without) {
+                    side.corners[static_cast<std::size_t>(at++)] = tetrahedra(corner, t);
+                }
+            }
+            // Sorting by neighbors turns the triangle over with each exchange.
+            auto& c = side.corners;
+            for (const std::size_t low : {0U, 1U, 0U}) {
+                if (c[low] > c[low + 1]) {
+                    std::swap(c[low], c[low + 1]);
+                    side.is_turned = !side.is_turned;
+                }
+            }
+            sides.push_back(side);
+        }
+    }
+    std::sort(sides.begin(), sides.end());
+    return sides;
+}
+
+// Calls back with the first side of each triangle and how many there are.
+template <typename Visit>
+void for_each_triangle(const std::vector<Side>& sides, const Visit& visit) {
+    for (std::size_t begin = 0; begin < sides.size();) {
+        std::size_t end = begin + 1;
+        while (end < sides.size() && sides[end].corners == sides[begin].corners) {
+            ++end;
+        }
+        visit(begin, end - begin);
+        begin = end;
+    }
+}
+
+double hypervolume_below(const TetSurface& surface, Eigen::Index tetrahedron) {
+    Eigen::Matrix4d corners;
+    for (int corner = 0; corner < 4; ++corner) {
+        corners.col(corner) = surface.points.col(surface.tetrahedra(corner, tetrahedron));
+    }
+    return corners.determinant() / 24;
+}
+
+void turn_over(TetSurface& surface, Eigen::Index tetrahedron) {
+    std::swap(surface.tetrahedra(2, tetrahedron), surface.tetrahedra(3, tetrahedron));
+}
+
+// The pieces of a closed surface, and which of their tetrahedra to turn over so that neighbors agree
+// with the first one of each.
+class Pieces {
+public:
+    Pieces(const std::vector<Side>& sides, std::size_t tetrahedra)
+        : piece_(tetrahedra, kNone), is_turned_(tetrahedra, false) {
+        std::vector<std::array<Neighbor, 4>> neighbors(tetrahedra);
+        std::vector<std::uint8_t> known(tetrahedra, 0);
+        for_each_triangle(sides, [&](std::size_t at, std::size_t /*count*/) {
+            const Side& a = sides[at];
+            const Side& b = sides[at + 1];
+            const bool disagrees = a.is_turned == b.is_turned;
+            neighbors[a.tetrahedron][known[a.tetrahedron]++] = {b.tetrahedron, disagrees};
+            neighbors[b.tetrahedron][known[b.tetrahedron]++] = {a.tetrahedron, disagrees};
+        });
+        for (std::uint32_t seed = 0; seed < tetrahedra; ++seed) {
+            if (piece_[seed] == kNone) {
+                collect(seed, neighbors);
+            }
+        }
+    }
+
+    [[nodiscard]] std::uint32_t count() const { return count_; }
+    [[nodiscard]] std::uint32_t of(std::size_t tetrahedron) const { return piece_[tetrahedron]; }
+    [[nodiscard]] bool is_turned(std::size_t tetrahedron) const { return is_turned_[tetrahedron]; }
+    [[nodiscard]] bool is_orientable() const { return is_orientable_; }
+
+private:
+    static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    struct Neighbor {
+        std::uint32_t tetrahedron = 0;
+        bool disagrees = false;
+    };
+
+    void collect(std::uint32_t seed, const std::vector<std::array<Neighbor, 4>>& neighbors) {
+        std::vector<std::uint32_t> front = {seed};
+        piece_[seed] = count_;
+        while (!front.empty()) {
+            const std::uint32_t now = front.back();
+            front.pop_back();
+            for (const Neighbor& next : neighbors[now]) {
+                const bool is_turned = is_turned_[now] != next.disagrees;
+                if (piece_[next.tetrahedron] == kNone) {
+                    piece_[next.tetrahedron] = count_;
+                    is_turned_[next.tetrahedron] = is_turned;
+                    front.push_back(next.tetrahedron);
+                } else if (is_turned_[next.tetrahedron] != is_turned) {
+                    is_orientable_ = false;
+                }
+            }
+        }
+        ++count_;
+    }
+
+    std::vector<std::uint32_t> piece_;
+    std::vector<bool> is_turned_;
+    std::uint32_t count_ = 0;
+    bool is_orientable_ = true;
+};
+
+// The half-spaces that a point sees the whole surface from, each behind one tetrahedron.
+struct HalfSpaces {
+    Positions<4> normals;  // outward, of unit length
+    Eigen::VectorXd offsets;
+
+    // How far inside the one it is least inside of.
+    [[nodiscard]] double depth(const Vector4d& x, Eigen::Index& nearest) const {
+        return (offsets - normals.transpose() * x).minCoeff(&nearest);
+    }
+};
+
+HalfSpaces half_spaces_of(const TetSurface& surface) {
+    HalfSpaces spaces{Positions<4>(4, surface.tetrahedra.cols()),
+                      Eigen::VectorXd(surface.tetrahedra.cols())};
+    for (Eigen::Index t = 0; t < surface.tetrahedra.cols(); ++t) {
+        const Vector4d origin = surface.points.col(surface.tetrahedra(0, t));
+        Eigen::Matrix<double, 4, 3> edges;
+        for (int k = 0; k < 3; ++k) {
+            edges.col(k) = surface.points.col(surface.tetrahedra(k + 1, t)) - origin;
+        }
+        Vector4d normal;
+        for (int axis = 0; axis < 4; ++axis) {
+            Eigen::Matrix4d matrix;
+            matrix << Vector4d::Unit(axis), edges;
+            normal[axis] = matrix.determinant();  // so that det[normal, edges] = |normal|^2
+        }
+        const double length = normal.norm();
+        spaces.normals.col(t) = length > 0 ? Vector4d(normal / length) : Vector4d::Zero();
+        spaces.offsets[t] = length > 0 ? spaces.normals.col(t).dot(origin) : 1;
+    }
+    return spaces;
+}
+
+// A point inside of all half-spaces by at least `margin`, by steps beyond the worst one (Agmon,
+// Motzkin and Schoenberg's relaxation); false if there is none or it was not found.
+bool move_inside(const HalfSpaces& spaces, double margin, Vector4d& x) {
+    constexpr int kMaxSteps = 2000;
+    constexpr double kOvershoot = 1.5;
+    for (int step = 0; step < kMaxSteps; ++step) {
+        Eigen::Index worst = 0;
+        const double depth = spaces.depth(x, worst);
+        if (depth >= margin) {
+            return true;
+        }
+        x -= kOvershoot * (margin - depth) * spaces.normals.col(worst);
+    }
+    return false;
+}
+
+}  // namespace
+
+SurfaceCheck check(const TetSurface& surface) {
+    const std::vector<Side> sides = sides_of(surface.tetrahedra);
+    SurfaceCheck check;
+    for_each_triangle(sides, [&](std::size_t at, std::size_t count) {
+        check.open += count == 1 ? 1 : 0;
+        check.overfull += count > 2 ? 1 : 0;
+        check.one_sided += count == 2 && sides[at].is_turned == sides[at + 1].is_turned ? 1 : 0;
+    });
+    return check;
+}
+
+double enclosed_hypervolume(const TetSurface& surface) {
+    double sum = 0;
+    for (Eigen::Index t = 0; t < surface.tetrahedra.cols(); ++t) {
+        sum += hypervolume_below(surface, t);
+    }
+    return sum;
+}
+
+void orient(TetSurface& surface, std::string_view name) {
+    const SurfaceCheck found = check(surface);
+    if (!found.is_closed()) {
+        return;
+    }
+    const auto count = static_cast<std::size_t>(surface.tetrahedra.cols());
+    if (found.one_sided == 0) {
+        if (enclosed_hypervolume(surface) < 0) {
+            for (std::size_t t = 0; t < count; ++t) {
+                turn_over(surface, static_cast<Eigen::Index>(t));
+            }
+        }
+        return;
+    }
+    const Pieces pieces(sides_of(surface.tetrahedra), count);
+    if (!pieces.is_orientable()) {
+        throw Error(std::string(name)
+                    + ": a piece of it has one side only, as a Klein bottle has, and encloses"
+                      " nothing");
+    }
+    std::vector<double> hypervolumes(pieces.count(), 0);
+    for (std::size_t t = 0; t < count; ++t) {
+        if (pieces.is_turned(t)) {
+            turn_over(surface, static_cast<Eigen::Index>(t));
+        }
+        hypervolumes[pieces.of(t)] += hypervolume_below(surface, static_cast<Eigen::Index>(t));
+    }
+    for (std::size_t t = 0; t < count; ++t) {
+        if (hypervolumes[pieces.of(t)] < 0) {
+            turn_over(surface, static_cast<Eigen::Index>(t));
+        }
+    }
+}
+
+TetSurface boundary_of(const SimplexMesh<4>& mesh) {
+    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    const FacetMatch<4> match = match_facets<4>(mesh.cells, mesh.vertex_count());
+    std::vector<std::uint32_t> name(static_cast<std::size_t>(mesh.vertex_count()), kNone);
+    for (const std::uint32_t corner : match.boundary.reshaped()) {
+        name[corner] = 0;
+    }
+    std::uint32_t used = 0;
+    for (std::uint32_t& entry : name) {
+        entry = entry == kNone ? kNone : used++;
+    }
+    TetSurface surface;
+    surface.points.resize(4, used);
+    for (std::size_t v = 0; v < name.size(); ++v) {
+        if (name[v] != kNone) {
+            surface.points.col(name[v]) = mesh.positions.col(static_cast<Eigen::Index>(v));
+        }
+    }
+    surface.tetrahedra =
+        match.boundary.unaryExpr([&](std::uint32_t corner) { return name[corner]; });
+    return surface;
+}
+
+SimplexMesh<4> cone_of(const TetSurface& surface, std::string_view name) {
+    const SurfaceCheck found = check(surface);
+    if (!found.is_oriented()) {
+        throw Error(std::string(name) + ": is no closed surface: "
+                    + std::to_string(found.open + found.overfull + found.one_sided)
+                    + " triangles without a neighbor of their own; a body has none");
+    }
+    const HalfSpaces spaces = half_spaces_of(surface);
+    const double size =
+        (surface.points.rowwise().maxCoeff() - surface.points.rowwise().minCoeff()).norm();
+    Vector4d center = surface.points.rowwise().mean();
+    if (!move_inside(spaces, 1e-6 * size, center)) {
+        throw Error(std::string(name)
+                    + ": no point was found that sees all of the surface; a body is made of what is"
+                      " convex or shaped as a star alone");
+    }
+    // As deep as can be had, for the shape of the pentachora.
+    for (double margin = 2e-6 * size; margin < size; margin *= 1.5) {
+        Vector4d deeper = center;
+        if (!move_inside(spaces, margin, deeper)) {
+            break;
+        }
+        center = deeper;
+    }
+    SimplexMesh<4> mesh;
+    mesh.positions.resize(4, surface.points.cols() + 1);
+    mesh.positions << surface.points, center;
+    mesh.cells.resize(5, surface.tetrahedra.cols());
+    mesh.cells.row(0).setConstant(static_cast<std::uint32_t>(surface.points.cols()));
+    mesh.cells.bottomRows<4>() = surface.tetrahedra;
+    return mesh;
+}
+
+}  // namespace pent::exchange

@@ -1,0 +1,81 @@
+#include "run_program.h"
+#include "support/kuhn_box.h"
+#include "support/messages.h"
+#include "support/temp_folder.h"
+
+#include <pent/output_file.h>
+#include <pent/pent_file.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace pent {
+namespace {
+
+using test::expect_contains;
+using test::expect_one_error_line;
+using test::Outcome;
+using test::run_program;
+using test::text_of;
+
+class PentConvert : public testing::Test {
+protected:
+    PentConvert() {
+        write_mesh(folder_ / "box.pent", test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 2}));
+    }
+    [[nodiscard]] std::string at(const std::string& name) const {
+        return (folder_ / name).string();
+    }
+    [[nodiscard]] Outcome convert(const std::string& from,
+                                  const std::string& to,
+                                  const std::string& options = "") const {
+        return run_program("pent-convert " + at(from) + " " + at(to) + " " + options);
+    }
+
+    // One line of an error with these words in it.
+    void expect_refusal(const std::string& from,
+                        const std::string& to,
+                        std::initializer_list<std::string> words) const {
+        const Outcome outcome = convert(from, to);
+        EXPECT_EQ(outcome.exit_code, 1);
+        expect_one_error_line(outcome, "pent-convert");
+        expect_contains(outcome.err, words);
+    }
+
+    test::TempFolder folder_;
+};
+
+TEST_F(PentConvert, GoesFromABodyToItsBoundaryAndBack) {
+    const Outcome there = convert("box.pent", "box.g4b", "--json " + at("report.json"));
+    EXPECT_EQ(there.exit_code, 0) << there.err;
+    expect_contains(there.out, {"body       16 vertices, 24 pentachora, 2 m^4", "finished: "});
+    const auto report = nlohmann::json::parse(text_of(at("report.json")));
+    EXPECT_EQ(report.at("cells"), 24);
+    EXPECT_NEAR(report.at("hypervolume").get<double>(), 2, 1e-14);
+    const Outcome back = convert("box.g4b", "again.pent");
+    EXPECT_EQ(back.exit_code, 0) << back.err;
+    expect_contains(back.out, {"boundary   16 points, 48 tetrahedra, closed, around 2 m^4"});
+    EXPECT_NEAR(total_volume(read_mesh<4>(at("again.pent")).mesh), 2, 1e-14);
+}
+
+TEST_F(PentConvert, RefusesInOneLineAndLeavesNothingBehind) {
+    expect_refusal("box.pent", "box.fbx", {"box.fbx", "expected one of .pent"});
+    expect_refusal("none.4do", "box.pent", {"none.4do: no such file"});
+    expect_refusal("box.pent", "box.pent", {"is the same file as the input"});
+    EXPECT_GT(read_mesh<4>(at("box.pent")).mesh.cell_count(), 0);
+    EXPECT_EQ(convert("box.pent", "box.4do").exit_code, 0);
+    std::string text = text_of(at("box.4do"));
+    text.erase(text.rfind("t ", text.size() - 3));  // the last two
+    write_text(at("open.4do"), text);
+    const Outcome open = convert("open.4do", "open.off");
+    EXPECT_EQ(open.exit_code, 0);
+    expect_contains(open.out, {"not closed: "});
+    expect_refusal("open.4do", "open.pent", {"is no closed surface"});
+    EXPECT_FALSE(std::filesystem::exists(at("open.pent")));
+}
+
+}  // namespace
+}  // namespace pent

@@ -1,0 +1,134 @@
+#include "polytopes.h"
+
+#include <pent/base64.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+namespace pent::exchange {
+namespace {
+
+using test::error_as;
+using test::five_cell;
+using test::read_as;
+using test::sixteen_cell;
+using test::text_as;
+using Json = nlohmann::ordered_json;
+
+TetSurface with_digits() {
+    TetSurface surface = sixteen_cell();
+    surface.points = 0.1 * surface.points.array() + 1.0 / 3;
+    return surface;
+}
+
+TEST(G4mf, IsReadAsItWasWritten) {
+    for (const char* name : {"a.g4tf", "a.g4b"}) {
+        // A float has 24 bits.
+        test::expect_same_surface(read_as(name, text_as(name, with_digits())), with_digits(), 3e-8);
+        test::expect_same_surface(read_as(name, text_as(name, with_digits(), {.in_double = true})),
+                                  with_digits(), 0);
+    }
+}
+
+// Its outside: perpendicular to the edges from the first corner, with perp(x, y, z) = w.
+TEST(G4mf, FacesOutwardInItsOwnWay) {
+    const TetSurface surface = sixteen_cell();
+    const Json json = Json::parse(text_as("a.g4tf", surface));
+    const auto uri = json["buffers"][0]["uri"].get<std::string>();
+    const std::string bytes = *from_base64(uri.substr(uri.find(',') + 1));
+    const auto offset = json["bufferViews"][1]["byteOffset"].get<std::size_t>();
+    for (Eigen::Index t = 0; t < surface.tetrahedra.cols(); ++t) {
+        std::array<std::uint32_t, 4> corners{};
+        std::memcpy(corners.data(), bytes.data() + offset + 16 * static_cast<std::size_t>(t), 16);
+        const Eigen::Vector4d origin = surface.points.col(corners[0]);
+        const auto edge = [&](std::size_t k) -> Eigen::Vector4d {
+            return surface.points.col(corners[k]) - origin;
+        };
+        EXPECT_GT(test::perpendicular(edge(1), edge(2), edge(3)).dot(origin), 0);
+    }
+}
+
+TEST(G4mf, InChunksHasTheLayoutOfTheFormat) {
+    const std::string file = text_as("a.g4b", five_cell());
+    EXPECT_EQ(file.substr(0, 8), std::string("G4MF\0\0\0\0", 8));
+    std::uint64_t size = 0;
+    std::memcpy(&size, file.data() + 8, 8);
+    EXPECT_EQ(size, file.size());
+    EXPECT_EQ(file.substr(16, 4), "JSON");
+    const std::size_t blob = file.find("BLOB");
+    EXPECT_EQ(blob % 16, 0U);
+    std::memcpy(&size, file.data() + blob + 8, 8);
+    EXPECT_EQ(size, 5U * 16 + 5 * 16);
+    EXPECT_EQ(file.size() % 16, 0U);
+}
+
+// As others may write it: two meshes that nodes put in their places, the words of earlier drafts,
+// indices in two bytes, points in a buffer of their own.
+TEST(G4mf, PutsItsMeshesWhereItsNodesHaveThem) {
+    const TetSurface cell = sixteen_cell();
+    std::string points;
+    for (const double coordinate : cell.points.reshaped()) {
+        const auto number = static_cast<float>(coordinate);
+        points.append(reinterpret_cast<const char*>(&number), 4);
+    }
+    std::string indices;
+    for (const std::uint32_t corner : cell.tetrahedra.reshaped()) {
+        const auto number = static_cast<std::uint16_t>(corner);
+        indices.append(reinterpret_cast<const char*>(&number), 2);
+    }
+    const std::string start = "data:application/octet-stream;base64,";
+    const Json json = {{"asset", {{"dimension", 4}}},
+                       {"buffers",
+                        {{{"byteLength", points.size()}, {"uri", start + to_base64(points)}},
+                         {{"byteLength", indices.size()}, {"uri", start + to_base64(indices)}}}},
+                       {"bufferViews",
+                        {{{"buffer", 0}, {"byteLength", points.size()}},
+                         {{"buffer", 1}, {"byteLength", indices.size()}}}},
+                       {"accessors",
+                        {{{"bufferView", 0}, {"primitiveType", "float32"}, {"vectorSize", 4}},
+                         {{"bufferView", 1}, {"primitiveType", "uint16"}, {"vectorSize", 4}}}},
+                       {"meshes", {{{"vertices", 0}, {"surfaces", {{{"cells", 1}}}}}}},
+                       {"nodes",
+                        {{{"children", {1, 2}}},
+                         {{"mesh", 0}, {"position", {5, 0, 0, 0}}},
+                         {{"children", {3}}, {"scale", {2}}},
+                         {{"meshInstance", {{"mesh", 0}}},
+                          {"basis", {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}}}};
+    const auto surface = std::get<TetSurface>(read_as("a.g4tf", json.dump()));
+    EXPECT_TRUE(check(surface).is_oriented());
+    EXPECT_NEAR(enclosed_hypervolume(surface), 2.0 / 3 * (1 + 16), 1e-5);
+    EXPECT_EQ(surface.points.row(0).maxCoeff(), 6);
+    EXPECT_EQ(surface.points.row(3).minCoeff(), -2);
+}
+
+TEST(G4mf, IsRefusedWithWhatIsWrong) {
+    Json good = Json::parse(text_as("a.g4tf", five_cell()));
+    const auto error_with = [&](const Json::json_pointer& at, const Json& value) {
+        Json bad = good;
+        bad[at] = value;
+        return error_as("a.g4tf", bad.dump());
+    };
+    using Pointer = Json::json_pointer;
+    pent::test::expect_contains(error_with(Pointer("/asset/dimension"), 3),
+                                {"a.g4tf: a model of 3 dimensions"});
+    pent::test::expect_contains(error_with(Pointer("/buffers/0/uri"), "none.bin"), {"none.bin"});
+    pent::test::expect_contains(error_with(Pointer("/buffers/0/byteLength"), 9999), {"buffer 0"});
+    pent::test::expect_contains(error_with(Pointer("/bufferViews/1/byteLength"), 9999),
+                                {"bufferView 1: reaches beyond"});
+    pent::test::expect_contains(error_with(Pointer("/bufferViews/1/byteLength"), 15),
+                                {"accessor 1", "no whole number"});
+    pent::test::expect_contains(error_with(Pointer("/accessors/1/componentType"), "int128"),
+                                {"accessor 1", "int128"});
+    pent::test::expect_contains(error_with(Pointer("/nodes/1/children"), {0}), {"node 0"});
+    pent::test::expect_contains(error_with(Pointer("/nodes/1/rotor"), {1, 0, 0, 0, 0, 0, 0}),
+                                {"node 1", "rotor"});
+    pent::test::expect_contains(error_with(Pointer("/meshes/0/vertices"), 7), {"is no G4MF file"});
+    pent::test::expect_contains(error_as("a.g4tf", "{"), {"is no G4MF file"});
+    const std::string binary = text_as("a.g4b", five_cell());
+    for (std::size_t size = 4; size < binary.size(); size += 7) {
+        EXPECT_NE(error_as("a.g4b", binary.substr(0, size)), "") << size;
+    }
+}
+
+}  // namespace
+}  // namespace pent::exchange

@@ -1,0 +1,116 @@
+#include "polytopes.h"
+
+#include <pent/facets.h>
+
+#include <cmath>
+#include <random>
+#include <utility>
+
+namespace pent::exchange {
+namespace {
+
+using test::five_cell;
+using test::sixteen_cell;
+
+TEST(TetSurface, OfAPolytopeIsClosedAndEnclosesItsHypervolume) {
+    EXPECT_TRUE(check(five_cell()).is_oriented());
+    EXPECT_NEAR(enclosed_hypervolume(five_cell()), 1.0 / 24, 1e-15);
+    EXPECT_TRUE(check(sixteen_cell()).is_oriented());
+    EXPECT_NEAR(enclosed_hypervolume(sixteen_cell()), 2.0 / 3, 1e-14);
+}
+
+TEST(TetSurface, KnowsWhereItIsOpenOrHasTooMuch) {
+    TetSurface open = sixteen_cell();
+    open.tetrahedra.conservativeResize(4, 15);
+    EXPECT_EQ(check(open).open, 4);
+    EXPECT_FALSE(check(open).is_closed());
+    TetSurface twice = sixteen_cell();
+    twice.tetrahedra.conservativeResize(4, 17);
+    twice.tetrahedra.col(16) = twice.tetrahedra.col(0);
+    EXPECT_EQ(check(twice).overfull, 4);
+    TetSurface turned = sixteen_cell();
+    std::swap(turned.tetrahedra(0, 3), turned.tetrahedra(1, 3));
+    EXPECT_EQ(check(turned).one_sided, 4);
+    EXPECT_TRUE(check(turned).is_closed());
+    EXPECT_FALSE(check(turned).is_oriented());
+}
+
+// Whichever of its tetrahedra are turned over, and whether all of it is inside out.
+TEST(Orient, MakesTheSameOutsideOfAnyMix) {
+    std::mt19937 random(1);
+    for (int trial = 0; trial < 20; ++trial) {
+        TetSurface mixed = sixteen_cell();
+        for (Eigen::Index t = 0; t < 16; ++t) {
+            if (trial == 0 || random() % 2 == 0) {
+                std::swap(mixed.tetrahedra(0, t), mixed.tetrahedra(1, t));
+            }
+        }
+        orient(mixed, "mixed");
+        EXPECT_TRUE(check(mixed).is_oriented());
+        EXPECT_NEAR(enclosed_hypervolume(mixed), 2.0 / 3, 1e-14);
+    }
+}
+
+// A hollow body whose file is right stays hollow.
+TEST(Orient, LeavesACavityWhereNeighborsAgree) {
+    TetSurface hollow = sixteen_cell();
+    TetSurface hole = sixteen_cell();
+    hollow.points.conservativeResize(4, 16);
+    hollow.points.rightCols(8) = 0.5 * hole.points;
+    hollow.tetrahedra.conservativeResize(4, 32);
+    for (Eigen::Index t = 0; t < 16; ++t) {
+        std::swap(hole.tetrahedra(0, t), hole.tetrahedra(1, t));
+        hollow.tetrahedra.col(16 + t) = hole.tetrahedra.col(t).array() + 8;
+    }
+    const double expected = 2.0 / 3 * (1 - 1.0 / 16);
+    orient(hollow, "hollow");
+    EXPECT_NEAR(enclosed_hypervolume(hollow), expected, 1e-14);
+    for (Eigen::Index t = 0; t < 32; ++t) {
+        std::swap(hollow.tetrahedra(0, t), hollow.tetrahedra(1, t));
+    }
+    orient(hollow, "hollow");
+    EXPECT_NEAR(enclosed_hypervolume(hollow), expected, 1e-14);
+}
+
+TEST(ConeOf, IsTheBodyWithThatBoundary) {
+    for (const TetSurface& surface : {five_cell(), sixteen_cell()}) {
+        const SimplexMesh<4> mesh = cone_of(surface, "body");
+        EXPECT_NO_THROW(validate<4>(mesh, "body"));
+        EXPECT_NEAR(total_volume(mesh), enclosed_hypervolume(surface), 1e-14);
+        const TetSurface back = boundary_of(mesh);
+        EXPECT_EQ(back.points, surface.points);
+        EXPECT_TRUE(check(back).is_oriented());
+        EXPECT_NEAR(enclosed_hypervolume(back), enclosed_hypervolume(surface), 1e-14);
+    }
+}
+
+// A star: corners pushed in until the mean of all of them lies outside of what sees everything.
+TEST(ConeOf, FindsThePointThatSeesAllOfAStar) {
+    TetSurface star = sixteen_cell();
+    star.points.col(0) *= 0.05;
+    star.points.col(1) *= 40;
+    star.points.colwise() += Eigen::Vector4d(100, -3, 2, 50);
+    const SimplexMesh<4> mesh = cone_of(star, "star");
+    EXPECT_NO_THROW(validate<4>(mesh, "star"));
+    EXPECT_NEAR(total_volume(mesh), enclosed_hypervolume(star), 1e-9 * total_volume(mesh));
+}
+
+TEST(ConeOf, RefusesWhatNoPointSeesAllOfOrIsOpen) {
+    TetSurface two = sixteen_cell();  // two 16-cells far apart
+    const TetSurface other = sixteen_cell();
+    two.points.conservativeResize(4, 16);
+    two.points.rightCols(8) = other.points.array() + 10;
+    two.tetrahedra.conservativeResize(4, 32);
+    two.tetrahedra.rightCols(16) = other.tetrahedra.array() + 8;
+    pent::test::expect_contains(
+        pent::test::error_of([&] { static_cast<void>(cone_of(two, "two")); }),
+        {"two: ", "no point was found that sees all"});
+    TetSurface open = sixteen_cell();
+    open.tetrahedra.conservativeResize(4, 15);
+    pent::test::expect_contains(
+        pent::test::error_of([&] { static_cast<void>(cone_of(open, "open")); }),
+        {"open: is no closed surface: 4 triangles"});
+}
+
+}  // namespace
+}  // namespace pent::exchange
