@@ -22,7 +22,8 @@ void add_options(CLI::App& cli, Arguments& arguments) {
                    " .g4b, .4do, .obj)")
         ->required()
         ->type_name("IN");
-    cli.add_option("output", arguments.output, "The same in the format that its ending stands for")
+    cli.add_option("-o,--output", arguments.output,
+                   "The same in the format that its ending stands for")
         ->required()
         ->type_name("OUT");
     cli.add_flag("--double", arguments.options.in_double,
@@ -61,7 +62,7 @@ void say_body(Program& program, const SimplexMesh<4>& mesh) {
 }
 
 Verdict convert(Program& program, Arguments& arguments) {
-    program.require_apart({{"the input", arguments.input}}, {{"OUT", arguments.output}});
+    program.require_apart({{"the input", arguments.input}}, {{"--output", arguments.output}});
     static_cast<void>(exchange::format_of(arguments.output));  // before any work
     arguments.options.created_by = program.name_and_version();
     const exchange::Content content = exchange::read(arguments.input);
@@ -87,7 +88,7 @@ int main(int argc, char** argv) {
         " programs. Of a body, formats of boundaries get the boundary; a boundary becomes a body "
         "if a"
         " point sees all of it.",
-        "pent-convert octopus.pent octopus.g4b");
+        "pent-convert octopus.pent -o octopus.g4b");
     pent::apps::Arguments arguments;
     add_options(program.options(), arguments);
     return program.run(argc, argv, [&] { return convert(program, arguments); });

@@ -77,7 +77,8 @@ Outcome run_on_missing(const std::string& program,
                        const test::TempFolder& folder,
                        const std::string& name,
                        const std::string& options = "") {
-    const std::string name_of_output = program == "pent-mesh" ? "out.pent" : "out.png";
+    const std::string name_of_output =
+        program == "pent-mesh" || program == "pent-convert" ? "out.pent" : "out.png";
     const std::string option = program == "pent-view" ? " --export " : " -o ";
     const std::string output =
         program == "pent-check" ? "" : option + (folder / name_of_output).string();

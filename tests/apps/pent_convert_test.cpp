@@ -32,7 +32,7 @@ protected:
     [[nodiscard]] Outcome convert(const std::string& from,
                                   const std::string& to,
                                   const std::string& options = "") const {
-        return run_program("pent-convert " + at(from) + " " + at(to) + " " + options);
+        return run_program("pent-convert " + at(from) + " -o " + at(to) + " " + options);
     }
 
     // One line of an error with these words in it.
