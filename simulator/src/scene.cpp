@@ -37,6 +37,9 @@ struct Checker {
 
     template <typename Value>
     void operator()(const Field& field, const Value& value) const {
+        if (!field.does_apply) {
+            return;
+        }
         if constexpr (std::is_class_v<Value>) {
             check_part(value, prefix + std::string(field.key) + ".");
         } else if constexpr (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>) {
@@ -50,7 +53,7 @@ struct Checker {
         }
     }
     void operator()(const Field& field, const Eigen::VectorXd& value) const {
-        if (value.size() == 0 && field.may_lack) {
+        if (!field.does_apply || (value.size() == 0 && field.may_lack)) {
             return;
         }
         check_vector(value, dimension, at(field));

@@ -2,6 +2,8 @@
 
 #include "potential_laws.h"
 
+#include <pent/simulator/scene_words.h>
+
 namespace pent::simulator {
 namespace {
 
@@ -18,9 +20,6 @@ template <typename T>
 class ElasticityTest : public testing::Test {};
 TYPED_TEST_SUITE(ElasticityTest, Dimensions);
 
-constexpr std::array kLaws = {Model::StableNeoHookean, Model::Arap, Model::StVenantKirchhoff,
-                              Model::Linear};
-
 // Flat, turned inside out, or all in one point: formulas hold there, too.
 template <int Dim>
 std::vector<Positions<Dim>> hard_states(const Positions<Dim>& rest) {
@@ -36,7 +35,7 @@ std::vector<Positions<Dim>> hard_states(const Positions<Dim>& rest) {
 TYPED_TEST(ElasticityTest, HasTheDerivativesOfItsEnergyAlsoWhereElementsAreDegenerate) {
     constexpr int kDim = TypeParam::value;
     for (const ElementKind kind : {ElementKind::Linear, ElementKind::Smoothed}) {
-        for (const Model law : kLaws) {
+        for (const Model law : values<Model>()) {
             Scene scene = test::box_scene<kDim>();
             scene.bodies[0].material.model = law;
             const Setting<kDim> setting(scene, 2);
@@ -54,7 +53,7 @@ TYPED_TEST(ElasticityTest, HasTheDerivativesOfItsEnergyAlsoWhereElementsAreDegen
 TYPED_TEST(ElasticityTest, DoesNotSeeRigidMotions) {
     constexpr int kDim = TypeParam::value;
     for (const ElementKind kind : {ElementKind::Linear, ElementKind::Smoothed}) {
-        for (const Model law : kLaws) {
+        for (const Model law : values<Model>()) {
             if (law == Model::Linear) {
                 continue;  // sees turns
             }

@@ -1,4 +1,5 @@
 #include <pent/simulator/energy.h>
+#include <pent/simulator/scene_words.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -16,8 +17,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::array kAllModels = {Model::StableNeoHookean, Model::Arap, Model::StVenantKirchhoff,
-                                   Model::Linear};
 constexpr std::array kAllInvariants = {Invariant::I1, Invariant::I2, Invariant::I3};
 
 Material soft(Model model) {
@@ -56,7 +55,7 @@ std::vector<VectorXd> special_singular_values(Index n) {
 }
 
 class Models : public testing::TestWithParam<Model> {};
-INSTANTIATE_TEST_SUITE_P(All, Models, testing::ValuesIn(kAllModels));
+INSTANTIATE_TEST_SUITE_P(All, Models, testing::ValuesIn(values<Model>()));
 class Invariants : public testing::TestWithParam<Invariant> {};
 INSTANTIATE_TEST_SUITE_P(All, Invariants, testing::ValuesIn(kAllInvariants));
 

@@ -3,6 +3,7 @@
 #include "elastic_box.h"
 
 #include <pent/simulator/energy.h>
+#include <pent/simulator/scene_words.h>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
@@ -13,9 +14,6 @@ namespace {
 using Eigen::MatrixXd;
 using test::ElasticBox;
 using test::supported_isas;
-
-constexpr std::array kAllModels = {Model::StableNeoHookean, Model::Arap, Model::StVenantKirchhoff,
-                                   Model::Linear};
 
 Material soft(Model model) {
     return {.model = model, .lame = {.lambda = 1.3, .mu = 0.7}};
@@ -154,7 +152,7 @@ struct KernelCase {
 
 std::vector<KernelCase> kernel_cases() {
     std::vector<KernelCase> cases;
-    for (const Model model : kAllModels) {
+    for (const Model model : values<Model>()) {
         cases.push_back({model, ElementKind::Linear});
         cases.push_back({model, ElementKind::Smoothed});
     }

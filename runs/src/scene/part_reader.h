@@ -97,6 +97,10 @@ void read_part(TableReader& table, Part& part, const int& dimension) {
     simulator::fields(part, KeyFinder{table});
     const PartReader reader{table, dimension};
     simulator::fields(part, [&](const simulator::Field& field, auto& value) {
+        if (!field.does_apply) {
+            table.refuse(field.key, "goes with " + std::string(field.goes_with) + " alone");
+            return;
+        }
         if constexpr (!std::is_same_v<decltype(value), ObstacleShape&>) {
             reader(field, value);
         }

@@ -158,7 +158,7 @@ struct PartWriter {
 
     template <typename Value>
     void operator()(const Field& field, const Value& value) const {
-        if (!(field.may_lack && is_absent(value))) {
+        if (field.does_apply && !(field.may_lack && is_absent(value))) {
             put(field.key, value_text(value));
         }
     }

@@ -153,11 +153,12 @@ private:
     void add(const Field& field, const std::string& values, const std::string& standard) const {
         std::string said(field.default_says);
         said = field.is_required ? "required" : said.empty() ? standard : said;
+        const std::string with = field.goes_with.empty() ? "" : "with " + in_code(field.goes_with);
         rows.push_back({.block = block,
                         .key = prefix + std::string(field.key),
                         .values = values,
                         .standard = said,
-                        .says = std::string(field.says),
+                        .says = comma(with, std::string(field.says)),
                         .is_within = is_within});
     }
 };

@@ -116,7 +116,7 @@ struct GroupEnergies {
 template <int Dim, typename Real>
 RunEnergy add_gradient(const ElementRun& run, const double* positions, double* gradient) {
     constexpr int kWidth = Lanes<Real>::kCount;
-    const Moduli moduli = moduli_of(run);
+    const Moduli moduli = moduli_of<Dim>(run);
     const int groups = (run.elements + kGroup - 1) / kGroup;
     RunEnergy total;
     Edges<Dim> edges;

@@ -251,7 +251,7 @@ std::int64_t add_hessian(const ElementRun& run,
                          const HessianTarget<Scalar>& target) {
     using Number = typename Lanes<Real>::Number;
     constexpr int kWidth = Lanes<Real>::kCount;
-    const Moduli moduli = moduli_of(run);
+    const Moduli moduli = moduli_of<Dim>(run);
     const int groups = (run.elements + kGroup - 1) / kGroup;
     const Real scale = Real(static_cast<Number>(target.scale));
     Edges<Dim> edges;

@@ -18,9 +18,12 @@ struct Moduli {
     double lambda;  // of Eq. 4 for the stable neo-Hookean energy: Lamé's lambda + mu
 };
 
-inline Moduli moduli_of(const ElementRun& run) {
-    const bool is_neo_hookean = run.model == Model::StableNeoHookean;
-    return {run.model, run.mu, is_neo_hookean ? run.lambda + run.mu : run.lambda};
+template <int Dim>
+Moduli moduli_of(const ElementRun& run) {
+    const Model model = run.material.model;
+    const Lame& lame = run.material.lame;
+    const bool is_neo_hookean = model == Model::StableNeoHookean;
+    return {model, lame.mu, is_neo_hookean ? lame.lambda + lame.mu : lame.lambda};
 }
 
 template <typename Real, int Dim>

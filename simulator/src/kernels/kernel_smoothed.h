@@ -107,7 +107,7 @@ void scatter_pull(const Group<Dim>& group, const GroupTensor<Real, Dim>& pull, d
 
 template <int Dim, typename Real>
 RunEnergy add_smoothed_gradient(const ElementRun& run, const double* positions, double* gradient) {
-    const Moduli moduli = moduli_of(run);
+    const Moduli moduli = moduli_of<Dim>(run);
     const int groups = (run.elements + kGroup - 1) / kGroup;
     RunEnergy total;
     GroupTensor<Real, Dim> F;
@@ -310,7 +310,7 @@ std::int64_t add_smoothed_hessian(const ElementRun& run,
                                   const HessianTarget<Scalar>& target) {
     using Number = typename Lanes<Real>::Number;
     constexpr int kWidth = Lanes<Real>::kCount;
-    const Moduli moduli = moduli_of(run);
+    const Moduli moduli = moduli_of<Dim>(run);
     const int groups = (run.elements + kGroup - 1) / kGroup;
     const Real scale = Real(static_cast<Number>(target.scale));
     GroupTensor<Real, Dim> F;

@@ -37,9 +37,7 @@ inline constexpr int kPairs = pairs_of(Dim + 1);
 /// its first, with zeros for gradients. Lanes behind the last element of a run repeat a real
 /// element with volume 0 and are not scattered.
 struct ElementRun {
-    Model model = Model::StableNeoHookean;
-    double mu = 0;             ///< Pa, of linear elasticity.
-    double lambda = 0;         ///< Pa, of linear elasticity.
+    Material material;
     double collapse_norm = 0;  ///< An element with |F|^2 below has collapsed; 0: none can.
     int elements = 0;          ///< Elements in the run; groups = ceil(elements / kGroup).
     int corners = 0;           ///< Of every element, at least Dim + 1.

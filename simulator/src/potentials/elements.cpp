@@ -239,9 +239,7 @@ void Elements<Dim>::color(std::size_t vertices) {
 template <int Dim>
 ElementRun Elements<Dim>::run(int chunk) const {
     const Chunk& c = chunks_[static_cast<std::size_t>(chunk)];
-    return {.model = c.material.model,
-            .mu = c.material.lame.mu,
-            .lambda = c.material.lame.lambda,
+    return {.material = c.material,
             .collapse_norm = c.collapse_norm,
             .elements = c.elements,
             .corners = c.corners,

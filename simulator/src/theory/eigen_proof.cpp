@@ -1,5 +1,7 @@
 #include "theory/eigen_oracle.h"
 
+#include <pent/simulator/scene_words.h>
+
 #include <Eigen/LU>
 #include <Eigen/QR>
 
@@ -69,24 +71,15 @@ std::string eigen_function_name(const EigenFunction& function) {
     if (const auto* which = std::get_if<Invariant>(&function)) {
         return *which == Invariant::I1 ? "I1" : *which == Invariant::I2 ? "I2" : "I3";
     }
-    switch (std::get<Model>(function)) {
-        case Model::StableNeoHookean:
-            return "stable neo-Hookean";
-        case Model::Arap:
-            return "arap";
-        case Model::StVenantKirchhoff:
-            return "St. Venant-Kirchhoff";
-        case Model::Linear:
-            break;
-    }
-    return "linear";
+    return std::string(word_of(std::get<Model>(function)));
 }
 
 std::vector<EigenFunction> eigen_functions() {
-    return {Invariant::I1, Invariant::I2,
-            Invariant::I3, Model::StableNeoHookean,
-            Model::Arap,   Model::StVenantKirchhoff,
-            Model::Linear};
+    std::vector<EigenFunction> all = {Invariant::I1, Invariant::I2, Invariant::I3};
+    for (const Model model : values<Model>()) {
+        all.emplace_back(model);
+    }
+    return all;
 }
 
 bool EigenProof::holds() const {

@@ -17,10 +17,10 @@ namespace pent::simulator {
 /// 0.7.
 using EigenFunction = std::variant<Invariant, Model>;
 
-/// "I1", "stable neo-Hookean" and so on.
+/// "I1" and so on; of an energy its name in scenes.
 [[nodiscard]] std::string eigen_function_name(const EigenFunction& function);
 
-/// All seven.
+/// All of them.
 [[nodiscard]] std::vector<EigenFunction> eigen_functions();
 
 /// Modes that have no eigenvalue at a kind of F.

@@ -21,7 +21,9 @@ struct Field {
     bool is_direction = false;  ///< A vector of unit length; files may have it longer or shorter.
     std::optional<double> fallback = {};  ///< The default, where another value decides it.
     std::string_view default_says =
-        {};  ///< The default for people, where its value does not say it.
+        {};                           ///< The default for people, where its value does not say it.
+    bool does_apply = true;           ///< If not, it is neither read, checked nor written.
+    std::string_view goes_with = {};  ///< What it takes to apply, as in `model = "arap"`.
 
     [[nodiscard]] constexpr Field required() const {
         Field field = *this;
@@ -41,6 +43,13 @@ struct Field {
     [[nodiscard]] constexpr Field otherwise(double value) const {
         Field field = *this;
         field.fallback = value;
+        return field;
+    }
+    /// Of a key that other keys decide about, which stand before it.
+    [[nodiscard]] constexpr Field only_with(bool does, std::string_view what) const {
+        Field field = *this;
+        field.does_apply = does;
+        field.goes_with = what;
         return field;
     }
     [[nodiscard]] constexpr Field default_is(std::string_view text) const {

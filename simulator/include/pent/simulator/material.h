@@ -1,9 +1,19 @@
 #pragma once
 
+#include <pent/simulator/words.h>
+
 namespace pent::simulator {
 
 /// Which elastic energy a body has; see energy.h.
 enum class Model { StableNeoHookean, Arap, StVenantKirchhoff, Linear };
+
+template <>
+inline constexpr std::array kWords<Model> = {
+    Word<Model>{Model::StableNeoHookean, "stable-neo-hookean"},
+    Word<Model>{Model::Arap, "arap"},
+    Word<Model>{Model::StVenantKirchhoff, "st-venant-kirchhoff"},
+    Word<Model>{Model::Linear, "linear"},
+};
 
 /// Lamé parameters as linear elasticity at small strain sees them, in Pa (N per m^(Dim-1)).
 struct Lame {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <pent/simulator/scene.h>
+#include <pent/simulator/words.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <optional>
 #include <string_view>
@@ -11,24 +11,6 @@
 
 namespace pent::simulator {
 
-/// The words of scenes for the values of enumerations.
-template <typename Value>
-struct Word {
-    Value value;
-    std::string_view word;
-};
-
-/// All values of an enumeration; its own order is that of messages.
-template <typename Value>
-inline constexpr std::array<Word<Value>, 0> kWords{};
-
-template <>
-inline constexpr std::array kWords<Model> = {
-    Word<Model>{Model::StableNeoHookean, "stable-neo-hookean"},
-    Word<Model>{Model::Arap, "arap"},
-    Word<Model>{Model::StVenantKirchhoff, "st-venant-kirchhoff"},
-    Word<Model>{Model::Linear, "linear"},
-};
 template <>
 inline constexpr std::array kWords<Integrator> = {
     Word<Integrator>{Integrator::LinearEuler, "linear_euler"},
@@ -68,6 +50,16 @@ inline constexpr std::array kWords<Precision> = {
     Word<Precision>{Precision::Float, "float"},
     Word<Precision>{Precision::Double, "double"},
 };
+
+/// All values of an enumeration.
+template <typename Value>
+[[nodiscard]] std::vector<Value> values() {
+    std::vector<Value> all;
+    for (const Word<Value>& word : kWords<Value>) {
+        all.push_back(word.value);
+    }
+    return all;
+}
 
 /// The words of an enumeration.
 template <typename Value>
