@@ -27,6 +27,11 @@ material = { model = "arap", mu = 2e4, lambda = 1e4 }
 velocity = [0, 2, 0, 0]
 spin = [{ plane = "wz", degrees_per_s = -40 }]
 
+[[body]]
+name = "sole"
+mesh = "sole.pent"
+material = { model = "mooney-rivlin", second_invariant = 0.25 }
+
 [[constraint]]
 body = "bunny"
 select = [{ ball = { center = [0, 0, 0, 0.2], radius = 0.3 } },
@@ -105,13 +110,14 @@ TEST(ParseScene, ReadsEveryKey) {
     EXPECT_EQ(scene.dimension, 4);
     EXPECT_EQ(scene.gravity, Eigen::Vector4d(0, -9.8, 0, 0));
     EXPECT_DOUBLE_EQ(scene.dt(), 1.0 / 120);
-    ASSERT_EQ(scene.bodies.size(), 2U);
+    ASSERT_EQ(scene.bodies.size(), 3U);
     EXPECT_EQ(scene.bodies[0].mesh, "/data/meshes/bunny.pent");
     EXPECT_EQ(scene.bodies[0].place.scale, 2);
     EXPECT_EQ(plane_name(scene.bodies[0].place.rotate[0].plane), "xw");
     EXPECT_EQ(scene.bodies[0].material.density, 1100);
     EXPECT_EQ(scene.bodies[1].material.model, Model::Arap);
     EXPECT_EQ(scene.bodies[1].material.lame.lambda, 1e4);
+    EXPECT_EQ(scene.bodies[2].material.second_invariant, 0.25);
     ASSERT_EQ(scene.constraints.size(), 2U);
     EXPECT_EQ(scene.constraints[0].select.size(), 5U);
     const auto& half_space = std::get<HalfSpaceSelection>(scene.constraints[0].select[2]);
@@ -230,6 +236,18 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[scene]\nframes = \"ten\"\n", "the text \"ten\""},
         Bad{"[scene]\nframes_per_second = 0\n", "a number above 0"},
         Bad{"[scene]\nframes_per_second = nan\n", "a number above 0"},
+        Bad{with("[[body]]\nname = \"b\"\nmesh = \"b.pent\"\nmaterial = { young = 2.0,"
+                 " second_invariant = 0.5 }\n"),
+            "scene.toml:8:27: \"second_invariant\" goes with model = \"mooney-rivlin\" alone"},
+        Bad{with("[[body]]\nname = \"b\"\nmesh = \"b.pent\"\nmaterial = { model ="
+                 " \"mooney-rivlin\", second_invariant = 1.5 }\n"),
+            "\"second_invariant\" is 1.5; expected a number from 0 to 1"},
+        Bad{with("[[body]]\nname = \"b\"\nmesh = \"b.pent\"\nmaterial = { model ="
+                 " \"mooney-rivlin\", mu = 4, lambda = -1, second_invariant = 0.8 }\n"),
+            "\"second_invariant\" is 0.8; expected a number from 0 to 0.75"},
+        Bad{with("[[body]]\nname = \"b\"\nmesh = \"b.pent\"\nmaterial = { model ="
+                 " \"mooney-rivlin\" }\n"),
+            "needs \"second_invariant\""},
         Bad{"[scene]\ngravity = 3\n", "\"gravity\" is 3; expected 4 numbers"},
         Bad{"[scene]\ngravity = [0, -9.8, 0]\n", "3 entries; expected 4 numbers"},
         Bad{"[scene]\ngravity = [0, -9.8, 0, \"x\"]\n", "the entry the text \"x\""},

@@ -56,9 +56,14 @@ double draw_young(Random& random, const Plan& plan, double density) {
 }
 
 Json draw_material(Random& random, const Plan& plan) {
-    Json material = draw_table(
-        {{"model", 0.8, one_of({"stable-neo-hookean", "arap", "st-venant-kirchhoff", "linear"})}},
-        random, plan);
+    Json material = draw_table({{"model", 0.8,
+                                 one_of({"stable-neo-hookean", "mooney-rivlin", "arap",
+                                         "st-venant-kirchhoff", "linear"})}},
+                               random, plan);
+    if (material.value("model", "") == "mooney-rivlin") {
+        // Its bound is 1 + lambda / mu where lambda < 0: above 0.6 for all that is drawn.
+        material["second_invariant"] = random.number(0, 0.6);
+    }
     const double density = random.chance(0.3) ? 1000 : random.magnitude(10, 1e4);
     const double young = draw_young(random, plan, density);
     if (random.chance(0.2)) {

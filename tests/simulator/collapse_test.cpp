@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <random>
 
 namespace pent::simulator {
@@ -21,6 +22,12 @@ Material rubber(int dim, double poisson) {
     return {.model = Model::StableNeoHookean, .lame = lame_from_young(dim, 1e5, poisson)};
 }
 
+Material mooney_rivlin(int dim, double poisson, double part) {
+    return {.model = Model::MooneyRivlin,
+            .lame = lame_from_young(dim, 1e5, poisson),
+            .second_invariant = part};
+}
+
 // In 4D the equation of collapse_scale() divided by 1 - s^2 is s^2 (1 + s^2) = mu / (lambda + mu),
 // and mu / (lambda + mu) = (1 - 3 nu) / (1 - nu): 2/9 at nu = 0.28, 1 at nu = 0.
 TEST(CollapseScale, IsTheRootWorkedOutByHand) {
@@ -28,6 +35,24 @@ TEST(CollapseScale, IsTheRootWorkedOutByHand) {
     EXPECT_NEAR(collapse_scale(rubber(4, 0.28), 4), root(2.0 / 9), 1e-14);
     EXPECT_NEAR(collapse_scale(rubber(4, 0), 4), root(1), 1e-14);
     EXPECT_NEAR(collapse_scale(rubber(4, 0.28), 4), 0.43, 0.005);
+}
+
+// With c1 and k of energy.h the equation of mooney-rivlin in 4D, divided by 1 - s^2, is
+// k s^2 (1 + s^2) = 2 c1.
+TEST(CollapseScale, OfMooneyRivlinIsTheRootWorkedOutByHandAndSmallerTheMoreTheSecondInvariantHas) {
+    double before = collapse_scale(rubber(4, 0.28), 4);
+    for (const double part : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+        const Material material = mooney_rivlin(4, 0.28, part);
+        const auto& [lambda, mu] = material.lame;
+        const double twice_c1 = mu * (1 - part);
+        const double k = lambda + mu - mu * part / 2;
+        const double root = std::sqrt((std::sqrt(1 + 4 * twice_c1 / k) - 1) / 2);
+        EXPECT_NEAR(collapse_scale(material, 4), root, 1e-14);
+        EXPECT_LE(collapse_scale(material, 4), before + 1e-14);
+        before = collapse_scale(material, 4);
+    }
+    EXPECT_EQ(collapse_scale(mooney_rivlin(4, 0.28, 1), 4), 0);
+    EXPECT_EQ(collapse_scale(mooney_rivlin(3, 0.28, 1), 3), 0);
 }
 
 TEST(CollapseScale, IsZeroWhereTheEnergyHasNoMinimumAtAPoint) {
@@ -44,8 +69,9 @@ TEST(CollapseScale, BoundsTheLargestBallThatIsDrivenToAPoint) {
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> within(0, 1);
     for (const int dim : {3, 4}) {
-        for (const double poisson : {-0.2, 0.0, 0.1, 0.28, 0.32}) {
-            const Material material = rubber(dim, poisson);
+        for (const Material& material :
+             {rubber(dim, -0.2), rubber(dim, 0), rubber(dim, 0.1), rubber(dim, 0.28),
+              rubber(dim, 0.32), mooney_rivlin(dim, 0.28, 0.3), mooney_rivlin(dim, 0, 0.9)}) {
             const double scale = collapse_scale(material, dim);
             for (int sample = 0; sample < 200; ++sample) {
                 MatrixXd F = MatrixXd::NullaryExpr(dim, dim, [&]() { return normal(random); });
@@ -60,8 +86,12 @@ TEST(CollapseScale, BoundsTheLargestBallThatIsDrivenToAPoint) {
 }
 
 // A heavily damped free body released from `start`; gives the report after `steps`.
-StepReport release(const Positions<4>& start, const SimplexMesh<4>& mesh, int steps) {
+StepReport release(const Positions<4>& start,
+                   const SimplexMesh<4>& mesh,
+                   int steps,
+                   const std::optional<Material>& material = {}) {
     Scene scene = test::box_scene<4>();
+    scene.bodies[0].material = material.value_or(scene.bodies[0].material);
     scene.solver.integrator = Integrator::NewtonEuler;
     scene.damping = Damping{.mass = 20, .stiffness = 0};
     Simulation<4> simulation(scene, {mesh});
@@ -89,6 +119,22 @@ TEST(CollapsedBody, ReturnsFromAUniformScaleAboveTheLimitAndNotFromBelow) {
     const SimplexMesh<4> mesh = small_box();
     EXPECT_EQ(release(0.45 * mesh.positions, mesh, 60).collapsed, 0);
     EXPECT_EQ(release(0.41 * mesh.positions, mesh, 60).collapsed, mesh.cell_count());
+}
+
+// All shear on the second invariant, and there is no minimum to fall into: from a tenth of its
+// size, and from inside out, a body comes back whole. (From next to nothing it takes long: the
+// force there grows like the cube of the size.)
+TEST(MooneyRivlinBody, ReturnsFromATenthOfItsSizeAndFromInsideOut) {
+    const SimplexMesh<4> mesh = small_box();
+    for (Positions<4> start : {Positions<4>(0.1 * mesh.positions), mesh.positions}) {
+        if (start == mesh.positions) {
+            start.row(3) *= -0.5;
+        }
+        const StepReport report = release(start, mesh, 120, mooney_rivlin(4, 0.28, 1));
+        EXPECT_EQ(report.collapsed, 0);
+        EXPECT_EQ(report.inverted, 0);
+        EXPECT_LT(report.energies.of("elastic"), 1);  // J; of 1e4 at the start
+    }
 }
 
 // Vertices exchanged at random: about half of the elements are inside out, and all shrink to

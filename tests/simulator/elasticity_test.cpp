@@ -38,6 +38,7 @@ TYPED_TEST(ElasticityTest, HasTheDerivativesOfItsEnergyAlsoWhereElementsAreDegen
         for (const Model law : values<Model>()) {
             Scene scene = test::box_scene<kDim>();
             scene.bodies[0].material.model = law;
+            scene.bodies[0].material.second_invariant = 0.4;
             const Setting<kDim> setting(scene, 2);
             Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, kind);
             for (const Positions<kDim>& x : hard_states<kDim>(setting.bodies.rest)) {
@@ -59,6 +60,7 @@ TYPED_TEST(ElasticityTest, DoesNotSeeRigidMotions) {
             }
             Scene scene = test::box_scene<kDim>();
             scene.bodies[0].material.model = law;
+            scene.bodies[0].material.second_invariant = 0.4;
             const Setting<kDim> setting(scene, 2);
             Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, kind);
             expect_invariance_under_rigid_motion<kDim>(elasticity,

@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 constexpr std::array kAllInvariants = {Invariant::I1, Invariant::I2, Invariant::I3};
 
 Material soft(Model model) {
-    return {.model = model, .lame = {.lambda = 1.3, .mu = 0.7}};
+    return {.model = model, .lame = {.lambda = 1.3, .mu = 0.7}, .second_invariant = 0.4};
 }
 
 MatrixXd random_matrix(Index n, std::mt19937& random) {
@@ -69,7 +69,10 @@ TEST_P(Models, AreZeroWithZeroStressAtRest) {
 
 TEST(NonlinearModels, AreZeroWithZeroStressAtEveryRotation) {
     std::mt19937 random(1);
-    for (const Model model : {Model::StableNeoHookean, Model::Arap, Model::StVenantKirchhoff}) {
+    for (const Model model : values<Model>()) {
+        if (model == Model::Linear) {
+            continue;
+        }
         for (Index n = 2; n <= 8; ++n) {
             const MatrixXd R = random_rotation(n, random);
             EXPECT_NEAR(energy_density(soft(model), R), 0, 1e-13);
@@ -90,6 +93,88 @@ TEST_P(Models, LinearizeToTheLameParametersOfTheMaterial) {
         const MatrixXd found = apply(hessian(soft(GetParam()), identity), strain);
         EXPECT_LT((found - expected).norm(), 1e-12 * expected.norm());
     }
+}
+
+// It is so for every part of mu that the second invariant may carry, whatever Poisson's ratio.
+TEST(MooneyRivlinEnergy, LinearizesToTheLameParametersForEveryShareOfTheSecondInvariant) {
+    std::mt19937 random(12);
+    for (const int n : {3, 4, 5}) {
+        for (const double poisson : {-0.6, -0.2, 0.0, 0.9 * poisson_limit(n)}) {
+            Material material{.model = Model::MooneyRivlin, .lame = lame_from_young(n, 1, poisson)};
+            for (const double part : {0.0, 0.3, 1.0}) {
+                material.second_invariant = part * highest_second_invariant(material.lame);
+                const MatrixXd identity = MatrixXd::Identity(n, n);
+                const MatrixXd half = random_matrix(n, random);
+                const MatrixXd strain = half + half.transpose();
+                const MatrixXd expected = 2 * material.lame.mu * strain
+                                          + material.lame.lambda * strain.trace() * identity;
+                const MatrixXd found = apply(hessian(material, identity), strain);
+                EXPECT_LT((found - expected).norm(), 1e-12 * expected.norm());
+            }
+        }
+    }
+}
+
+TEST(MooneyRivlinEnergy, IsTheStableNeoHookeanOneWithNothingOnTheSecondInvariant) {
+    std::mt19937 random(13);
+    Material material = soft(Model::MooneyRivlin);
+    material.second_invariant = 0;
+    for (Index n = 2; n <= 5; ++n) {
+        const MatrixXd F = random_matrix(n, random);
+        const double energy = energy_density(soft(Model::StableNeoHookean), F);
+        EXPECT_NEAR(energy_density(material, F), energy, 1e-14 * (1 + std::abs(energy)));
+        const MatrixXd P = stress(soft(Model::StableNeoHookean), F);
+        EXPECT_LT((stress(material, F) - P).norm(), 1e-14 * P.norm());
+    }
+}
+
+// II = J^2 in the plane.
+TEST(MooneyRivlinEnergy, DoesNotSeeTheSecondInvariantInThePlane) {
+    std::mt19937 random(14);
+    const MatrixXd F = random_matrix(2, random);
+    EXPECT_NEAR(energy_density(soft(Model::MooneyRivlin), F),
+                energy_density(soft(Model::StableNeoHookean), F), 1e-14);
+}
+
+// Pulled along an axis to a stretch a, sides free, an incompressible body narrows to
+// b = a^(-1 / (n - 1)) and pulls back with 2 (a - b^2 / a) (c1 + (n - 2) c2 b^2) on each unit of
+// its area at rest; in 3D Mooney's 2 (a - 1 / a^2) (c1 + c2 / a). With lambda = 1e6 mu the volume
+// is off by 1e-6.
+TEST(MooneyRivlinEnergy, HasMooneysStressUnderUniaxialTension) {
+    for (const int n : {3, 4}) {
+        for (const double part : {0.0, 0.5, 1.0}) {
+            const Material material{.model = Model::MooneyRivlin,
+                                    .lame = {.lambda = 1e6, .mu = 1},
+                                    .second_invariant = part};
+            const double c1 = (1 - part) / 2;
+            const double c2 = part / (2.0 * (n - 2));
+            for (const double a : {0.6, 1.3, 2.5}) {
+                double low = 0.5 * std::pow(a, -1.0 / (n - 1));  // pressed: pushes to the side
+                double high = 2 * std::pow(a, -1.0 / (n - 1));
+                MatrixXd P;
+                for (int i = 0; i < 60; ++i) {
+                    VectorXd sigma = VectorXd::Constant(n, 0.5 * (low + high));
+                    sigma[0] = a;
+                    P = stress(material, sigma.asDiagonal());
+                    (P(1, 1) < 0 ? low : high) = sigma[1];
+                }
+                const double b_squared = std::pow(a, -2.0 / (n - 1));
+                const double expected = 2 * (a - b_squared / a) * (c1 + (n - 2) * c2 * b_squared);
+                EXPECT_NEAR(P(0, 0), expected, 2e-5 * std::abs(expected)) << n << " " << a;
+            }
+        }
+    }
+}
+
+// Beyond the highest part det F outweighs all else in 3D: the bound is no smaller than it must be.
+TEST(MooneyRivlinEnergy, HasALowerBoundUpToTheHighestShareOfTheSecondInvariantAndNoneBeyondIn3D) {
+    Material material{.model = Model::MooneyRivlin, .lame = lame_from_young(3, 1, -0.3)};
+    const MatrixXd huge = 1e4 * MatrixXd::Identity(3, 3);
+    material.second_invariant = highest_second_invariant(material.lame);
+    EXPECT_LT(material.second_invariant, 1);
+    EXPECT_GT(energy_density(material, huge), 0);
+    material.second_invariant *= 1.01;
+    EXPECT_LT(energy_density(material, huge), -1e10);
 }
 
 // Central differences with step h are off by h^2 f'''/6 and by 1e-16 f / h, both about 1e-10 of f

@@ -16,7 +16,7 @@ using test::ElasticBox;
 using test::supported_isas;
 
 Material soft(Model model) {
-    return {.model = model, .lame = {.lambda = 1.3, .mu = 0.7}};
+    return {.model = model, .lame = {.lambda = 1.3, .mu = 0.7}, .second_invariant = 0.4};
 }
 
 // What an element adds to: a cell, or all cells at an edge, of which it has the mean deformation

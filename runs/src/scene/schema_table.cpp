@@ -33,7 +33,8 @@ std::string range_text(const Range& range) {
         return "";
     }
     if (std::isfinite(range.high)) {
-        return "in (" + readable(range.low) + ", " + readable(range.high) + ")";
+        return (range.low_included ? "in [" : "in (") + readable(range.low) + ", "
+               + readable(range.high) + (range.high_included ? "]" : ")");
     }
     return (range.low_included ? ">= " : "> ") + readable(range.low);
 }

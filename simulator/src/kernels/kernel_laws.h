@@ -16,6 +16,11 @@ struct Moduli {
     Model model;
     double mu;
     double lambda;  // of Eq. 4 for the stable neo-Hookean energy: Lamé's lambda + mu
+    // Of mooney-rivlin, see energy.h.
+    double c1;
+    double c2;
+    double pressure_at_rest;
+    double bulk;
 };
 
 template <int Dim>
@@ -23,7 +28,14 @@ Moduli moduli_of(const ElementRun& run) {
     const Model model = run.material.model;
     const Lame& lame = run.material.lame;
     const bool is_neo_hookean = model == Model::StableNeoHookean;
-    return {model, lame.mu, is_neo_hookean ? lame.lambda + lame.mu : lame.lambda};
+    const double c2 = lame.mu * run.material.second_invariant / (2 * (Dim - 2));
+    return {.model = model,
+            .mu = lame.mu,
+            .lambda = is_neo_hookean ? lame.lambda + lame.mu : lame.lambda,
+            .c1 = lame.mu * (1 - run.material.second_invariant) / 2,
+            .c2 = c2,
+            .pressure_at_rest = lame.mu + 2 * c2,
+            .bulk = lame.lambda + lame.mu - 2 * c2};
 }
 
 template <typename Real, int Dim>
@@ -72,6 +84,46 @@ Stress<Real, Dim> neo_hookean_stress(const Tensor<Real, Dim>& F, const Moduli& m
     stress.norm = norm_squared(F);
     stress.energy = Real(0.5) * mu * (stress.norm - Real(double(Dim))) - mu * growth
                     + Real(0.5) * lambda * growth * growth;
+    stress.det = C.det;
+    return stress;
+}
+
+// With G = F^T F the second invariant is (I1^2 - |G|^2) / 2, I1 = |F|^2 = tr G, and its gradient
+// 2 (I1 F - F G).
+template <typename Real, int Dim>
+Stress<Real, Dim> mooney_rivlin_stress(const Tensor<Real, Dim>& F, const Moduli& moduli) {
+    Tensor<Real, Dim> G;
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = i; j < Dim; ++j) {
+            Real product = F[0][i] * F[0][j];
+            for (int k = 1; k < Dim; ++k) {
+                product += F[k][i] * F[k][j];
+            }
+            G[i][j] = product;
+            G[j][i] = product;
+        }
+    }
+    const Cofactor<Real, Dim> C = cofactor(F);
+    const Real growth = C.det - Real(1.0);
+    const Real pressure = Real(moduli.bulk) * growth - Real(moduli.pressure_at_rest);
+    const Real twice_c2 = Real(2 * moduli.c2);
+    Stress<Real, Dim> stress;
+    stress.norm = norm_squared(F);
+    const Real along = Real(2 * moduli.c1) + twice_c2 * stress.norm;
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) {
+            Real product = F[i][0] * G[0][j];
+            for (int k = 1; k < Dim; ++k) {
+                product += F[i][k] * G[k][j];
+            }
+            stress.P[i][j] = along * F[i][j] - twice_c2 * product + pressure * C.matrix[i][j];
+        }
+    }
+    const Real second = Real(0.5) * (stress.norm * stress.norm - norm_squared(G));
+    stress.energy = Real(moduli.c1) * (stress.norm - Real(double(Dim)))
+                    + Real(moduli.c2) * (second - Real(0.5 * Dim * (Dim - 1)))
+                    - Real(moduli.pressure_at_rest) * growth
+                    + Real(0.5 * moduli.bulk) * growth * growth;
     stress.det = C.det;
     return stress;
 }
@@ -157,6 +209,8 @@ Stress<Real, Dim> stress_of(const Tensor<Real, Dim>& F, const Moduli& moduli) {
     switch (moduli.model) {
         case Model::StableNeoHookean:
             return neo_hookean_stress(F, moduli);
+        case Model::MooneyRivlin:
+            return mooney_rivlin_stress(F, moduli);
         case Model::Arap:
             return arap_stress(F, moduli);
         case Model::StVenantKirchhoff:
@@ -208,6 +262,38 @@ Spectrum<Real, Dim> neo_hookean_spectrum(const Real (&sigma)[Dim], const Moduli&
             spectrum.stretch[j][i] = spectrum.stretch[i][j];
             spectrum.flip[i][j] = mu - curl;
             spectrum.twist[i][j] = mu + curl;
+        }
+    }
+    return spectrum;
+}
+
+template <typename Real, int Dim>
+Spectrum<Real, Dim> mooney_rivlin_spectrum(const Real (&sigma)[Dim], const Moduli& moduli) {
+    using Number = typename Lanes<Real>::Number;
+    const Real twice_c2 = Real(static_cast<Number>(2 * moduli.c2));
+    const Real bulk = Real(static_cast<Number>(moduli.bulk));
+    Real growth[Dim];
+    Real norm = Real(Number(0));
+    for (int i = 0; i < Dim; ++i) {
+        growth[i] = product_without(sigma, i, i);
+        norm += sigma[i] * sigma[i];
+    }
+    const Real along = Real(static_cast<Number>(2 * moduli.c1)) + twice_c2 * norm;
+    const Real pressure = bulk * (growth[0] * sigma[0] - Real(Number(1)))
+                          - Real(static_cast<Number>(moduli.pressure_at_rest));
+    Spectrum<Real, Dim> spectrum;
+    for (int i = 0; i < Dim; ++i) {
+        const Real square = sigma[i] * sigma[i];
+        spectrum.stretch[i][i] = along - twice_c2 * square + bulk * growth[i] * growth[i];
+        for (int j = i + 1; j < Dim; ++j) {
+            const Real curl = pressure * product_without(sigma, i, j);
+            const Real mixed = sigma[i] * sigma[j];
+            const Real squares = square + sigma[j] * sigma[j];
+            spectrum.stretch[i][j] =
+                (twice_c2 + twice_c2) * mixed + curl + bulk * growth[i] * growth[j];
+            spectrum.stretch[j][i] = spectrum.stretch[i][j];
+            spectrum.flip[i][j] = along - twice_c2 * (squares + mixed) - curl;
+            spectrum.twist[i][j] = along - twice_c2 * (squares - mixed) + curl;
         }
     }
     return spectrum;
@@ -284,6 +370,8 @@ Spectrum<Real, Dim> spectrum_of(const Real (&sigma)[Dim], const Moduli& moduli) 
     switch (moduli.model) {
         case Model::StableNeoHookean:
             return neo_hookean_spectrum(sigma, moduli);
+        case Model::MooneyRivlin:
+            return mooney_rivlin_spectrum(sigma, moduli);
         case Model::Arap:
             return arap_spectrum(sigma, moduli);
         case Model::StVenantKirchhoff:

@@ -144,9 +144,17 @@ std::optional<MatrixXd> invariant_product(Invariant which, const MatrixXd& F, co
     return cofactors(F, q).slope;
 }
 
+// The part of mu that the second invariant carries is c2 = mu part / (2 (n - 2)), in the plane
+// mu part / 2.
+double second_coefficient(const Material& material, Index n) {
+    return material.lame.mu * material.second_invariant
+           / static_cast<double>(2 * std::max<Index>(n - 2, 1));
+}
+
 // The product rule on the stress of each energy.
 std::optional<MatrixXd> model_product(Model model, const MatrixXd& F, const MatrixXd& q) {
-    const auto [lambda, mu] = proof_material(model).lame;
+    const Material material = proof_material(model);
+    const auto [lambda, mu] = material.lame;
     const MatrixXd identity = MatrixXd::Identity(F.rows(), F.cols());
     switch (model) {
         case Model::StableNeoHookean: {
@@ -154,6 +162,22 @@ std::optional<MatrixXd> model_product(Model model, const MatrixXd& F, const Matr
             const double J = F.determinant();
             return mu * q + (lambda + mu) * c.at_zero.cwiseProduct(q).sum() * c.at_zero
                    + ((lambda + mu) * (J - 1) - mu) * c.slope;
+        }
+        case Model::MooneyRivlin: {
+            // The neo-Hookean one and what c2 adds to it; the gradient of II is
+            // 2 (|F|^2 F - F F^T F).
+            const double c2 = second_coefficient(material, F.rows());
+            const auto n = static_cast<double>(F.rows());
+            const MatrixXd of_second =
+                2
+                * (2 * F.cwiseProduct(q).sum() * F + F.squaredNorm() * q - q * F.transpose() * F
+                   - F * q.transpose() * F - F * F.transpose() * q);
+            const Cofactors c = cofactors(F, q);
+            const double J = F.determinant();
+            const double bulk = lambda + mu - 2 * c2;
+            return (mu - 2 * (n - 2) * c2) * q + c2 * of_second
+                   + bulk * c.at_zero.cwiseProduct(q).sum() * c.at_zero
+                   + (bulk * (J - 1) - mu - 2 * c2) * c.slope;
         }
         case Model::Arap: {
             const std::optional<MatrixXd> slope = rotation_slope(F, q);
@@ -172,13 +196,23 @@ std::optional<MatrixXd> model_product(Model model, const MatrixXd& F, const Matr
 }
 
 double model_trace(Model model, const MatrixXd& F) {
-    const auto [lambda, mu] = proof_material(model).lame;
+    const Material material = proof_material(model);
+    const auto [lambda, mu] = material.lame;
     const auto n = static_cast<double>(F.rows());
     switch (model) {
         case Model::StableNeoHookean: {  // the second derivative of det has no diagonal
             const MatrixXd any = MatrixXd::Identity(F.rows(), F.cols());
             return mu * n * n
                    + (lambda + mu) * cofactors(F, any / std::sqrt(n)).at_zero.squaredNorm();
+        }
+        case Model::MooneyRivlin: {
+            // II is a sum of squares of 2 x 2 minors; each entry of F is in (n - 1)^2 of them,
+            // opposite to every entry of another row and column.
+            const MatrixXd any = MatrixXd::Identity(F.rows(), F.cols());
+            const double c2 = second_coefficient(material, F.rows());
+            return (mu - 2 * (n - 2) * c2) * n * n + 2 * c2 * (n - 1) * (n - 1) * F.squaredNorm()
+                   + (lambda + mu - 2 * c2)
+                         * cofactors(F, any / std::sqrt(n)).at_zero.squaredNorm();
         }
         case Model::Arap:
             return 2 * mu * (n * n - hessian_trace(Invariant::I1, F));
@@ -236,7 +270,7 @@ double value_error(const EigenFunction& function, const MatrixXd& F, const Vecto
 }  // namespace
 
 Material proof_material(Model model) {
-    return {.model = model, .lame = {.lambda = 1.3, .mu = 0.7}};
+    return {.model = model, .lame = {.lambda = 1.3, .mu = 0.7}, .second_invariant = 0.4};
 }
 
 std::optional<MatrixXd> hessian_product(const EigenFunction& function,

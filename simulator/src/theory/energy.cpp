@@ -66,6 +66,30 @@ MatrixXd green_strain(const MatrixXd& F) {
     return 0.5 * (F.transpose() * F - MatrixXd::Identity(F.rows(), F.rows()));
 }
 
+// Half of |F|^4 - |F^T F|^2: the sum of the squares of all 2 x 2 minors of F.
+double second_invariant(const MatrixXd& F) {
+    const double norm = F.squaredNorm();
+    return 0.5 * (norm * norm - (F.transpose() * F).squaredNorm());
+}
+
+// The coefficients of c1 (|F|^2 - n) + c2 (II - n (n - 1) / 2) - p (J - 1) + k/2 (J - 1)^2. In the
+// plane II = J^2 and carries no shear: c1 is what it is without it.
+struct MooneyRivlin {
+    double c1;
+    double c2;
+    double p;
+    double k;
+
+    MooneyRivlin(const Material& material, Index n) {
+        const auto& [lambda, mu] = material.lame;
+        const auto pairs = static_cast<double>(n - 2);
+        c2 = mu * material.second_invariant / (2 * std::max(pairs, 1.0));
+        c1 = mu / 2 - pairs * c2;
+        p = mu + 2 * c2;
+        k = lambda + mu - 2 * c2;
+    }
+};
+
 HessianFrame empty_frame(const SignedSvd& svd) {
     const Index n = svd.sigma.size();
     return {svd.U, svd.V, MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), MatrixXd::Zero(n, n)};
@@ -107,6 +131,28 @@ HessianFrame neo_hookean_hessian(const Lame& lame, const SignedSvd& svd) {
     const MatrixXd twist = frame.twist;
     set_pairs(frame.flip, [&](Index i, Index j) { return lame.mu - pressure * twist(i, j); });
     set_pairs(frame.twist, [&](Index i, Index j) { return lame.mu + pressure * twist(i, j); });
+    return frame;
+}
+
+HessianFrame mooney_rivlin_hessian(const Material& material, const SignedSvd& svd) {
+    HessianFrame frame = determinant_hessian(svd);
+    const VectorXd& sigma = svd.sigma;
+    const MooneyRivlin law(material, sigma.size());
+    const double along = 2 * law.c1 + 2 * law.c2 * sigma.squaredNorm();
+    const double pressure = law.k * (sigma.prod() - 1) - law.p;
+    const VectorXd growth = growth_of(sigma);
+    frame.stretch = pressure * frame.stretch + law.k * growth * growth.transpose()
+                    + 4 * law.c2 * sigma * sigma.transpose();
+    frame.stretch.diagonal().array() += along - 6 * law.c2 * sigma.array().square();
+    const MatrixXd curl = pressure * frame.twist;
+    const auto pair = [&](Index i, Index j, double sign) {
+        return along
+               - 2 * law.c2
+                     * (sigma[i] * sigma[i] + sigma[j] * sigma[j] + sign * sigma[i] * sigma[j])
+               - sign * curl(i, j);
+    };
+    set_pairs(frame.flip, [&](Index i, Index j) { return pair(i, j, 1); });
+    set_pairs(frame.twist, [&](Index i, Index j) { return pair(i, j, -1); });
     return frame;
 }
 
@@ -192,6 +238,12 @@ double energy_density(const Material& material, const MatrixXd& F) {
             return 0.5 * mu * (F.squaredNorm() - n) - mu * growth
                    + 0.5 * (lambda + mu) * growth * growth;
         }
+        case Model::MooneyRivlin: {
+            const MooneyRivlin law(material, F.rows());
+            const double growth = F.determinant() - 1;
+            return law.c1 * (F.squaredNorm() - n) + law.c2 * (second_invariant(F) - n * (n - 1) / 2)
+                   - law.p * growth + 0.5 * law.k * growth * growth;
+        }
         case Model::Arap:
             return mu * (F - invariant_gradient(Invariant::I1, F)).squaredNorm();
         case Model::StVenantKirchhoff: {
@@ -213,6 +265,13 @@ MatrixXd stress(const Material& material, const MatrixXd& F) {
             const double pressure = (lambda + mu) * (F.determinant() - 1) - mu;
             return mu * F + pressure * invariant_gradient(Invariant::I3, F);
         }
+        case Model::MooneyRivlin: {
+            const MooneyRivlin law(material, F.rows());
+            const double pressure = law.k * (F.determinant() - 1) - law.p;
+            return (2 * law.c1 + 2 * law.c2 * F.squaredNorm()) * F
+                   - 2 * law.c2 * F * F.transpose() * F
+                   + pressure * invariant_gradient(Invariant::I3, F);
+        }
         case Model::Arap:
             return 2 * mu * (F - invariant_gradient(Invariant::I1, F));
         case Model::StVenantKirchhoff: {
@@ -227,13 +286,17 @@ MatrixXd stress(const Material& material, const MatrixXd& F) {
 }
 
 double collapse_scale(const Material& material, int dim) {
-    if (material.model != Model::StableNeoHookean || dim < 3) {
+    const bool is_neo_hookean = material.model == Model::StableNeoHookean;
+    if (dim < 3 || !(is_neo_hookean || material.model == Model::MooneyRivlin)) {
         return 0;
     }
-    const auto& [lambda, mu] = material.lame;
-    const auto excess = [&, lambda = lambda, mu = mu](double s) {
+    Material one = material;
+    one.second_invariant = is_neo_hookean ? 0 : material.second_invariant;
+    const MooneyRivlin law(one, dim);
+    const auto excess = [&](double s) {
         const double power = std::pow(s, dim - 2);
-        return mu * (1 - power) - (lambda + mu) * (1 - power * s * s) * power;
+        return 2 * law.c1 + 2 * (dim - 1) * law.c2 * s * s
+               - (law.p + law.k * (1 - power * s * s)) * power;
     };
     double low = 0;  // excess > 0
     double high = 1;
@@ -266,6 +329,8 @@ HessianFrame hessian(const Material& material, const MatrixXd& F) {
     switch (material.model) {
         case Model::StableNeoHookean:
             return neo_hookean_hessian(material.lame, signed_svd(F));
+        case Model::MooneyRivlin:
+            return mooney_rivlin_hessian(material, signed_svd(F));
         case Model::Arap:
             return arap_hessian(material.lame, signed_svd(F));
         case Model::StVenantKirchhoff:

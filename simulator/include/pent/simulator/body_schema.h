@@ -29,6 +29,11 @@ template <PartOf<Material> Part, typename Visit>
 void fields(Part& material, const Visit& visit) {
     visit(key("model", "", "see above"), material.model);
     visit(key("lame"), material.lame);  // in files as one of two pairs
+    visit(key("second_invariant", "", "the part of mu that it carries",
+              Range{.low = 0, .high = highest_second_invariant(material.lame)})
+              .required()
+              .only_with(material.model == Model::MooneyRivlin, "model = \"mooney-rivlin\""),
+          material.second_invariant);
     visit(key("density", "kg/m^n", "", kPositive), material.density);
 }
 

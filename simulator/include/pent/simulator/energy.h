@@ -26,6 +26,8 @@ enum class Invariant { I1, I2, I3 };
 /// Energy per rest volume, J/m^n. Zero at F = I; finite for every finite F.
 ///
 ///     stable neo-Hookean      mu/2 (I2 - n) - mu (J - 1) + (lambda + mu)/2 (J - 1)^2,  J = I3
+///     mooney-rivlin           c1 (I2 - n) + c2 (II - n (n - 1) / 2) - (mu + 2 c2) (J - 1)
+///                             + (lambda + mu - 2 c2)/2 (J - 1)^2
 ///     arap                    mu |F - R|^2
 ///     St. Venant-Kirchhoff    mu |E|^2 + lambda/2 (tr E)^2,   E = (F^T F - I)/2
 ///     linear                  mu |e|^2 + lambda/2 (tr e)^2,   e = (F + F^T)/2 - I
@@ -33,6 +35,16 @@ enum class Invariant { I1, I2, I3 };
 /// mu and lambda are those of the material: at small strain each energy is linear elasticity with
 /// them (arap with lambda = 0). The first is [smith2018] and [shi2025] Eq. 4 up to a constant;
 /// taken literally Eq. 4 linearizes to (mu, lambda - mu), hence the lambda + mu.
+///
+/// The second is that of [mooney1940, rivlin1948] in R^n, with the volume as in the first:
+/// II = (|F|^4 - |F^T F|^2) / 2 is the second invariant of F^T F, the sum of the squares of all
+/// 2 x 2 minors of F. It carries the part s = Material::second_invariant of mu = 2 c1 +
+/// 2 (n - 2) c2:
+///
+///     c2 = s mu / (2 (n - 2)),   c1 = (1 - s) mu / 2;   in the plane, where II = J^2, c1 = mu / 2.
+///
+/// It is a convex function of F, its 2 x 2 minors and J (polyconvex [ball1977]) for every s in
+/// range, and the first for s = 0.
 [[nodiscard]] double energy_density(const Material& material, const Eigen::MatrixXd& F);
 
 /// First Piola-Kirchhoff stress dPsi/dF, Pa.
@@ -40,15 +52,17 @@ enum class Invariant { I1, I2, I3 };
 
 /// The uniform scale s of an element below which its own energy pulls it to a point, in [0, 1).
 ///
-/// F = 0 is a strict local minimum of the stable neo-Hookean energy for n >= 3. The slope along s
-/// R, R a rotation, vanishes at s = 0, at rest, and once in between, where
+/// F = 0 is a strict local minimum of the stable neo-Hookean energy for n >= 3, and of mooney-rivlin
+/// unless all of mu is on the second invariant. The slope along s R, R a rotation, vanishes at
+/// s = 0, at rest, and once in between, where
 ///
-///     mu (1 - s^(n-2)) = (lambda + mu) (1 - s^n) s^(n-2).
+///     2 c1 + 2 (n - 1) c2 s^2 = (mu + 2 c2 + (lambda + mu - 2 c2) (1 - s^n)) s^(n-2),
 ///
-/// For n = 3 and 4 everything with |F| < sqrt(n) s is driven to F = 0: det F <= (|F| / sqrt(n))^n
-/// makes P : F, the slope along F itself, positive there, so that |F| shrinks as the energy does.
-/// It is the largest such ball. At nu = 0.28 in 4D the scale is 0.43. 0 for n = 2 and for the other
-/// models, which have no such minimum.
+/// with c1 = mu / 2 and c2 = 0 for the former. For n = 3 and 4 everything with |F| < sqrt(n) s is
+/// driven to F = 0: det F <= (|F| / sqrt(n))^n and II >= n (n - 1) / 2 |det F|^(4/n) make P : F, the
+/// slope along F itself, positive there, so that |F| shrinks as the energy does. It is the largest
+/// such ball. At nu = 0.28 in 4D the scale is 0.43. 0 for n = 2 and for the other models, which
+/// have no such minimum.
 [[nodiscard]] double collapse_scale(const Material& material, int dim);
 
 /// Second derivative of an isotropic function of F, in the frame of its singular vectors.

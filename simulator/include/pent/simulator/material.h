@@ -5,11 +5,12 @@
 namespace pent::simulator {
 
 /// Which elastic energy a body has; see energy.h.
-enum class Model { StableNeoHookean, Arap, StVenantKirchhoff, Linear };
+enum class Model { StableNeoHookean, MooneyRivlin, Arap, StVenantKirchhoff, Linear };
 
 template <>
 inline constexpr std::array kWords<Model> = {
     Word<Model>{Model::StableNeoHookean, "stable-neo-hookean"},
+    Word<Model>{Model::MooneyRivlin, "mooney-rivlin"},
     Word<Model>{Model::Arap, "arap"},
     Word<Model>{Model::StVenantKirchhoff, "st-venant-kirchhoff"},
     Word<Model>{Model::Linear, "linear"},
@@ -25,8 +26,15 @@ struct Lame {
 struct Material {
     Model model = Model::StableNeoHookean;
     Lame lame;
-    double density = 1000;  ///< kg/m^Dim, > 0.
+    double second_invariant = 0;  ///< Of mooney-rivlin alone: the part of mu that the second
+                                  ///< invariant carries, in [0, highest_second_invariant()].
+    double density = 1000;        ///< kg/m^Dim, > 0.
 };
+
+/// 1, but 1 + lambda / mu where lambda < 0: more would leave the energy without a lower bound.
+[[nodiscard]] constexpr double highest_second_invariant(const Lame& lame) {
+    return lame.lambda < 0 ? 1 + lame.lambda / lame.mu : 1;
+}
 
 /// Largest Poisson ratio (not reached) of a material in R^dim: 1 / (dim - 1), so 1/3 in 4D.
 [[nodiscard]] double poisson_limit(int dim);
