@@ -20,6 +20,7 @@ using simulator::EverythingSelection;
 using simulator::Integrator;
 using simulator::lame_from_young;
 using simulator::LinearSolverKind;
+using simulator::Load;
 using simulator::Material;
 using simulator::Motion;
 using simulator::non_rigid;

@@ -5,6 +5,7 @@
 #include <pent/simulator/scene_schema.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <type_traits>
 
@@ -123,6 +124,9 @@ std::string name_of_part(std::string_view /*block*/, const Body& body) {
 std::string name_of_part(std::string_view /*block*/, const Constraint& constraint) {
     return "constraint on \"" + constraint.body + "\"";
 }
+std::string name_of_part(std::string_view /*block*/, const Load& load) {
+    return "load on \"" + load.body + "\"";
+}
 template <typename Part>
 std::string name_of_part(std::string_view block, const Part& /*part*/) {
     return std::string(block);
@@ -146,7 +150,11 @@ struct BlockChecker {
     }
     template <typename Part>
     void operator()(std::string_view name, const Part& part) const {
-        fields(part, Checker{name_of_part(name, part), dimension});
+        const std::string what = name_of_part(name, part);
+        fields(part, Checker{what, dimension});
+        if (const auto fault = fault_of(part)) {
+            throw Error(what + ": " + fault->message);
+        }
     }
 };
 
@@ -164,6 +172,9 @@ void check_names(const Scene& scene) {
     for (const Constraint& constraint : scene.constraints) {
         require(count(constraint.body) > 0,
                 "constraint on \"" + constraint.body + "\": no body has this name");
+    }
+    for (const Load& load : scene.loads) {
+        require(count(load.body) > 0, "load on \"" + load.body + "\": no body has this name");
     }
 }
 
@@ -187,6 +198,13 @@ void check_held(const Body& body, const Scene& scene) {
     require(is_held || scene.solver.integrator != Integrator::Quasistatic,
             "body \"" + body.name
                 + "\" has no constraint: the quasistatic integrator needs every body held");
+}
+
+std::uint32_t index_of(const Scene& scene, const std::string& body) {
+    const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                    [&](const Body& one) { return one.name == body; });
+    assert(found != scene.bodies.end());
+    return static_cast<std::uint32_t>(found - scene.bodies.begin());
 }
 
 std::string plane_name(const Plane& plane) {
@@ -216,6 +234,19 @@ std::optional<Fault> fault_of(const BoxSelection& box) {
         return std::nullopt;
     }
     return Fault{"low", "\"low\" is above \"high\" along an axis; expected the lower corner"};
+}
+
+template <>
+std::optional<Fault> fault_of(const Load& load) {
+    if (load.force.isZero(0) && load.pressure == 0) {
+        return Fault{"force", "a load needs a \"force\" or a \"pressure\" that is not zero"};
+    }
+    const auto is_late = [](const Keyframe& a, const Keyframe& b) { return a.time >= b.time; };
+    if (std::adjacent_find(load.keyframes.begin(), load.keyframes.end(), is_late)
+        != load.keyframes.end()) {
+        return Fault{"keyframes", "the times of \"keyframes\" must increase"};
+    }
+    return std::nullopt;
 }
 
 template <>

@@ -47,6 +47,13 @@ body = "core"
 select = "everything"
 motion = "fixed"
 
+[[load]]
+body = "bunny"
+select = "everything"
+force = [0, 2, 0, 1]
+pressure = -30
+keyframes = [{ time = 0, factor = 0 }, { time = 1.5, factor = 1 }]
+
 [[obstacle]]
 half_space = { normal = [0, 1, 0, 0], offset = -1 }
 distance = 0.01
@@ -128,6 +135,10 @@ TEST(ParseScene, ReadsEveryKey) {
     EXPECT_TRUE(scene.constraints[1].motion.empty());
     EXPECT_EQ(scene.bodies[1].velocity, Eigen::Vector4d(0, 2, 0, 0));
     EXPECT_EQ(scene.bodies[1].spin.at(0).degrees_per_s, -40);
+    ASSERT_EQ(scene.loads.size(), 1U);
+    EXPECT_EQ(scene.loads[0].force, Eigen::Vector4d(0, 2, 0, 1));
+    EXPECT_EQ(scene.loads[0].pressure, -30);
+    EXPECT_EQ(scene.loads[0].keyframes.at(1).time, 1.5);
     ASSERT_EQ(scene.obstacles.size(), 4U);
     EXPECT_EQ(scene.obstacles[0].stiffness, 500);
     EXPECT_EQ(std::get<HalfSpaceObstacle>(scene.obstacles[0].shape).offset, -1);

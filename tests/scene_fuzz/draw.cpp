@@ -190,6 +190,46 @@ const Keys kConstraint = {
      }},
 };
 
+// ------------------------------------------------------------------------------------------- loads
+
+Json draw_keyframes(Random& random, const Plan& plan) {
+    Json keyframes = Json::array();
+    double time = 0;
+    for (int i = random.pick({1, 2, 3}); i > 0; --i) {
+        keyframes.push_back({{"time", Random::short_of(time)}, {"factor", random.number(-1, 1)}});
+        time += random.number(0.2, 0.6) * plan.duration();
+    }
+    return keyframes;
+}
+
+// What moves a body of water by a part of its size within the run.
+Json draw_load(Random& random, const Plan& plan) {
+    const PlannedBody& body = plan.now();
+    double mass = 1000;
+    for (int axis = 0; axis < plan.dimension; ++axis) {
+        mass *= 2 * body.half[static_cast<std::size_t>(axis)];
+    }
+    const double force = mass * plan.size / (plan.duration() * plan.duration());
+    const bool has_pressure = random.chance(0.6);
+    Json load = {{"body", body.name}};
+    // A whole facet is certain with everything, and with half of a box.
+    const bool is_box = body.mesh.kind == "box" && !body.is_turned;
+    load["select"] = !has_pressure                  ? draw_selections(random, plan)
+                     : is_box && random.chance(0.6) ? half_space_selection(random, plan)
+                                                    : Json("everything");
+    if (has_pressure) {
+        load["pressure"] = Random::short_of(random.number(-0.3, 0.3) * force
+                                            / std::pow(plan.size, plan.dimension - 1));
+    }
+    if (!has_pressure || random.chance(0.2)) {
+        load["force"] = random_vector(random, plan, Random::short_of(0.3 * force));
+    }
+    if (random.chance(0.5)) {
+        load["keyframes"] = draw_keyframes(random, plan);
+    }
+    return load;
+}
+
 // --------------------------------------------------------------------------- obstacles and contact
 
 // Newtons a meter that go with the bodies' stiffness, which is not known here: with their mass.
@@ -336,10 +376,14 @@ Json draw_scene(std::uint64_t seed) {
     }
     scene["body"] = Json::array();
     scene["constraint"] = Json::array();
+    scene["load"] = Json::array();
     for (plan.body = 0; plan.body < plan.bodies.size(); ++plan.body) {
         scene["body"].push_back(draw_table(kBody, random, plan));
         if (random.chance(0.25)) {
             scene["constraint"].push_back(draw_table(kConstraint, random, plan));
+        }
+        if (random.chance(0.2)) {
+            scene["load"].push_back(draw_load(random, plan));
         }
     }
     scene["obstacle"] = Json::array();

@@ -2,6 +2,7 @@
 
 #include "folders.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace pent::scene_fuzz {
@@ -23,6 +24,12 @@ bool has_contact(const Json& scene) {
 
 bool has_obstacle(const Json& scene) {
     return scene.contains("obstacle");
+}
+
+template <typename Has>
+bool has_load(const Json& scene, const Has& has) {
+    const Json loads = scene.value("load", Json::array());
+    return std::any_of(loads.begin(), loads.end(), has);
 }
 
 bool has_barrier(const Json& scene) {
@@ -65,6 +72,19 @@ const std::vector<Part>& parts() {
         {"Newton's method",
          [](const Json& scene) { return value_at(scene, "solver.integrator") != "linear_euler"; },
          {"newton_iterations", "unbalanced"}},
+        {"a force",
+         [](const Json& scene) {
+             return has_load(scene, [](const Json& load) { return load.contains("force"); });
+         },
+         {},
+         "force"},
+        {"pressure",
+         [](const Json& scene) {
+             return has_load(scene,
+                             [](const Json& load) { return load.value("pressure", 0.0) != 0; });
+         },
+         {},
+         "pressure"},
         {"gravity",
          [](const Json& scene) {
              for (const Json& entry : value_at(scene, "scene.gravity")) {

@@ -371,7 +371,7 @@ void in_dimension(const Scene& scene, const In3& in_3, const In4& in_4) {
 }  // namespace
 
 void check_momentum(const Scene& scene) {
-    const bool is_free = scene.obstacles.empty() && scene.constraints.empty()
+    const bool is_free = scene.obstacles.empty() && scene.constraints.empty() && scene.loads.empty()
                          && (!scene.damping || scene.damping->mass == 0);
     if (is_free && scene.solver.integrator != Integrator::Quasistatic) {
         in_dimension(
@@ -394,7 +394,9 @@ void check_crossings(const Scene& scene) {
 }
 
 void check_sleep(const Scene& scene) {
-    if (scene.sleep) {
+    const bool is_changing = std::any_of(scene.loads.begin(), scene.loads.end(),
+                                         [](const Load& load) { return !load.keyframes.empty(); });
+    if (scene.sleep && !is_changing) {
         in_dimension(
             scene, [&] { SleepLaw<3>(scene).run(); }, [&] { SleepLaw<4>(scene).run(); });
     }

@@ -89,7 +89,7 @@ std::set<std::string> features(const Json& scene) {
         found.insert("model=" + body["material"]["model"].dump());
         found.insert("mesh=" + parse_mesh_name(body["mesh"]).kind);
     }
-    for (const char* block : {"obstacle", "constraint"}) {
+    for (const char* block : {"obstacle", "constraint", "load"}) {
         for (const Json& entry : scene.value(block, Json::array())) {
             const Json& select = entry.value("select", Json());
             const Json& kinds = select.is_array() ? select[0] : select.is_null() ? entry : select;

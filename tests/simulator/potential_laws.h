@@ -56,13 +56,14 @@ template <int Dim>
 Eigen::MatrixXd hessian_of(const Setting<Dim>& setting,
                            const BlockPattern& pattern,
                            Potential<Dim>& term,
-                           const Positions<Dim>& x) {
+                           const Positions<Dim>& x,
+                           Filter filter = Filter::None) {
     constexpr double kWeight = 3;
     NewtonSystem<Dim> system(setting.workers, setting.dofs, pattern, Precision::Double);
     system.begin(BlockVector<Dim>::Zero(Dim, setting.dofs.count()),
                  Positions<Dim>::Zero(Dim, x.cols()));
     static_cast<void>(value_of<Dim>(term, x));
-    term.add_hessian(kWeight, Filter::None, system);
+    term.add_hessian(kWeight, filter, system);
     system.finish();
     const auto& matrix = std::get<BlockMatrix<Dim, double>>(system.matrix());
     Eigen::MatrixXd sum = ElasticBox<Dim>::dense(matrix);

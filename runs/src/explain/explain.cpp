@@ -38,6 +38,7 @@ public:
         gravity();
         damping();
         constraints();
+        loads();
         contact_between_bodies();
         contact_within_bodies();
         obstacles();
@@ -138,6 +139,22 @@ private:
              .why = held > 0 ? std::to_string(held) + " of " + std::to_string(size_.vertices)
                                    + " vertices are held; they have no unknowns"
                              : "no [[constraint]]"});
+    }
+
+    void loads() {
+        for (const Load& load : scene_.loads) {
+            const std::string force =
+                !load.force.isZero(0) ? formatted("force %.4g N", load.force.norm()) : "";
+            const std::string pressure =
+                load.pressure != 0 ? formatted("pressure %.4g N/m^%d", load.pressure, Dim - 1) : "";
+            add({.name = "load on " + load.body,
+                 .is_on = true,
+                 .why =
+                     force + (force.empty() || pressure.empty() ? "" : ", ") + pressure
+                     + (load.keyframes.empty()
+                            ? ""
+                            : ", with " + std::to_string(load.keyframes.size()) + " keyframes")});
+        }
     }
 
     void contact_between_bodies() {

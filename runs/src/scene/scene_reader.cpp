@@ -49,7 +49,18 @@ private:
     }
     void finish(const TableReader& /*entry*/, const Obstacle& /*obstacle*/) const {}
     void finish(const TableReader& entry, Body& body) const;
-    void finish(const TableReader& entry, Constraint& constraint) const;
+    template <typename Part>
+    requires requires(Part part) { part.select; }
+    void finish(const TableReader& entry, Part& part) const {
+        check_name(entry, "body", part.body);
+        part.source = entry.place("select");
+        if (part.select.empty()) {
+            entry.fail("select", entry.name()
+                                     + " needs \"select\" (a table, a list of tables, or"
+                                       " \"everything\")");
+        }
+    }
+    void check_name(const TableReader& entry, std::string_view key, const std::string& name) const;
 };
 
 void BlockReader::finish(const TableReader& entry, Body& body) const {
@@ -70,19 +81,16 @@ void BlockReader::finish(const TableReader& entry, Body& body) const {
     }
 }
 
-void BlockReader::finish(const TableReader& entry, Constraint& constraint) const {
+// Whether a body has this name.
+void BlockReader::check_name(const TableReader& entry,
+                             std::string_view key,
+                             const std::string& name) const {
     std::vector<std::string> names;
     for (const Body& body : scene.bodies) {
         names.push_back(body.name);
     }
-    if (std::find(names.begin(), names.end(), constraint.body) == names.end()) {
-        entry.fail("body", "no body is called \"" + constraint.body + "\""
-                               + did_you_mean(constraint.body, names));
-    }
-    constraint.source = entry.place("select");
-    if (constraint.select.empty()) {
-        entry.fail("select", entry.name() + " needs \"select\" (a table, a list of tables, or"
-                                            " \"everything\")");
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+        entry.fail(key, "no body is called \"" + name + "\"" + did_you_mean(name, names));
     }
 }
 

@@ -17,7 +17,7 @@ using Marks = std::vector<bool>;
 template <int Dim>
 struct Marker {
     const SimplexMesh<Dim>& mesh;
-    const std::string& where;  // which constraint
+    const std::string& where;  // who selects
     Marks& marks;
 
     template <typename Contains>
@@ -132,13 +132,21 @@ struct Nearest {
 
 }  // namespace
 
+std::string place_and_name(const Constraint& constraint) {
+    return (constraint.source.empty() ? "" : constraint.source + ": ") + "constraint on \""
+           + constraint.body + "\"";
+}
+
+std::string place_and_name(const Load& load) {
+    return (load.source.empty() ? "" : load.source + ": ") + "load on \"" + load.body + "\"";
+}
+
 template <int Dim>
 std::vector<std::uint32_t> select_vertices(const SimplexMesh<Dim>& mesh,
-                                           const Constraint& constraint) {
-    const std::string where = (constraint.source.empty() ? "" : constraint.source + ": ")
-                              + "constraint on \"" + constraint.body + "\"";
+                                           const std::vector<Selection>& select,
+                                           const std::string& where) {
     Marks marks(static_cast<std::size_t>(mesh.vertex_count()), false);
-    for (const Selection& selection : constraint.select) {
+    for (const Selection& selection : select) {
         std::visit(Marker<Dim>{mesh, where, marks}, selection);
     }
     std::vector<std::uint32_t> selected;
@@ -148,8 +156,7 @@ std::vector<std::uint32_t> select_vertices(const SimplexMesh<Dim>& mesh,
         }
     }
     if (selected.empty()) {
-        throw Error(where + " selects no vertex: "
-                    + std::visit(Nearest<Dim>{mesh}, constraint.select.front())
+        throw Error(where + " selects no vertex: " + std::visit(Nearest<Dim>{mesh}, select.front())
                     + "; the body as placed reaches from "
                     + vector_text<Dim>(mesh.positions.rowwise().minCoeff()) + " to "
                     + vector_text<Dim>(mesh.positions.rowwise().maxCoeff()));
@@ -157,7 +164,11 @@ std::vector<std::uint32_t> select_vertices(const SimplexMesh<Dim>& mesh,
     return selected;
 }
 
-template std::vector<std::uint32_t> select_vertices<3>(const SimplexMesh<3>&, const Constraint&);
-template std::vector<std::uint32_t> select_vertices<4>(const SimplexMesh<4>&, const Constraint&);
+template std::vector<std::uint32_t> select_vertices<3>(const SimplexMesh<3>&,
+                                                       const std::vector<Selection>&,
+                                                       const std::string&);
+template std::vector<std::uint32_t> select_vertices<4>(const SimplexMesh<4>&,
+                                                       const std::vector<Selection>&,
+                                                       const std::string&);
 
 }  // namespace pent::simulator

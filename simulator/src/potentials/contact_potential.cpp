@@ -159,6 +159,20 @@ std::vector<TermEnergy> ContactPotential<Dim>::energies() const {
     return parts;
 }
 
+// Pairs of different bodies in contact, each once.
+template <int Dim>
+void ContactPotential<Dim>::add_couplings(Couplings& couplings) const {
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (const contact::Contact<Dim>& contact : contacts_.list) {
+        if (!contact.second.is_obstacle() && !contact.is_self()) {
+            pairs.emplace_back(std::minmax(contact.first.index, contact.second.index));
+        }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    const auto end = std::unique(pairs.begin(), pairs.end());
+    couplings.pairs.insert(couplings.pairs.end(), pairs.begin(), end);
+}
+
 template <int Dim>
 bool ContactPotential<Dim>::begin_step(const StepStart<Dim>& /*start*/) {
     last_gap_ = gap();

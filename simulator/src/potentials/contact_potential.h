@@ -25,6 +25,7 @@ public:
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
     void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) override;
     [[nodiscard]] std::vector<TermEnergy> energies() const override;
+    void add_couplings(Couplings& couplings) const override;
     [[nodiscard]] bool begin_step(const StepStart<Dim>& start) override;
     [[nodiscard]] double max_step(const Positions<Dim>& from, const Positions<Dim>& to) override;
     [[nodiscard]] bool is_bounded() const override { return is_barrier_; }

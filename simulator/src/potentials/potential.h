@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace pent::simulator {
@@ -23,6 +24,20 @@ struct StepStart {
                              ///< Dirichlet vertices will be, m; 0 for all others.
     double h = 0;            ///< s.
     bool is_linear = false;  ///< A single linear solve, no Newton's method behind it.
+};
+
+/// A step in time.
+struct TimeSpan {
+    double begin = 0;  ///< s, >= 0.
+    double end = 0;    ///< s; the same as `begin` before the first step.
+
+    bool operator==(const TimeSpan&) const = default;
+};
+
+/// Which bodies a term makes sleep and wake together, by their places in the scene.
+struct Couplings {
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< In any order.
+    std::vector<std::size_t> driven;  ///< Those that something outside moves in this step.
 };
 
 /// One term of what a step minimizes: a function of the positions of all vertices.
@@ -49,6 +64,13 @@ public:
 
     /// The parts of the value by name, for reports.
     [[nodiscard]] virtual std::vector<TermEnergy> energies() const { return {}; }
+
+    /// What depends on time is as at the end of this step from now on; driven is what moves in it.
+    /// Returns whether the value has changed.
+    [[nodiscard]] virtual bool set_time(const TimeSpan& /*step*/) { return false; }
+
+    /// Adds what it couples at the positions last evaluated.
+    virtual void add_couplings(Couplings& /*couplings*/) const {}
 
     /// Takes what is held during a step (normal forces, tangents) from its start. Returns whether
     /// the value has changed.

@@ -36,6 +36,22 @@ std::vector<TermEnergy> PotentialEnergy<Dim>::energies() const {
 }
 
 template <int Dim>
+void PotentialEnergy<Dim>::set_time(const TimeSpan& step) {
+    for (const auto& term : terms_) {
+        is_valid_ = !term->set_time(step) && is_valid_;
+    }
+}
+
+template <int Dim>
+Couplings PotentialEnergy<Dim>::couplings() const {
+    Couplings all;
+    for (const auto& term : terms_) {
+        term->add_couplings(all);
+    }
+    return all;
+}
+
+template <int Dim>
 void PotentialEnergy<Dim>::begin_step(const StepStart<Dim>& start) {
     for (const auto& term : terms_) {
         is_valid_ = !term->begin_step(start) && is_valid_;

@@ -36,6 +36,8 @@ public:
     }  ///< Dim x vertices, N.
 
     [[nodiscard]] std::vector<TermEnergy> energies() const;
+    void set_time(const TimeSpan& step);
+    [[nodiscard]] Couplings couplings() const;
     void begin_step(const StepStart<Dim>& start);
     [[nodiscard]] double max_step(const Positions<Dim>& from, const Positions<Dim>& to);
     [[nodiscard]] bool is_bounded() const;

@@ -1,8 +1,11 @@
 #include "potentials/scene_energy.h"
 
+#include "potentials/force_loads.h"
 #include "potentials/gravity.h"
+#include "potentials/pressure_loads.h"
 
 #include <memory>
+#include <utility>
 
 namespace pent::simulator {
 
@@ -16,6 +19,13 @@ SceneEnergy<Dim>::SceneEnergy(const Workers& workers,
     }
     elasticity = &sum.add(
         std::make_unique<Elasticity<Dim>>(workers, kernels, bodies, scene.solver.elements));
+    if (auto loads = std::make_unique<ForceLoads<Dim>>(scene, bodies); !loads->is_empty()) {
+        sum.add(std::move(loads));
+    }
+    if (auto loads = std::make_unique<PressureLoads<Dim>>(workers, scene, bodies);
+        !loads->is_empty()) {
+        sum.add(std::move(loads));
+    }
     contact = &sum.add(std::make_unique<ContactPotential<Dim>>(workers, scene, bodies));
     if (scene.contact && scene.contact->friction > 0) {
         const contact::Friction law{scene.contact->friction, scene.contact->slip_speed};

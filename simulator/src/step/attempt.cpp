@@ -161,6 +161,7 @@ NewtonReport Simulation<Dim>::Stepper::solve(const StepProblem<Dim>& problem, bo
 template <int Dim>
 bool Simulation<Dim>::Stepper::attempt(double time, double h, StepReport& report) {
     const StepProblem<Dim> problem = make_problem(time, h);
+    energy_.sum.set_time({time, time + h});
     energy_.sum.update(current_.positions);
     static_cast<void>(wake(problem.prescribed));
     energy_.sum.update(current_.positions);

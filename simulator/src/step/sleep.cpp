@@ -10,21 +10,7 @@ namespace {
 
 using BodyPair = std::pair<std::size_t, std::size_t>;
 
-// Pairs of different bodies in contact, each once.
-template <int Dim>
-std::vector<BodyPair> touching(const contact::Contacts<Dim>& contacts) {
-    std::vector<BodyPair> pairs;
-    for (const contact::Contact<Dim>& contact : contacts.list) {
-        if (!contact.second.is_obstacle() && !contact.is_self()) {
-            pairs.emplace_back(std::minmax(contact.first.index, contact.second.index));
-        }
-    }
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    return pairs;
-}
-
-// Marks what touches something marked that may pass it on, until nothing is new.
+// Marks what is coupled to something marked that may pass it on, until nothing is new.
 template <typename CanTake>
 void spread(const std::vector<BodyPair>& pairs, const CanTake& can_take, std::vector<bool>& marks) {
     for (bool has_changed = true; has_changed;) {
@@ -76,7 +62,7 @@ std::vector<bool> Islands<Dim>::asleep() const {
 }
 
 template <int Dim>
-bool Islands<Dim>::wake(const contact::Contacts<Dim>& contacts,
+bool Islands<Dim>::wake(const Couplings& couplings,
                         const Positions<Dim>& from,
                         const Positions<Dim>& to) {
     if (asleep_count() == 0) {
@@ -92,8 +78,11 @@ bool Islands<Dim>::wake(const contact::Contacts<Dim>& contacts,
             }
         }
     }
+    for (const std::size_t body : couplings.driven) {
+        is_moving[body] = is_moving[body] || !is_kinematic_[body];
+    }
     spread(
-        touching(contacts), [&](std::size_t body) { return states_[body].is_asleep; }, is_moving);
+        couplings.pairs, [&](std::size_t body) { return states_[body].is_asleep; }, is_moving);
     bool has_woken = false;
     for (std::size_t body = 0; body < states_.size(); ++body) {
         if (states_[body].is_asleep && is_moving[body]) {
@@ -117,11 +106,15 @@ bool Islands<Dim>::is_quiet(std::size_t body, const Positions<Dim>& velocities) 
 }
 
 template <int Dim>
-bool Islands<Dim>::put_to_sleep(const contact::Contacts<Dim>& contacts,
+bool Islands<Dim>::put_to_sleep(const Couplings& couplings,
                                 const Positions<Dim>& velocities,
                                 double stiffness) {
     if (!is_on_) {
         return false;
+    }
+    std::vector<bool> is_driven(states_.size());
+    for (const std::size_t body : couplings.driven) {
+        is_driven[body] = !is_kinematic_[body];
     }
     std::vector<bool> is_moving(states_.size());  // or has been until lately
     bool can_sleep = false;
@@ -130,7 +123,8 @@ bool Islands<Dim>::put_to_sleep(const contact::Contacts<Dim>& contacts,
         if (state.is_asleep) {
             continue;
         }
-        state.quiet_steps = is_quiet(body, velocities) ? state.quiet_steps + 1 : 0;
+        const bool is_at_rest = !is_driven[body] && is_quiet(body, velocities);
+        state.quiet_steps = is_at_rest ? state.quiet_steps + 1 : 0;
         is_moving[body] = state.quiet_steps < (is_kinematic_[body] ? 1 : steps_to_sleep_);
         can_sleep = can_sleep || !(is_moving[body] || is_kinematic_[body]);
     }
@@ -139,7 +133,7 @@ bool Islands<Dim>::put_to_sleep(const contact::Contacts<Dim>& contacts,
     }
     // What is kinematic passes nothing on: it moves as told.
     spread(
-        touching(contacts), [&](std::size_t body) { return !is_kinematic_[body]; }, is_moving);
+        couplings.pairs, [&](std::size_t body) { return !is_kinematic_[body]; }, is_moving);
     bool has_slept = false;
     for (std::size_t body = 0; body < states_.size(); ++body) {
         if (!states_[body].is_asleep && !is_moving[body] && !is_kinematic_[body]) {

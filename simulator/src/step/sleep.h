@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/bodies.h"
-#include "potentials/contact_potential.h"
+#include "potentials/potential.h"
 
 #include <pent/simulator/simulation.h>
 
@@ -9,8 +9,9 @@
 
 namespace pent::simulator {
 
-/// Which bodies of a scene sleep; see Sleep. Bodies that touch each other fall asleep and wake
-/// together, as islands. Without Scene::sleep none ever does, and nothing is looked at.
+/// Which bodies of a scene sleep; see Sleep. Bodies that are coupled, by contact or otherwise, fall
+/// asleep and wake together, as islands. Without Scene::sleep none ever does, and nothing is looked
+/// at.
 template <int Dim>
 class Islands {
 public:
@@ -24,14 +25,14 @@ public:
     /// One entry a body: whether it sleeps.
     [[nodiscard]] std::vector<bool> asleep() const;
 
-    /// Wakes bodies whose Dirichlet vertices move, bodies in contact with what moves or is awake,
-    /// and what these touch in turn.
+    [[nodiscard]] bool is_on() const { return is_on_; }
+
+    /// Wakes bodies whose Dirichlet vertices move or that are driven, bodies coupled to what moves
+    /// or is awake, and what is coupled to these in turn.
     ///
     /// @param from, to  Dim x vertices: where Dirichlet vertices are and will be.
     /// @return          Whether any has woken.
-    bool wake(const contact::Contacts<Dim>& contacts,
-              const Positions<Dim>& from,
-              const Positions<Dim>& to);
+    bool wake(const Couplings& couplings, const Positions<Dim>& from, const Positions<Dim>& to);
 
     void wake(int body) { states_[static_cast<std::size_t>(body)] = {}; }
 
@@ -39,7 +40,7 @@ public:
     ///
     /// @param stiffness  Of a barrier now, N/m.
     /// @return           Whether any has.
-    bool put_to_sleep(const contact::Contacts<Dim>& contacts,
+    bool put_to_sleep(const Couplings& couplings,
                       const Positions<Dim>& velocities,
                       double stiffness);
 

@@ -78,6 +78,7 @@ Simulation<Dim>::Stepper::Stepper(const Scene& scene,
 
 template <int Dim>
 void Simulation<Dim>::Stepper::evaluate_current() {
+    energy_.sum.set_time({std::max(0.0, time() - scene_.dt()), time()});
     energy_.sum.update(current_.positions);
     forces_ = -energy_.sum.gradient();
 }
@@ -169,7 +170,8 @@ void Simulation<Dim>::Stepper::still(Positions<Dim>& velocities) const {
 // was evaluated last.
 template <int Dim>
 bool Simulation<Dim>::Stepper::wake(const Positions<Dim>& prescribed) {
-    if (!islands_.wake(energy_.contact->contacts(), current_.positions, prescribed)) {
+    if (islands_.asleep_count() == 0
+        || !islands_.wake(energy_.sum.couplings(), current_.positions, prescribed)) {
         return false;
     }
     number_dofs_of_the_awake();
@@ -179,8 +181,9 @@ bool Simulation<Dim>::Stepper::wake(const Positions<Dim>& prescribed) {
 // Lets bodies fall asleep at the end of a step.
 template <int Dim>
 void Simulation<Dim>::Stepper::put_to_sleep() {
-    if (!islands_.put_to_sleep(energy_.contact->contacts(), current_.velocities,
-                               energy_.contact->stiffness())) {
+    if (!islands_.is_on()
+        || !islands_.put_to_sleep(energy_.sum.couplings(), current_.velocities,
+                                  energy_.contact->stiffness())) {
         return;
     }
     still(current_.velocities);

@@ -4,6 +4,7 @@
 #include <pent/simulator/scene.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace pent::simulator {
@@ -14,12 +15,29 @@ namespace pent::simulator {
 template <int Dim>
 [[nodiscard]] SimplexMesh<Dim> place(SimplexMesh<Dim> mesh, const Body& body);
 
-/// Vertices of a placed mesh that a constraint selects, in increasing order.
+/// Vertices of a placed mesh that are selected by any of these, in increasing order.
 ///
-/// Throws an Error that names the body if nothing is selected, or if the mesh does not know the
-/// layers or regions asked for.
+/// @param where  Who selects, for messages.
+///
+/// Throws an Error if nothing is selected, or if the mesh does not know the layers or regions asked
+/// for.
 template <int Dim>
 [[nodiscard]] std::vector<std::uint32_t> select_vertices(const SimplexMesh<Dim>& mesh,
-                                                         const Constraint& constraint);
+                                                         const std::vector<Selection>& select,
+                                                         const std::string& where);
+
+/// "scene.toml:4:8: constraint on "a"", for messages.
+[[nodiscard]] std::string place_and_name(const Constraint& constraint);
+[[nodiscard]] std::string place_and_name(const Load& load);
+
+/// Vertices that a constraint or a load selects.
+template <int Dim, typename Selecting>
+requires requires(Selecting part) {
+    part.select;
+}
+[[nodiscard]] std::vector<std::uint32_t> select_vertices(const SimplexMesh<Dim>& mesh,
+                                                         const Selecting& part) {
+    return select_vertices(mesh, part.select, place_and_name(part));
+}
 
 }  // namespace pent::simulator

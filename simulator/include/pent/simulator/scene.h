@@ -122,6 +122,25 @@ struct Constraint {
     std::string source = {};  ///< Where its selection stands in a scene file; as Body::source.
 };
 
+/// A factor at a time.
+struct Keyframe {
+    double time = 0;  ///< s, >= 0.
+    double factor = 1;
+};
+
+/// Something that pushes a body from outside, on what is selected on placed positions at t = 0.
+struct Load {
+    std::string body;
+    std::vector<Selection> select;  ///< A union.
+    /// N, of constant direction: of all selected vertices together, each with a part like its mass.
+    Eigen::VectorXd force;  ///< Empty is none.
+    /// N/m^(Dim-1), against the outward normals, as they are now, of the facets of the boundary of
+    /// which every vertex is selected.
+    double pressure = 0;
+    std::vector<Keyframe> keyframes;  ///< What both are multiplied by; none: 1.
+    std::string source = {};  ///< Where its selection stands in a scene file; as Body::source.
+};
+
 /// Shapes of obstacles, with vectors of the scene's dimension: <pent/obstacle.h>.
 using HalfSpaceObstacle = pent::HalfSpace<Eigen::Dynamic>;
 using BallObstacle = pent::Ball<Eigen::Dynamic>;
@@ -186,6 +205,7 @@ struct Scene {
     int steps_per_frame = 1;
     std::vector<Body> bodies;
     std::vector<Constraint> constraints;
+    std::vector<Load> loads;
     std::vector<Obstacle> obstacles;
     std::optional<Contact> contact;  ///< Absent: bodies pass through one another, at no cost.
     std::optional<Damping> damping;  ///< Absent: not modeled.
@@ -196,6 +216,9 @@ struct Scene {
     /// Length of a time step, s.
     [[nodiscard]] double dt() const { return 1.0 / (frames_per_second * steps_per_frame); }
 };
+
+/// The place of a body among those of a scene, which has one of this name.
+[[nodiscard]] std::uint32_t index_of(const Scene& scene, const std::string& body);
 
 /// "xw" for {0, 3}.
 [[nodiscard]] std::string plane_name(const Plane& plane);

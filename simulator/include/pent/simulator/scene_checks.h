@@ -25,6 +25,8 @@ template <>
 [[nodiscard]] std::optional<Fault> fault_of(const BoxSelection& box);
 template <>
 [[nodiscard]] std::optional<Fault> fault_of(const LayerSelection& layers);
+template <>
+[[nodiscard]] std::optional<Fault> fault_of(const Load& load);
 
 /// A barrier needs an integrator that iterates.
 void check_model(ContactModel model, Integrator integrator);

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "model/bodies.h"
+#include "potentials/potential.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pent::simulator {
+
+/// Forces of given size and direction on vertices, wherever these go: - sum of f . x over all
+/// vertices that a [[load]] with a force selects. Each has a part of the force like its part of the
+/// mass of all, so that the force acts at their center of mass.
+template <int Dim>
+class ForceLoads final : public Potential<Dim> {
+public:
+    /// @param bodies  Placed; not needed afterwards.
+    ForceLoads(const Scene& scene, const Bodies<Dim>& bodies);
+
+    [[nodiscard]] bool is_empty() const { return loads_.empty(); }
+
+    [[nodiscard]] bool set_time(const TimeSpan& step) override;
+    void add_couplings(Couplings& couplings) const override;
+    [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
+    void add_hessian(double /*weight*/, Filter /*f*/, NewtonSystem<Dim>& /*s*/) override {}
+    [[nodiscard]] std::vector<TermEnergy> energies() const override { return {{"force", energy_}}; }
+
+private:
+    struct Load {
+        std::size_t body = 0;
+        std::vector<std::uint32_t> vertices;
+        Positions<Dim> forces;  // Dim x vertices of the load, N
+        std::vector<Keyframe> keyframes;
+        double factor = 1;
+        bool is_changing = false;  // in the step
+    };
+
+    std::vector<Load> loads_;
+    double energy_ = 0;
+};
+
+}  // namespace pent::simulator

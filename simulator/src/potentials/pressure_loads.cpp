@@ -1,0 +1,397 @@
+#include "potentials/pressure_loads.h"
+
+#include "model/keyframes.h"
+
+#include <pent/error.h>
+#include <pent/facets.h>
+#include <pent/simulator/placed_mesh.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace pent::simulator {
+
+namespace {
+
+template <int Dim>
+using Vector = Eigen::Matrix<double, Dim, 1>;
+template <int Dim>
+using Square = Eigen::Matrix<double, Dim, Dim>;
+template <int Dim>
+using Corners = Eigen::Matrix<double, Dim, Dim>;  // a column each
+
+// G with u . G v = det[u, v, others]: antisymmetric.
+Square<3> dual(const Eigen::Matrix<double, 3, 1>& others) {
+    Square<3> G;
+    G << 0, others[2], -others[1], -others[2], 0, others[0], others[1], -others[0], 0;
+    return G;
+}
+Square<4> dual(const Eigen::Matrix<double, 4, 2>& others) {
+    const auto minor = [&](int i, int j) {
+        return others(i, 0) * others(j, 1) - others(j, 0) * others(i, 1);
+    };
+    Square<4> G = Square<4>::Zero();
+    G(0, 1) = minor(2, 3);
+    G(0, 2) = minor(3, 1);
+    G(0, 3) = minor(1, 2);
+    G(1, 2) = minor(0, 3);
+    G(1, 3) = minor(2, 0);
+    G(2, 3) = minor(0, 1);
+    return G - G.transpose().eval();
+}
+
+// The outward normal of a facet, as long as its area, and its derivative by each corner.
+template <int Dim>
+struct Normal {
+    Vector<Dim> value;
+    std::array<Square<Dim>, Dim> slopes;
+
+    explicit Normal(const Corners<Dim>& corners) {
+        constexpr double kSimplices = Dim == 3 ? 2 : 6;  // of the facet in its parallelepiped
+        slopes[0].setZero();
+        for (int b = 1; b < Dim; ++b) {
+            Eigen::Matrix<double, Dim, Dim - 2> others;
+            for (int c = 1, column = 0; c < Dim; ++c) {
+                if (c != b) {
+                    others.col(column++) = corners.col(c) - corners.col(0);
+                }
+            }
+            slopes[b] = (b % 2 == 1 ? 1 : -1) / kSimplices * dual(others);
+            slopes[0] -= slopes[b];
+        }
+        value = slopes[1] * (corners.col(1) - corners.col(0));
+    }
+};
+
+template <int Dim>
+Corners<Dim> corners_of(const Eigen::Matrix<std::uint32_t, Dim, 1>& facet,
+                        const Positions<Dim>& x,
+                        const Vector<Dim>& apex) {
+    Corners<Dim> corners;
+    for (int a = 0; a < Dim; ++a) {
+        corners.col(a) = facet[a] == kNoVertex ? apex : Vector<Dim>(x.col(facet[a]));
+    }
+    return corners;
+}
+
+// What closes a surface: a wall for each ridge of its rim, the apex first. A ridge is of the rim
+// as often as the facets at it go one way round more often than the other.
+template <int Dim>
+std::vector<Eigen::Matrix<std::uint32_t, Dim, 1>> walls_of(const Simplices<Dim>& facets) {
+    using Ridge = std::array<std::uint32_t, Dim - 1>;
+    std::map<Ridge, int> turns;
+    for (const auto& facet : facets.colwise()) {
+        for (int without = 0; without < Dim; ++without) {
+            Ridge ridge;
+            for (int a = 0, k = 0; a < Dim; ++a) {
+                if (a != without) {
+                    ridge[static_cast<std::size_t>(k++)] = facet[a];
+                }
+            }
+            int sign = without % 2 == 0 ? 1 : -1;
+            for (std::size_t i = 0; i < ridge.size(); ++i) {  // sorting a few: count exchanges
+                for (std::size_t j = i + 1; j < ridge.size(); ++j) {
+                    if (ridge[j] < ridge[i]) {
+                        std::swap(ridge[i], ridge[j]);
+                        sign = -sign;
+                    }
+                }
+            }
+            turns[ridge] += sign;
+        }
+    }
+    std::vector<Eigen::Matrix<std::uint32_t, Dim, 1>> walls;
+    for (const auto& [ridge, count] : turns) {
+        Eigen::Matrix<std::uint32_t, Dim, 1> wall;
+        wall[0] = kNoVertex;
+        std::copy(ridge.begin(), ridge.end(), wall.data() + 1);
+        if (count > 0) {  // a wall goes against its ridge
+            std::swap(wall[1], wall[2]);
+        }
+        walls.insert(walls.end(), static_cast<std::size_t>(std::abs(count)), wall);
+    }
+    return walls;
+}
+
+// Facets of a body's boundary of which every corner is selected, of all bodies counted through.
+template <int Dim>
+Simplices<Dim> select_facets(const Load& load,
+                             const SimplexMesh<Dim>& mesh,
+                             std::uint32_t first_vertex) {
+    std::vector<bool> is_selected(static_cast<std::size_t>(mesh.vertex_count()), false);
+    for (const std::uint32_t vertex : select_vertices(mesh, load)) {
+        is_selected[vertex] = true;
+    }
+    const Simplices<Dim> boundary = match_facets<Dim>(mesh.cells, mesh.vertex_count()).boundary;
+    std::vector<Eigen::Index> chosen;
+    for (Eigen::Index i = 0; i < boundary.cols(); ++i) {
+        const auto facet = boundary.col(i);
+        if (std::all_of(facet.begin(), facet.end(),
+                        [&](std::uint32_t vertex) { return is_selected[vertex]; })) {
+            chosen.push_back(i);
+        }
+    }
+    if (chosen.empty()) {
+        throw Error(place_and_name(load)
+                    + " has a pressure, but no facet of the boundary with all of its "
+                    + std::to_string(Dim) + " vertices selected; select more of the boundary");
+    }
+    Simplices<Dim> facets = boundary(Eigen::all, chosen);
+    facets.array() += first_vertex;
+    return facets;
+}
+
+// Whether vertices are held where they are for good.
+template <int Dim>
+bool is_still(const std::vector<std::uint32_t>& vertices, const Bodies<Dim>& bodies) {
+    std::vector<std::uint32_t> fixed;
+    for (const DirichletSet<Dim>& set : bodies.dirichlet_sets) {
+        if (set.motions.empty()) {
+            fixed.insert(fixed.end(), set.vertices.begin(), set.vertices.end());
+        }
+    }
+    std::sort(fixed.begin(), fixed.end());
+    return std::includes(fixed.begin(), fixed.end(), vertices.begin(), vertices.end());
+}
+
+// The second derivative of pressure times volume that one facet has a part of:
+//
+//     p / (2 Dim) (S B + B^T S^T),   B = (slopes of the normal by each corner), S = (1, 1, ..)^T.
+//
+// B S = 0, since a facet moved as a whole keeps its normal. So with B = sum of s_k u_k w_k^T the
+// eigenvalues are plus and minus p / (2 sqrt(Dim)) s_k, with S u_k / sqrt(Dim) plus and minus w_k,
+// and filtering takes no more than the root of B B^T, Dim x Dim.
+template <int Dim>
+class FacetHessian {
+public:
+    FacetHessian(const Normal<Dim>& normal, double pressure, Filter filter)
+        : slopes_(normal.slopes), scale_(pressure / (2 * Dim)) {
+        if (filter == Filter::None) {
+            return;
+        }
+        // Clamped: half of the absolute values added to half of what it is.
+        own_ = filter == Filter::Clamp ? 0.5 : 0;
+        const double absolute = std::abs(scale_) * std::sqrt(double{Dim}) * (1 - own_);
+        Square<Dim> gram = Square<Dim>::Zero();
+        for (const Square<Dim>& slope : slopes_) {
+            gram += slope * slope.transpose();
+        }
+        const Eigen::SelfAdjointEigenSolver<Square<Dim>> solver(gram);
+        const Vector<Dim> roots = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
+        const double least = 1e-12 * roots.maxCoeff();
+        const Vector<Dim> inverses =
+            (roots.array() > least).select(roots.cwiseInverse(), Vector<Dim>::Zero());
+        const auto& Q = solver.eigenvectors();
+        same_ = absolute / Dim * Q * roots.asDiagonal() * Q.transpose();
+        apart_ = absolute * Q * inverses.asDiagonal() * Q.transpose();
+    }
+
+    [[nodiscard]] Square<Dim> block(int a, int b) const {
+        return own_ * scale_ * (slopes_[b] + slopes_[a].transpose()) + same_
+               + slopes_[a].transpose() * apart_ * slopes_[b];
+    }
+
+private:
+    const std::array<Square<Dim>, Dim>& slopes_;
+    double scale_;
+    double own_ = 1;
+    Square<Dim> same_ = Square<Dim>::Zero();
+    Square<Dim> apart_ = Square<Dim>::Zero();
+};
+
+}  // namespace
+
+template <int Dim>
+PressureLoads<Dim>::PressureLoads(const Workers& workers,
+                                  const Scene& scene,
+                                  const Bodies<Dim>& bodies)
+    : workers_(&workers) {
+    for (const Load& load : scene.loads) {
+        if (load.pressure != 0) {
+            regions_.push_back(make_region(load, scene, bodies));
+            hold_walls(regions_.back(), bodies.rest);
+        }
+    }
+}
+
+template <int Dim>
+typename PressureLoads<Dim>::Region PressureLoads<Dim>::make_region(const Load& load,
+                                                                    const Scene& scene,
+                                                                    const Bodies<Dim>& bodies) {
+    Region region;
+    region.body = index_of(scene, load.body);
+    region.pressure = load.pressure;
+    region.keyframes = load.keyframes;
+    region.facets =
+        select_facets<Dim>(load, bodies.meshes[region.body],
+                           static_cast<std::uint32_t>(bodies.first_vertex[region.body]));
+    const Eigen::Index surface = region.facets.cols();
+    const auto walls = walls_of<Dim>(region.facets);
+    region.walls = static_cast<Eigen::Index>(walls.size());
+    region.facets.conservativeResize(Dim, surface + region.walls);
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+        region.facets.col(surface + static_cast<Eigen::Index>(i)) = walls[i];
+        region.rim.insert(region.rim.end(), walls[i].begin() + 1, walls[i].end());
+    }
+    std::sort(region.rim.begin(), region.rim.end());
+    region.rim.erase(std::unique(region.rim.begin(), region.rim.end()), region.rim.end());
+    region.is_stored = is_still<Dim>(region.rim, bodies);
+    return region;
+}
+
+// The apex and the walls' part of the gradient, as at x.
+template <int Dim>
+void PressureLoads<Dim>::hold_walls(Region& region, const Positions<Dim>& x) {
+    if (region.rim.empty()) {
+        region.apex = x.col(region.facets(0, 0));  // any point, best a near one
+        return;
+    }
+    region.start = x(Eigen::all, region.rim);
+    region.apex = region.start.rowwise().mean();
+    region.taken.setZero(Dim, region.start.cols());
+    for (const auto& wall : region.facets.rightCols(region.walls).colwise()) {
+        const Normal<Dim> normal(corners_of<Dim>(wall, x, region.apex));
+        for (int a = 1; a < Dim; ++a) {
+            const auto place = std::lower_bound(region.rim.begin(), region.rim.end(), wall[a]);
+            region.taken.col(place - region.rim.begin()) += normal.value / Dim;
+        }
+    }
+}
+
+template <int Dim>
+bool PressureLoads<Dim>::set_time(const TimeSpan& step) {
+    bool has_changed = false;
+    for (Region& region : regions_) {
+        const double factor = factor_at(region.keyframes, step.end);
+        region.is_changing = factor != factor_at(region.keyframes, step.begin);
+        has_changed = has_changed || factor != region.factor;
+        region.factor = factor;
+    }
+    return has_changed;
+}
+
+template <int Dim>
+void PressureLoads<Dim>::add_couplings(Couplings& couplings) const {
+    for (const Region& region : regions_) {
+        if (region.is_changing) {
+            couplings.driven.push_back(region.body);
+        }
+    }
+}
+
+template <int Dim>
+bool PressureLoads<Dim>::begin_step(const StepStart<Dim>& start) {
+    for (Region& region : regions_) {
+        hold_walls(region, start.positions);
+    }
+    return true;
+}
+
+template <int Dim>
+double PressureLoads<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
+    x_ = &x;
+    stored_ = 0;
+    lagged_ = 0;
+    rounding_ = 0;
+    std::vector<Point> normals;
+    for (const Region& region : regions_) {
+        const double pressure = region.factor * region.pressure;
+        normals.resize(static_cast<std::size_t>(region.facets.cols()));
+        constexpr Eigen::Index kChunk = 256;
+        const Eigen::Index count = region.facets.cols();
+        workers_->for_each((count + kChunk - 1) / kChunk, [&](Eigen::Index chunk) {
+            for (Eigen::Index i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, count); ++i) {
+                normals[static_cast<std::size_t>(i)] =
+                    Normal<Dim>(corners_of<Dim>(region.facets.col(i), x, region.apex)).value;
+            }
+        });
+        double energy = 0;
+        double size = 0;
+        for (Eigen::Index i = 0; i < count; ++i) {
+            const auto facet = region.facets.col(i);
+            const Point& normal = normals[static_cast<std::size_t>(i)];
+            for (int a = 0; a < Dim; ++a) {
+                if (facet[a] != kNoVertex) {
+                    gradient.col(facet[a]) += pressure / Dim * normal;
+                }
+            }
+            if (facet[0] != kNoVertex) {  // the walls meet the apex
+                const double cone = pressure / Dim * normal.dot(x.col(facet[0]) - region.apex);
+                energy += cone;
+                size += std::abs(cone);
+            }
+        }
+        for (std::size_t i = 0; i < region.rim.size(); ++i) {
+            const auto column = static_cast<Eigen::Index>(i);
+            const Point taken = pressure * region.taken.col(column);
+            gradient.col(region.rim[i]) -= taken;
+            energy -= taken.dot(x.col(region.rim[i]) - region.start.col(column));
+        }
+        (region.is_stored ? stored_ : lagged_) += energy;
+        rounding_ += size * std::numeric_limits<double>::epsilon();
+    }
+    return stored_ + lagged_;
+}
+
+template <int Dim>
+void PressureLoads<Dim>::add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) {
+    constexpr Eigen::Index kSide = Dim * Dim;
+    Eigen::Index total = 0;
+    for (const Region& region : regions_) {
+        total += region.facets.cols();
+    }
+    hessians_.resize(static_cast<std::size_t>(total * kSide * kSide));
+    system.reserve_stencils(static_cast<std::size_t>(total));
+    double* next = hessians_.data();
+    for (const Region& region : regions_) {
+        double* const first = next;
+        const double pressure = region.factor * region.pressure;
+        workers_->for_each(region.facets.cols(), [&](Eigen::Index i) {
+            const Normal<Dim> normal(corners_of<Dim>(region.facets.col(i), *x_, region.apex));
+            const FacetHessian<Dim> hessian(normal, pressure, filter);
+            Eigen::Map<Eigen::Matrix<double, kSide, kSide>> matrix(first + i * kSide * kSide);
+            for (int a = 0; a < Dim; ++a) {
+                for (int b = 0; b < Dim; ++b) {
+                    matrix.template block<Dim, Dim>(Dim * a, Dim * b) = hessian.block(a, b);
+                }
+            }
+        });
+        next += region.facets.cols() * kSide * kSide;
+        for (Eigen::Index i = 0; i < region.facets.cols(); ++i) {
+            // Of a wall all but the apex, which comes first.
+            const int skipped = region.facets(0, i) == kNoVertex ? 1 : 0;
+            system.add_stencil({.vertices = &region.facets(skipped, i),
+                                .matrix = first + i * kSide * kSide + skipped * Dim * (kSide + 1),
+                                .count = Dim - skipped,
+                                .stride = static_cast<std::int32_t>(kSide),
+                                .scale = weight});
+        }
+    }
+}
+
+template <int Dim>
+std::vector<TermEnergy> PressureLoads<Dim>::energies() const {
+    std::vector<TermEnergy> parts;
+    const auto has = [&](bool is_stored) {
+        return std::any_of(regions_.begin(), regions_.end(),
+                           [&](const Region& region) { return region.is_stored == is_stored; });
+    };
+    if (has(true)) {
+        parts.push_back({"pressure", stored_});
+    }
+    if (has(false)) {
+        parts.push_back({.name = "open_pressure", .energy = lagged_, .is_stored = false});
+    }
+    return parts;
+}
+
+template class PressureLoads<3>;
+template class PressureLoads<4>;
+
+}  // namespace pent::simulator

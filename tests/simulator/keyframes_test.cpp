@@ -1,0 +1,71 @@
+#include "model/keyframes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace pent::simulator {
+namespace {
+
+std::vector<Keyframe> any_keyframes(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> gap(0.05, 2);
+    std::uniform_real_distribution<double> factor(-1, 1);
+    std::vector<Keyframe> keyframes;
+    double time = 0.3;
+    for (int i = 0; i < 8; ++i) {
+        keyframes.push_back({time, factor(random)});
+        time += gap(random);
+    }
+    return keyframes;
+}
+
+TEST(Keyframes, AreMetExactlyAndHeldOutside) {
+    const std::vector<Keyframe> keyframes = any_keyframes(1);
+    for (const Keyframe& keyframe : keyframes) {
+        EXPECT_EQ(factor_at(keyframes, keyframe.time), keyframe.factor);
+    }
+    EXPECT_EQ(factor_at(keyframes, 0), keyframes.front().factor);
+    EXPECT_EQ(factor_at(keyframes, 1e9), keyframes.back().factor);
+    EXPECT_EQ(factor_at({{2, 0.5}}, 1), 0.5);
+    EXPECT_EQ(factor_at({}, 1), 1);
+}
+
+// From 0 to 1 within a second: s^2 (3 - 2 s).
+TEST(Keyframes, MakeTheSmoothStepBetweenTwo) {
+    const std::vector<Keyframe> two = {{1, 0}, {2, 1}};
+    EXPECT_DOUBLE_EQ(factor_at(two, 1.5), 0.5);
+    EXPECT_DOUBLE_EQ(factor_at(two, 1.25), 0.15625);
+}
+
+TEST(Keyframes, MakeACurveWithoutKinksThatStaysBetweenItsNeighbors) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        const std::vector<Keyframe> keyframes = any_keyframes(seed);
+        for (std::size_t i = 0; i + 1 < keyframes.size(); ++i) {
+            const auto [low, high] = std::minmax(keyframes[i].factor, keyframes[i + 1].factor);
+            const double width = keyframes[i + 1].time - keyframes[i].time;
+            for (int k = 1; k < 50; ++k) {
+                const double factor = factor_at(keyframes, keyframes[i].time + 0.02 * k * width);
+                EXPECT_GE(factor, low - 1e-12);
+                EXPECT_LE(factor, high + 1e-12);
+            }
+        }
+        // Slopes from both sides agree up to h times the curvature: below 40 for gaps of 0.05.
+        constexpr double kStep = 1e-6;
+        for (const auto& [time, factor] : keyframes) {
+            const double left = (factor - factor_at(keyframes, time - kStep)) / kStep;
+            const double right = (factor_at(keyframes, time + kStep) - factor) / kStep;
+            EXPECT_NEAR(left, right, 1e-2);
+        }
+    }
+}
+
+// Rises in one direction keep going through a keyframe between them.
+TEST(Keyframes, DoNotStopWhereTheCurveGoesOn) {
+    const std::vector<Keyframe> rising = {{0, 0}, {1, 1}, {3, 2}};
+    EXPECT_GT(factor_at(rising, 1.001) - factor_at(rising, 0.999), 0.0005);
+}
+
+}  // namespace
+}  // namespace pent::simulator

@@ -1,0 +1,234 @@
+#include "potentials/pressure_loads.h"
+
+#include "potential_laws.h"
+
+#include <pent/error.h>
+#include <pent/facets.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+namespace pent::simulator {
+namespace {
+
+using test::any_rotation;
+using test::Dimensions;
+using test::expect_derivatives;
+using test::expect_invariance_under_rigid_motion;
+using test::gradient_of;
+using test::hessian_of;
+using test::Setting;
+using test::shaken;
+using test::value_of;
+
+constexpr double kPressure = 7;
+
+template <typename T>
+class PressureLoadsTest : public testing::Test {};
+TYPED_TEST_SUITE(PressureLoadsTest, Dimensions);
+
+template <int Dim>
+Scene pressed_scene(const Selection& selection) {
+    Scene scene = test::box_scene<Dim>();
+    scene.loads = {{.body = "box",
+                    .select = {selection},
+                    .force = {},
+                    .pressure = kPressure,
+                    .keyframes = {}}};
+    return scene;
+}
+
+// The facets at x_0 <= 0.
+template <int Dim>
+Selection one_side() {
+    return HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(Dim, 0), .offset = 1e-9};
+}
+
+// One side and half of those around it: a rim with corners.
+template <int Dim>
+Selection one_half() {
+    return HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(Dim, 0), .offset = 0.3};
+}
+
+template <int Dim>
+void begin(PressureLoads<Dim>& loads, const Positions<Dim>& x) {
+    const Positions<Dim> none = Positions<Dim>::Zero(Dim, x.cols());
+    EXPECT_TRUE(loads.begin_step({x, none, none, 0.01, false}));
+}
+
+// -p n on each unit of every selected facet, by cofactors of its edges.
+template <int Dim>
+Positions<Dim> expected_forces(const Setting<Dim>& setting,
+                               const Positions<Dim>& x,
+                               const std::function<bool(std::uint32_t)>& is_selected) {
+    Positions<Dim> forces = Positions<Dim>::Zero(Dim, x.cols());
+    const auto& mesh = setting.bodies.meshes[0];
+    const Simplices<Dim> facets = match_facets<Dim>(mesh.cells, mesh.vertex_count()).boundary;
+    for (const auto& facet : facets.colwise()) {
+        if (!std::all_of(facet.begin(), facet.end(), is_selected)) {
+            continue;
+        }
+        Eigen::Matrix<double, Dim, Dim> edges;  // n . v = det[v, edges] / (Dim - 1)!
+        for (int k = 1; k < Dim; ++k) {
+            edges.col(k) = x.col(facet[k]) - x.col(facet[0]);
+        }
+        for (int axis = 0; axis < Dim; ++axis) {
+            edges.col(0) = Eigen::Matrix<double, Dim, 1>::Unit(axis);
+            for (const std::uint32_t vertex : facet) {
+                forces(axis, vertex) -=
+                    kPressure * edges.determinant() / ((Dim == 3 ? 2 : 6) * Dim);
+            }
+        }
+    }
+    return forces;
+}
+
+template <int Dim>
+double volume_of(const Setting<Dim>& setting, const Positions<Dim>& x) {
+    double volume = 0;
+    for (Eigen::Index cell = 0; cell < setting.bodies.cells.cols(); ++cell) {
+        volume += cell_volume<Dim>(x, setting.bodies.cells, cell);
+    }
+    return volume;
+}
+
+TYPED_TEST(PressureLoadsTest, OnAClosedSurfaceIsPressureTimesVolumeAndNeitherPushesNorTurns) {
+    constexpr int kDim = TypeParam::value;
+    const Setting<kDim> setting(pressed_scene<kDim>(EverythingSelection{}), 2);
+    PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies);
+    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.05, 1);
+    const double expected = kPressure * volume_of<kDim>(setting, x);
+    EXPECT_NEAR(value_of<kDim>(loads, x), expected, 1e-13 * expected);
+    expect_derivatives<kDim>(setting, loads, x);
+    expect_invariance_under_rigid_motion<kDim>(loads, x);
+    const Positions<kDim> forces =
+        expected_forces<kDim>(setting, x, [](std::uint32_t) { return true; });
+    EXPECT_LT((gradient_of<kDim>(loads, x) + forces).norm(), 1e-13 * forces.norm());
+    EXPECT_EQ(loads.energies().at(0).name, "pressure");
+    EXPECT_TRUE(loads.energies().at(0).is_stored);
+}
+
+// Where facets have no area left, and where the body is inside out.
+TYPED_TEST(PressureLoadsTest, HasItsDerivativesWhereTheBodyIsFlatInsideOutOrAPoint) {
+    constexpr int kDim = TypeParam::value;
+    const std::vector<Selection> selections = {EverythingSelection{}, one_half<kDim>()};
+    for (const Selection& selection : selections) {
+        const Setting<kDim> setting(pressed_scene<kDim>(selection), 2);
+        PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies);
+        Positions<kDim> flat = shaken<kDim>(setting.bodies.rest, 0.02, 4);
+        flat.row(1).setConstant(0.25);
+        Positions<kDim> inside_out = shaken<kDim>(setting.bodies.rest, 0.02, 5);
+        inside_out.row(0) *= -1;
+        const std::vector<Positions<kDim>> states = {flat, inside_out};
+        for (const Positions<kDim>& x : states) {
+            expect_derivatives<kDim>(setting, loads, x);
+        }
+        const Positions<kDim> point = Positions<kDim>::Zero(kDim, flat.cols());
+        begin<kDim>(loads, point);
+        for (const Filter filter : {Filter::None, Filter::Clamp, Filter::Absolute}) {
+            const auto pattern = make_pattern<kDim>(setting.bodies.cells, setting.dofs);
+            EXPECT_TRUE(hessian_of<kDim>(setting, pattern, loads, point, filter).allFinite());
+        }
+    }
+}
+
+TYPED_TEST(PressureLoadsTest, OnAnOpenSurfaceIsNormalToEachFacetAsItIsAtTheStartOfAStep) {
+    constexpr int kDim = TypeParam::value;
+    for (const double offset : {1e-9, 0.3}) {
+        const Selection selection = offset > 0.1 ? one_half<kDim>() : one_side<kDim>();
+        const Setting<kDim> setting(pressed_scene<kDim>(selection), 2);
+        PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies);
+        const auto is_selected = [&](std::uint32_t v) {
+            return setting.bodies.rest(0, v) <= offset;
+        };
+        const std::vector<Positions<kDim>> states = {setting.bodies.rest,
+                                                     shaken<kDim>(setting.bodies.rest, 0.05, 2),
+                                                     any_rotation<kDim>() * setting.bodies.rest};
+        for (const Positions<kDim>& x : states) {
+            begin<kDim>(loads, x);
+            const Positions<kDim> forces = expected_forces<kDim>(setting, x, is_selected);
+            EXPECT_LT((gradient_of<kDim>(loads, x) + forces).norm(), 1e-13 * forces.norm());
+            // Behind the start it is the gradient of its energy all the same.
+            expect_derivatives<kDim>(setting, loads, shaken<kDim>(x, 0.03, 3));
+        }
+        EXPECT_EQ(loads.energies().at(0).name, "open_pressure");
+        EXPECT_FALSE(loads.energies().at(0).is_stored);
+    }
+}
+
+// Vertices inside of a rim are pushed as they should be wherever they go within the step; a rim
+// that is held for good makes all of it an energy.
+TYPED_TEST(PressureLoadsTest, WithinAFixedRimFollowsTheSurfaceExactly) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = pressed_scene<kDim>(one_half<kDim>());
+    // All but the side x_0 = 0: the rim and what is behind it.
+    const HalfSpaceSelection behind{.normal = -Eigen::VectorXd::Unit(kDim, 0), .offset = -0.1};
+    scene.constraints = {{.body = "box", .select = {behind}, .motion = {}}};
+    const Setting<kDim> setting(scene, 2);
+    PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies);
+    EXPECT_TRUE(loads.energies().at(0).is_stored);
+    Positions<kDim> x = setting.bodies.rest;
+    for (const std::uint32_t vertex : setting.dofs.vertices()) {
+        x.col(vertex) = shaken<kDim>(x.col(vertex), 0.1, 7 + vertex);
+    }
+    const Positions<kDim> forces = expected_forces<kDim>(
+        setting, x, [&](std::uint32_t v) { return setting.bodies.rest(0, v) <= 0.3; });
+    const Positions<kDim> gradient = gradient_of<kDim>(loads, x);
+    for (const std::uint32_t vertex : setting.dofs.vertices()) {
+        EXPECT_LT((gradient.col(vertex) + forces.col(vertex)).norm(), 1e-13 * forces.norm());
+    }
+    begin<kDim>(loads, x);
+    const double value = value_of<kDim>(loads, x);
+    begin<kDim>(loads, setting.bodies.rest);
+    EXPECT_NEAR(value_of<kDim>(loads, x), value, 1e-13 * std::abs(value));
+}
+
+// Absolute values are what is clamped from above and from below, whose difference it is.
+TYPED_TEST(PressureLoadsTest, HasFilteredHessiansThatBoundItFromAbove) {
+    constexpr int kDim = TypeParam::value;
+    for (const double sign : {1.0, -1.0}) {
+        Scene scene = pressed_scene<kDim>(one_half<kDim>());
+        scene.loads[0].pressure *= sign;
+        const Setting<kDim> setting(scene, 2);
+        PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies);
+        const auto pattern = make_pattern<kDim>(setting.bodies.cells, setting.dofs);
+        const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.05, 9);
+        const auto at = [&](Filter filter) {
+            return hessian_of<kDim>(setting, pattern, loads, x, filter);
+        };
+        const Eigen::MatrixXd exact = at(Filter::None);
+        const Eigen::MatrixXd clamped = at(Filter::Clamp);
+        const Eigen::MatrixXd absolute = at(Filter::Absolute);
+        const auto least = [](const Eigen::MatrixXd& matrix) {
+            return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues()[0];
+        };
+        EXPECT_LT(least(exact), -1e-3 * exact.norm());
+        EXPECT_GT(least(clamped), -1e-12 * clamped.norm());
+        EXPECT_GT(least(clamped - exact), -1e-12 * clamped.norm());
+        EXPECT_LT((absolute - (2 * clamped - exact)).norm(), 1e-12 * absolute.norm());
+    }
+}
+
+TYPED_TEST(PressureLoadsTest, RefusesASelectionWithoutAWholeFacet) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene =
+        pressed_scene<kDim>(BallSelection{.center = Eigen::VectorXd::Zero(kDim), .radius = 0.01});
+    scene.loads[0].source = "scene.toml:7:3";
+    try {
+        const Setting<kDim> setting(scene, 2);
+        const PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  "scene.toml:7:3: load on \"box\" has a pressure, but no facet of the boundary"
+                  " with all of its "
+                      + std::to_string(kDim) + " vertices selected; select more of the boundary");
+    }
+}
+
+}  // namespace
+}  // namespace pent::simulator
