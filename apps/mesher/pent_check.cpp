@@ -175,6 +175,22 @@ void check_mesh(Program& program, const std::filesystem::path& path) {
     program.say("finished: " + path.string() + " is sound");
 }
 
+// What a frame has of every vertex.
+template <int Dim>
+std::vector<std::string> quantities_of(const pent::Frame<Dim>& frame) {
+    std::vector<std::string> names = {"position"};
+    if (frame.velocities.cols() > 0) {
+        names.emplace_back("velocity");
+    }
+    if (frame.contact_forces.cols() > 0) {
+        names.emplace_back("contact_force");
+    }
+    for (const pent::VertexField& field : frame.fields) {
+        names.push_back(field.name);
+    }
+    return names;
+}
+
 template <int Dim>
 void check_frame(Program& program, const std::filesystem::path& path) {
     const pent::Frame<Dim> frame = pent::read_frame<Dim>(path);
@@ -183,13 +199,17 @@ void check_frame(Program& program, const std::filesystem::path& path) {
                           static_cast<Long>(frame.step), frame.time,
                           static_cast<Long>(frame.positions.cols())));
     program.say(pent::apps::box_line<Dim>(frame.positions));
-    program.report()["frame"] = {{"dimension", Dim},
-                                 {"mesh", frame.mesh_name},
-                                 {"frame", frame.frame},
-                                 {"step", frame.step},
-                                 {"time", frame.time},
-                                 {"vertices", frame.positions.cols()},
-                                 {"box", pent::apps::box_json<Dim>(frame.positions)}};
+    const std::vector<std::string> quantities = quantities_of(frame);
+    std::string list;
+    for (const std::string& name : quantities) {
+        list += (list.empty() ? "" : ", ") + name;
+    }
+    program.say("of vertices " + list);
+    program.report()["frame"] = {
+        {"dimension", Dim},         {"mesh", frame.mesh_name},
+        {"frame", frame.frame},     {"step", frame.step},
+        {"time", frame.time},       {"vertices", frame.positions.cols()},
+        {"quantities", quantities}, {"box", pent::apps::box_json<Dim>(frame.positions)}};
     program.say("finished: " + path.string() + " is sound");
 }
 

@@ -143,15 +143,20 @@ void add_view_options(CLI::App& cli, ViewArguments& arguments) {
                    "Distance of the eye of a perspective from the slice, m; default: three times "
                    "the reach of the bodies")
         ->type_name("D");
+    std::vector<std::string> quantities;
+    for (const viewer::ColorBy by : viewer::all_colorings()) {
+        quantities.emplace_back(viewer::name_of(by));
+    }
     cli.add_option("--color", arguments.color,
-                   "Color by body, w, speed, strain or force (of contact); default: body")
-        ->check(CLI::IsMember({"body", "w", "speed", "strain", "force"}).description(""))
+                   "Color by body, w, speed, strain, force (of contact), reaction or "
+                   "energy_density; default: body")
+        ->check(CLI::IsMember(quantities).description(""))
         ->type_name("WHAT");
 }
 
 viewer::ColorBy to_color(const ViewArguments& arguments) {
     using viewer::ColorBy;
-    for (const ColorBy by : {ColorBy::W, ColorBy::Speed, ColorBy::Strain, ColorBy::Force}) {
+    for (const ColorBy by : viewer::all_colorings()) {
         if (arguments.color == viewer::name_of(by)) {
             return by;
         }

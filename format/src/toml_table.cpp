@@ -208,13 +208,9 @@ Eigen::VectorXd TableReader::vector(std::string_view key,
     return vector;
 }
 
-std::size_t TableReader::choice(std::string_view key,
-                                const std::vector<std::string_view>& names,
-                                std::size_t fallback) {
-    if (!has(key)) {
-        return fallback;
-    }
-    const std::string value = text(key);
+std::size_t TableReader::place_of(std::string_view key,
+                                  const std::string& value,
+                                  const std::vector<std::string_view>& names) const {
     const auto found = std::find(names.begin(), names.end(), value);
     if (found == names.end()) {
         std::string list;
@@ -226,6 +222,35 @@ std::size_t TableReader::choice(std::string_view key,
                       + did_you_mean(value, {names.begin(), names.end()}));
     }
     return static_cast<std::size_t>(found - names.begin());
+}
+
+std::size_t TableReader::choice(std::string_view key,
+                                const std::vector<std::string_view>& names,
+                                std::size_t fallback) {
+    return has(key) ? place_of(key, text(key), names) : fallback;
+}
+
+std::vector<std::size_t> TableReader::choices(std::string_view key,
+                                              const std::vector<std::string_view>& names) {
+    std::vector<std::size_t> chosen;
+    if (!has(key)) {
+        return chosen;
+    }
+    const toml::array* array = find(key)->as_array();
+    if (array == nullptr) {
+        fail(key, in_quotes(key) + " is " + type_of(*find(key)) + "; expected a list of names");
+    }
+    for (const toml::node& entry : *array) {
+        if (!entry.is_string()) {
+            fail(key, in_quotes(key) + " has the entry " + type_of(entry) + "; expected a name");
+        }
+        const std::string& value = entry.as_string()->get();
+        chosen.push_back(place_of(key, value, names));
+        if (std::count(chosen.begin(), chosen.end(), chosen.back()) > 1) {
+            fail(key, in_quotes(key) + " has " + in_quotes(value) + " twice; expected it once");
+        }
+    }
+    return chosen;
 }
 
 TableReader TableReader::table(std::string_view key) {

@@ -38,6 +38,7 @@ using simulator::Snapshot;
 using simulator::SolverOptions;
 using simulator::Spin;
 using simulator::StepReport;
+using simulator::VertexQuantity;
 using simulator::YoungPoisson;
 
 }  // namespace pent::runs

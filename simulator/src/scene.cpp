@@ -53,6 +53,9 @@ struct Checker {
             check_part(part, prefix + std::string(field.key) + ".");
         }
     }
+    template <typename Value>
+    requires std::is_enum_v<Value>
+    void operator()(const Field& /*field*/, const std::vector<Value>& /*words*/) const {}
     void operator()(const Field& field, const Eigen::VectorXd& value) const {
         if (!field.does_apply || (value.size() == 0 && field.may_lack)) {
             return;

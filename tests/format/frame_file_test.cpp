@@ -22,6 +22,9 @@ Frame<4> sample() {
     frame.positions = Positions<4>::Random(4, 9);  // Eigen's generator has a fixed seed
     frame.velocities = Positions<4>::Random(4, 9);
     frame.contact_forces = Positions<4>::Random(4, 9);
+    frame.fields = {{"energy_density", Eigen::MatrixXd::Random(1, 9)},
+                    {"reaction", Eigen::MatrixXd::Random(4, 9)},
+                    {"x_y", Eigen::MatrixXd::Random(1, 9)}};
     frame.mesh_name = "body.pent";
     frame.mesh_crc = 0x0badcafe;
     frame.frame = 123;
@@ -39,6 +42,7 @@ TEST(FrameFile, RoundTripIsBitExact) {
         EXPECT_EQ(std::memcmp(read.positions.data(), frame.positions.data(), 9 * 32), 0);
         EXPECT_EQ(std::memcmp(read.velocities.data(), frame.velocities.data(), 9 * 32), 0);
         EXPECT_EQ(std::memcmp(read.contact_forces.data(), frame.contact_forces.data(), 9 * 32), 0);
+        EXPECT_EQ(read.fields, frame.fields);
         EXPECT_EQ(read.mesh_name, frame.mesh_name);
         EXPECT_EQ(read.mesh_crc, frame.mesh_crc);
         EXPECT_EQ(read.frame, frame.frame);
@@ -95,6 +99,25 @@ TEST(FrameFile, RefusesVectorsThatAreNotOneAVertex) {
     frame.contact_forces.setZero();
     expect_contains(error_of([&] { write_frame(folder / "f.pent", frame); }),
                     {"f.pent", "3 contact forces", "none or 9"});
+}
+
+TEST(FrameFile, FindsAFieldByItsName) {
+    const Frame<4> frame = sample();
+    EXPECT_EQ(find_field(frame, "reaction"), &frame.fields[1]);
+    EXPECT_EQ(find_field(frame, "velocity"), nullptr);
+}
+
+TEST(FrameFile, RefusesFieldsThatAreNotOneOrOneAnAxisAVertexOrNotFinite) {
+    const test::TempFolder folder;
+    Frame<4> frame = sample();
+    frame.fields[1].values.resize(3, 9);
+    frame.fields[1].values.setZero();
+    expect_contains(error_of([&] { write_frame(folder / "f.pent", frame); }),
+                    {"f.pent: reaction has 3 x 9 values, expected 1 or 4 x 9"});
+    frame = sample();
+    frame.fields[0].values(0, 5) = std::numeric_limits<double>::infinity();
+    expect_contains(error_of([&] { write_frame(folder / "f.pent", frame); }),
+                    {"vertex 5: energy_density is not finite"});
 }
 
 TEST(FrameFile, IsNeverWrittenWithANumberThatIsNotFinite) {

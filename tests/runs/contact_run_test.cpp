@@ -35,7 +35,7 @@ Scene falling_cubes(const TempFolder& folder) {
     scene.gravity[1] = -9.8;
     scene.frames = 4;
     scene.steps_per_frame = 2;
-    scene.output = {.contact_forces = true, .contact_pairs = true};
+    scene.output = {.vertex = {simulator::VertexQuantity::ContactForce}, .contact_pairs = true};
     scene.obstacles = {
         {.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d::UnitY(), .offset = -0.01}}};
     for (Body& body : scene.bodies) {

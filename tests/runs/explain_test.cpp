@@ -53,7 +53,7 @@ TEST(Explain, ListsEveryTermWithWhatSwitchesIt) {
     const Explanation off = explain(scene, 1);
     for (const std::string name :
          {"gravity", "damping", "constraints", "contact between bodies", "contact within bodies",
-          "obstacles", "friction", "sleeping", "output of contact"}) {
+          "obstacles", "friction", "sleeping", "output"}) {
         EXPECT_FALSE(term(off, name).is_on) << name;
         EXPECT_EQ(term(off, name).seconds, 0) << name;
         EXPECT_EQ(term(off, name).bytes, 0) << name;
@@ -68,12 +68,12 @@ TEST(Explain, ListsEveryTermWithWhatSwitchesIt) {
     scene.obstacles = {
         {.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d::UnitY(), .offset = -9}}};
     scene.sleep = Sleep{};
-    scene.output.contact_forces = true;
+    scene.output.vertex = {simulator::VertexQuantity::ContactForce};
     scene.constraints = {test::hold(EverythingSelection{}, test::still(4))};
     const Explanation on = explain(scene, 1);
     for (const std::string name :
          {"gravity", "damping", "constraints", "contact between bodies", "contact within bodies",
-          "obstacles", "friction", "sleeping", "output of contact", "elasticity of other"}) {
+          "obstacles", "friction", "sleeping", "output", "elasticity of other"}) {
         EXPECT_TRUE(term(on, name).is_on) << name;
     }
     EXPECT_FALSE(term(on, "elasticity of box").is_on);  // all of it is held

@@ -90,7 +90,7 @@ filter = "absolute"
 max_halvings = 3
 
 [output]
-contact_forces = true
+vertex = ["energy_density", "contact_force"]
 contact_pairs = true
 )";
 
@@ -151,7 +151,8 @@ TEST(ParseScene, ReadsEveryKey) {
     EXPECT_EQ(scene.contact->stiffness, 2500);
     EXPECT_TRUE(scene.contact->self);
     EXPECT_EQ(scene.contact->filter, Filter::Absolute);
-    EXPECT_TRUE(scene.output.contact_forces);
+    EXPECT_EQ(scene.output.vertex, (std::vector{simulator::VertexQuantity::EnergyDensity,
+                                                simulator::VertexQuantity::ContactForce}));
     EXPECT_TRUE(scene.output.contact_pairs);
     EXPECT_EQ(scene.damping->stiffness, 0.001);
     ASSERT_TRUE(scene.sleep.has_value());
@@ -169,9 +170,14 @@ TEST(ParseScene, FillsInDefaults) {
     EXPECT_EQ(scene.frames, 100);
     EXPECT_FALSE(scene.damping.has_value());
     EXPECT_FALSE(scene.contact.has_value());
-    EXPECT_FALSE(scene.output.contact_forces);
+    EXPECT_TRUE(scene.output.vertex.empty());
     EXPECT_EQ(scene.bodies[0].place.scale, 1);
     EXPECT_NEAR(young_from_lame(4, scene.bodies[0].material.lame).poisson, 0.28, 1e-14);
+}
+
+TEST(ParseScene, TakesTheKeyOfVersion010ForForcesOfContact) {
+    EXPECT_EQ(parse(with("[output]\ncontact_forces = true\n")).output.vertex,
+              std::vector{simulator::VertexQuantity::ContactForce});
 }
 
 TEST(ParseScene, FillsInDefaultsOfContact) {
@@ -328,6 +334,22 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{with("[contact]\nstiffness = -1\n"), "above 0"},
         Bad{with("[contact]\nself = 1\n"), "\"self\" is 1; expected true or false"},
         Bad{with("[output]\ncontact_force = true\n"), "did you mean \"contact_forces\"?"},
+        Bad{with("[output]\nvertex = true\n"),
+            "scene.toml:6:10: \"vertex\" is true; expected a list"},
+        Bad{with("[output]\nvertex = [1]\n"), "has the entry 1; expected a name"},
+        Bad{with("[output]\nvertex = [\"reactions\"]\n"),
+            "expected one of \"contact_force\", \"reaction\", \"energy_density\"; did you mean"},
+        Bad{with("[output]\nvertex = [\"reaction\", \"reaction\"]\n"), "\"reaction\" twice"},
+        Bad{with("[[load]]\nbody = \"a\"\nselect = \"everything\"\n"),
+            "a load needs a \"force\" or a \"pressure\""},
+        Bad{with("[[load]]\nbody = \"b\"\nselect = \"everything\"\npressure = 1\n"),
+            "scene.toml:6:8: no body is called \"b\"; did you mean \"a\"?"},
+        Bad{with("[[load]]\nbody = \"a\"\nselect = \"everything\"\npressure = 1\n"
+                 "keyframes = [{ time = 1, factor = 0 }, { time = 1, factor = 2 }]\n"),
+            "scene.toml:9:13: the times of \"keyframes\" must increase"},
+        Bad{with("[[load]]\nbody = \"a\"\nselect = \"everything\"\npressure = 1\n"
+                 "keyframes = [{ time = -1, factor = 0 }]\n"),
+            "\"time\" is -1; expected a number of at least 0"},
         Bad{with("[solver]\nintegrator = \"rk4\"\n"), "\"linear_euler\""},
         Bad{with("[solver]\nelements = \"quadratic\"\n"), "\"smoothed\""},
         Bad{with("[solver]\ntolerance = 1\n"), "below 1"},

@@ -327,7 +327,18 @@ const Keys kSolver = {
     {"max_halvings", 0.95, whole(0, 2)},  // what diverges is to do so soon
 };
 
-const Keys kOutput = {{"contact_forces", 0.6, flag()}, {"contact_pairs", 0.6, flag()}};
+const Keys kOutput = {
+    {"vertex", 0.7,
+     [](Random& random, const Plan&) {
+         Json names = Json::array();
+         for (const char* name : {"contact_force", "reaction", "energy_density"}) {
+             if (random.chance(0.5)) {
+                 names.push_back(name);
+             }
+         }
+         return names;
+     }},
+    {"contact_pairs", 0.6, flag()}};
 
 // ------------------------------------------------------------------------------ what goes together
 

@@ -74,7 +74,7 @@ std::set<std::string> features(const Json& scene) {
     for (const char* path :
          {"scene.dimension", "solver.integrator", "solver.elements", "solver.filter",
           "solver.linear", "solver.preconditioner", "solver.precision", "contact.model",
-          "contact.self", "contact.filter", "output.contact_forces", "output.contact_pairs"}) {
+          "contact.self", "contact.filter", "output.contact_pairs"}) {
         if (const Json value = value_at(scene, path); !value.is_null()) {
             found.insert(std::string(path) + "=" + value.dump());
         }

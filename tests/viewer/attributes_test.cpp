@@ -50,11 +50,11 @@ TEST(VertexStrain, OfAUniformStretchIsThatOfItsMatrix) {
 TEST(VertexForce, IsTheLengthOfTheContactForce) {
     Frame<4> frame;
     frame.positions = Positions<4>::Zero(4, 2);
-    EXPECT_FALSE(has_contact_forces(frame));
+    EXPECT_TRUE(lacks(frame, ColorBy::Force));
     frame.contact_forces.resize(4, 2);
     frame.contact_forces.col(0) << 1, 1, 1, 1;
     frame.contact_forces.col(1) << 0, 3, 0, 4;
-    EXPECT_TRUE(has_contact_forces(frame));
+    EXPECT_FALSE(lacks(frame, ColorBy::Force));
     EXPECT_EQ(vertex_force<4>(frame), Eigen::Vector2d(2, 5));
 }
 
@@ -129,9 +129,17 @@ TEST(VertexValues, AreHeightsOverTheBaseSpaceForW) {
     EXPECT_EQ(vertex_values<4>(body, frame, ColorBy::Body), Eigen::VectorXd::Zero(16));
     pent::test::expect_contains(
         pent::test::error_of([&] { (void)vertex_values<4>(body, frame, ColorBy::Force); }),
-        {"frame 7 of \"box\"", "no contact forces", "contact_forces = true"});
+        {"frame 7 of \"box\"", "no contact forces", "[output] vertex = [\"contact_force\"]"});
     frame.contact_forces = mesh.positions;
     EXPECT_EQ(vertex_values<4>(body, frame, ColorBy::Force), vertex_force<4>(frame));
+    pent::test::expect_contains(
+        pent::test::error_of([&] { (void)vertex_values<4>(body, frame, ColorBy::Reaction); }),
+        {"frame 7 of \"box\"", "no reaction", "[output] vertex = [\"reaction\"]"});
+    frame.fields = {{"energy_density", Eigen::RowVectorXd::LinSpaced(16, 0, 3)},
+                    {"reaction", 2 * mesh.positions}};
+    EXPECT_EQ(vertex_values<4>(body, frame, ColorBy::Reaction), 2 * vertex_force<4>(frame));
+    EXPECT_EQ(vertex_values<4>(body, frame, ColorBy::EnergyDensity),
+              Eigen::VectorXd::LinSpaced(16, 0, 3));
     // In three dimensions nothing has a height.
     Frame<3> flat;
     flat.positions = Positions<3>::Ones(3, 5);
@@ -141,8 +149,7 @@ TEST(VertexValues, AreHeightsOverTheBaseSpaceForW) {
 TEST(ColorBy, HasANameOfItsOwnAndATitleWithItsUnit) {
     std::set<std::string_view> names;
     std::set<std::string_view> titles;
-    for (const ColorBy by :
-         {ColorBy::Body, ColorBy::W, ColorBy::Speed, ColorBy::Strain, ColorBy::Force}) {
+    for (const ColorBy by : all_colorings()) {
         names.insert(name_of(by));
         titles.insert(title_of(by));
         EXPECT_EQ(title_of(by).empty(), by == ColorBy::Body);

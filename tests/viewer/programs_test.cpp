@@ -133,7 +133,8 @@ TEST_F(ViewerPrograms, RefuseBadInputInOneLine) {
     expect_refused("pent-slice", at("none") + out, "no such file");
     expect_refused("pent-slice", at("run") + out + " --frames 9", "no frame 9");
     expect_refused("pent-slice", at("run") + out + " --w 1,x", "expected a number");
-    expect_refused("pent-slice", at("run") + out + " --color force", "contact_forces = true");
+    expect_refused("pent-slice", at("run") + out + " --color force",
+                   "vertex = [\"contact_force\"]");
     expect_refused("pent-slice", at("run") + out + " --w 0:1:1", "N at least 2");
     expect_refused("pent-slice", at("run") + out + " --rotate xx:3", "--rotate");
     expect_refused("pent-slice", at("run") + out + " --rotate xw:0:9:3,xy:1", "only the last");

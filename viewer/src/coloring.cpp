@@ -10,6 +10,11 @@
 
 namespace pent::viewer {
 
+std::vector<ColorBy> all_colorings() {
+    return {ColorBy::Body,  ColorBy::W,        ColorBy::Speed,        ColorBy::Strain,
+            ColorBy::Force, ColorBy::Reaction, ColorBy::EnergyDensity};
+}
+
 std::string_view name_of(ColorBy by) {
     switch (by) {
         case ColorBy::Body:
@@ -21,9 +26,13 @@ std::string_view name_of(ColorBy by) {
         case ColorBy::Strain:
             return "strain";
         case ColorBy::Force:
+            return "force";
+        case ColorBy::Reaction:
+            return "reaction";
+        case ColorBy::EnergyDensity:
             break;
     }
-    return "force";
+    return "energy_density";
 }
 
 std::string_view title_of(ColorBy by) {
@@ -37,9 +46,13 @@ std::string_view title_of(ColorBy by) {
         case ColorBy::Strain:
             return "strain";
         case ColorBy::Force:
+            return "contact force, N";
+        case ColorBy::Reaction:
+            return "reaction, N";
+        case ColorBy::EnergyDensity:
             break;
     }
-    return "contact force, N";
+    return "energy_density, J/m^n";
 }
 
 ColorMap color_map_of(ColorBy by) {
@@ -48,6 +61,13 @@ ColorMap color_map_of(ColorBy by) {
 
 template <int Dim>
 Eigen::VectorXd vertex_values(const Body<Dim>& body, const Frame<Dim>& frame, ColorBy by) {
+    if (lacks(frame, by)) {
+        const bool is_force = by == ColorBy::Force;
+        const std::string name(is_force ? "contact_force" : name_of(by));
+        throw Error("frame " + std::to_string(frame.frame) + " of \"" + body.name + "\" has no "
+                    + (is_force ? "contact forces" : name)
+                    + " to color by; run the scene with [output] vertex = [\"" + name + "\"]");
+    }
     switch (by) {
         case ColorBy::W:
             return vertex_w<Dim>(frame.positions);
@@ -56,12 +76,10 @@ Eigen::VectorXd vertex_values(const Body<Dim>& body, const Frame<Dim>& frame, Co
         case ColorBy::Strain:
             return vertex_strain<Dim>(body.mesh, frame.positions);
         case ColorBy::Force:
-            if (!has_contact_forces(frame)) {
-                throw Error("frame " + std::to_string(frame.frame) + " of \"" + body.name
-                            + "\" has no contact forces to color by; run the scene with [output]"
-                              " contact_forces = true");
-            }
             return vertex_force<Dim>(frame);
+        case ColorBy::Reaction:
+        case ColorBy::EnergyDensity:
+            return find_field(frame, name_of(by))->values.colwise().norm().transpose();
         case ColorBy::Body:
             break;
     }

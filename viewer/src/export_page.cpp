@@ -78,7 +78,7 @@ public:
         const Frame<Dim> first = load_frame<Dim>(run, bodies_.front(), options.frames.front());
         for (const ColorBy by : kQuantities) {
             const bool is_there = by == ColorBy::Speed   ? first.velocities.cols() > 0
-                                  : by == ColorBy::Force ? has_contact_forces(first)
+                                  : by == ColorBy::Force ? !lacks(first, by)
                                                          : !run.is_mesh;
             if (is_there) {
                 quantities_.push_back(by);

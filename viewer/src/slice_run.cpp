@@ -148,13 +148,11 @@ private:
         VtuGrid grid;
         grid.points = frame.positions.template topRows<3>();
         grid.cells = bodies_[body].boundary.facets;
-        std::vector<ColorBy> quantities = {ColorBy::W, ColorBy::Speed, ColorBy::Strain};
-        if (has_contact_forces(frame)) {
-            quantities.push_back(ColorBy::Force);
-        }
-        for (const ColorBy by : quantities) {
-            grid.point_data.push_back(
-                {std::string(name_of(by)), vertex_values<4>(bodies_[body], frame, by)});
+        for (const ColorBy by : all_colorings()) {
+            if (by != ColorBy::Body && !lacks(frame, by)) {
+                grid.point_data.push_back(
+                    {std::string(name_of(by)), vertex_values<4>(bodies_[body], frame, by)});
+            }
         }
         folder.add_grid(file_of(bodies_[body].name + "_boundary", snapshot), grid);
     }

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace pent {
 
@@ -28,19 +30,42 @@ struct FileInfo {
     bool is_frame = false;    ///< Positions (and velocities) without cells.
 };
 
-/// Positions, velocities and contact forces of a body at one moment; the cells are those of its
-/// mesh.
+/// A further quantity of the vertices of a frame, by a name of letters, digits and '_'.
+struct VertexField {
+    std::string name;
+    Eigen::MatrixXd values;  ///< A column each, of one number or of one an axis.
+
+    bool operator==(const VertexField& other) const {
+        return name == other.name && values.rows() == other.values.rows()
+               && values.cols() == other.values.cols() && values == other.values;
+    }
+};
+
+/// Positions, velocities and whatever else frames have of a body at one moment; the cells are those
+/// of its mesh.
 template <int Dim>
 struct Frame {
-    Positions<Dim> positions;       ///< Dim x vertices, m.
-    Positions<Dim> velocities;      ///< Dim x vertices, m/s; or Dim x 0 where the file has none.
-    Positions<Dim> contact_forces;  ///< Dim x vertices, N; or Dim x 0 where the file has none.
-    std::string mesh_name;          ///< File name of the mesh, without folders or spaces.
-    std::uint32_t mesh_crc = 0;     ///< crc32c of that mesh file.
-    std::uint64_t frame = 0;        ///< Number of the frame, from 0.
-    std::uint64_t step = 0;         ///< Time steps taken so far.
-    double time = 0;                ///< s.
+    Positions<Dim> positions;         ///< Dim x vertices, m.
+    Positions<Dim> velocities;        ///< Dim x vertices, m/s; or Dim x 0 where the file has none.
+    Positions<Dim> contact_forces;    ///< Dim x vertices, N; or Dim x 0 where the file has none.
+    std::vector<VertexField> fields;  ///< Others, in the order of the file.
+    std::string mesh_name;            ///< File name of the mesh, without folders or spaces.
+    std::uint32_t mesh_crc = 0;       ///< crc32c of that mesh file.
+    std::uint64_t frame = 0;          ///< Number of the frame, from 0.
+    std::uint64_t step = 0;           ///< Time steps taken so far.
+    double time = 0;                  ///< s.
 };
+
+/// The field of a frame with a name; null if there is none.
+template <int Dim>
+[[nodiscard]] const VertexField* find_field(const Frame<Dim>& frame, std::string_view name) {
+    for (const VertexField& field : frame.fields) {
+        if (field.name == name) {
+            return &field;
+        }
+    }
+    return nullptr;
+}
 
 template <int Dim>
 struct MeshFile {

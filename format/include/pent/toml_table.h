@@ -72,6 +72,10 @@ public:
                                      const std::vector<std::string_view>& names,
                                      std::size_t fallback);
 
+    /// A list of names, each once: their places in the list of all; none if the key is missing.
+    [[nodiscard]] std::vector<std::size_t> choices(std::string_view key,
+                                                   const std::vector<std::string_view>& names);
+
     /// A table within the table, which must be there.
     [[nodiscard]] TableReader table(std::string_view key);
 
@@ -104,6 +108,9 @@ public:
 
 private:
     const toml::node* find(std::string_view key);
+    [[nodiscard]] std::size_t place_of(std::string_view key,
+                                       const std::string& value,
+                                       const std::vector<std::string_view>& names) const;
     [[nodiscard]] std::vector<std::string> unknown() const;  // keys that nobody asked for
     // @param expected  "" or begins with ";": what might have been meant.
     [[noreturn]] void fail_unknown(const std::string& key, const std::string& expected) const;

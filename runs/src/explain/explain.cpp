@@ -265,10 +265,15 @@ private:
 
     void output() {
         const Output& output = scene_.output;
-        add({.name = "output of contact",
-             .is_on = output.contact_forces || output.contact_pairs,
-             .why = std::string(output.contact_forces ? "forces" : "no forces") + ", "
-                    + (output.contact_pairs ? "pairs" : "no pairs") + " in the run folder"});
+        std::string what;
+        for (const simulator::VertexQuantity quantity : output.vertex) {
+            what += (what.empty() ? "" : ", ") + std::string(simulator::word_of(quantity));
+        }
+        add({.name = "output",
+             .is_on = !output.vertex.empty() || output.contact_pairs,
+             .why = (what.empty() ? "nothing" : what) + " of every vertex, "
+                    + (output.contact_pairs ? "pairs" : "no pairs")
+                    + " in contact, in the run folder"});
     }
 
     Trial<Dim> trial_;

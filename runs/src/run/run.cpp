@@ -17,6 +17,7 @@
 #include <pent/runs/run.h>
 #include <pent/runs/scene_file.h>
 #include <pent/simulator/crossing_error.h>
+#include <pent/simulator/scene_words.h>
 
 #include <algorithm>
 #include <chrono>
@@ -248,8 +249,14 @@ void Run<Dim>::write_frame_files(int frame) {
         Frame<Dim> file = frame_header(body, frame);
         file.positions = simulation_.positions(body);
         file.velocities = simulation_.velocities(body);
-        if (scene_.output.contact_forces) {
-            file.contact_forces = simulation_.contact_forces(body);
+        for (const VertexQuantity quantity : scene_.output.vertex) {
+            Eigen::MatrixXd values = simulation_.vertex_values(quantity, body);
+            if (quantity == VertexQuantity::ContactForce) {  // has columns of its own
+                file.contact_forces = values;
+            } else {
+                file.fields.push_back(
+                    {std::string(simulator::word_of(quantity)), std::move(values)});
+            }
         }
         const std::string& name = name_of(body);
         write_frame(folder_.claim(frame_file(name, frame)), file,

@@ -8,6 +8,7 @@
 #include <pent/simulator/scene_words.h>
 #include <pent/toml_table.h>
 
+#include <algorithm>
 #include <concepts>
 #include <type_traits>
 #include <vector>
@@ -58,6 +59,16 @@ struct PartReader {
         value = simulator::kWords<Value>[table.choice(field.key, simulator::words<Value>(),
                                                       simulator::place_of(value))]
                     .value;
+    }
+    template <typename Value>
+    requires std::is_enum_v<Value>
+    void operator()(const Field& field, std::vector<Value>& values) const {
+        for (const std::size_t place : table.choices(field.key, simulator::words<Value>())) {
+            const Value value = simulator::kWords<Value>[place].value;
+            if (std::find(values.begin(), values.end(), value) == values.end()) {
+                values.push_back(value);
+            }
+        }
     }
     template <typename Part>
     void operator()(const Field& field, std::vector<Part>& parts) const {

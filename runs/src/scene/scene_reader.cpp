@@ -47,6 +47,12 @@ private:
         PartReader{block, scene.dimension}(kPreset, choice);
         solver = preset(choice);
     }
+    // The one quantity of version 0.1.0 had a key of its own.
+    void begin(TableReader& block, simulator::Output& output) const {
+        if (block.flag("contact_forces", false)) {
+            output.vertex.push_back(simulator::VertexQuantity::ContactForce);
+        }
+    }
     void finish(const TableReader& /*entry*/, const Obstacle& /*obstacle*/) const {}
     void finish(const TableReader& entry, Body& body) const;
     template <typename Part>

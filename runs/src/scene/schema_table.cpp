@@ -49,6 +49,15 @@ std::string number_text(const Field& field) {
     return comma(comma("number", std::string(field.unit)), range_text(field.range));
 }
 
+template <typename Value>
+std::string words_of() {
+    std::string words;
+    for (const std::string_view word : simulator::words<Value>()) {
+        words = comma(words, in_code("\"" + std::string(word) + "\""));
+    }
+    return words;
+}
+
 // "{ center, radius }"
 template <typename Part>
 std::string keys_of(const Part& part) {
@@ -117,11 +126,13 @@ struct RowCollector {
     template <typename Value>
     requires std::is_enum_v<Value>
     void operator()(const Field& field, Value value) const {
-        std::string words;
-        for (const std::string_view word : simulator::words<Value>()) {
-            words = comma(words, in_code("\"" + std::string(word) + "\""));
-        }
-        add(field, words, in_code("\"" + std::string(simulator::word_of(value)) + "\""));
+        add(field, words_of<Value>(),
+            in_code("\"" + std::string(simulator::word_of(value)) + "\""));
+    }
+    template <typename Value>
+    requires std::is_enum_v<Value>
+    void operator()(const Field& field, const std::vector<Value>& /*values*/) const {
+        add(field, "list of " + words_of<Value>(), "none");
     }
     template <typename Part>
     void operator()(const Field& field, const std::vector<Part>& /*parts*/) const {

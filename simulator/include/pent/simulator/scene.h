@@ -4,9 +4,11 @@
 #include <pent/obstacle.h>
 #include <pent/simulator/material.h>
 #include <pent/simulator/solver_options.h>
+#include <pent/simulator/words.h>
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -174,10 +176,23 @@ struct Contact {
     double slip_speed = 1e-3;  ///< m/s, > 0: what slides slower than that sticks.
 };
 
+/// What frames may have of every vertex beside its position and velocity.
+enum class VertexQuantity {
+    ContactForce,   ///< Of contact and obstacles, N.
+    Reaction,       ///< What a constraint holds its vertices with against all forces, N; else 0.
+    EnergyDensity,  ///< Elastic, J/m^Dim: of the cells around, by their volume at rest.
+};
+template <>
+inline constexpr std::array kWords<VertexQuantity> = {
+    Word<VertexQuantity>{VertexQuantity::ContactForce, "contact_force"},
+    Word<VertexQuantity>{VertexQuantity::Reaction, "reaction"},
+    Word<VertexQuantity>{VertexQuantity::EnergyDensity, "energy_density"},
+};
+
 /// What a run writes beside positions and velocities.
 struct Output {
-    bool contact_forces = false;  ///< The force on every vertex, in its frame file.
-    bool contact_pairs = false;   ///< Every pair in contact, in a table for each frame.
+    std::vector<VertexQuantity> vertex;  ///< In the frame files.
+    bool contact_pairs = false;          ///< Every pair in contact, in a table for each frame.
 };
 
 /// Rayleigh damping: C = mass M + stiffness K, K being the tangent at the start of a step.

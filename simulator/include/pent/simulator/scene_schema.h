@@ -123,10 +123,7 @@ void fields(Part& solver, const Visit& visit) {
 
 template <PartOf<Output> Part, typename Visit>
 void fields(Part& output, const Visit& visit) {
-    visit(key("contact_forces", "",
-              "forces of contact and obstacles on every vertex, N, as `fx fy fz fw` in the frame "
-              "files"),
-          output.contact_forces);
+    visit(key("vertex", "", "what the frame files have of every vertex, see below"), output.vertex);
     visit(key("contact_pairs", "",
               "`contacts/000123.csv`: kind, bodies, signed distance, force on the first body, "
               "vertices and weights of every contact"),

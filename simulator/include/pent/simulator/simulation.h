@@ -179,6 +179,9 @@ public:
     /// N.
     [[nodiscard]] Positions<Dim> contact_forces(int body) const;
 
+    /// A quantity of the vertices of a body, a column each: 1 row of a number, Dim of a vector.
+    [[nodiscard]] Eigen::MatrixXd vertex_values(VertexQuantity quantity, int body) const;
+
     /// What touches: pairs by bodies, kind and place, then vertices at surfaces of obstacles.
     /// Vertices are counted through all bodies. <pent/contact/contact.h> has the type.
     [[nodiscard]] std::span<const contact::Contact<Dim>> contacts() const;

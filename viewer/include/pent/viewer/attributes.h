@@ -13,12 +13,6 @@ namespace pent::viewer {
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd vertex_speed(const Frame<Dim>& frame);
 
-/// Whether the frame says what contact does to each vertex.
-template <int Dim>
-[[nodiscard]] bool has_contact_forces(const Frame<Dim>& frame) {
-    return frame.contact_forces.cols() == frame.positions.cols();
-}
-
 /// Length of the contact force on each vertex, N. The frame must have them.
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd vertex_force(const Frame<Dim>& frame);

@@ -9,13 +9,17 @@
 
 #include <cstddef>
 #include <string_view>
+#include <vector>
 
 namespace pent::viewer {
 
 /// What the color of a surface tells.
-enum class ColorBy { Body, W, Speed, Strain, Force };
+enum class ColorBy { Body, W, Speed, Strain, Force, Reaction, EnergyDensity };
 
-/// "body", "w", "speed", "strain" or "force".
+/// All of them.
+[[nodiscard]] std::vector<ColorBy> all_colorings();
+
+/// "body", "w", "speed", "strain", "force", "reaction" or "energy_density".
 [[nodiscard]] std::string_view name_of(ColorBy by);
 
 /// The quantity with its unit, for a color bar: "speed, m/s".
@@ -39,11 +43,25 @@ struct ColorRange {
 
 /// The quantity at the vertices of a body's mesh; zero for ColorBy::Body.
 ///
-/// Throws an Error for ColorBy::Force if the frame has no contact forces.
+/// Throws an Error if the frame does not have it, with what a scene needs for it.
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd vertex_values(const Body<Dim>& body,
                                             const Frame<Dim>& frame,
                                             ColorBy by);
+
+/// Whether frames may lack a quantity, and this one does not have it.
+template <int Dim>
+[[nodiscard]] bool lacks(const Frame<Dim>& frame, ColorBy by) {
+    switch (by) {
+        case ColorBy::Force:
+            return frame.contact_forces.cols() == 0;
+        case ColorBy::Reaction:
+        case ColorBy::EnergyDensity:
+            return find_field(frame, name_of(by)) == nullptr;
+        default:
+            return false;
+    }
+}
 
 /// Colors of the vertices of a surface, 3 x vertices, linear light.
 ///

@@ -1,0 +1,79 @@
+#include "step/stepper.h"
+
+#include <pent/simulator/energy.h>
+
+#include <Eigen/LU>
+
+namespace pent::simulator {
+
+namespace {
+
+// Minus all forces that act on vertices which a constraint holds; 0 at all others.
+template <int Dim>
+Positions<Dim> reactions(const Bodies<Dim>& bodies, const Positions<Dim>& forces) {
+    Positions<Dim> all = Positions<Dim>::Zero(Dim, forces.cols());
+    for (const DirichletSet<Dim>& set : bodies.dirichlet_sets) {
+        for (const std::uint32_t vertex : set.vertices) {
+            all.col(vertex) = -forces.col(vertex);
+        }
+    }
+    return all;
+}
+
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim> edges(const Positions<Dim>& x,
+                                      const Simplices<Dim + 1>& cells,
+                                      Eigen::Index cell) {
+    Eigen::Matrix<double, Dim, Dim> columns;
+    for (int a = 0; a < Dim; ++a) {
+        columns.col(a) = x.col(cells(a + 1, cell)) - x.col(cells(0, cell));
+    }
+    return columns;
+}
+
+// The mean over the cells at each vertex, weighted by their volumes at rest.
+template <int Dim>
+Eigen::RowVectorXd energy_densities(const Bodies<Dim>& bodies,
+                                    std::size_t body,
+                                    const Positions<Dim>& x) {
+    const CellRange& range = bodies.ranges[body];
+    const auto vertices = bodies.vertices(body);
+    Eigen::RowVectorXd energy = Eigen::RowVectorXd::Zero(vertices.size);
+    Eigen::RowVectorXd volume = Eigen::RowVectorXd::Zero(vertices.size);
+    for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
+        const Eigen::Matrix<double, Dim, Dim> rest = edges<Dim>(bodies.rest, bodies.cells, cell);
+        const Eigen::Matrix<double, Dim, Dim> F =
+            edges<Dim>(x, bodies.cells, cell) * rest.inverse();
+        const double weight = rest.determinant();
+        const double density = energy_density(range.material, F);
+        for (int a = 0; a <= Dim; ++a) {
+            const Eigen::Index vertex = bodies.cells(a, cell) - vertices.begin;
+            energy[vertex] += weight * density;
+            volume[vertex] += weight;
+        }
+    }
+    return energy.cwiseQuotient(volume);  // every vertex belongs to a cell
+}
+
+}  // namespace
+
+template <int Dim>
+Eigen::MatrixXd Simulation<Dim>::vertex_values(VertexQuantity quantity, int body) const {
+    const auto place = static_cast<std::size_t>(body);
+    const auto range = stepper_->bodies().vertices(place);
+    switch (quantity) {
+        case VertexQuantity::ContactForce:
+            return contact_forces(body);
+        case VertexQuantity::Reaction:
+            return reactions(stepper_->bodies(), stepper_->forces())
+                .middleCols(range.begin, range.size);
+        case VertexQuantity::EnergyDensity:
+            break;
+    }
+    return energy_densities(stepper_->bodies(), place, stepper_->current().positions);
+}
+
+template Eigen::MatrixXd Simulation<3>::vertex_values(VertexQuantity, int) const;
+template Eigen::MatrixXd Simulation<4>::vertex_values(VertexQuantity, int) const;
+
+}  // namespace pent::simulator

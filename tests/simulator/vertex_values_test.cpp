@@ -1,0 +1,83 @@
+#include "contact_scenes.h"
+
+#include <pent/simulator/energy.h>
+
+#include <gtest/gtest.h>
+
+// What frames may have of every vertex: Simulation::vertex_values().
+
+namespace pent::simulator {
+namespace {
+
+using test::cube;
+
+template <typename T>
+class VertexValuesTest : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+TYPED_TEST_SUITE(VertexValuesTest, Dimensions);
+
+// A cube that hangs from one side, a load at the other.
+template <int Dim>
+Scene hanging_cube() {
+    Scene scene = test::box_scene<Dim>();
+    scene.solver.integrator = Integrator::Quasistatic;
+    scene.solver.precision = Precision::Double;
+    scene.solver.tolerance = 1e-10;
+    scene.solver.newton_tolerance = 1e-10;
+    scene.gravity[1] = -9.8;
+    const HalfSpaceSelection top{.normal = -Eigen::VectorXd::Unit(Dim, 1), .offset = -0.49};
+    const HalfSpaceSelection bottom{.normal = Eigen::VectorXd::Unit(Dim, 1), .offset = 0.01};
+    scene.constraints = {test::hold(top, test::still(Dim))};
+    scene.loads = {{.body = "box",
+                    .select = {bottom},
+                    .force = 30 * Eigen::VectorXd::Unit(Dim, 0),
+                    .keyframes = {}}};
+    return scene;
+}
+
+// Elastic forces add up to zero, so what holds the body carries its weight and its load.
+TYPED_TEST(VertexValuesTest, HaveReactionsThatCarryWeightAndLoad) {
+    constexpr int kDim = TypeParam::value;
+    const Scene scene = hanging_cube<kDim>();
+    Simulation<kDim> simulation(scene, {cube<kDim>()});
+    ASSERT_TRUE(simulation.step().is_accepted);
+    const Eigen::MatrixXd reaction = simulation.vertex_values(VertexQuantity::Reaction, 0);
+    ASSERT_EQ(reaction.rows(), kDim);
+    const Eigen::VectorXd outside =
+        simulation.masses(0).sum() * scene.gravity + scene.loads[0].force;
+    EXPECT_LT((reaction.rowwise().sum() + outside).norm(), 1e-8 * outside.norm());
+    for (Eigen::Index v = 0; v < reaction.cols(); ++v) {
+        const bool is_held = simulation.mesh(0).positions(1, v) >= 0.49;
+        EXPECT_EQ(reaction.col(v).norm() > 0, is_held);
+    }
+}
+
+// Times the volume around a vertex, which is its mass over the density, it adds up to the energy.
+TYPED_TEST(VertexValuesTest, HaveEnergyDensitiesThatAddUpToTheElasticEnergy) {
+    constexpr int kDim = TypeParam::value;
+    const Scene scene = hanging_cube<kDim>();
+    Simulation<kDim> simulation(scene, {cube<kDim>()});
+    ASSERT_TRUE(simulation.step().is_accepted);
+    const Eigen::MatrixXd density = simulation.vertex_values(VertexQuantity::EnergyDensity, 0);
+    ASSERT_EQ(density.rows(), 1);
+    const double sum = density.row(0).dot(simulation.masses(0)) / scene.bodies[0].material.density;
+    const double energy = simulation.energies().of("elastic");
+    EXPECT_GT(energy, 0);
+    EXPECT_NEAR(sum, energy, 1e-10 * energy);
+}
+
+TYPED_TEST(VertexValuesTest, HaveOneEnergyDensityInABodyStretchedAlike) {
+    constexpr int kDim = TypeParam::value;
+    const Scene scene = test::box_scene<kDim>();
+    Simulation<kDim> simulation(scene, {cube<kDim>()});
+    simulation.set_state(0, 1.1 * simulation.positions(0), simulation.velocities(0));
+    const Eigen::MatrixXd F = 1.1 * Eigen::MatrixXd::Identity(kDim, kDim);
+    const double expected = energy_density(scene.bodies[0].material, F);
+    const Eigen::MatrixXd density = simulation.vertex_values(VertexQuantity::EnergyDensity, 0);
+    EXPECT_LT((density.array() - expected).abs().maxCoeff(), 1e-10 * expected);
+    EXPECT_TRUE(simulation.vertex_values(VertexQuantity::Reaction, 0).isZero(0));
+    EXPECT_TRUE(simulation.vertex_values(VertexQuantity::ContactForce, 0).isZero(0));
+}
+
+}  // namespace
+}  // namespace pent::simulator
