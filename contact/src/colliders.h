@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace pent::contact {
@@ -97,6 +98,7 @@ private:
     std::vector<Core> cores_;
     Positions<Dim> core_points_;
     Positions<Dim> rest_;
+    std::vector<std::pair<int, int>> ignored_;  // of bodies, the lower one first, ascending
 };
 
 }  // namespace pent::contact

@@ -8,6 +8,8 @@
 namespace pent::runs {
 
 // What this library speaks of all the time.
+using simulator::Attachment;
+using simulator::AttachmentSummary;
 using simulator::Body;
 using simulator::Constraint;
 using simulator::Contact;

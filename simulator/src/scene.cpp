@@ -130,6 +130,9 @@ std::string name_of_part(std::string_view /*block*/, const Constraint& constrain
 std::string name_of_part(std::string_view /*block*/, const Load& load) {
     return "load on \"" + load.body + "\"";
 }
+std::string name_of_part(std::string_view /*block*/, const Attachment& attachment) {
+    return "attachment of \"" + attachment.body + "\"";
+}
 template <typename Part>
 std::string name_of_part(std::string_view block, const Part& /*part*/) {
     return std::string(block);
@@ -178,6 +181,13 @@ void check_names(const Scene& scene) {
     }
     for (const Load& load : scene.loads) {
         require(count(load.body) > 0, "load on \"" + load.body + "\": no body has this name");
+    }
+    for (const Attachment& attachment : scene.attachments) {
+        for (const std::string& name : {attachment.body, attachment.target}) {
+            require(name.empty() || count(name) > 0,
+                    "attachment of \"" + attachment.body + "\": no body is called \"" + name
+                        + "\"");
+        }
     }
 }
 
@@ -250,6 +260,21 @@ std::optional<Fault> fault_of(const Load& load) {
         return Fault{"keyframes", "the times of \"keyframes\" must increase"};
     }
     return std::nullopt;
+std::optional<Fault> fault_of(const Attachment& attachment) {
+    if (attachment.target.empty()) {
+        return std::nullopt;
+    }
+    if (attachment.target == attachment.body) {
+        return Fault{"target", "\"target\" is the body itself; expected another one"};
+    }
+    constexpr const char* kReason =
+        " is of points in space and does not go together with \"target\"; leave one of them out";
+    if (attachment.point) {
+        return Fault{"point", std::string("\"point\"") + kReason};
+    }
+    return attachment.motion.empty()
+               ? std::nullopt
+               : std::optional(Fault{"motion", std::string("\"motion\"") + kReason});
 }
 
 template <>

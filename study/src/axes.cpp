@@ -17,7 +17,24 @@ namespace {
 
 constexpr const char* kText = "settings";  // what messages call the text that settings are put into
 
-constexpr std::string_view kHeads[] = {"[solver]", "[contact]"};
+// Where a setting goes: the head of its section as scene texts have it, and its key.
+struct Place {
+    std::string head;
+    std::string key;
+};
+
+Place place_in(const std::string& scene, const std::string& axis) {
+    if (axis == "contact") {
+        return {"[contact]", "model"};
+    }
+    const auto dot = axis.find('.');
+    if (dot == std::string::npos) {
+        return {"[solver]", axis};
+    }
+    const std::string block = axis.substr(0, dot);
+    const bool is_list = scene.find("\n[[" + block + "]]\n") != std::string::npos;
+    return {is_list ? "[[" + block + "]]" : "[" + block + "]", axis.substr(dot + 1)};
+}
 
 // The keys that a section of a scene text has, in its order; empty if there is no such section.
 std::vector<std::string> keys_of(const std::string& scene, std::string_view head) {
@@ -97,15 +114,13 @@ simulator::Scene with_dt(simulator::Scene scene, const std::string& value) {
     return scene;
 }
 
-// The text of a scene with a setting of [solver] or of the model of contact.
+// The text of a scene with a setting of one key, in every section that has it.
 std::string with_key(const std::string& text, const Setting& setting) {
-    const bool is_contact = setting.axis == "contact";
-    const std::string_view head = kHeads[is_contact ? 1 : 0];
-    const std::string key = is_contact ? "model" : setting.axis;
+    const auto& [head, key] = place_in(text, setting.axis);
     std::vector<std::string> keys = keys_of(text, head);
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-        if (is_contact) {
-            throw Error("--vary contact: the scene has no [contact]");
+        if (keys.empty()) {
+            throw Error("--vary " + setting.axis + ": the scene has no " + head);
         }
         keys.insert(keys.end(), {"dt", "preset", "contact", "layers", "subdivide"});
         const std::string nearest = nearest_name(setting.axis, keys);

@@ -24,7 +24,8 @@ struct Axis {
 /// Whether an axis changes the mesh: layers or subdivide.
 [[nodiscard]] bool is_mesh_axis(const std::string& name);
 
-/// The scene with settings: dt, preset, contact (its model), and keys of [solver], in any order. A
+/// The scene with settings: dt, preset, contact (its model), keys of [solver], and those of other
+/// blocks as in "attachment.stiffness", in any order. A
 /// preset stands in place of all of [solver], and other settings on it. Axes of the mesh leave the
 /// scene as it is.
 ///

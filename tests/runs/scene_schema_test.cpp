@@ -41,7 +41,7 @@ Tables tables_of(const std::string& text) {
 TEST(SchemaText, IsWhatTheDocsHave) {
     const Tables docs = tables_of(read_text(PENT_DOCS "/simulator.md", "the docs"));
     const Tables schema = tables_of(schema_text() + report_schema_text());
-    EXPECT_EQ(schema.size(), 15U);
+    EXPECT_EQ(schema.size(), 17U);
     for (const auto& [block, table] : schema) {
         const auto found = docs.find(block);
         ASSERT_NE(found, docs.end()) << block;
@@ -68,13 +68,13 @@ TEST(ParseSceneErrors, NameTheBlockThatAKeyBelongsTo) {
               " [[body]]");
     EXPECT_EQ(error_of("[output]\nstiffness = 1\n"),
               "s.toml:5:1: unknown key \"stiffness\" in \"output\"; \"stiffness\" belongs to"
-              " [[obstacle]] or [contact] or [damping]");
+              " [[attachment]] or [[obstacle]] or [contact] or [damping]");
     EXPECT_EQ(error_of("[solver]\nup = 1\n"),
               "s.toml:5:1: unknown key \"up\" in \"solver\"; \"up\" belongs to \"bowl\" of"
               " [[obstacle]]");
     EXPECT_EQ(error_of("[[constraint]]\nbody = \"a\"\nlow = 1\n"),
               "s.toml:6:1: unknown key \"low\" in \"constraint\"; \"low\" belongs to"
-              " \"select.box\" of [[constraint]]");
+              " \"select.box\" of [[constraint]] or \"select.box\" of [[attachment]]");
 }
 
 // Members of the schema that no key has.

@@ -166,19 +166,21 @@ Json motion_velocity(Random& random, const Plan& plan) {
     return random_vector(random, plan, Random::short_of(0.3 * plan.size / plan.duration()));
 }
 
+// A moment in the first half of a run, and one behind it.
+Json early(Random& random, const Plan& plan) {
+    return Random::short_of(random.number(0, 0.5) * plan.duration());
+}
+Json late(Random& random, const Plan& plan) {
+    return Random::short_of(random.number(0.6, 1.2) * plan.duration());
+}
+
 const Keys kMotion = {
     {"translate", 0.6, motion_velocity},
     {"rotate", 0.4, tables(kSpin)},
     {"about", 0.3,
      [](Random& random, const Plan& plan) { return random_vector(random, plan, plan.size); }},
-    {"from", 0.3,
-     [](Random& random, const Plan& plan) -> Json {
-         return Random::short_of(random.number(0, 0.5) * plan.duration());
-     }},
-    {"to", 0.3,
-     [](Random& random, const Plan& plan) -> Json {
-         return Random::short_of(random.number(0.6, 1.2) * plan.duration());
-     }},
+    {"from", 0.3, early},
+    {"to", 0.3, late},
 };
 
 const Keys kConstraint = {
@@ -236,6 +238,49 @@ Json draw_load(Random& random, const Plan& plan) {
 Json contact_stiffness(Random& random, const Plan& plan) {
     const double mass = 1000 * std::pow(plan.size, plan.dimension) / 10;  // a vertex
     return Random::short_of(mass / (plan.dt() * plan.dt()) * random.magnitude(0.003, 3));
+}
+
+// To another body where there is one, or to points in space.
+const Keys kAttachment = {
+    {"body", 1, [](Random&, const Plan& plan) -> Json { return plan.now().name; }},
+    {"select", 1, draw_selections},
+    {"target", 0.6,
+     [](Random&, const Plan& plan) -> Json {
+         return plan.bodies[(plan.body + 1) % plan.bodies.size()].name;
+     }},
+    {"point", 0.3,
+     [](Random& random, const Plan& plan) { return random_vector(random, plan, plan.size); }},
+    {"motion", 0.4, tables(kMotion)},
+    {"offset", 0.5, one_of({"keep", "zero"})},
+    {"max_distance", 1, [](Random&, const Plan& plan) -> Json { return 100 * plan.reach(); }},
+    {"stiffness", 0.9, contact_stiffness},
+    {"damping", 0.4,
+     [](Random& random, const Plan& plan) -> Json {
+         return Random::short_of(contact_stiffness(random, plan).get<double>() * plan.dt());
+     }},
+    {"from", 0.3, early},
+    {"to", 0.3, late},
+    {"break_force", 0.4,
+     [](Random& random, const Plan& plan) -> Json {
+         return Random::short_of(contact_stiffness(random, plan).get<double>() * plan.size
+                                 * random.magnitude(0.01, 1));
+     }},
+    {"contact", 0.3, flag()},
+};
+
+// A target is another body, and has neither point nor motion; an offset is carried no farther than
+// a cell can.
+Json draw_attachment(Random& random, const Plan& plan) {
+    Json attachment = draw_table(kAttachment, random, plan);
+    if (plan.bodies.size() == 1) {
+        attachment.erase("target");
+    }
+    if (attachment.contains("target")) {
+        attachment.erase("point");
+        attachment.erase("motion");
+        attachment["offset"] = "zero";
+    }
+    return attachment;
 }
 
 Json contact_distance(Random& /*random*/, const Plan& plan) {
@@ -395,6 +440,12 @@ Json draw_scene(std::uint64_t seed) {
         }
         if (random.chance(0.2)) {
             scene["load"].push_back(draw_load(random, plan));
+        }
+    }
+    scene["attachment"] = Json::array();
+    for (plan.body = 0; plan.body < plan.bodies.size(); ++plan.body) {
+        if (random.chance(0.2)) {
+            scene["attachment"].push_back(draw_attachment(random, plan));
         }
     }
     scene["obstacle"] = Json::array();

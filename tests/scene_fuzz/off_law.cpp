@@ -42,6 +42,13 @@ bool has_pairs(const Json& scene) {
                || has_barrier(scene));
 }
 
+// Whether any entry of a list of a scene, which may lack it, is such a one.
+template <typename Is>
+bool any_of(const Json& scene, const char* list, const Is& is) {
+    const Json entries = scene.value(list, Json::array());
+    return std::any_of(entries.begin(), entries.end(), is);
+}
+
 const std::vector<Part>& parts() {
     static const std::vector<Part> kParts = {
         {"contact",
@@ -62,6 +69,10 @@ const std::vector<Part>& parts() {
              return has_contact(scene) && value_at(scene, "contact.friction") > 0;
          },
          {"contact.friction"}},
+        {"an attachment",
+         [](const Json& scene) { return scene.contains("attachment"); },
+         {},
+         "attachment"},
         {"damping by stiffness",
          [](const Json& scene) {
              return scene.contains("damping") && value_at(scene, "damping.stiffness") > 0

@@ -26,7 +26,7 @@ TYPED_TEST(FrictionPotentialTest, HasTheDerivativesOfItsEnergyAndNeverPushesAlon
     const Positions<kDim> still = Positions<kDim>::Zero(kDim, start.cols());
     for (const double slip_speed : {1e-3, 1.0}) {  // sliding, and sticking
         FrictionPotential<kDim> friction(contact, {.coefficient = 0.4, .slip_speed = slip_speed});
-        static_cast<void>(friction.begin_step({start, still, still, 0.01, false}));
+        static_cast<void>(friction.begin_step({start, still, start, still, 0.01, 100, false}));
         EXPECT_EQ(value_of<kDim>(friction, start), 0);
         const Positions<kDim> x = shaken<kDim>(start, 1e-3, 18);
         expect_derivatives<kDim>(setting, friction, x, 1e-7);
@@ -46,7 +46,7 @@ TYPED_TEST(FrictionPotentialTest, BetweenBodiesKeepsTheirMomentum) {
     ASSERT_GT(value_of<kDim>(contact, start), 0);
     FrictionPotential<kDim> friction(contact, {.coefficient = 0.4, .slip_speed = 1e-3});
     const Positions<kDim> still = Positions<kDim>::Zero(kDim, start.cols());
-    static_cast<void>(friction.begin_step({start, still, still, 0.01, false}));
+    static_cast<void>(friction.begin_step({start, still, start, still, 0.01, 100, false}));
     const Positions<kDim> gradient = gradient_of<kDim>(friction, shaken<kDim>(start, 1e-3, 20));
     EXPECT_GT(gradient.norm(), 0);
     EXPECT_LT(gradient.rowwise().sum().norm(), 1e-12 * gradient.norm());

@@ -24,8 +24,7 @@ TYPED_TEST(RayleighDampingTest, IsAQuadraticOfTheTangentThatPullsBack) {
     const Positions<kDim> start = shaken<kDim>(setting.bodies.rest, 0.05, 10);
     const Positions<kDim> still = Positions<kDim>::Zero(kDim, start.cols());
     static_cast<void>(value_of<kDim>(elasticity, start));
-    damping.set_origin(start);
-    static_cast<void>(damping.begin_step({start, still, still, 0.01, false}));
+    static_cast<void>(damping.begin_step({start, still, start, still, 0.01, 100, false}));
     const Positions<kDim> x = shaken<kDim>(start, 0.05, 11);
     expect_derivatives<kDim>(setting, damping, x);
     EXPECT_GT(value_of<kDim>(damping, x), 0);

@@ -73,6 +73,27 @@ TEST(WithSettings, SetsEveryKeyOfTheSolver) {
               simulator::Filter::Absolute);
 }
 
+TEST(WithSettings, SetsAKeyOfEveryBlockOfAName) {
+    const TempFolder folder;
+    simulator::Scene scene = bar_scene(folder);
+    expect_contains(error_of([&] { check_setting(scene, {"attachment.stiffness", "3"}); }),
+                    {"--vary attachment.stiffness: the scene has no [attachment]"});
+    simulator::Attachment attachment;
+    attachment.body = "bar";
+    attachment.select = {simulator::EverythingSelection{}};
+    scene.attachments = {attachment, attachment};
+    scene.contact = simulator::Contact{};
+    const simulator::Scene changed =
+        with_settings(scene, {{"attachment.stiffness", "3e4"}, {"contact.stiffness", "7"}});
+    EXPECT_EQ(changed.attachments[0].stiffness, 3e4);
+    EXPECT_EQ(changed.attachments[1].stiffness, 3e4);
+    EXPECT_EQ(changed.contact->stiffness, 7);
+    expect_contains(error_of([&] { check_setting(scene, {"attachment.stifness", "3"}); }),
+                    {"--vary attachment.stifness: is not known", "stiffness"});
+    expect_contains(error_of([&] { check_setting(scene, {"attachment.stiffness", "-1"}); }),
+                    {"--vary attachment.stiffness=-1", "above 0"});
+}
+
 TEST(WithSettings, TakesAPresetInPlaceOfAllKeysOfTheSolver) {
     const TempFolder folder;
     const simulator::Scene scene =

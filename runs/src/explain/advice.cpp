@@ -103,7 +103,9 @@ private:
     }
 
     void on_falling() {
-        if (gravity() > 0 && scene_.constraints.empty() && scene_.obstacles.empty()) {
+        const bool hangs = std::any_of(scene_.attachments.begin(), scene_.attachments.end(),
+                                       [](const Attachment& one) { return one.target.empty(); });
+        if (gravity() > 0 && scene_.constraints.empty() && scene_.obstacles.empty() && !hangs) {
             const double time = scene_.frames / scene_.frames_per_second;
             advise(
                 formatted("nothing is held and there is no obstacle: everything falls, %.3g m by"

@@ -2,9 +2,11 @@
 
 #include <pent/formatted.h>
 #include <pent/runs/explain.h>
+#include <pent/simulator/placed_mesh.h>
 #include <pent/simulator/scene_words.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pent::runs {
 
@@ -39,6 +41,7 @@ public:
         damping();
         constraints();
         loads();
+        attachments();
         contact_between_bodies();
         contact_within_bodies();
         obstacles();
@@ -154,6 +157,31 @@ private:
                      + (load.keyframes.empty()
                             ? ""
                             : ", with " + std::to_string(load.keyframes.size()) + " keyframes")});
+        }
+    }
+
+    // Each with the stiffness of all its springs, which is what stays the same on another mesh.
+    void attachments() {
+        if (scene_.attachments.empty()) {
+            add_off("attachments", "no [[attachment]]");
+        }
+        for (const Attachment& one : scene_.attachments) {
+            const auto body = static_cast<int>(index_of(scene_, one.body));
+            const std::size_t springs = select_vertices(trial_.simulation.mesh(body), one).size();
+            const bool is_moving = !one.motion.empty();
+            add({.name = "attachment of " + one.body,
+                 .is_on = true,
+                 .why = std::to_string(springs) + " vertices to "
+                        + (!one.target.empty() ? one.target
+                           : is_moving         ? "points that move"
+                                               : "points in space")
+                        + formatted(", %.4g N/m, all together %.4g N/m", one.stiffness,
+                                    one.stiffness * static_cast<double>(springs))
+                        + (one.from > 0 ? formatted(", from %.4g s", one.from) : "")
+                        + (std::isfinite(one.to) ? formatted(", to %.4g s", one.to) : "")
+                        + (std::isfinite(one.break_force)
+                               ? formatted(", breaks at %.4g N", one.break_force)
+                               : "")});
         }
     }
 

@@ -34,6 +34,14 @@ void fields(Part& contact, const Visit& visit) {
           contact.seconds);
 }
 
+template <PartOf<simulator::AttachmentSummary> Part, typename Visit>
+void fields(Part& attachment, const Visit& visit) {
+    visit(key("springs", "", "that pull at the end"), attachment.springs);
+    visit(key("broken", "", "of all times"), attachment.broken);
+    visit(key("force", "N", "of all its springs together, on what is selected"), attachment.force);
+    visit(key("largest_force", "N", "of one spring"), attachment.largest_force);
+}
+
 template <PartOf<simulator::StepReport> Part, typename Visit>
 void fields(Part& step, const Visit& visit) {
     visit(key("step", "", "steps taken so far, this one included"), step.step);
@@ -59,6 +67,7 @@ void fields(Part& step, const Visit& visit) {
     visit(key("energies", "J", "at the end: `kinetic` and each stored one that the scene has"),
           step.energies);
     visit(key("contact", "", "what touches at the end, and what contact cost"), step.contact);
+    visit(key("attachments", "", "one for each").may_be_missing(), step.attachments);
     visit(key("assembly_seconds", "s", "matrices and forces of elements"), step.assembly_seconds);
     visit(key("solve_seconds", "s", "linear solves"), step.solve_seconds);
     visit(key("seconds", "s", "all of the step"), step.seconds);

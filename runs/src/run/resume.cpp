@@ -3,6 +3,7 @@
 #include <pent/error.h>
 #include <pent/runs/scene_file.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -156,6 +157,7 @@ void put_positions(StateBlocks& blocks,
 }
 
 constexpr const char* kStiffnessBlock = "contact stiffness";
+constexpr const char* kSpringsBlock = "broken springs";
 
 std::string sleep_block(const std::string& body) {
     return "sleep/" + body;
@@ -195,6 +197,9 @@ StateBlocks carried_state(const Simulation<Dim>& simulation,
         const double stiffness[] = {snapshot.contact_stiffness};
         blocks.put<double>(kStiffnessBlock, stiffness);
     }
+    if (std::count(snapshot.broken_springs.begin(), snapshot.broken_springs.end(), 1) > 0) {
+        blocks.put<std::uint8_t>(kSpringsBlock, snapshot.broken_springs);
+    }
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const int body = static_cast<int>(i);
         if (snapshot.sleep[i] != SleepState()) {
@@ -217,7 +222,12 @@ void read_carried_state(const StateBlocks& blocks,
                         const std::vector<std::string>& bodies,
                         const Simulation<Dim>& simulation,
                         Snapshot<Dim>& snapshot) {
-    const bool has_barrier = simulation.save().contact_stiffness > 0;
+    const Snapshot<Dim> now = simulation.save();
+    const bool has_barrier = now.contact_stiffness > 0;
+    const std::size_t springs = now.broken_springs.size();
+    snapshot.broken_springs = blocks.has(kSpringsBlock)
+                                  ? blocks.get<std::uint8_t>(kSpringsBlock, springs)
+                                  : std::vector<std::uint8_t>(springs, 0);
     snapshot.contact_stiffness = has_barrier ? blocks.get<double>(kStiffnessBlock, 1)[0] : 0;
     snapshot.sleep.assign(bodies.size(), {});
     const bool has_history = blocks.has(positions_block(bodies.front()));

@@ -6,6 +6,7 @@
 #include <pent/runs/scene_file.h>
 
 #include <algorithm>
+#include <type_traits>
 
 namespace pent::runs {
 
@@ -59,6 +60,9 @@ private:
     requires requires(Part part) { part.select; }
     void finish(const TableReader& entry, Part& part) const {
         check_name(entry, "body", part.body);
+        if constexpr (std::is_same_v<Part, Attachment>) {
+            check_name(entry, "target", part.target.empty() ? part.body : part.target);
+        }
         part.source = entry.place("select");
         if (part.select.empty()) {
             entry.fail("select", entry.name()

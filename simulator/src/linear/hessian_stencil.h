@@ -20,6 +20,7 @@ struct HessianStencil {
     std::int32_t count = 0;
     std::int32_t stride = 0;  ///< Numbers from one column of `matrix` to the next.
     double scale = 1;
+    bool is_checked = false;  ///< Whether masses must not be lost next to it, see add_masses().
 };
 
 }  // namespace pent::simulator

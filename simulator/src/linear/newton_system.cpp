@@ -56,9 +56,27 @@ void NewtonSystem<Dim>::add_masses(double weight, const Eigen::VectorXd& masses)
                 diagonal.diagonal().array() += static_cast<Scalar>(mass);
             }
             return lost;
-        });
+        }) > 0 || do_stencils_drown(kMaxRatio, weight, masses);
     };
-    has_lost_inertia_ = std::visit(add, matrix_) > 0 || has_lost_inertia_;
+    has_lost_inertia_ = std::visit(add, matrix_) || has_lost_inertia_;
+}
+
+// Of single stencils that are to be checked, by their largest diagonal entries.
+template <int Dim>
+bool NewtonSystem<Dim>::do_stencils_drown(double max_ratio,
+                                          double weight,
+                                          const Eigen::VectorXd& masses) const {
+    for (const HessianStencil& stencil : stencils_) {
+        for (std::int32_t i = 0; stencil.is_checked && i < stencil.count; ++i) {
+            const std::uint32_t vertex = stencil.vertices[i];
+            const double stiffness =
+                stencil.scale * stencil.weights[i] * stencil.weights[i] * stencil.matrix[0];
+            if (dofs_->has_dof(vertex) && stiffness > max_ratio * weight * masses[vertex]) {
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 template <int Dim>

@@ -35,8 +35,9 @@ public:
     /// @param shift  Dim x vertices: how far vertices without a dof move, m; 0 for all others.
     void begin(BlockVector<Dim> right, Positions<Dim> shift);
 
-    /// Adds weight * masses to the diagonal. Elements must have been added, contact not yet: where
-    /// masses drown in the rounding of the stiffness that is there, has_lost_inertia() says so.
+    /// Adds weight * masses to the diagonal. Elements must have been added, and stencils that are to
+    /// be checked: where masses drown in the rounding of the stiffness that is there,
+    /// has_lost_inertia() says so.
     ///
     /// @param masses  One a vertex, kg.
     void add_masses(double weight, const Eigen::VectorXd& masses);
@@ -61,6 +62,10 @@ public:
     [[nodiscard]] const Positions<Dim>& shift() const { return shift_; }
 
 private:
+    [[nodiscard]] bool do_stencils_drown(double max_ratio,
+                                         double weight,
+                                         const Eigen::VectorXd& masses) const;
+
     const Workers* workers_;
     const DofMap* dofs_;
     Matrix matrix_;

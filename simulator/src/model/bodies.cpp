@@ -60,61 +60,12 @@ void lump_masses(const Scene& scene, Bodies<Dim>& bodies) {
     }
 }
 
-// Where a chain of motions takes points.
-template <int Dim>
-class Chain {
-public:
-    Chain(const std::vector<CenteredMotion<Dim>>& motions, double time) {
-        for (const CenteredMotion<Dim>& held : motions) {
-            links_.push_back({pose_at<Dim>(held.motion, time), held.about});
-        }
-    }
-
-    // Takes the point on; its velocity too unless that is null.
-    void move(Vector<Dim>& point, Vector<Dim>* velocity) const {
-        for (const auto& [pose, about] : links_) {
-            const Vector<Dim> arm = point - about;
-            // Written as a change of the position, which a motion at rest keeps to the bit.
-            point += (pose.rotation - Matrix<Dim>::Identity()) * arm + pose.shift;
-            if (velocity != nullptr) {
-                *velocity = (pose.rotation * *velocity + pose.rate * arm + pose.velocity).eval();
-            }
-        }
-    }
-
-private:
-    struct Link {
-        Pose<Dim> pose;
-        Vector<Dim> about;
-    };
-    std::vector<Link> links_;
-};
-
-// Finds what each motion turns about: what it says, or where those before have taken the middle.
-template <int Dim>
-std::vector<CenteredMotion<Dim>> center(const std::vector<Motion>& motions,
-                                        const Vector<Dim>& middle) {
-    std::vector<CenteredMotion<Dim>> centered;
-    for (const Motion& motion : motions) {
-        Vector<Dim> about = middle;
-        if (motion.about) {
-            about = *motion.about;
-        } else {
-            Chain<Dim>(centered, motion.from).move(about, nullptr);
-        }
-        centered.push_back({motion, about});
-    }
-    return centered;
-}
-
 // Marks what each constraint holds; returns which vertices have a given place.
 template <int Dim>
 std::vector<bool> mark_dirichlet(const Scene& scene, Bodies<Dim>& bodies) {
     std::vector<bool> is_dirichlet(static_cast<std::size_t>(bodies.vertex_count()), false);
     for (const Constraint& constraint : scene.constraints) {
-        const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                                        [&](const Body& b) { return b.name == constraint.body; });
-        const auto body = static_cast<std::size_t>(found - scene.bodies.begin());
+        const std::uint32_t body = index_of(scene, constraint.body);
         DirichletSet<Dim> held;
         Vector<Dim> sum = Vector<Dim>::Zero();
         for (const std::uint32_t vertex : select_vertices(bodies.meshes[body], constraint)) {
@@ -234,7 +185,7 @@ void place_dirichlet(const Bodies<Dim>& bodies,
                      Positions<Dim>& positions,
                      Positions<Dim>* velocities) {
     for (const DirichletSet<Dim>& set : bodies.dirichlet_sets) {
-        const Chain<Dim> chain(set.motions, time);
+        const MotionChain<Dim> chain(set.motions, time);
         for (const std::uint32_t vertex : set.vertices) {
             Vector<Dim> point = bodies.rest.col(vertex);
             Vector<Dim> velocity = Vector<Dim>::Zero();

@@ -2,6 +2,7 @@
 
 #include "linear/dof_map.h"
 #include "model/cell_range.h"
+#include "model/motion_chain.h"
 
 #include <pent/simplex_mesh.h>
 #include <pent/simulator/scene.h>
@@ -10,13 +11,6 @@
 #include <vector>
 
 namespace pent::simulator {
-
-/// A motion and what it turns about, m.
-template <int Dim>
-struct CenteredMotion {
-    Motion motion;
-    Eigen::Matrix<double, Dim, 1> about;
-};
 
 /// Vertices whose places are given: those of one constraint (Dirichlet boundary conditions).
 template <int Dim>

@@ -141,6 +141,11 @@ std::string place_and_name(const Load& load) {
     return (load.source.empty() ? "" : load.source + ": ") + "load on \"" + load.body + "\"";
 }
 
+std::string place_and_name(const Attachment& attachment) {
+    return (attachment.source.empty() ? "" : attachment.source + ": ") + "attachment of \""
+           + attachment.body + "\"";
+}
+
 template <int Dim>
 std::vector<std::uint32_t> select_vertices(const SimplexMesh<Dim>& mesh,
                                            const std::vector<Selection>& select,

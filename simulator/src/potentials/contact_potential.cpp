@@ -49,6 +49,12 @@ contact::ContactScene<Dim> contact_scene(const Scene& scene,
         result.obstacles.push_back(
             {fixed_size<Dim>(obstacle.shape), obstacle.distance, obstacle.stiffness});
     }
+    for (const Attachment& attachment : scene.attachments) {
+        if (!attachment.contact && !attachment.target.empty()) {
+            result.ignored.emplace_back(index_of(scene, attachment.body),
+                                        index_of(scene, attachment.target));
+        }
+    }
     result.is_fixed = bodies.is_dirichlet;
     result.rest = bodies.rest;
     return result;

@@ -7,6 +7,7 @@ namespace pent::simulator {
 template <int Dim>
 bool RayleighDamping<Dim>::begin_step(const StepStart<Dim>& start) {
     is_on_ = !start.is_linear;
+    origin_ = &start.origin;
     if (!is_on_) {
         return true;
     }

@@ -28,9 +28,6 @@ public:
           dofs_(&dofs),
           filter_(filter) {}
 
-    /// @param origin  Dim x vertices, m; must outlive its use.
-    void set_origin(const Positions<Dim>& origin) { origin_ = &origin; }
-
     /// After the dofs have changed.
     void forget() { tangent_.reset(); }
 
@@ -53,7 +50,7 @@ private:
     const Elasticity<Dim>* elasticity_;
     const DofMap* dofs_;
     Filter filter_;
-    const Positions<Dim>* origin_ = nullptr;
+    const Positions<Dim>* origin_ = nullptr;  // of the step
     bool is_on_ = false;
     std::unique_ptr<BlockMatrix<Dim, double>> tangent_;
     BlockVector<Dim> dirichlet_part_;  // Dim x dofs: K times the travel of Dirichlet vertices

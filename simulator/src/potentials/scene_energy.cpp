@@ -26,6 +26,9 @@ SceneEnergy<Dim>::SceneEnergy(const Workers& workers,
         !loads->is_empty()) {
         sum.add(std::move(loads));
     }
+    if (!scene.attachments.empty()) {
+        attachments = &sum.add(std::make_unique<Attachments<Dim>>(workers, scene, bodies));
+    }
     contact = &sum.add(std::make_unique<ContactPotential<Dim>>(workers, scene, bodies));
     if (scene.contact && scene.contact->friction > 0) {
         const contact::Friction law{scene.contact->friction, scene.contact->slip_speed};

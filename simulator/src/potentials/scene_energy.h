@@ -1,5 +1,6 @@
 #pragma once
 
+#include "potentials/attachments.h"
 #include "potentials/contact_potential.h"
 #include "potentials/elasticity.h"
 #include "potentials/friction_potential.h"
@@ -21,6 +22,7 @@ struct SceneEnergy {
     Elasticity<Dim>* elasticity;
     ContactPotential<Dim>* contact;
     FrictionPotential<Dim>* friction = nullptr;  // null without friction
+    Attachments<Dim>* attachments = nullptr;     // null without [[attachment]]
 };
 
 }  // namespace pent::simulator

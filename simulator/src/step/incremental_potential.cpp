@@ -65,7 +65,6 @@ void IncrementalPotential<Dim>::begin_step(const StepProblem<Dim>& problem,
     problem_ = &problem;
     inertia_.set_anchor(problem.target);
     mass_drag_.set_anchor(problem.origin);
-    stiffness_drag_.set_origin(problem.origin);
     energy_->begin_step(start);
     elasticity_->set_hessian_factor(1);
     if (damping_.stiffness > 0) {

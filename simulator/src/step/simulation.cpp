@@ -71,6 +71,17 @@ void check_sleep(const std::vector<SleepState>& sleep, std::size_t bodies, bool 
     }
 }
 
+void check_springs(const std::vector<std::uint8_t>& broken, std::size_t springs) {
+    const bool is_right = broken.size() == springs
+                          && std::all_of(broken.begin(), broken.end(),
+                                         [](std::uint8_t is_broken) { return is_broken <= 1; });
+    if (!is_right) {
+        throw Error("the state of " + std::to_string(broken.size())
+                    + " springs was given; expected 0 or 1 for each of the "
+                    + std::to_string(springs) + " of the attachments");
+    }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -167,6 +178,7 @@ void Simulation<Dim>::restore(const Snapshot<Dim>& snapshot) {
         check_state("a snapshot one step ago", snapshot.previous_positions,
                     snapshot.previous_velocities, vertices);
     }
+    check_springs(snapshot.broken_springs, stepper_->save().broken_springs.size());
     check_sleep(snapshot.sleep, stepper_->sleep().size(), stepper_->scene().sleep.has_value());
     stepper_->restore(snapshot);
 }

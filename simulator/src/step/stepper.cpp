@@ -106,7 +106,14 @@ Snapshot<Dim> Simulation<Dim>::Stepper::save() const {
             .previous_velocities = history_.velocities,
             .sleep = islands_.states(),
             .steps = steps_,
-            .contact_stiffness = energy_.contact->stiffness()};
+            .contact_stiffness = energy_.contact->stiffness(),
+            .broken_springs = broken_springs()};
+}
+
+template <int Dim>
+std::vector<std::uint8_t> Simulation<Dim>::Stepper::broken_springs() const {
+    return energy_.attachments != nullptr ? energy_.attachments->broken()
+                                          : std::vector<std::uint8_t>();
 }
 
 template <int Dim>
@@ -118,6 +125,10 @@ void Simulation<Dim>::Stepper::restore(const Snapshot<Dim>& snapshot) {
     steps_ = snapshot.steps;
     if (energy_.contact->stiffness() != snapshot.contact_stiffness) {
         energy_.contact->set_stiffness(snapshot.contact_stiffness);
+        energy_.sum.invalidate();
+    }
+    if (broken_springs() != snapshot.broken_springs) {
+        energy_.attachments->set_broken(snapshot.broken_springs);
         energy_.sum.invalidate();
     }
     number_dofs_of_the_awake();
@@ -178,6 +189,23 @@ bool Simulation<Dim>::Stepper::wake(const Positions<Dim>& prescribed) {
     return true;
 }
 
+// Breaks what pulls too hard at the end of a step; what it was tied to is awake.
+template <int Dim>
+void Simulation<Dim>::Stepper::break_springs() {
+    if (energy_.attachments == nullptr) {
+        return;
+    }
+    const std::vector<std::size_t> bodies = energy_.attachments->break_springs();
+    for (const std::size_t body : bodies) {
+        islands_.wake(static_cast<int>(body));
+    }
+    if (!bodies.empty()) {
+        number_dofs_of_the_awake();
+        energy_.sum.invalidate();
+        evaluate_current();
+    }
+}
+
 // Lets bodies fall asleep at the end of a step.
 template <int Dim>
 void Simulation<Dim>::Stepper::put_to_sleep() {
@@ -232,6 +260,7 @@ StepReport Simulation<Dim>::Stepper::step() {
     if (report.is_accepted) {
         ++steps_;
         evaluate_current();
+        break_springs();
         put_to_sleep();
     } else {
         current_ = before;
@@ -246,6 +275,9 @@ StepReport Simulation<Dim>::Stepper::step() {
     report.inverted = energy_.elasticity->inverted_cells();
     report.collapsed = energy_.elasticity->collapsed();
     report.energies = energies();
+    if (energy_.attachments != nullptr) {
+        report.attachments = energy_.attachments->summaries();
+    }
     add_work(report);
     report.seconds = watch.seconds();
     return report;

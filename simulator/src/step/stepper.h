@@ -53,12 +53,14 @@ private:
     [[nodiscard]] std::string failure_reason(const Energies& before) const;
     [[nodiscard]] bool may_have_tunneled() const;
     [[nodiscard]] bool wake(const Positions<Dim>& prescribed);
+    void break_springs();
     void put_to_sleep();
     void still(Positions<Dim>& velocities) const;
     void number_dofs_of_the_awake();
     void evaluate_current();
     void refuse_crossings(const Positions<Dim>& positions) const;
     void add_work(StepReport& report);
+    [[nodiscard]] std::vector<std::uint8_t> broken_springs() const;
     [[nodiscard]] double kinetic_energy(const Positions<Dim>& velocities) const;
 
     Scene scene_;

@@ -6,7 +6,9 @@
 #include <pent/contact/obstacles.h>
 #include <pent/contact/surface.h>
 
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pent::contact {
@@ -47,6 +49,8 @@ struct ContactScene {
     ContactOptions options;
     std::vector<ContactBody<Dim>> bodies;
     std::vector<ContactObstacle<Dim>> obstacles;
+    /// Pairs of bodies that do not see each other, by their places.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> ignored;
     /// One for each vertex of the scene: moved from outside. Such vertices do not push each other
     /// and do not meet obstacles, but a step does not lead them through each other.
     std::vector<bool> is_fixed;

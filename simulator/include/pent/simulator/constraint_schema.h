@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-/// The keys of constraints: part of scene_schema.h.
+/// The keys of constraints and attachments: part of scene_schema.h.
 namespace pent::simulator {
 
 template <PartOf<BallSelection> Part, typename Visit>
@@ -77,6 +77,39 @@ void fields(Part& constraint, const Visit& visit) {
               "`\"fixed\"`, a table as below, or a list of them: each goes on from where those "
               "before it have the vertices"),
           constraint.motion);
+}
+
+template <PartOf<Attachment> Part, typename Visit>
+void fields(Part& attachment, const Visit& visit) {
+    visit(key("body", "", "its name").required(), attachment.body);
+    visit(key("select", "", "as of a constraint").required(), attachment.select);
+    visit(key("target", "", "another body; each selected vertex is tied to its nearest point")
+              .may_be_missing()
+              .default_is("points in space"),
+          attachment.target);
+    visit(key("point", "m", "one point in space for all selected vertices")
+              .may_be_missing()
+              .default_is("where each of them is"),
+          attachment.point);
+    visit(key("motion", "", "of points in space, as of a constraint"), attachment.motion);
+    visit(key("offset", "", "see below"), attachment.offset);
+    visit(key("max_distance", "m", "of a selected vertex from `target`", kPositive),
+          attachment.max_distance);
+    visit(key("stiffness", "N/m for each selected vertex", "", kPositive), attachment.stiffness);
+    visit(key("damping", "N s/m for each selected vertex", "", kNotNegative), attachment.damping);
+    visit(key("from", "s", "not there in steps that begin before", kNotNegative), attachment.from);
+    visit(key("to", "s", "above `from`; gone from there on",
+              Range{.low = attachment.from, .low_included = false})
+              .may_be_missing()
+              .default_is("forever"),
+          attachment.to);
+    visit(key("break_force", "N for each selected vertex", "a spring that pulls harder is gone",
+              kPositive)
+              .may_be_missing()
+              .default_is("none"),
+          attachment.break_force);
+    visit(key("contact", "", "whether `[contact]` is between the two bodies all the same"),
+          attachment.contact);
 }
 
 }  // namespace pent::simulator

@@ -29,8 +29,9 @@ template <int Dim>
 /// "scene.toml:4:8: constraint on "a"", for messages.
 [[nodiscard]] std::string place_and_name(const Constraint& constraint);
 [[nodiscard]] std::string place_and_name(const Load& load);
+[[nodiscard]] std::string place_and_name(const Attachment& attachment);
 
-/// Vertices that a constraint or a load selects.
+/// Vertices that a constraint, a load or an attachment selects.
 template <int Dim, typename Selecting>
 requires requires(Selecting part) {
     part.select;

@@ -27,6 +27,8 @@ template <>
 [[nodiscard]] std::optional<Fault> fault_of(const LayerSelection& layers);
 template <>
 [[nodiscard]] std::optional<Fault> fault_of(const Load& load);
+template <>
+[[nodiscard]] std::optional<Fault> fault_of(const Attachment& attachment);
 
 /// A barrier needs an integrator that iterates.
 void check_model(ContactModel model, Integrator integrator);

@@ -149,6 +149,7 @@ void blocks(Part& scene, const Visit& visit) {
     visit("body", scene.bodies);
     visit("constraint", scene.constraints);
     visit("load", scene.loads);
+    visit("attachment", scene.attachments);
     visit("obstacle", scene.obstacles);
     visit("contact", scene.contact);
     visit("damping", scene.damping);

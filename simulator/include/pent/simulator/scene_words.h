@@ -30,6 +30,11 @@ inline constexpr std::array kWords<Filter> = {
     Word<Filter>{Filter::None, "none"},
 };
 template <>
+inline constexpr std::array kWords<RestOffset> = {
+    Word<RestOffset>{RestOffset::Keep, "keep"},
+    Word<RestOffset>{RestOffset::Zero, "zero"},
+};
+template <>
 inline constexpr std::array kWords<ContactModel> = {
     Word<ContactModel>{ContactModel::Penalty, "penalty"},
     Word<ContactModel>{ContactModel::Barrier, "barrier"},

@@ -84,6 +84,14 @@ struct ContactSummary : ContactWork {
     double stiffness = 0;  ///< Of the barrier at the end, N/m; 0 without one.
 };
 
+/// An attachment at the end of a step.
+struct AttachmentSummary {
+    std::int64_t springs = 0;  ///< That pull: none of an attachment that is not there now.
+    std::int64_t broken = 0;   ///< Of all times.
+    double force = 0;          ///< Of all its springs together, on what is selected, N.
+    double largest_force = 0;  ///< Of one spring, N.
+};
+
 /// Whether a body sleeps, and what it takes to decide that; see Sleep.
 struct SleepState {
     bool is_asleep = false;
@@ -107,6 +115,8 @@ struct Snapshot {
     std::vector<SleepState> sleep;  ///< One a body.
     std::uint64_t steps = 0;        ///< Taken so far.
     double contact_stiffness = 0;   ///< To which a barrier has adapted, N/m; 0 without one.
+    /// One for each spring of all attachments: 1 if it is broken, else 0.
+    std::vector<std::uint8_t> broken_springs;
 };
 
 /// What one step did.
@@ -133,6 +143,7 @@ struct StepReport {
         0;              ///< Elements in the false minimum at the end; see collapse_scale().
     Energies energies;  ///< At the end.
     ContactSummary contact;
+    std::vector<AttachmentSummary> attachments;  ///< One for each of the scene.
     double assembly_seconds = 0;
     double solve_seconds = 0;
     double seconds = 0;  ///< All of the step.
@@ -210,7 +221,7 @@ public:
     [[nodiscard]] Snapshot<Dim> save() const;
 
     /// Puts everything back. Throws an Error, and changes nothing, unless the snapshot fits the
-    /// scene: as many vertices and bodies, all finite, none asleep without Scene::sleep; and a
+    /// scene: as many vertices, bodies and springs, all finite, none asleep without Scene::sleep; and a
     /// CrossingError where a barrier does not allow the positions.
     void restore(const Snapshot<Dim>& snapshot);
 

@@ -1,0 +1,45 @@
+#include "model/motion_chain.h"
+
+namespace pent::simulator {
+
+template <int Dim>
+std::vector<CenteredMotion<Dim>> center(const std::vector<Motion>& motions,
+                                        const Vector<Dim>& middle) {
+    std::vector<CenteredMotion<Dim>> centered;
+    for (const Motion& motion : motions) {
+        Vector<Dim> about = middle;
+        if (motion.about) {
+            about = *motion.about;
+        } else {
+            MotionChain<Dim>(centered, motion.from).move(about, nullptr);
+        }
+        centered.push_back({motion, about});
+    }
+    return centered;
+}
+
+template <int Dim>
+MotionChain<Dim>::MotionChain(const std::vector<CenteredMotion<Dim>>& motions, double time) {
+    for (const CenteredMotion<Dim>& centered : motions) {
+        links_.push_back({pose_at<Dim>(centered.motion, time), centered.about});
+    }
+}
+
+template <int Dim>
+void MotionChain<Dim>::move(Vector<Dim>& point, Vector<Dim>* velocity) const {
+    for (const auto& [pose, about] : links_) {
+        const Vector<Dim> arm = point - about;
+        // Written as a change of the position, which a motion at rest keeps to the bit.
+        point += (pose.rotation - Matrix<Dim>::Identity()) * arm + pose.shift;
+        if (velocity != nullptr) {
+            *velocity = (pose.rotation * *velocity + pose.rate * arm + pose.velocity).eval();
+        }
+    }
+}
+
+template std::vector<CenteredMotion<3>> center<3>(const std::vector<Motion>&, const Vector<3>&);
+template std::vector<CenteredMotion<4>> center<4>(const std::vector<Motion>&, const Vector<4>&);
+template class MotionChain<3>;
+template class MotionChain<4>;
+
+}  // namespace pent::simulator

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "model/rotation.h"
+
+#include <pent/simulator/scene.h>
+
+#include <vector>
+
+namespace pent::simulator {
+
+/// A motion and what it turns about, m.
+template <int Dim>
+struct CenteredMotion {
+    Motion motion;
+    Vector<Dim> about;
+};
+
+/// Finds what each motion turns about: what it says, or where those before it have taken `middle`.
+template <int Dim>
+[[nodiscard]] std::vector<CenteredMotion<Dim>> center(const std::vector<Motion>& motions,
+                                                      const Vector<Dim>& middle);
+
+/// Where motions, applied one after the other, have taken points by one moment.
+template <int Dim>
+class MotionChain {
+public:
+    /// @param time  s.
+    MotionChain(const std::vector<CenteredMotion<Dim>>& motions, double time);
+
+    /// Takes a point of t = 0 there, m; its velocity too unless that is null, m/s. A motion at rest
+    /// keeps the point to the bit.
+    void move(Vector<Dim>& point, Vector<Dim>* velocity) const;
+
+private:
+    struct Link {
+        Pose<Dim> pose;
+        Vector<Dim> about;
+    };
+    std::vector<Link> links_;
+};
+
+}  // namespace pent::simulator

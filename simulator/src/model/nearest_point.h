@@ -1,0 +1,39 @@
+#pragma once
+
+#include "model/rotation.h"
+
+#include <pent/simplex_mesh.h>
+
+#include <array>
+#include <cstdint>
+
+namespace pent::simulator {
+
+/// A point of a body by barycentric coordinates: it is where the cell has taken it.
+template <int Dim>
+struct MaterialPoint {
+    using Weights = Eigen::Matrix<double, Dim + 1, 1>;
+
+    std::array<std::uint32_t, Dim + 1> vertices{};  ///< Corners of its cell.
+    Weights weights = Weights::Zero();              ///< Of these; their sum is 1.
+    double distance = 0;                            ///< From the point that was asked about, m.
+};
+
+/// The point of some cells that is nearest to a point in space: that point itself, inside of them.
+///
+/// The weights are not negative, and exactly 0 for the corners that the nearest face lacks. Of
+/// cells that are equally near the first counts.
+///
+/// @param cells  At least one; the volume of none is 0.
+template <int Dim>
+[[nodiscard]] MaterialPoint<Dim> nearest_point(const Positions<Dim>& positions,
+                                               const Eigen::Ref<const Simplices<Dim + 1>>& cells,
+                                               const Vector<Dim>& point);
+
+/// Barycentric coordinates of any point in a cell, which is taken on beyond its faces: some are
+/// negative outside.
+template <int Dim>
+[[nodiscard]] typename MaterialPoint<Dim>::Weights barycentric(
+    const Eigen::Matrix<double, Dim, Dim + 1>& corners, const Vector<Dim>& point);
+
+}  // namespace pent::simulator

@@ -1,0 +1,304 @@
+#include "potentials/attachments.h"
+
+#include "model/nearest_point.h"
+
+#include <pent/error.h>
+#include <pent/formatted.h>
+#include <pent/simulator/placed_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pent::simulator {
+
+namespace {
+
+// Coordinates of an offset beyond this belong to a cell so flat that the spring would be this many
+// times as strong on its corners.
+constexpr double kMaxCoordinate = 100;
+
+// Times that differ by this part of a step are the same: a step begins at a sum of rounded ones.
+constexpr double kSameTime = 1e-6;
+
+}  // namespace
+
+template <int Dim>
+Attachments<Dim>::Attachments(const Workers& workers, const Scene& scene, const Bodies<Dim>& bodies)
+    : list_(scene.attachments), dt_(scene.dt()) {
+    for (const Attachment& attachment : list_) {
+        const std::uint32_t body = index_of(scene, attachment.body);
+        groups_.push_back(
+            {.attachment = &attachment,
+             .body = body,
+             .target = attachment.target.empty() ? body : index_of(scene, attachment.target),
+             .begin = springs_.size()});
+        add_springs(workers, bodies, groups_.back());
+    }
+    broken_.assign(springs_.size(), 0);
+    static_cast<void>(set_time({}));
+}
+
+// Ties each selected vertex of one attachment.
+template <int Dim>
+void Attachments<Dim>::add_springs(const Workers& workers,
+                                   const Bodies<Dim>& bodies,
+                                   Group& group) {
+    const Attachment& attachment = *group.attachment;
+    const std::vector<std::uint32_t> selected =
+        select_vertices(bodies.meshes[group.body], attachment);
+    springs_.resize(group.begin + selected.size());
+    std::vector<double> distances(selected.size(), 0);
+    const auto first = static_cast<std::uint32_t>(bodies.first_vertex[group.body]);
+    workers.for_each(selected.size(), [&](std::size_t i) {
+        springs_[group.begin + i] = group.target == group.body
+                                        ? tie_to_space(bodies, attachment, first + selected[i])
+                                        : tie_to_body(bodies, group, first + selected[i],
+                                                      distances[i]);
+    });
+    group.end = springs_.size();
+    const auto farthest = std::max_element(distances.begin(), distances.end());
+    if (*farthest > attachment.max_distance) {
+        throw Error(place_and_name(attachment) + ": vertex "
+                    + std::to_string(selected[static_cast<std::size_t>(farthest
+                                                                       - distances.begin())])
+                    + " is " + formatted("%.4g m", *farthest) + " from \"" + attachment.target
+                    + "\"; expected at most "
+                    + formatted("max_distance = %.4g m", attachment.max_distance)
+                    + ": select less, place the bodies nearer to each other, or raise it");
+    }
+    Vector<Dim> sum = Vector<Dim>::Zero();
+    for (std::size_t s = group.begin; s < group.end; ++s) {
+        sum += springs_[s].place;
+    }
+    group.motions =
+        center<Dim>(attachment.motion, sum / static_cast<double>(group.end - group.begin));
+}
+
+// To where it is, or by an offset to a point: its anchor is that point and the offset, which a
+// motion takes along.
+template <int Dim>
+typename Attachments<Dim>::Spring Attachments<Dim>::tie_to_space(const Bodies<Dim>& bodies,
+                                                                 const Attachment& attachment,
+                                                                 std::uint32_t vertex) {
+    Spring spring;
+    spring.vertices[0] = vertex;
+    spring.weights[0] = 1;
+    spring.count = 1;
+    spring.place = bodies.rest.col(vertex);
+    if (attachment.point && attachment.offset == RestOffset::Zero) {
+        spring.place = *attachment.point;
+    }
+    return spring;
+}
+
+template <int Dim>
+typename Attachments<Dim>::Spring Attachments<Dim>::tie_to_body(const Bodies<Dim>& bodies,
+                                                                const Group& group,
+                                                                std::uint32_t vertex,
+                                                                double& distance) {
+    const CellRange& range = bodies.ranges[group.target];
+    const Vector<Dim> point = bodies.rest.col(vertex);
+    MaterialPoint<Dim> nearest = nearest_point<Dim>(
+        bodies.rest, bodies.cells.middleCols(range.begin, range.end - range.begin), point);
+    distance = nearest.distance;
+    if (group.attachment->offset == RestOffset::Keep && distance > 0) {
+        Eigen::Matrix<double, Dim, Dim + 1> corners;
+        for (std::size_t i = 0; i <= Dim; ++i) {
+            corners.col(static_cast<Eigen::Index>(i)) = bodies.rest.col(nearest.vertices[i]);
+        }
+        nearest.weights = barycentric<Dim>(corners, point);
+        const double most = nearest.weights.cwiseAbs().maxCoeff();
+        if (!(most <= kMaxCoordinate)) {
+            throw Error(place_and_name(*group.attachment) + ": the cell of \""
+                        + group.attachment->target + "\" that is nearest to vertex "
+                        + std::to_string(vertex - bodies.first_vertex[group.body])
+                        + " is too flat to carry an offset of " + formatted("%.3g m", distance)
+                        + formatted(" (coordinates up to %.3g; expected at most %.0f)", most,
+                                    kMaxCoordinate)
+                        + "; use offset = \"zero\", or mend the mesh");
+        }
+    }
+    Spring spring;
+    spring.vertices[0] = vertex;
+    spring.weights[0] = 1;
+    spring.count = 1;
+    for (std::size_t i = 0; i <= Dim; ++i) {
+        const double weight = nearest.weights[static_cast<Eigen::Index>(i)];
+        if (weight != 0) {
+            spring.vertices[static_cast<std::size_t>(spring.count)] = nearest.vertices[i];
+            spring.weights[spring.count++] = -weight;
+        }
+    }
+    return spring;
+}
+
+// Calls visit(group, spring, its place) for each that pulls now.
+template <int Dim>
+template <typename Visit>
+void Attachments<Dim>::for_each_spring(const Visit& visit) const {
+    for (const Group& group : groups_) {
+        for (std::size_t s = group.begin; group.is_on && s < group.end; ++s) {
+            if (broken_[s] == 0) {
+                visit(group, springs_[s], s);
+            }
+        }
+    }
+}
+
+template <int Dim>
+Vector<Dim> Attachments<Dim>::weighted_sum(const Spring& spring, const Positions<Dim>& x) {
+    Vector<Dim> sum = x.col(spring.vertices[0]);
+    for (std::int32_t i = 1; i < spring.count; ++i) {
+        sum += spring.weights[i] * x.col(spring.vertices[static_cast<std::size_t>(i)]);
+    }
+    return sum;
+}
+
+template <int Dim>
+bool Attachments<Dim>::is_there(const Attachment& attachment, double begin) const {
+    const double time = begin + kSameTime * dt_;
+    return attachment.from <= time && time < attachment.to;
+}
+
+template <int Dim>
+bool Attachments<Dim>::set_time(const TimeSpan& step) {
+    bool has_changed = false;
+    for (Group& group : groups_) {
+        const bool was_on = group.is_on;
+        group.is_on = is_there(*group.attachment, step.begin);
+        const double before = std::max(0.0, step.begin - dt_);
+        group.is_driven = group.is_on != is_there(*group.attachment, before);
+        has_changed = has_changed || group.is_on != was_on;
+        if (group.target != group.body) {
+            continue;
+        }
+        const MotionChain<Dim> begin(group.motions, step.begin);
+        const MotionChain<Dim> end(group.motions, step.end);
+        for (std::size_t s = group.begin; s < group.end; ++s) {
+            Spring& spring = springs_[s];
+            Vector<Dim> from = spring.place;
+            Vector<Dim> to = spring.place;
+            spring.velocity.setZero();
+            begin.move(from, nullptr);
+            end.move(to, &spring.velocity);
+            has_changed = has_changed || to != spring.anchor;
+            group.is_driven = group.is_driven || (group.is_on && from != to);
+            spring.anchor = to;
+        }
+    }
+    return has_changed;
+}
+
+template <int Dim>
+bool Attachments<Dim>::begin_step(const StepStart<Dim>& start) {
+    rate_ = start.rate;
+    bool has_damping = false;
+    for (const Group& group : groups_) {
+        for (std::size_t s = group.begin; s < group.end; ++s) {
+            springs_[s].start =
+                rate_ * weighted_sum(springs_[s], start.origin) + springs_[s].velocity;
+        }
+        has_damping = has_damping || group.attachment->damping > 0;
+    }
+    return has_damping;
+}
+
+template <int Dim>
+double Attachments<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
+    energy_ = 0;
+    damping_energy_ = 0;
+    for_each_spring([&](const Group& group, const Spring& spring, std::size_t s) {
+        const Vector<Dim> sum = weighted_sum(spring, x);
+        springs_[s].stretch = sum - spring.anchor;
+        Vector<Dim> pull = group.attachment->stiffness * springs_[s].stretch;
+        energy_ += 0.5 * pull.dot(springs_[s].stretch);
+        if (rate_ > 0 && group.attachment->damping > 0) {
+            const Vector<Dim> velocity = rate_ * sum - spring.start;
+            pull += group.attachment->damping * velocity;
+            damping_energy_ += 0.5 * group.attachment->damping / rate_ * velocity.squaredNorm();
+        }
+        for (std::int32_t i = 0; i < spring.count; ++i) {
+            gradient.col(spring.vertices[static_cast<std::size_t>(i)]) += spring.weights[i] * pull;
+        }
+    });
+    return energy_ + damping_energy_;
+}
+
+template <int Dim>
+void Attachments<Dim>::add_hessian(double weight, Filter /*filter*/, NewtonSystem<Dim>& system) {
+    for (Group& group : groups_) {
+        const Attachment& attachment = *group.attachment;
+        group.hessian = (attachment.stiffness + rate_ * attachment.damping)
+                        * Matrix<Dim>::Identity();
+    }
+    system.reserve_stencils(springs_.size());
+    for_each_spring([&](const Group& group, const Spring& spring, std::size_t /*s*/) {
+        system.add_stencil({.vertices = spring.vertices.data(),
+                            .weights = spring.weights.data(),
+                            .matrix = group.hessian.data(),
+                            .count = spring.count,
+                            .stride = Dim,
+                            .scale = weight,
+                            .is_checked = true});
+    });
+}
+
+template <int Dim>
+std::vector<TermEnergy> Attachments<Dim>::energies() const {
+    return {{.name = "attachment", .energy = energy_},
+            {.name = "attachment damping", .energy = damping_energy_, .is_stored = false}};
+}
+
+template <int Dim>
+void Attachments<Dim>::add_couplings(Couplings& couplings) const {
+    for (const Group& group : groups_) {
+        const bool is_whole = std::any_of(broken_.begin() + static_cast<std::ptrdiff_t>(group.begin),
+                                          broken_.begin() + static_cast<std::ptrdiff_t>(group.end),
+                                          [](std::uint8_t broken) { return broken == 0; });
+        if (is_whole && group.is_driven) {
+            couplings.driven.push_back(group.body);
+            couplings.driven.push_back(group.target);
+        }
+        if (is_whole && group.is_on && group.body != group.target) {
+            couplings.pairs.emplace_back(group.body, group.target);
+        }
+    }
+}
+
+template <int Dim>
+std::vector<AttachmentSummary> Attachments<Dim>::summaries() const {
+    std::vector<AttachmentSummary> all(groups_.size());
+    std::vector<Vector<Dim>> forces(groups_.size(), Vector<Dim>::Zero());
+    for_each_spring([&](const Group& group, const Spring& spring, std::size_t /*s*/) {
+        const auto g = static_cast<std::size_t>(&group - groups_.data());
+        const Vector<Dim> force = -group.attachment->stiffness * spring.stretch;
+        forces[g] += force;
+        ++all[g].springs;
+        all[g].largest_force = std::max(all[g].largest_force, force.norm());
+    });
+    for (std::size_t g = 0; g < all.size(); ++g) {
+        all[g].force = forces[g].norm();
+        all[g].broken = std::count(broken_.begin() + static_cast<std::ptrdiff_t>(groups_[g].begin),
+                                   broken_.begin() + static_cast<std::ptrdiff_t>(groups_[g].end),
+                                   std::uint8_t{1});
+    }
+    return all;
+}
+
+template <int Dim>
+std::vector<std::size_t> Attachments<Dim>::break_springs() {
+    std::vector<std::size_t> bodies;
+    for_each_spring([&](const Group& group, const Spring& spring, std::size_t s) {
+        if (group.attachment->stiffness * spring.stretch.norm() > group.attachment->break_force) {
+            broken_[s] = 1;
+            bodies.push_back(group.body);
+            bodies.push_back(group.target);
+        }
+    });
+    return bodies;
+}
+
+template class Attachments<3>;
+template class Attachments<4>;
+
+}  // namespace pent::simulator

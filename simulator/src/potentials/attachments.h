@@ -1,0 +1,100 @@
+#pragma once
+
+#include "model/bodies.h"
+#include "potentials/potential.h"
+
+#include <pent/parallel.h>
+#include <pent/simulator/simulation.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace pent::simulator {
+
+/// The springs of all attachments of a scene.
+///
+/// One spring ties a vertex to a point q: that of a cell of another body with fixed barycentric
+/// coordinates, or a point in space that may move. With the stretch d = x - q its energy is
+///
+///     k/2 |d|^2 + c / (2 rate) |u|^2,     u = x' - q' = rate (d - d at the origin of the step),
+///
+/// a convex quadratic with the Hessian (k + c rate) w_i w_j I. The coordinates sum up to 1, so that
+/// the forces on vertex and cell have no sum and no moment, wherever they are. An offset is kept by
+/// the coordinates of the vertex itself, beyond the faces of the cell: it turns and stretches with
+/// the cell.
+template <int Dim>
+class Attachments final : public Potential<Dim> {
+public:
+    /// Finds the nearest points. Throws an Error that says where, if nothing is selected, a vertex
+    /// is farther from its target than allowed, or a cell is too flat to carry an offset.
+    ///
+    /// @param bodies  Must outlive this.
+    Attachments(const Workers& workers, const Scene& scene, const Bodies<Dim>& bodies);
+
+    [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
+    void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) override;
+    [[nodiscard]] std::vector<TermEnergy> energies() const override;
+    [[nodiscard]] bool begin_step(const StepStart<Dim>& start) override;
+    [[nodiscard]] bool set_time(const TimeSpan& step) override;
+    void add_couplings(Couplings& couplings) const override;
+
+    /// One an attachment, at the positions last evaluated.
+    [[nodiscard]] std::vector<AttachmentSummary> summaries() const;
+
+    /// Breaks what pulls too hard at the positions last evaluated; returns the bodies that are then
+    /// free of it.
+    [[nodiscard]] std::vector<std::size_t> break_springs();
+
+    /// One a spring: 1 if it is broken, else 0.
+    [[nodiscard]] const std::vector<std::uint8_t>& broken() const { return broken_; }
+    void set_broken(const std::vector<std::uint8_t>& broken) { broken_ = broken; }
+
+private:
+    struct Spring {
+        std::array<std::uint32_t, Dim + 2> vertices{};  // its own, then those of the cell
+        Eigen::Matrix<double, Dim + 2, 1> weights;      // 1, then minus the coordinates
+        std::int32_t count = 0;                         // in use
+        Vector<Dim> place = Vector<Dim>::Zero();        // q of a point in space, m, at t = 0
+        Vector<Dim> anchor = Vector<Dim>::Zero();       // at the end of the step
+        Vector<Dim> velocity = Vector<Dim>::Zero();     // q' there, m/s
+        Vector<Dim> start = Vector<Dim>::Zero();        // u = rate (sum of w_i x_i) - start
+        Vector<Dim> stretch = Vector<Dim>::Zero();      // d where last evaluated, m
+    };
+    // The springs of one attachment.
+    struct Group {
+        const Attachment* attachment = nullptr;
+        std::size_t body = 0;
+        std::size_t target = 0;  // the same for points in space
+        std::size_t begin = 0;   // of its springs
+        std::size_t end = 0;
+        std::vector<CenteredMotion<Dim>> motions = {};
+        Matrix<Dim> hessian = Matrix<Dim>::Zero();
+        bool is_on = false;
+        bool is_driven = false;  // in this step it comes or goes, or its points move
+    };
+
+    void add_springs(const Workers& workers, const Bodies<Dim>& bodies, Group& group);
+    [[nodiscard]] static Spring tie_to_space(const Bodies<Dim>& bodies,
+                                             const Attachment& attachment,
+                                             std::uint32_t vertex);
+    [[nodiscard]] static Spring tie_to_body(const Bodies<Dim>& bodies,
+                                            const Group& group,
+                                            std::uint32_t vertex,
+                                            double& distance);
+    [[nodiscard]] static Vector<Dim> weighted_sum(const Spring& spring, const Positions<Dim>& x);
+    [[nodiscard]] bool is_there(const Attachment& attachment, double begin) const;
+    template <typename Visit>
+    void for_each_spring(const Visit& visit) const;
+
+    std::vector<Attachment> list_;
+    double dt_;
+    std::vector<Group> groups_;
+    std::vector<Spring> springs_;
+    std::vector<std::uint8_t> broken_;
+    double rate_ = 0;  // 1/s; 0 before the first step
+    double energy_ = 0;
+    double damping_energy_ = 0;
+};
+
+}  // namespace pent::simulator

@@ -1,0 +1,210 @@
+#include "potentials/attachments.h"
+
+#include "potential_laws.h"
+#include "support/messages.h"
+
+#include <pent/formatted.h>
+
+#include <gtest/gtest.h>
+
+// The springs of attachments as a function of positions; attachment_motion_test.cpp has them in
+// motion.
+
+namespace pent::simulator {
+namespace {
+
+using test::Dimensions;
+using test::expect_derivatives;
+using test::expect_invariance_under_rigid_motion;
+using test::Setting;
+using test::shaken;
+using test::value_of;
+
+template <typename T>
+class AttachmentsTest : public testing::Test {};
+TYPED_TEST_SUITE(AttachmentsTest, Dimensions);
+
+// The lower side of b, which is above a.
+template <int Dim>
+Attachment side_of_b(RestOffset offset) {
+    Attachment attachment;
+    attachment.body = "b";
+    attachment.select = {HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(Dim, 1), .offset = 0.6}};
+    attachment.target = "a";
+    attachment.offset = offset;
+    attachment.stiffness = 300;
+    attachment.max_distance = 0.1;  // it overhangs by 0.04 m
+    return attachment;
+}
+
+template <int Dim>
+Scene tied_cubes(RestOffset offset) {
+    Scene scene = test::two_cubes<Dim>(0.03);
+    scene.contact.reset();
+    scene.attachments = {side_of_b<Dim>(offset)};
+    return scene;
+}
+
+TYPED_TEST(AttachmentsTest, HaveTheirDerivativesAndPushAndTurnNothing) {
+    constexpr int kDim = TypeParam::value;
+    for (const RestOffset offset : {RestOffset::Keep, RestOffset::Zero}) {
+        const Setting<kDim> setting(tied_cubes<kDim>(offset), 2);
+        Attachments<kDim> attachments(setting.workers, setting.scene, setting.bodies);
+        const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.05, 1);
+        expect_derivatives<kDim>(setting, attachments, x);
+        expect_invariance_under_rigid_motion<kDim>(attachments, x);
+        EXPECT_GT(value_of<kDim>(attachments, x), 0);
+    }
+}
+
+TYPED_TEST(AttachmentsTest, AreAtRestWhereTheirOffsetIsKeptHoweverTheTargetIsTurnedAndStretched) {
+    constexpr int kDim = TypeParam::value;
+    const Setting<kDim> setting(tied_cubes<kDim>(RestOffset::Keep), 2);
+    Attachments<kDim> attachments(setting.workers, setting.scene, setting.bodies);
+    EXPECT_LT(value_of<kDim>(attachments, setting.bodies.rest), 1e-25);
+    Matrix<kDim> any = test::any_rotation<kDim>();
+    any.col(0) *= 1.7;
+    // To rounding, squared: 300 N/m (1e-15 m)^2 a spring.
+    EXPECT_LT(value_of<kDim>(attachments, any * setting.bodies.rest), 1e-25);
+}
+
+TYPED_TEST(AttachmentsTest, ArePulledByTheWholeWayWithoutAnOffset) {
+    constexpr int kDim = TypeParam::value;
+    const Setting<kDim> setting(tied_cubes<kDim>(RestOffset::Zero), 2);
+    Attachments<kDim> attachments(setting.workers, setting.scene, setting.bodies);
+    // Every vertex of the side is 0.03 m above that of a or, where it overhangs by 0.04 m along
+    // some axes, farther from its rim.
+    const double energy = value_of<kDim>(attachments, setting.bodies.rest);
+    double expected = 0;
+    for (Eigen::Index v = setting.bodies.first_vertex[1]; v < setting.bodies.rest.cols(); ++v) {
+        const Vector<kDim> p = setting.bodies.rest.col(v);
+        if (p[1] < 0.6) {
+            expected += 150 * (p - p.cwiseMin(0.5)).squaredNorm();
+        }
+    }
+    EXPECT_NEAR(energy, expected, 1e-12 * expected);
+    EXPECT_NEAR(attachments.summaries()[0].largest_force,
+                300 * std::sqrt((kDim - 1) * 0.04 * 0.04 + 0.03 * 0.03), 1e-9);
+}
+
+TYPED_TEST(AttachmentsTest, HaveTheirDerivativesWithDampingAtPointsThatMove) {
+    constexpr int kDim = TypeParam::value;
+    for (const bool is_to_body : {false, true}) {
+        Scene scene = tied_cubes<kDim>(RestOffset::Keep);
+        Attachment& attachment = scene.attachments[0];
+        attachment.damping = 7;
+        if (!is_to_body) {
+            attachment.target.clear();
+            attachment.motion = {test::still(kDim)};
+            attachment.motion[0].translate[0] = 2;
+            attachment.motion[0].rotate = {{.plane = {0, kDim - 1}, .degrees_per_s = 90}};
+        }
+        const Setting<kDim> setting(scene, 2);
+        Attachments<kDim> attachments(setting.workers, scene, setting.bodies);
+        const Positions<kDim> start = shaken<kDim>(setting.bodies.rest, 0.05, 2);
+        const Positions<kDim> origin = shaken<kDim>(start, 0.05, 3);
+        EXPECT_EQ(attachments.set_time({0.5, 0.51}), !is_to_body);
+        EXPECT_TRUE(attachments.begin_step({start, start, origin, 0 * start, 0.01, 150, false}));
+        expect_derivatives<kDim>(setting, attachments, shaken<kDim>(start, 0.02, 4));
+    }
+}
+
+// Where vertices go with the points that they are tied to, by the velocity that rate and origin
+// say, nothing is damped.
+TYPED_TEST(AttachmentsTest, DampWhatMovesOtherwiseThanThePointsThatItIsTiedTo) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = tied_cubes<kDim>(RestOffset::Keep);
+    Attachment& attachment = scene.attachments[0];
+    attachment.target.clear();
+    attachment.damping = 7;
+    attachment.motion = {test::still(kDim)};
+    attachment.motion[0].translate[0] = 2;
+    const Setting<kDim> setting(scene, 2);
+    Attachments<kDim> attachments(setting.workers, scene, setting.bodies);
+    static_cast<void>(attachments.set_time({0.5, 0.51}));
+    const Positions<kDim> origin = setting.bodies.rest;
+    const Positions<kDim> still = 0 * origin;
+    static_cast<void>(attachments.begin_step({origin, still, origin, still, 0.01, 100, false}));
+    Positions<kDim> along = origin;
+    along.row(0).array() += 0.02;  // 2 m/s
+    const double elastic = 0.5 * 300 * std::pow(1.02 - 0.02, 2);
+    const auto springs = static_cast<double>(attachments.broken().size());
+    EXPECT_NEAR(value_of<kDim>(attachments, along), springs * elastic, 1e-9 * springs * elastic);
+    // At rest there is the damping of 2 m/s, 7/(2 100) 4 J, beside a stretch of 1.02 m.
+    EXPECT_NEAR(value_of<kDim>(attachments, origin), springs * (150 * 1.02 * 1.02 + 0.14), 1e-9);
+    EXPECT_FALSE(attachments.energies()[1].is_stored);
+    EXPECT_NEAR(attachments.energies()[1].energy, springs * 0.14, 1e-9);
+}
+
+TYPED_TEST(AttachmentsTest, BreakWhereTheyPullTooHardAndNowhereElse) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = tied_cubes<kDim>(RestOffset::Zero);
+    scene.attachments[0].break_force = 300 * 0.04;  // all that overhang pull harder
+    const Setting<kDim> setting(scene, 2);
+    Attachments<kDim> attachments(setting.workers, scene, setting.bodies);
+    static_cast<void>(value_of<kDim>(attachments, setting.bodies.rest));
+    const AttachmentSummary before = attachments.summaries()[0];
+    EXPECT_EQ(before.springs, std::int64_t(std::pow(3, kDim - 1)));
+    const std::vector<std::size_t> freed = attachments.break_springs();
+    static_cast<void>(value_of<kDim>(attachments, setting.bodies.rest));
+    const AttachmentSummary after = attachments.summaries()[0];
+    EXPECT_EQ(after.springs, std::int64_t(std::pow(2, kDim - 1)));  // 2 of 3 do not overhang
+    EXPECT_EQ(after.broken, before.springs - after.springs);
+    EXPECT_NEAR(after.largest_force, 300 * 0.03, 1e-9);
+    EXPECT_EQ(freed.size(), 2 * static_cast<std::size_t>(after.broken));
+    EXPECT_TRUE(attachments.break_springs().empty());
+}
+
+TYPED_TEST(AttachmentsTest, AreThereInStepsThatBeginFromFromAndBeforeTo) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = tied_cubes<kDim>(RestOffset::Zero);
+    scene.frames_per_second = 10;
+    scene.attachments[0].max_distance = 1;
+    scene.attachments[0].from = 0.3;
+    scene.attachments[0].to = 0.6;
+    const Setting<kDim> setting(scene, 1);
+    Attachments<kDim> attachments(setting.workers, scene, setting.bodies);
+    for (int step = 0; step < 10; ++step) {
+        const bool is_there = step >= 3 && step < 6;
+        // However the times of steps are rounded.
+        for (const double begin : {0.1 * step, std::nextafter(0.1 * step, 0.0)}) {
+            static_cast<void>(attachments.set_time({begin, begin + 0.1}));
+            EXPECT_EQ(value_of<kDim>(attachments, setting.bodies.rest) > 0, is_there) << step;
+            Couplings couplings;
+            attachments.add_couplings(couplings);
+            EXPECT_EQ(couplings.pairs.size(), is_there ? 1U : 0U) << step;
+            // What comes or goes wakes both.
+            EXPECT_EQ(couplings.driven.size(), step == 3 || step == 6 ? 2U : 0U) << step;
+        }
+    }
+}
+
+TYPED_TEST(AttachmentsTest, RefuseWhatIsTooFarAwayAndSayHowFar) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = tied_cubes<kDim>(RestOffset::Keep);
+    scene.attachments[0].select = {EverythingSelection{}};
+    scene.attachments[0].max_distance = 0.2;
+    scene.attachments[0].source = "scene.toml:9:1";
+    const std::string far = formatted("%.4g m", std::sqrt((kDim - 1) * 0.04 * 0.04 + 0.53 * 0.53));
+    const Setting<kDim> setting(scene, 2);
+    pent::test::expect_contains(pent::test::error_of([&] {
+                                    Attachments<kDim>(setting.workers, scene, setting.bodies);
+                                }),
+                                {"scene.toml:9:1: attachment of \"b\": vertex", far + " from \"a\"",
+                                 "max_distance = 0.2 m", "raise it"});
+}
+
+TYPED_TEST(AttachmentsTest, RefuseToCarryAnOffsetOnAFlatCell) {
+    constexpr int kDim = TypeParam::value;
+    const Setting<kDim> setting(tied_cubes<kDim>(RestOffset::Keep), 2);
+    Bodies<kDim> bodies = setting.bodies;
+    bodies.rest.row(1).head(bodies.first_vertex[1]).array() =
+        0.5 - 1e-4 * (0.5 - bodies.rest.row(1).head(bodies.first_vertex[1]).array());
+    pent::test::expect_contains(pent::test::error_of([&] {
+                                    Attachments<kDim>(setting.workers, setting.scene, bodies);
+                                }),
+                                {"too flat", "offset = \"zero\""});
+}
+
+}  // namespace
+}  // namespace pent::simulator

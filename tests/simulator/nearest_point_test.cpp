@@ -1,0 +1,109 @@
+#include "model/nearest_point.h"
+
+#include "contact_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace pent::simulator {
+namespace {
+
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+
+template <typename T>
+class NearestPoint : public testing::Test {};
+TYPED_TEST_SUITE(NearestPoint, Dimensions);
+
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim + 1> corners_of(const SimplexMesh<Dim>& mesh, Eigen::Index cell) {
+    Eigen::Matrix<double, Dim, Dim + 1> corners;
+    for (int i = 0; i <= Dim; ++i) {
+        corners.col(i) = mesh.positions.col(mesh.cells(i, cell));
+    }
+    return corners;
+}
+
+// q is the nearest point of a convex body to p just where no corner c has (p - q) . (c - q) > 0:
+// of each cell alone, and of all of them no cell has a nearer one.
+TYPED_TEST(NearestPoint, IsThatOfTheNearestCell) {
+    constexpr int kDim = TypeParam::value;
+    SimplexMesh<kDim> mesh = test::cube<kDim>(2);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> shake(-0.03, 0.03);
+    mesh.positions = mesh.positions.unaryExpr([&](double x) { return x + shake(random); }).eval();
+    std::uniform_real_distribution<double> place(-0.4, 0.9);
+    int inside = 0;
+    for (int i = 0; i < 12; ++i) {
+        const Vector<kDim> p = Vector<kDim>::NullaryExpr([&] { return place(random); });
+        const MaterialPoint<kDim> nearest = nearest_point<kDim>(mesh.positions, mesh.cells, p);
+        EXPECT_GE(nearest.weights.minCoeff(), 0);
+        EXPECT_NEAR(nearest.weights.sum(), 1, 1e-14);
+        Vector<kDim> q = Vector<kDim>::Zero();
+        for (std::size_t k = 0; k <= kDim; ++k) {
+            q += nearest.weights[static_cast<Eigen::Index>(k)]
+                 * mesh.positions.col(nearest.vertices[k]);
+        }
+        EXPECT_NEAR((p - q).norm(), nearest.distance, 1e-14);
+        inside += nearest.distance == 0 ? 1 : 0;
+        double least = 1e9;
+        for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+            const Simplices<kDim + 1> alone = mesh.cells.col(cell);
+            const MaterialPoint<kDim> of_cell = nearest_point<kDim>(mesh.positions, alone, p);
+            least = std::min(least, of_cell.distance);
+            const auto corners = corners_of<kDim>(mesh, cell);
+            const Vector<kDim> foot = corners * of_cell.weights;
+            const auto along = (p - foot).transpose() * (corners.colwise() - foot);
+            EXPECT_LE(along.maxCoeff(), 1e-13);
+        }
+        EXPECT_NEAR(nearest.distance, least, 1e-15);
+    }
+    EXPECT_GT(inside, 0);
+    EXPECT_LT(inside, 12);
+}
+
+TYPED_TEST(NearestPoint, OfEqualOnesIsThatOfTheFirstCell) {
+    constexpr int kDim = TypeParam::value;
+    const SimplexMesh<kDim> mesh = test::cube<kDim>(2);
+    // The middle, a corner of many cells.
+    const Vector<kDim> middle = Vector<kDim>::Constant(0.25);
+    const MaterialPoint<kDim> nearest = nearest_point<kDim>(mesh.positions, mesh.cells, middle);
+    EXPECT_EQ(nearest.distance, 0);
+    Eigen::Index first = 0;
+    while ((corners_of<kDim>(mesh, first).colwise() - middle).colwise().norm().minCoeff() > 0) {
+        ++first;
+    }
+    for (std::size_t i = 0; i <= kDim; ++i) {
+        EXPECT_EQ(nearest.vertices[i], mesh.cells(static_cast<Eigen::Index>(i), first));
+    }
+}
+
+TYPED_TEST(NearestPoint, HasNoWeightAtCornersThatTheNearestFaceLacks) {
+    constexpr int kDim = TypeParam::value;
+    const SimplexMesh<kDim> mesh = test::cube<kDim>(1);
+    Vector<kDim> above = Vector<kDim>::Constant(0.1);
+    above[1] = 0.35;  // 0.1 m above a side at 0.25 m
+    const MaterialPoint<kDim> nearest = nearest_point<kDim>(mesh.positions, mesh.cells, above);
+    EXPECT_NEAR(nearest.distance, 0.1, 1e-15);
+    int zeros = 0;
+    for (std::size_t i = 0; i <= kDim; ++i) {
+        const double weight = nearest.weights[static_cast<Eigen::Index>(i)];
+        zeros += weight == 0 ? 1 : 0;
+        EXPECT_TRUE(weight == 0 || mesh.positions(1, nearest.vertices[i]) == 0.25);
+    }
+    EXPECT_GE(zeros, 1);
+}
+
+TYPED_TEST(NearestPoint, GoesOnBeyondTheFacesByBarycentricCoordinates) {
+    constexpr int kDim = TypeParam::value;
+    const SimplexMesh<kDim> mesh = test::cube<kDim>(1);
+    const auto corners = corners_of<kDim>(mesh, 3);
+    const Vector<kDim> far = Vector<kDim>::LinSpaced(-0.3, 0.9);
+    const auto weights = barycentric<kDim>(corners, far);
+    EXPECT_NEAR(weights.sum(), 1, 1e-14);
+    EXPECT_LT(weights.minCoeff(), 0);
+    EXPECT_LT((corners * weights - far).norm(), 1e-14);
+}
+
+}  // namespace
+}  // namespace pent::simulator
