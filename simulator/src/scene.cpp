@@ -207,10 +207,14 @@ void check_sleeping(Integrator integrator) {
 
 void check_held(const Body& body, const Scene& scene) {
     const bool is_held = std::any_of(scene.constraints.begin(), scene.constraints.end(),
-                                     [&](const Constraint& c) { return c.body == body.name; });
+                                     [&](const Constraint& c) {
+                                         return c.body == body.name && c.from == 0
+                                                && std::isinf(c.to);
+                                     });
     require(is_held || scene.solver.integrator != Integrator::Quasistatic,
             "body \"" + body.name
-                + "\" has no constraint: the quasistatic integrator needs every body held");
+                + "\" has no constraint that lasts: the quasistatic integrator needs every body"
+                  " held all the time");
 }
 
 std::uint32_t index_of(const Scene& scene, const std::string& body) {

@@ -320,6 +320,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{with("[[constraint]]\nbody = \"a\"\nselect = \"everything\"\n"
                  "motion = { from = 2, to = 1 }\n"),
             "above 2"},
+        Bad{with("[[constraint]]\nbody = \"a\"\nselect = \"everything\"\nfrom = 2\nto = 2\n"),
+            "scene.toml:9:6: \"to\" is 2; expected a number above 2"},
         Bad{with("[[attachment]]\nbody = \"aa\"\nselect = \"everything\"\n"),
             "scene.toml:6:8: no body is called \"aa\"; did you mean \"a\"?"},
         Bad{with("[[attachment]]\nbody = \"a\"\nselect = \"everything\"\ntarget = \"b\"\n"),
@@ -384,7 +386,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "select = \"everything\"\n"),
             "scene.toml:5:1: sleep: the quasistatic"},
         Bad{with("[solver]\nintegrator = \"quasistatic\"\n"),
-            "scene.toml:2:8: body \"a\" has no constraint"},
+            "scene.toml:2:8: body \"a\" has no constraint that lasts"},
         Bad{with("place = { scale = 1e-200 }\n"), "expected a size from 1e-30 to 1e+30"},
         Bad{with("place = { translate = [1e200, 0, 0, 0] }\n"),
             "expected 0 or a size from 1e-30 to 1e+30"},

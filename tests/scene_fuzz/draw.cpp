@@ -190,6 +190,8 @@ const Keys kConstraint = {
      [](Random& random, const Plan& plan) -> Json {
          return random.chance(0.4) ? Json("fixed") : tables(kMotion)(random, plan);
      }},
+    {"from", 0.25, early},
+    {"to", 0.25, late},
 };
 
 // ------------------------------------------------------------------------------------------- loads
@@ -413,9 +415,15 @@ void settle(Random& random, Plan& plan, Json& scene) {
         return;
     }
     scene.erase("sleep");
+    for (Json& constraint : scene["constraint"]) {  // they have to last
+        constraint.erase("from");
+        constraint.erase("to");
+    }
     for (plan.body = 0; plan.body < plan.bodies.size(); ++plan.body) {
         if (!is_held(scene, plan.now().name)) {
             scene["constraint"].push_back(draw_table(kConstraint, random, plan));
+            scene["constraint"].back().erase("from");
+            scene["constraint"].back().erase("to");
         }
     }
 }

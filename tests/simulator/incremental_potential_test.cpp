@@ -150,7 +150,7 @@ TYPED_TEST(IncrementalPotentialTest, LeavesOutBodiesThatSleep) {
     constexpr int kDim = TypeParam::value;
     Step<kDim> step(busy_scene<kDim>());
     const std::uint32_t all = step.potential.dofs().count();
-    step.potential.set_asleep({true, false}, step.start);
+    step.potential.renumber({true, false}, step.start);
     const DofMap& dofs = step.potential.dofs();
     EXPECT_LT(dofs.count(), all);
     step.energy.sum.update(step.start);

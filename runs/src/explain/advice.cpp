@@ -263,7 +263,9 @@ Trial<Dim>::Trial(const Scene& of, int threads)
         start.push_back({positions.rowwise().minCoeff(), positions.rowwise().maxCoeff()});
         free_vertices.push_back(simulation.mesh(i).vertex_count());
         for (const Constraint& constraint : of.constraints) {
-            if (constraint.body == of.bodies[body].name) {
+            // One that comes or goes leaves them their unknowns.
+            const bool lasts = constraint.from == 0 && std::isinf(constraint.to);
+            if (lasts && constraint.body == of.bodies[body].name) {
                 free_vertices.back() -= static_cast<std::int64_t>(
                     select_vertices(simulation.mesh(i), constraint).size());
             }

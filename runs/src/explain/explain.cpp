@@ -140,7 +140,7 @@ private:
         add({.name = "constraints",
              .is_on = held > 0,
              .why = held > 0 ? std::to_string(held) + " of " + std::to_string(size_.vertices)
-                                   + " vertices are held; they have no unknowns"
+                                   + " vertices are held in the first step; they have no unknowns"
                              : "no [[constraint]]"});
     }
 

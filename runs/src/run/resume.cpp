@@ -158,6 +158,7 @@ void put_positions(StateBlocks& blocks,
 
 constexpr const char* kStiffnessBlock = "contact stiffness";
 constexpr const char* kSpringsBlock = "broken springs";
+constexpr const char* kPlacesBlock = "hold places";
 
 std::string sleep_block(const std::string& body) {
     return "sleep/" + body;
@@ -200,6 +201,10 @@ StateBlocks carried_state(const Simulation<Dim>& simulation,
     if (std::count(snapshot.broken_springs.begin(), snapshot.broken_springs.end(), 1) > 0) {
         blocks.put<std::uint8_t>(kSpringsBlock, snapshot.broken_springs);
     }
+    if (!snapshot.hold_places.isZero(0)) {
+        put_positions<Dim>(blocks, kPlacesBlock, snapshot.hold_places, 0,
+                           snapshot.hold_places.cols());
+    }
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const int body = static_cast<int>(i);
         if (snapshot.sleep[i] != SleepState()) {
@@ -229,6 +234,11 @@ void read_carried_state(const StateBlocks& blocks,
                                   ? blocks.get<std::uint8_t>(kSpringsBlock, springs)
                                   : std::vector<std::uint8_t>(springs, 0);
     snapshot.contact_stiffness = has_barrier ? blocks.get<double>(kStiffnessBlock, 1)[0] : 0;
+    snapshot.hold_places = Positions<Dim>::Zero(Dim, now.hold_places.cols());
+    if (blocks.has(kPlacesBlock)) {
+        snapshot.hold_places =
+            positions_of<Dim>(blocks, kPlacesBlock, snapshot.hold_places.cols());
+    }
     snapshot.sleep.assign(bodies.size(), {});
     const bool has_history = blocks.has(positions_block(bodies.front()));
     const Eigen::Index total = has_history ? snapshot.positions.cols() : 0;

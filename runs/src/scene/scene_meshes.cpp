@@ -61,27 +61,37 @@ std::string misfit(const SimplexMesh<Dim>& mesh) {
            + std::to_string(facets.first_fault) + " (pent-check says more)";
 }
 
-// Throws where a vertex is held by two constraints.
+bool do_overlap(const Constraint& a, const Constraint& b) {
+    return a.from < b.to && b.from < a.to;
+}
+
+// Throws where a vertex is held by two constraints at one time.
 template <int Dim>
 void check_constraints(const Scene& scene, const std::vector<SimplexMesh<Dim>>& meshes) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const Body& body = scene.bodies[i];
         const SimplexMesh<Dim> placed = place(meshes[i], body);
-        std::map<std::uint32_t, const Constraint*> held;
+        std::multimap<std::uint32_t, const Constraint*> held;
         for (const Constraint& constraint : scene.constraints) {
             if (constraint.body != body.name) {
                 continue;
             }
             for (const std::uint32_t vertex : select_vertices(placed, constraint)) {
-                const auto [other, is_new] = held.emplace(vertex, &constraint);
-                if (!is_new) {
+                const auto [begin, end] = held.equal_range(vertex);
+                const auto other = std::find_if(begin, end, [&](const auto& entry) {
+                    return do_overlap(*entry.second, constraint);
+                });
+                if (other != end) {
                     throw Error(at(constraint.source) + "vertex " + std::to_string(vertex)
-                                + " of body \"" + body.name + "\" is selected by two constraints"
+                                + " of body \"" + body.name
+                                + "\" is held by two constraints at one time"
                                 + (other->second->source.empty()
                                        ? ""
                                        : ", this one and that at " + other->second->source)
-                                + "; make their selections disjoint");
+                                + "; make their selections disjoint, or let one end before the"
+                                  " other begins");
                 }
+                held.emplace(vertex, &constraint);
             }
         }
     }

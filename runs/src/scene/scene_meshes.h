@@ -21,7 +21,7 @@ struct SceneMeshes {
 /// Throws an Error that begins with the place in the scene file if one cannot be read, is of
 /// another dimension, is placed so small or large that its volumes leave the range of double, has
 /// cells that do not fit together where contact needs a closed surface, or if a constraint selects
-/// nothing or what another holds.
+/// nothing or what another holds at that time.
 template <int Dim>
 [[nodiscard]] SceneMeshes<Dim> read_meshes(const Scene& scene);
 

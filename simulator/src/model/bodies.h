@@ -12,15 +12,26 @@
 
 namespace pent::simulator {
 
-/// Vertices whose places are given: those of one constraint (Dirichlet boundary conditions).
+/// Vertices whose places are given in some steps: those of one constraint (Dirichlet boundary
+/// conditions).
 template <int Dim>
 struct DirichletSet {
     std::vector<std::uint32_t> vertices;       ///< Of all bodies counted through, increasing.
     std::vector<CenteredMotion<Dim>> motions;  ///< Applied one after the other.
+    Positions<Dim> places;                     ///< Dim x vertices: what they start from, m.
+    std::size_t body = 0;
+    std::size_t constraint = 0;   ///< Its place in the scene.
+    std::uint64_t first_step = 0;  ///< Held in the steps [first_step, end_step), counted from 0.
+    std::uint64_t end_step = 0;
+
+    [[nodiscard]] bool is_held(std::uint64_t step) const {
+        return first_step <= step && step < end_step;
+    }
+    [[nodiscard]] bool begins_later() const { return first_step > 0; }
 };
 
-/// All bodies of a scene as one mesh: vertices and cells of the bodies one after the other. Nothing
-/// in here changes while a simulation runs.
+/// All bodies of a scene as one mesh: vertices and cells of the bodies one after the other. While a
+/// simulation runs nothing in here changes but what is held; see hold().
 template <int Dim>
 struct Bodies {
     std::vector<SimplexMesh<Dim>> meshes;    ///< As placed.
@@ -31,7 +42,9 @@ struct Bodies {
     Eigen::VectorXd masses;         ///< One a vertex, kg.
     double large_energy = 0;        ///< Elastic energy of all bodies at strains of about one, J.
     std::vector<DirichletSet<Dim>> dirichlet_sets;  ///< One a constraint.
-    std::vector<bool> is_dirichlet;                 ///< One a vertex.
+    std::vector<bool> is_dirichlet;                 ///< One a vertex: whether it is held now.
+    std::vector<bool> is_always_held;               ///< One a vertex: in every step.
+    std::uint64_t step = 0;                         ///< What is held is that of this step.
     Columns columns;
 
     [[nodiscard]] Eigen::Index vertex_count() const { return rest.cols(); }
@@ -49,7 +62,7 @@ struct Bodies {
     /// The body that a vertex belongs to.
     [[nodiscard]] std::size_t body_of(std::uint32_t vertex) const;
 
-    /// Whether every vertex of a body has a given place: it then moves from outside alone.
+    /// Whether every vertex of a body is held all the time: it then moves from outside alone.
     [[nodiscard]] bool is_kinematic(std::size_t body) const;
 };
 
@@ -59,6 +72,24 @@ struct Bodies {
 /// constructor of Simulation says.
 template <int Dim>
 [[nodiscard]] Bodies<Dim> make_bodies(const Scene& scene, std::vector<SimplexMesh<Dim>> meshes);
+
+/// Holds what is held in a step, which may be any; what begins to be held in it is taken up where it
+/// is. Returns the bodies of which something is held or free now that was not before.
+///
+/// @param positions  Dim x vertices: where the step begins, m.
+template <int Dim>
+[[nodiscard]] std::vector<std::size_t> hold(const Scene& scene,
+                                            std::uint64_t step,
+                                            const Positions<Dim>& positions,
+                                            Bodies<Dim>& bodies);
+
+/// Where sets that begin later have been taken up, see Snapshot::hold_places.
+template <int Dim>
+[[nodiscard]] Positions<Dim> hold_places(const Bodies<Dim>& bodies);
+
+/// Puts them back, as many as hold_places() gives.
+template <int Dim>
+void set_hold_places(const Scene& scene, const Positions<Dim>& places, Bodies<Dim>& bodies);
 
 /// Numbers the vertices of some bodies that are free to move.
 ///
@@ -70,7 +101,7 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] Positions<Dim> start_velocities(const Scene& scene, const Bodies<Dim>& bodies);
 
-/// Puts Dirichlet vertices where they are at a time; their velocities too unless that is null.
+/// Puts what is held now where it is at a time; their velocities too unless that is null.
 template <int Dim>
 void place_dirichlet(const Bodies<Dim>& bodies,
                      double time,

@@ -97,6 +97,11 @@ ContactPotential<Dim>::ContactPotential(const Workers& workers,
     do_bodies_meet_ = is_barrier_ || (scene.contact && (bodies.count() > 1 || scene.contact->self));
     has_obstacles_ = !scene.obstacles.empty();
     stiffness_ = options_.stiffness;
+    set_held(scene, bodies);
+}
+
+template <int Dim>
+void ContactPotential<Dim>::set_held(const Scene& scene, const Bodies<Dim>& bodies) {
     if (do_bodies_meet_ || has_obstacles_) {
         finder_ = std::make_unique<contact::ContactFinder<Dim>>(
             contact_scene<Dim>(scene, bodies, do_bodies_meet_));

@@ -64,6 +64,9 @@ public:
     void set_stiffness(double stiffness) { stiffness_ = is_barrier_ ? stiffness : stiffness_; }
     [[nodiscard]] const Contact& options() const { return options_; }
 
+    /// After what is held has changed.
+    void set_held(const Scene& scene, const Bodies<Dim>& bodies);
+
     /// What it cost since this was last asked.
     [[nodiscard]] ContactWork take_work();
 

@@ -29,7 +29,7 @@ IncrementalPotential<Dim>::IncrementalPotential(const Workers& workers,
 }
 
 template <int Dim>
-void IncrementalPotential<Dim>::set_asleep(const std::vector<bool>& asleep,
+void IncrementalPotential<Dim>::renumber(const std::vector<bool>& asleep,
                                            const Positions<Dim>& positions) {
     std::vector<bool> awake = asleep;
     awake.flip();
@@ -123,8 +123,8 @@ Evaluation<Dim> IncrementalPotential<Dim>::evaluate(const Positions<Dim>& x) {
 template <int Dim>
 Positions<Dim> IncrementalPotential<Dim>::prescribed_shift(const Positions<Dim>& x) const {
     Positions<Dim> shift = Positions<Dim>::Zero(Dim, x.cols());
-    for (const DirichletSet<Dim>& set : bodies_->dirichlet_sets) {
-        for (const std::uint32_t vertex : set.vertices) {
+    for (std::uint32_t vertex = 0; vertex < bodies_->is_dirichlet.size(); ++vertex) {
+        if (bodies_->is_dirichlet[vertex]) {
             shift.col(vertex) = problem_->prescribed.col(vertex) - x.col(vertex);
         }
     }

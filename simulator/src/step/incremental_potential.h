@@ -43,11 +43,11 @@ public:
                          PotentialEnergy<Dim>& energy,
                          Elasticity<Dim>& elasticity);
 
-    /// Solves for some bodies alone from now on.
+    /// Solves for some bodies alone from now on, and for what of them is not held now.
     ///
     /// @param asleep     One entry a body: those that are not solved for.
     /// @param positions  Dim x vertices: where these lie, m.
-    void set_asleep(const std::vector<bool>& asleep, const Positions<Dim>& positions);
+    void renumber(const std::vector<bool>& asleep, const Positions<Dim>& positions);
 
     /// Starts a step; the energy must have been evaluated where it starts.
     ///

@@ -178,7 +178,15 @@ void Simulation<Dim>::restore(const Snapshot<Dim>& snapshot) {
         check_state("a snapshot one step ago", snapshot.previous_positions,
                     snapshot.previous_velocities, vertices);
     }
-    check_springs(snapshot.broken_springs, stepper_->save().broken_springs.size());
+    const Snapshot<Dim> now = stepper_->save();
+    check_springs(snapshot.broken_springs, now.broken_springs.size());
+    if (snapshot.hold_places.cols() != now.hold_places.cols()
+        || !snapshot.hold_places.allFinite()) {
+        throw Error("the places where constraints took up "
+                    + std::to_string(snapshot.hold_places.cols())
+                    + " vertices were given; expected finite ones of "
+                    + std::to_string(now.hold_places.cols()));
+    }
     check_sleep(snapshot.sleep, stepper_->sleep().size(), stepper_->scene().sleep.has_value());
     stepper_->restore(snapshot);
 }

@@ -107,6 +107,7 @@ Snapshot<Dim> Simulation<Dim>::Stepper::save() const {
             .sleep = islands_.states(),
             .steps = steps_,
             .contact_stiffness = energy_.contact->stiffness(),
+            .hold_places = hold_places(bodies_),
             .broken_springs = broken_springs()};
 }
 
@@ -131,7 +132,15 @@ void Simulation<Dim>::Stepper::restore(const Snapshot<Dim>& snapshot) {
         energy_.attachments->set_broken(snapshot.broken_springs);
         energy_.sum.invalidate();
     }
-    number_dofs_of_the_awake();
+    // What is held is that of the last step until the next one begins.
+    const bool has_changed =
+        !hold(scene_, std::max<std::uint64_t>(steps_, 1) - 1, current_.positions, bodies_).empty();
+    set_hold_places(scene_, snapshot.hold_places, bodies_);
+    if (has_changed) {
+        number_dofs_of_the_free();
+    } else {
+        number_dofs_of_the_awake();
+    }
     evaluate_current();
 }
 
@@ -162,7 +171,27 @@ void Simulation<Dim>::Stepper::number_dofs_of_the_awake() {
     std::vector<bool> asleep = islands_.asleep();
     if (asleep != asleep_) {
         asleep_ = std::move(asleep);
-        potential_.set_asleep(asleep_, current_.positions);
+        potential_.renumber(asleep_, current_.positions);
+    }
+}
+
+// Gives dofs to what is free now, and to nothing that is held.
+template <int Dim>
+void Simulation<Dim>::Stepper::number_dofs_of_the_free() {
+    asleep_ = islands_.asleep();
+    potential_.renumber(asleep_, current_.positions);
+    energy_.contact->set_held(scene_, bodies_);
+}
+
+// Holds and lets go what constraints ask for in the step that begins.
+template <int Dim>
+void Simulation<Dim>::Stepper::hold_and_release() {
+    const std::vector<std::size_t> changed = hold(scene_, steps_, current_.positions, bodies_);
+    for (const std::size_t body : changed) {
+        islands_.wake(static_cast<int>(body));
+    }
+    if (!changed.empty()) {
+        number_dofs_of_the_free();
     }
 }
 
@@ -250,6 +279,7 @@ void Simulation<Dim>::Stepper::add_work(StepReport& report) {
 template <int Dim>
 StepReport Simulation<Dim>::Stepper::step() {
     const Stopwatch watch;
+    hold_and_release();
     const State<Dim> before = current_;
     const State<Dim> history_before = history_;
     const double stiffness_before = energy_.contact->stiffness();

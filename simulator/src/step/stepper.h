@@ -57,6 +57,8 @@ private:
     void put_to_sleep();
     void still(Positions<Dim>& velocities) const;
     void number_dofs_of_the_awake();
+    void number_dofs_of_the_free();
+    void hold_and_release();
     void evaluate_current();
     void refuse_crossings(const Positions<Dim>& positions) const;
     void add_work(StepReport& report);

@@ -77,6 +77,12 @@ void fields(Part& constraint, const Visit& visit) {
               "`\"fixed\"`, a table as below, or a list of them: each goes on from where those "
               "before it have the vertices"),
           constraint.motion);
+    visit(key("from", "s", "free in steps that begin before", kNotNegative), constraint.from);
+    visit(key("to", "s", "above `from`; free from there on",
+              Range{.low = constraint.from, .low_included = false})
+              .may_be_missing()
+              .default_is("forever"),
+          constraint.to);
 }
 
 template <PartOf<Attachment> Part, typename Visit>

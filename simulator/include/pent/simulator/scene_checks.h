@@ -36,7 +36,7 @@ void check_model(ContactModel model, Integrator integrator);
 /// Where there is no motion nothing can come to rest.
 void check_sleeping(Integrator integrator);
 
-/// Every body of a quasistatic scene is held.
+/// Every body of a quasistatic scene is held all the time.
 void check_held(const Body& body, const Scene& scene);
 
 }  // namespace pent::simulator

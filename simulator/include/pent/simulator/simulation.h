@@ -37,7 +37,7 @@ struct SimulationOptions {
 struct SimulationSize {
     std::int64_t vertices = 0;
     std::int64_t cells = 0;
-    std::int64_t free_vertices = 0;  ///< Those with unknowns: Dim each.
+    std::int64_t free_vertices = 0;  ///< Those with unknowns now: Dim each.
     std::int64_t elements = 0;       ///< Cells, or edges where smoothed, with a free vertex near;
                                      ///< others cost nothing.
     std::int64_t matrix_blocks = 0;  ///< Dim x Dim blocks stored, upper triangle.
@@ -115,6 +115,9 @@ struct Snapshot {
     std::vector<SleepState> sleep;  ///< One a body.
     std::uint64_t steps = 0;        ///< Taken so far.
     double contact_stiffness = 0;   ///< To which a barrier has adapted, N/m; 0 without one.
+    /// Where constraints that begin after the start have taken up their vertices, m: Dim x their
+    /// vertices, one constraint after the other; zero for those that have not begun.
+    Positions<Dim> hold_places;
     /// One for each spring of all attachments: 1 if it is broken, else 0.
     std::vector<std::uint8_t> broken_springs;
 };
@@ -161,7 +164,7 @@ public:
     /// @param meshes  One for each body, as loaded: placement is done here.
     ///
     /// Throws an Error if the scene does not pass check(), its dimension is not Dim, a mesh does
-    /// not pass validate(), a constraint selects nothing, or two select the same vertex.
+    /// not pass validate(), a constraint selects nothing, or two hold the same vertex at one time.
     Simulation(const Scene& scene,
                std::vector<SimplexMesh<Dim>> meshes,
                const SimulationOptions& options = {});
