@@ -7,10 +7,6 @@ namespace pent::contact {
 template <int Dim>
 Colliders<Dim>::Colliders(const ContactScene<Dim>& scene)
     : scene_(scene), core_points_(Dim, 0), rest_(scene.rest) {
-    for (const auto& [a, b] : scene.ignored) {
-        ignored_.emplace_back(std::minmax(static_cast<int>(a), static_cast<int>(b)));
-    }
-    std::sort(ignored_.begin(), ignored_.end());
     for (std::uint32_t i = 0; is_barrier() && i < scene.obstacles.size(); ++i) {
         if (repels(scene.obstacles[i].shape) == Repels::Facets) {
             add_core(i);
@@ -42,8 +38,8 @@ bool Colliders<Dim>::can_meet(int a, int b) const {
     if (is_core(a) || is_core(b)) {
         return is_core(a) != is_core(b) && !(is_kinematic(a) && is_kinematic(b));
     }
-    const std::pair<int, int> both = std::minmax(a, b);
-    if (std::binary_search(ignored_.begin(), ignored_.end(), both)) {
+    const std::pair<std::uint32_t, std::uint32_t> both = std::minmax(a, b);
+    if (std::binary_search(scene_.ignored.begin(), scene_.ignored.end(), both)) {
         return false;
     }
     // A barrier does not lead what is moved from outside through itself either.

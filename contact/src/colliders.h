@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace pent::contact {
@@ -98,7 +97,6 @@ private:
     std::vector<Core> cores_;
     Positions<Dim> core_points_;
     Positions<Dim> rest_;
-    std::vector<std::pair<int, int>> ignored_;  // of bodies, the lower one first, ascending
 };
 
 }  // namespace pent::contact

@@ -26,6 +26,15 @@ double energy(double y, double e) {
 
 }  // namespace
 
+double Friction::between(const Collider& first, const Collider& second) const {
+    const auto of = [&](const Collider& one) {
+        return one.is_obstacle() || of_bodies.empty() ? coefficient : of_bodies[one.index];
+    };
+    const double a = of(first);
+    const double b = of(second);
+    return a == b ? a : std::sqrt(a * b);
+}
+
 template <int Dim>
 FrictionResponse<Dim> friction_response(
     const Vector<Dim>& normal, double force, const Vector<Dim>& slip, double e, FrictionLaw law) {
@@ -63,7 +72,8 @@ void LaggedFriction<Dim>::begin_step(const std::vector<Contact<Dim>>& contacts,
     lagged_ =
         collect<Lagged>(contacts.size(), kChunk, [&](std::size_t i, std::vector<Lagged>& list) {
             const Contact<Dim>& contact = contacts[i];
-            if (contact.slope == 0) {
+            const double coefficient = friction_.between(contact.first, contact.second);
+            if (contact.slope == 0 || coefficient == 0) {
                 return;
             }
             Lagged lagged;
@@ -71,7 +81,7 @@ void LaggedFriction<Dim>::begin_step(const std::vector<Contact<Dim>>& contacts,
             lagged.weights = contact.weights;
             lagged.count = contact.count;
             lagged.normal = contact.direction;
-            lagged.force = friction_.coefficient * std::abs(contact.slope);
+            lagged.force = coefficient * std::abs(contact.slope);
             lagged.start = weighted_sum(lagged, positions);
             lagged.resistance.setZero();
             if (velocities != nullptr) {

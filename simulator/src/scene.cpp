@@ -1,4 +1,5 @@
 #include <pent/error.h>
+#include <pent/nearest_name.h>
 #include <pent/number_bounds.h>
 #include <pent/simulator/scene.h>
 #include <pent/simulator/scene_checks.h>
@@ -199,6 +200,21 @@ void check_model(ContactModel model, Integrator integrator) {
             " keep bodies apart; use integrator = \"newton_euler\", or model = \"penalty\"");
 }
 
+void check_pairs(const std::vector<BodyPair>& pairs, const Scene& scene) {
+    std::vector<std::string> names;
+    for (const Body& body : scene.bodies) {
+        names.push_back(body.name);
+    }
+    for (const BodyPair& pair : pairs) {
+        for (const std::string& name : {pair.first, pair.second}) {
+            const std::string nearest = nearest_name(name, names);
+            require(std::find(names.begin(), names.end(), name) != names.end(),
+                    "contact: no body is called \"" + name + "\""
+                        + (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+        }
+    }
+}
+
 void check_sleeping(Integrator integrator) {
     require(integrator != Integrator::Quasistatic,
             "sleep: the quasistatic integrator has no motion that could come to rest; leave [sleep]"
@@ -224,6 +240,26 @@ std::uint32_t index_of(const Scene& scene, const std::string& body) {
     return static_cast<std::uint32_t>(found - scene.bodies.begin());
 }
 
+bool may_touch(const Scene& scene, std::size_t a, std::size_t b) {
+    const std::string& first = scene.bodies[a].name;
+    const std::string& second = scene.bodies[b].name;
+    const auto are_these = [&](const std::string& x, const std::string& y) {
+        return (x == first && y == second) || (x == second && y == first);
+    };
+    const auto has = [&](const std::vector<BodyPair>& pairs) {
+        return std::any_of(pairs.begin(), pairs.end(), [&](const BodyPair& pair) {
+            return are_these(pair.first, pair.second);
+        });
+    };
+    const bool are_tied =
+        std::any_of(scene.attachments.begin(), scene.attachments.end(), [&](const Attachment& tie) {
+            return !tie.contact && are_these(tie.body, tie.target);
+        });
+    const Contact& contact = *scene.contact;
+    return (a != b || contact.self) && !are_tied && !has(contact.ignore)
+           && (contact.only.empty() || has(contact.only));
+}
+
 std::string plane_name(const Plane& plane) {
     constexpr std::string_view kAxes = "xyzw";
     return {kAxes[static_cast<std::size_t>(plane.from)], kAxes[static_cast<std::size_t>(plane.to)]};
@@ -236,6 +272,8 @@ void check(const Scene& scene) {
     blocks(scene, BlockChecker{scene.dimension});
     if (scene.contact) {
         check_model(scene.contact->model, scene.solver.integrator);
+        check_pairs(scene.contact->ignore, scene);
+        check_pairs(scene.contact->only, scene);
     }
     if (scene.sleep) {
         check_sleeping(scene.solver.integrator);

@@ -41,6 +41,24 @@ TYPED_TEST(CollidersTest, AreBodiesAndUnderABarrierTheCoresOfObstaclesThatRepelF
     EXPECT_EQ(colliders.surface(3).vertices.cols(), 1 << kDim);
 }
 
+TYPED_TEST(CollidersTest, DoNotMeetWhereTheyAreToIgnoreEachOther) {
+    constexpr int kDim = TypeParam::value;
+    for (const ContactModel model : {ContactModel::Penalty, ContactModel::Barrier}) {
+        ContactScene<kDim> scene = this->model(model);
+        scene.options.self = true;
+        scene.ignored = {{0, 1}, {1, 1}};
+        const Colliders<kDim> colliders(scene);
+        EXPECT_FALSE(colliders.can_meet(0, 1));
+        EXPECT_FALSE(colliders.can_meet(1, 0));
+        EXPECT_FALSE(colliders.can_meet(1, 1));
+        EXPECT_TRUE(colliders.can_meet(0, 0));
+        EXPECT_EQ(colliders.count() > 2, model == ContactModel::Barrier);
+        for (int core = 2; core < colliders.count(); ++core) {
+            EXPECT_TRUE(colliders.can_meet(1, core));
+        }
+    }
+}
+
 TYPED_TEST(CollidersTest, HaveTheVerticesOfCoresBehindThoseOfTheScene) {
     constexpr int kDim = TypeParam::value;
     const ContactScene<kDim> model = this->model(ContactModel::Barrier);

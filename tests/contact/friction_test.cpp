@@ -180,6 +180,25 @@ TYPED_TEST(LaggedFrictionTest, HasDerivativesThatAreCentralDifferences) {
     }
 }
 
+TYPED_TEST(LaggedFrictionTest, OfBodiesWithTheirOwnIsThatOfTheGeometricMean) {
+    constexpr int kDim = TypeParam::value;
+    Friction own = this->kFriction;
+    own.of_bodies = {0.2, 0.8, 0};
+    const auto body = [](std::uint32_t i) { return Collider{Collider::Kind::Body, i}; };
+    const Collider obstacle{Collider::Kind::Obstacle, 1};
+    EXPECT_DOUBLE_EQ(own.between(body(0), body(1)), 0.4);
+    EXPECT_EQ(own.between(body(1), body(1)), 0.8);
+    EXPECT_EQ(own.between(body(0), body(2)), 0);
+    EXPECT_DOUBLE_EQ(own.between(body(0), obstacle), std::sqrt(0.2 * own.coefficient));
+    // A body without any is not looked at.
+    for (Contact<kDim>& contact : this->contacts_) {
+        contact.first = body(2);
+    }
+    LaggedFriction<kDim> friction(own);
+    friction.begin_step(this->contacts_, this->positions_, nullptr, this->kStep);
+    EXPECT_EQ(friction.size(), 0U);
+}
+
 TYPED_TEST(LaggedFrictionTest, IsNothingWhereTheStepStarts) {
     constexpr int kDim = TypeParam::value;
     LaggedFriction<kDim> friction(this->kFriction);

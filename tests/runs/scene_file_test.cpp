@@ -341,6 +341,12 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{with("[[body]]\nname = \"b\"\nmesh = \"b.pent\"\n[[attachment]]\nbody = \"a\"\n"
                  "target = \"b\"\nselect = \"everything\"\nmotion = { translate = [1, 0, 0, 0] }\n"),
             "scene.toml:12:10: \"motion\" is of points in space"},
+        Bad{with("[contact]\nignore = [{ first = \"a\", second = \"ab\" }]\n"),
+            "scene.toml:6:10: contact: no body is called \"ab\"; did you mean \"a\"?"},
+        Bad{with("[contact]\nonly = [{ first = \"x\", second = \"a\" }]\n"),
+            "scene.toml:6:8: contact: no body is called \"x\""},
+        Bad{with("[contact]\nonly = [{ first = \"a\" }]\n"), "needs \"second\""},
+        Bad{with("friction = -1\n"), "at least 0"},
         Bad{with("[[obstacle]]\ndistance = 1\n"), "has 0 of half_space, ball, cavity, bowl"},
         Bad{with("[[obstacle]]\ndistance = 0\n"), "above 0"},
         Bad{with("[[obstacle]]\nbowl = {}\n"), "needs \"center\""},

@@ -62,7 +62,7 @@ std::string error_of(const std::string& block) {
 TEST(ParseSceneErrors, NameTheBlockThatAKeyBelongsTo) {
     EXPECT_EQ(error_of("[solver]\nfriction = 1\n"),
               "s.toml:5:1: unknown key \"friction\" in \"solver\"; \"friction\" belongs to"
-              " [contact]");
+              " [[body]] or [contact]");
     EXPECT_EQ(error_of("young = 1\n"),
               "s.toml:4:1: unknown key \"young\" in \"body\"; \"young\" belongs to \"material\" of"
               " [[body]]");

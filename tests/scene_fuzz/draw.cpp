@@ -91,6 +91,7 @@ const Keys kBody = {
     {"velocity", 0.9,
      [](Random&, const Plan& plan) { return as_json(plan.now().velocity, plan.dimension); }},
     {"spin", 0.25, tables(kSpin)},
+    {"friction", 0.15, number(0, 1)},
 };
 
 // ------------------------------------------------------------------------------------- constraints
@@ -324,6 +325,14 @@ Json draw_obstacle(Random& random, const Plan& plan) {
     return obstacle;
 }
 
+const Keys kBodyPair = {
+    {"first", 1, [](Random&, const Plan& plan) -> Json { return plan.bodies.front().name; }},
+    {"second", 1,
+     [](Random& random, const Plan& plan) -> Json {
+         return plan.bodies[random.below(plan.bodies.size())].name;
+     }},
+};
+
 const Keys kContact = {
     {"model", 0.9, one_of({"penalty", "barrier"})},
     {"distance", 0.95, contact_distance},
@@ -336,6 +345,8 @@ const Keys kContact = {
      }},
     {"friction", 0.5, number(0, 1)},
     {"slip_speed", 0.3, magnitude(1e-4, 0.1)},
+    {"ignore", 0.1, tables(kBodyPair)},
+    {"only", 0.05, tables(kBodyPair)},
 };
 
 // ---------------------------------------------------------------------------- damping, sleep, rest

@@ -66,7 +66,10 @@ const std::vector<Part>& parts() {
          {"contact.seconds", "contact.deepest"}},
         {"friction",
          [](const Json& scene) {
-             return has_contact(scene) && value_at(scene, "contact.friction") > 0;
+             return has_contact(scene)
+                    && (value_at(scene, "contact.friction") > 0
+                        || any_of(scene, "body",
+                                  [](const Json& body) { return body.contains("friction"); }));
          },
          {"contact.friction"}},
         {"an attachment",

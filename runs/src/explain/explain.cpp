@@ -249,7 +249,9 @@ private:
     }
 
     void friction() {
-        if (!scene_.contact || scene_.contact->friction == 0) {
+        const auto own = std::count_if(scene_.bodies.begin(), scene_.bodies.end(),
+                                       [](const Body& body) { return std::isfinite(body.friction); });
+        if (!scene_.contact || (scene_.contact->friction == 0 && own == 0)) {
             add_off("friction",
                     scene_.contact ? "contact.friction = 0" : "no [contact], which would have it");
             return;
@@ -258,7 +260,8 @@ private:
              .is_on = true,
              .why =
                  formatted("coefficient %.3g, sticks below %.3g m/s; its time is that of contact",
-                           scene_.contact->friction, scene_.contact->slip_speed)});
+                           scene_.contact->friction, scene_.contact->slip_speed)
+                 + (own > 0 ? "; " + std::to_string(own) + " bodies have their own" : "")});
     }
 
     void sleeping() {

@@ -49,10 +49,11 @@ contact::ContactScene<Dim> contact_scene(const Scene& scene,
         result.obstacles.push_back(
             {fixed_size<Dim>(obstacle.shape), obstacle.distance, obstacle.stiffness});
     }
-    for (const Attachment& attachment : scene.attachments) {
-        if (!attachment.contact && !attachment.target.empty()) {
-            result.ignored.emplace_back(index_of(scene, attachment.body),
-                                        index_of(scene, attachment.target));
+    for (std::uint32_t a = 0; do_bodies_meet && a < bodies.count(); ++a) {
+        for (std::uint32_t b = a; b < bodies.count(); ++b) {
+            if (!may_touch(scene, a, b)) {
+                result.ignored.emplace_back(a, b);
+            }
         }
     }
     result.is_fixed = bodies.is_dirichlet;

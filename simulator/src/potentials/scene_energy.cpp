@@ -4,10 +4,33 @@
 #include "potentials/gravity.h"
 #include "potentials/pressure_loads.h"
 
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace pent::simulator {
+
+namespace {
+
+// None if nothing has friction.
+std::optional<contact::Friction> friction_law(const Scene& scene) {
+    if (!scene.contact) {
+        return std::nullopt;
+    }
+    contact::Friction law{scene.contact->friction, scene.contact->slip_speed};
+    bool has_own = false;
+    for (const Body& body : scene.bodies) {
+        law.of_bodies.push_back(std::isinf(body.friction) ? law.coefficient : body.friction);
+        has_own = has_own || law.of_bodies.back() != law.coefficient;
+    }
+    if (!has_own) {
+        law.of_bodies.clear();
+    }
+    return has_own || law.coefficient > 0 ? std::optional(law) : std::nullopt;
+}
+
+}  // namespace
 
 template <int Dim>
 SceneEnergy<Dim>::SceneEnergy(const Workers& workers,
@@ -30,9 +53,8 @@ SceneEnergy<Dim>::SceneEnergy(const Workers& workers,
         attachments = &sum.add(std::make_unique<Attachments<Dim>>(workers, scene, bodies));
     }
     contact = &sum.add(std::make_unique<ContactPotential<Dim>>(workers, scene, bodies));
-    if (scene.contact && scene.contact->friction > 0) {
-        const contact::Friction law{scene.contact->friction, scene.contact->slip_speed};
-        friction = &sum.add(std::make_unique<FrictionPotential<Dim>>(*contact, law));
+    if (const auto law = friction_law(scene)) {
+        friction = &sum.add(std::make_unique<FrictionPotential<Dim>>(*contact, *law));
     }
 }
 

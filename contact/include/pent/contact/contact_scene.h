@@ -49,12 +49,13 @@ struct ContactScene {
     ContactOptions options;
     std::vector<ContactBody<Dim>> bodies;
     std::vector<ContactObstacle<Dim>> obstacles;
-    /// Pairs of bodies that do not see each other, by their places.
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> ignored;
     /// One for each vertex of the scene: moved from outside. Such vertices do not push each other
     /// and do not meet obstacles, but a step does not lead them through each other.
     std::vector<bool> is_fixed;
     Positions<Dim> rest;  ///< Rest positions of all vertices, m.
+    /// Pairs of bodies that do not see each other, and of bodies that do not see themselves, by
+    /// their places, ascending, with the lower one first.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> ignored;
 };
 
 /// The energy of a contact, at the stiffness given for bodies (of a barrier for all), N/m.

@@ -12,6 +12,11 @@ struct Friction {
     double coefficient = 0;  ///< mu, >= 0.
     double slip_speed =
         1e-3;  ///< m/s, > 0: what moves slower than that sticks, as if in thick honey.
+    /// One for each body, in place of `coefficient`; none if that is all of theirs.
+    std::vector<double> of_bodies = {};
+
+    /// Of two things that touch: the geometric mean of theirs.
+    [[nodiscard]] double between(const Collider& first, const Collider& second) const;
 };
 
 /// What friction does to the slip in one step.

@@ -68,6 +68,11 @@ void fields(Part& body, const Visit& visit) {
     visit(key("material"), body.material);
     visit(key("velocity", "m/s", "at the start").may_be_missing(), body.velocity);
     visit(key("spin", "", "at the start, about the center of mass"), body.spin);
+    visit(key("friction", "", "Coulomb's coefficient; of two that touch the geometric mean counts",
+              kNotNegative)
+              .may_be_missing()
+              .default_is("that of `[contact]`"),
+          body.friction);
 }
 
 }  // namespace pent::simulator

@@ -57,6 +57,9 @@ struct Body {
     std::string recipe;  ///< Arguments of pent-mesh that make the mesh, paths relative to the scene
                          ///< file; for pent-study. The simulator does not use it.
     std::vector<Spin> spin;  ///< At the start, about the center of mass, added to the velocity.
+    double friction =
+        std::numeric_limits<double>::infinity();  ///< Coulomb's coefficient, >= 0; infinite: that
+                                                  ///< of Contact.
     std::string source =
         {};  ///< Where its mesh stands in a scene file, as in "scene.toml:4:8", for messages;
              ///< empty if the scene was not read from a file.
@@ -197,6 +200,12 @@ struct Obstacle {
 /// How bodies that touch push each other; a barrier not with the linear Euler integrator.
 using contact::ContactModel;
 
+/// Two bodies by their names, in any order; one twice for what it does to itself.
+struct BodyPair {
+    std::string first;
+    std::string second;
+};
+
 /// Contact between bodies, and within them if asked.
 struct Contact {
     ContactModel model = ContactModel::Penalty;
@@ -205,8 +214,11 @@ struct Contact {
     bool self = false;        ///< Whether bodies meet themselves.
     Filter filter = Filter::Clamp;
     double separation = 0;     ///< m, >= 0: a distance that a barrier never lets be reached.
-    double friction = 0;       ///< Coulomb's coefficient, >= 0; of bodies and obstacles.
+    double friction = 0;       ///< Coulomb's coefficient, >= 0; of bodies and obstacles. Of two
+                               ///< with coefficients of their own it is the geometric mean.
     double slip_speed = 1e-3;  ///< m/s, > 0: what slides slower than that sticks.
+    std::vector<BodyPair> ignore = {};  ///< Pairs that do not see each other.
+    std::vector<BodyPair> only = {};    ///< If there are any, no other pair sees each other.
 };
 
 /// What frames may have of every vertex beside its position and velocity.
@@ -268,6 +280,10 @@ struct Scene {
 
 /// The place of a body among those of a scene, which has one of this name.
 [[nodiscard]] std::uint32_t index_of(const Scene& scene, const std::string& body);
+
+/// Whether two bodies of a scene with [contact], or one with itself, see each other, by their
+/// places: what `self`, `ignore`, `only` and attachments say together.
+[[nodiscard]] bool may_touch(const Scene& scene, std::size_t a, std::size_t b);
 
 /// "xw" for {0, 3}.
 [[nodiscard]] std::string plane_name(const Plane& plane);

@@ -33,6 +33,9 @@ template <>
 /// A barrier needs an integrator that iterates.
 void check_model(ContactModel model, Integrator integrator);
 
+/// Whether bodies have these names.
+void check_pairs(const std::vector<BodyPair>& pairs, const Scene& scene);
+
 /// Where there is no motion nothing can come to rest.
 void check_sleeping(Integrator integrator);
 

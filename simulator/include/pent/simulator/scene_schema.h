@@ -77,6 +77,15 @@ void fields(Part& contact, const Visit& visit) {
     visit(key("friction", "", "Coulomb's coefficient, of bodies and obstacles", kNotNegative),
           contact.friction);
     visit(key("slip_speed", "m/s", "what slides slower sticks", kPositive), contact.slip_speed);
+    visit(key("ignore", "", "pairs of bodies that do not see each other; of one and itself, too"),
+          contact.ignore);
+    visit(key("only", "", "if there are any, no other pair sees each other"), contact.only);
+}
+
+template <PartOf<BodyPair> Part, typename Visit>
+void fields(Part& pair, const Visit& visit) {
+    visit(key("first", "", "name of a body").required(), pair.first);
+    visit(key("second", "", "name of a body").required(), pair.second);
 }
 
 template <PartOf<Damping> Part, typename Visit>
