@@ -34,6 +34,16 @@ void Colliders<Dim>::add_core(std::uint32_t obstacle) {
 }
 
 template <int Dim>
+void Colliders<Dim>::update_cores() {
+    Eigen::Index next = 0;
+    for (const Core& core : cores_) {
+        const Positions<Dim> points = core_of<Dim>(scene_.obstacles[core.obstacle].shape).points;
+        core_points_.middleCols(next, points.cols()) = points;
+        next += points.cols();
+    }
+}
+
+template <int Dim>
 bool Colliders<Dim>::can_meet(int a, int b) const {
     if (is_core(a) || is_core(b)) {
         return is_core(a) != is_core(b) && !(is_kinematic(a) && is_kinematic(b));

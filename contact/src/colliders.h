@@ -71,6 +71,9 @@ public:
     /// Of all vertices, those of cores too.
     [[nodiscard]] const Positions<Dim>& rest() const { return rest_; }
 
+    /// After the shapes of obstacles have moved.
+    void update_cores();
+
     /// Calls work(positions) with those of the cores behind those of the scene.
     template <typename Work>
     [[nodiscard]] auto with_cores(const PositionsView<Dim>& positions, const Work& work) const {

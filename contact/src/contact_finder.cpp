@@ -87,6 +87,44 @@ public:
         return limit;
     }
 
+    void move_obstacles(const std::vector<Obstacle<Dim>>& shapes) {
+        for (std::size_t i = 0; i < shapes.size(); ++i) {
+            scene_.obstacles[i].shape = shapes[i];
+        }
+        colliders_.update_cores();
+    }
+
+    StepLimit limit_obstacles(const std::vector<Obstacle<Dim>>& from,
+                              const PositionsView<Dim>& positions) {
+        if (!colliders_.is_barrier()) {
+            return {};
+        }
+        const Stopwatch watch;
+        const auto place = [&](const std::vector<Obstacle<Dim>>& shapes) {
+            move_obstacles(shapes);
+            return colliders_.with_cores(
+                positions, [](const PositionsView<Dim>& all) { return Positions<Dim>(all); });
+        };
+        std::vector<Obstacle<Dim>> now;
+        for (const ContactObstacle<Dim>& obstacle : scene_.obstacles) {
+            now.push_back(obstacle.shape);
+        }
+        const Positions<Dim> start = place(from);
+        const Positions<Dim> end = place(now);
+        candidates_.cover(start, end);
+        StepLimit limit = find_step_limit<Dim>(candidates_, {}, start, end);
+        for (const Contact<Dim>& contact :
+             find_obstacle_contacts<Dim>(colliders_, obstacle_vertices_, positions)) {
+            if (contact.distance <= scene_.options.separation) {
+                limit.fraction = 0;
+                limit.limiting = {CrossingKind::Inside, contact.first, contact.second,
+                                  {contact.vertices[0]}, {}, contact.distance};
+            }
+        }
+        limit.seconds = watch.seconds();
+        return limit;
+    }
+
     [[nodiscard]] StencilHessians<Dim> hessians(const Contacts<Dim>& contacts,
                                                 const PositionsView<Dim>& positions,
                                                 double stiffness,
@@ -204,6 +242,17 @@ template <int Dim>
 StepLimit ContactFinder<Dim>::limit_step(const PositionsView<Dim>& from,
                                          const PositionsView<Dim>& to) {
     return state_->limit_step(from, to);
+}
+
+template <int Dim>
+void ContactFinder<Dim>::move_obstacles(const std::vector<Obstacle<Dim>>& shapes) {
+    state_->move_obstacles(shapes);
+}
+
+template <int Dim>
+StepLimit ContactFinder<Dim>::limit_obstacles(const std::vector<Obstacle<Dim>>& from,
+                                              const PositionsView<Dim>& positions) {
+    return state_->limit_obstacles(from, positions);
 }
 
 template <int Dim>

@@ -66,7 +66,8 @@ template <int Dim>
 void LaggedFriction<Dim>::begin_step(const std::vector<Contact<Dim>>& contacts,
                                      const Positions<Dim>& positions,
                                      const Positions<Dim>* velocities,
-                                     double h) {
+                                     double h,
+                                     const std::function<Vector<Dim>(const Contact<Dim>&)>& travel) {
     slip_ = friction_.slip_speed * h;
     is_linear_ = velocities != nullptr;
     lagged_ =
@@ -82,11 +83,16 @@ void LaggedFriction<Dim>::begin_step(const std::vector<Contact<Dim>>& contacts,
             lagged.count = contact.count;
             lagged.normal = contact.direction;
             lagged.force = coefficient * std::abs(contact.slope);
-            lagged.start = weighted_sum(lagged, positions);
+            Vector<Dim> carried = Vector<Dim>::Zero();
+            if (travel && contact.second.is_obstacle()) {
+                carried = travel(contact);
+            }
+            lagged.start = weighted_sum(lagged, positions) + carried;
             lagged.resistance.setZero();
             if (velocities != nullptr) {
                 lagged.resistance = friction_response<Dim>(lagged.normal, lagged.force,
-                                                           h * weighted_sum(lagged, *velocities),
+                                                           h * weighted_sum(lagged, *velocities)
+                                                               - carried,
                                                            slip_, FrictionLaw::Secant)
                                         .hessian;
             }

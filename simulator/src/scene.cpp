@@ -320,6 +320,18 @@ std::optional<Fault> fault_of(const Attachment& attachment) {
 }
 
 template <>
+std::optional<Fault> fault_of(const Obstacle& obstacle) {
+    const bool turns = std::any_of(obstacle.motion.begin(), obstacle.motion.end(),
+                                   [](const Motion& motion) { return !motion.rotate.empty(); });
+    if (!turns || !std::holds_alternative<BoxObstacle>(obstacle.shape)) {
+        return std::nullopt;
+    }
+    return Fault{"motion",
+                 "a box lies along the axes and cannot turn; expected a motion without \"rotate\","
+                 " or another shape"};
+}
+
+template <>
 std::optional<Fault> fault_of(const LayerSelection& layers) {
     if (layers.first <= layers.last) {
         return std::nullopt;

@@ -4,6 +4,7 @@
 #include "support/temp_folder.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/obstacles_file.h>
 #include <pent/pent_file.h>
 #include <pent/runs/run.h>
@@ -66,6 +67,24 @@ TEST(Run, WritesTheObstaclesOfItsScene) {
     scene.obstacles.clear();
     static_cast<void>(run(scene, {.folder = folder / "run", .force = true}));
     EXPECT_FALSE(fs::exists(folder / "run/obstacles.json"));
+}
+
+TEST(Run, WritesWhereObstaclesAreAtEachFrameWhereTheyMove) {
+    const TempFolder folder;
+    Scene scene = falling_bar(folder, 2);
+    Motion up;
+    up.translate = Eigen::Vector4d(0, 3, 0, 0);
+    scene.obstacles = {
+        {.shape = BallObstacle{.center = Eigen::Vector4d(9, -9, 9, 9), .radius = 0.5},
+         .motion = {up}}};
+    static_cast<void>(run(scene, {.folder = folder / "run"}));
+    EXPECT_FALSE(fs::exists(folder / "run/obstacles.json"));
+    for (int frame = 0; frame <= 2; ++frame) {
+        const auto obstacles =
+            read_obstacles<4>(folder / "run" / formatted("obstacles/%06d.json", frame));
+        EXPECT_NEAR(std::get<Ball<4>>(obstacles.at(0)).center[1],
+                    -9 + 3 * frame / scene.frames_per_second, 1e-12);
+    }
 }
 
 TEST(Run, WritesASceneThatRunsAgainToTheSameBytes) {

@@ -184,6 +184,9 @@ const Keys kMotion = {
     {"to", 0.3, late},
 };
 
+// Of what does not turn.
+const Keys kSlide = {{"translate", 1, motion_velocity}, {"from", 0.3, early}, {"to", 0.3, late}};
+
 const Keys kConstraint = {
     {"body", 1, [](Random&, const Plan& plan) -> Json { return plan.now().name; }},
     {"select", 1, draw_selections},
@@ -318,6 +321,10 @@ Json draw_obstacle(Random& random, const Plan& plan) {
         if (random.chance(0.3)) {
             obstacle["bowl"]["up"] = as_json({0.2, 1, 0, 0}, plan.dimension);
         }
+    }
+    if (random.chance(0.25)) {
+        const bool turns = !obstacle.contains("box");
+        obstacle["motion"] = tables(turns ? kMotion : kSlide)(random, plan);
     }
     obstacle.update(
         draw_table({{"distance", 0.9, contact_distance}, {"stiffness", 0.9, contact_stiffness}},

@@ -2,6 +2,7 @@
 #include "survey.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/obstacles_file.h>
 #include <pent/viewer/movie.h>
 #include <pent/viewer/render_run.h>
@@ -360,6 +361,22 @@ TEST_F(RenderObstacles, HaveGhostsAndOutlinesAsBodiesHave) {
     EXPECT_EQ(picture_of("run", some).rgb, picture_of("bare", some).rgb);
     some.projection = ProjectionOptions();
     EXPECT_NE(picture_of("run", some).rgb, picture_of("bare", some).rgb);
+}
+
+TEST_F(RenderObstacles, ThatMoveAreWhereTheyAreAtEachFrame) {
+    RenderRunOptions some = options();
+    const Image at_rest = picture_of("run", some);
+    const int frame = open_run(folder_ / "run").frames.front();
+    fs::remove(folder_ / "run/obstacles.json");
+    const auto put = [&](int number, const std::vector<Obstacle<4>>& obstacles) {
+        fs::create_directories(folder_ / "run/obstacles");
+        write_obstacles<4>(folder_ / "run" / formatted("obstacles/%06d.json", number), obstacles);
+    };
+    put(frame, floor_and_ball());
+    put(frame + 1, {floor_and_ball()[0]});
+    EXPECT_EQ(picture_of("run", some).rgb, at_rest.rgb);
+    put(frame, {floor_and_ball()[0]});
+    EXPECT_NE(picture_of("run", some).rgb, at_rest.rgb);
 }
 
 TEST_F(RenderObstacles, OfDamagedFilesAreRefused) {

@@ -33,7 +33,7 @@ template <int Dim>
         snapshot.frames.push_back(load_frame<Dim>(run, body, frame));
         snapshot.values.push_back(vertex_values<Dim>(body, snapshot.frames.back(), color));
     }
-    snapshot.obstacles = load_obstacles<Dim>(run);
+    snapshot.obstacles = load_obstacles<Dim>(run, frame);
     return snapshot;
 }
 

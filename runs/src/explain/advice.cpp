@@ -209,14 +209,17 @@ private:
     }
 
     [[nodiscard]] bool is_anything_moving() const {
-        const bool is_driven = std::any_of(
-            scene_.constraints.begin(), scene_.constraints.end(), [](const Constraint& constraint) {
-                return std::any_of(constraint.motion.begin(), constraint.motion.end(),
-                                   [](const Motion& motion) {
-                                       return !motion.translate.isZero(0) || !motion.rotate.empty();
-                                   });
-            });
-        return is_driven || trial_.step.energies.kinetic > 0;
+        const auto moves = [](const auto& part) {
+            return std::any_of(
+                part.motion.begin(), part.motion.end(), [](const Motion& motion) {
+                    return !motion.translate.isZero(0) || !motion.rotate.empty();
+                });
+        };
+        const auto has_any = [&](const auto& parts) {
+            return std::any_of(parts.begin(), parts.end(), moves);
+        };
+        return has_any(scene_.constraints) || has_any(scene_.attachments)
+               || has_any(scene_.obstacles) || trial_.step.energies.kinetic > 0;
     }
 
     void on_idle_obstacles() {

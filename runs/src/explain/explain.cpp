@@ -224,11 +224,15 @@ private:
             add_off("obstacles", "no [[obstacle]]");
             return;
         }
+        const auto moving =
+            std::count_if(scene_.obstacles.begin(), scene_.obstacles.end(),
+                          [](const Obstacle& one) { return !one.motion.empty(); });
         const bool is_first =
             !scene_.contact || (scene_.bodies.size() == 1 && !scene_.contact->self);
         add({.name = "obstacles",
              .is_on = true,
-             .why = std::to_string(scene_.obstacles.size()) + ", "
+             .why = std::to_string(scene_.obstacles.size())
+                    + (moving > 0 ? ", of which " + std::to_string(moving) + " move, " : ", ")
                     + (has_barrier() ? "barrier" : "penalty") + "; "
                     + std::to_string(step_.contact.obstacle) + " vertices touch after a step, of "
                     + std::to_string(size_.free_vertices)

@@ -81,6 +81,7 @@ private:
         return scene_.bodies[static_cast<std::size_t>(body)].name;
     }
     void start_folder();
+    [[nodiscard]] bool do_obstacles_move() const;
     void write_scene();
     void begin_part(int frame);
     void write_meshes();
@@ -127,6 +128,12 @@ void Run<Dim>::start_folder() {
     folder_.clear(inputs);
 }
 
+template <int Dim>
+bool Run<Dim>::do_obstacles_move() const {
+    return std::any_of(scene_.obstacles.begin(), scene_.obstacles.end(),
+                       [](const Obstacle& obstacle) { return !obstacle.motion.empty(); });
+}
+
 // The scene that is being run stays as its author wrote it, wherever it is.
 template <int Dim>
 void Run<Dim>::write_scene() {
@@ -135,12 +142,8 @@ void Run<Dim>::write_scene() {
     if (!fs::equivalent(options_.scene_file, file, ignored)) {
         write_text(file, scene_text(relocated(scene_, options_.folder)));
     }
-    std::vector<pent::Obstacle<Dim>> obstacles;
-    for (const Obstacle& obstacle : scene_.obstacles) {
-        obstacles.push_back(fixed_size<Dim>(obstacle.shape));
-    }
-    if (!obstacles.empty()) {
-        write_obstacles(folder_.claim(kObstaclesFile), obstacles);
+    if (!scene_.obstacles.empty() && !do_obstacles_move()) {
+        write_obstacles(folder_.claim(kObstaclesFile), simulation_.obstacles());
     }
 }
 
@@ -261,6 +264,9 @@ void Run<Dim>::write_frame_files(int frame) {
         const std::string& name = name_of(body);
         write_frame(folder_.claim(frame_file(name, frame)), file,
                     {.created_by = options_.created_by});
+    }
+    if (do_obstacles_move()) {
+        write_obstacles(folder_.claim(moved_obstacles_file(frame)), simulation_.obstacles());
     }
     if (scene_.output.contact_pairs) {
         write_text(folder_.claim(contacts_file(frame)),

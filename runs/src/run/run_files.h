@@ -20,6 +20,9 @@ inline constexpr const char* kJournalFile = "journal.txt";
 [[nodiscard]] inline std::string frame_file(const std::string& body, int frame) {
     return "frames/" + frame_file_name(body, frame);
 }
+[[nodiscard]] inline std::string moved_obstacles_file(int frame) {
+    return formatted("obstacles/%06d.json", frame);
+}
 [[nodiscard]] inline std::string contacts_file(int frame) {
     return formatted("contacts/%06d.csv", frame);
 }

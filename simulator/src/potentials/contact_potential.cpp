@@ -93,7 +93,10 @@ template <int Dim>
 ContactPotential<Dim>::ContactPotential(const Workers& workers,
                                         const Scene& scene,
                                         const Bodies<Dim>& bodies)
-    : workers_(&workers), options_(scene.contact.value_or(Contact{})) {
+    : workers_(&workers),
+      options_(scene.contact.value_or(Contact{})),
+      motions_(scene),
+      obstacles_(motions_.at(0)) {
     is_barrier_ = scene.contact && options_.model == ContactModel::Barrier;
     do_bodies_meet_ = is_barrier_ || (scene.contact && (bodies.count() > 1 || scene.contact->self));
     has_obstacles_ = !scene.obstacles.empty();
@@ -106,7 +109,43 @@ void ContactPotential<Dim>::set_held(const Scene& scene, const Bodies<Dim>& bodi
     if (do_bodies_meet_ || has_obstacles_) {
         finder_ = std::make_unique<contact::ContactFinder<Dim>>(
             contact_scene<Dim>(scene, bodies, do_bodies_meet_));
+        finder_->move_obstacles(obstacles_);
     }
+}
+
+template <int Dim>
+bool ContactPotential<Dim>::set_time(const TimeSpan& step) {
+    const bool has_changed = motions_.is_any() && step != step_;
+    step_ = step;
+    if (has_changed) {
+        obstacles_ = motions_.at(step.end);
+        finder_->move_obstacles(obstacles_);
+    }
+    return has_changed;
+}
+
+// Of the point at the surface that is next to the body.
+template <int Dim>
+Vector<Dim> ContactPotential<Dim>::travel(const contact::Contact<Dim>& contact,
+                                          const Positions<Dim>& x) const {
+    Vector<Dim> point = -contact.distance * contact.direction;
+    for (int i = 0; i < contact.count; ++i) {
+        point += contact.weights[i] * x.col(contact.vertices[static_cast<std::size_t>(i)]);
+    }
+    return motions_.travel(contact.second.index, point, step_.begin, step_.end);
+}
+
+template <int Dim>
+std::string ContactPotential<Dim>::obstacle_in_the_way(const Positions<Dim>& x) {
+    if (!is_barrier_ || !motions_.is_any()) {
+        return "";
+    }
+    limit_ = workers_->run([&] { return finder_->limit_obstacles(motions_.at(step_.begin), x); });
+    work_.seconds += limit_.seconds;
+    work_.ccd_seconds += limit_.seconds;
+    return limit_.fraction < 1 ? "an obstacle moves so far in a step that " + describe(limit_.limiting)
+                                     + "; take smaller steps, or move it more slowly"
+                               : "";
 }
 
 template <int Dim>
@@ -178,6 +217,12 @@ void ContactPotential<Dim>::add_couplings(Couplings& couplings) const {
     for (const contact::Contact<Dim>& contact : contacts_.list) {
         if (!contact.second.is_obstacle() && !contact.is_self()) {
             pairs.emplace_back(std::minmax(contact.first.index, contact.second.index));
+        }
+    }
+    for (const contact::Contact<Dim>& contact : contacts_.list) {
+        if (motions_.is_any() && contact.second.is_obstacle()
+            && motions_.is_moving(contact.second.index, step_.begin, step_.end)) {
+            couplings.driven.push_back(contact.first.index);
         }
     }
     std::sort(pairs.begin(), pairs.end());

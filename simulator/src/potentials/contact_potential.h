@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/bodies.h"
+#include "model/obstacle_motions.h"
 #include "potentials/potential.h"
 
 #include <pent/contact/contact_finder.h>
@@ -25,6 +26,7 @@ public:
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
     void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) override;
     [[nodiscard]] std::vector<TermEnergy> energies() const override;
+    [[nodiscard]] bool set_time(const TimeSpan& step) override;
     void add_couplings(Couplings& couplings) const override;
     [[nodiscard]] bool begin_step(const StepStart<Dim>& start) override;
     [[nodiscard]] double max_step(const Positions<Dim>& from, const Positions<Dim>& to) override;
@@ -51,6 +53,18 @@ public:
 
     /// What was in the way where max_step() last was less than 1.
     [[nodiscard]] const contact::StepLimit& limit() const { return limit_; }
+
+    /// Where obstacles are now.
+    [[nodiscard]] const std::vector<pent::Obstacle<Dim>>& obstacles() const { return obstacles_; }
+    [[nodiscard]] bool has_moving_obstacles() const { return motions_.is_any(); }
+
+    /// How far the point of an obstacle that a contact touches moves in the step, m.
+    [[nodiscard]] Vector<Dim> travel(const contact::Contact<Dim>& contact,
+                                     const Positions<Dim>& x) const;
+
+    /// Why obstacles could not move in the step with all vertices where they are; empty if they
+    /// could. Always so without a barrier.
+    [[nodiscard]] std::string obstacle_in_the_way(const Positions<Dim>& x);
 
     /// What crosses where a barrier is to keep things apart; empty without one.
     [[nodiscard]] std::vector<contact::Crossing> find_crossings(
@@ -87,6 +101,9 @@ private:
     bool has_obstacles_ = false;
     double stiffness_ = 0;                                 // of bodies, N/m
     double last_gap_ = 0;                                  // m, of the last accepted iterate
+    ObstacleMotions<Dim> motions_;
+    TimeSpan step_;
+    std::vector<pent::Obstacle<Dim>> obstacles_;                 // at its end
     std::unique_ptr<contact::ContactFinder<Dim>> finder_;  // null where nothing can touch
     const Positions<Dim>* x_ = nullptr;                    // last evaluated
     contact::Contacts<Dim> contacts_;                      // there

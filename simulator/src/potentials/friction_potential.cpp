@@ -1,13 +1,20 @@
 #include "potentials/friction_potential.h"
 
+#include <functional>
 #include <utility>
 
 namespace pent::simulator {
 
 template <int Dim>
 bool FrictionPotential<Dim>::begin_step(const StepStart<Dim>& start) {
+    std::function<Vector<Dim>(const contact::Contact<Dim>&)> travel;
+    if (contacts_->has_moving_obstacles()) {
+        travel = [&](const contact::Contact<Dim>& contact) {
+            return contacts_->travel(contact, start.positions);
+        };
+    }
     friction_.begin_step(contacts_->contacts().list, start.positions,
-                         start.is_linear ? &start.velocities : nullptr, start.h);
+                         start.is_linear ? &start.velocities : nullptr, start.h, travel);
     return true;
 }
 

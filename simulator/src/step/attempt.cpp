@@ -162,6 +162,11 @@ template <int Dim>
 bool Simulation<Dim>::Stepper::attempt(double time, double h, StepReport& report) {
     const StepProblem<Dim> problem = make_problem(time, h);
     energy_.sum.set_time({time, time + h});
+    if (std::string reason = energy_.contact->obstacle_in_the_way(current_.positions);
+        !reason.empty()) {
+        report.failure = std::move(reason);
+        return false;
+    }
     energy_.sum.update(current_.positions);
     static_cast<void>(wake(problem.prescribed));
     energy_.sum.update(current_.positions);

@@ -110,6 +110,11 @@ std::span<const contact::Contact<Dim>> Simulation<Dim>::contacts() const {
 }
 
 template <int Dim>
+const std::vector<pent::Obstacle<Dim>>& Simulation<Dim>::obstacles() const {
+    return stepper_->contact().obstacles();
+}
+
+template <int Dim>
 std::int64_t Simulation<Dim>::first_vertex(int body) const {
     return stepper_->bodies().first_vertex[static_cast<std::size_t>(body)];
 }

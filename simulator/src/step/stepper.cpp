@@ -119,7 +119,14 @@ std::vector<std::uint8_t> Simulation<Dim>::Stepper::broken_springs() const {
 
 template <int Dim>
 void Simulation<Dim>::Stepper::restore(const Snapshot<Dim>& snapshot) {
-    refuse_crossings(snapshot.positions);
+    const double time = static_cast<double>(snapshot.steps) * scene_.dt();
+    energy_.sum.set_time({std::max(0.0, time - scene_.dt()), time});
+    try {
+        refuse_crossings(snapshot.positions);
+    } catch (const CrossingError<Dim>&) {
+        evaluate_current();  // obstacles are where they were
+        throw;
+    }
     current_ = {snapshot.positions, snapshot.velocities};
     history_ = {snapshot.previous_positions, snapshot.previous_velocities};
     islands_.set_states(snapshot.sleep);

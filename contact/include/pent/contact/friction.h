@@ -3,6 +3,7 @@
 #include <pent/contact/contact.h>
 #include <pent/simplex_mesh.h>
 
+#include <functional>
 #include <vector>
 
 namespace pent::contact {
@@ -59,10 +60,13 @@ public:
     /// @param velocities  Null for a step that minimizes. For one of a single linear solve those at
     ///                    its start, m/s: they tell how fast contacts slip, and so their
     ///                    resistance.
+    /// @param travel      How far the point of an obstacle that a contact touches moves in the step,
+    ///                    m; empty where none moves.
     void begin_step(const std::vector<Contact<Dim>>& contacts,
                     const Positions<Dim>& positions,
                     const Positions<Dim>* velocities,
-                    double h);
+                    double h,
+                    const std::function<Vector<Dim>(const Contact<Dim>&)>& travel = {});
 
     /// Adds the gradient at these positions, N, and returns the energy, J: of use within a step
     /// alone, since it starts anew with each.
@@ -81,7 +85,7 @@ private:
         int count = 0;          // vertices in use
         Vector<Dim> normal;     // unit length
         double force = 0;       // mu times the normal force, N
-        Vector<Dim> start;      // sum w_i x_i at the start of the step, m
+        Vector<Dim> start;      // sum w_i x_i that is no slip at the end of the step, m
         Block<Dim> resistance;  // held, for a single linear solve; N/m
     };
 

@@ -14,6 +14,7 @@ namespace pent::runs {
 ///
 ///     RUN/scene.toml                the scene as run, defaults filled in
 ///     RUN/obstacles.json            the shapes of its obstacles, if there are any
+///     RUN/obstacles/000123.json     in its place, at a frame, if any moves
 ///     RUN/meshes/BODY.pent          the mesh as placed
 ///     RUN/frames/BODY_000123.pent   positions and velocities; frame 0 is the start
 ///     RUN/contacts/000123.csv       every pair in contact, if the scene asks for them

@@ -187,7 +187,7 @@ using BowlObstacle = pent::Bowl<Eigen::Dynamic>;
 using BoxObstacle = pent::Cuboid<Eigen::Dynamic>;
 using ObstacleShape = pent::Obstacle<Eigen::Dynamic>;
 
-/// Something no body may enter, which does not move.
+/// Something no body may enter; it moves as it is told, or not at all.
 ///
 /// Every free vertex nearer than `distance` to it, or inside it, has the energy
 /// stiffness (distance - d)^2, d being the signed distance: a force that grows linearly with depth.
@@ -195,6 +195,9 @@ struct Obstacle {
     ObstacleShape shape;
     double distance = 0.02;   ///< m, > 0.
     double stiffness = 1000;  ///< N/m for each vertex, > 0.
+    /// One after the other, as of a Constraint; each turns it about its center (a half-space about
+    /// its point next to the origin) unless it says otherwise. A box does not turn.
+    std::vector<Motion> motion = {};
 };
 
 /// How bodies that touch push each other; a barrier not with the linear Euler integrator.

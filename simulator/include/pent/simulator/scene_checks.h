@@ -29,6 +29,8 @@ template <>
 [[nodiscard]] std::optional<Fault> fault_of(const Load& load);
 template <>
 [[nodiscard]] std::optional<Fault> fault_of(const Attachment& attachment);
+template <>
+[[nodiscard]] std::optional<Fault> fault_of(const Obstacle& obstacle);
 
 /// A barrier needs an integrator that iterates.
 void check_model(ContactModel model, Integrator integrator);

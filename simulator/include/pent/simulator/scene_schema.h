@@ -59,6 +59,8 @@ void fields(Part& obstacle, const Visit& visit) {
           obstacle.shape);  // its name is the key
     visit(key("distance", "m", "", kPositive), obstacle.distance);
     visit(key("stiffness", "N/m for each vertex", "", kPositive), obstacle.stiffness);
+    visit(key("motion", "", "as of a constraint, about its center; a `box` does not turn"),
+          obstacle.motion);
 }
 
 template <PartOf<Contact> Part, typename Visit>

@@ -200,6 +200,9 @@ public:
     /// Vertices are counted through all bodies. <pent/contact/contact.h> has the type.
     [[nodiscard]] std::span<const contact::Contact<Dim>> contacts() const;
 
+    /// The obstacles of the scene, where they are now.
+    [[nodiscard]] const std::vector<pent::Obstacle<Dim>>& obstacles() const;
+
     /// First vertex of a body where those of all bodies are counted through.
     [[nodiscard]] std::int64_t first_vertex(int body) const;
 

@@ -45,10 +45,11 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] Frame<Dim> load_frame(const RunFolder& run, const Body<Dim>& body, int frame);
 
-/// The obstacles of a run, in the order of its scene; none where the run says nothing of any.
+/// The obstacles of a run at a frame, in the order of its scene; none where the run says nothing of
+/// any.
 /// Throws an Error as read_obstacles does.
 template <int Dim>
-[[nodiscard]] std::vector<Obstacle<Dim>> load_obstacles(const RunFolder& run);
+[[nodiscard]] std::vector<Obstacle<Dim>> load_obstacles(const RunFolder& run, int frame);
 
 /// The numbers a user asked for, out of those there are.
 ///

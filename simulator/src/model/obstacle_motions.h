@@ -1,0 +1,49 @@
+#pragma once
+
+#include "model/motion_chain.h"
+
+#include <pent/obstacle.h>
+#include <pent/simulator/scene.h>
+
+#include <vector>
+
+namespace pent::simulator {
+
+/// Where the obstacles of a scene are, at any time.
+template <int Dim>
+class ObstacleMotions {
+public:
+    explicit ObstacleMotions(const Scene& scene);
+
+    /// Whether any has a motion.
+    [[nodiscard]] bool is_any() const { return is_any_; }
+
+    /// All of them at a time, s; those without a motion as the scene has them, to the bit.
+    [[nodiscard]] std::vector<pent::Obstacle<Dim>> at(double time) const;
+
+    /// How far the point of an obstacle that is at `point` at one time has come since another, m.
+    [[nodiscard]] Vector<Dim> travel(std::size_t obstacle,
+                                     const Vector<Dim>& point,
+                                     double from,
+                                     double to) const;
+
+    /// Whether one is moving from one time to another, turning about itself included.
+    [[nodiscard]] bool is_moving(std::size_t obstacle, double from, double to) const;
+
+private:
+    // X goes to rotation X + shift.
+    struct Placement {
+        Matrix<Dim> rotation;
+        Vector<Dim> shift;
+    };
+    struct Moved {
+        pent::Obstacle<Dim> start;
+        std::vector<CenteredMotion<Dim>> motions;
+    };
+    [[nodiscard]] Placement placement(std::size_t obstacle, double time) const;
+
+    std::vector<Moved> obstacles_;
+    bool is_any_ = false;
+};
+
+}  // namespace pent::simulator

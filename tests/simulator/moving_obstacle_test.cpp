@@ -1,0 +1,199 @@
+#include "contact_scenes.h"
+#include "support/messages.h"
+
+#include <pent/contact/obstacles.h>
+#include <pent/error.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+// Obstacles that move, and what they push and carry.
+
+namespace pent::simulator {
+namespace {
+
+using test::cube;
+using test::mean_velocity;
+using test::still;
+
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+
+template <typename T>
+class MovingObstacle : public testing::Test {};
+TYPED_TEST_SUITE(MovingObstacle, Dimensions);
+
+constexpr ContactModel kModels[] = {ContactModel::Penalty, ContactModel::Barrier};
+
+// A cube of one cell that rests on a floor whose top is a little below it.
+template <int Dim>
+Scene cube_on_floor(ContactModel model) {
+    Scene scene = test::box_scene<Dim>();
+    scene.frames_per_second = 100;
+    scene.gravity[1] = -9.8;
+    scene.solver.integrator = Integrator::NewtonEuler;
+    scene.obstacles = {{.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(Dim, 1),
+                                                   .offset = -0.01},
+                        .distance = 0.02,
+                        .stiffness = 2e4,
+                        .motion = {still(Dim)}}};
+    scene.contact = Contact{.model = model, .distance = 0.02, .stiffness = 2e4};
+    return scene;
+}
+
+template <int Dim>
+double gap(const Simulation<Dim>& simulation, std::size_t obstacle) {
+    const Positions<Dim> x = simulation.positions(0);
+    double least = 1e9;
+    for (Eigen::Index v = 0; v < x.cols(); ++v) {
+        least = std::min(
+            least,
+            contact::signed_distance<Dim>(simulation.obstacles()[obstacle], x.col(v)).value);
+    }
+    return least;
+}
+
+TYPED_TEST(MovingObstacle, CarriesWhatLiesOnItByFriction) {
+    constexpr int kDim = TypeParam::value;
+    for (const ContactModel model : kModels) {
+        for (const Integrator integrator : {Integrator::LinearEuler, Integrator::NewtonEuler}) {
+            if (model == ContactModel::Barrier && integrator == Integrator::LinearEuler) {
+                continue;
+            }
+            Scene scene = cube_on_floor<kDim>(model);
+            scene.solver.integrator = integrator;
+            scene.contact->friction = 0.5;
+            scene.damping = Damping{.mass = 0, .stiffness = 0.02};  // it is not to rock for long
+            scene.obstacles[0].motion[0].translate[0] = 0.5;        // a belt
+            Simulation<kDim> simulation(scene, {cube<kDim>(1)});
+            for (int i = 0; i < 100; ++i) {
+                const StepReport report = simulation.step();
+                ASSERT_TRUE(report.is_accepted) << report.failure;
+            }
+            // Reached after 0.5 / (0.5 9.8) = 0.1 s.
+            EXPECT_NEAR(mean_velocity<kDim>(simulation, 0)[0], 0.5, 0.01) << int(integrator);
+        }
+    }
+}
+
+TYPED_TEST(MovingObstacle, LiftsWhatLiesOnItAndNothingCrosses) {
+    constexpr int kDim = TypeParam::value;
+    for (const ContactModel model : kModels) {
+        Scene scene = cube_on_floor<kDim>(model);
+        scene.damping = Damping{.mass = 0, .stiffness = 0.01};
+        scene.obstacles[0].motion[0].translate[1] = 0.3;
+        Simulation<kDim> simulation(scene, {cube<kDim>(1)});
+        for (int i = 0; i < 80; ++i) {
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.is_accepted) << report.failure;
+            if (model == ContactModel::Barrier) {
+                EXPECT_GT(gap<kDim>(simulation, 0), 0) << i;
+            }
+        }
+        EXPECT_NEAR(mean_velocity<kDim>(simulation, 0)[1], 0.3, 0.05);
+        EXPECT_NEAR(std::get<HalfSpace<kDim>>(simulation.obstacles()[0]).offset,
+                    -0.01 + 0.3 * simulation.time(), 1e-12);
+    }
+}
+
+// A ball comes from the side and pushes the cube away; under a barrier it never is in it. It is so
+// large that penalties, which know vertices alone, do not let it in between them.
+TYPED_TEST(MovingObstacle, PushesWhatIsInItsWay) {
+    constexpr int kDim = TypeParam::value;
+    for (const ContactModel model : kModels) {
+        Scene scene = cube_on_floor<kDim>(model);
+        scene.gravity.setZero();
+        Eigen::VectorXd center = Eigen::VectorXd::Constant(kDim, 0.125);
+        center[0] = -0.65;
+        scene.obstacles[0].shape = BallObstacle{.center = center, .radius = 0.6};
+        scene.obstacles[0].motion[0].translate[0] = 1;
+        Simulation<kDim> simulation(scene, {cube<kDim>(1)});
+        for (int i = 0; i < 40; ++i) {
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.is_accepted) << report.failure;
+            EXPECT_GT(gap<kDim>(simulation, 0), model == ContactModel::Barrier ? 0 : -0.05) << i;
+        }
+        EXPECT_GT(mean_velocity<kDim>(simulation, 0)[0], 0.8);
+    }
+}
+
+TYPED_TEST(MovingObstacle, GoesOnToTheBitFromEverySavedState) {
+    constexpr int kDim = TypeParam::value;
+    for (const ContactModel model : kModels) {
+        Scene scene = cube_on_floor<kDim>(model);
+        scene.contact->friction = 0.5;
+        scene.solver.integrator = Integrator::Bdf2;
+        scene.obstacles[0].motion[0].translate[1] = 0.2;
+        scene.obstacles[0].motion[0].rotate = {{.plane = {0, 1}, .degrees_per_s = 20}};
+        scene.obstacles.push_back(scene.obstacles[0]);
+        Eigen::VectorXd center = Eigen::VectorXd::Constant(kDim, 0.125);
+        center[0] = -0.25;
+        scene.obstacles[1].shape = BallObstacle{.center = center, .radius = 0.2};
+        scene.obstacles[1].motion[0].translate[0] = 0.5;
+        Simulation<kDim> whole(scene, {cube<kDim>(1)}, {.threads = 3});
+        Simulation<kDim> often(scene, {cube<kDim>(1)});
+        for (int i = 0; i < 15; ++i) {
+            ASSERT_TRUE(whole.step().is_accepted);
+            ASSERT_TRUE(often.step().is_accepted);
+            ASSERT_EQ(whole.positions(0), often.positions(0)) << i;
+            Simulation<kDim> next(scene, {cube<kDim>(1)});
+            next.restore(often.save());
+            often = std::move(next);
+        }
+    }
+}
+
+TYPED_TEST(MovingObstacle, WakesWhatSleepsOnIt) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = cube_on_floor<kDim>(ContactModel::Penalty);
+    scene.damping = Damping{.mass = 5, .stiffness = 0.01};
+    scene.contact->friction = 0.5;
+    scene.sleep = Sleep{.speed = 0.01, .time = 0.05};
+    scene.obstacles[0].motion[0].translate[0] = 0.2;
+    scene.obstacles[0].motion[0].from = 2;
+    scene.obstacles[0].motion[0].to = 2.1;
+    Simulation<kDim> simulation(scene, {cube<kDim>(1)});
+    const auto asleep_at = [&](double time) {
+        StepReport report;
+        while (simulation.time() < time - 1e-9) {
+            report = simulation.step();
+            EXPECT_TRUE(report.is_accepted);
+        }
+        return report.asleep;
+    };
+    EXPECT_EQ(asleep_at(2), 1);
+    EXPECT_EQ(asleep_at(2.1), 0);
+    EXPECT_GT(mean_velocity<kDim>(simulation, 0)[0], 0.05);
+    EXPECT_EQ(asleep_at(4), 1);
+}
+
+TEST(MovingObstacles, ThatGoTooFarInAStepOfABarrierAreReportedAndCutTheStep) {
+    Scene scene = cube_on_floor<3>(ContactModel::Barrier);
+    scene.obstacles[0].motion[0].translate[1] = 3;  // 3 cm a step, of a gap of 1 cm
+    scene.solver.max_halvings = 0;
+    Simulation<3> simulation(scene, {cube<3>(1)});
+    const StepReport report = simulation.step();
+    EXPECT_FALSE(report.is_accepted);
+    pent::test::expect_contains(report.failure, {"an obstacle moves so far in a step that vertex",
+                                                 "of 'box' is inside obstacle 0", "slowly"});
+    scene.solver.max_halvings = 6;
+    Simulation<3> cut(scene, {cube<3>(1)});
+    const StepReport accepted = cut.step();
+    EXPECT_TRUE(accepted.is_accepted) << accepted.failure;
+    EXPECT_GT(accepted.substeps, 1);
+    EXPECT_GT(gap<3>(cut, 0), 0);
+}
+
+TEST(MovingObstacles, ThatAreBoxesDoNotTurn) {
+    Scene scene = cube_on_floor<3>(ContactModel::Penalty);
+    scene.obstacles[0].shape = BoxObstacle{.center = Eigen::Vector3d(0, -1, 0),
+                                           .sides = Eigen::Vector3d::Ones()};
+    scene.obstacles[0].motion[0].translate[0] = 1;
+    EXPECT_NO_THROW(check(scene));
+    scene.obstacles[0].motion[0].rotate = {{.plane = {0, 1}, .degrees_per_s = 20}};
+    pent::test::expect_contains(pent::test::error_of([&] { check(scene); }),
+                                {"obstacle: a box lies along the axes and cannot turn"});
+}
+
+}  // namespace
+}  // namespace pent::simulator

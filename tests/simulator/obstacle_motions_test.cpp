@@ -1,0 +1,101 @@
+#include "model/obstacle_motions.h"
+
+#include "contact_scenes.h"
+
+#include <pent/contact/obstacles.h>
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace pent::simulator {
+namespace {
+
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+
+template <typename T>
+class ObstacleMotionsTest : public testing::Test {};
+TYPED_TEST_SUITE(ObstacleMotionsTest, Dimensions);
+
+// One of every shape but the box, each moved in two ways, one after the other.
+template <int Dim>
+Scene moving_scene() {
+    const Eigen::VectorXd center = Eigen::VectorXd::LinSpaced(Dim, -0.3, 0.4);
+    const Eigen::VectorXd up = Eigen::VectorXd::LinSpaced(Dim, 0.2, 1).normalized();
+    Scene scene = test::box_scene<Dim>();
+    scene.obstacles = {{.shape = HalfSpaceObstacle{.normal = up, .offset = 0.3}},
+                       {.shape = BallObstacle{.center = center, .radius = 0.5}},
+                       {.shape = CavityObstacle{.center = center, .radius = 2}},
+                       {.shape = BowlObstacle{.center = center, .radius = 1, .up = up}}};
+    for (Obstacle& obstacle : scene.obstacles) {
+        Motion first = test::still(Dim);
+        first.translate = Eigen::VectorXd::LinSpaced(Dim, 0.5, -0.2);
+        first.rotate = {{.plane = {0, Dim - 1}, .degrees_per_s = 70}};
+        Motion second = test::still(Dim);
+        second.rotate = {{.plane = {1, 2}, .degrees_per_s = -40}};
+        second.about = Eigen::VectorXd::Constant(Dim, 0.1);
+        second.from = 0.5;
+        obstacle.motion = {first, second};
+    }
+    return scene;
+}
+
+// A rigid motion keeps distances: what goes with the obstacle stays as far from it. Where a point
+// was is what travel() says.
+TYPED_TEST(ObstacleMotionsTest, CarryPointsAlongAtTheSameSignedDistance) {
+    constexpr int kDim = TypeParam::value;
+    const ObstacleMotions<kDim> motions(moving_scene<kDim>());
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(-1, 1);
+    const auto start = motions.at(0.2);
+    const auto end = motions.at(1.4);
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        for (int k = 0; k < 20; ++k) {
+            const Vector<kDim> now = Vector<kDim>::NullaryExpr([&] { return place(random); });
+            const Vector<kDim> before = now - motions.travel(i, now, 0.2, 1.4);
+            EXPECT_NEAR(contact::signed_distance<kDim>(start[i], before).value,
+                        contact::signed_distance<kDim>(end[i], now).value, 1e-13)
+                << i;
+        }
+        EXPECT_TRUE(motions.is_moving(i, 0.2, 0.3));
+    }
+}
+
+TYPED_TEST(ObstacleMotionsTest, LeaveWhatDoesNotMoveToTheBit) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = moving_scene<kDim>();
+    scene.obstacles[1].motion.clear();
+    scene.obstacles[2].motion = {test::still(kDim)};
+    const ObstacleMotions<kDim> motions(scene);
+    EXPECT_TRUE(motions.is_any());
+    const auto later = motions.at(2);
+    for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
+        EXPECT_FALSE(motions.is_moving(i, 0, 2));
+    }
+    EXPECT_EQ(std::get<Ball<kDim>>(later[1]).center,
+              Vector<kDim>(std::get<BallObstacle>(scene.obstacles[1].shape).center));
+    EXPECT_EQ(std::get<Cavity<kDim>>(later[2]).center,
+              Vector<kDim>(std::get<CavityObstacle>(scene.obstacles[2].shape).center));
+    scene.obstacles.resize(2);
+    scene.obstacles[0].motion.clear();
+    EXPECT_FALSE(ObstacleMotions<kDim>(scene).is_any());
+}
+
+// A ball that turns about itself is where it was, but its surface moves.
+TYPED_TEST(ObstacleMotionsTest, TurnAnObstacleAboutItsCenterUnlessItIsToldOtherwise) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = moving_scene<kDim>();
+    Motion turn = test::still(kDim);
+    turn.rotate = {{.plane = {0, 1}, .degrees_per_s = 90}};
+    scene.obstacles[1].motion = {turn};
+    const ObstacleMotions<kDim> motions(scene);
+    const Vector<kDim> center = std::get<Ball<kDim>>(motions.at(0)[1]).center;
+    EXPECT_LT((std::get<Ball<kDim>>(motions.at(1)[1]).center - center).norm(), 1e-15);
+    const Vector<kDim> top = center + 0.5 * Vector<kDim>::Unit(1);
+    // A quarter turn earlier it was at the right: x goes towards y.
+    EXPECT_LT((motions.travel(1, top, 0, 1)
+               - 0.5 * (Vector<kDim>::Unit(1) - Vector<kDim>::Unit(0))).norm(), 1e-15);
+}
+
+}  // namespace
+}  // namespace pent::simulator
