@@ -117,8 +117,9 @@ public:
              find_obstacle_contacts<Dim>(colliders_, obstacle_vertices_, positions)) {
             if (contact.distance <= scene_.options.separation) {
                 limit.fraction = 0;
-                limit.limiting = {CrossingKind::Inside, contact.first, contact.second,
-                                  {contact.vertices[0]}, {}, contact.distance};
+                limit.limiting = {
+                    CrossingKind::Inside, contact.first, contact.second, {contact.vertices[0]}, {},
+                    contact.distance};
             }
         }
         limit.seconds = watch.seconds();

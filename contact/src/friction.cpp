@@ -63,11 +63,12 @@ Vector<Dim> LaggedFriction<Dim>::weighted_sum(const Lagged& lagged, const Positi
 }
 
 template <int Dim>
-void LaggedFriction<Dim>::begin_step(const std::vector<Contact<Dim>>& contacts,
-                                     const Positions<Dim>& positions,
-                                     const Positions<Dim>* velocities,
-                                     double h,
-                                     const std::function<Vector<Dim>(const Contact<Dim>&)>& travel) {
+void LaggedFriction<Dim>::begin_step(
+    const std::vector<Contact<Dim>>& contacts,
+    const Positions<Dim>& positions,
+    const Positions<Dim>* velocities,
+    double h,
+    const std::function<Vector<Dim>(const Contact<Dim>&)>& travel) {
     slip_ = friction_.slip_speed * h;
     is_linear_ = velocities != nullptr;
     lagged_ =
@@ -90,11 +91,11 @@ void LaggedFriction<Dim>::begin_step(const std::vector<Contact<Dim>>& contacts,
             lagged.start = weighted_sum(lagged, positions) + carried;
             lagged.resistance.setZero();
             if (velocities != nullptr) {
-                lagged.resistance = friction_response<Dim>(lagged.normal, lagged.force,
-                                                           h * weighted_sum(lagged, *velocities)
-                                                               - carried,
-                                                           slip_, FrictionLaw::Secant)
-                                        .hessian;
+                lagged.resistance =
+                    friction_response<Dim>(lagged.normal, lagged.force,
+                                           h * weighted_sum(lagged, *velocities) - carried, slip_,
+                                           FrictionLaw::Secant)
+                        .hessian;
             }
             list.push_back(lagged);
         });

@@ -185,9 +185,9 @@ void check_names(const Scene& scene) {
     }
     for (const Attachment& attachment : scene.attachments) {
         for (const std::string& name : {attachment.body, attachment.target}) {
-            require(name.empty() || count(name) > 0,
-                    "attachment of \"" + attachment.body + "\": no body is called \"" + name
-                        + "\"");
+            require(
+                name.empty() || count(name) > 0,
+                "attachment of \"" + attachment.body + "\": no body is called \"" + name + "\"");
         }
     }
 }
@@ -222,11 +222,10 @@ void check_sleeping(Integrator integrator) {
 }
 
 void check_held(const Body& body, const Scene& scene) {
-    const bool is_held = std::any_of(scene.constraints.begin(), scene.constraints.end(),
-                                     [&](const Constraint& c) {
-                                         return c.body == body.name && c.from == 0
-                                                && std::isinf(c.to);
-                                     });
+    const bool is_held =
+        std::any_of(scene.constraints.begin(), scene.constraints.end(), [&](const Constraint& c) {
+            return c.body == body.name && c.from == 0 && std::isinf(c.to);
+        });
     require(is_held || scene.solver.integrator != Integrator::Quasistatic,
             "body \"" + body.name
                 + "\" has no constraint that lasts: the quasistatic integrator needs every body"
@@ -251,10 +250,9 @@ bool may_touch(const Scene& scene, std::size_t a, std::size_t b) {
             return are_these(pair.first, pair.second);
         });
     };
-    const bool are_tied =
-        std::any_of(scene.attachments.begin(), scene.attachments.end(), [&](const Attachment& tie) {
-            return !tie.contact && are_these(tie.body, tie.target);
-        });
+    const bool are_tied = std::any_of(
+        scene.attachments.begin(), scene.attachments.end(),
+        [&](const Attachment& tie) { return !tie.contact && are_these(tie.body, tie.target); });
     const Contact& contact = *scene.contact;
     return (a != b || contact.self) && !are_tied && !has(contact.ignore)
            && (contact.only.empty() || has(contact.only));
@@ -302,6 +300,9 @@ std::optional<Fault> fault_of(const Load& load) {
         return Fault{"keyframes", "the times of \"keyframes\" must increase"};
     }
     return std::nullopt;
+}
+
+template <>
 std::optional<Fault> fault_of(const Attachment& attachment) {
     if (attachment.target.empty()) {
         return std::nullopt;

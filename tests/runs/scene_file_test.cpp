@@ -338,8 +338,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{with("[[body]]\nname = \"b\"\nmesh = \"b.pent\"\n[[attachment]]\nbody = \"a\"\n"
                  "target = \"b\"\nselect = \"everything\"\npoint = [0, 0, 0, 0]\n"),
             "scene.toml:12:9: \"point\" is of points in space and does not go together with"},
-        Bad{with("[[body]]\nname = \"b\"\nmesh = \"b.pent\"\n[[attachment]]\nbody = \"a\"\n"
-                 "target = \"b\"\nselect = \"everything\"\nmotion = { translate = [1, 0, 0, 0] }\n"),
+        Bad{with(
+                "[[body]]\nname = \"b\"\nmesh = \"b.pent\"\n[[attachment]]\nbody = \"a\"\n"
+                "target = \"b\"\nselect = \"everything\"\nmotion = { translate = [1, 0, 0, 0] }\n"),
             "scene.toml:12:10: \"motion\" is of points in space"},
         Bad{with("[contact]\nignore = [{ first = \"a\", second = \"ab\" }]\n"),
             "scene.toml:6:10: contact: no body is called \"ab\"; did you mean \"a\"?"},

@@ -41,7 +41,7 @@ Tables tables_of(const std::string& text) {
 TEST(SchemaText, IsWhatTheDocsHave) {
     const Tables docs = tables_of(read_text(PENT_DOCS "/simulator.md", "the docs"));
     const Tables schema = tables_of(schema_text() + report_schema_text());
-    EXPECT_EQ(schema.size(), 17U);
+    EXPECT_EQ(schema.size(), 18U);
     for (const auto& [block, table] : schema) {
         const auto found = docs.find(block);
         ASSERT_NE(found, docs.end()) << block;
@@ -74,7 +74,8 @@ TEST(ParseSceneErrors, NameTheBlockThatAKeyBelongsTo) {
               " [[obstacle]]");
     EXPECT_EQ(error_of("[[constraint]]\nbody = \"a\"\nlow = 1\n"),
               "s.toml:6:1: unknown key \"low\" in \"constraint\"; \"low\" belongs to"
-              " \"select.box\" of [[constraint]] or \"select.box\" of [[attachment]]");
+              " \"select.box\" of [[constraint]] or \"select.box\" of [[load]] or"
+              " \"select.box\" of [[attachment]]");
 }
 
 // Members of the schema that no key has.

@@ -37,8 +37,8 @@ Scene tied_scene(Integrator integrator, const TempFolder& folder) {
     scene.gravity[1] = -9.8;
     scene.frames = kFrames;
     scene.solver.integrator = integrator;
-    scene.obstacles = {{.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(Dim, 1),
-                                                   .offset = -0.3}}};
+    scene.obstacles = {
+        {.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(Dim, 1), .offset = -0.3}}};
     scene.sleep = Sleep{.speed = 1e-3, .time = 0.02};
     Constraint hold{.body = "a", .select = {EverythingSelection{}}, .motion = {}};
     hold.to = 0.03;

@@ -116,14 +116,11 @@ const std::vector<Part>& parts() {
 
 // A folder of the run, and whether the scene has what writes it.
 std::string extra_folder(const Json& scene, const std::filesystem::path& run) {
-    const bool has_checkpoint = scene.contains("sleep")
-                                || value_at(scene, "solver.integrator") == "bdf2"
-                                || value_at(scene, "contact.model") == "barrier"
-                                || any_of(scene, "constraint",
-                                          [](const Json& one) { return one["from"] > 0; })
-                                || any_of(scene, "attachment", [](const Json& one) {
-                                       return one.contains("break_force");
-                                   });
+    const bool has_checkpoint =
+        scene.contains("sleep") || value_at(scene, "solver.integrator") == "bdf2"
+        || value_at(scene, "contact.model") == "barrier"
+        || any_of(scene, "constraint", [](const Json& one) { return one["from"] > 0; })
+        || any_of(scene, "attachment", [](const Json& one) { return one.contains("break_force"); });
     if (!has_checkpoint && std::filesystem::exists(run / "checkpoint")) {
         return "checkpoint/ is there without bdf2, sleep and a barrier";
     }

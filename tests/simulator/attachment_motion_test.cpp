@@ -139,13 +139,14 @@ TYPED_TEST(AttachmentMotion, IsRightFromAMillionthToAMillionTimesTheStiffnessOfT
             for (int i = 0; i < 20; ++i) {
                 const StepReport report = simulation.step();
                 ASSERT_TRUE(report.is_accepted) << factor << report.failure;
-                // BDF2 may gain a little on the way; its solver leaves a ten-thousandth.
-                EXPECT_LE(report.energies.total(), 1.001 * energy) << factor;
+                // The solver leaves a ten-thousandth of the momentum of a step, and BDF2 may gain a
+                // little on the way.
+                EXPECT_LE(report.energies.total(), 1.005 * energy) << factor;
             }
             EXPECT_LT((momentum<kDim>(simulation) - before).norm(), 2e-3 * before.norm())
                 << factor << ' ' << int(integrator);
-            const double speed = (mean_velocity<kDim>(simulation, 0)
-                                  - mean_velocity<kDim>(simulation, 1))[0];
+            const double speed =
+                (mean_velocity<kDim>(simulation, 0) - mean_velocity<kDim>(simulation, 1))[0];
             if (factor == 1e-6) {
                 EXPECT_NEAR(speed, 0.3, 0.01);
             }
@@ -178,7 +179,8 @@ TYPED_TEST(AttachmentMotion, KeepsMomentumAndAngularMomentumOfTwoBodiesThatPullE
             own += 0.01 * simulation.velocities(body) * simulation.masses(body).asDiagonal()
                    * v[body].transpose();
         }
-        const Eigen::Matrix<double, kDim, kDim> change = angular_momentum<kDim>(simulation) - moment;
+        const Eigen::Matrix<double, kDim, kDim> change =
+            angular_momentum<kDim>(simulation) - moment;
         EXPECT_LT((change - (own - own.transpose())).norm(), 1e-7 * moment.norm()) << i;
         turned = std::max(turned, change.norm());
     }

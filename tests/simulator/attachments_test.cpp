@@ -29,7 +29,8 @@ template <int Dim>
 Attachment side_of_b(RestOffset offset) {
     Attachment attachment;
     attachment.body = "b";
-    attachment.select = {HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(Dim, 1), .offset = 0.6}};
+    attachment.select = {
+        HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(Dim, 1), .offset = 0.6}};
     attachment.target = "a";
     attachment.offset = offset;
     attachment.stiffness = 300;
@@ -187,11 +188,10 @@ TYPED_TEST(AttachmentsTest, RefuseWhatIsTooFarAwayAndSayHowFar) {
     scene.attachments[0].source = "scene.toml:9:1";
     const std::string far = formatted("%.4g m", std::sqrt((kDim - 1) * 0.04 * 0.04 + 0.53 * 0.53));
     const Setting<kDim> setting(scene, 2);
-    pent::test::expect_contains(pent::test::error_of([&] {
-                                    Attachments<kDim>(setting.workers, scene, setting.bodies);
-                                }),
-                                {"scene.toml:9:1: attachment of \"b\": vertex", far + " from \"a\"",
-                                 "max_distance = 0.2 m", "raise it"});
+    pent::test::expect_contains(
+        pent::test::error_of([&] { Attachments<kDim>(setting.workers, scene, setting.bodies); }),
+        {"scene.toml:9:1: attachment of \"b\": vertex", far + " from \"a\"", "max_distance = 0.2 m",
+         "raise it"});
 }
 
 TYPED_TEST(AttachmentsTest, RefuseToCarryAnOffsetOnAFlatCell) {
@@ -200,10 +200,9 @@ TYPED_TEST(AttachmentsTest, RefuseToCarryAnOffsetOnAFlatCell) {
     Bodies<kDim> bodies = setting.bodies;
     bodies.rest.row(1).head(bodies.first_vertex[1]).array() =
         0.5 - 1e-4 * (0.5 - bodies.rest.row(1).head(bodies.first_vertex[1]).array());
-    pent::test::expect_contains(pent::test::error_of([&] {
-                                    Attachments<kDim>(setting.workers, setting.scene, bodies);
-                                }),
-                                {"too flat", "offset = \"zero\""});
+    pent::test::expect_contains(
+        pent::test::error_of([&] { Attachments<kDim>(setting.workers, setting.scene, bodies); }),
+        {"too flat", "offset = \"zero\""});
 }
 
 }  // namespace

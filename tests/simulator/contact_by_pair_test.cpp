@@ -101,9 +101,9 @@ TYPED_TEST(ContactByPair, HasTheFrictionOfBothBodies) {
         scene.gravity = 9.8
                         * (std::sin(0.5236) * Eigen::VectorXd::Unit(kDim, 0)
                            - std::cos(0.5236) * Eigen::VectorXd::Unit(kDim, 1));
-        scene.obstacles = {{.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(kDim, 1),
-                                                       .offset = -0.015},
-                            .stiffness = 2e4}};
+        scene.obstacles = {
+            {.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(kDim, 1), .offset = -0.015},
+             .stiffness = 2e4}};
         scene.contact = Contact{.distance = 0.02, .stiffness = 2e4, .friction = 0.8};
         scene.bodies[0].friction = friction;
         scene.solver.integrator = Integrator::NewtonEuler;

@@ -124,8 +124,7 @@ TYPED_TEST(Hold, BeginsItsMotionNoSoonerThanItself) {
     const Positions<kDim> before = simulation.positions(0);
     const Eigen::Matrix<double, kDim, 1> middle = before.rowwise().mean();
     ASSERT_TRUE(simulation.step().is_accepted);
-    const Eigen::Matrix<double, kDim, 1> ahead =
-        simulation.positions(0).rowwise().mean() - middle;
+    const Eigen::Matrix<double, kDim, 1> ahead = simulation.positions(0).rowwise().mean() - middle;
     EXPECT_NEAR(ahead[0], 0.02, 1e-12);
     EXPECT_LT(ahead.tail(kDim - 1).norm(), 1e-12);
     // A hundredth of a turn, about the middle: each goes 2 r sin(1.8 degrees).
@@ -133,7 +132,8 @@ TYPED_TEST(Hold, BeginsItsMotionNoSoonerThanItself) {
     const Eigen::Matrix<double, kDim, 1> now = middle + ahead;
     const Positions<kDim> turned = simulation.positions(0).colwise() - now;
     const double radius = std::hypot(arms(0, 0), arms(kDim - 1, 0));
-    EXPECT_NEAR((turned - arms).col(0).norm(), 2 * radius * std::sin(std::numbers::pi / 100), 1e-12);
+    EXPECT_NEAR((turned - arms).col(0).norm(), 2 * radius * std::sin(std::numbers::pi / 100),
+                1e-12);
 }
 
 TYPED_TEST(Hold, GoesOnToTheBitFromEverySavedState) {
@@ -141,8 +141,8 @@ TYPED_TEST(Hold, GoesOnToTheBitFromEverySavedState) {
     for (const Integrator integrator : kWithInertia) {
         Scene scene = falling_box<kDim>();
         scene.solver.integrator = integrator;
-        scene.obstacles = {
-            {.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(kDim, 1), .offset = -0.05}}};
+        scene.obstacles = {{.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(kDim, 1),
+                                                       .offset = -0.05}}};
         scene.constraints = {left<kDim>(0.03, 0.06), left<kDim>(0.08, 0.1), left<kDim>(0, 0.02)};
         scene.constraints[0].motion[0].translate[0] = 1;
         Simulation<kDim> whole(scene, {cube<kDim>()}, {.threads = 3});
@@ -188,9 +188,9 @@ TYPED_TEST(Hold, GoesTogetherWithContact) {
         scene.contact->model = model;
         scene.contact->friction = 0.3;
         scene.solver.integrator = Integrator::NewtonEuler;
-        scene.constraints = {{.body = "a", .select = {EverythingSelection{}}, .motion = {}},
-                             {.body = "b", .select = {EverythingSelection{}}, .motion = {},
-                              .to = 0.1}};
+        scene.constraints = {
+            {.body = "a", .select = {EverythingSelection{}}, .motion = {}},
+            {.body = "b", .select = {EverythingSelection{}}, .motion = {}, .to = 0.1}};
         Simulation<kDim> simulation(scene, {cube<kDim>(1), cube<kDim>(1)});
         for (int i = 0; i < 60; ++i) {
             const StepReport report = simulation.step();

@@ -55,8 +55,8 @@ struct Step {
                 problem.prescribed.col(vertex) += travel.col(vertex);
             }
         }
-        potential.begin_step(problem, {start, velocities, problem.origin, travel, 0.01,
-                                      problem.rate, false});
+        potential.begin_step(
+            problem, {start, velocities, problem.origin, travel, 0.01, problem.rate, false});
     }
 };
 
@@ -154,9 +154,8 @@ TYPED_TEST(IncrementalPotentialTest, LeavesOutBodiesThatSleep) {
     const DofMap& dofs = step.potential.dofs();
     EXPECT_LT(dofs.count(), all);
     step.energy.sum.update(step.start);
-    step.potential.begin_step(step.problem,
-                              {step.start, step.velocities, step.problem.origin, step.travel, 0.01,
-                               step.problem.rate, false});
+    step.potential.begin_step(step.problem, {step.start, step.velocities, step.problem.origin,
+                                             step.travel, 0.01, step.problem.rate, false});
     const Evaluation<kDim> at = step.potential.evaluate(step.start);
     const auto first = step.setting.bodies.vertices(0);
     EXPECT_EQ(at.gradient.middleCols(first.begin, first.size).norm(), 0);

@@ -32,11 +32,11 @@ Scene cube_on_floor(ContactModel model) {
     scene.frames_per_second = 100;
     scene.gravity[1] = -9.8;
     scene.solver.integrator = Integrator::NewtonEuler;
-    scene.obstacles = {{.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(Dim, 1),
-                                                   .offset = -0.01},
-                        .distance = 0.02,
-                        .stiffness = 2e4,
-                        .motion = {still(Dim)}}};
+    scene.obstacles = {
+        {.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(Dim, 1), .offset = -0.01},
+         .distance = 0.02,
+         .stiffness = 2e4,
+         .motion = {still(Dim)}}};
     scene.contact = Contact{.model = model, .distance = 0.02, .stiffness = 2e4};
     return scene;
 }
@@ -47,8 +47,7 @@ double gap(const Simulation<Dim>& simulation, std::size_t obstacle) {
     double least = 1e9;
     for (Eigen::Index v = 0; v < x.cols(); ++v) {
         least = std::min(
-            least,
-            contact::signed_distance<Dim>(simulation.obstacles()[obstacle], x.col(v)).value);
+            least, contact::signed_distance<Dim>(simulation.obstacles()[obstacle], x.col(v)).value);
     }
     return least;
 }
@@ -186,8 +185,8 @@ TEST(MovingObstacles, ThatGoTooFarInAStepOfABarrierAreReportedAndCutTheStep) {
 
 TEST(MovingObstacles, ThatAreBoxesDoNotTurn) {
     Scene scene = cube_on_floor<3>(ContactModel::Penalty);
-    scene.obstacles[0].shape = BoxObstacle{.center = Eigen::Vector3d(0, -1, 0),
-                                           .sides = Eigen::Vector3d::Ones()};
+    scene.obstacles[0].shape =
+        BoxObstacle{.center = Eigen::Vector3d(0, -1, 0), .sides = Eigen::Vector3d::Ones()};
     scene.obstacles[0].motion[0].translate[0] = 1;
     EXPECT_NO_THROW(check(scene));
     scene.obstacles[0].motion[0].rotate = {{.plane = {0, 1}, .degrees_per_s = 20}};

@@ -93,8 +93,9 @@ TYPED_TEST(ObstacleMotionsTest, TurnAnObstacleAboutItsCenterUnlessItIsToldOtherw
     EXPECT_LT((std::get<Ball<kDim>>(motions.at(1)[1]).center - center).norm(), 1e-15);
     const Vector<kDim> top = center + 0.5 * Vector<kDim>::Unit(1);
     // A quarter turn earlier it was at the right: x goes towards y.
-    EXPECT_LT((motions.travel(1, top, 0, 1)
-               - 0.5 * (Vector<kDim>::Unit(1) - Vector<kDim>::Unit(0))).norm(), 1e-15);
+    EXPECT_LT((motions.travel(1, top, 0, 1) - 0.5 * (Vector<kDim>::Unit(1) - Vector<kDim>::Unit(0)))
+                  .norm(),
+              1e-15);
 }
 
 }  // namespace

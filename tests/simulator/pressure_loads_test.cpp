@@ -57,7 +57,7 @@ Selection one_half() {
 template <int Dim>
 void begin(PressureLoads<Dim>& loads, const Positions<Dim>& x) {
     const Positions<Dim> none = Positions<Dim>::Zero(Dim, x.cols());
-    EXPECT_TRUE(loads.begin_step({x, none, none, 0.01, false}));
+    EXPECT_TRUE(loads.begin_step({x, none, x, none, 0.01, 100, false}));
 }
 
 // -p n on each unit of every selected facet, by cofactors of its edges.

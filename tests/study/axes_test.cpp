@@ -76,7 +76,9 @@ TEST(WithSettings, SetsEveryKeyOfTheSolver) {
 TEST(WithSettings, SetsAKeyOfEveryBlockOfAName) {
     const TempFolder folder;
     simulator::Scene scene = bar_scene(folder);
-    expect_contains(error_of([&] { check_setting(scene, {"attachment.stiffness", "3"}); }),
+    expect_contains(error_of([&] {
+                        check_setting(scene, {"attachment.stiffness", "3"});
+                    }),
                     {"--vary attachment.stiffness: the scene has no [attachment]"});
     simulator::Attachment attachment;
     attachment.body = "bar";
@@ -88,9 +90,13 @@ TEST(WithSettings, SetsAKeyOfEveryBlockOfAName) {
     EXPECT_EQ(changed.attachments[0].stiffness, 3e4);
     EXPECT_EQ(changed.attachments[1].stiffness, 3e4);
     EXPECT_EQ(changed.contact->stiffness, 7);
-    expect_contains(error_of([&] { check_setting(scene, {"attachment.stifness", "3"}); }),
+    expect_contains(error_of([&] {
+                        check_setting(scene, {"attachment.stifness", "3"});
+                    }),
                     {"--vary attachment.stifness: is not known", "stiffness"});
-    expect_contains(error_of([&] { check_setting(scene, {"attachment.stiffness", "-1"}); }),
+    expect_contains(error_of([&] {
+                        check_setting(scene, {"attachment.stiffness", "-1"});
+                    }),
                     {"--vary attachment.stiffness=-1", "above 0"});
 }
 

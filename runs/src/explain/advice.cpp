@@ -210,10 +210,9 @@ private:
 
     [[nodiscard]] bool is_anything_moving() const {
         const auto moves = [](const auto& part) {
-            return std::any_of(
-                part.motion.begin(), part.motion.end(), [](const Motion& motion) {
-                    return !motion.translate.isZero(0) || !motion.rotate.empty();
-                });
+            return std::any_of(part.motion.begin(), part.motion.end(), [](const Motion& motion) {
+                return !motion.translate.isZero(0) || !motion.rotate.empty();
+            });
         };
         const auto has_any = [&](const auto& parts) {
             return std::any_of(parts.begin(), parts.end(), moves);

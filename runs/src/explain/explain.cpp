@@ -224,9 +224,8 @@ private:
             add_off("obstacles", "no [[obstacle]]");
             return;
         }
-        const auto moving =
-            std::count_if(scene_.obstacles.begin(), scene_.obstacles.end(),
-                          [](const Obstacle& one) { return !one.motion.empty(); });
+        const auto moving = std::count_if(scene_.obstacles.begin(), scene_.obstacles.end(),
+                                          [](const Obstacle& one) { return !one.motion.empty(); });
         const bool is_first =
             !scene_.contact || (scene_.bodies.size() == 1 && !scene_.contact->self);
         add({.name = "obstacles",
@@ -253,8 +252,9 @@ private:
     }
 
     void friction() {
-        const auto own = std::count_if(scene_.bodies.begin(), scene_.bodies.end(),
-                                       [](const Body& body) { return std::isfinite(body.friction); });
+        const auto own =
+            std::count_if(scene_.bodies.begin(), scene_.bodies.end(),
+                          [](const Body& body) { return std::isfinite(body.friction); });
         if (!scene_.contact || (scene_.contact->friction == 0 && own == 0)) {
             add_off("friction",
                     scene_.contact ? "contact.friction = 0" : "no [contact], which would have it");

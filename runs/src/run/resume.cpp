@@ -236,8 +236,7 @@ void read_carried_state(const StateBlocks& blocks,
     snapshot.contact_stiffness = has_barrier ? blocks.get<double>(kStiffnessBlock, 1)[0] : 0;
     snapshot.hold_places = Positions<Dim>::Zero(Dim, now.hold_places.cols());
     if (blocks.has(kPlacesBlock)) {
-        snapshot.hold_places =
-            positions_of<Dim>(blocks, kPlacesBlock, snapshot.hold_places.cols());
+        snapshot.hold_places = positions_of<Dim>(blocks, kPlacesBlock, snapshot.hold_places.cols());
     }
     snapshot.sleep.assign(bodies.size(), {});
     const bool has_history = blocks.has(positions_block(bodies.front()));

@@ -118,8 +118,7 @@ void check_together(TableReader& reader, const Scene& scene) {
                  [&] { check_model(scene.contact->model, scene.solver.integrator); });
         check_at(reader.table("contact"), "ignore",
                  [&] { check_pairs(scene.contact->ignore, scene); });
-        check_at(reader.table("contact"), "only",
-                 [&] { check_pairs(scene.contact->only, scene); });
+        check_at(reader.table("contact"), "only", [&] { check_pairs(scene.contact->only, scene); });
     }
     if (scene.sleep) {
         check_at(reader, "sleep", [&] { check_sleeping(scene.solver.integrator); });

@@ -108,8 +108,7 @@ void find_dirichlet_sets(const Scene& scene, Bodies<Dim>& bodies) {
             select_vertices(bodies.meshes[set.body], constraint);
         set.places = Positions<Dim>::Zero(Dim, static_cast<Eigen::Index>(selected.size()));
         for (const std::uint32_t vertex : selected) {
-            const auto global = static_cast<std::uint32_t>(vertex
-                                                           + bodies.first_vertex[set.body]);
+            const auto global = static_cast<std::uint32_t>(vertex + bodies.first_vertex[set.body]);
             set.vertices.push_back(global);
         }
         for (const DirichletSet<Dim>& other : bodies.dirichlet_sets) {
@@ -126,8 +125,7 @@ void find_dirichlet_sets(const Scene& scene, Bodies<Dim>& bodies) {
         }
         for (const std::uint32_t vertex : set.vertices) {
             bodies.is_always_held[vertex] =
-                bodies.is_always_held[vertex]
-                || (!set.begins_later() && std::isinf(constraint.to));
+                bodies.is_always_held[vertex] || (!set.begins_later() && std::isinf(constraint.to));
         }
         bodies.dirichlet_sets.push_back(std::move(set));
     }
@@ -325,16 +323,16 @@ void place_dirichlet(const Bodies<Dim>& bodies,
     }
 }
 
-#define PENT_INSTANTIATE(Dim)                                                           \
-    template struct Bodies<Dim>;                                                        \
-    template Bodies<Dim> make_bodies<Dim>(const Scene&, std::vector<SimplexMesh<Dim>>); \
-    template std::vector<std::size_t> hold(const Scene&, std::uint64_t,                 \
-                                           const Positions<Dim>&, Bodies<Dim>&);        \
-    template Positions<Dim> hold_places(const Bodies<Dim>&);                            \
-    template void set_hold_places(const Scene&, const Positions<Dim>&, Bodies<Dim>&);   \
-    template DofMap number_dofs<Dim>(const Bodies<Dim>&, const std::vector<bool>&);     \
-    template Positions<Dim> start_velocities<Dim>(const Scene&, const Bodies<Dim>&);    \
-    template void place_dirichlet<Dim>(const Bodies<Dim>&, double, Positions<Dim>&,     \
+#define PENT_INSTANTIATE(Dim)                                                                  \
+    template struct Bodies<Dim>;                                                               \
+    template Bodies<Dim> make_bodies<Dim>(const Scene&, std::vector<SimplexMesh<Dim>>);        \
+    template std::vector<std::size_t> hold(const Scene&, std::uint64_t, const Positions<Dim>&, \
+                                           Bodies<Dim>&);                                      \
+    template Positions<Dim> hold_places(const Bodies<Dim>&);                                   \
+    template void set_hold_places(const Scene&, const Positions<Dim>&, Bodies<Dim>&);          \
+    template DofMap number_dofs<Dim>(const Bodies<Dim>&, const std::vector<bool>&);            \
+    template Positions<Dim> start_velocities<Dim>(const Scene&, const Bodies<Dim>&);           \
+    template void place_dirichlet<Dim>(const Bodies<Dim>&, double, Positions<Dim>&,            \
                                        Positions<Dim>*);
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)

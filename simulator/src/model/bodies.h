@@ -20,7 +20,7 @@ struct DirichletSet {
     std::vector<CenteredMotion<Dim>> motions;  ///< Applied one after the other.
     Positions<Dim> places;                     ///< Dim x vertices: what they start from, m.
     std::size_t body = 0;
-    std::size_t constraint = 0;   ///< Its place in the scene.
+    std::size_t constraint = 0;    ///< Its place in the scene.
     std::uint64_t first_step = 0;  ///< Held in the steps [first_step, end_step), counted from 0.
     std::uint64_t end_step = 0;
 

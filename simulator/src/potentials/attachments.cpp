@@ -50,21 +50,20 @@ void Attachments<Dim>::add_springs(const Workers& workers,
     std::vector<double> distances(selected.size(), 0);
     const auto first = static_cast<std::uint32_t>(bodies.first_vertex[group.body]);
     workers.for_each(selected.size(), [&](std::size_t i) {
-        springs_[group.begin + i] = group.target == group.body
-                                        ? tie_to_space(bodies, attachment, first + selected[i])
-                                        : tie_to_body(bodies, group, first + selected[i],
-                                                      distances[i]);
+        springs_[group.begin + i] =
+            group.target == group.body
+                ? tie_to_space(bodies, attachment, first + selected[i])
+                : tie_to_body(bodies, group, first + selected[i], distances[i]);
     });
     group.end = springs_.size();
     const auto farthest = std::max_element(distances.begin(), distances.end());
     if (*farthest > attachment.max_distance) {
-        throw Error(place_and_name(attachment) + ": vertex "
-                    + std::to_string(selected[static_cast<std::size_t>(farthest
-                                                                       - distances.begin())])
-                    + " is " + formatted("%.4g m", *farthest) + " from \"" + attachment.target
-                    + "\"; expected at most "
-                    + formatted("max_distance = %.4g m", attachment.max_distance)
-                    + ": select less, place the bodies nearer to each other, or raise it");
+        throw Error(
+            place_and_name(attachment) + ": vertex "
+            + std::to_string(selected[static_cast<std::size_t>(farthest - distances.begin())])
+            + " is " + formatted("%.4g m", *farthest) + " from \"" + attachment.target
+            + "\"; expected at most " + formatted("max_distance = %.4g m", attachment.max_distance)
+            + ": select less, place the bodies nearer to each other, or raise it");
     }
     Vector<Dim> sum = Vector<Dim>::Zero();
     for (std::size_t s = group.begin; s < group.end; ++s) {
@@ -228,8 +227,8 @@ template <int Dim>
 void Attachments<Dim>::add_hessian(double weight, Filter /*filter*/, NewtonSystem<Dim>& system) {
     for (Group& group : groups_) {
         const Attachment& attachment = *group.attachment;
-        group.hessian = (attachment.stiffness + rate_ * attachment.damping)
-                        * Matrix<Dim>::Identity();
+        group.hessian =
+            (attachment.stiffness + rate_ * attachment.damping) * Matrix<Dim>::Identity();
     }
     system.reserve_stencils(springs_.size());
     for_each_spring([&](const Group& group, const Spring& spring, std::size_t /*s*/) {
@@ -252,9 +251,10 @@ std::vector<TermEnergy> Attachments<Dim>::energies() const {
 template <int Dim>
 void Attachments<Dim>::add_couplings(Couplings& couplings) const {
     for (const Group& group : groups_) {
-        const bool is_whole = std::any_of(broken_.begin() + static_cast<std::ptrdiff_t>(group.begin),
-                                          broken_.begin() + static_cast<std::ptrdiff_t>(group.end),
-                                          [](std::uint8_t broken) { return broken == 0; });
+        const bool is_whole =
+            std::any_of(broken_.begin() + static_cast<std::ptrdiff_t>(group.begin),
+                        broken_.begin() + static_cast<std::ptrdiff_t>(group.end),
+                        [](std::uint8_t broken) { return broken == 0; });
         if (is_whole && group.is_driven) {
             couplings.driven.push_back(group.body);
             couplings.driven.push_back(group.target);

@@ -143,9 +143,10 @@ std::string ContactPotential<Dim>::obstacle_in_the_way(const Positions<Dim>& x) 
     limit_ = workers_->run([&] { return finder_->limit_obstacles(motions_.at(step_.begin), x); });
     work_.seconds += limit_.seconds;
     work_.ccd_seconds += limit_.seconds;
-    return limit_.fraction < 1 ? "an obstacle moves so far in a step that " + describe(limit_.limiting)
-                                     + "; take smaller steps, or move it more slowly"
-                               : "";
+    return limit_.fraction < 1
+               ? "an obstacle moves so far in a step that " + describe(limit_.limiting)
+                     + "; take smaller steps, or move it more slowly"
+               : "";
 }
 
 template <int Dim>

@@ -99,11 +99,11 @@ private:
     bool is_barrier_ = false;
     bool do_bodies_meet_ = false;
     bool has_obstacles_ = false;
-    double stiffness_ = 0;                                 // of bodies, N/m
-    double last_gap_ = 0;                                  // m, of the last accepted iterate
+    double stiffness_ = 0;  // of bodies, N/m
+    double last_gap_ = 0;   // m, of the last accepted iterate
     ObstacleMotions<Dim> motions_;
     TimeSpan step_;
-    std::vector<pent::Obstacle<Dim>> obstacles_;                 // at its end
+    std::vector<pent::Obstacle<Dim>> obstacles_;           // at its end
     std::unique_ptr<contact::ContactFinder<Dim>> finder_;  // null where nothing can touch
     const Positions<Dim>* x_ = nullptr;                    // last evaluated
     contact::Contacts<Dim> contacts_;                      // there

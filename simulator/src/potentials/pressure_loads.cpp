@@ -152,8 +152,10 @@ template <int Dim>
 bool is_still(const std::vector<std::uint32_t>& vertices, const Bodies<Dim>& bodies) {
     std::vector<std::uint32_t> fixed;
     for (const DirichletSet<Dim>& set : bodies.dirichlet_sets) {
-        if (set.motions.empty()) {
-            fixed.insert(fixed.end(), set.vertices.begin(), set.vertices.end());
+        for (const std::uint32_t vertex : set.vertices) {
+            if (set.motions.empty() && bodies.is_always_held[vertex]) {
+                fixed.push_back(vertex);
+            }
         }
     }
     std::sort(fixed.begin(), fixed.end());

@@ -180,8 +180,8 @@ bool Simulation<Dim>::Stepper::attempt(double time, double h, StepReport& report
             travel.col(vertex) = problem.prescribed.col(vertex) - problem.origin.col(vertex);
         }
     }
-    potential_.begin_step(problem, {current_.positions, current_.velocities, problem.origin, travel, h,
-                                    problem.rate, is_linear});
+    potential_.begin_step(problem, {current_.positions, current_.velocities, problem.origin, travel,
+                                    h, problem.rate, is_linear});
     const NewtonReport solved = solve(problem, is_linear);
     report.newton_iterations += solved.iterations;
     report.unbalanced = std::max(report.unbalanced, solved.residual);

@@ -30,7 +30,7 @@ IncrementalPotential<Dim>::IncrementalPotential(const Workers& workers,
 
 template <int Dim>
 void IncrementalPotential<Dim>::renumber(const std::vector<bool>& asleep,
-                                           const Positions<Dim>& positions) {
+                                         const Positions<Dim>& positions) {
     std::vector<bool> awake = asleep;
     awake.flip();
     dofs_ = number_dofs(*bodies_, awake);

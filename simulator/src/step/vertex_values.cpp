@@ -8,12 +8,12 @@ namespace pent::simulator {
 
 namespace {
 
-// Minus all forces that act on vertices which a constraint holds; 0 at all others.
+// Minus all forces that act on vertices which a constraint holds now; 0 at all others.
 template <int Dim>
 Positions<Dim> reactions(const Bodies<Dim>& bodies, const Positions<Dim>& forces) {
     Positions<Dim> all = Positions<Dim>::Zero(Dim, forces.cols());
-    for (const DirichletSet<Dim>& set : bodies.dirichlet_sets) {
-        for (const std::uint32_t vertex : set.vertices) {
+    for (Eigen::Index vertex = 0; vertex < forces.cols(); ++vertex) {
+        if (bodies.is_dirichlet[static_cast<std::size_t>(vertex)]) {
             all.col(vertex) = -forces.col(vertex);
         }
     }
