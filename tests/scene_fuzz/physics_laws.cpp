@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace pent::scene_fuzz {
@@ -72,6 +73,8 @@ std::string text_of(const Eigen::Matrix<double, Dim, 1>& vector) {
     }
     return text + ")";
 }
+
+constexpr double kForever = std::numeric_limits<double>::infinity();
 
 // ---------------------------------------------------------------------------------------- momentum
 
@@ -155,24 +158,26 @@ void check_reaction_in(const Scene& scene) {
 
 // --------------------------------------------------------------------------------------- crossings
 
-double signed_distance(const ObstacleShape& shape, const Eigen::VectorXd& point) {
+template <int Dim>
+double signed_distance(const pent::Obstacle<Dim>& shape,
+                       const Eigen::Matrix<double, Dim, 1>& point) {
     struct Distance {
-        const Eigen::VectorXd& x;
-        double operator()(const HalfSpaceObstacle& plane) const {
+        const Eigen::Matrix<double, Dim, 1>& x;
+        double operator()(const HalfSpace<Dim>& plane) const {
             return plane.normal.dot(x) - plane.offset;
         }
-        double operator()(const BallObstacle& ball) const {
+        double operator()(const Ball<Dim>& ball) const {
             return (x - ball.center).norm() - ball.radius;
         }
-        double operator()(const CavityObstacle& cavity) const {
+        double operator()(const Cavity<Dim>& cavity) const {
             return cavity.radius - (x - cavity.center).norm();
         }
         double operator()(
-            const BowlObstacle& bowl) const {  // outside the ground, in the hole or above it
+            const Bowl<Dim>& bowl) const {  // outside the ground, in the hole or above it
             const double inside = bowl.radius - (x - bowl.center).norm();
             return std::max(bowl.up.dot(x - bowl.center), inside);
         }
-        double operator()(const BoxObstacle& box) const {  // right inside, and outside in its sign
+        double operator()(const Cuboid<Dim>& box) const {  // right inside, and outside in its sign
             return ((x - box.center).cwiseAbs() - 0.5 * box.sides).maxCoeff();
         }
     };
@@ -230,8 +235,8 @@ private:
     int count(const Count& of_pair) const {
         int sum = 0;
         for (std::size_t a = 0; a < surfaces_.size(); ++a) {
-            for (std::size_t b = scene_.contact->self ? a : a + 1; b < surfaces_.size(); ++b) {
-                sum += of_pair(surfaces_[a], surfaces_[b]);
+            for (std::size_t b = a; b < surfaces_.size(); ++b) {
+                sum += may_touch(scene_, a, b) ? of_pair(surfaces_[a], surfaces_[b]) : 0;
             }
         }
         return sum;
@@ -239,10 +244,10 @@ private:
 
     // Held vertices go where the scene says.
     bool is_in_obstacle(const Positions<Dim>& positions) const {
-        for (const simulator::Obstacle& obstacle : scene_.obstacles) {
+        for (const pent::Obstacle<Dim>& obstacle : simulation_.obstacles()) {
             for (Eigen::Index v = 0; v < positions.cols(); ++v) {
                 if (scene_.constraints.empty()
-                    && signed_distance(obstacle.shape, positions.col(v)) <= 0) {
+                    && signed_distance<Dim>(obstacle, positions.col(v)) <= 0) {
                     return true;
                 }
             }
@@ -371,8 +376,10 @@ void in_dimension(const Scene& scene, const In3& in_3, const In4& in_4) {
 }  // namespace
 
 void check_momentum(const Scene& scene) {
+    const bool hangs = std::any_of(scene.attachments.begin(), scene.attachments.end(),
+                                   [](const Attachment& one) { return one.target.empty(); });
     const bool is_free = scene.obstacles.empty() && scene.constraints.empty() && scene.loads.empty()
-                         && (!scene.damping || scene.damping->mass == 0);
+                         && !hangs && (!scene.damping || scene.damping->mass == 0);
     if (is_free && scene.solver.integrator != Integrator::Quasistatic) {
         in_dimension(
             scene, [&] { check_momentum_in<3>(scene); }, [&] { check_momentum_in<4>(scene); });
@@ -394,8 +401,19 @@ void check_crossings(const Scene& scene) {
 }
 
 void check_sleep(const Scene& scene) {
-    const bool is_changing = std::any_of(scene.loads.begin(), scene.loads.end(),
-                                         [](const Load& load) { return !load.keyframes.empty(); });
+    // What comes, goes, breaks or moves from outside.
+    const auto has_any = [](const auto& parts, const auto& is) {
+        return std::any_of(parts.begin(), parts.end(), is);
+    };
+    const auto comes_or_goes = [](const auto& part) { return part.from > 0 || part.to < kForever; };
+    const bool is_changing =
+        has_any(scene.loads, [](const Load& load) { return !load.keyframes.empty(); })
+        || has_any(scene.constraints, comes_or_goes) || has_any(scene.attachments, comes_or_goes)
+        || has_any(
+            scene.attachments,
+            [](const Attachment& one) { return !one.motion.empty() || one.break_force < kForever; })
+        || has_any(scene.obstacles,
+                   [](const simulator::Obstacle& one) { return !one.motion.empty(); });
     if (scene.sleep && !is_changing) {
         in_dimension(
             scene, [&] { SleepLaw<3>(scene).run(); }, [&] { SleepLaw<4>(scene).run(); });

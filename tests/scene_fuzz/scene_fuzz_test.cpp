@@ -84,6 +84,8 @@ std::set<std::string> features(const Json& scene) {
         const Json value = value_at(scene, path);
         found.insert(std::string(!value.is_null() && value > 0 ? "with " : "without ") + path);
     }
+    const bool has_ties = !scene.value("attachment", Json::array()).empty();
+    found.insert(has_ties ? "with attachment" : "without attachment");
     found.insert("bodies=" + std::to_string(scene["body"].size()));
     for (const Json& body : scene["body"]) {
         found.insert("model=" + body["material"]["model"].dump());

@@ -18,19 +18,33 @@ void add(std::vector<Json>& scenes, Json scene) {
     scenes.push_back(std::move(scene));
 }
 
-// Bodies go with the constraints that name them.
+// The entries of a list that name no body that has gone.
+Json without(const Json& list, const Json& name) {
+    Json left = Json::array();
+    for (const Json& entry : list.is_object() ? Json::array({list}) : list) {
+        const bool is_named = std::any_of(entry.begin(), entry.end(),
+                                          [&](const Json& value) { return value == name; });
+        if (!is_named) {
+            left.push_back(entry);
+        }
+    }
+    return left;
+}
+
+// Bodies go with all that names them.
 void add_without_bodies(const Json& scene, std::vector<Json>& scenes) {
     for (std::size_t i = 0; i < scene["body"].size() && scene["body"].size() > 1; ++i) {
         Json less = scene;
         const Json name = less["body"][i].value("name", Json());
         less["body"].erase(i);
-        Json constraints = Json::array();
-        for (const Json& constraint : scene.value("constraint", Json::array())) {
-            if (constraint.value("body", Json()) != name) {
-                constraints.push_back(constraint);
+        for (const char* list : {"constraint", "load", "attachment"}) {
+            less[list] = without(scene.value(list, Json::array()), name);
+        }
+        for (const char* pairs : {"ignore", "only"}) {
+            if (less.contains("contact") && less["contact"].contains(pairs)) {
+                less["contact"][pairs] = without(less["contact"][pairs], name);
             }
         }
-        less["constraint"] = constraints;
         add(scenes, less);
     }
 }

@@ -195,7 +195,7 @@ TYPED_TEST(AttachmentMotion, IsTheSameForAnyNumberOfThreadsAndFromASavedState) {
         scene.solver.integrator = integrator;
         scene.bodies[0].velocity = Eigen::VectorXd::LinSpaced(kDim, 0.5, -0.3);
         scene.attachments[0].damping = 5;
-        scene.attachments[0].break_force = 5;
+        scene.attachments[0].break_force = 2;
         scene.attachments[0].select = {
             HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(kDim, 0), .offset = 0.1}};
         scene.attachments.push_back(scene.attachments[0]);
