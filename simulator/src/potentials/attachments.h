@@ -20,9 +20,9 @@ namespace pent::simulator {
 ///     k/2 |d|^2 + c / (2 rate) |u|^2,     u = x' - q' = rate (d - d at the origin of the step),
 ///
 /// a convex quadratic with the Hessian (k + c rate) w_i w_j I. The coordinates sum up to 1, so that
-/// the forces on vertex and cell have no sum and no moment, wherever they are. An offset is kept by
-/// the coordinates of the vertex itself, beyond the faces of the cell: it turns and stretches with
-/// the cell.
+/// the forces on vertex and cell have no sum and, but for the damping of what is stretched, no
+/// moment, wherever they are. An offset is kept by the coordinates of the vertex itself, beyond the
+/// faces of the cell: it turns and stretches with the cell.
 template <int Dim>
 class Attachments final : public Potential<Dim> {
 public:
