@@ -156,6 +156,10 @@ void add_resolution(CLI::App& cli, MeshArguments& arguments) {
         ->check(CLI::Range(1, 64))
         ->type_name("K")
         ->group(group);
+    cli.add_flag(
+           "--quadratic", request.is_quadratic,
+           "Cut every edge in 2, and write which cells belong together: for quadratic elements")
+        ->group(group);
 }
 
 void add_extrusion(CLI::App& cli, MeshArguments& arguments) {

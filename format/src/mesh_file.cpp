@@ -37,6 +37,9 @@ std::vector<Column> cell_columns(const SimplexMesh<Dim>& mesh) {
     if (!mesh.regions.empty()) {
         columns.push_back(array_column("region", PlyType::Ushort, mesh.regions));
     }
+    if (!mesh.parents.empty()) {
+        columns.push_back(array_column("parent", PlyType::Uint, mesh.parents));
+    }
     return columns;
 }
 
@@ -95,6 +98,9 @@ MeshFile<Dim> read_mesh(const std::filesystem::path& path) {
     }
     if (has_property(cell, "region", PlyType::Ushort, path)) {
         mesh.regions.resize(cell.count);
+    }
+    if (has_property(cell, "parent", PlyType::Uint, path)) {
+        mesh.parents.resize(cell.count);
     }
     reader.read(vertex_columns(mesh));
     reader.read(cell_columns(mesh));

@@ -144,6 +144,7 @@ void validate(const SimplexMesh<Dim>& mesh, std::string_view name) {
                     + ", expected at least one");
     }
     validate_length(mesh.regions.size(), mesh.cell_count(), "regions", name);
+    validate_length(mesh.parents.size(), mesh.cell_count(), "parents", name);
     validate_length(mesh.columns.size(), mesh.vertex_count(), "columns", name);
     validate_length(mesh.layers.size(), mesh.vertex_count(), "layers", name);
     validate_positions<Dim>(mesh.positions, name);

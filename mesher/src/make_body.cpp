@@ -72,6 +72,11 @@ void refuse_filling(const BodyRequest& request) {
     }
 }
 
+// In how many parts every edge is cut at the end.
+int parts_of_edge(const BodyRequest& request) {
+    return request.subdivide * (request.is_quadratic ? 2 : 1);
+}
+
 // Moves the mesh where it is asked for, proves and measures it; subdivides it first if that is
 // asked for.
 template <int Dim>
@@ -82,6 +87,9 @@ Body<Dim> finish(SimplexMesh<Dim> mesh,
                  StageClock& clock) {
     if (request.subdivide > 1) {
         mesh = clock.time("subdivide", [&] { return subdivide<Dim>(mesh, request.subdivide); });
+    }
+    if (request.is_quadratic) {
+        mesh = clock.time("quadratic", [&] { return make_quadratic<Dim>(mesh); });
     }
     for (Eigen::Index axis = 0; axis < request.translation.size(); ++axis) {
         mesh.positions.row(axis).array() += request.translation[axis];
@@ -114,7 +122,7 @@ ExpectedSize expected_size(double base_cells,
     ExpectedSize size;
     size.base_cells = base_cells;
     size.layers = slabs;
-    size.cells = base_cells * cells_over * std::pow(request.subdivide, Dim);
+    size.cells = base_cells * cells_over * std::pow(parts_of_edge(request), Dim);
     size.seconds = kSeconds * size.cells;
     return size;
 }
@@ -154,7 +162,8 @@ Tetrahedra fill_to_cells(const Surface& surface,
                          BodyReport& report) {
     const double regular = enclosed_volume(surface) * 6 * std::sqrt(2.0) * kCrowding;
     const double side = largest_side<3>(surface.points);
-    const double cells = static_cast<double>(request.target_cells) / std::pow(request.subdivide, 4);
+    const double cells =
+        static_cast<double>(request.target_cells) / std::pow(parts_of_edge(request), 4);
     if (extrusion.layers == 0 && extrusion.profile.empty()) {
         const double height = extrusion_length(extrusion, side);
         const double edge_length = std::pow(4 * regular * height / (0.7 * cells), 0.25);

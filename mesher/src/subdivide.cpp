@@ -5,8 +5,10 @@
 #include <array>
 #include <cassert>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pent::mesher {
@@ -196,6 +198,51 @@ std::vector<std::uint32_t> number_points(const SimplexMesh<Dim>& mesh,
     return numbers;
 }
 
+// A point of the finer mesh that is no vertex of the coarse one.
+template <int Dim>
+struct NewPoint {
+    std::array<std::uint32_t, Dim + 1> corners;  // of a cell it lies in, increasing
+    std::array<int, Dim + 1> weights;            // of each, adding to k
+};
+
+// Where mesh has columns and layers: a vertex keeps its column and is in layer k times its own. A
+// new point is in the column that the columns of its corners name by their weights, as a point of
+// the base mesh is named by vertices, and in the layer that its corners' layers add up to.
+template <int Dim>
+void hand_down_columns(const SimplexMesh<Dim>& mesh,
+                       const std::vector<NewPoint<Dim>>& points,
+                       int k,
+                       SimplexMesh<Dim>& fine) {
+    if (mesh.columns.empty() || mesh.layers.empty()) {
+        return;
+    }
+    fine.columns = mesh.columns;
+    for (const std::uint32_t layer : mesh.layers) {
+        fine.layers.push_back(layer * static_cast<std::uint32_t>(k));
+    }
+    std::map<std::map<std::uint32_t, int>, std::uint32_t> numbers;  // of columns by their names
+    std::uint32_t next = *std::max_element(mesh.columns.begin(), mesh.columns.end()) + 1;
+    for (const NewPoint<Dim>& point : points) {
+        std::map<std::uint32_t, int> name;
+        std::uint32_t layer = 0;
+        for (int c = 0; c <= Dim; ++c) {
+            if (point.weights[c] > 0) {
+                name[mesh.columns[point.corners[c]]] += point.weights[c];
+                layer +=
+                    mesh.layers[point.corners[c]] * static_cast<std::uint32_t>(point.weights[c]);
+            }
+        }
+        fine.layers.push_back(layer);
+        if (name.size() == 1) {
+            fine.columns.push_back(name.begin()->first);
+            continue;
+        }
+        const auto [place, is_new] = numbers.try_emplace(std::move(name), next);
+        next += is_new ? 1 : 0;
+        fine.columns.push_back(place->second);
+    }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -210,17 +257,21 @@ SimplexMesh<Dim> subdivide(const SimplexMesh<Dim>& mesh, int k) {
     fine.positions.resize(Dim,
                           mesh.vertex_count() + static_cast<Eigen::Index>(first_places.size()));
     fine.positions.leftCols(mesh.vertex_count()) = mesh.positions;
-    for (std::size_t i = 0; i < first_places.size(); ++i) {
-        const auto cell = static_cast<Eigen::Index>(first_places[i]) / per_cell;
-        const auto& weights = pattern.weights[first_places[i] % pattern.weights.size()];
+    std::vector<NewPoint<Dim>> points;
+    for (const std::uint64_t place : first_places) {
+        const auto cell = static_cast<Eigen::Index>(place) / per_cell;
         bool is_odd = false;
-        const auto corners = sorted_corners(mesh, cell, is_odd);
+        const NewPoint<Dim> point{sorted_corners(mesh, cell, is_odd),
+                                  pattern.weights[place % pattern.weights.size()]};
         Eigen::Matrix<double, Dim, 1> sum = Eigen::Matrix<double, Dim, 1>::Zero();
         for (int c = 0; c <= Dim; ++c) {
-            sum += weights[c] * mesh.positions.col(corners[c]);
+            sum += point.weights[c] * mesh.positions.col(point.corners[c]);
         }
-        fine.positions.col(mesh.vertex_count() + static_cast<Eigen::Index>(i)) = sum / k;
+        fine.positions.col(mesh.vertex_count() + static_cast<Eigen::Index>(points.size())) =
+            sum / k;
+        points.push_back(point);
     }
+    hand_down_columns(mesh, points, k, fine);
     const auto children = static_cast<Eigen::Index>(pattern.cells.size());
     fine.cells.resize(Dim + 1, mesh.cell_count() * children);
     for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
@@ -242,8 +293,20 @@ SimplexMesh<Dim> subdivide(const SimplexMesh<Dim>& mesh, int k) {
     return fine;
 }
 
+template <int Dim>
+SimplexMesh<Dim> make_quadratic(const SimplexMesh<Dim>& mesh) {
+    SimplexMesh<Dim> fine = subdivide<Dim>(mesh, 2);
+    constexpr Eigen::Index kChildren = Eigen::Index{1} << Dim;
+    for (Eigen::Index cell = 0; cell < fine.cell_count(); ++cell) {
+        fine.parents.push_back(static_cast<std::uint32_t>(cell / kChildren));
+    }
+    return fine;
+}
+
 template SimplexMesh<2> subdivide<2>(const SimplexMesh<2>&, int);
 template SimplexMesh<3> subdivide<3>(const SimplexMesh<3>&, int);
 template SimplexMesh<4> subdivide<4>(const SimplexMesh<4>&, int);
+template SimplexMesh<3> make_quadratic<3>(const SimplexMesh<3>&);
+template SimplexMesh<4> make_quadratic<4>(const SimplexMesh<4>&);
 
 }  // namespace pent::mesher

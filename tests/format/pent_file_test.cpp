@@ -39,6 +39,8 @@ template <int Dim>
 void add_optional_arrays(SimplexMesh<Dim>& mesh) {
     mesh.regions.resize(mesh.cell_count());
     std::iota(mesh.regions.begin(), mesh.regions.end(), std::uint16_t{65530});  // wraps around
+    mesh.parents.resize(mesh.cell_count());
+    std::iota(mesh.parents.begin(), mesh.parents.end(), 4294967290U);
     mesh.columns.resize(mesh.vertex_count());
     std::iota(mesh.columns.begin(), mesh.columns.end(), 4294967200U);
     mesh.layers.assign(mesh.vertex_count(), 3);
@@ -53,6 +55,7 @@ void expect_same_bits(const SimplexMesh<Dim>& a, const SimplexMesh<Dim>& b) {
         0);
     EXPECT_EQ(a.cells, b.cells);
     EXPECT_EQ(a.regions, b.regions);
+    EXPECT_EQ(a.parents, b.parents);
     EXPECT_EQ(a.columns, b.columns);
     EXPECT_EQ(a.layers, b.layers);
 }

@@ -2,6 +2,7 @@
 
 #include <pent/facets.h>
 #include <pent/mesher/edge_order.h>
+#include <pent/mesher/extrude.h>
 #include <pent/mesher/links.h>
 #include <pent/mesher/prove.h>
 #include <pent/mesher/shapes.h>
@@ -10,7 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <numbers>
+#include <set>
 
 namespace pent::mesher {
 namespace {
@@ -108,6 +111,51 @@ TYPED_TEST(SubdivideInDimension, MakesEqualConformingChildren) {
             EXPECT_EQ(fine.regions.back(), 4);
         }
     }
+}
+
+// As if the base mesh had been subdivided first and then extruded to k times the layers: vertices of
+// a column lie above one another, in layers of their own, and every cell is between two layers.
+TEST(Subdivide, HandsDownColumnsAndLayers) {
+    const SimplexMesh<3> base = box<3>({2, 1, 1}, {2, 1, 1}, CubeCut::Corners);
+    const OrderedCells<3> ordered =
+        order_cells<3>(base, direct_edges<3>(base, rank_vertices<3>(base, VertexOrder::Index)));
+    const SimplexMesh<4> coarse = extrude<4>(
+        base, ordered, straight_layers<4>(Eigen::Vector4d(0, 0, 0, 1), 2, Anchor::Start));
+    for (const int k : {2, 3}) {
+        const SimplexMesh<4> fine = subdivide<4>(coarse, k);
+        validate(fine, "finer");
+        const SimplexMesh<3> fine_base = subdivide<3>(base, k);
+        std::map<std::uint32_t, Eigen::Vector3d> place;
+        std::set<std::pair<std::uint32_t, std::uint32_t>> taken;
+        for (Eigen::Index v = 0; v < fine.vertex_count(); ++v) {
+            const std::uint32_t column = fine.columns[v];
+            const Eigen::Vector3d at = fine.positions.col(v).head<3>();
+            EXPECT_LT((place.try_emplace(column, at).first->second - at).norm(), 1e-15);
+            EXPECT_TRUE(taken.emplace(column, fine.layers[v]).second);
+            EXPECT_NEAR(fine.positions(3, v), fine.layers[v] / (2.0 * k), 1e-15);
+        }
+        EXPECT_EQ(static_cast<Eigen::Index>(place.size()), fine_base.vertex_count());
+        EXPECT_EQ(fine.vertex_count(), fine_base.vertex_count() * (2 * k + 1));
+        for (Eigen::Index cell = 0; cell < fine.cell_count(); ++cell) {
+            std::set<std::uint32_t> layers;
+            for (const std::uint32_t v : fine.cells.col(cell)) {
+                layers.insert(fine.layers[v]);
+            }
+            EXPECT_LE(*layers.rbegin() - *layers.begin(), 1U);
+        }
+    }
+}
+
+TEST(MakeQuadratic, LabelsTheChildrenOfEveryCell) {
+    const SimplexMesh<4> coarse = box<4>({2, 1, 1, 1}, {2, 1, 1, 1}, CubeCut::Paths);
+    const SimplexMesh<4> fine = make_quadratic<4>(coarse);
+    EXPECT_EQ(fine.cells, subdivide<4>(coarse, 2).cells);
+    ASSERT_EQ(fine.parents.size(), static_cast<std::size_t>(fine.cell_count()));
+    for (Eigen::Index cell = 0; cell < fine.cell_count(); ++cell) {
+        EXPECT_EQ(fine.parents[cell], cell / 16);
+    }
+    // Cut again they are no longer the children of anything.
+    EXPECT_TRUE(subdivide<4>(fine, 2).parents.empty());
 }
 
 TEST(Subdivide, MakesTheCantileverOfThePaper) {

@@ -27,6 +27,8 @@ struct SimplexMesh {
     std::vector<std::uint32_t> columns;  ///< One a vertex, or empty: which vertex of the base mesh
                                          ///< it was extruded from.
     std::vector<std::uint32_t> layers;   ///< One a vertex, or empty: in which layer.
+    std::vector<std::uint32_t> parents;  ///< One a cell, or empty: which quadratic cell it is a
+                                         ///< child of, one of 2^Dim; see docs/pent-format.md.
 
     [[nodiscard]] Eigen::Index vertex_count() const { return positions.cols(); }
     [[nodiscard]] Eigen::Index cell_count() const { return cells.cols(); }

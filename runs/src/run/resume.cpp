@@ -98,11 +98,12 @@ void check_same_scene(const fs::path& scene_file, const Scene& scene) {
 template <int Dim>
 std::uint32_t check_same_mesh(const fs::path& mesh_file, const SimplexMesh<Dim>& mesh) {
     const MeshFile<Dim> before = read_mesh<Dim>(mesh_file);
-    const bool is_same =
-        before.mesh.positions.cols() == mesh.positions.cols()
-        && before.mesh.positions == mesh.positions && before.mesh.cells.cols() == mesh.cells.cols()
-        && before.mesh.cells == mesh.cells && before.mesh.regions == mesh.regions
-        && before.mesh.columns == mesh.columns && before.mesh.layers == mesh.layers;
+    const bool is_same = before.mesh.positions.cols() == mesh.positions.cols()
+                         && before.mesh.positions == mesh.positions
+                         && before.mesh.cells.cols() == mesh.cells.cols()
+                         && before.mesh.cells == mesh.cells && before.mesh.regions == mesh.regions
+                         && before.mesh.columns == mesh.columns && before.mesh.layers == mesh.layers
+                         && before.mesh.parents == mesh.parents;
     if (!is_same) {
         throw Error(mesh_file.string()
                     + ": is another mesh than that of the scene now; put the old one back, or use"

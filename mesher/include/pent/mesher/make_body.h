@@ -80,6 +80,7 @@ struct BodyRequest {
     /// before other cells are made, unless target_cells asks for one. May throw to stop the work.
     std::function<void(const ExpectedSize&)> on_size;
     int subdivide = 1;  ///< Every edge of the body is cut in this many parts, see subdivide().
+    bool is_quadratic = false;  ///< Then made ready for quadratic elements, see make_quadratic().
 
     /// Sets what every step that may crash or run away is allowed.
     void limit_steps(const StepLimits& limits) {

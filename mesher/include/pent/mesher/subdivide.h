@@ -8,12 +8,18 @@ namespace pent::mesher {
 /// of equal volume, which fall into at most Dim!/2 shapes however large k is.
 ///
 /// The old vertices keep their numbers, new ones follow. Cells of a face see it cut alike, since
-/// the cut depends on the order of its vertices' numbers alone. Regions are handed down; columns
-/// and layers have no meaning afterwards and are left out.
+/// the cut depends on the order of its vertices' numbers alone. The cells of a cell follow one
+/// another. Regions are handed down; columns and layers become those of the base mesh subdivided
+/// alike, with k layers for each one before. Parents are left out.
 ///
 /// @param k  1 or more.
 /// Throws an Error if the result would have more than 2^32 - 1 vertices.
 template <int Dim>
 [[nodiscard]] SimplexMesh<Dim> subdivide(const SimplexMesh<Dim>& mesh, int k);
+
+/// Cells for quadratic elements (Dim 3 or 4): every edge is cut in two, as subdivide() does, and
+/// each of the 2^Dim cells of a cell has that one's number as its parent.
+template <int Dim>
+[[nodiscard]] SimplexMesh<Dim> make_quadratic(const SimplexMesh<Dim>& mesh);
 
 }  // namespace pent::mesher
