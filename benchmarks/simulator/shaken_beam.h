@@ -1,6 +1,6 @@
 #pragma once
 
-#include "potentials/elements.h"
+#include "potentials/element_layout.h"
 
 #include <pent/simulator/scene.h>
 

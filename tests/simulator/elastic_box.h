@@ -2,7 +2,7 @@
 
 #include "linear/block_matrix.h"
 #include "linear/dof_map.h"
-#include "potentials/elements.h"
+#include "potentials/element_layout.h"
 #include "support/kuhn_box.h"
 
 #include <Eigen/Core>
@@ -25,19 +25,46 @@ struct ElasticBox {
     explicit ElasticBox(const Material& material,
                         const std::vector<std::uint32_t>& held = {},
                         ElementKind kind = ElementKind::Linear)
-        : mesh(pent::test::kuhn_box<Dim>(counts(), sizes())) {
+        : mesh(kind == ElementKind::Quadratic
+                   ? pent::test::quadratic_kuhn_box<Dim>(one_cube(), sizes())
+                   : pent::test::kuhn_box<Dim>(counts(), sizes())) {
         std::vector<bool> is_held(static_cast<std::size_t>(mesh.vertex_count()), false);
         for (const std::uint32_t vertex : held) {
             is_held[vertex] = true;
         }
+        lay_out(material, is_held, kind);
+    }
+
+    /// A mesh of one's own.
+    ///
+    /// @param is_held  One a vertex, or empty.
+    ElasticBox(SimplexMesh<Dim> of,
+               const Material& material,
+               ElementKind kind,
+               std::vector<bool> is_held = {})
+        : mesh(std::move(of)) {
+        is_held.resize(static_cast<std::size_t>(mesh.vertex_count()), false);
+        lay_out(material, is_held, kind);
+    }
+
+    void lay_out(const Material& material, const std::vector<bool>& is_held, ElementKind kind) {
         std::vector<std::uint32_t> columns;
         for (std::uint32_t v = 0; v < is_held.size(); ++v) {
             columns.push_back(v);
         }
-        dofs = number_dofs<Dim>(mesh.cells, is_held, {columns, columns});
+        dofs = number_dofs<Dim>(
+            mesh.cells, is_held,
+            mesh.columns.empty() ? Columns{columns, columns} : Columns{mesh.columns, mesh.layers});
         const std::vector<CellRange> ranges = {{0, mesh.cell_count(), material}};
+        QuadraticCells<Dim> quadratic;
+        if (kind == ElementKind::Quadratic) {
+            quadratic.nodes = quadratic_simplices<Dim>(mesh, "box");
+            quadratic.ranges = {{0, quadratic.nodes.cols(), material}};
+        }
         ElementLayout<Dim> layout =
-            lay_out_elements<Dim>(mesh.positions, mesh.cells, ranges, dofs, kind);
+            kind == ElementKind::Quadratic
+                ? lay_out_elements<Dim>(mesh.positions, quadratic, dofs)
+                : lay_out_elements<Dim>(mesh.positions, mesh.cells, ranges, dofs, kind);
         pattern = std::move(layout.pattern);
         elements = std::make_unique<Elements<Dim>>(std::move(layout.elements));
         positions = mesh.positions;
@@ -90,6 +117,11 @@ struct ElasticBox {
         std::array<int, Dim> count{};
         count.fill(1);
         count[0] = 2;
+        return count;
+    }
+    static std::array<int, Dim> one_cube() {
+        std::array<int, Dim> count{};
+        count.fill(1);
         return count;
     }
     static std::array<double, Dim> sizes() {

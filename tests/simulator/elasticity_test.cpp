@@ -20,6 +20,8 @@ template <typename T>
 class ElasticityTest : public testing::Test {};
 TYPED_TEST_SUITE(ElasticityTest, Dimensions);
 
+constexpr std::array kKinds = {ElementKind::Linear, ElementKind::Smoothed, ElementKind::Quadratic};
+
 // Flat, turned inside out, or all in one point: formulas hold there, too.
 template <int Dim>
 std::vector<Positions<Dim>> hard_states(const Positions<Dim>& rest) {
@@ -34,11 +36,12 @@ std::vector<Positions<Dim>> hard_states(const Positions<Dim>& rest) {
 
 TYPED_TEST(ElasticityTest, HasTheDerivativesOfItsEnergyAlsoWhereElementsAreDegenerate) {
     constexpr int kDim = TypeParam::value;
-    for (const ElementKind kind : {ElementKind::Linear, ElementKind::Smoothed}) {
+    for (const ElementKind kind : kKinds) {
         for (const Model law : values<Model>()) {
             Scene scene = test::box_scene<kDim>();
             scene.bodies[0].material.model = law;
             scene.bodies[0].material.second_invariant = 0.4;
+            scene.solver.elements = kind;
             const Setting<kDim> setting(scene, 2);
             Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, kind);
             for (const Positions<kDim>& x : hard_states<kDim>(setting.bodies.rest)) {
@@ -53,7 +56,7 @@ TYPED_TEST(ElasticityTest, HasTheDerivativesOfItsEnergyAlsoWhereElementsAreDegen
 
 TYPED_TEST(ElasticityTest, DoesNotSeeRigidMotions) {
     constexpr int kDim = TypeParam::value;
-    for (const ElementKind kind : {ElementKind::Linear, ElementKind::Smoothed}) {
+    for (const ElementKind kind : kKinds) {
         for (const Model law : values<Model>()) {
             if (law == Model::Linear) {
                 continue;  // sees turns
@@ -61,6 +64,7 @@ TYPED_TEST(ElasticityTest, DoesNotSeeRigidMotions) {
             Scene scene = test::box_scene<kDim>();
             scene.bodies[0].material.model = law;
             scene.bodies[0].material.second_invariant = 0.4;
+            scene.solver.elements = kind;
             const Setting<kDim> setting(scene, 2);
             Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, kind);
             expect_invariance_under_rigid_motion<kDim>(elasticity,
@@ -74,18 +78,21 @@ TYPED_TEST(ElasticityTest, DoesNotSeeRigidMotions) {
 
 TYPED_TEST(ElasticityTest, OfSleepingBodiesIsThatWithWhichTheyFellAsleep) {
     constexpr int kDim = TypeParam::value;
-    Scene scene = two_cubes<kDim>(0.3);
-    scene.contact.reset();
-    Setting<kDim> setting(scene, 1);
-    Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, ElementKind::Linear);
-    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.05, 9);
-    const double awake = value_of<kDim>(elasticity, x);
-    const Positions<kDim> gradient = gradient_of<kDim>(elasticity, x);
-    setting.dofs = number_dofs(setting.bodies, {false, true});
-    elasticity.set_dofs(setting.dofs, {true, false}, x);
-    EXPECT_NEAR(value_of<kDim>(elasticity, x), awake, 1e-12 * awake);
-    EXPECT_LT((gradient_of<kDim>(elasticity, x) - gradient).norm(), 1e-12 * gradient.norm());
-    expect_derivatives<kDim>(setting, elasticity.pattern(), elasticity, x);
+    for (const ElementKind kind : kKinds) {
+        Scene scene = two_cubes<kDim>(0.3);
+        scene.contact.reset();
+        scene.solver.elements = kind;
+        Setting<kDim> setting(scene, 1);
+        Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, kind);
+        const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.05, 9);
+        const double awake = value_of<kDim>(elasticity, x);
+        const Positions<kDim> gradient = gradient_of<kDim>(elasticity, x);
+        setting.dofs = number_dofs(setting.bodies, {false, true});
+        elasticity.set_dofs(setting.dofs, {true, false}, x);
+        EXPECT_NEAR(value_of<kDim>(elasticity, x), awake, 1e-12 * awake);
+        EXPECT_LT((gradient_of<kDim>(elasticity, x) - gradient).norm(), 1e-12 * gradient.norm());
+        expect_derivatives<kDim>(setting, elasticity.pattern(), elasticity, x);
+    }
 }
 
 }  // namespace

@@ -14,6 +14,25 @@ namespace pent::simulator::test {
 
 using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
 
+// A cube of so many quadratic cubes an edge.
+template <int Dim>
+SimplexMesh<Dim> quadratic_cube(int count = 1, double size = 1) {
+    std::array<int, Dim> counts{};
+    std::array<double, Dim> sizes{};
+    counts.fill(count);
+    sizes.fill(size);
+    return pent::test::quadratic_kuhn_box<Dim>(counts, sizes);
+}
+
+// A cube of so many cells an edge, for quadratic elements if the scene wants that.
+template <int Dim>
+SimplexMesh<Dim> cube_for(const Scene& scene, int cells) {
+    if (scene.solver.elements != ElementKind::Quadratic) {
+        return cube<Dim>(cells);
+    }
+    return quadratic_cube<Dim>((cells + 1) / 2, 0.5);
+}
+
 // What terms stand on.
 template <int Dim>
 struct Setting {
@@ -26,7 +45,8 @@ struct Setting {
     Setting(const Scene& of, int cells)
         : scene(of),
           bodies(make_bodies<Dim>(
-              scene, std::vector<SimplexMesh<Dim>>(scene.bodies.size(), cube<Dim>(cells)))),
+              scene,
+              std::vector<SimplexMesh<Dim>>(scene.bodies.size(), cube_for<Dim>(scene, cells)))),
           dofs(number_dofs(bodies, std::vector<bool>(bodies.count(), true))) {}
 };
 

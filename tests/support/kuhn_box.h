@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <numeric>
 
 namespace pent::test {
@@ -59,6 +61,41 @@ template <int Dim>
             }
             ++cell;
         } while (std::next_permutation(order.begin(), order.end()));
+    }
+    return mesh;
+}
+
+/// The same with every edge cut in two, which is the box of twice as many cubes, and its cells
+/// labeled by the one of the coarser box that they lie in.
+///
+/// @param count  Cubes of the coarser box along each axis.
+template <int Dim>
+[[nodiscard]] SimplexMesh<Dim> quadratic_kuhn_box(const std::array<int, Dim>& count,
+                                                  const std::array<double, Dim>& size) {
+    std::array<int, Dim> twice{};
+    for (int axis = 0; axis < Dim; ++axis) {
+        twice[axis] = 2 * count[axis];
+    }
+    SimplexMesh<Dim> mesh = kuhn_box<Dim>(twice, size);
+    for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+        Eigen::Matrix<double, Dim, 1> center = Eigen::Matrix<double, Dim, 1>::Zero();
+        for (int a = 0; a <= Dim; ++a) {
+            center += mesh.positions.col(mesh.cells(a, cell)) / (Dim + 1);
+        }
+        // The cube, and the order of the coordinates in it: a cell has one of its own.
+        std::array<double, Dim> within{};
+        std::uint32_t label = 0;
+        for (int axis = 0; axis < Dim; ++axis) {
+            const double at = center[axis] / size[axis] * count[axis];
+            within[axis] = at - std::floor(at);
+            label = label * count[axis] + static_cast<std::uint32_t>(at);
+        }
+        for (int i = 0; i < Dim; ++i) {
+            for (int j = 0; j < i; ++j) {
+                label = 2 * label + (within[i] > within[j] ? 1 : 0);
+            }
+        }
+        mesh.parents.push_back(label);
     }
     return mesh;
 }

@@ -33,8 +33,12 @@ constexpr Locking kSmoothed[] = {{1, 0.64, 0.49, 0.30}, {2, 0.96, 0.83, 0.67}, {
 // More bend than this is right.
 constexpr double kBends = 0.9;
 
-// Of that of theory; 1 for a body thicker than measured.
+// Of that of theory; 1 for a body thicker than measured, and of quadratic elements, which have two
+// cells across at least.
 double bend(ElementKind elements, int cells, double poisson) {
+    if (elements == ElementKind::Quadratic) {
+        return 1;
+    }
     for (const Locking& row : elements == ElementKind::Linear ? kLinear : kSmoothed) {
         if (cells <= row.cells) {
             return poisson < 0.14 ? row.at_0 : poisson < 0.30 ? row.at_028 : row.at_032;
@@ -96,9 +100,10 @@ private:
                 across == 1 ? "1 cell" : formatted("%d to %d cells", across, across + 1);
             advise(formatted(
                 "%s is %s thick: with poisson %.2g %s elements lock, bending reaches about"
-                " %.0f%% of what it should be; %srefine, or lower poisson",
+                " %.0f%% of what it should be; take elements = %s\"quadratic\" with a mesh of"
+                " pent-mesh --quadratic, refine, or lower poisson",
                 name(i).c_str(), cells.c_str(), poisson, is_linear ? "linear" : "even smoothed",
-                100 * part, is_linear ? "take elements = \"smoothed\", " : ""));
+                100 * part, is_linear ? "\"smoothed\", or " : ""));
         }
     }
 

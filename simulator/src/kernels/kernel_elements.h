@@ -3,6 +3,7 @@
 #include "kernels/kernel_laws.h"
 #include "kernels/kernel_transpose.h"
 #include "kernels/kernels.h"
+#include "kernels/quadratic_rule.h"
 
 // Groups of elements and their gradients, in lanes.
 
@@ -27,7 +28,9 @@ struct Group {
 template <int Dim>
 Group<Dim> group_at(const ElementRun& run, int group) {
     const std::int64_t first = std::int64_t{group} * kGroup;
-    const std::int64_t gradient_rows = std::int64_t{Dim} * (run.corners - 1);
+    const std::int64_t gradient_rows = run.kind == ElementKind::Quadratic
+                                           ? kQuadraticRestRows<Dim> - 1
+                                           : std::int64_t{Dim} * (run.corners - 1);
     const std::int64_t pairs = std::int64_t{run.corners} * (run.corners + 1) / 2;
     const double* rest = run.rest + first * (gradient_rows + 1);
     const int left = run.elements - group * kGroup;

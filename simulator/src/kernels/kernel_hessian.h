@@ -39,7 +39,8 @@ template <typename Real, int Dim>
 RotatedHessian<Real, Dim> rotated_hessian(const Tensor<Real, Dim>& F,
                                           const Tensor<Real, Dim>& rest,
                                           const Moduli& moduli,
-                                          Filter filter) {
+                                          Filter filter,
+                                          const Real& mean_pressure) {
     using Number = typename Lanes<Real>::Number;
     SignedSvd<Real, Dim> svd;
     if (moduli.model == Model::Linear) {  // does not depend on F: any frame will do
@@ -51,7 +52,7 @@ RotatedHessian<Real, Dim> rotated_hessian(const Tensor<Real, Dim>& F,
     } else {
         svd = signed_svd(F, rest);
     }
-    const Spectrum<Real, Dim> spectrum = spectrum_of(svd.sigma, moduli);
+    const Spectrum<Real, Dim> spectrum = spectrum_of(svd.sigma, moduli, mean_pressure);
     RotatedHessian<Real, Dim> hessian;
     hessian.U = svd.U;
     hessian.beta = svd.turned_rest;
@@ -270,7 +271,7 @@ std::int64_t add_hessian(const ElementRun& run,
             const Real volume = Lanes<Real>::load(group.volume + lane);
             const Tensor<Real, Dim> F = deformation(edges, rest, lane);
             const RotatedHessian<Real, Dim> hessian =
-                rotated_hessian(F, rest, moduli, target.filter);
+                rotated_hessian(F, rest, moduli, target.filter, Real(Number(0)));
             filtered_elements += count_marked(hessian.is_filtered, group.elements - lane);
             hessian_blocks(hessian, scale * volume, pack);
             scatter_blocks(pack, group, lane, target.values);

@@ -224,6 +224,9 @@ Stress<Real, Dim> stress_of(const Tensor<Real, Dim>& F, const Moduli& moduli) {
 /// Hessian of an isotropic energy in the frame of the singular vectors. It couples the diagonal
 /// entries with one another (stretch), and each pair (i, j), (j, i) with itself: flip is the
 /// eigenvalue of E_ij + E_ji, twist that of E_ij - E_ji.
+///
+/// What has a mean dilatation adds `mean_pressure` times the second derivative of its measure of
+/// volume; 0 for all else.
 template <typename Real, int Dim>
 struct Spectrum {
     Tensor<Real, Dim> stretch;
@@ -244,7 +247,9 @@ Real product_without(const Real (&sigma)[Dim], int i, int j) {
 }
 
 template <typename Real, int Dim>
-Spectrum<Real, Dim> neo_hookean_spectrum(const Real (&sigma)[Dim], const Moduli& moduli) {
+Spectrum<Real, Dim> neo_hookean_spectrum(const Real (&sigma)[Dim],
+                                         const Moduli& moduli,
+                                         const Real& mean_pressure) {
     using Number = typename Lanes<Real>::Number;
     const Real mu = Real(static_cast<Number>(moduli.mu));
     const Real lambda = Real(static_cast<Number>(moduli.lambda));
@@ -252,7 +257,7 @@ Spectrum<Real, Dim> neo_hookean_spectrum(const Real (&sigma)[Dim], const Moduli&
     for (int i = 0; i < Dim; ++i) {
         growth[i] = product_without(sigma, i, i);
     }
-    const Real pressure = lambda * (growth[0] * sigma[0] - Real(Number(1))) - mu;
+    const Real pressure = lambda * (growth[0] * sigma[0] - Real(Number(1))) - mu + mean_pressure;
     Spectrum<Real, Dim> spectrum;
     for (int i = 0; i < Dim; ++i) {
         spectrum.stretch[i][i] = mu + lambda * growth[i] * growth[i];
@@ -268,7 +273,9 @@ Spectrum<Real, Dim> neo_hookean_spectrum(const Real (&sigma)[Dim], const Moduli&
 }
 
 template <typename Real, int Dim>
-Spectrum<Real, Dim> mooney_rivlin_spectrum(const Real (&sigma)[Dim], const Moduli& moduli) {
+Spectrum<Real, Dim> mooney_rivlin_spectrum(const Real (&sigma)[Dim],
+                                           const Moduli& moduli,
+                                           const Real& mean_pressure) {
     using Number = typename Lanes<Real>::Number;
     const Real twice_c2 = Real(static_cast<Number>(2 * moduli.c2));
     const Real bulk = Real(static_cast<Number>(moduli.bulk));
@@ -280,7 +287,7 @@ Spectrum<Real, Dim> mooney_rivlin_spectrum(const Real (&sigma)[Dim], const Modul
     }
     const Real along = Real(static_cast<Number>(2 * moduli.c1)) + twice_c2 * norm;
     const Real pressure = bulk * (growth[0] * sigma[0] - Real(Number(1)))
-                          - Real(static_cast<Number>(moduli.pressure_at_rest));
+                          - Real(static_cast<Number>(moduli.pressure_at_rest)) + mean_pressure;
     Spectrum<Real, Dim> spectrum;
     for (int i = 0; i < Dim; ++i) {
         const Real square = sigma[i] * sigma[i];
@@ -324,7 +331,9 @@ Spectrum<Real, Dim> arap_spectrum(const Real (&sigma)[Dim], const Moduli& moduli
 }
 
 template <typename Real, int Dim>
-Spectrum<Real, Dim> st_venant_kirchhoff_spectrum(const Real (&sigma)[Dim], const Moduli& moduli) {
+Spectrum<Real, Dim> st_venant_kirchhoff_spectrum(const Real (&sigma)[Dim],
+                                                 const Moduli& moduli,
+                                                 const Real& mean_pressure) {
     using Number = typename Lanes<Real>::Number;
     const Real mu = Real(static_cast<Number>(moduli.mu));
     const Real lambda = Real(static_cast<Number>(moduli.lambda));
@@ -332,7 +341,7 @@ Spectrum<Real, Dim> st_venant_kirchhoff_spectrum(const Real (&sigma)[Dim], const
     for (int i = 0; i < Dim; ++i) {
         trace += Real(Number(0.5)) * (sigma[i] * sigma[i] - Real(Number(1)));
     }
-    const Real base = lambda * trace - mu;
+    const Real base = lambda * trace - mu + mean_pressure;
     Spectrum<Real, Dim> spectrum;
     for (int i = 0; i < Dim; ++i) {
         const Real square = sigma[i] * sigma[i];
@@ -366,16 +375,18 @@ Spectrum<Real, Dim> linear_spectrum(const Moduli& moduli) {
 }
 
 template <typename Real, int Dim>
-Spectrum<Real, Dim> spectrum_of(const Real (&sigma)[Dim], const Moduli& moduli) {
+Spectrum<Real, Dim> spectrum_of(const Real (&sigma)[Dim],
+                                const Moduli& moduli,
+                                const Real& mean_pressure) {
     switch (moduli.model) {
         case Model::StableNeoHookean:
-            return neo_hookean_spectrum(sigma, moduli);
+            return neo_hookean_spectrum(sigma, moduli, mean_pressure);
         case Model::MooneyRivlin:
-            return mooney_rivlin_spectrum(sigma, moduli);
+            return mooney_rivlin_spectrum(sigma, moduli, mean_pressure);
         case Model::Arap:
             return arap_spectrum(sigma, moduli);
         case Model::StVenantKirchhoff:
-            return st_venant_kirchhoff_spectrum(sigma, moduli);
+            return st_venant_kirchhoff_spectrum(sigma, moduli, mean_pressure);
         case Model::Linear:
             break;
     }

@@ -321,8 +321,9 @@ std::int64_t add_smoothed_hessian(const ElementRun& run,
         for (int lane = 0; lane < group.elements; lane += kWidth) {
             prefetch_row(group, 0, lane, kWidth, target.values);
             const Real volume = Lanes<Real>::load(group.volume + lane);
-            const RotatedHessian<Real, Dim> rotated = rotated_hessian(
-                F.of_pack[lane / kWidth], identity<Real, Dim>(), moduli, target.filter);
+            const RotatedHessian<Real, Dim> rotated =
+                rotated_hessian(F.of_pack[lane / kWidth], identity<Real, Dim>(), moduli,
+                                target.filter, Real(Number(0)));
             filtered_elements += count_marked(rotated.is_filtered, group.elements - lane);
             const EnergyHessian<Real, Dim> hessian = energy_hessian(rotated, scale * volume);
             add_pack_hessian(hessian, group, lane, run.free_unknowns, target);

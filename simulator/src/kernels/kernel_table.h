@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/kernel_hessian.h"
+#include "kernels/kernel_quadratic_hessian.h"
 #include "kernels/kernel_rows.h"
 #include "kernels/kernel_smoothed.h"
 
@@ -20,6 +21,9 @@ constexpr auto choose_multiply() {
 
 template <int Dim, typename Real>
 RunEnergy add_gradient_of(const ElementRun& run, const double* positions, double* gradient) {
+    if (run.kind == ElementKind::Quadratic) {
+        return add_quadratic_gradient<Dim, Real>(run, positions, gradient);
+    }
     return run.corners == Dim + 1 ? add_gradient<Dim, Real>(run, positions, gradient)
                                   : add_smoothed_gradient<Dim, Real>(run, positions, gradient);
 }
@@ -28,6 +32,9 @@ template <int Dim, typename Real, typename Scalar>
 std::int64_t add_hessian_of(const ElementRun& run,
                             const double* positions,
                             const HessianTarget<Scalar>& target) {
+    if (run.kind == ElementKind::Quadratic) {
+        return add_quadratic_hessian<Dim, Real>(run, positions, target);
+    }
     return run.corners == Dim + 1 ? add_hessian<Dim, Real>(run, positions, target)
                                   : add_smoothed_hessian<Dim, Real>(run, positions, target);
 }

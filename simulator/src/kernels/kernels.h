@@ -28,26 +28,41 @@ constexpr int pairs_of(int corners) {
 template <int Dim>
 inline constexpr int kPairs = pairs_of(Dim + 1);
 
-/// A run of element groups of one material and one number of corners. Arrays are
+/// In ElementRun::blocks: no block, as one of the corners is held.
+inline constexpr std::int32_t kNoBlock = -1;
+
+/// And where the matrix has the transpose of a block: kTurnedBlock - index.
+inline constexpr std::int32_t kTurnedBlock = -2;
+
+/// A run of element groups of one kind, one material and one number of corners. Arrays are
 /// [group][row][lane].
 ///
-/// An element deforms by F = sum over its corners of x_a g_a^T, with rest gradients g_a that add up
+/// An element that is not quadratic deforms by F = sum over its corners of x_a g_a^T, with rest gradients g_a that add up
 /// to zero: a simplex has Dim + 1 of them, a smoothing domain may have more. The corners are in
 /// increasing order of their unknown, held ones last; an element with fewer than the others repeats
-/// its first, with zeros for gradients. Lanes behind the last element of a run repeat a real
+/// its first, with zeros for gradients.
+///
+/// A quadratic simplex has kQuadraticNodes corners, its nodes in their own order; kernel_quadratic.h
+/// says how it deforms. Lanes behind the last element of a run repeat a real
 /// element with volume 0 and are not scattered.
 struct ElementRun {
-    Material material;
+    ElementKind kind = ElementKind::Linear;
+    Material material;  ///< Of a quadratic element with that lambda that acts at every point.
+    double mean_lambda =
+        0;  ///< Pa, what of lambda acts on the mean over an element's points, >= 0.
     double collapse_norm = 0;  ///< An element with |F|^2 below has collapsed; 0: none can.
     int elements = 0;          ///< Elements in the run; groups = ceil(elements / kGroup).
     int corners = 0;           ///< Of every element, at least Dim + 1.
     const double* rest =
         nullptr;  ///< (corners - 1) * Dim + 1 rows: the gradients of all corners but
-                  ///< the first, of a simplex the inverse of Dm; rest volume.
+                  ///< the first, of a simplex the inverse of Dm; rest volume. Of a quadratic
+                  ///< simplex for each of its points: the inverse of Dm of the linear simplex it
+                  ///< deforms as, share of the volume; then the volume.
     const std::uint32_t* vertices = nullptr;  ///< `corners` rows.
     const std::uint32_t* unknowns = nullptr;  ///< `corners` rows; >= free_unknowns where held.
     const std::int32_t* blocks =
-        nullptr;  ///< pairs_of(corners) rows: index of the matrix block, -1 for none.
+        nullptr;  ///< pairs_of(corners) rows: index of the matrix block, kNoBlock, or
+                  ///< kTurnedBlock - index.
     std::uint32_t free_unknowns = 0;
 };
 

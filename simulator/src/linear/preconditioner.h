@@ -37,7 +37,8 @@ public:
 };
 
 /// Block Jacobi along the columns of an extruded mesh: the unknowns of all layers above one base
-/// vertex are solved for together, by block-tridiagonal factorization.
+/// vertex are solved for together, by factorization of a band of blocks: layers up to two apart may
+/// be coupled.
 ///
 /// Thin layers couple the vertices of a column far more strongly than its neighbors, which is what
 /// makes point-wise Jacobi slow there. Columns of single vertices are plain block Jacobi.

@@ -38,6 +38,21 @@ void append_bodies(const Scene& scene, Bodies<Dim>& bodies) {
 }
 
 template <int Dim>
+QuadraticCells<Dim> find_quadratic_cells(const Scene& scene, const Bodies<Dim>& bodies) {
+    QuadraticCells<Dim> quadratic;
+    for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+        const QuadraticSimplices<Dim> own =
+            quadratic_simplices<Dim>(bodies.meshes[body], scene.bodies[body].mesh);
+        const auto first = static_cast<std::uint32_t>(bodies.first_vertex[body]);
+        const Eigen::Index begin = quadratic.nodes.cols();
+        quadratic.nodes.conservativeResize(Eigen::NoChange, begin + own.cols());
+        quadratic.nodes.rightCols(own.cols()) = own.array() + first;
+        quadratic.ranges.push_back({begin, begin + own.cols(), scene.bodies[body].material});
+    }
+    return quadratic;
+}
+
+template <int Dim>
 void lump_masses(const Scene& scene, Bodies<Dim>& bodies) {
     bodies.masses.setZero(bodies.vertex_count());
     for (const CellRange& range : bodies.ranges) {
@@ -194,6 +209,9 @@ Bodies<Dim> make_bodies(const Scene& scene, std::vector<SimplexMesh<Dim>> meshes
     Bodies<Dim> bodies;
     bodies.meshes = std::move(meshes);
     append_bodies(scene, bodies);
+    if (scene.solver.elements == ElementKind::Quadratic) {
+        bodies.quadratic = find_quadratic_cells(scene, bodies);
+    }
     lump_masses(scene, bodies);
     find_dirichlet_sets(scene, bodies);
     for (DirichletSet<Dim>& set : bodies.dirichlet_sets) {

@@ -3,6 +3,7 @@
 #include "linear/dof_map.h"
 #include "model/cell_range.h"
 #include "model/motion_chain.h"
+#include "model/quadratic_cells.h"
 
 #include <pent/simplex_mesh.h>
 #include <pent/simulator/scene.h>
@@ -39,6 +40,7 @@ struct Bodies {
     Positions<Dim> rest;                     ///< Dim x vertices, m.
     Simplices<Dim + 1> cells;
     std::vector<CellRange> ranges;  ///< One a body.
+    QuadraticCells<Dim> quadratic;  ///< Of which the cells are children; empty if not asked for.
     Eigen::VectorXd masses;         ///< One a vertex, kg.
     double large_energy = 0;        ///< Elastic energy of all bodies at strains of about one, J.
     std::vector<DirichletSet<Dim>> dirichlet_sets;  ///< One a constraint.

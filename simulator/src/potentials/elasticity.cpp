@@ -32,6 +32,9 @@ Elasticity<Dim>::Elasticity(const Workers& workers,
 
 template <int Dim>
 ElementLayout<Dim> Elasticity<Dim>::lay_out(const DofMap& dofs) const {
+    if (kind_ == ElementKind::Quadratic) {
+        return lay_out_elements<Dim>(bodies_->rest, bodies_->quadratic, dofs);
+    }
     return lay_out_elements<Dim>(bodies_->rest, bodies_->cells, bodies_->ranges, dofs, kind_);
 }
 
@@ -84,7 +87,7 @@ double Elasticity<Dim>::rounding() const {
     return bodies_->large_energy * std::numeric_limits<double>::epsilon();
 }
 
-// Smoothed elements may not be inside out where one of their cells is.
+// Other elements may not be inside out where one of their cells is.
 template <int Dim>
 std::int64_t Elasticity<Dim>::inverted_cells() const {
     if (kind_ == ElementKind::Linear) {

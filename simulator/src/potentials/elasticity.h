@@ -2,7 +2,7 @@
 
 #include "kernels/kernels.h"
 #include "model/bodies.h"
-#include "potentials/elements.h"
+#include "potentials/element_layout.h"
 #include "potentials/potential.h"
 
 #include <pent/parallel.h>
@@ -20,6 +20,7 @@ template <int Dim>
 class Elasticity final : public Potential<Dim> {
 public:
     /// @param workers, kernels, bodies  Must outlive this.
+    /// @param kind  Quadratic if the bodies have been made for that.
     Elasticity(const Workers& workers,
                const Kernels<Dim>& kernels,
                const Bodies<Dim>& bodies,

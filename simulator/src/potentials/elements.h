@@ -3,6 +3,7 @@
 #include "kernels/kernels.h"
 #include "linear/block_matrix.h"
 #include "model/cell_range.h"
+#include "model/quadratic_cells.h"
 #include "potentials/smoothing.h"
 
 #include <pent/parallel.h>
@@ -16,7 +17,7 @@
 namespace pent::simulator {
 
 /// The elastic elements of all bodies, those with at least one vertex that has a dof, laid out for
-/// kernels: cells, or the domains of smoothed cells.
+/// kernels: cells, the domains of smoothed cells, or quadratic cells.
 template <int Dim>
 class Elements {
 public:
@@ -33,6 +34,12 @@ public:
     /// @param domains  One a body, and so are the ranges, of which the materials count.
     Elements(const std::vector<SmoothingDomains<Dim>>& domains,
              const std::vector<CellRange>& ranges,
+             const DofMap& dofs,
+             const BlockPattern& pattern);
+
+    /// @param quadratic  With mean dilatation, see local_lambda().
+    Elements(const Positions<Dim>& rest,
+             const QuadraticCells<Dim>& quadratic,
              const DofMap& dofs,
              const BlockPattern& pattern);
 
@@ -59,15 +66,16 @@ public:
     [[nodiscard]] std::int64_t bytes() const;
 
 private:
-    // One element, its corners by increasing unknown.
+    // One element as in ElementRun.
     struct Element {
         std::vector<std::uint32_t> corners;
-        Positions<Dim> gradients;  // a column each
+        std::vector<double> rest;  // without the volume, and what is missing to more corners
         double volume = 0;
     };
 
     // Elements of one body and, but for padding, as many corners.
     struct Chunk {
+        ElementKind kind = ElementKind::Linear;
         int elements = 0;
         int corners = 0;
         Material material;
@@ -83,8 +91,7 @@ private:
     void append(const std::vector<Eigen::Index>& chosen,
                 std::size_t first,
                 std::size_t last,
-                int corners,
-                const Material& material,
+                const Chunk& like,
                 const Make& make,
                 const DofMap& dofs,
                 const BlockPattern& pattern);
@@ -93,6 +100,7 @@ private:
                   std::size_t lane,
                   const DofMap& dofs,
                   const BlockPattern& pattern);
+    [[nodiscard]] static std::size_t rest_rows(const Chunk& chunk);
     void color(std::size_t vertices);
     [[nodiscard]] ElementRun run(int chunk) const;
 
@@ -106,19 +114,8 @@ private:
     std::int64_t count_ = 0;
 };
 
-/// Elastic elements and the pattern of the matrix they fill.
-template <int Dim>
-struct ElementLayout {
-    BlockPattern pattern;
-    Elements<Dim> elements;
-};
-
-/// Lays out elements of one kind; parameters as for the constructors of Elements.
-template <int Dim>
-[[nodiscard]] ElementLayout<Dim> lay_out_elements(const Positions<Dim>& rest,
-                                                  const Simplices<Dim + 1>& cells,
-                                                  const std::vector<CellRange>& ranges,
-                                                  const DofMap& dofs,
-                                                  ElementKind kind);
+/// What of lambda acts at every point of a quadratic element by itself; the rest acts on the mean
+/// over the element. All of it where lambda is small.
+[[nodiscard]] double local_lambda(const Material& material);
 
 }  // namespace pent::simulator

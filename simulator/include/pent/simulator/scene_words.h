@@ -22,6 +22,7 @@ template <>
 inline constexpr std::array kWords<ElementKind> = {
     Word<ElementKind>{ElementKind::Linear, "linear"},
     Word<ElementKind>{ElementKind::Smoothed, "smoothed"},
+    Word<ElementKind>{ElementKind::Quadratic, "quadratic"},
 };
 template <>
 inline constexpr std::array kWords<Filter> = {

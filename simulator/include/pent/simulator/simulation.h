@@ -38,8 +38,8 @@ struct SimulationSize {
     std::int64_t vertices = 0;
     std::int64_t cells = 0;
     std::int64_t free_vertices = 0;  ///< Those with unknowns now: Dim each.
-    std::int64_t elements = 0;       ///< Cells, or edges where smoothed, with a free vertex near;
-                                     ///< others cost nothing.
+    std::int64_t elements = 0;       ///< Cells, edges or quadratic cells, with a free
+                                     ///< vertex near; others cost nothing.
     std::int64_t matrix_blocks = 0;  ///< Dim x Dim blocks stored, upper triangle.
     std::int64_t element_bytes = 0;  ///< Of elements; part of `bytes`.
     std::int64_t matrix_bytes = 0;   ///< Of the matrix; part of `bytes`.

@@ -14,8 +14,9 @@ enum class Integrator {
 
 /// What the energy of a body is the sum over; docs/simulator.md compares them.
 enum class ElementKind {
-    Linear,    ///< The cells of its mesh: fast, too stiff in bending where few cells are across.
-    Smoothed,  ///< Neighborhoods of edges, by the mean of their cells: for what bends.
+    Linear,     ///< The cells of its mesh: fast, too stiff in bending where few cells are across.
+    Smoothed,   ///< Neighborhoods of edges, by the mean of their cells: for what bends.
+    Quadratic,  ///< Quadratic simplices, of which the cells are children: does not lock.
 };
 
 /// What becomes of the negative eigenvalues of Hessians, of elements as of contacts.

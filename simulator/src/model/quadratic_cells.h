@@ -1,0 +1,66 @@
+#pragma once
+
+#include "kernels/quadratic_rule.h"
+#include "model/cell_range.h"
+
+#include <pent/simplex_mesh.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace pent::simulator {
+
+/// Quadratic simplices: nodes in the order of kQuadraticNodes, one simplex a column.
+template <int Dim>
+using QuadraticSimplices = Eigen::Matrix<std::uint32_t, kQuadraticNodes<Dim>, Eigen::Dynamic>;
+
+/// The quadratic simplices of all bodies.
+template <int Dim>
+struct QuadraticCells {
+    QuadraticSimplices<Dim> nodes;
+    std::vector<CellRange> ranges;  ///< One a body.
+};
+
+/// Corners of the linear simplex that a quadratic one deforms as, see QuadraticRule.
+///
+/// @param places       Of its nodes.
+/// @param coordinates  Barycentric, of the point.
+template <int Dim>
+[[nodiscard]] Eigen::Matrix<double, Dim, Dim + 1> tangent_corners(
+    const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>& places,
+    const Eigen::Matrix<double, Dim + 1, 1>& coordinates);
+
+/// The places of its nodes.
+template <int Dim>
+[[nodiscard]] Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>> places_of_nodes(
+    const Positions<Dim>& positions,
+    const QuadraticSimplices<Dim>& simplices,
+    Eigen::Index simplex);
+
+/// What the kernels want of a quadratic simplex at rest, as in ElementRun::rest but for the volume.
+template <int Dim>
+struct QuadraticRest {
+    std::array<double, kQuadraticRestRows<Dim> - 1> rows{};
+    double volume = 0;  ///< m^Dim.
+};
+
+/// @param places  Of its nodes at rest, m.
+template <int Dim>
+[[nodiscard]] QuadraticRest<Dim> quadratic_rest(
+    const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>& places);
+
+/// The quadratic simplices that the cells of a mesh are the children of: by their parents, or,
+/// where it has none, every 2^Dim cells that follow one another, as subdivision leaves them.
+///
+/// Children are known by what they share: a corner belongs to one of them, and the middle of an
+/// edge is the vertex that the children at its two ends have in common. A middle need not be
+/// halfway, but the Jacobian must be positive at all nodes and points.
+///
+/// @param name  Of the mesh, for messages.
+/// Throws an Error if the cells are no such children.
+template <int Dim>
+[[nodiscard]] QuadraticSimplices<Dim> quadratic_simplices(const SimplexMesh<Dim>& mesh,
+                                                          const std::string& name);
+
+}  // namespace pent::simulator

@@ -1,0 +1,105 @@
+#include "model/quadratic_cells.h"
+
+#include "potential_laws.h"
+#include "support/messages.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace pent::simulator {
+namespace {
+
+using pent::test::error_of;
+using pent::test::expect_contains;
+using test::Dimensions;
+using test::quadratic_cube;
+
+template <typename T>
+class QuadraticCellsTest : public testing::Test {};
+TYPED_TEST_SUITE(QuadraticCellsTest, Dimensions);
+
+template <int Dim>
+void expect_middles_halfway(const SimplexMesh<Dim>& mesh,
+                            const QuadraticSimplices<Dim>& simplices) {
+    double volume = 0;
+    for (Eigen::Index s = 0; s < simplices.cols(); ++s) {
+        const auto places = places_of_nodes<Dim>(mesh.positions, simplices, s);
+        volume += simplex_volume<Dim>(places.template leftCols<Dim + 1>());
+        int middle = Dim + 1;
+        for (int a = 0; a <= Dim; ++a) {
+            for (int b = a + 1; b <= Dim; ++b, ++middle) {
+                EXPECT_LT((places.col(middle) - 0.5 * (places.col(a) + places.col(b))).norm(),
+                          1e-15);
+            }
+        }
+    }
+    EXPECT_NEAR(volume, total_volume(mesh), 1e-12);  // a rounding for each of 6144 cells
+}
+
+TYPED_TEST(QuadraticCellsTest, AreFoundByTheParentsOfTheirChildrenInAnyOrder) {
+    constexpr int kDim = TypeParam::value;
+    SimplexMesh<kDim> mesh = quadratic_cube<kDim>(2);
+    expect_middles_halfway<kDim>(mesh, quadratic_simplices<kDim>(mesh, "box"));
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(mesh.cell_count()));
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    std::shuffle(order.begin(), order.end(), std::mt19937(3));
+    SimplexMesh<kDim> shuffled = mesh;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        shuffled.cells.col(static_cast<Eigen::Index>(i)) = mesh.cells.col(order[i]);
+        shuffled.parents[i] = mesh.parents[static_cast<std::size_t>(order[i])];
+    }
+    EXPECT_EQ(quadratic_simplices<kDim>(shuffled, "box"), quadratic_simplices<kDim>(mesh, "box"));
+}
+
+// As `--subdivide 2` leaves cells, which has no parents.
+TYPED_TEST(QuadraticCellsTest, AreRecognizedWhereChildrenFollowOneAnother) {
+    constexpr int kDim = TypeParam::value;
+    SimplexMesh<kDim> mesh = quadratic_cube<kDim>(1);
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(mesh.cell_count()));
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+        return mesh.parents[static_cast<std::size_t>(a)]
+               < mesh.parents[static_cast<std::size_t>(b)];
+    });
+    SimplexMesh<kDim> plain = mesh;
+    plain.parents.clear();
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        plain.cells.col(static_cast<Eigen::Index>(i)) = mesh.cells.col(order[i]);
+    }
+    EXPECT_EQ(quadratic_simplices<kDim>(plain, "box"), quadratic_simplices<kDim>(mesh, "box"));
+}
+
+TYPED_TEST(QuadraticCellsTest, AreRefusedWithHowToMakeThem) {
+    constexpr int kDim = TypeParam::value;
+    const auto message = [](const SimplexMesh<kDim>& mesh) {
+        return error_of([&] { static_cast<void>(quadratic_simplices<kDim>(mesh, "a.pent")); });
+    };
+    SimplexMesh<kDim> mesh = quadratic_cube<kDim>(1);
+    SimplexMesh<kDim> few = mesh;
+    few.cells.conservativeResize(kDim + 1, mesh.cell_count() - 1);
+    few.parents.pop_back();
+    expect_contains(message(few), {"a.pent: ", "no multiple of", "pent-mesh --quadratic"});
+    SimplexMesh<kDim> unlabeled = mesh;
+    unlabeled.parents.clear();  // its cells are in the order of cubes
+    expect_contains(message(unlabeled),
+                    {"a.pent: cell 0", "do not make up", "pent-mesh --quadratic"});
+    SimplexMesh<kDim> mislabeled = mesh;
+    mislabeled.parents[0] = 4000;
+    expect_contains(message(mislabeled), {"a.pent: parent ", "pent-mesh --quadratic"});
+    SimplexMesh<kDim> swapped = mesh;
+    const auto other = std::find_if(swapped.parents.begin(), swapped.parents.end(),
+                                    [&](std::uint32_t p) { return p != swapped.parents[0]; });
+    std::swap(swapped.parents[0], *other);
+    expect_contains(message(swapped), {"a.pent: cell ", "do not make up"});
+    // A quarter of the edge is where the Jacobian at its end reaches zero.
+    SimplexMesh<kDim> folded = mesh;
+    const QuadraticSimplices<kDim> simplices = quadratic_simplices<kDim>(mesh, "box");
+    folded.positions.col(simplices(kDim + 1, 0)) =
+        0.76 * mesh.positions.col(simplices(0, 0)) + 0.24 * mesh.positions.col(simplices(1, 0));
+    expect_contains(message(folded), {"a.pent: the quadratic cell of cell ", "folded at rest"});
+}
+
+}  // namespace
+}  // namespace pent::simulator
