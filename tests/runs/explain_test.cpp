@@ -218,13 +218,17 @@ TEST(Explain, NamesSmoothedElementsWhereTheyHelp) {
         return advice(explain(scene, 1));
     };
     expect_contains(says(ElementKind::Linear), {"take elements = \"smoothed\""});
-    expect_contains(says(ElementKind::Smoothed), {"even smoothed elements lock"});
+    expect_contains(says(ElementKind::Smoothed),
+                    {"even smoothed elements lock", "take elements = \"quadratic\""});
     scene.bodies[0].mesh = mesh;
     expect_contains(says(ElementKind::Linear),
                     {"4 to 5 cells thick", "take elements = \"smoothed\""});
     EXPECT_EQ(says(ElementKind::Smoothed).find("lock"), std::string::npos);
     scene.bodies[0].material.lame = lame_from_young(4, 1e5, 0.33);
     expect_contains(says(ElementKind::Smoothed), {"even smoothed elements lock"});
+    write_mesh(mesh, pent::test::quadratic_kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1}));
+    expect_contains(says(ElementKind::Linear), {"or \"quadratic\" with a mesh of pent-mesh"});
+    EXPECT_EQ(says(ElementKind::Quadratic).find("lock"), std::string::npos);
 }
 
 TEST(Explain, WarnsOfTurnsTooFarForALinearStep) {

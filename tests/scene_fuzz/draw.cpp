@@ -381,7 +381,7 @@ const Keys kSolver = {
     {"preset", 0.2, one_of({"fast", "balanced", "accurate"})},
     {"integrator", 0.85,
      one_of({"linear_euler", "newton_euler", "newton_euler", "bdf2", "bdf2", "quasistatic"})},
-    {"elements", 0.5, one_of({"linear", "smoothed"})},
+    {"elements", 0.5, one_of({"linear", "smoothed", "quadratic"})},
     {"filter", 0.3, one_of({"clamp", "absolute", "none"})},
     {"linear", 0.3, one_of({"cg", "direct"})},
     {"preconditioner", 0.4, one_of({"block-jacobi", "column-jacobi", "rigid-modes"})},
@@ -428,6 +428,11 @@ void settle(Random& random, Plan& plan, Json& scene) {
         && integrator_of(scene) == "linear_euler") {
         scene["solver"]["integrator"] =
             random.pick<const char*>({"newton_euler", "bdf2", "quasistatic"});
+    }
+    if (scene.value("solver", Json::object()).value("elements", "") == "quadratic") {
+        for (Json& body : scene["body"]) {
+            body["mesh"] = "quadratic-" + body["mesh"].get<std::string>();
+        }
     }
     if (integrator_of(scene) != "quasistatic") {
         return;

@@ -1,6 +1,7 @@
 #include "meshes.h"
 
 #include "random.h"
+#include "support/cut_in_two.h"
 #include "support/kuhn_box.h"
 
 #include <pent/error.h>
@@ -93,19 +94,22 @@ std::string text_of(const MeshName& name) {
         counts += (axis > 0 ? "x" : "") + std::to_string(name.count[i]);
         sizes += (axis > 0 ? "x" : "") + formatted("%.3g", name.size[i]);
     }
-    return name.kind + "-" + counts + "-" + sizes + ".pent";
+    return (name.is_quadratic ? "quadratic-" : "") + name.kind + "-" + counts + "-" + sizes
+           + ".pent";
 }
 
 MeshName parse_mesh_name(const std::string& text) {
     static const std::regex kForm(
-        "(?:.*/)?(box|layered|regions|fork|simplex|pieces)-([0-9x]+)-([0-9x.e+-]+)\\.pent");
+        "(?:.*/)?(quadratic-)?(box|layered|regions|fork|simplex|pieces)-([0-9x]+)-([0-9x.e+-]+)"
+        "\\.pent");
     std::smatch match;
     if (!std::regex_match(text, match, kForm)) {
         throw Error(text + ": is not the name of a mesh of scene_fuzz, such as"
                            " \"box-2x1x1-0.6x0.3x0.3.pent\"");
     }
     MeshName name;
-    name.kind = match[1];
+    name.is_quadratic = match[1].matched;
+    name.kind = match[2];
     const auto read = [](const std::string& list, auto& values, const auto& convert) {
         static const std::regex kCross("x");
         std::size_t count = 0;
@@ -119,9 +123,9 @@ MeshName parse_mesh_name(const std::string& text) {
         return count;
     };
     const std::size_t counts =
-        read(match[2], name.count, [](const std::string& s) { return std::stoi(s); });
+        read(match[3], name.count, [](const std::string& s) { return std::stoi(s); });
     const std::size_t sizes =
-        read(match[3], name.size, [](const std::string& s) { return std::stod(s); });
+        read(match[4], name.size, [](const std::string& s) { return std::stod(s); });
     if (counts != sizes || counts < 3) {
         throw Error(text + ": needs three or four counts, and as many sizes");
     }
@@ -153,7 +157,7 @@ SimplexMesh<Dim> make_mesh(const MeshName& name) {
         });
     }
     mesh.positions.colwise() -= 0.5 * box;
-    return mesh;
+    return name.is_quadratic ? test::cut_in_two<Dim>(mesh) : mesh;
 }
 
 template SimplexMesh<3> make_mesh<3>(const MeshName&);

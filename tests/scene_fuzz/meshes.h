@@ -19,11 +19,15 @@ namespace pent::scene_fuzz {
 ///     fork       a box without the middle of its upper half along x: two prongs, for self-contact
 ///     simplex    one cell
 ///     pieces     two boxes side by side that share nothing, in one body
+///
+/// Of any kind there is one for quadratic elements, with every edge cut in two:
+/// "quadratic-box-2x1x1-0.6x0.3x0.3.pent".
 struct MeshName {
     std::string kind = "box";
     std::array<int, 4> count = {1, 1, 1, 1};  ///< Cubes along each axis.
     std::array<double, 4> size = {};          ///< Of the box around it, m.
     int dimension = 3;
+    bool is_quadratic = false;
 };
 
 [[nodiscard]] std::string text_of(const MeshName& name);

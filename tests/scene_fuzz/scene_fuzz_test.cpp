@@ -139,7 +139,8 @@ TEST(DrawScene, DrawsEveryPairOfFeaturesThatGoTogether) {
 }
 
 TEST(MeshNames, SayAllOfAMesh) {
-    for (const char* kind : {"box", "layered", "regions", "fork", "simplex", "pieces"}) {
+    for (const char* kind : {"box", "layered", "regions", "fork", "simplex", "pieces",
+                             "quadratic-layered", "quadratic-regions"}) {
         for (const char* rest : {"-3x2x1-0.6x0.4x0.2.pent", "-3x2x1x1-0.6x0.4x0.2x0.3.pent"}) {
             const MeshName name = parse_mesh_name(std::string(kind) + rest);
             EXPECT_EQ(text_of(name), std::string(kind) + rest);
