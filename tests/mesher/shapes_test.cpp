@@ -114,7 +114,8 @@ TYPED_TEST(SubdivideInDimension, MakesEqualConformingChildren) {
 }
 
 // As if the base mesh had been subdivided first and then extruded to k times the layers: vertices of
-// a column lie above one another, in layers of their own, and every cell is between two layers.
+// a column lie above one another, in layers of their own. A cell reaches over two slabs at most,
+// which is what the simulator's preconditioner of columns takes.
 TEST(Subdivide, HandsDownColumnsAndLayers) {
     const SimplexMesh<3> base = box<3>({2, 1, 1}, {2, 1, 1}, CubeCut::Corners);
     const OrderedCells<3> ordered =
@@ -141,7 +142,7 @@ TEST(Subdivide, HandsDownColumnsAndLayers) {
             for (const std::uint32_t v : fine.cells.col(cell)) {
                 layers.insert(fine.layers[v]);
             }
-            EXPECT_LE(*layers.rbegin() - *layers.begin(), 1U);
+            EXPECT_LE(*layers.rbegin() - *layers.begin(), 2U);
         }
     }
 }

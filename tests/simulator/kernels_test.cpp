@@ -169,9 +169,9 @@ struct Reference {
         const auto unknowns = static_cast<Eigen::Index>(box.dofs.count());
         forces.setZero(Dim, vertices);
         stiffness.setZero(Dim * unknowns, Dim * unknowns);
-        double mean_lambda = 0;  // half of mu stays at every point
+        double mean_lambda = 0;  // mu stays at every point in 3D, half of it in 4D
         if (kind == ElementKind::Quadratic && of.model != Model::Arap) {
-            mean_lambda = std::max(0.0, of.lame.lambda - 0.5 * of.lame.mu);
+            mean_lambda = std::max(0.0, of.lame.lambda - (Dim == 3 ? 1 : 0.5) * of.lame.mu);
         }
         material_.lame.lambda -= mean_lambda;
         for (const ReferenceElement& element : reference_elements<Dim>(box.mesh, kind)) {

@@ -37,7 +37,7 @@ public:
              const DofMap& dofs,
              const BlockPattern& pattern);
 
-    /// @param quadratic  With mean dilatation, see local_lambda().
+    /// @param quadratic  With mean dilatation.
     Elements(const Positions<Dim>& rest,
              const QuadraticCells<Dim>& quadratic,
              const DofMap& dofs,
@@ -113,9 +113,5 @@ private:
     std::uint32_t dof_count_ = 0;
     std::int64_t count_ = 0;
 };
-
-/// What of lambda acts at every point of a quadratic element by itself; the rest acts on the mean
-/// over the element. All of it where lambda is small.
-[[nodiscard]] double local_lambda(const Material& material);
 
 }  // namespace pent::simulator
