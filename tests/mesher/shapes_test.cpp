@@ -113,8 +113,8 @@ TYPED_TEST(SubdivideInDimension, MakesEqualConformingChildren) {
     }
 }
 
-// As if the base mesh had been subdivided first and then extruded to k times the layers: vertices of
-// a column lie above one another, in layers of their own. A cell reaches over two slabs at most,
+// As if the base mesh had been subdivided first and then extruded to k times the layers: vertices
+// of a column lie above one another, in layers of their own. A cell reaches over two slabs at most,
 // which is what the simulator's preconditioner of columns takes.
 TEST(Subdivide, HandsDownColumnsAndLayers) {
     const SimplexMesh<3> base = box<3>({2, 1, 1}, {2, 1, 1}, CubeCut::Corners);

@@ -72,8 +72,8 @@ TEST(ColumnJacobi, SolvesWithTheBandOfBlocksOfEveryColumn) {
     EXPECT_LT((z.reshaped() - expected).norm(), 1e-5 * expected.norm());
 }
 
-// The columns of an extruded box couple only layers that are neighbors, or, with quadratic elements,
-// two apart: nothing is left out, and the preconditioner solves a single column exactly.
+// The columns of an extruded box couple only layers that are neighbors, or, with quadratic
+// elements, two apart: nothing is left out, and the preconditioner solves a single column exactly.
 TEST(ColumnJacobi, LeavesNothingOfAColumnOutForAnyElements) {
     for (const ElementKind kind :
          {ElementKind::Linear, ElementKind::Smoothed, ElementKind::Quadratic}) {

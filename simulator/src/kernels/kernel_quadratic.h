@@ -8,7 +8,8 @@
 // a point has the stress and the blocks of a linear simplex, and what the corners of that one get
 // goes on to the nodes.
 //
-// Mean dilatation [nagtegaal1974], in part: with theta the measure of volume whose square an energy has in it, see Dilatation, W is
+// Mean dilatation [nagtegaal1974], in part: with theta the measure of volume whose square an energy
+// has in it, see Dilatation, W is
 //     V (sum over points q of share_q Psi(F_q; mu, lambda) + mean_lambda / 2 mean^2),
 //     mean = sum over q of share_q theta(F_q).
 

@@ -37,19 +37,18 @@ inline constexpr std::int32_t kTurnedBlock = -2;
 /// A run of element groups of one kind, one material and one number of corners. Arrays are
 /// [group][row][lane].
 ///
-/// An element that is not quadratic deforms by F = sum over its corners of x_a g_a^T, with rest gradients g_a that add up
-/// to zero: a simplex has Dim + 1 of them, a smoothing domain may have more. The corners are in
-/// increasing order of their unknown, held ones last; an element with fewer than the others repeats
-/// its first, with zeros for gradients.
+/// An element that is not quadratic deforms by F = sum over its corners of x_a g_a^T, with rest
+/// gradients g_a that add up to zero: a simplex has Dim + 1 of them, a smoothing domain may have
+/// more. The corners are in increasing order of their unknown, held ones last; an element with
+/// fewer than the others repeats its first, with zeros for gradients.
 ///
-/// A quadratic simplex has kQuadraticNodes corners, its nodes in their own order; kernel_quadratic.h
-/// says how it deforms. Lanes behind the last element of a run repeat a real
-/// element with volume 0 and are not scattered.
+/// A quadratic simplex has kQuadraticNodes corners, its nodes in their own order; QuadraticRule
+/// says how it deforms. Lanes behind the last element of a run repeat a real element with volume 0
+/// and are not scattered.
 struct ElementRun {
     ElementKind kind = ElementKind::Linear;
-    Material material;  ///< Of a quadratic element with that lambda that acts at every point.
-    double mean_lambda =
-        0;  ///< Pa, what of lambda acts on the mean over an element's points, >= 0.
+    Material material;       ///< Of a quadratic element with that lambda that acts at every point.
+    double mean_lambda = 0;  ///< Pa, >= 0: what of lambda acts on the mean over an element.
     double collapse_norm = 0;  ///< An element with |F|^2 below has collapsed; 0: none can.
     int elements = 0;          ///< Elements in the run; groups = ceil(elements / kGroup).
     int corners = 0;           ///< Of every element, at least Dim + 1.

@@ -137,7 +137,7 @@ Eigen::Matrix<double, Dim + 1, 1> coordinates_of(int point) {
     return l;
 }
 
-// At the points where it is evaluated, and at nodes, where it is smallest if a middle has moved far.
+// At the points where it is evaluated, and at nodes, where it is least if a middle has moved far.
 template <int Dim>
 double least_jacobian(const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>& places) {
     constexpr const QuadraticRule<Dim>& kRule = kQuadraticRule<Dim>;
