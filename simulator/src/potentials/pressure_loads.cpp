@@ -6,8 +6,6 @@
 #include <pent/facets.h>
 #include <pent/simulator/placed_mesh.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -150,62 +148,15 @@ Simplices<Dim> select_facets(const Load& load,
 // Whether vertices are held where they are for good.
 template <int Dim>
 bool is_still(const std::vector<std::uint32_t>& vertices, const Bodies<Dim>& bodies) {
-    std::vector<std::uint32_t> fixed;
+    std::vector<bool> is_fixed = bodies.is_always_held;
     for (const DirichletSet<Dim>& set : bodies.dirichlet_sets) {
         for (const std::uint32_t vertex : set.vertices) {
-            if (set.motions.empty() && bodies.is_always_held[vertex]) {
-                fixed.push_back(vertex);
-            }
+            is_fixed[vertex] = is_fixed[vertex] && set.motions.empty();
         }
     }
-    std::sort(fixed.begin(), fixed.end());
-    return std::includes(fixed.begin(), fixed.end(), vertices.begin(), vertices.end());
+    return std::all_of(vertices.begin(), vertices.end(),
+                       [&](std::uint32_t vertex) { return is_fixed[vertex]; });
 }
-
-// The second derivative of pressure times volume that one facet has a part of:
-//
-//     p / (2 Dim) (S B + B^T S^T),   B = (slopes of the normal by each corner), S = (1, 1, ..)^T.
-//
-// B S = 0, since a facet moved as a whole keeps its normal. So with B = sum of s_k u_k w_k^T the
-// eigenvalues are plus and minus p / (2 sqrt(Dim)) s_k, with S u_k / sqrt(Dim) plus and minus w_k,
-// and filtering takes no more than the root of B B^T, Dim x Dim.
-template <int Dim>
-class FacetHessian {
-public:
-    FacetHessian(const Normal<Dim>& normal, double pressure, Filter filter)
-        : slopes_(normal.slopes), scale_(pressure / (2 * Dim)) {
-        if (filter == Filter::None) {
-            return;
-        }
-        // Clamped: half of the absolute values added to half of what it is.
-        own_ = filter == Filter::Clamp ? 0.5 : 0;
-        const double absolute = std::abs(scale_) * std::sqrt(double{Dim}) * (1 - own_);
-        Square<Dim> gram = Square<Dim>::Zero();
-        for (const Square<Dim>& slope : slopes_) {
-            gram += slope * slope.transpose();
-        }
-        const Eigen::SelfAdjointEigenSolver<Square<Dim>> solver(gram);
-        const Vector<Dim> roots = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
-        const double least = 1e-12 * roots.maxCoeff();
-        const Vector<Dim> inverses =
-            (roots.array() > least).select(roots.cwiseInverse(), Vector<Dim>::Zero());
-        const auto& Q = solver.eigenvectors();
-        same_ = absolute / Dim * Q * roots.asDiagonal() * Q.transpose();
-        apart_ = absolute * Q * inverses.asDiagonal() * Q.transpose();
-    }
-
-    [[nodiscard]] Square<Dim> block(int a, int b) const {
-        return own_ * scale_ * (slopes_[b] + slopes_[a].transpose()) + same_
-               + slopes_[a].transpose() * apart_ * slopes_[b];
-    }
-
-private:
-    const std::array<Square<Dim>, Dim>& slopes_;
-    double scale_;
-    double own_ = 1;
-    Square<Dim> same_ = Square<Dim>::Zero();
-    Square<Dim> apart_ = Square<Dim>::Zero();
-};
 
 }  // namespace
 
@@ -341,8 +292,15 @@ double PressureLoads<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gra
     return stored_ + lagged_;
 }
 
+// The second derivative of pressure times volume: a facet's part of it is p / (2 Dim) times
+// slope_b + slope_a^T for its corners a and b, with as many eigenvalues below 0 as above. Only the
+// sum over all facets lets the body move as a whole for nothing. Filtered one by one they would
+// hold it back, and a single linear solve would not let it fall: so the filtered Hessian is none.
 template <int Dim>
 void PressureLoads<Dim>::add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) {
+    if (filter != Filter::None) {
+        return;
+    }
     constexpr Eigen::Index kSide = Dim * Dim;
     Eigen::Index total = 0;
     for (const Region& region : regions_) {
@@ -353,14 +311,13 @@ void PressureLoads<Dim>::add_hessian(double weight, Filter filter, NewtonSystem<
     double* next = hessians_.data();
     for (const Region& region : regions_) {
         double* const first = next;
-        const double pressure = region.factor * region.pressure;
         workers_->for_each(region.facets.cols(), [&](Eigen::Index i) {
             const Normal<Dim> normal(corners_of<Dim>(region.facets.col(i), *x_, region.apex));
-            const FacetHessian<Dim> hessian(normal, pressure, filter);
             Eigen::Map<Eigen::Matrix<double, kSide, kSide>> matrix(first + i * kSide * kSide);
             for (int a = 0; a < Dim; ++a) {
                 for (int b = 0; b < Dim; ++b) {
-                    matrix.template block<Dim, Dim>(Dim * a, Dim * b) = hessian.block(a, b);
+                    matrix.template block<Dim, Dim>(Dim * a, Dim * b) =
+                        normal.slopes[b] + normal.slopes[a].transpose();
                 }
             }
         });
@@ -372,7 +329,7 @@ void PressureLoads<Dim>::add_hessian(double weight, Filter filter, NewtonSystem<
                                 .matrix = first + i * kSide * kSide + skipped * Dim * (kSide + 1),
                                 .count = Dim - skipped,
                                 .stride = static_cast<std::int32_t>(kSide),
-                                .scale = weight});
+                                .scale = weight * region.factor * region.pressure / (2 * Dim)});
         }
     }
 }
