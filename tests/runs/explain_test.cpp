@@ -82,8 +82,9 @@ TEST(Explain, ListsEveryTermWithWhatSwitchesIt) {
     EXPECT_GT(term(on, "contact between bodies").bytes, 0);
     EXPECT_GT(term(on, "contact between bodies").seconds, 0);
     EXPECT_EQ(term(on, "contact within bodies").seconds, 0);  // found together: counted once
-    expect_contains(explanation_text(on), {"elasticity of other", "stable-neo-hookean", "a step",
-                                           "coefficient 0.4", "filter clamp", "forces, no pairs"});
+    expect_contains(explanation_text(on),
+                    {"elasticity of other", "stable-neo-hookean", "a step", "coefficient 0.4",
+                     "filter clamp", "contact_force of every vertex, no pairs"});
 }
 
 TEST(Explain, CountsTheMemoryOfATermOnce) {

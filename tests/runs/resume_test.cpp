@@ -8,6 +8,7 @@
 #include <pent/pent_file.h>
 #include <pent/runs/run.h>
 #include <pent/runs/scene_file.h>
+#include <pent/simulator/scene_words.h>
 
 #include <gtest/gtest.h>
 
@@ -44,10 +45,18 @@ INSTANTIATE_TEST_SUITE_P(All,
                                          Integrator::NewtonEuler,
                                          Integrator::Bdf2));
 
+// With loads that change while the run is stopped, and all that frames may have of vertices.
 TEST_P(ResumeIntegrators, StopWhenAskedAndResumeToTheSameBytes) {
     const TempFolder folder;
     Scene scene = falling_bar(folder, 4);
     scene.solver.integrator = GetParam();
+    const HalfSpaceSelection right{.normal = -Eigen::Vector4d::UnitX(), .offset = -0.749};
+    scene.loads = {{.body = "box",
+                    .select = {right},
+                    .force = Eigen::Vector4d(0, 0, 2, 5),
+                    .pressure = 1e3,
+                    .keyframes = {{0, 0}, {0.08, 1}, {0.12, 0.3}}}};
+    scene.output.vertex = values<VertexQuantity>();
     static_cast<void>(run(scene, {.folder = folder / "whole"}));
     int asked = 0;
     const RunReport stopped =
@@ -59,6 +68,11 @@ TEST_P(ResumeIntegrators, StopWhenAskedAndResumeToTheSameBytes) {
     EXPECT_EQ(resumed.verdict, RunVerdict::Finished);
     EXPECT_EQ(resumed.frames.size(), 5U);
     EXPECT_EQ(resumed.steps.size(), 8U);
+    const Frame<4> last = read_frame<4>(folder / "whole/frames/box_000004.pent");
+    EXPECT_EQ(last.fields.size(), 2U);
+    EXPECT_GT(find_field(last, "reaction")->values.norm(), 0);
+    EXPECT_GT(find_field(last, "energy_density")->values.norm(), 0);
+    EXPECT_EQ(last.contact_forces.cols(), last.positions.cols());
     for (const char* frame : {"box_000003.pent", "box_000004.pent"}) {
         EXPECT_EQ(bytes_of(folder / "whole/frames" / frame),
                   bytes_of(folder / "cut/frames" / frame));

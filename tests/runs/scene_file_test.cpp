@@ -255,13 +255,13 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[scene]\nframes_per_second = nan\n", "a number above 0"},
         Bad{with("[[body]]\nname = \"b\"\nmesh = \"b.pent\"\nmaterial = { young = 2.0,"
                  " second_invariant = 0.5 }\n"),
-            "scene.toml:8:27: \"second_invariant\" goes with model = \"mooney-rivlin\" alone"},
+            "scene.toml:8:46: \"second_invariant\" goes with model = \"mooney-rivlin\" alone"},
         Bad{with("[[body]]\nname = \"b\"\nmesh = \"b.pent\"\nmaterial = { model ="
                  " \"mooney-rivlin\", second_invariant = 1.5 }\n"),
-            "\"second_invariant\" is 1.5; expected a number from 0 to 1"},
+            "\"second_invariant\" is 1.5; expected a number of at least 0 and at most 1"},
         Bad{with("[[body]]\nname = \"b\"\nmesh = \"b.pent\"\nmaterial = { model ="
                  " \"mooney-rivlin\", mu = 4, lambda = -1, second_invariant = 0.8 }\n"),
-            "\"second_invariant\" is 0.8; expected a number from 0 to 0.75"},
+            "\"second_invariant\" is 0.8; expected a number of at least 0 and at most 0.75"},
         Bad{with("[[body]]\nname = \"b\"\nmesh = \"b.pent\"\nmaterial = { model ="
                  " \"mooney-rivlin\" }\n"),
             "needs \"second_invariant\""},

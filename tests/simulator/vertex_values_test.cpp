@@ -52,6 +52,21 @@ TYPED_TEST(VertexValuesTest, HaveReactionsThatCarryWeightAndLoad) {
     }
 }
 
+// Held for 0.1 s, three steps.
+TYPED_TEST(VertexValuesTest, HaveNoReactionWhereAConstraintHasLetGo) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = hanging_cube<kDim>();
+    scene.solver.integrator = Integrator::NewtonEuler;
+    scene.constraints[0].to = 0.1;
+    Simulation<kDim> simulation(scene, {cube<kDim>()});
+    ASSERT_TRUE(simulation.step().is_accepted);
+    EXPECT_GT(simulation.vertex_values(VertexQuantity::Reaction, 0).norm(), 0);
+    for (int i = 0; i < 4; ++i) {
+        ASSERT_TRUE(simulation.step().is_accepted);
+    }
+    EXPECT_TRUE(simulation.vertex_values(VertexQuantity::Reaction, 0).isZero(0));
+}
+
 // Times the volume around a vertex, which is its mass over the density, it adds up to the energy.
 TYPED_TEST(VertexValuesTest, HaveEnergyDensitiesThatAddUpToTheElasticEnergy) {
     constexpr int kDim = TypeParam::value;
