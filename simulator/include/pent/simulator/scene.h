@@ -143,11 +143,11 @@ struct Load {
     std::string body;
     std::vector<Selection> select;  ///< A union.
     /// N, of constant direction: of all selected vertices together, each with a part like its mass.
-    Eigen::VectorXd force;  ///< Empty is none.
+    Eigen::VectorXd force = {};  ///< Empty is none.
     /// N/m^(Dim-1), against the outward normals, as they are now, of the facets of the boundary of
     /// which every vertex is selected.
     double pressure = 0;
-    std::vector<Keyframe> keyframes;  ///< What both are multiplied by; none: 1.
+    std::vector<Keyframe> keyframes = {};  ///< What both are multiplied by; none: 1.
     std::string source = {};  ///< Where its selection stands in a scene file; as Body::source.
 };
 
@@ -239,8 +239,8 @@ inline constexpr std::array kWords<VertexQuantity> = {
 
 /// What a run writes beside positions and velocities.
 struct Output {
-    std::vector<VertexQuantity> vertex;  ///< In the frame files.
-    bool contact_pairs = false;          ///< Every pair in contact, in a table for each frame.
+    std::vector<VertexQuantity> vertex = {};  ///< In the frame files.
+    bool contact_pairs = false;               ///< Every pair in contact, in a table for each frame.
 };
 
 /// Rayleigh damping: C = mass M + stiffness K, K being the tangent at the start of a step.

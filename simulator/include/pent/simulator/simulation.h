@@ -186,7 +186,7 @@ public:
     [[nodiscard]] const SimplexMesh<Dim>& mesh(int body) const;  ///< As placed.
     [[nodiscard]] View positions(int body) const;                ///< m.
     [[nodiscard]] View velocities(int body) const;               ///< m/s.
-    [[nodiscard]] View forces(int body) const;  ///< Elastic, gravity and contact, N.
+    [[nodiscard]] View forces(int body) const;                   ///< Of all that has an energy, N.
     [[nodiscard]] Eigen::Map<const Eigen::VectorXd> masses(int body) const;  ///< Lumped, kg.
 
     /// Forces of contact alone, of bodies and obstacles, on the vertices of a body, Dim x vertices,
