@@ -55,7 +55,7 @@ struct ContactScene {
     Positions<Dim> rest;  ///< Rest positions of all vertices, m.
     /// Pairs of bodies that do not see each other, and of bodies that do not see themselves, by
     /// their places, ascending, with the lower one first.
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> ignored;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> ignored = {};
 };
 
 /// The energy of a contact, at the stiffness given for bodies (of a barrier for all), N/m.
