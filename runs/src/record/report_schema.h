@@ -106,7 +106,9 @@ void fields(Part& size, const Visit& visit) {
     visit(key("vertices"), size.vertices);
     visit(key("cells"), size.cells);
     visit(key("free_vertices", "", "those that are solved for"), size.free_vertices);
-    visit(key("elements", "", "cells, or edges where smoothed, near a free vertex"), size.elements);
+    visit(
+        key("elements", "", "cells, edges where smoothed, or quadratic cells, near a free vertex"),
+        size.elements);
     visit(key("matrix_blocks", "", "stored, of the upper triangle"), size.matrix_blocks);
     visit(key("contact_bytes", "B", "surfaces and trees for contact"), size.contact_bytes);
     visit(key("bytes", "B", "all that grows with the mesh"), size.bytes);
