@@ -131,7 +131,7 @@ TEST(PentFile, HeaderIsWhatTheSpecificationShows) {
               "property uint column\nproperty uint layer\n"
               "element pentachoron 24\n"
               "property uint v0\nproperty uint v1\nproperty uint v2\nproperty uint v3\n"
-              "property uint v4\nproperty ushort region\n");
+              "property uint v4\nproperty ushort region\nproperty uint parent\n");
 }
 
 TEST(PentFile, InfoComesFromTheHeaderAlone) {

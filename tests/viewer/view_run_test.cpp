@@ -367,9 +367,9 @@ TEST_F(RenderObstacles, ThatMoveAreWhereTheyAreAtEachFrame) {
     RenderRunOptions some = options();
     const Image at_rest = picture_of("run", some);
     const int frame = open_run(folder_ / "run").frames.front();
-    fs::remove(folder_ / "run/obstacles.json");
+    std::filesystem::remove(folder_ / "run/obstacles.json");
     const auto put = [&](int number, const std::vector<Obstacle<4>>& obstacles) {
-        fs::create_directories(folder_ / "run/obstacles");
+        std::filesystem::create_directories(folder_ / "run/obstacles");
         write_obstacles<4>(folder_ / "run" / formatted("obstacles/%06d.json", number), obstacles);
     };
     put(frame, floor_and_ball());
