@@ -382,7 +382,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "keyframes = [{ time = -1, factor = 0 }]\n"),
             "\"time\" is -1; expected a number of at least 0"},
         Bad{with("[solver]\nintegrator = \"rk4\"\n"), "\"linear_euler\""},
-        Bad{with("[solver]\nelements = \"quadratic\"\n"), "\"smoothed\""},
+        Bad{with("[solver]\nelements = \"cubic\"\n"), "\"smoothed\""},
         Bad{with("[solver]\ntolerance = 1\n"), "below 1"},
         Bad{with("[damping]\nmass = -1\n"), "at least 0"},
         Bad{with("[[obstacle]]\nplane = { normal = [0,1,0,0] }\n"),

@@ -187,13 +187,18 @@ const Keys kMotion = {
 // Of what does not turn.
 const Keys kSlide = {{"translate", 1, motion_velocity}, {"from", 0.3, early}, {"to", 0.3, late}};
 
+// Motions, or the word for none.
+Json draw_motion(const Keys& keys, Random& random, const Plan& plan) {
+    return random.chance(0.3) ? Json("fixed") : tables(keys)(random, plan);
+}
+Json any_motion(Random& random, const Plan& plan) {
+    return draw_motion(kMotion, random, plan);
+}
+
 const Keys kConstraint = {
     {"body", 1, [](Random&, const Plan& plan) -> Json { return plan.now().name; }},
     {"select", 1, draw_selections},
-    {"motion", 0.8,
-     [](Random& random, const Plan& plan) -> Json {
-         return random.chance(0.4) ? Json("fixed") : tables(kMotion)(random, plan);
-     }},
+    {"motion", 0.8, any_motion},
     {"from", 0.25, early},
     {"to", 0.25, late},
 };
@@ -256,7 +261,7 @@ const Keys kAttachment = {
      }},
     {"point", 0.3,
      [](Random& random, const Plan& plan) { return random_vector(random, plan, plan.size); }},
-    {"motion", 0.4, tables(kMotion)},
+    {"motion", 0.4, any_motion},
     {"offset", 0.5, one_of({"keep", "zero"})},
     {"max_distance", 1, [](Random&, const Plan& plan) -> Json { return 100 * plan.reach(); }},
     {"stiffness", 0.9, contact_stiffness},
@@ -324,7 +329,7 @@ Json draw_obstacle(Random& random, const Plan& plan) {
     }
     if (random.chance(0.25)) {
         const bool turns = !obstacle.contains("box");
-        obstacle["motion"] = tables(turns ? kMotion : kSlide)(random, plan);
+        obstacle["motion"] = draw_motion(turns ? kMotion : kSlide, random, plan);
     }
     obstacle.update(
         draw_table({{"distance", 0.9, contact_distance}, {"stiffness", 0.9, contact_stiffness}},

@@ -156,8 +156,8 @@ TEST(ColorBy, HasANameOfItsOwnAndATitleWithItsUnit) {
         EXPECT_TRUE(by == ColorBy::Body
                     || title_of(by).find(name_of(by)) != std::string_view::npos);
     }
-    EXPECT_EQ(names.size(), 5U);
-    EXPECT_EQ(titles.size(), 5U);
+    EXPECT_EQ(names.size(), 7U);
+    EXPECT_EQ(titles.size(), 7U);
 }
 
 TEST(SuitableRange, OfHeightsHasTheLowestAndTheHighest) {

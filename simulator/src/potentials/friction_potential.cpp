@@ -1,9 +1,20 @@
 #include "potentials/friction_potential.h"
 
+#include <cmath>
 #include <functional>
 #include <utility>
 
 namespace pent::simulator {
+
+template <int Dim>
+bool FrictionPotential<Dim>::set_time(const TimeSpan& step) {
+    constexpr double kRounding = 1e-6;  // of a step: far more than that of times, and no step
+    if (std::abs(step.end - end_of_step_) > kRounding * (step.end - step.begin)) {
+        friction_.end_step();
+        end_of_step_ = step.end;
+    }
+    return false;
+}
 
 template <int Dim>
 bool FrictionPotential<Dim>::begin_step(const StepStart<Dim>& start) {

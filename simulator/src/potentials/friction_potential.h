@@ -18,6 +18,9 @@ public:
     FrictionPotential(const ContactPotential<Dim>& contacts, const contact::Friction& friction)
         : contacts_(&contacts), friction_(friction) {}
 
+    /// With a step of another end, nothing is held until it begins: no evaluation in between is of
+    /// use to anyone, and a simulation that was put here has nothing to hold.
+    [[nodiscard]] bool set_time(const TimeSpan& step) override;
     [[nodiscard]] bool begin_step(const StepStart<Dim>& start) override;
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
     void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) override;
@@ -35,6 +38,7 @@ public:
 private:
     const ContactPotential<Dim>* contacts_;
     contact::LaggedFriction<Dim> friction_;
+    double end_of_step_ = 0;             // of that which is held, s
     const Positions<Dim>* x_ = nullptr;  // last evaluated
     Positions<Dim> gradient_;
     double energy_ = 0;

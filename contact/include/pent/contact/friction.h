@@ -75,6 +75,9 @@ public:
     /// One for each contact that has a force.
     [[nodiscard]] StencilHessians<Dim> hessians(const Positions<Dim>& positions) const;
 
+    /// Forgets what was held.
+    void end_step() { lagged_.clear(); }
+
     /// Contacts that have a force.
     [[nodiscard]] std::size_t size() const { return lagged_.size(); }
 
