@@ -9,9 +9,9 @@
 #include "trajectory.h"
 #endif
 
-#include <pent/exchange/exchange.h>
 #include <pent/crc32c.h>
 #include <pent/error.h>
+#include <pent/exchange/exchange.h>
 #include <pent/formatted.h>
 #include <pent/obstacles_file.h>
 #include <pent/output_folder.h>
