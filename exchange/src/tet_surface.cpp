@@ -1,6 +1,7 @@
 #include <pent/error.h>
 #include <pent/exchange/tet_surface.h>
 #include <pent/facets.h>
+#include <pent/geometry.h>
 
 #include <Eigen/LU>
 
@@ -156,20 +157,14 @@ HalfSpaces half_spaces_of(const TetSurface& surface) {
     HalfSpaces spaces{Positions<4>(4, surface.tetrahedra.cols()),
                       Eigen::VectorXd(surface.tetrahedra.cols())};
     for (Eigen::Index t = 0; t < surface.tetrahedra.cols(); ++t) {
-        const Vector4d origin = surface.points.col(surface.tetrahedra(0, t));
-        Eigen::Matrix<double, 4, 3> edges;
-        for (int k = 0; k < 3; ++k) {
-            edges.col(k) = surface.points.col(surface.tetrahedra(k + 1, t)) - origin;
+        Eigen::Matrix4d corners;
+        for (int k = 0; k < 4; ++k) {
+            corners.col(k) = surface.points.col(surface.tetrahedra(k, t));
         }
-        Vector4d normal;
-        for (int axis = 0; axis < 4; ++axis) {
-            Eigen::Matrix4d matrix;
-            matrix << Vector4d::Unit(axis), edges;
-            normal[axis] = matrix.determinant();  // so that det[normal, edges] = |normal|^2
-        }
+        const Vector4d normal = facet_normal<4>(corners);
         const double length = normal.norm();
         spaces.normals.col(t) = length > 0 ? Vector4d(normal / length) : Vector4d::Zero();
-        spaces.offsets[t] = length > 0 ? spaces.normals.col(t).dot(origin) : 1;
+        spaces.offsets[t] = length > 0 ? spaces.normals.col(t).dot(corners.col(0)) : 1;
     }
     return spaces;
 }

@@ -1,6 +1,7 @@
 #include "pent/simplex_mesh.h"
 
 #include <pent/error.h>
+#include <pent/geometry.h>
 
 #include <Eigen/LU>
 
@@ -22,17 +23,6 @@ constexpr double factorial(int n) {
 
 std::string where(std::string_view name, std::string_view element, Eigen::Index index) {
     return std::string(name) + ": " + std::string(element) + " " + std::to_string(index) + ": ";
-}
-
-template <int Dim>
-Eigen::Matrix<double, Dim, Dim> edges_from_corner_0(const Positions<Dim>& positions,
-                                                    const Simplices<Dim + 1>& cells,
-                                                    Eigen::Index cell) {
-    Eigen::Matrix<double, Dim, Dim> edges;
-    for (int k = 0; k < Dim; ++k) {
-        edges.col(k) = positions.col(cells(k + 1, cell)) - positions.col(cells(0, cell));
-    }
-    return edges;
 }
 
 template <int Dim>
@@ -71,7 +61,7 @@ void validate_indices(const SimplexMesh<Dim>& mesh, std::string_view name, Eigen
 template <int Dim>
 void validate_orientation(const SimplexMesh<Dim>& mesh, std::string_view name, Eigen::Index cell) {
     const Eigen::Matrix<double, Dim, Dim> edges =
-        edges_from_corner_0<Dim>(mesh.positions, mesh.cells, cell);
+        edge_matrix<Dim>(mesh.positions, mesh.cells, cell);
     // Scaled by the longest edge so that neither tiny nor huge bodies leave the range of double.
     const double scale = edges.cwiseAbs().maxCoeff();
     const Eigen::Matrix<double, Dim, Dim> scaled = edges / (scale > 0 ? scale : 1);
@@ -125,7 +115,7 @@ template <int Dim>
 double cell_volume(const Positions<Dim>& positions,
                    const Simplices<Dim + 1>& cells,
                    Eigen::Index cell) {
-    return edges_from_corner_0<Dim>(positions, cells, cell).determinant() / factorial(Dim);
+    return edge_matrix<Dim>(positions, cells, cell).determinant() / factorial(Dim);
 }
 
 template <int Dim>

@@ -1,5 +1,6 @@
 #include "pent/viewer/attributes.h"
 
+#include <pent/geometry.h>
 #include <pent/parallel.h>
 
 #include <Eigen/Geometry>
@@ -19,43 +20,6 @@ using Vector = Eigen::Matrix<double, Dim, 1>;
 
 template <int Dim>
 using Square = Eigen::Matrix<double, Dim, Dim>;
-
-template <int Dim>
-Square<Dim> edge_matrix(const Positions<Dim>& positions,
-                        const Eigen::Matrix<std::uint32_t, Dim + 1, 1>& cell) {
-    Square<Dim> edges;
-    for (int k = 0; k < Dim; ++k) {
-        edges.col(k) = positions.col(cell[k + 1]) - positions.col(cell[0]);
-    }
-    return edges;
-}
-
-// The vector n with n . v = det[v, t1 - t0, ...]: outward, as long as (Dim - 1)! times the facet.
-template <int Dim>
-Vector<Dim> facet_normal(const Positions<Dim>& positions,
-                         const Eigen::Matrix<std::uint32_t, Dim, 1>& facet) {
-    if constexpr (Dim == 3) {
-        const Eigen::Vector3d a = positions.col(facet[1]) - positions.col(facet[0]);
-        const Eigen::Vector3d b = positions.col(facet[2]) - positions.col(facet[0]);
-        return a.cross(b);
-    } else {
-        Eigen::Matrix<double, 4, 3> edges;
-        for (int k = 0; k < 3; ++k) {
-            edges.col(k) = positions.col(facet[k + 1]) - positions.col(facet[0]);
-        }
-        Eigen::Vector4d normal;
-        for (int axis = 0; axis < 4; ++axis) {  // cofactors of the first column
-            Eigen::Matrix3d minor;
-            for (int row = 0, kept = 0; row < 4; ++row) {
-                if (row != axis) {
-                    minor.row(kept++) = edges.row(row);
-                }
-            }
-            normal[axis] = (axis % 2 == 0 ? 1 : -1) * minor.determinant();
-        }
-        return normal;
-    }
-}
 
 // Sum of the normals around a vertex of those facets that are within the crease angle of `facet`.
 template <int Dim>
@@ -100,9 +64,9 @@ Eigen::VectorXd vertex_strain(const SimplexMesh<Dim>& rest, const Positions<Dim>
     Eigen::VectorXd volumes(rest.cell_count());
     Eigen::VectorXd strains(rest.cell_count());
     parallel_for(rest.cell_count(), kLightChunk, [&](Eigen::Index c) {
-        const Square<Dim> at_rest = edge_matrix<Dim>(rest.positions, rest.cells.col(c));
+        const Square<Dim> at_rest = edge_matrix<Dim>(rest.positions, rest.cells, c);
         const Square<Dim> inverse = at_rest.inverse();
-        const Square<Dim> F = edge_matrix<Dim>(positions, rest.cells.col(c)) * inverse;
+        const Square<Dim> F = edge_matrix<Dim>(positions, rest.cells, c) * inverse;
         volumes[c] = std::abs(at_rest.determinant());
         const double strain = (F.transpose() * F - Square<Dim>::Identity()).norm() / 2;
         strains[c] = strain > rounding * inverse.norm() ? strain : 0;
@@ -135,7 +99,11 @@ Positions<3> corner_normals(const Surface& surface,
                             double crease) {
     Eigen::Matrix<double, Dim, Eigen::Dynamic> normals(Dim, boundary.facets.cols());
     parallel_for(boundary.facets.cols(), kLightChunk, [&](Eigen::Index f) {
-        normals.col(f) = facet_normal<Dim>(positions, boundary.facets.col(f));
+        Square<Dim> corners;
+        for (int k = 0; k < Dim; ++k) {
+            corners.col(k) = positions.col(boundary.facets(k, f));
+        }
+        normals.col(f) = facet_normal<Dim>(corners);
     });
     const double crease_cosine = std::cos(crease);
     Positions<3> result(3, 3 * surface.triangle_count());

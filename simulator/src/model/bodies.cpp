@@ -41,8 +41,9 @@ template <int Dim>
 QuadraticCells<Dim> find_quadratic_cells(const Scene& scene, const Bodies<Dim>& bodies) {
     QuadraticCells<Dim> quadratic;
     for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
-        const QuadraticSimplices<Dim> own =
-            quadratic_simplices<Dim>(bodies.meshes[body], scene.bodies[body].mesh);
+        const Body& of = scene.bodies[body];
+        const QuadraticSimplices<Dim> own = quadratic_simplices<Dim>(
+            bodies.meshes[body], (of.source.empty() ? "" : of.source + ": ") + of.mesh);
         const auto first = static_cast<std::uint32_t>(bodies.first_vertex[body]);
         const Eigen::Index begin = quadratic.nodes.cols();
         quadratic.nodes.conservativeResize(Eigen::NoChange, begin + own.cols());

@@ -1,5 +1,6 @@
 #include "step/stepper.h"
 
+#include <pent/geometry.h>
 #include <pent/simulator/energy.h>
 
 #include <Eigen/LU>
@@ -20,17 +21,6 @@ Positions<Dim> reactions(const Bodies<Dim>& bodies, const Positions<Dim>& forces
     return all;
 }
 
-template <int Dim>
-Eigen::Matrix<double, Dim, Dim> edges(const Positions<Dim>& x,
-                                      const Simplices<Dim + 1>& cells,
-                                      Eigen::Index cell) {
-    Eigen::Matrix<double, Dim, Dim> columns;
-    for (int a = 0; a < Dim; ++a) {
-        columns.col(a) = x.col(cells(a + 1, cell)) - x.col(cells(0, cell));
-    }
-    return columns;
-}
-
 // The mean over the cells at each vertex, weighted by their volumes at rest.
 template <int Dim>
 Eigen::RowVectorXd energy_densities(const Bodies<Dim>& bodies,
@@ -41,9 +31,10 @@ Eigen::RowVectorXd energy_densities(const Bodies<Dim>& bodies,
     Eigen::RowVectorXd energy = Eigen::RowVectorXd::Zero(vertices.size);
     Eigen::RowVectorXd volume = Eigen::RowVectorXd::Zero(vertices.size);
     for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
-        const Eigen::Matrix<double, Dim, Dim> rest = edges<Dim>(bodies.rest, bodies.cells, cell);
+        const Eigen::Matrix<double, Dim, Dim> rest =
+            edge_matrix<Dim>(bodies.rest, bodies.cells, cell);
         const Eigen::Matrix<double, Dim, Dim> F =
-            edges<Dim>(x, bodies.cells, cell) * rest.inverse();
+            edge_matrix<Dim>(x, bodies.cells, cell) * rest.inverse();
         const double weight = rest.determinant();
         const double density = energy_density(range.material, F);
         for (int a = 0; a <= Dim; ++a) {

@@ -2,11 +2,12 @@
 
 #include <pent/simulator/body_schema.h>
 #include <pent/simulator/constraint_schema.h>
+#include <pent/simulator/contact_schema.h>
 #include <pent/simulator/field.h>
 #include <pent/simulator/scene.h>
 
-/// The schema of scenes: every key is written once, here and in the two headers of bodies and
-/// constraints.
+/// The schema of scenes: every key is written once, here and in the headers of bodies,
+/// constraints and contact.
 ///
 /// fields(part, visit) calls visit(Field, member) for each key of a part of a scene, in the order
 /// in which files have them; blocks(scene, visit) calls visit(name, member) for each block.
@@ -14,81 +15,6 @@
 /// tables of the docs are such visitors: a member that gets its line here is read, checked,
 /// written, compared and documented.
 namespace pent::simulator {
-
-/// Of the shapes of obstacles, which know their own fields.
-template <typename Shape, typename Visit>
-requires requires {
-    std::remove_const_t<Shape>::kRepels;
-}
-void fields(Shape& shape, const Visit& visit) {
-    shape.fields(shape, [&](const char* name, auto& value, ShapeField kind) {
-        const bool is_up = kind == ShapeField::UpDirection;
-        Field field = key(name, "m", "", kind == ShapeField::Length ? kPositive : kAnyNumber);
-        field.is_direction = kind == ShapeField::Direction || is_up;
-        field.is_required = kind != ShapeField::Number && !is_up;
-        visit(field, value);
-    });
-}
-
-template <PartOf<Keyframe> Part, typename Visit>
-void fields(Part& keyframe, const Visit& visit) {
-    visit(key("time", "s", "", kNotNegative).required(), keyframe.time);
-    visit(key("factor").required(), keyframe.factor);
-}
-
-template <PartOf<Load> Part, typename Visit>
-void fields(Part& load, const Visit& visit) {
-    visit(key("body", "", "its name").required(), load.body);
-    visit(key("select", "", "as of a constraint").required(), load.select);
-    visit(key("force", "N", "of all selected vertices together; of constant direction")
-              .may_be_missing(),
-          load.force);
-    visit(key("pressure", "N/m^(n-1)",
-              "on the facets of the boundary of which every vertex is selected, against their "
-              "outward normals as they are now; below 0 it pulls"),
-          load.pressure);
-    visit(key("keyframes", "",
-              "what both are multiplied by: a smooth curve through these, constant before and "
-              "behind them"),
-          load.keyframes);
-}
-
-template <PartOf<Obstacle> Part, typename Visit>
-void fields(Part& obstacle, const Visit& visit) {
-    visit(key("shape").required(),
-          obstacle.shape);  // its name is the key
-    visit(key("distance", "m", "", kPositive), obstacle.distance);
-    visit(key("stiffness", "N/m for each vertex", "", kPositive), obstacle.stiffness);
-    visit(key("motion", "", "as of a constraint, about its center; a `box` does not turn"),
-          obstacle.motion);
-}
-
-template <PartOf<Contact> Part, typename Visit>
-void fields(Part& contact, const Visit& visit) {
-    visit(key("model", "",
-              "with a barrier nothing crosses ([barrier.md](barrier.md)); not with `linear_euler`"),
-          contact.model);
-    visit(key("distance", "m", "how near is in contact; a quarter of the surface edges is good",
-              kPositive),
-          contact.distance);
-    visit(key("stiffness", "N/m for each pair", "", kPositive), contact.stiffness);
-    visit(key("self", "", "whether bodies meet themselves"), contact.self);
-    visit(key("filter", "", "of the Hessian of a pair"), contact.filter);
-    visit(key("separation", "m", "a distance that a barrier never lets be reached", kNotNegative),
-          contact.separation);
-    visit(key("friction", "", "Coulomb's coefficient, of bodies and obstacles", kNotNegative),
-          contact.friction);
-    visit(key("slip_speed", "m/s", "what slides slower sticks", kPositive), contact.slip_speed);
-    visit(key("ignore", "", "pairs of bodies that do not see each other; of one and itself, too"),
-          contact.ignore);
-    visit(key("only", "", "if there are any, no other pair sees each other"), contact.only);
-}
-
-template <PartOf<BodyPair> Part, typename Visit>
-void fields(Part& pair, const Visit& visit) {
-    visit(key("first", "", "name of a body").required(), pair.first);
-    visit(key("second", "", "name of a body").required(), pair.second);
-}
 
 template <PartOf<Damping> Part, typename Visit>
 void fields(Part& damping, const Visit& visit) {

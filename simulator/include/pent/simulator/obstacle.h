@@ -1,0 +1,33 @@
+#pragma once
+
+#include <pent/obstacle.h>
+#include <pent/simulator/motion.h>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace pent::simulator {
+
+/// Shapes of obstacles, with vectors of the scene's dimension: <pent/obstacle.h>.
+using HalfSpaceObstacle = pent::HalfSpace<Eigen::Dynamic>;
+using BallObstacle = pent::Ball<Eigen::Dynamic>;
+using CavityObstacle = pent::Cavity<Eigen::Dynamic>;
+using BowlObstacle = pent::Bowl<Eigen::Dynamic>;
+using BoxObstacle = pent::Cuboid<Eigen::Dynamic>;
+using ObstacleShape = pent::Obstacle<Eigen::Dynamic>;
+
+/// Something no body may enter; it moves as it is told, or not at all.
+///
+/// Every free vertex nearer than `distance` to it, or inside it, has the energy
+/// stiffness (distance - d)^2, d being the signed distance: a force that grows linearly with depth.
+struct Obstacle {
+    ObstacleShape shape;
+    double distance = 0.02;   ///< m, > 0.
+    double stiffness = 1000;  ///< N/m for each vertex, > 0.
+    /// One after the other, as of a Constraint; each turns it about its center (a half-space about
+    /// its point next to the origin) unless it says otherwise. A box does not turn.
+    std::vector<Motion> motion = {};
+};
+
+}  // namespace pent::simulator
