@@ -37,7 +37,7 @@ constexpr std::array<TypeName, 8> kTypes = {{
 constexpr std::array<std::string_view, 9> kComments = {
     "pent", "dimension", "created_by", "crc32c", "header_crc32c", "mesh", "frame", "step", "time"};
 
-constexpr std::uint64_t kMostVertices = 0xFFFFFFFFU;  // indices are 32 bits wide
+constexpr std::uint64_t kMaxVertices = 0xFFFFFFFFU;  // indices are 32 bits wide
 
 std::vector<std::string_view> split(std::string_view line) {
     std::vector<std::string_view> words;
@@ -328,9 +328,9 @@ private:
                                : "element " + header_.elements[0].name + " first")
                         + ", expected element vertex first");
         }
-        if (header_.elements[0].count > kMostVertices) {
+        if (header_.elements[0].count > kMaxVertices) {
             fail_header("element vertex has " + std::to_string(header_.elements[0].count)
-                        + " vertices, expected at most " + std::to_string(kMostVertices));
+                        + " vertices, expected at most " + std::to_string(kMaxVertices));
         }
         const std::array<std::string, 4> axes = {"x", "y", "z", "w"};
         check_prefix(header_.elements[0], {axes.begin(), axes.begin() + dim}, PlyType::Double);

@@ -12,13 +12,13 @@ namespace pent::mesher {
 
 namespace {
 
-constexpr int kMostVertices = 6;
-constexpr int kMostSearched = 4;
+constexpr int kMaxVertices = 6;
+constexpr int kMaxSearched = 4;
 
 // How the edges of a base simplex are directed: bit j of row i for an edge from i to j.
 struct Orientation {
     int n = 0;
-    std::array<std::uint32_t, kMostVertices + 1> to{};
+    std::array<std::uint32_t, kMaxVertices + 1> to{};
 
     [[nodiscard]] bool has(int i, int j) const { return (to[i] >> j & 1U) != 0; }
     void direct(int i, int j) { to[i] |= 1U << j; }
@@ -311,10 +311,10 @@ std::vector<Corners> path_decomposition(const std::vector<int>& order) {
 }
 
 DecompositionProof prove_decompositions(int base_vertices) {
-    assert(base_vertices >= 2 && base_vertices <= kMostVertices);
+    assert(base_vertices >= 2 && base_vertices <= kMaxVertices);
     DecompositionProof proof;
     proof.base_vertices = base_vertices;
-    proof.is_searched = base_vertices <= kMostSearched;
+    proof.is_searched = base_vertices <= kMaxSearched;
     const std::vector<Corners> all =
         proof.is_searched ? all_simplices(base_vertices) : std::vector<Corners>();
     const std::uint32_t codes = 1U << (base_vertices * (base_vertices - 1) / 2);

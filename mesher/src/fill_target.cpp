@@ -35,14 +35,14 @@ double next_length(const Trial& last, const std::optional<Trial>& before) {
 TargetFilling fill_to_target(const std::function<Tetrahedra(double)>& fill,
                              double wanted,
                              double start) {
-    constexpr int kMostFillings = 20;
+    constexpr int kMaxFillings = 20;
     constexpr double kClose = 0.02;
     double too_short = -std::numeric_limits<double>::infinity();
     double too_long = std::numeric_limits<double>::infinity();
     std::optional<Trial> before;
     double length = std::log(start);
     double nearest = 0;
-    for (int i = 1; i <= kMostFillings; ++i) {
+    for (int i = 1; i <= kMaxFillings; ++i) {
         Tetrahedra tetrahedra = fill(std::exp(length));
         const auto count = static_cast<double>(tetrahedra.mesh.cell_count());
         if (std::abs(count - wanted) <= kClose * wanted) {

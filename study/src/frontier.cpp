@@ -12,7 +12,7 @@ namespace {
 
 // A gain in error smaller than this part of it does not make a setting another point of the
 // frontier.
-constexpr double kLeastGain = 0.05;
+constexpr double kMinGain = 0.05;
 constexpr double kLevels[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 
 std::string sentence(double level, const Result& result, const StudyReport& report) {
@@ -58,7 +58,7 @@ std::vector<std::size_t> frontier_of(const std::vector<Result>& results, double 
     std::vector<std::size_t> frontier;
     for (const std::size_t i : order) {
         if (results[i].verdict == "finished"
-            && (frontier.empty() || error(i) < (1 - kLeastGain) * error(frontier.back()))) {
+            && (frontier.empty() || error(i) < (1 - kMinGain) * error(frontier.back()))) {
             frontier.push_back(i);
         }
     }

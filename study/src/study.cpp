@@ -262,14 +262,14 @@ void Study::run_reference() {
 const Interpolation& Study::where_in_reference(std::uint32_t meshes, const Trajectory& run) {
     // A body's layers may reach a hair beyond those of a coarser one; a cell's height is another
     // mesh.
-    constexpr double kMostOutside = 0.5;
+    constexpr double kMaxOutside = 0.5;
     if (const auto known = where_.find(meshes); known != where_.end()) {
         return known->second;
     }
     Interpolation where;
     if (meshes != reference_meshes_) {
         where = locate(run.rest(), reference_->rest(), reference_->cells());
-        if (where.farthest > kMostOutside) {
+        if (where.farthest > kMaxOutside) {
             throw Error(
                 "the meshes of the study are of different shapes; expected layers or"
                 " subdivisions of one body");

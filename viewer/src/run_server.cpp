@@ -24,8 +24,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostHeader = 16384;     // bytes of a request
-constexpr std::size_t kMostConnections = 64;   // at once; the oldest gives way
+constexpr std::size_t kMaxHeader = 16384;      // bytes of a request
+constexpr std::size_t kMaxConnections = 64;    // at once; the oldest gives way
 constexpr std::chrono::seconds kPatience(20);  // for a connection that does nothing
 constexpr std::chrono::milliseconds kStopInterval(100);
 
@@ -124,7 +124,7 @@ private:
             if (number < 0) {
                 return;
             }
-            if (connections_.size() >= kMostConnections) {
+            if (connections_.size() >= kMaxConnections) {
                 connections_.erase(connections_.begin());
             }
             connections_.push_back({Descriptor(number), Clock::now(), "", "", 0});
@@ -156,7 +156,7 @@ private:
                 one.response = answer(std::string_view(one.request).substr(0, end));
                 return true;
             }
-            if (one.request.size() > kMostHeader) {
+            if (one.request.size() > kMaxHeader) {
                 one.response = to_bytes(refusal(431, "the request is too long"));
                 return true;
             }

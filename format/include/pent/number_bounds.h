@@ -11,12 +11,12 @@ inline constexpr double kLargestNumber = 1e30;
 
 /// Bound of angles, degrees, and of their rates, degrees a second: of larger ones rounding would
 /// leave nothing.
-inline constexpr double kMostDegrees = 1e9;
+inline constexpr double kMaxDegrees = 1e9;
 
 /// Bounds of frames a second, and of what is counted in steps, s: so that counts of steps are whole
 /// numbers.
-inline constexpr double kLeastRate = 1e-6;
-inline constexpr double kMostRate = 1e6;
+inline constexpr double kMinRate = 1e-6;
+inline constexpr double kMaxRate = 1e6;
 inline constexpr double kLongestTime = 1e6;
 
 /// Whether a length, a mass, a stiffness ... is above 0 and within bounds.

@@ -20,7 +20,7 @@ struct Range {
 inline constexpr Range kAnyNumber{};
 inline constexpr Range kPositive{.low = 0, .low_included = false};
 inline constexpr Range kNotNegative{.low = 0};
-inline constexpr Range kAngle{.low = -kMostDegrees, .high = kMostDegrees};
+inline constexpr Range kAngle{.low = -kMaxDegrees, .high = kMaxDegrees};
 inline constexpr Range kFraction{
     .low = 0, .low_included = false, .high = 1, .high_included = false};
 

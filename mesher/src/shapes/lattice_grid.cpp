@@ -12,8 +12,8 @@ namespace pent::mesher {
 
 namespace {
 
-constexpr std::size_t kMostBlocks = 1 << 23;  // 2^31 points
-constexpr double kMostBlocksAround = 1 << 26;
+constexpr std::size_t kMaxBlocks = 1 << 23;  // 2^31 points
+constexpr double kMaxBlocksAround = 1 << 26;
 constexpr double kFarthestBlock = 1e8;  // its points are numbered by ints
 constexpr double kRounding = 1e-9;
 
@@ -65,7 +65,7 @@ void LatticeGrid::set_range(const Box4& box) {
     const Eigen::Vector4d first = ((middle - reach).array() / side).floor() - 1;
     const Eigen::Vector4d last = ((middle + reach).array() / side).floor() + 1;
     const Eigen::Vector4d count = (last - first).array() + 1;
-    if (!(count.prod() <= kMostBlocksAround && first.cwiseAbs().maxCoeff() < kFarthestBlock)) {
+    if (!(count.prod() <= kMaxBlocksAround && first.cwiseAbs().maxCoeff() < kFarthestBlock)) {
         const Eigen::Vector4d size = box.high - box.low;
         throw Error(
             formatted("edges of %g m are too short for a body within %g x %g x %g x %g m^4 around "
@@ -108,7 +108,7 @@ void LatticeGrid::choose_blocks(const Solid& solid) {
             }
         }
     }
-    if (blocks_.size() > kMostBlocks) {
+    if (blocks_.size() > kMaxBlocks) {
         throw Error(formatted("edges of %g m give more than 2^31 points; expected longer ones",
                               lattice_.mean_edge()));
     }

@@ -24,7 +24,7 @@ constexpr unsigned kAllSteps = 15;
 constexpr double kNear = 0.35;
 
 // Cuts near points that moved back are kept this far from the ends, or cells would become flat.
-constexpr double kLeastPart = 0.05;
+constexpr double kMinPart = 0.05;
 
 using Piece = std::array<CutCorner, 5>;
 
@@ -281,7 +281,7 @@ void LatticeStuffing::write_vertices(std::uint32_t block, StuffedMesh& result) c
         const unsigned steps = cuts_from(point);
         for (unsigned step = 1; step < kSteps; ++step) {
             if ((steps >> step & 1U) != 0) {
-                result.mesh.positions.col(vertex++) = cut_place(point, step, kLeastPart);
+                result.mesh.positions.col(vertex++) = cut_place(point, step, kMinPart);
             }
         }
     }

@@ -19,8 +19,8 @@ namespace pent::mesher {
 
 namespace {
 
-constexpr std::size_t kMostShapes = 4096;
-constexpr std::int64_t kMostCells = 600;  // of a regular polytope
+constexpr std::size_t kMaxShapes = 4096;
+constexpr std::int64_t kMaxCells = 600;  // of a regular polytope
 
 // Reads the keys of a primitive and gives what makes it.
 using Maker = std::function<Solid()>;
@@ -94,7 +94,7 @@ const std::vector<std::pair<std::string, Reader>>& primitives() {
          }},
         {"polytope",
          [](Table& t) -> Maker {
-             return [cells = t.integer("cells", {}, 1, kMostCells), radius = t.number("radius")] {
+             return [cells = t.integer("cells", {}, 1, kMaxCells), radius = t.number("radius")] {
                  return polytope_solid(static_cast<int>(cells), radius);
              };
          }},
@@ -186,8 +186,8 @@ Solid combined_shapes(TableReader& table, std::size_t& count) {
                    "no shape; expected [[shape]] with one of its kinds, as ball = { radius = 1 }");
     }
     count += shapes.size();
-    if (count > kMostShapes) {
-        table.fail("shape", "more than " + std::to_string(kMostShapes) + " shapes");
+    if (count > kMaxShapes) {
+        table.fail("shape", "more than " + std::to_string(kMaxShapes) + " shapes");
     }
     std::optional<Solid> all;
     for (TableReader& shape : shapes) {

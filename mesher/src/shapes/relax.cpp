@@ -11,7 +11,7 @@ namespace pent::mesher {
 
 namespace {
 
-constexpr int kMostSweeps = 12;
+constexpr int kMaxSweeps = 12;
 
 // Slope of the logarithm of a cell's mean ratio over the place of one of its corners, 1/m.
 Eigen::Vector4d quality_slope(const StarMesh& mesh, std::uint32_t cell, std::uint32_t vertex) {
@@ -43,7 +43,7 @@ public:
         for (std::uint32_t cell = 0; cell < surface_.mesh.cell_count(); ++cell) {
             note(cell, worst);
         }
-        for (int sweep = 0; sweep < kMostSweeps && !worst.empty(); ++sweep) {
+        for (int sweep = 0; sweep < kMaxSweeps && !worst.empty(); ++sweep) {
             std::sort(worst.begin(), worst.end());
             std::set<std::uint32_t> touched;
             for (const auto& [quality, cell] : worst) {

@@ -21,9 +21,9 @@ constexpr double kOnPiece = 1e-6;
 constexpr double kSmoothCosine = 0.97;
 
 // Pieces that may have to be tried together for one place.
-constexpr int kMostPieces = 6;
+constexpr int kMaxPieces = 6;
 
-constexpr int kMostPasses = 20;
+constexpr int kMaxPasses = 20;
 
 std::vector<int> common(const std::vector<int>& a, const std::vector<int>& b) {
     std::vector<int> both;
@@ -56,7 +56,7 @@ public:
         for (const auto& facet : facets.colwise()) {
             collect({facet[0], facet[1], facet[2], facet[3]}, crossing);
         }
-        for (int pass = 0; pass < kMostPasses && has_mended; ++pass) {
+        for (int pass = 0; pass < kMaxPasses && has_mended; ++pass) {
             has_mended = false;
             std::set<Simplex> left;
             std::set<std::uint32_t> touched;
@@ -146,7 +146,7 @@ private:
     [[nodiscard]] std::optional<Ridge> find_ridge(std::vector<int> pieces,
                                                   const Eigen::Vector4d& near) const {
         const double on = kOnPiece * surface_.scale;
-        while (static_cast<int>(pieces.size()) <= kMostPieces) {
+        while (static_cast<int>(pieces.size()) <= kMaxPieces) {
             const auto place = nearest_common_zero(*surface_.solid, pieces, near, surface_.scale);
             if (!place) {
                 return std::nullopt;

@@ -21,7 +21,7 @@ constexpr double kGood = 0.3;
 // Below this a cell is given up, and lattice points around it move back.
 constexpr double kTooFlat = 0.01;
 
-constexpr int kMostRounds = 8;
+constexpr int kMaxRounds = 8;
 
 void check(const Solid& solid, double edge_length) {
     if (!(edge_length > 0) || !std::isfinite(edge_length)) {
@@ -101,7 +101,7 @@ StuffedSolid stuff(const Solid& solid, double edge_length) {
     const LatticeGrid grid(solid, Lattice::with_mean_edge(edge_length));
     LatticeStuffing stuffing(solid, grid);
     StuffedSolid result;
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMaxRounds; ++round) {
         StuffedMesh stuffed = manifold_mesh(stuffing, result.moved_back);
         if (stuffed.mesh.cell_count() == 0) {
             throw Error(

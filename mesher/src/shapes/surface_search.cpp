@@ -13,7 +13,7 @@ namespace {
 // the cells resolve; Newton's method corrects the rest.
 constexpr double kDifference = 1e-3;
 
-constexpr int kMostSteps = 12;
+constexpr int kMaxSteps = 12;
 
 // How near to zero values are taken to, in parts of the scale.
 constexpr double kZero = 1e-10;
@@ -39,7 +39,7 @@ double zero_between(const Solid& solid, const Sample& from, const Sample& to) {
     if (from.value == 0 || to.value == 0) {
         return from.value == 0 ? 0 : 1;
     }
-    constexpr int kMostEvaluations = 60;
+    constexpr int kMaxEvaluations = 60;
     constexpr double kClose = 1e-12;
     double a = 0;
     double b = 1;
@@ -48,7 +48,7 @@ double zero_between(const Solid& solid, const Sample& from, const Sample& to) {
     const double small = kClose * std::max(std::abs(at_a), std::abs(at_b));
     double t = 0.5;
     int last_side = 0;
-    for (int i = 0; i < kMostEvaluations && b - a > kClose; ++i) {
+    for (int i = 0; i < kMaxEvaluations && b - a > kClose; ++i) {
         t = (a * at_b - b * at_a) / (at_b - at_a);
         if (!(t > a && t < b)) {
             t = (a + b) / 2;
@@ -74,7 +74,7 @@ std::optional<Eigen::Vector4d> nearest_zero(const Solid& solid,
                                             double scale) {
     const auto function = [&](const Eigen::Vector4d& p) { return solid.value(p); };
     Eigen::Vector4d p = start;
-    for (int i = 0; i < kMostSteps; ++i) {
+    for (int i = 0; i < kMaxSteps; ++i) {
         const double value = function(p);
         const Eigen::Vector4d slope = gradient(function, p, scale);
         const Eigen::Vector4d step = slope * (value / slope.squaredNorm());
@@ -102,7 +102,7 @@ std::optional<Eigen::Vector4d> nearest_common_zero(const Solid& solid,
                                                    const Eigen::Vector4d& start,
                                                    double scale) {
     Eigen::Vector4d p = start;
-    for (int i = 0; i < kMostSteps; ++i) {
+    for (int i = 0; i < kMaxSteps; ++i) {
         Eigen::Matrix<double, Eigen::Dynamic, 4> slopes(pieces.size(), 4);
         Eigen::VectorXd values(pieces.size());
         for (std::size_t k = 0; k < pieces.size(); ++k) {

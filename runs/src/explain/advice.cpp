@@ -121,7 +121,7 @@ private:
 
     // One linear solve a step sees a rotation as its tangent: at 0.2 rad that is 2% too long.
     void on_turns() {
-        constexpr double kMostAngle = 0.2;
+        constexpr double kMaxAngle = 0.2;
         if (scene_.solver.integrator != Integrator::LinearEuler) {
             return;
         }
@@ -130,12 +130,12 @@ private:
                 for (const Spin& spin : motion.rotate) {
                     const double degrees = std::abs(spin.degrees_per_s) * scene_.dt();
                     const double angle = degrees * std::numbers::pi / 180;
-                    if (angle > kMostAngle) {
+                    if (angle > kMaxAngle) {
                         advise(formatted(
                             "a constraint of %s turns %.3g degrees a step, far for linear_euler:"
                             " take %d steps_per_frame or newton_euler",
                             constraint.body.c_str(), degrees,
-                            static_cast<int>(std::ceil(angle / kMostAngle))
+                            static_cast<int>(std::ceil(angle / kMaxAngle))
                                 * scene_.steps_per_frame));
                     }
                 }

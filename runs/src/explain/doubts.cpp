@@ -95,17 +95,17 @@ double thinnest_side(const Simulation<Dim>& simulation) {
 
 template <int Dim>
 std::vector<std::string> doubts_of_units(const Scene& scene, const Simulation<Dim>& simulation) {
-    constexpr double kMostOfABody = 0.1;
+    constexpr double kMaxPerBody = 0.1;
     constexpr double kFewestSteps = 1e-4;
-    constexpr double kMostSteps = 1e4;
-    constexpr double kLeastMass = 1e-6;  // kg
+    constexpr double kMaxSteps = 1e4;
+    constexpr double kMinMass = 1e-6;  // kg
     std::vector<std::string> lines;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const Body& body = scene.bodies[i];
         const int at = static_cast<int>(i);
         const double thin = sides(simulation, at).minCoeff();
         const auto doubt_distance = [&](double distance, const std::string& block) {
-            if (distance > kMostOfABody * thin) {
+            if (distance > kMaxPerBody * thin) {
                 lines.push_back(formatted(
                     "%s distance = %.3g m is more than a tenth of \"%s\", which is %.3g m thick: is"
                     " the body as large as meant (place.scale)?",
@@ -125,14 +125,14 @@ std::vector<std::string> doubts_of_units(const Scene& scene, const Simulation<Di
                       / material.density);
         const double steps = thin / wave / scene.dt();
         if (scene.solver.integrator != Integrator::Quasistatic
-            && (steps < kFewestSteps || steps > kMostSteps)) {
+            && (steps < kFewestSteps || steps > kMaxSteps)) {
             lines.push_back(
                 formatted("a wave crosses \"%s\" (%.3g m, %.3g m/s) in %.2g steps: are its size,"
                           " young (Pa) and density (kg/m^%d) as meant?",
                           body.name.c_str(), thin, wave, steps, Dim));
         }
         const double mass = simulation.masses(at).sum();
-        if (mass < kLeastMass) {
+        if (mass < kMinMass) {
             lines.push_back(
                 formatted("\"%s\" weighs %.3g kg: are its size and density (kg/m^%d) as meant?",
                           body.name.c_str(), mass, Dim));

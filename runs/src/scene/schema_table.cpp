@@ -29,7 +29,7 @@ std::string comma(const std::string& before, const std::string& after) {
 
 std::string range_text(const Range& range) {
     const bool has_low = std::isfinite(range.low);
-    if (!has_low || std::abs(range.low) >= kMostDegrees) {
+    if (!has_low || std::abs(range.low) >= kMaxDegrees) {
         return "";
     }
     if (std::isfinite(range.high)) {

@@ -186,9 +186,9 @@ CornerHessian<Real, Dim> corner_hessian(const EnergyHessian<Real, Dim>& hessian,
 // Blocks of one corner with some others, in lanes and element by element.
 template <typename Real, typename Scalar, int Dim>
 struct BlockTile {
-    static constexpr int kMost = 8;
+    static constexpr int kMax = 8;
     alignas(64) typename Lanes<Real>::Number packed[Dim * Dim][Lanes<Real>::kCount];
-    alignas(64) Scalar entries[kMost][Lanes<Real>::kCount][Dim * Dim];
+    alignas(64) Scalar entries[kMax][Lanes<Real>::kCount][Dim * Dim];
 };
 
 // Where the matrix indices of the blocks (a, a), (a, a + 1) .. of a group are.
@@ -281,8 +281,8 @@ void add_pack_hessian(const EnergyHessian<Real, Dim>& hessian,
         }
         const CornerHessian<Real, Dim> row =
             corner_hessian(hessian, a == 0 ? first : load_gradient<Real>(group, a, lane));
-        for (int b = a; b < group.corners; b += Tile::kMost) {
-            const int count = group.corners - b < Tile::kMost ? group.corners - b : Tile::kMost;
+        for (int b = a; b < group.corners; b += Tile::kMax) {
+            const int count = group.corners - b < Tile::kMax ? group.corners - b : Tile::kMax;
             for (int k = 0; k < count; ++k) {
                 const Vector<Real, Dim> gradient =
                     b + k == 0 ? first : load_gradient<Real>(group, b + k, lane);

@@ -88,10 +88,10 @@ Cofactors cofactors_by_minors(const MatrixXd& F, const MatrixXd& q) {
     return result;
 }
 
-constexpr Index kMostDense = 8;
+constexpr Index kMaxDense = 8;
 
 Cofactors cofactors(const MatrixXd& F, const MatrixXd& q) {
-    return F.rows() <= kMostDense ? cofactors_by_minors(F, q) : cofactors_along(F, q);
+    return F.rows() <= kMaxDense ? cofactors_by_minors(F, q) : cofactors_along(F, q);
 }
 
 // F = R S, R a rotation and S symmetric, as the gradient of I1 has it.
@@ -235,11 +235,11 @@ void keep_largest(double value, double& largest) {
 std::vector<Index> chosen_modes(Index n) {
     std::vector<Index> modes;
     const Index count = n * n;
-    const Index step = n <= kMostDense ? 1 : std::max<Index>(1, n / 3);
+    const Index step = n <= kMaxDense ? 1 : std::max<Index>(1, n / 3);
     for (Index k = 0; k < n; k += step) {
         modes.push_back(k);
     }
-    const Index pair_step = n <= kMostDense ? 1 : (count - n) / 9;
+    const Index pair_step = n <= kMaxDense ? 1 : (count - n) / 9;
     for (Index k = n; k < count; k += pair_step) {
         modes.push_back(k);
     }
@@ -340,7 +340,7 @@ void compare(const EigenFunction& function,
     }
     const double size = system.values().cwiseAbs().sum();
     keep_largest(std::abs(system.values().sum() - hessian_trace(function, F)) / size, proof.trace);
-    if (n <= kMostDense) {
+    if (n <= kMaxDense) {
         keep_largest(value_error(function, F, system.values()) / scale, proof.values);
     }
 }

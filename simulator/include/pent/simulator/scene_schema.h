@@ -74,7 +74,7 @@ void fields(Part& scene, const Visit& visit) {
     visit(key("gravity", "m/s^2"), scene.gravity);
     visit(key("frames", "", "after frame 0", whole(1, 999'999)), scene.frames);
     visit(key("frames_per_second", "1/s", "",
-              Range{.low = 0, .low_included = false, .smallest = kLeastRate, .largest = kMostRate}),
+              Range{.low = 0, .low_included = false, .smallest = kMinRate, .largest = kMaxRate}),
           scene.frames_per_second);
     visit(key("steps_per_frame", "", "", whole(1, 1'000'000)), scene.steps_per_frame);
 }
