@@ -25,11 +25,9 @@ struct ShakenBeam {
     void assemble(const Workers& workers,
                   const Kernels<4>& kernels,
                   BlockMatrix<4, Scalar>& matrix) const {
-        const Positions<4> still = Positions<4>::Zero(4, positions.cols());
-        BlockVector<4> right = BlockVector<4>::Zero(4, pattern.rows());
         matrix.set_zero(workers);
-        elements->add_hessian(workers, kernels, positions, 1.0 / 900, Filter::Clamp, still, matrix,
-                              right);
+        elements->add_hessian(workers, kernels, positions,
+                              target_in(matrix, 1.0 / 900, Filter::Clamp));
     }
 };
 

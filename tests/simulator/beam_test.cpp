@@ -41,8 +41,7 @@ int cold_iterations(const Scene& scene, const Simulation<4>& simulation) {
     const double h = scene.dt();
     BlockMatrix<4, float> A(pattern);
     BlockVector<4> b = BlockVector<4>::Zero(4, pattern.rows());
-    const Positions<4> still = Positions<4>::Zero(4, mesh.vertex_count());
-    elements.add_hessian(workers, isa, simulation.positions(0), h * h, Filter::Clamp, still, A, b);
+    elements.add_hessian(workers, isa, simulation.positions(0), target_in(A, h * h, Filter::Clamp));
     BlockVector<4> positions(4, pattern.rows());
     for (std::int64_t row = 0; row < pattern.rows(); ++row) {
         const std::uint32_t vertex = dofs.vertex_of(static_cast<std::uint32_t>(row));

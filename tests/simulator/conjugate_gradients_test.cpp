@@ -17,10 +17,8 @@ using test::ElasticBox;
 template <typename Scalar>
 BlockMatrix<4, Scalar> definite_matrix(const ElasticBox<4>& box, double mass) {
     BlockMatrix<4, Scalar> matrix(box.pattern);
-    const Positions<4> still = Positions<4>::Zero(4, box.mesh.vertex_count());
-    BlockVector<4> right = BlockVector<4>::Zero(4, box.pattern.rows());
-    box.elements->add_hessian(Workers(1), kernels<4>(best_isa()), box.positions, 1, Filter::Clamp,
-                              still, matrix, right);
+    box.elements->add_hessian(Workers(1), kernels<4>(best_isa()), box.positions,
+                              target_in(matrix, 1, Filter::Clamp));
     for (std::int64_t row = 0; row < matrix.rows(); ++row) {
         matrix.diagonal(row).diagonal().array() += static_cast<Scalar>(mass);
     }

@@ -89,10 +89,8 @@ struct ElasticBox {
     template <typename Scalar>
     [[nodiscard]] Eigen::MatrixXd stiffness(Isa isa, Filter filter) const {
         BlockMatrix<Dim, Scalar> matrix(pattern);
-        const Positions<Dim> still = Positions<Dim>::Zero(Dim, positions.cols());
-        BlockVector<Dim> right = BlockVector<Dim>::Zero(Dim, pattern.rows());
-        elements->add_hessian(Workers(1), kernels<Dim>(isa), positions, 1, filter, still, matrix,
-                              right);
+        elements->add_hessian(Workers(1), kernels<Dim>(isa), positions,
+                              target_in(matrix, 1, filter));
         return dense(matrix);
     }
 

@@ -405,8 +405,10 @@ TEST_P(KernelKinds, TakeColumnsOfHeldVerticesToTheRightSide) {
     for (const Isa isa : supported_isas()) {
         BlockMatrix<4, double> matrix(box.pattern);
         BlockVector<4> right = BlockVector<4>::Zero(4, box.pattern.rows());
-        box.elements->add_hessian(Workers(1), kernels<4>(isa), box.positions, 2.5, Filter::Clamp,
-                                  shift, matrix, right);
+        HessianTarget<double> target = target_in(matrix, 2.5, Filter::Clamp);
+        target.held_shift = shift.data();
+        target.right = right.data();
+        box.elements->add_hessian(Workers(1), kernels<4>(isa), box.positions, target);
         for (std::uint32_t u = 0; u < box.dofs.count(); ++u) {
             const std::uint32_t vertex = box.dofs.vertex_of(u);
             const Eigen::Index at = Eigen::Index{4} * free_box.dofs.dof_of(vertex);

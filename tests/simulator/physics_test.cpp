@@ -67,8 +67,10 @@ TEST(PatchTest, LinearFieldsAreExact) {
     }
     BlockMatrix<4, double> K(pattern);
     BlockVector<4> right = BlockVector<4>::Zero(4, pattern.rows());
-    elements.add_hessian(Workers(1), kernels<4>(best_isa()), patch.mesh.positions, 1, Filter::None,
-                         held_shift, K, right);
+    HessianTarget<double> target = target_in(K, 1, Filter::None);
+    target.held_shift = held_shift.data();
+    target.right = right.data();
+    elements.add_hessian(Workers(1), kernels<4>(best_isa()), patch.mesh.positions, target);
     const Eigen::VectorXd moved = ElasticBox<4>::dense(K).ldlt().solve(right.reshaped());
     for (std::uint32_t u = 0; u < patch.dofs.count(); ++u) {
         const std::uint32_t vertex = patch.dofs.vertex_of(u);
@@ -296,10 +298,8 @@ struct Assembled {
             elements.add_gradient(Workers(1), kernels<Dim>(Isa::Baseline), x, forces));
         forces = -forces;
         BlockMatrix<Dim, double> K(pattern);
-        const Positions<Dim> still = Positions<Dim>::Zero(Dim, mesh.vertex_count());
-        BlockVector<Dim> right = BlockVector<Dim>::Zero(Dim, pattern.rows());
-        elements.add_hessian(Workers(1), kernels<Dim>(Isa::Baseline), x, 1, Filter::None, still, K,
-                             right);
+        elements.add_hessian(Workers(1), kernels<Dim>(Isa::Baseline), x,
+                             target_in(K, 1, Filter::None));
         const Eigen::MatrixXd by_unknown = ElasticBox<Dim>::dense(K);
         stiffness.resizeLike(by_unknown);
         for (Eigen::Index a = 0; a < mesh.vertex_count(); ++a) {

@@ -34,10 +34,8 @@ struct Fixture {
 
     Fixture() {
         box.scramble(0.05, 1);
-        const Positions<4> still = Positions<4>::Zero(4, box.mesh.vertex_count());
-        BlockVector<4> right = BlockVector<4>::Zero(4, box.pattern.rows());
-        box.elements->add_hessian(workers, kernels<4>(Isa::Baseline), box.positions, 1,
-                                  Filter::Clamp, still, A, right);
+        box.elements->add_hessian(workers, kernels<4>(Isa::Baseline), box.positions,
+                                  target_in(A, 1, Filter::Clamp));
         for (std::int64_t row = 0; row < A.rows(); ++row) {
             A.diagonal(row).diagonal().array() += 0.1;
         }
@@ -90,10 +88,8 @@ TEST(ColumnJacobi, LeavesNothingOfAColumnOutForAnyElements) {
         ElasticBox<4> box(mesh, {.lame = {.lambda = 2, .mu = 1}}, kind, is_held);
         ASSERT_EQ(box.dofs.count(), 7);
         BlockMatrix<4, double> A(box.pattern);
-        BlockVector<4> right = BlockVector<4>::Zero(4, 7);
-        const Positions<4> still = Positions<4>::Zero(4, mesh.vertex_count());
-        box.elements->add_hessian(Workers(1), kernels<4>(Isa::Baseline), box.positions, 1,
-                                  Filter::Clamp, still, A, right);
+        box.elements->add_hessian(Workers(1), kernels<4>(Isa::Baseline), box.positions,
+                                  target_in(A, 1, Filter::Clamp));
         const BlockVector<4> r = BlockVector<4>::Random(4, 7);
         BlockVector<4> z(4, 7);
         column_jacobi(Workers(1), A, {0, 7})->apply(Workers(1), r, z);

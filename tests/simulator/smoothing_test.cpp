@@ -155,10 +155,8 @@ void expect_rigid_modes_alone(const SimplexMesh<Dim>& mesh) {
     const auto [pattern, elements] =
         lay_out_elements<Dim>(mesh.positions, mesh.cells, ranges, dofs, ElementKind::Smoothed);
     BlockMatrix<Dim, double> K(pattern);
-    BlockVector<Dim> right = BlockVector<Dim>::Zero(Dim, pattern.rows());
-    const Positions<Dim> still = Positions<Dim>::Zero(Dim, mesh.vertex_count());
-    elements.add_hessian(Workers(1), kernels<Dim>(best_isa()), mesh.positions, 1, Filter::None,
-                         still, K, right);
+    elements.add_hessian(Workers(1), kernels<Dim>(best_isa()), mesh.positions,
+                         target_in(K, 1, Filter::None));
     const Eigen::VectorXd values =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(ElasticBox<Dim>::dense(K)).eigenvalues();
     constexpr int kRigid = Dim * (Dim + 1) / 2;

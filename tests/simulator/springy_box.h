@@ -38,8 +38,11 @@ struct SpringyBox {
         system.begin(b, shift);
         std::visit(
             [&](auto& matrix) {
-                box.elements->add_hessian(workers, kernels<kBoxDim>(best_isa()), box.positions, 1,
-                                          Filter::Clamp, shift, matrix, system.right());
+                auto target = target_in(matrix, 1, Filter::Clamp);
+                target.held_shift = shift.data();
+                target.right = system.right().data();
+                box.elements->add_hessian(workers, kernels<kBoxDim>(best_isa()), box.positions,
+                                          target);
             },
             system.matrix());
         system.add_masses(2, masses);

@@ -23,6 +23,7 @@ struct Group {
     const std::int32_t* blocks;
     int corners;   // of every element
     int elements;  // lanes in use
+    std::uint32_t free_unknowns;
 };
 
 template <int Dim>
@@ -40,7 +41,8 @@ Group<Dim> group_at(const ElementRun& run, int group) {
             run.unknowns + first * run.corners,
             run.blocks + first * pairs,
             run.corners,
-            left < kGroup ? left : kGroup};
+            left < kGroup ? left : kGroup,
+            run.free_unknowns};
 }
 
 // Edges x_a - x_0 of every element of a group: [axis][a - 1][lane], subtracted in double.

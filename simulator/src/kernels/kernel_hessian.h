@@ -195,19 +195,18 @@ template <int Dim, typename Real, typename Scalar>
 void scatter_held(const BlockPack<Real, Dim>& pack,
                   const Group<Dim>& group,
                   int first_lane,
-                  std::uint32_t free_unknowns,
                   const HessianTarget<Scalar>& target) {
     for (int l = 0; l < Lanes<Real>::kCount && first_lane + l < group.elements; ++l) {
         const int lane = first_lane + l;
         for (int b = 1; b <= Dim; ++b) {
-            if (group.unknowns[b * kGroup + lane] < free_unknowns) {
+            if (group.unknowns[b * kGroup + lane] < group.free_unknowns) {
                 continue;
             }
             const double* shift =
                 target.held_shift + std::int64_t{Dim} * group.vertices[b * kGroup + lane];
             for (int a = 0; a < b; ++a) {
                 const std::uint32_t row = group.unknowns[a * kGroup + lane];
-                if (row >= free_unknowns) {
+                if (row >= group.free_unknowns) {
                     continue;
                 }
                 const auto& block = pack.at[pair_index<Dim>(a, b)];
@@ -264,7 +263,7 @@ std::int64_t add_hessian(const ElementRun& run,
         gather_edges(group, positions, edges);
         bool has_held = false;
         for (int lane = 0; lane < group.elements; ++lane) {  // the last corner is held if any is
-            has_held = has_held || group.unknowns[Dim * kGroup + lane] >= run.free_unknowns;
+            has_held = has_held || group.unknowns[Dim * kGroup + lane] >= group.free_unknowns;
         }
         for (int lane = 0; lane < group.elements; lane += kWidth) {
             const Tensor<Real, Dim> rest = load_rest<Real>(group, lane);
@@ -276,7 +275,7 @@ std::int64_t add_hessian(const ElementRun& run,
             hessian_blocks(hessian, scale * volume, pack);
             scatter_blocks(pack, group, lane, target.values);
             if (has_held && target.held_shift != nullptr) {
-                scatter_held(pack, group, lane, run.free_unknowns, target);
+                scatter_held(pack, group, lane, target);
             }
         }
     }

@@ -149,12 +149,11 @@ void scatter_held_block(const Scalar (&entries)[Dim * Dim],
                         const Group<Dim>& group,
                         int row,
                         int column,
-                        const HessianTarget<Scalar>& target,
-                        std::uint32_t free_unknowns) {
-    const bool is_turned = group.unknowns[row] >= free_unknowns;
+                        const HessianTarget<Scalar>& target) {
+    const bool is_turned = group.unknowns[row] >= group.free_unknowns;
     const int known = is_turned ? row : column;
     const std::uint32_t unknown = group.unknowns[is_turned ? column : row];
-    if (target.held_shift == nullptr || unknown >= free_unknowns) {
+    if (target.held_shift == nullptr || unknown >= group.free_unknowns) {
         return;
     }
     const double* shift = target.held_shift + std::int64_t{Dim} * group.vertices[known];
@@ -172,7 +171,6 @@ template <int Dim, typename Real, typename Scalar>
 void scatter_quadratic(const QuadraticHessian<Real, Dim>& hessian,
                        const Group<Dim>& group,
                        int first_lane,
-                       std::uint32_t free_unknowns,
                        const HessianTarget<Scalar>& target) {
     constexpr int kWidth = Lanes<Real>::kCount;
     constexpr const QuadraticRule<Dim>& kRule = kQuadraticRule<Dim>;
@@ -198,7 +196,7 @@ void scatter_quadratic(const QuadraticHessian<Real, Dim>& hessian,
                     scatter_block<Dim, kWidth>(tile.entries[0][l], places[l], target.values);
                 } else {
                     scatter_held_block(tile.entries[0][l], group, n * kGroup + first_lane + l,
-                                       m * kGroup + first_lane + l, target, free_unknowns);
+                                       m * kGroup + first_lane + l, target);
                 }
             }
         }
@@ -229,7 +227,7 @@ std::int64_t add_quadratic_hessian(const ElementRun& run,
             const Real volume = Lanes<Real>::load(group.volume + lane);
             filtered_elements += differentiate_points(states, run, target.filter, scale * volume,
                                                       group.elements - lane, hessian);
-            scatter_quadratic<Dim>(hessian, group, lane, run.free_unknowns, target);
+            scatter_quadratic<Dim>(hessian, group, lane, target);
         }
     }
     return filtered_elements;

@@ -183,10 +183,13 @@ CornerHessian<Real, Dim> corner_hessian(const EnergyHessian<Real, Dim>& hessian,
     return result;
 }
 
-// Blocks of one corner with some others, in lanes and element by element.
+// Blocks of a corner `row` with corners `first`, `first` + 1 .., in lanes and element by element.
 template <typename Real, typename Scalar, int Dim>
 struct BlockTile {
     static constexpr int kMax = 8;
+    int row = 0;
+    int first = 0;
+    int count = 0;
     alignas(64) typename Lanes<Real>::Number packed[Dim * Dim][Lanes<Real>::kCount];
     alignas(64) Scalar entries[kMax][Lanes<Real>::kCount][Dim * Dim];
 };
@@ -209,33 +212,30 @@ void prefetch_row(const Group<Dim>& group, int a, int lane, int lanes, const Sca
     }
 }
 
-// Adds the blocks (a, b), (a, b + 1) .. of some elements to the matrix; those of held corners b,
-// whose displacement is known, to the right side.
+// Adds the blocks of some elements to the matrix; those with held corners, whose displacement is
+// known, to the right side.
 template <int Dim, typename Real, typename Scalar>
 void scatter_tile(const BlockTile<Real, Scalar, Dim>& tile,
-                  int count,
                   const Group<Dim>& group,
                   int first_lane,
-                  int a,
-                  int b,
-                  std::uint32_t free_unknowns,
                   const HessianTarget<Scalar>& target) {
     constexpr int kEntries = Dim * Dim;
     constexpr int kWidth = Lanes<Real>::kCount;
-    const std::int32_t* blocks = row_of_blocks(group, a) + std::int64_t{b - a} * kGroup;
+    const std::int32_t* blocks =
+        row_of_blocks(group, tile.row) + std::int64_t{tile.first - tile.row} * kGroup;
     for (int l = 0; l < kWidth && first_lane + l < group.elements; ++l) {
         const int lane = first_lane + l;
-        for (int k = 0; k < count; ++k) {
+        for (int k = 0; k < tile.count; ++k) {
             const std::int32_t block = blocks[k * kGroup + lane];
             if (block >= 0) {
                 add_to<kEntries, kWidth>(tile.entries[k][l],
                                          target.values + std::int64_t{block} * kEntries);
                 continue;
             }
-            const std::uint32_t row = group.unknowns[a * kGroup + lane];
-            const int column = (b + k) * kGroup + lane;
-            if (target.held_shift == nullptr || row >= free_unknowns
-                || group.unknowns[column] < free_unknowns) {
+            const std::uint32_t row = group.unknowns[tile.row * kGroup + lane];
+            const int column = (tile.first + k) * kGroup + lane;
+            if (target.held_shift == nullptr || row >= group.free_unknowns
+                || group.unknowns[column] < group.free_unknowns) {
                 continue;
             }
             const double* shift = target.held_shift + std::int64_t{Dim} * group.vertices[column];
@@ -270,20 +270,21 @@ template <int Dim, typename Real, typename Scalar>
 void add_pack_hessian(const EnergyHessian<Real, Dim>& hessian,
                       const Group<Dim>& group,
                       int lane,
-                      std::uint32_t free_unknowns,
                       const HessianTarget<Scalar>& target) {
     using Tile = BlockTile<Real, Scalar, Dim>;
     Tile tile;
     const Vector<Real, Dim> first = first_gradient<Real>(group, lane);
     for (int a = 0; a < group.corners; ++a) {
+        tile.row = a;
         if (a + 1 < group.corners) {
             prefetch_row(group, a + 1, lane, Lanes<Real>::kCount, target.values);
         }
         const CornerHessian<Real, Dim> row =
             corner_hessian(hessian, a == 0 ? first : load_gradient<Real>(group, a, lane));
         for (int b = a; b < group.corners; b += Tile::kMax) {
-            const int count = group.corners - b < Tile::kMax ? group.corners - b : Tile::kMax;
-            for (int k = 0; k < count; ++k) {
+            tile.first = b;
+            tile.count = group.corners - b < Tile::kMax ? group.corners - b : Tile::kMax;
+            for (int k = 0; k < tile.count; ++k) {
                 const Vector<Real, Dim> gradient =
                     b + k == 0 ? first : load_gradient<Real>(group, b + k, lane);
                 Tensor<Real, Dim> block;
@@ -299,7 +300,7 @@ void add_pack_hessian(const EnergyHessian<Real, Dim>& hessian,
                 store_block(block, b + k == a, tile.packed);
                 transpose<Dim * Dim, Lanes<Real>::kCount>(tile.packed, tile.entries[k]);
             }
-            scatter_tile<Dim, Real>(tile, count, group, lane, a, b, free_unknowns, target);
+            scatter_tile(tile, group, lane, target);
         }
     }
 }
@@ -326,7 +327,7 @@ std::int64_t add_smoothed_hessian(const ElementRun& run,
                                 target.filter, Real(Number(0)));
             filtered_elements += count_marked(rotated.is_filtered, group.elements - lane);
             const EnergyHessian<Real, Dim> hessian = energy_hessian(rotated, scale * volume);
-            add_pack_hessian(hessian, group, lane, run.free_unknowns, target);
+            add_pack_hessian(hessian, group, lane, target);
         }
     }
     return filtered_elements;

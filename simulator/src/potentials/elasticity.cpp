@@ -66,9 +66,10 @@ template <int Dim>
 void Elasticity<Dim>::add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) {
     std::visit(
         [&](auto& matrix) {
-            filtered_ +=
-                layout_.elements.add_hessian(*workers_, *kernels_, *x_, weight * hessian_factor_,
-                                             filter, system.shift(), matrix, system.right());
+            auto target = target_in(matrix, weight * hessian_factor_, filter);
+            target.held_shift = system.shift().data();
+            target.right = system.right().data();
+            filtered_ += layout_.elements.add_hessian(*workers_, *kernels_, *x_, target);
         },
         system.matrix());
 }
@@ -79,7 +80,10 @@ void Elasticity<Dim>::add_tangent(const Positions<Dim>& x,
                                   const Positions<Dim>& shift,
                                   BlockMatrix<Dim, double>& matrix,
                                   BlockVector<Dim>& right) const {
-    layout_.elements.add_hessian(*workers_, *kernels_, x, 1, filter, shift, matrix, right);
+    auto target = target_in(matrix, 1, filter);
+    target.held_shift = shift.data();
+    target.right = right.data();
+    layout_.elements.add_hessian(*workers_, *kernels_, x, target);
 }
 
 template <int Dim>

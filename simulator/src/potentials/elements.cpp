@@ -63,6 +63,13 @@ double local_lambda(const Material& material) {
     return material.model == Model::Arap ? lambda : std::min(lambda, kAlpha * mu);
 }
 
+// At most `count` elements from the one at `first` on.
+std::span<const Eigen::Index> next_of(std::span<const Eigen::Index> chosen,
+                                      std::size_t first,
+                                      std::size_t count) {
+    return chosen.subspan(first, std::min(count, chosen.size() - first));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -103,7 +110,7 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
                 std::for_each(cells.col(cell).begin(), cells.col(cell).end(), visit);
             });
         for (std::size_t first = 0; first < chosen.size(); first += kChunkElements) {
-            append(chosen, first, std::min(first + kChunkElements, chosen.size()),
+            append(next_of(chosen, first, kChunkElements),
                    {.corners = Dim + 1, .material = range.material}, make, dofs, pattern);
         }
     }
@@ -154,10 +161,10 @@ Elements<Dim>::Elements(const std::vector<SmoothingDomains<Dim>>& domains,
                 chosen.begin() + static_cast<std::ptrdiff_t>(end),
                 [&](Eigen::Index a, Eigen::Index b) { return corner_count(a) < corner_count(b); });
             for (std::size_t first = near; first < end; first += kChunkElements) {
-                const std::size_t last = std::min(first + kChunkElements, end);
-                append(chosen, first, last,
+                const auto next = next_of(std::span(chosen).first(end), first, kChunkElements);
+                append(next,
                        {.kind = ElementKind::Smoothed,
-                        .corners = corner_count(chosen[last - 1]),
+                        .corners = corner_count(next.back()),
                         .material = ranges[body].material},
                        make, dofs, pattern);
             }
@@ -186,7 +193,7 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
                 std::for_each(nodes.col(simplex).begin(), nodes.col(simplex).end(), visit);
             });
         for (std::size_t first = 0; first < chosen.size(); first += kChunkQuadratic) {
-            append(chosen, first, std::min(first + kChunkQuadratic, chosen.size()),
+            append(next_of(chosen, first, kChunkQuadratic),
                    {.kind = ElementKind::Quadratic,
                     .corners = kQuadraticNodes<Dim>,
                     .material = range.material},
@@ -205,21 +212,19 @@ std::size_t Elements<Dim>::rest_rows(const Chunk& chunk) {
 
 template <int Dim>
 template <typename Make>
-void Elements<Dim>::append(const std::vector<Eigen::Index>& chosen,
-                           std::size_t first,
-                           std::size_t last,
+void Elements<Dim>::append(std::span<const Eigen::Index> chosen,
                            const Chunk& like,
                            const Make& make,
                            const DofMap& dofs,
                            const BlockPattern& pattern) {
     const double scale = collapse_scale(like.material, Dim);
     Chunk chunk = like;
-    chunk.elements = static_cast<int>(last - first);
+    chunk.elements = static_cast<int>(chosen.size());
     chunk.collapse_norm = Dim * scale * scale;
     chunk.first_rest = rest_.size();
     chunk.first_corner = vertices_.size();
     chunk.first_block = blocks_.size();
-    const std::size_t lanes = (last - first + kGroup - 1) / kGroup * kGroup;
+    const std::size_t lanes = (chosen.size() + kGroup - 1) / kGroup * kGroup;
     const auto n = static_cast<std::size_t>(chunk.corners);
     rest_.resize(rest_.size() + rest_rows(chunk) * lanes);
     vertices_.resize(vertices_.size() + n * lanes);
@@ -228,8 +233,8 @@ void Elements<Dim>::append(const std::vector<Eigen::Index>& chosen,
                    kNoBlock);
     Element element;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        if (first + lane < last) {
-            make(chosen[first + lane], element);
+        if (lane < chosen.size()) {
+            make(chosen[lane], element);
         } else {
             element.volume = 0;  // padding
         }
@@ -340,16 +345,7 @@ template <typename Scalar>
 std::int64_t Elements<Dim>::add_hessian(const Workers& workers,
                                         const Kernels<Dim>& kernels,
                                         const Positions<Dim>& positions,
-                                        double scale,
-                                        Filter filter,
-                                        const Positions<Dim>& shift,
-                                        BlockMatrix<Dim, Scalar>& matrix,
-                                        BlockVector<Dim>& right) const {
-    const HessianTarget<Scalar> target{.values = matrix.values(),
-                                       .scale = scale,
-                                       .filter = filter,
-                                       .held_shift = shift.data(),
-                                       .right = right.data()};
+                                        const HessianTarget<Scalar>& target) const {
     std::int64_t filtered = 0;
     for (const std::vector<int>& color : coloring_.colors) {
         filtered += workers.sum(static_cast<int>(color.size()), [&](int i) {
@@ -373,10 +369,10 @@ std::int64_t Elements<Dim>::bytes() const {
 
 template class Elements<3>;
 template class Elements<4>;
-#define PENT_INSTANTIATE(Dim, Scalar)                                               \
-    template std::int64_t Elements<Dim>::add_hessian<Scalar>(                       \
-        const Workers&, const Kernels<Dim>&, const Positions<Dim>&, double, Filter, \
-        const Positions<Dim>&, BlockMatrix<Dim, Scalar>&, BlockVector<Dim>&) const;
+#define PENT_INSTANTIATE(Dim, Scalar)                                                             \
+    template std::int64_t Elements<Dim>::add_hessian<Scalar>(                                     \
+        const Workers&, const Kernels<Dim>&, const Positions<Dim>&, const HessianTarget<Scalar>&) \
+        const;
 PENT_INSTANTIATE(3, float)
 PENT_INSTANTIATE(3, double)
 PENT_INSTANTIATE(4, float)

@@ -12,9 +12,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace pent::simulator {
+
+/// Where the Hessian times `scale` goes, without the part of held vertices.
+template <int Dim, typename Scalar>
+[[nodiscard]] HessianTarget<Scalar> target_in(BlockMatrix<Dim, Scalar>& matrix,
+                                              double scale,
+                                              Filter filter) {
+    return {.values = matrix.values(), .scale = scale, .filter = filter};
+}
 
 /// The elastic elements of all bodies, those with at least one vertex that has a dof, laid out for
 /// kernels: cells, the domains of smoothed cells, or quadratic cells.
@@ -49,18 +58,12 @@ public:
                            const Positions<Dim>& positions,
                            Positions<Dim>& gradient) const;
 
-    /// Adds `scale` times the filtered Hessian to the matrix, and takes scale * K shift off
-    /// `right`, the part of vertices that have no dof and move by `shift` (Dim x vertices, m).
-    /// Returns how many elements the filter changed.
+    /// Adds the filtered Hessian; returns how many elements the filter changed.
     template <typename Scalar>
     std::int64_t add_hessian(const Workers& workers,
                              const Kernels<Dim>& kernels,
                              const Positions<Dim>& positions,
-                             double scale,
-                             Filter filter,
-                             const Positions<Dim>& shift,
-                             BlockMatrix<Dim, Scalar>& matrix,
-                             BlockVector<Dim>& right) const;
+                             const HessianTarget<Scalar>& target) const;
 
     [[nodiscard]] std::int64_t count() const { return count_; }
     [[nodiscard]] std::int64_t bytes() const;
@@ -88,9 +91,7 @@ private:
     Elements(const DofMap& dofs, const BlockPattern& pattern);
 
     template <typename Make>
-    void append(const std::vector<Eigen::Index>& chosen,
-                std::size_t first,
-                std::size_t last,
+    void append(std::span<const Eigen::Index> chosen,
                 const Chunk& like,
                 const Make& make,
                 const DofMap& dofs,
