@@ -369,6 +369,23 @@ bool has_property(const PlyElement& element,
     return false;
 }
 
+bool has_vector(const PlyElement& element,
+                int dimension,
+                std::string_view prefix,
+                std::string_view what,
+                const std::filesystem::path& path) {
+    int found = 0;
+    for (const char axis :
+         std::string_view("xyzw").substr(0, static_cast<std::size_t>(dimension))) {
+        found += has_property(element, std::string(prefix) + axis, PlyType::Double, path) ? 1 : 0;
+    }
+    if (found != 0 && found != dimension) {
+        throw Error(path.string() + ": header: " + std::to_string(found) + " " + std::string(what)
+                    + " properties, expected none or all of " + std::to_string(dimension));
+    }
+    return found != 0;
+}
+
 std::uint32_t write_file(const std::filesystem::path& path,
                          Header header,
                          const std::string& body) {

@@ -63,6 +63,16 @@ private:
                                 PlyType type,
                                 const std::filesystem::path& path);
 
+/// The same of a vector: an Error if it has some of its components and not all.
+///
+/// @param prefix  Of their names, behind which the axis stands.
+/// @param what    It is, for messages.
+[[nodiscard]] bool has_vector(const PlyElement& element,
+                              int dimension,
+                              std::string_view prefix,
+                              std::string_view what,
+                              const std::filesystem::path& path);
+
 /// Puts header (with the body's checksum) and body into a file; returns the checksum.
 std::uint32_t write_file(const std::filesystem::path& path, Header header, const std::string& body);
 

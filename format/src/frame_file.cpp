@@ -112,24 +112,6 @@ std::vector<Column> frame_columns(const Frame<Dim>& frame) {
     return columns;
 }
 
-// A vector has all its components or none.
-template <int Dim>
-bool has_vector(const PlyElement& vertex,
-                char prefix,
-                const char* what,
-                const std::filesystem::path& path) {
-    int found = 0;
-    for (int axis = 0; axis < Dim; ++axis) {
-        const std::string name{prefix, "xyzw"[axis]};
-        found += has_property(vertex, name, PlyType::Double, path) ? 1 : 0;
-    }
-    if (found != 0 && found != Dim) {
-        throw Error(path.string() + ": header: " + std::to_string(found) + " " + what
-                    + " properties, expected none or all of " + std::to_string(Dim));
-    }
-    return found != 0;
-}
-
 template <int Dim>
 void check_count(const Positions<Dim>& values,
                  Eigen::Index expected,
@@ -191,10 +173,10 @@ Frame<Dim> read_frame(const std::filesystem::path& path) {
     Frame<Dim> frame;
     const auto count = static_cast<Eigen::Index>(header.info.vertices);
     frame.positions.resize(Dim, count);
-    if (has_vector<Dim>(header.elements[0], 'v', "velocity", path)) {
+    if (has_vector(header.elements[0], Dim, "v", "velocity", path)) {
         frame.velocities.resize(Dim, count);
     }
-    if (has_vector<Dim>(header.elements[0], 'f', "contact force", path)) {
+    if (has_vector(header.elements[0], Dim, "f", "contact force", path)) {
         frame.contact_forces.resize(Dim, count);
     }
     frame.fields = fields_of<Dim>(header.elements[0]);

@@ -40,6 +40,10 @@ std::vector<Column> cell_columns(const SimplexMesh<Dim>& mesh) {
     if (!mesh.parents.empty()) {
         columns.push_back(array_column("parent", PlyType::Uint, mesh.parents));
     }
+    if (mesh.fibers.cols() > 0) {
+        const std::vector<Column> fibers = vector_columns<Dim>(mesh.fibers, "fiber_");
+        columns.insert(columns.end(), fibers.begin(), fibers.end());
+    }
     return columns;
 }
 
@@ -101,6 +105,9 @@ MeshFile<Dim> read_mesh(const std::filesystem::path& path) {
     }
     if (has_property(cell, "parent", PlyType::Uint, path)) {
         mesh.parents.resize(cell.count);
+    }
+    if (has_vector(cell, Dim, "fiber_", "fiber", path)) {
+        mesh.fibers.resize(Dim, static_cast<Eigen::Index>(cell.count));
     }
     reader.read(vertex_columns(mesh));
     reader.read(cell_columns(mesh));

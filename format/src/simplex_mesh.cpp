@@ -135,6 +135,11 @@ void validate(const SimplexMesh<Dim>& mesh, std::string_view name) {
     }
     validate_length(mesh.regions.size(), mesh.cell_count(), "regions", name);
     validate_length(mesh.parents.size(), mesh.cell_count(), "parents", name);
+    validate_length(static_cast<std::size_t>(mesh.fibers.cols()), mesh.cell_count(), "fibers",
+                    name);
+    if (!mesh.fibers.allFinite()) {
+        throw Error(std::string(name) + ": a fiber is not finite");
+    }
     validate_length(mesh.columns.size(), mesh.vertex_count(), "columns", name);
     validate_length(mesh.layers.size(), mesh.vertex_count(), "layers", name);
     validate_positions<Dim>(mesh.positions, name);

@@ -290,6 +290,12 @@ SimplexMesh<Dim> subdivide(const SimplexMesh<Dim>& mesh, int k) {
     for (const std::uint16_t region : mesh.regions) {
         fine.regions.insert(fine.regions.end(), children, region);
     }
+    if (mesh.fibers.cols() > 0) {
+        fine.fibers.resize(Dim, fine.cell_count());
+        for (Eigen::Index cell = 0; cell < fine.cell_count(); ++cell) {
+            fine.fibers.col(cell) = mesh.fibers.col(cell / children);
+        }
+    }
     return fine;
 }
 

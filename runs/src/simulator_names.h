@@ -8,6 +8,7 @@
 namespace pent::runs {
 
 // What this library speaks of all the time.
+using simulator::Activation;
 using simulator::Attachment;
 using simulator::AttachmentSummary;
 using simulator::Body;
@@ -30,7 +31,9 @@ using simulator::Obstacle;
 using simulator::ObstacleShape;
 using simulator::Output;
 using simulator::Plane;
+using simulator::Region;
 using simulator::RegionSelection;
+using simulator::RegionSummary;
 using simulator::Scene;
 using simulator::Selection;
 using simulator::Simulation;

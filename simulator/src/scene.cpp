@@ -83,8 +83,8 @@ struct Checker {
         }
         check_part(material, prefix + std::string(field.key) + ".");
     }
-    void operator()(const Field& /*field*/, const std::vector<Selection>& select) const {
-        require(!select.empty(), what + ": nothing is selected");
+    void operator()(const Field& field, const std::vector<Selection>& select) const {
+        require(!select.empty() || !field.does_apply, what + ": nothing is selected");
         for (const Selection& selection : select) {
             std::visit([&](const auto& kind) { check_part(kind, ""); }, selection);
         }
@@ -131,6 +131,9 @@ std::string name_of_part(std::string_view /*block*/, const Constraint& constrain
 std::string name_of_part(std::string_view /*block*/, const Load& load) {
     return "load on \"" + load.body + "\"";
 }
+std::string name_of_part(std::string_view /*block*/, const Activation& activation) {
+    return "activation of \"" + activation.body + "\"";
+}
 std::string name_of_part(std::string_view /*block*/, const Attachment& attachment) {
     return "attachment of \"" + attachment.body + "\"";
 }
@@ -175,6 +178,7 @@ void check_names(const Scene& scene) {
                 "the body name \"" + body.name
                     + "\" may have letters, digits, - and _ only, and at most 100 of them");
         require(count(body.name) == 1, "two bodies have the name \"" + body.name + "\"");
+        check_regions(body);
     }
     for (const Constraint& constraint : scene.constraints) {
         require(count(constraint.body) > 0,
@@ -182,6 +186,10 @@ void check_names(const Scene& scene) {
     }
     for (const Load& load : scene.loads) {
         require(count(load.body) > 0, "load on \"" + load.body + "\": no body has this name");
+    }
+    for (const Activation& activation : scene.activations) {
+        require(count(activation.body) > 0,
+                "activation of \"" + activation.body + "\": no body has this name");
     }
     for (const Attachment& attachment : scene.attachments) {
         for (const std::string& name : {attachment.body, attachment.target}) {
@@ -193,6 +201,17 @@ void check_names(const Scene& scene) {
 }
 
 }  // namespace
+
+void check_regions(const Body& body) {
+    for (const Region& region : body.regions) {
+        const auto has_name = [&](const Region& other) { return other.name == region.name; };
+        require(is_name(region.name),
+                "body \"" + body.name + "\": the name of the region \"" + region.name
+                    + "\" may have letters, digits, - and _ only, and at most 100 of them");
+        require(std::count_if(body.regions.begin(), body.regions.end(), has_name) == 1,
+                "body \"" + body.name + "\": two regions have the name \"" + region.name + "\"");
+    }
+}
 
 void check_model(ContactModel model, Integrator integrator) {
     require(model != ContactModel::Barrier || integrator != Integrator::LinearEuler,
@@ -213,6 +232,11 @@ void check_pairs(const std::vector<BodyPair>& pairs, const Scene& scene) {
                         + (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
         }
     }
+}
+
+void check_activations(const Scene& scene) {
+    require(scene.activations.empty() || scene.solver.elements != ElementKind::Smoothed,
+            "activation: smoothed elements know none; use elements = \"quadratic\" or \"linear\"");
 }
 
 void check_sleeping(Integrator integrator) {
@@ -276,6 +300,7 @@ void check(const Scene& scene) {
     if (scene.sleep) {
         check_sleeping(scene.solver.integrator);
     }
+    check_activations(scene);
     for (const Body& body : scene.bodies) {
         check_held(body, scene);
     }
@@ -289,17 +314,46 @@ std::optional<Fault> fault_of(const BoxSelection& box) {
     return Fault{"low", "\"low\" is above \"high\" along an axis; expected the lower corner"};
 }
 
+namespace {
+
+// Nothing if the times of keyframes increase.
+std::optional<Fault> fault_of_times(const std::vector<Keyframe>& keyframes) {
+    const auto is_late = [](const Keyframe& a, const Keyframe& b) { return a.time >= b.time; };
+    if (std::adjacent_find(keyframes.begin(), keyframes.end(), is_late) == keyframes.end()) {
+        return std::nullopt;
+    }
+    return Fault{"keyframes", "the times of \"keyframes\" must increase"};
+}
+
+}  // namespace
+
+template <>
+std::optional<Fault> fault_of(const Activation& activation) {
+    for (const Keyframe& keyframe : activation.keyframes) {
+        const double stretch = 1 + keyframe.factor * (activation.stretch - 1);
+        if (!(stretch > 0)) {
+            return Fault{"keyframes", "the keyframe of factor " + readable(keyframe.factor)
+                                          + " makes fibers " + readable(stretch)
+                                          + " times as long, which would turn cells inside out;"
+                                            " expected more than 0: factors are of stretch - 1"};
+        }
+    }
+    if (activation.fibers == Fibers::Distance && activation.away_from.empty()) {
+        return Fault{"fibers",
+                     "fibers = \"distance\" go with \"away_from\", a selection of vertices"};
+    }
+    if (activation.signal == Signal::Keyframes && activation.keyframes.empty()) {
+        return Fault{"keyframes", "the signal of \"keyframes\" has none"};
+    }
+    return fault_of_times(activation.keyframes);
+}
+
 template <>
 std::optional<Fault> fault_of(const Load& load) {
     if (load.force.isZero(0) && load.pressure == 0) {
         return Fault{"force", "a load needs a \"force\" or a \"pressure\" that is not zero"};
     }
-    const auto is_late = [](const Keyframe& a, const Keyframe& b) { return a.time >= b.time; };
-    if (std::adjacent_find(load.keyframes.begin(), load.keyframes.end(), is_late)
-        != load.keyframes.end()) {
-        return Fault{"keyframes", "the times of \"keyframes\" must increase"};
-    }
-    return std::nullopt;
+    return fault_of_times(load.keyframes);
 }
 
 template <>

@@ -2,6 +2,7 @@
 
 #include <pent/error.h>
 #include <pent/pent_file.h>
+#include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
 
@@ -85,9 +86,13 @@ void Trajectory::read_meshes(const simulator::Scene& scene) {
     for (std::size_t body = 0; body < meshes.size(); ++body) {
         const SimplexMesh<Dim>& mesh = meshes[body];
         rest_.middleCols(first_vertex_[body], mesh.vertex_count()) = mesh.positions;
-        const double share = scene.bodies[body].material.density / (Dim + 1);
+        const std::vector<std::uint16_t> materials =
+            simulator::materials_of_cells(mesh, scene.bodies[body]);
         for (Eigen::Index c = 0; c < mesh.cell_count(); ++c, ++cell) {
             volumes_[cell] = cell_volume<Dim>(mesh.positions, mesh.cells, c);
+            const double density =
+                material_of(scene.bodies[body], materials[static_cast<std::size_t>(c)]).density;
+            const double share = density / (Dim + 1);
             for (int corner = 0; corner <= Dim; ++corner) {
                 const Eigen::Index vertex = first_vertex_[body] + mesh.cells(corner, c);
                 cells_(corner, cell) = static_cast<std::uint32_t>(vertex);

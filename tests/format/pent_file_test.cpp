@@ -10,6 +10,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <sstream>
@@ -58,6 +59,8 @@ void expect_same_bits(const SimplexMesh<Dim>& a, const SimplexMesh<Dim>& b) {
     EXPECT_EQ(a.parents, b.parents);
     EXPECT_EQ(a.columns, b.columns);
     EXPECT_EQ(a.layers, b.layers);
+    ASSERT_EQ(a.fibers.cols(), b.fibers.cols());
+    EXPECT_EQ(a.fibers, b.fibers);
 }
 
 template <int Dim>
@@ -86,6 +89,34 @@ TEST(PentFile, RoundTripKeepsRegionsColumnsAndLayers) {
     SimplexMesh<4> mesh = crooked(test::kuhn_box<4>({2, 1, 1, 1}, {2, 1, 1, 1}));
     add_optional_arrays(mesh);
     expect_round_trip(mesh);
+}
+
+TEST(PentFile, RoundTripKeepsFibers) {
+    SimplexMesh<4> mesh = crooked(test::kuhn_box<4>({2, 1, 1, 1}, {2, 1, 1, 1}));
+    mesh.fibers = Positions<4>::Random(4, mesh.cell_count());
+    mesh.fibers.col(3).setZero();
+    expect_round_trip(mesh);
+    add_optional_arrays(mesh);
+    expect_round_trip(mesh);
+}
+
+TEST(PentFile, FibersHaveAllComponentsAndAreFinite) {
+    const test::TempFolder folder;
+    SimplexMesh<2> mesh = test::kuhn_box<2>({1, 1}, {1, 1});
+    mesh.fibers = Positions<2>::Ones(2, mesh.cell_count());
+    write_mesh(folder / "a.pent", mesh, {.encoding = Encoding::Ascii});
+    std::string text = bytes_of(folder / "a.pent");
+    text.erase(text.find("comment header_crc32c"), 31);
+    const auto replace = [&](const std::string& what, const std::string& with) {
+        text.replace(text.find(what), what.size(), with);
+        std::ofstream(folder / "a.pent", std::ios::binary) << text;
+        return test::error_of([&] { static_cast<void>(read_mesh<2>(folder / "a.pent")); });
+    };
+    test::expect_contains(replace("double fiber_y", "double fibre_y"),
+                          {"a.pent: header: 1 fiber properties, expected none or all of 2"});
+    mesh.fibers(1, 0) = std::numeric_limits<double>::infinity();
+    EXPECT_NE(test::error_of([&] { validate(mesh, "m"); }).find("m: a fiber is not finite"),
+              std::string::npos);
 }
 
 TEST(PentFile, RoundTripKeepsExtremeNumbers) {

@@ -41,7 +41,7 @@ Tables tables_of(const std::string& text) {
 TEST(SchemaText, IsWhatTheDocsHave) {
     const Tables docs = tables_of(read_text(PENT_DOCS "/simulator.md", "the docs"));
     const Tables schema = tables_of(schema_text() + report_schema_text());
-    EXPECT_EQ(schema.size(), 18U);
+    EXPECT_EQ(schema.size(), 20U);
     for (const auto& [block, table] : schema) {
         const auto found = docs.find(block);
         ASSERT_NE(found, docs.end()) << block;
@@ -65,7 +65,7 @@ TEST(ParseSceneErrors, NameTheBlockThatAKeyBelongsTo) {
               " [[body]] or [contact]");
     EXPECT_EQ(error_of("young = 1\n"),
               "s.toml:4:1: unknown key \"young\" in \"body\"; \"young\" belongs to \"material\" of"
-              " [[body]]");
+              " [[body]] or \"region.material\" of [[body]]");
     EXPECT_EQ(error_of("[output]\nstiffness = 1\n"),
               "s.toml:5:1: unknown key \"stiffness\" in \"output\"; \"stiffness\" belongs to"
               " [[attachment]] or [[obstacle]] or [contact] or [damping]");
@@ -74,8 +74,9 @@ TEST(ParseSceneErrors, NameTheBlockThatAKeyBelongsTo) {
               " [[obstacle]]");
     EXPECT_EQ(error_of("[[constraint]]\nbody = \"a\"\nlow = 1\n"),
               "s.toml:6:1: unknown key \"low\" in \"constraint\"; \"low\" belongs to"
-              " \"select.box\" of [[constraint]] or \"select.box\" of [[load]] or"
-              " \"select.box\" of [[attachment]]");
+              " \"region.select.box\" of [[body]] or \"select.box\" of [[constraint]] or"
+              " \"select.box\" of [[load]] or \"select.box\" of [[activation]] or"
+              " \"away_from.box\" of [[activation]] or \"select.box\" of [[attachment]]");
 }
 
 // Members of the schema that no key has.

@@ -76,6 +76,11 @@ const std::vector<Part>& parts() {
          [](const Json& scene) { return scene.contains("attachment"); },
          {},
          "attachment"},
+        {"an activation",
+         [](const Json& scene) {
+             return any_of(scene, "activation", [](const Json&) { return true; });
+         },
+         {"activation_work"}},
         {"damping by stiffness",
          [](const Json& scene) {
              return scene.contains("damping") && value_at(scene, "damping.stiffness") > 0

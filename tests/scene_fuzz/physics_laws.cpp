@@ -408,6 +408,10 @@ void check_sleep(const Scene& scene) {
     const auto comes_or_goes = [](const auto& part) { return part.from > 0 || part.to < kForever; };
     const bool is_changing =
         has_any(scene.loads, [](const Load& load) { return !load.keyframes.empty(); })
+        || has_any(scene.activations,
+                   [](const simulator::Activation& one) {
+                       return one.signal != simulator::Signal::Constant;
+                   })
         || has_any(scene.constraints, comes_or_goes) || has_any(scene.attachments, comes_or_goes)
         || has_any(
             scene.attachments,

@@ -275,7 +275,8 @@ TEST_F(Folders, OfARunShowWorkOfWhatIsOff) {
                         {"solver", {{"integrator", "linear_euler"}}},
                         {"output", {{"contact_pairs", false}}}};
     const std::string zero =
-        R"("energies": {"kinetic": 1, "elastic": 1}, "damping_hessians": 0, "asleep": 0,
+        R"("energies": {"kinetic": 1, "elastic": 1}, "damping_hessians": 0,
+           "activation_work": 0, "asleep": 0,
            "newton_iterations": 0, "unbalanced": 0,
            "contact": {"point_facet": 0, "mixed": 0, "self": 0,
            "searches": 0, "candidates": 0, "trees_built": 0, "trees_refit": 0, "ccd_seconds": 0,

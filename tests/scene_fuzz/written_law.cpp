@@ -10,8 +10,9 @@ namespace {
 // Keys that are written in other words: a preset as what it stands for, Young's modulus and
 // Poisson's ratio as mu and lambda, and the path of a mesh from another folder.
 const std::set<std::string>& other_words() {
-    static const std::set<std::string> kKeys = {"solver.preset", "body.material.young",
-                                                "body.material.poisson", "body.mesh"};
+    static const std::set<std::string> kKeys = {
+        "solver.preset", "body.material.young",        "body.material.poisson",
+        "body.mesh",     "body.region.material.young", "body.region.material.poisson"};
     return kKeys;
 }
 

@@ -43,7 +43,7 @@ TYPED_TEST(ElasticityTest, HasTheDerivativesOfItsEnergyAlsoWhereElementsAreDegen
             scene.bodies[0].material.second_invariant = 0.4;
             scene.solver.elements = kind;
             const Setting<kDim> setting(scene, 2);
-            Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, kind);
+            Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, scene);
             for (const Positions<kDim>& x : hard_states<kDim>(setting.bodies.rest)) {
                 if (law == Model::Arap && x.row(1).isConstant(x(1, 0))) {
                     continue;  // its rotation jumps where an element is flat
@@ -66,7 +66,7 @@ TYPED_TEST(ElasticityTest, DoesNotSeeRigidMotions) {
             scene.bodies[0].material.second_invariant = 0.4;
             scene.solver.elements = kind;
             const Setting<kDim> setting(scene, 2);
-            Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, kind);
+            Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, scene);
             expect_invariance_under_rigid_motion<kDim>(elasticity,
                                                        shaken<kDim>(setting.bodies.rest, 0.05, 8));
         }
@@ -83,7 +83,7 @@ TYPED_TEST(ElasticityTest, OfSleepingBodiesIsThatWithWhichTheyFellAsleep) {
         scene.contact.reset();
         scene.solver.elements = kind;
         Setting<kDim> setting(scene, 1);
-        Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, kind);
+        Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, scene);
         const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.05, 9);
         const double awake = value_of<kDim>(elasticity, x);
         const Positions<kDim> gradient = gradient_of<kDim>(elasticity, x);

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -401,6 +402,36 @@ TEST(Newton, GoesOnFromAFunctionThatHasChanged) {
     EXPECT_EQ(f.stiffness(), 7);
     const Eigen::Matrix3d A = definite() + 7 * Eigen::Matrix3d::Identity();
     EXPECT_LT((x - A.ldlt().solve(Eigen::Vector3d(1, -2, 3))).norm(), 1e-10);
+}
+
+// -x^2 - x: its Hessian taken as positive, every step goes twice as far as the last.
+TEST(Newton, EndsWhereTheWayLeadsFartherThanItsBoundAndAcceptsNothingBeyond) {
+    class Falling : public PlainFunction {
+    public:
+        using PlainFunction::PlainFunction;
+        bool accept(const Positions<3>& x) override {
+            farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
+            return false;
+        }
+        double farthest = 0;
+    };
+    const auto run = [](double bound) {
+        Falling function(
+            {.value = [](const auto& x) { return -x.squaredNorm() - x.sum(); },
+             .gradient = [](const auto& x) -> Eigen::VectorXd { return -2 * x.array() - 1; },
+             .hessian = [](const auto& x) -> Eigen::MatrixXd {
+                 return -2 * Eigen::MatrixXd::Identity(x.size(), x.size());
+             }});
+        Positions<3> x = point(0, 0, 0);
+        const NewtonReport report = newton<3>(function, {.bound = bound}, x);
+        EXPECT_FALSE(report.has_converged);
+        return std::pair(report.failure_reason, function.farthest);
+    };
+    const auto [reason, farthest] = run(1000);
+    EXPECT_EQ(reason, "the motion grew beyond all bounds");
+    EXPECT_GT(farthest, 100);
+    EXPECT_LT(farthest, 1000);
+    EXPECT_GT(run(kInfinity).second, 1000);
 }
 
 }  // namespace

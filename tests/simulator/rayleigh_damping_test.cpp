@@ -17,8 +17,9 @@ TYPED_TEST_SUITE(RayleighDampingTest, Dimensions);
 
 TYPED_TEST(RayleighDampingTest, IsAQuadraticOfTheTangentThatPullsBack) {
     constexpr int kDim = TypeParam::value;
-    const Setting<kDim> setting(test::box_scene<kDim>(), 2);
-    Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, ElementKind::Linear);
+    const Scene scene = test::box_scene<kDim>();
+    const Setting<kDim> setting(scene, 2);
+    Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, scene);
     RayleighDamping<kDim> damping(setting.workers, setting.isa.blocks, elasticity, setting.dofs,
                                   Filter::Clamp);
     const Positions<kDim> start = shaken<kDim>(setting.bodies.rest, 0.05, 10);

@@ -29,6 +29,8 @@ struct SimplexMesh {
     std::vector<std::uint32_t> layers;   ///< One a vertex, or empty: in which layer.
     std::vector<std::uint32_t> parents;  ///< One a cell, or empty: which quadratic cell it is a
                                          ///< child of, one of 2^Dim; see docs/pent-format.md.
+    Positions<Dim> fibers;  ///< Dim x cells, or no columns: a direction in each, of any length
+                            ///< above 0, or zero where there is none.
 
     [[nodiscard]] Eigen::Index vertex_count() const { return positions.cols(); }
     [[nodiscard]] Eigen::Index cell_count() const { return cells.cols(); }

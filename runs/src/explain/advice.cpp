@@ -90,7 +90,10 @@ private:
                 continue;
             }
             const int across = cells_across(trial_.simulation.mesh(static_cast<int>(i)));
-            const double poisson = young_from_lame(Dim, scene_.bodies[i].material.lame).poisson;
+            double poisson = young_from_lame(Dim, scene_.bodies[i].material.lame).poisson;
+            for (const Region& region : scene_.bodies[i].regions) {
+                poisson = std::max(poisson, young_from_lame(Dim, region.material.lame).poisson);
+            }
             const double part = bend(scene_.solver.elements, across, poisson);
             if (part > kBends) {
                 continue;

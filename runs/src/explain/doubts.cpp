@@ -4,11 +4,13 @@
 #include <pent/contact/obstacles.h>
 #include <pent/facets.h>
 #include <pent/formatted.h>
+#include <pent/simulator/placed_mesh.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <utility>
@@ -119,17 +121,22 @@ std::vector<std::string> doubts_of_units(const Scene& scene, const Simulation<Di
         for (std::size_t o = 0; !has_barrier && o < scene.obstacles.size(); ++o) {
             doubt_distance(scene.obstacles[o].distance, "[[obstacle]] " + std::to_string(o + 1));
         }
-        const Material& material = body.material;
-        const double wave =
-            std::sqrt(std::max(material.lame.lambda + 2 * material.lame.mu, material.lame.mu)
-                      / material.density);
-        const double steps = thin / wave / scene.dt();
-        if (scene.solver.integrator != Integrator::Quasistatic
-            && (steps < kFewestSteps || steps > kMaxSteps)) {
-            lines.push_back(
-                formatted("a wave crosses \"%s\" (%.3g m, %.3g m/s) in %.2g steps: are its size,"
-                          " young (Pa) and density (kg/m^%d) as meant?",
-                          body.name.c_str(), thin, wave, steps, Dim));
+        for (std::size_t number = 0; number <= body.regions.size(); ++number) {
+            const Material& material = material_of(body, static_cast<std::uint16_t>(number));
+            const std::string name =
+                "\"" + body.name + "\""
+                + (number == 0 ? "" : ", region \"" + body.regions[number - 1].name + "\"");
+            const double wave =
+                std::sqrt(std::max(material.lame.lambda + 2 * material.lame.mu, material.lame.mu)
+                          / material.density);
+            const double steps = thin / wave / scene.dt();
+            if (scene.solver.integrator != Integrator::Quasistatic
+                && (steps < kFewestSteps || steps > kMaxSteps)) {
+                lines.push_back(
+                    formatted("a wave crosses %s (%.3g m, %.3g m/s) in %.2g steps: are its size,"
+                              " young (Pa) and density (kg/m^%d) as meant?",
+                              name.c_str(), thin, wave, steps, Dim));
+            }
         }
         const double mass = simulation.masses(at).sum();
         if (mass < kMinMass) {

@@ -41,6 +41,7 @@ public:
         damping();
         constraints();
         loads();
+        activations();
         attachments();
         contact_between_bodies();
         contact_within_bodies();
@@ -98,6 +99,9 @@ private:
                  .why = std::string(simulator::word_of(body.material.model))
                         + formatted(", young %.4g Pa, poisson %.3g, ", young.young, young.poisson)
                         + std::to_string(cells_of(i)) + " cells, "
+                        + (body.regions.empty()
+                               ? ""
+                               : std::to_string(body.regions.size()) + " regions of their own, ")
                         + std::string(simulator::word_of(scene_.solver.elements)) + ", filter "
                         + std::string(simulator::word_of(scene_.solver.filter)),
                  .unknowns = Dim * trial_.free_vertices[i],
@@ -157,6 +161,25 @@ private:
                      + (load.keyframes.empty()
                             ? ""
                             : ", with " + std::to_string(load.keyframes.size()) + " keyframes")});
+        }
+    }
+
+    void activations() {
+        if (scene_.activations.empty()) {
+            add_off("activations", "no [[activation]]");
+        }
+        for (const Activation& one : scene_.activations) {
+            const bool is_periodic =
+                one.signal == simulator::Signal::Sine || one.signal == simulator::Signal::Pulses;
+            add({.name = "activation of " + one.body,
+                 .is_on = true,
+                 .why = (one.fibers == simulator::Fibers::None
+                             ? "growth"
+                             : "fibers " + std::string(simulator::word_of(one.fibers)))
+                        + formatted(", to %.3g of the length at rest", one.stretch)
+                        + (one.preserves_volume ? ", volume preserved" : "") + ", "
+                        + std::string(simulator::word_of(one.signal))
+                        + (is_periodic ? formatted(" of %.3g Hz", one.frequency) : "")});
         }
     }
 

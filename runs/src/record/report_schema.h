@@ -42,6 +42,11 @@ void fields(Part& attachment, const Visit& visit) {
     visit(key("largest_force", "N", "of one spring"), attachment.largest_force);
 }
 
+template <PartOf<simulator::RegionSummary> Part, typename Visit>
+void fields(Part& region, const Visit& visit) {
+    visit(key("energy", "J", "elastic"), region.energy);
+}
+
 template <PartOf<simulator::StepReport> Part, typename Visit>
 void fields(Part& step, const Visit& visit) {
     visit(key("step", "", "steps taken so far, this one included"), step.step);
@@ -68,6 +73,10 @@ void fields(Part& step, const Visit& visit) {
           step.energies);
     visit(key("contact", "", "what touches at the end, and what contact cost"), step.contact);
     visit(key("attachments", "", "one for each").may_be_missing(), step.attachments);
+    visit(key("regions", "", "one for each, body after body").may_be_missing(), step.regions);
+    visit(key("activation_work", "J", "done by activations on the bodies in the step")
+              .may_be_missing(),
+          step.activation_work);
     visit(key("assembly_seconds", "s", "matrices and forces of elements"), step.assembly_seconds);
     visit(key("solve_seconds", "s", "linear solves"), step.solve_seconds);
     visit(key("seconds", "s", "all of the step"), step.seconds);

@@ -73,7 +73,11 @@ struct PartReader {
     template <typename Part>
     void operator()(const Field& field, std::vector<Part>& parts) const {
         for (TableReader& entry : table.tables(field.key)) {
-            read_part(entry, parts.emplace_back(), dimension);
+            Part& part = parts.emplace_back();
+            read_part(entry, part, dimension);
+            if constexpr (requires { part.source; }) {
+                part.source = entry.place("select");
+            }
         }
     }
     template <typename Part>

@@ -85,6 +85,11 @@ void BlockReader::finish(const TableReader& entry, Body& body) const {
     } catch (const Error& error) {
         entry.fail("name", error.what());
     }
+    try {
+        check_regions(body);
+    } catch (const Error& error) {
+        entry.fail("region", error.what());
+    }
     const auto has_name = [&](const Body& other) { return other.name == body.name; };
     if (std::count_if(scene.bodies.begin(), scene.bodies.end(), has_name) > 1) {
         entry.fail("name", "two bodies have the name \"" + body.name + "\"");
@@ -120,6 +125,7 @@ void check_together(TableReader& reader, const Scene& scene) {
                  [&] { check_pairs(scene.contact->ignore, scene); });
         check_at(reader.table("contact"), "only", [&] { check_pairs(scene.contact->only, scene); });
     }
+    check_at(reader, "activation", [&] { check_activations(scene); });
     if (scene.sleep) {
         check_at(reader, "sleep", [&] { check_sleeping(scene.solver.integrator); });
     }

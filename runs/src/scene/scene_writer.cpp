@@ -167,8 +167,11 @@ struct PartWriter {
         put(simulator::kLambda.key, number(lame.lambda));
     }
     void operator()(const Field& field, const Material& material) const {
-        const YoungPoisson young = young_from_lame(dimension, material.lame);
-        text += "# young = " + number(young.young) + ", poisson = " + number(young.poisson) + "\n";
+        if (dimension > 0) {  // a comment needs a line of its own
+            const YoungPoisson young = young_from_lame(dimension, material.lame);
+            text +=
+                "# young = " + number(young.young) + ", poisson = " + number(young.poisson) + "\n";
+        }
         put(field.key, record(material));
     }
     void operator()(const Field& /*field*/, const ObstacleShape& shape) const {

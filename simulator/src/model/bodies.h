@@ -38,8 +38,11 @@ struct Bodies {
     std::vector<SimplexMesh<Dim>> meshes;    ///< As placed.
     std::vector<Eigen::Index> first_vertex;  ///< Bodies + 1 entries.
     Positions<Dim> rest;                     ///< Dim x vertices, m.
-    Simplices<Dim + 1> cells;
-    std::vector<CellRange> ranges;  ///< One a body.
+    std::vector<Eigen::Index> first_cell;    ///< Bodies + 1 entries.
+    Simplices<Dim + 1> cells;  ///< Of a body with regions those of each one after the other.
+    std::vector<std::uint32_t>
+        mesh_cells;  ///< Which cell of its mesh each is; empty if no body has regions.
+    std::vector<CellRange> ranges;  ///< One a body and one a region, in this order.
     QuadraticCells<Dim> quadratic;  ///< Of which the cells are children; empty if not asked for.
     Eigen::VectorXd masses;         ///< One a vertex, kg.
     double large_energy = 0;        ///< Elastic energy of all bodies at strains of about one, J.
@@ -52,13 +55,30 @@ struct Bodies {
     [[nodiscard]] Eigen::Index vertex_count() const { return rest.cols(); }
     [[nodiscard]] std::size_t count() const { return meshes.size(); }
 
-    /// Vertices of a body: [begin, begin + size).
     struct Range {
         Eigen::Index begin = 0;
         Eigen::Index size = 0;
     };
+    /// Vertices of a body.
     [[nodiscard]] Range vertices(std::size_t body) const {
         return {first_vertex[body], first_vertex[body + 1] - first_vertex[body]};
+    }
+
+    /// Cells of a body.
+    [[nodiscard]] Range cells_of(std::size_t body) const {
+        return {first_cell[body], first_cell[body + 1] - first_cell[body]};
+    }
+
+    /// Elements of a body: its quadratic cells, or its cells where there are none.
+    [[nodiscard]] Range elements_of(std::size_t body) const;
+    [[nodiscard]] Eigen::Index element_count() const {
+        return quadratic.nodes.cols() > 0 ? quadratic.nodes.cols() : cells.cols();
+    }
+
+    /// Which cell of its mesh a cell is.
+    [[nodiscard]] std::uint32_t mesh_cell(std::size_t body, Eigen::Index cell) const {
+        return mesh_cells.empty() ? static_cast<std::uint32_t>(cell - first_cell[body])
+                                  : mesh_cells[static_cast<std::size_t>(cell)];
     }
 
     /// The body that a vertex belongs to.

@@ -21,37 +21,6 @@ constexpr Eigen::Index kChildren = Eigen::Index{1} << Dim;
                   " pent-mesh --quadratic, or take other elements");
 }
 
-// Cells by their parents, those of one after those of another.
-template <int Dim>
-std::vector<Eigen::Index> cells_by_parent(const SimplexMesh<Dim>& mesh, const std::string& name) {
-    if (mesh.cell_count() % kChildren<Dim> != 0) {
-        refuse(name, std::to_string(mesh.cell_count()) + " cells, no multiple of "
-                         + std::to_string(kChildren<Dim>));
-    }
-    std::vector<Eigen::Index> cells(static_cast<std::size_t>(mesh.cell_count()));
-    std::iota(cells.begin(), cells.end(), Eigen::Index{0});
-    if (mesh.parents.empty()) {
-        return cells;
-    }
-    const auto parent = [&](Eigen::Index cell) {
-        return mesh.parents[static_cast<std::size_t>(cell)];
-    };
-    std::stable_sort(cells.begin(), cells.end(),
-                     [&](Eigen::Index a, Eigen::Index b) { return parent(a) < parent(b); });
-    for (std::size_t first = 0; first < cells.size();) {
-        std::size_t last = first;
-        while (last < cells.size() && parent(cells[last]) == parent(cells[first])) {
-            ++last;
-        }
-        if (last - first != static_cast<std::size_t>(kChildren<Dim>)) {
-            refuse(name, "parent " + std::to_string(parent(cells[first])) + " with "
-                             + std::to_string(last - first) + " cells");
-        }
-        first = last;
-    }
-    return cells;
-}
-
 // The corners that cells have alone, each with its cell.
 template <int Dim>
 struct CornerChildren {
@@ -209,8 +178,39 @@ QuadraticRest<Dim> quadratic_rest(const Eigen::Matrix<double, Dim, kQuadraticNod
 }
 
 template <int Dim>
-QuadraticSimplices<Dim> quadratic_simplices(const SimplexMesh<Dim>& mesh, const std::string& name) {
-    const std::vector<Eigen::Index> cells = cells_by_parent<Dim>(mesh, name);
+std::vector<Eigen::Index> child_cells(const SimplexMesh<Dim>& mesh, const std::string& name) {
+    if (mesh.cell_count() % kChildren<Dim> != 0) {
+        refuse(name, std::to_string(mesh.cell_count()) + " cells, no multiple of "
+                         + std::to_string(kChildren<Dim>));
+    }
+    std::vector<Eigen::Index> cells(static_cast<std::size_t>(mesh.cell_count()));
+    std::iota(cells.begin(), cells.end(), Eigen::Index{0});
+    if (mesh.parents.empty()) {
+        return cells;
+    }
+    const auto parent = [&](Eigen::Index cell) {
+        return mesh.parents[static_cast<std::size_t>(cell)];
+    };
+    std::stable_sort(cells.begin(), cells.end(),
+                     [&](Eigen::Index a, Eigen::Index b) { return parent(a) < parent(b); });
+    for (std::size_t first = 0; first < cells.size();) {
+        std::size_t last = first;
+        while (last < cells.size() && parent(cells[last]) == parent(cells[first])) {
+            ++last;
+        }
+        if (last - first != static_cast<std::size_t>(kChildren<Dim>)) {
+            refuse(name, "parent " + std::to_string(parent(cells[first])) + " with "
+                             + std::to_string(last - first) + " cells");
+        }
+        first = last;
+    }
+    return cells;
+}
+
+template <int Dim>
+QuadraticSimplices<Dim> quadratic_simplices(const SimplexMesh<Dim>& mesh,
+                                            const std::vector<Eigen::Index>& cells,
+                                            const std::string& name) {
     QuadraticSimplices<Dim> simplices(kQuadraticNodes<Dim>, mesh.cell_count() / kChildren<Dim>);
     for (Eigen::Index simplex = 0; simplex < simplices.cols(); ++simplex) {
         const Eigen::Index* children = cells.data() + simplex * kChildren<Dim>;
@@ -233,16 +233,18 @@ QuadraticSimplices<Dim> quadratic_simplices(const SimplexMesh<Dim>& mesh, const 
     return simplices;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                          \
-    template Eigen::Matrix<double, Dim, Dim + 1> tangent_corners<Dim>(                 \
-        const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>&,                       \
-        const Eigen::Matrix<double, Dim + 1, 1>&);                                     \
-    template Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>> places_of_nodes<Dim>(    \
-        const Positions<Dim>&, const QuadraticSimplices<Dim>&, Eigen::Index);          \
-    template QuadraticRest<Dim> quadratic_rest<Dim>(                                   \
-        const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>&);                      \
-    template QuadraticSimplices<Dim> quadratic_simplices<Dim>(const SimplexMesh<Dim>&, \
-                                                              const std::string&);
+#define PENT_INSTANTIATE(Dim)                                                       \
+    template Eigen::Matrix<double, Dim, Dim + 1> tangent_corners<Dim>(              \
+        const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>&,                    \
+        const Eigen::Matrix<double, Dim + 1, 1>&);                                  \
+    template Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>> places_of_nodes<Dim>( \
+        const Positions<Dim>&, const QuadraticSimplices<Dim>&, Eigen::Index);       \
+    template QuadraticRest<Dim> quadratic_rest<Dim>(                                \
+        const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>&);                   \
+    template std::vector<Eigen::Index> child_cells<Dim>(const SimplexMesh<Dim>&,    \
+                                                        const std::string&);        \
+    template QuadraticSimplices<Dim> quadratic_simplices<Dim>(                      \
+        const SimplexMesh<Dim>&, const std::vector<Eigen::Index>&, const std::string&);
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE

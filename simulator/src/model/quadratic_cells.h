@@ -19,7 +19,9 @@ using QuadraticSimplices = Eigen::Matrix<std::uint32_t, kQuadraticNodes<Dim>, Ei
 template <int Dim>
 struct QuadraticCells {
     QuadraticSimplices<Dim> nodes;
-    std::vector<CellRange> ranges;  ///< One a body.
+    std::vector<CellRange> ranges;  ///< As of Bodies.
+    std::vector<std::uint32_t>
+        first_child;  ///< One a simplex: a cell of the mesh of its body, whose labels it has.
 };
 
 /// Corners of the linear simplex that a quadratic one deforms as, see QuadraticRule.
@@ -50,17 +52,33 @@ template <int Dim>
 [[nodiscard]] QuadraticRest<Dim> quadratic_rest(
     const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>& places);
 
-/// The quadratic simplices that the cells of a mesh are the children of: by their parents, or,
+/// The cells of a mesh by the quadratic simplices that they are the children of, 2^Dim each: by their parents, or,
 /// where it has none, every 2^Dim cells that follow one another, as subdivision leaves them.
+///
+/// @param name  Of the mesh, for messages.
+/// Throws an Error unless each has as many.
+template <int Dim>
+[[nodiscard]] std::vector<Eigen::Index> child_cells(const SimplexMesh<Dim>& mesh,
+                                                    const std::string& name);
+
+/// The quadratic simplices that the cells of a mesh are the children of.
 ///
 /// Children are known by what they share: a corner belongs to one of them, and the middle of an
 /// edge is the vertex that the children at its two ends have in common. A middle need not be
 /// halfway, but the Jacobian must be positive at all nodes and points.
 ///
-/// @param name  Of the mesh, for messages.
+/// @param cells  By their parents, as child_cells() has them.
+/// @param name   Of the mesh, for messages.
 /// Throws an Error if the cells are no such children.
 template <int Dim>
 [[nodiscard]] QuadraticSimplices<Dim> quadratic_simplices(const SimplexMesh<Dim>& mesh,
+                                                          const std::vector<Eigen::Index>& cells,
                                                           const std::string& name);
+
+template <int Dim>
+[[nodiscard]] QuadraticSimplices<Dim> quadratic_simplices(const SimplexMesh<Dim>& mesh,
+                                                          const std::string& name) {
+    return quadratic_simplices<Dim>(mesh, child_cells<Dim>(mesh, name), name);
+}
 
 }  // namespace pent::simulator

@@ -36,6 +36,7 @@ SimplexMesh<Dim> place(SimplexMesh<Dim> mesh, const Body& body) {
     }
     if (!placement.rotate.empty()) {
         mesh.positions = (rotation * mesh.positions).eval();
+        mesh.fibers = (rotation * mesh.fibers).eval();
     }
     const Vector<Dim> translate = placement.translate;
     mesh.positions.colwise() += translate;

@@ -14,17 +14,19 @@ namespace {
 
 using Marks = std::vector<bool>;
 
+// Marks points, each a vertex or the center of a cell, that are in a place.
 template <int Dim>
-struct Marker {
+struct PlaceMarker {
     const SimplexMesh<Dim>& mesh;
+    const Positions<Dim>& points;
     const std::string& where;  // who selects
     Marks& marks;
 
     template <typename Contains>
     void mark_points(const Contains& contains) const {
-        for (Eigen::Index vertex = 0; vertex < mesh.vertex_count(); ++vertex) {
-            if (contains(Vector<Dim>(mesh.positions.col(vertex)))) {
-                marks[static_cast<std::size_t>(vertex)] = true;
+        for (Eigen::Index i = 0; i < points.cols(); ++i) {
+            if (contains(Vector<Dim>(points.col(i)))) {
+                marks[static_cast<std::size_t>(i)] = true;
             }
         }
     }
@@ -45,17 +47,30 @@ struct Marker {
         const Vector<Dim> normal = half_space.normal;
         mark_points([&](const Vector<Dim>& p) { return normal.dot(p) <= half_space.offset; });
     }
-    void operator()(const LayerSelection& layers) const {
+    void operator()(const EverythingSelection& /*everything*/) const {
+        marks.assign(marks.size(), true);
+    }
+
+protected:
+    [[nodiscard]] bool is_in(const LayerSelection& layers, std::uint32_t vertex) const {
         if (mesh.layers.empty()) {
             throw Error(where
                         + " selects layers, but its mesh does not say which layer a vertex is"
                           " in; select by ball, box or half_space");
         }
-        for (std::size_t vertex = 0; vertex < marks.size(); ++vertex) {
-            const std::uint32_t layer = mesh.layers[vertex];
-            if (layer >= layers.first && layer <= layers.last) {
-                marks[vertex] = true;
-            }
+        return mesh.layers[vertex] >= layers.first && mesh.layers[vertex] <= layers.last;
+    }
+};
+
+template <int Dim>
+struct VertexMarker : PlaceMarker<Dim> {
+    using PlaceMarker<Dim>::operator();
+    using PlaceMarker<Dim>::marks;
+    using PlaceMarker<Dim>::mesh;
+
+    void operator()(const LayerSelection& layers) const {
+        for (std::uint32_t vertex = 0; vertex < marks.size(); ++vertex) {
+            marks[vertex] = marks[vertex] || this->is_in(layers, vertex);
         }
     }
     void operator()(const RegionSelection& region) const {
@@ -67,8 +82,27 @@ struct Marker {
             }
         }
     }
-    void operator()(const EverythingSelection& /*everything*/) const {
-        marks.assign(marks.size(), true);
+};
+
+template <int Dim>
+struct CellMarker : PlaceMarker<Dim> {
+    using PlaceMarker<Dim>::operator();
+    using PlaceMarker<Dim>::marks;
+    using PlaceMarker<Dim>::mesh;
+
+    void operator()(const LayerSelection& layers) const {
+        for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+            const auto corners = mesh.cells.col(cell);
+            if (std::all_of(corners.begin(), corners.end(),
+                            [&](std::uint32_t vertex) { return this->is_in(layers, vertex); })) {
+                marks[static_cast<std::size_t>(cell)] = true;
+            }
+        }
+    }
+    void operator()(const RegionSelection& region) const {
+        for (std::size_t cell = 0; cell < mesh.regions.size(); ++cell) {
+            marks[cell] = marks[cell] || mesh.regions[cell] == region.region;
+        }
     }
 };
 
@@ -86,23 +120,25 @@ std::string range_text(const Labels& labels) {
     return std::to_string(*least) + " to " + std::to_string(*most);
 }
 
-// What a selection without a vertex came nearest to.
+// What a selection of no point came nearest to.
 template <int Dim>
 struct Nearest {
     const SimplexMesh<Dim>& mesh;
+    const Positions<Dim>& points;
+    std::string_view what;  // a point is
 
     // By a distance of points from the selected region.
     template <typename Distance>
     std::string vertex(const Distance& distance) const {
         double least = std::numeric_limits<double>::infinity();
         Eigen::Index nearest = 0;
-        for (Eigen::Index i = 0; i < mesh.vertex_count(); ++i) {
-            const double d = distance(Vector<Dim>(mesh.positions.col(i)));
+        for (Eigen::Index i = 0; i < points.cols(); ++i) {
+            const double d = distance(Vector<Dim>(points.col(i)));
             nearest = d < least ? i : nearest;
             least = std::min(d, least);
         }
-        return "the nearest vertex is " + std::to_string(nearest) + " at "
-               + vector_text<Dim>(mesh.positions.col(nearest)) + formatted(", %.3g m away", least);
+        return "the nearest " + std::string(what) + " is " + std::to_string(nearest) + " at "
+               + vector_text<Dim>(points.col(nearest)) + formatted(", %.3g m away", least);
     }
     std::string operator()(const BallSelection& ball) const {
         const Vector<Dim> center = ball.center;
@@ -130,7 +166,37 @@ struct Nearest {
     }
 };
 
+// Throws unless something is marked.
+template <int Dim>
+void require_some(const Marks& marks,
+                  const Nearest<Dim>& nearest,
+                  const std::vector<Selection>& select,
+                  const std::string& where) {
+    if (std::find(marks.begin(), marks.end(), true) == marks.end()) {
+        const Positions<Dim>& all = nearest.mesh.positions;
+        throw Error(where + " selects no " + std::string(nearest.what) + ": "
+                    + std::visit(nearest, select.front()) + "; the body as placed reaches from "
+                    + vector_text<Dim>(all.rowwise().minCoeff()) + " to "
+                    + vector_text<Dim>(all.rowwise().maxCoeff()));
+    }
+}
+
+template <int Dim>
+Positions<Dim> centers(const SimplexMesh<Dim>& mesh) {
+    Positions<Dim> all = Positions<Dim>::Zero(Dim, mesh.cell_count());
+    for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+        for (const std::uint32_t vertex : mesh.cells.col(cell)) {
+            all.col(cell) += mesh.positions.col(vertex) / (Dim + 1);
+        }
+    }
+    return all;
+}
+
 }  // namespace
+
+std::string place_and_name(const Region& region) {
+    return (region.source.empty() ? "" : region.source + ": ") + "region \"" + region.name + "\"";
+}
 
 std::string place_and_name(const Constraint& constraint) {
     return (constraint.source.empty() ? "" : constraint.source + ": ") + "constraint on \""
@@ -139,6 +205,11 @@ std::string place_and_name(const Constraint& constraint) {
 
 std::string place_and_name(const Load& load) {
     return (load.source.empty() ? "" : load.source + ": ") + "load on \"" + load.body + "\"";
+}
+
+std::string place_and_name(const Activation& activation) {
+    return (activation.source.empty() ? "" : activation.source + ": ") + "activation of \""
+           + activation.body + "\"";
 }
 
 std::string place_and_name(const Attachment& attachment) {
@@ -152,28 +223,57 @@ std::vector<std::uint32_t> select_vertices(const SimplexMesh<Dim>& mesh,
                                            const std::string& where) {
     Marks marks(static_cast<std::size_t>(mesh.vertex_count()), false);
     for (const Selection& selection : select) {
-        std::visit(Marker<Dim>{mesh, where, marks}, selection);
+        std::visit(VertexMarker<Dim>{{mesh, mesh.positions, where, marks}}, selection);
     }
+    require_some<Dim>(marks, {mesh, mesh.positions, "vertex"}, select, where);
     std::vector<std::uint32_t> selected;
     for (std::size_t vertex = 0; vertex < marks.size(); ++vertex) {
         if (marks[vertex]) {
             selected.push_back(static_cast<std::uint32_t>(vertex));
         }
     }
-    if (selected.empty()) {
-        throw Error(where + " selects no vertex: " + std::visit(Nearest<Dim>{mesh}, select.front())
-                    + "; the body as placed reaches from "
-                    + vector_text<Dim>(mesh.positions.rowwise().minCoeff()) + " to "
-                    + vector_text<Dim>(mesh.positions.rowwise().maxCoeff()));
-    }
     return selected;
 }
 
-template std::vector<std::uint32_t> select_vertices<3>(const SimplexMesh<3>&,
-                                                       const std::vector<Selection>&,
-                                                       const std::string&);
-template std::vector<std::uint32_t> select_vertices<4>(const SimplexMesh<4>&,
-                                                       const std::vector<Selection>&,
-                                                       const std::string&);
+template <int Dim>
+std::vector<bool> select_cells(const SimplexMesh<Dim>& mesh,
+                               const std::vector<Selection>& select,
+                               const std::string& where) {
+    const Positions<Dim> points = centers(mesh);
+    Marks marks(static_cast<std::size_t>(mesh.cell_count()), false);
+    for (const Selection& selection : select) {
+        std::visit(CellMarker<Dim>{{mesh, points, where, marks}}, selection);
+    }
+    require_some<Dim>(marks, {mesh, points, "cell"}, select, where);
+    return marks;
+}
+
+template <int Dim>
+std::vector<std::uint16_t> materials_of_cells(const SimplexMesh<Dim>& mesh, const Body& body) {
+    std::vector<std::uint16_t> numbers(static_cast<std::size_t>(mesh.cell_count()), 0);
+    for (std::size_t i = 0; i < body.regions.size(); ++i) {
+        const Region& region = body.regions[i];
+        const std::vector<bool> is_in = select_cells(mesh, region.select, place_and_name(region));
+        for (std::size_t cell = 0; cell < numbers.size(); ++cell) {
+            numbers[cell] = is_in[cell] ? static_cast<std::uint16_t>(i + 1) : numbers[cell];
+        }
+    }
+    return numbers;
+}
+
+const Material& material_of(const Body& body, std::uint16_t number) {
+    return number == 0 ? body.material : body.regions[number - 1U].material;
+}
+
+#define PENT_INSTANTIATE(Dim)                                                            \
+    template std::vector<std::uint32_t> select_vertices<Dim>(                            \
+        const SimplexMesh<Dim>&, const std::vector<Selection>&, const std::string&);     \
+    template std::vector<bool> select_cells<Dim>(                                        \
+        const SimplexMesh<Dim>&, const std::vector<Selection>&, const std::string&);     \
+    template std::vector<std::uint16_t> materials_of_cells<Dim>(const SimplexMesh<Dim>&, \
+                                                                const Body&);
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -95,10 +95,10 @@ typename Attachments<Dim>::Spring Attachments<Dim>::tie_to_body(const Bodies<Dim
                                                                 const Group& group,
                                                                 std::uint32_t vertex,
                                                                 double& distance) {
-    const CellRange& range = bodies.ranges[group.target];
+    const auto cells = bodies.cells_of(group.target);
     const Vector<Dim> point = bodies.rest.col(vertex);
-    MaterialPoint<Dim> nearest = nearest_point<Dim>(
-        bodies.rest, bodies.cells.middleCols(range.begin, range.end - range.begin), point);
+    MaterialPoint<Dim> nearest =
+        nearest_point<Dim>(bodies.rest, bodies.cells.middleCols(cells.begin, cells.size), point);
     distance = nearest.distance;
     if (group.attachment->offset == RestOffset::Keep && distance > 0) {
         Eigen::Matrix<double, Dim, Dim + 1> corners;

@@ -11,31 +11,30 @@ namespace {
 
 constexpr Eigen::Index kChunkCells = 1024;
 
-RunEnergy sum_of(const RunEnergy& a, const RunEnergy& b) {
-    return {.energy = a.energy + b.energy,
-            .inverted = a.inverted + b.inverted,
-            .collapsed = a.collapsed + b.collapsed};
-}
-
 }  // namespace
 
 template <int Dim>
 Elasticity<Dim>::Elasticity(const Workers& workers,
                             const Kernels<Dim>& kernels,
                             const Bodies<Dim>& bodies,
-                            ElementKind kind)
+                            const Scene& scene)
     : workers_(&workers),
       kernels_(&kernels),
       bodies_(&bodies),
-      kind_(kind),
+      kind_(scene.solver.elements),
+      strain_(scene, bodies),
       layout_(lay_out(number_dofs(bodies, std::vector<bool>(bodies.count(), true)))) {}
 
 template <int Dim>
 ElementLayout<Dim> Elasticity<Dim>::lay_out(const DofMap& dofs) const {
-    if (kind_ == ElementKind::Quadratic) {
-        return lay_out_elements<Dim>(bodies_->rest, bodies_->quadratic, dofs);
-    }
-    return lay_out_elements<Dim>(bodies_->rest, bodies_->cells, bodies_->ranges, dofs, kind_);
+    const ActiveStrain<Dim>* strain = strain_.is_empty() ? nullptr : &strain_;
+    ElementLayout<Dim> layout =
+        kind_ == ElementKind::Quadratic
+            ? lay_out_elements<Dim>(bodies_->rest, bodies_->quadratic, dofs, strain)
+            : lay_out_elements<Dim>(bodies_->rest, bodies_->cells, bodies_->ranges, dofs, kind_,
+                                    strain);
+    layout.elements.activate(*workers_, strain_);
+    return layout;
 }
 
 template <int Dim>
@@ -55,7 +54,8 @@ void Elasticity<Dim>::set_dofs(const DofMap& dofs,
 template <int Dim>
 double Elasticity<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
     x_ = &x;
-    energy_ = sum_of(layout_.elements.add_gradient(*workers_, *kernels_, x, gradient), frozen_);
+    energy_ = layout_.elements.add_gradient(*workers_, *kernels_, x, gradient);
+    energy_.add(frozen_);
     if (frozen_gradient_.cols() > 0) {
         gradient += frozen_gradient_;
     }
@@ -84,6 +84,43 @@ void Elasticity<Dim>::add_tangent(const Positions<Dim>& x,
     target.held_shift = shift.data();
     target.right = right.data();
     layout_.elements.add_hessian(*workers_, *kernels_, x, target);
+}
+
+template <int Dim>
+bool Elasticity<Dim>::set_time(const TimeSpan& step) {
+    step_ = step;
+    if (strain_.is_empty() || !strain_.set_time(step.end)) {
+        return false;
+    }
+    layout_.elements.activate(*workers_, strain_);
+    return true;
+}
+
+template <int Dim>
+void Elasticity<Dim>::add_couplings(Couplings& couplings) const {
+    const std::vector<std::size_t> bodies = strain_.changing_bodies(step_.begin, step_.end);
+    couplings.driven.insert(couplings.driven.end(), bodies.begin(), bodies.end());
+}
+
+template <int Dim>
+double Elasticity<Dim>::energy_at(const Positions<Dim>& x, double time) {
+    if (strain_.set_time(time)) {
+        layout_.elements.activate(*workers_, strain_);
+    }
+    Positions<Dim> gradient = Positions<Dim>::Zero(Dim, x.cols());
+    return layout_.elements.add_gradient(*workers_, *kernels_, x, gradient).energy;
+}
+
+template <int Dim>
+double Elasticity<Dim>::activation_work(const Positions<Dim>& from,
+                                        const Positions<Dim>& to,
+                                        const TimeSpan& step) {
+    if (strain_.changing_bodies(step.begin, step.end).empty()) {
+        return 0;
+    }
+    const double before = energy_at(from, step.begin) + energy_at(to, step.begin);
+    const double after = energy_at(from, step.end) + energy_at(to, step.end);
+    return 0.5 * (after - before);
 }
 
 template <int Dim>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/kernels.h"
+#include "model/active_strain.h"
 #include "model/bodies.h"
 #include "potentials/element_layout.h"
 #include "potentials/potential.h"
@@ -20,11 +21,11 @@ template <int Dim>
 class Elasticity final : public Potential<Dim> {
 public:
     /// @param workers, kernels, bodies  Must outlive this.
-    /// @param kind  Quadratic if the bodies have been made for that.
+    /// @param scene  Of which the bodies have been made. Throws as ActiveStrain does.
     Elasticity(const Workers& workers,
                const Kernels<Dim>& kernels,
                const Bodies<Dim>& bodies,
-               ElementKind kind);
+               const Scene& scene);
 
     /// Lays elements out anew.
     ///
@@ -43,7 +44,16 @@ public:
     [[nodiscard]] std::vector<TermEnergy> energies() const override {
         return {{"elastic", energy_.energy}};
     }
+    [[nodiscard]] bool set_time(const TimeSpan& step) override;
+    void add_couplings(Couplings& couplings) const override;
     [[nodiscard]] double rounding() const override;
+
+    /// What the activations do on the bodies while these go from one place to another in a step, J:
+    /// what the energy would change by without that way, the mean of its two ends.
+    [[nodiscard]] double activation_work(const Positions<Dim>& from,
+                                         const Positions<Dim>& to,
+                                         const TimeSpan& step);
+    [[nodiscard]] const ActiveStrain<Dim>& strain() const { return strain_; }
 
     /// Adds the Hessian at positions x to a matrix on pattern(), and takes that of vertices that
     /// have no dof and move by `shift` (Dim x vertices, m) off `right` (Dim x dofs).
@@ -56,6 +66,7 @@ public:
     [[nodiscard]] const BlockPattern& pattern() const { return layout_.pattern; }
     [[nodiscard]] double energy() const { return energy_.energy; }
     [[nodiscard]] std::int64_t collapsed() const { return energy_.collapsed; }  ///< Elements.
+    [[nodiscard]] const std::vector<double>& energy_of_ranges() const { return energy_.of_ranges; }
     [[nodiscard]] std::int64_t inverted_cells() const;
     [[nodiscard]] std::int64_t element_count() const { return layout_.elements.count(); }
     [[nodiscard]] std::int64_t bytes() const { return layout_.elements.bytes(); }
@@ -65,17 +76,20 @@ public:
 
 private:
     [[nodiscard]] ElementLayout<Dim> lay_out(const DofMap& dofs) const;
+    [[nodiscard]] double energy_at(const Positions<Dim>& x, double time);
 
     const Workers* workers_;
     const Kernels<Dim>* kernels_;
     const Bodies<Dim>* bodies_;
     ElementKind kind_;
+    ActiveStrain<Dim> strain_;
+    TimeSpan step_;  // that shapes are those of the end of
     ElementLayout<Dim> layout_;
     // Of bodies that sleep: what does not change.
     Positions<Dim> frozen_gradient_;  // Dim x vertices, N; empty if none sleeps
-    RunEnergy frozen_;
+    ElasticEnergy frozen_;
     const Positions<Dim>* x_ = nullptr;  // last evaluated
-    RunEnergy energy_;
+    ElasticEnergy energy_;
     double hessian_factor_ = 1;
     std::int64_t filtered_ = 0;
 };

@@ -12,11 +12,12 @@ ElementLayout<Dim> lay_out_elements(const Positions<Dim>& rest,
                                     const Simplices<Dim + 1>& cells,
                                     const std::vector<CellRange>& ranges,
                                     const DofMap& dofs,
-                                    ElementKind kind) {
+                                    ElementKind kind,
+                                    const ActiveStrain<Dim>* strain) {
     assert(kind != ElementKind::Quadratic);
     if (kind == ElementKind::Linear) {
         BlockPattern pattern = make_pattern<Dim>(cells, dofs);
-        Elements<Dim> elements(rest, cells, ranges, dofs, pattern);
+        Elements<Dim> elements(rest, cells, ranges, dofs, pattern, strain);
         return {std::move(pattern), std::move(elements)};
     }
     std::vector<SmoothingDomains<Dim>> domains;
@@ -35,23 +36,25 @@ ElementLayout<Dim> lay_out_elements(const Positions<Dim>& rest,
 template <int Dim>
 ElementLayout<Dim> lay_out_elements(const Positions<Dim>& rest,
                                     const QuadraticCells<Dim>& quadratic,
-                                    const DofMap& dofs) {
+                                    const DofMap& dofs,
+                                    const ActiveStrain<Dim>* strain) {
     CornerLists nodes;
     nodes.corners.assign(quadratic.nodes.data(), quadratic.nodes.data() + quadratic.nodes.size());
     for (Eigen::Index simplex = 1; simplex <= quadratic.nodes.cols(); ++simplex) {
         nodes.start.push_back(simplex * kQuadraticNodes<Dim>);
     }
     BlockPattern pattern = make_pattern({&nodes}, dofs);
-    Elements<Dim> elements(rest, quadratic, dofs, pattern);
+    Elements<Dim> elements(rest, quadratic, dofs, pattern, strain);
     return {std::move(pattern), std::move(elements)};
 }
 
 #define PENT_INSTANTIATE(Dim)                                                                      \
     template ElementLayout<Dim> lay_out_elements(const Positions<Dim>&, const Simplices<Dim + 1>&, \
                                                  const std::vector<CellRange>&, const DofMap&,     \
-                                                 ElementKind);                                     \
+                                                 ElementKind, const ActiveStrain<Dim>*);           \
     template ElementLayout<Dim> lay_out_elements(const Positions<Dim>&,                            \
-                                                 const QuadraticCells<Dim>&, const DofMap&);
+                                                 const QuadraticCells<Dim>&, const DofMap&,        \
+                                                 const ActiveStrain<Dim>*);
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE

@@ -23,12 +23,14 @@ template <int Dim>
                                                   const Simplices<Dim + 1>& cells,
                                                   const std::vector<CellRange>& ranges,
                                                   const DofMap& dofs,
-                                                  ElementKind kind);
+                                                  ElementKind kind,
+                                                  const ActiveStrain<Dim>* strain = nullptr);
 
 /// Lays out quadratic elements.
 template <int Dim>
 [[nodiscard]] ElementLayout<Dim> lay_out_elements(const Positions<Dim>& rest,
                                                   const QuadraticCells<Dim>& quadratic,
-                                                  const DofMap& dofs);
+                                                  const DofMap& dofs,
+                                                  const ActiveStrain<Dim>* strain = nullptr);
 
 }  // namespace pent::simulator

@@ -1,5 +1,7 @@
 #include "potentials/elements.h"
 
+#include "model/active_strain.h"
+
 #include <pent/error.h>
 #include <pent/simulator/energy.h>
 
@@ -72,9 +74,18 @@ std::span<const Eigen::Index> next_of(std::span<const Eigen::Index> chosen,
 
 }  // namespace
 
+void ElasticEnergy::add(const ElasticEnergy& other) {
+    energy += other.energy;
+    inverted += other.inverted;
+    collapsed += other.collapsed;
+    for (std::size_t range = 0; range < other.of_ranges.size(); ++range) {
+        of_ranges[range] += other.of_ranges[range];
+    }
+}
+
 template <int Dim>
-Elements<Dim>::Elements(const DofMap& dofs, const BlockPattern& pattern)
-    : dof_count_(dofs.count()) {
+Elements<Dim>::Elements(std::size_t ranges, const DofMap& dofs, const BlockPattern& pattern)
+    : ranges_(ranges), dof_count_(dofs.count()) {
     if (pattern.blocks() > kMaxBlocks) {
         // GCOVR_EXCL_START: 137 GB of blocks
         throw Error("the mesh has " + std::to_string(pattern.blocks()) + " matrix blocks; at most "
@@ -88,8 +99,9 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
                         const Simplices<Dim + 1>& cells,
                         const std::vector<CellRange>& ranges,
                         const DofMap& dofs,
-                        const BlockPattern& pattern)
-    : Elements(dofs, pattern) {
+                        const BlockPattern& pattern,
+                        const ActiveStrain<Dim>* strain)
+    : Elements(ranges.size(), dofs, pattern) {
     const auto make = [&](Eigen::Index cell, Element& element) {
         element.corners.assign(cells.col(cell).begin(), cells.col(cell).end());
         std::sort(
@@ -104,14 +116,17 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
         element.rest.assign(gradients.data(), gradients.data() + gradients.size());
         element.volume = cell_volume<Dim>(rest, cells, cell);
     };
-    for (const CellRange& range : ranges) {
+    for (std::size_t place = 0; place < ranges.size(); ++place) {
+        const CellRange& range = ranges[place];
         const std::vector<Eigen::Index> chosen = elastic_elements(
             range.begin, range.end, dofs, [&](Eigen::Index cell, const auto& visit) {
                 std::for_each(cells.col(cell).begin(), cells.col(cell).end(), visit);
             });
         for (std::size_t first = 0; first < chosen.size(); first += kChunkElements) {
             append(next_of(chosen, first, kChunkElements),
-                   {.corners = Dim + 1, .material = range.material}, make, dofs, pattern);
+                   {.corners = Dim + 1, .material = range.material, .range = place}, make, dofs,
+                   pattern);
+            keep_passive(next_of(chosen, first, kChunkElements), strain);
         }
     }
     color(dofs.vertex_count());
@@ -122,18 +137,18 @@ Elements<Dim>::Elements(const std::vector<SmoothingDomains<Dim>>& domains,
                         const std::vector<CellRange>& ranges,
                         const DofMap& dofs,
                         const BlockPattern& pattern)
-    : Elements(dofs, pattern) {
-    for (std::size_t body = 0; body < domains.size(); ++body) {
-        const SmoothingDomains<Dim>& of_body = domains[body];
+    : Elements(ranges.size(), dofs, pattern) {
+    for (std::size_t place = 0; place < domains.size(); ++place) {
+        const SmoothingDomains<Dim>& of_range = domains[place];
         const auto corner_count = [&](Eigen::Index domain) {
             const auto d = static_cast<std::size_t>(domain);
-            return static_cast<int>(of_body.start[d + 1] - of_body.start[d]);
+            return static_cast<int>(of_range.start[d + 1] - of_range.start[d]);
         };
         const auto make = [&](Eigen::Index domain, Element& element) {
-            const Eigen::Index start = of_body.start[static_cast<std::size_t>(domain)];
+            const Eigen::Index start = of_range.start[static_cast<std::size_t>(domain)];
             std::vector<std::pair<std::uint32_t, Eigen::Index>> keyed;
             for (Eigen::Index i = start; i < start + corner_count(domain); ++i) {
-                const std::uint32_t corner = of_body.corners[static_cast<std::size_t>(i)];
+                const std::uint32_t corner = of_range.corners[static_cast<std::size_t>(i)];
                 keyed.emplace_back(dofs.rank_of(corner), i);
             }
             std::sort(keyed.begin(), keyed.end());
@@ -141,17 +156,17 @@ Elements<Dim>::Elements(const std::vector<SmoothingDomains<Dim>>& domains,
             element.rest.clear();
             for (const auto& [unknown, i] : keyed) {
                 if (!element.corners.empty()) {
-                    const auto gradient = of_body.gradients.col(i);
+                    const auto gradient = of_range.gradients.col(i);
                     element.rest.insert(element.rest.end(), gradient.begin(), gradient.end());
                 }
-                element.corners.push_back(of_body.corners[static_cast<std::size_t>(i)]);
+                element.corners.push_back(of_range.corners[static_cast<std::size_t>(i)]);
             }
-            element.volume = of_body.volumes[static_cast<std::size_t>(domain)];
+            element.volume = of_range.volumes[static_cast<std::size_t>(domain)];
         };
-        std::vector<Eigen::Index> chosen =
-            elastic_elements(0, of_body.count(), dofs, [&](Eigen::Index domain, const auto& visit) {
+        std::vector<Eigen::Index> chosen = elastic_elements(
+            0, of_range.count(), dofs, [&](Eigen::Index domain, const auto& visit) {
                 const auto first =
-                    of_body.corners.begin() + of_body.start[static_cast<std::size_t>(domain)];
+                    of_range.corners.begin() + of_range.start[static_cast<std::size_t>(domain)];
                 std::for_each(first, first + corner_count(domain), visit);
             });
         for (std::size_t near = 0; near < chosen.size(); near += kNearElements) {
@@ -165,7 +180,8 @@ Elements<Dim>::Elements(const std::vector<SmoothingDomains<Dim>>& domains,
                 append(next,
                        {.kind = ElementKind::Smoothed,
                         .corners = corner_count(next.back()),
-                        .material = ranges[body].material},
+                        .material = ranges[place].material,
+                        .range = place},
                        make, dofs, pattern);
             }
         }
@@ -177,8 +193,9 @@ template <int Dim>
 Elements<Dim>::Elements(const Positions<Dim>& rest,
                         const QuadraticCells<Dim>& quadratic,
                         const DofMap& dofs,
-                        const BlockPattern& pattern)
-    : Elements(dofs, pattern) {
+                        const BlockPattern& pattern,
+                        const ActiveStrain<Dim>* strain)
+    : Elements(quadratic.ranges.size(), dofs, pattern) {
     const QuadraticSimplices<Dim>& nodes = quadratic.nodes;
     const auto make = [&](Eigen::Index simplex, Element& element) {
         element.corners.assign(nodes.col(simplex).begin(), nodes.col(simplex).end());
@@ -187,7 +204,8 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
         element.rest.assign(own.rows.begin(), own.rows.end());
         element.volume = own.volume;
     };
-    for (const CellRange& range : quadratic.ranges) {
+    for (std::size_t place = 0; place < quadratic.ranges.size(); ++place) {
+        const CellRange& range = quadratic.ranges[place];
         const std::vector<Eigen::Index> chosen = elastic_elements(
             range.begin, range.end, dofs, [&](Eigen::Index simplex, const auto& visit) {
                 std::for_each(nodes.col(simplex).begin(), nodes.col(simplex).end(), visit);
@@ -196,8 +214,10 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
             append(next_of(chosen, first, kChunkQuadratic),
                    {.kind = ElementKind::Quadratic,
                     .corners = kQuadraticNodes<Dim>,
-                    .material = range.material},
+                    .material = range.material,
+                    .range = place},
                    make, dofs, pattern);
+            keep_passive(next_of(chosen, first, kChunkQuadratic), strain);
         }
     }
     color(dofs.vertex_count());
@@ -242,6 +262,62 @@ void Elements<Dim>::append(std::span<const Eigen::Index> chosen,
     }
     chunks_.push_back(chunk);
     count_ += chunk.elements;
+}
+
+// Keeps the last chunk as it is, if any of its elements will be activated.
+template <int Dim>
+void Elements<Dim>::keep_passive(std::span<const Eigen::Index> chosen,
+                                 const ActiveStrain<Dim>* strain) {
+    const auto is_active = [&](Eigen::Index element) {
+        return strain->of_element(element) != nullptr;
+    };
+    if (strain == nullptr || std::none_of(chosen.begin(), chosen.end(), is_active)) {
+        return;
+    }
+    passive_.push_back(
+        {.chunk = chunks_.size() - 1,
+         .elements = {chosen.begin(), chosen.end()},
+         .rest = {rest_.begin() + static_cast<std::ptrdiff_t>(chunks_.back().first_rest),
+                  rest_.end()}});
+}
+
+template <int Dim>
+void Elements<Dim>::activate(const Workers& workers, const ActiveStrain<Dim>& strain) {
+    workers.for_each(static_cast<int>(passive_.size()),
+                     [&](int i) { activate(passive_[static_cast<std::size_t>(i)], strain); });
+}
+
+// Where F is X G^T, columns of G being the gradients of corners at rest, Fe = F Fa^-1 has the
+// gradients Fa^-T G, and each volume det Fa of it.
+template <int Dim>
+void Elements<Dim>::activate(const Passive& passive, const ActiveStrain<Dim>& strain) {
+    const Chunk& chunk = chunks_[passive.chunk];
+    const std::size_t rows = rest_rows(chunk);
+    // Behind the gradients at a point of a quadratic element stands its share of the volume.
+    const std::size_t per_point =
+        std::size_t{Dim} * Dim + (chunk.kind == ElementKind::Quadratic ? 1 : 0);
+    for (std::size_t lane = 0; lane < passive.elements.size(); ++lane) {
+        const auto* shape = strain.of_element(passive.elements[lane]);
+        if (shape == nullptr) {
+            continue;
+        }
+        const std::size_t first = lane / kGroup * kGroup * rows + lane % kGroup;
+        const auto at = [&](std::size_t row) { return first + row * kGroup; };
+        for (std::size_t point = 0; point + per_point < rows; point += per_point) {
+            for (std::size_t corner = 0; corner < Dim; ++corner) {
+                Vector<Dim> gradient;
+                const std::size_t row = point + corner * Dim;
+                for (std::size_t j = 0; j < Dim; ++j) {
+                    gradient[static_cast<Eigen::Index>(j)] = passive.rest[at(row + j)];
+                }
+                gradient = (shape->inverse.transpose() * gradient).eval();
+                for (std::size_t j = 0; j < Dim; ++j) {
+                    rest_[chunk.first_rest + at(row + j)] = gradient[static_cast<Eigen::Index>(j)];
+                }
+            }
+        }
+        rest_[chunk.first_rest + at(rows - 1)] = passive.rest[at(rows - 1)] * shape->growth;
+    }
 }
 
 template <int Dim>
@@ -319,10 +395,10 @@ ElementRun Elements<Dim>::run(int chunk) const {
 }
 
 template <int Dim>
-RunEnergy Elements<Dim>::add_gradient(const Workers& workers,
-                                      const Kernels<Dim>& kernels,
-                                      const Positions<Dim>& positions,
-                                      Positions<Dim>& gradient) const {
+ElasticEnergy Elements<Dim>::add_gradient(const Workers& workers,
+                                          const Kernels<Dim>& kernels,
+                                          const Positions<Dim>& positions,
+                                          Positions<Dim>& gradient) const {
     std::vector<RunEnergy> parts(chunks_.size());
     for (const std::vector<int>& color : coloring_.colors) {
         workers.for_each(static_cast<int>(color.size()), [&](int i) {
@@ -331,11 +407,13 @@ RunEnergy Elements<Dim>::add_gradient(const Workers& workers,
                 kernels.gradient(run(chunk), positions.data(), gradient.data());
         });
     }
-    RunEnergy total;
-    for (const RunEnergy& part : parts) {
-        total.energy += part.energy;
-        total.inverted += part.inverted;
-        total.collapsed += part.collapsed;
+    ElasticEnergy total;
+    total.of_ranges.assign(ranges_, 0);
+    for (std::size_t chunk = 0; chunk < parts.size(); ++chunk) {
+        total.energy += parts[chunk].energy;
+        total.inverted += parts[chunk].inverted;
+        total.collapsed += parts[chunk].collapsed;
+        total.of_ranges[chunks_[chunk].range] += parts[chunk].energy;
     }
     return total;
 }

@@ -17,6 +17,9 @@
 
 namespace pent::simulator {
 
+template <int Dim>
+class ActiveStrain;
+
 /// Where the Hessian times `scale` goes, without the part of held vertices.
 template <int Dim, typename Scalar>
 [[nodiscard]] HessianTarget<Scalar> target_in(BlockMatrix<Dim, Scalar>& matrix,
@@ -25,6 +28,13 @@ template <int Dim, typename Scalar>
     return {.values = matrix.values(), .scale = scale, .filter = filter};
 }
 
+/// What elastic elements add up to.
+struct ElasticEnergy : RunEnergy {
+    std::vector<double> of_ranges;  ///< J: of every range of cells.
+
+    void add(const ElasticEnergy& other);
+};
+
 /// The elastic elements of all bodies, those with at least one vertex that has a dof, laid out for
 /// kernels: cells, the domains of smoothed cells, or quadratic cells.
 template <int Dim>
@@ -32,15 +42,17 @@ class Elements {
 public:
     /// @param rest     Rest positions of all vertices, Dim x n.
     /// @param cells    All cells, positively oriented.
-    /// @param ranges   One a body; they cover all cells.
+    /// @param ranges   They cover all cells.
     /// @param pattern  Of the matrix that hessian() fills.
+    /// @param strain   Of what activate() will be called with; null if it will not be.
     Elements(const Positions<Dim>& rest,
              const Simplices<Dim + 1>& cells,
              const std::vector<CellRange>& ranges,
              const DofMap& dofs,
-             const BlockPattern& pattern);
+             const BlockPattern& pattern,
+             const ActiveStrain<Dim>* strain = nullptr);
 
-    /// @param domains  One a body, and so are the ranges, of which the materials count.
+    /// @param domains  Of each range.
     Elements(const std::vector<SmoothingDomains<Dim>>& domains,
              const std::vector<CellRange>& ranges,
              const DofMap& dofs,
@@ -50,13 +62,17 @@ public:
     Elements(const Positions<Dim>& rest,
              const QuadraticCells<Dim>& quadratic,
              const DofMap& dofs,
-             const BlockPattern& pattern);
+             const BlockPattern& pattern,
+             const ActiveStrain<Dim>* strain = nullptr);
+
+    /// Gives elements the rest shapes that activations make of them now.
+    void activate(const Workers& workers, const ActiveStrain<Dim>& strain);
 
     /// Adds the gradient of the elastic energy to `gradient` (Dim x vertices); returns the energy.
-    RunEnergy add_gradient(const Workers& workers,
-                           const Kernels<Dim>& kernels,
-                           const Positions<Dim>& positions,
-                           Positions<Dim>& gradient) const;
+    ElasticEnergy add_gradient(const Workers& workers,
+                               const Kernels<Dim>& kernels,
+                               const Positions<Dim>& positions,
+                               Positions<Dim>& gradient) const;
 
     /// Adds the filtered Hessian; returns how many elements the filter changed.
     template <typename Scalar>
@@ -82,13 +98,21 @@ private:
         int elements = 0;
         int corners = 0;
         Material material;
+        std::size_t range = 0;  // of cells, that it is of
         double collapse_norm = 0;
         std::size_t first_rest = 0;  // where its rows begin in the arrays
         std::size_t first_corner = 0;
         std::size_t first_block = 0;
     };
 
-    Elements(const DofMap& dofs, const BlockPattern& pattern);
+    // Chunks of which an element is activated: what the elements are without that.
+    struct Passive {
+        std::size_t chunk = 0;
+        std::vector<Eigen::Index> elements;
+        std::vector<double> rest;  // its rows
+    };
+
+    Elements(std::size_t ranges, const DofMap& dofs, const BlockPattern& pattern);
 
     template <typename Make>
     void append(std::span<const Eigen::Index> chosen,
@@ -102,6 +126,8 @@ private:
                   const DofMap& dofs,
                   const BlockPattern& pattern);
     [[nodiscard]] static std::size_t rest_rows(const Chunk& chunk);
+    void keep_passive(std::span<const Eigen::Index> chosen, const ActiveStrain<Dim>* strain);
+    void activate(const Passive& passive, const ActiveStrain<Dim>& strain);
     void color(std::size_t vertices);
     [[nodiscard]] ElementRun run(int chunk) const;
 
@@ -110,7 +136,9 @@ private:
     std::vector<std::uint32_t> unknowns_;
     std::vector<std::int32_t> blocks_;
     std::vector<Chunk> chunks_;
+    std::vector<Passive> passive_;
     Coloring coloring_;
+    std::size_t ranges_ = 0;
     std::uint32_t dof_count_ = 0;
     std::int64_t count_ = 0;
 };

@@ -40,8 +40,7 @@ SceneEnergy<Dim>::SceneEnergy(const Workers& workers,
     if (!scene.gravity.isZero(0)) {
         sum.add(std::make_unique<Gravity<Dim>>(workers, bodies.masses, scene.gravity));
     }
-    elasticity = &sum.add(
-        std::make_unique<Elasticity<Dim>>(workers, kernels, bodies, scene.solver.elements));
+    elasticity = &sum.add(std::make_unique<Elasticity<Dim>>(workers, kernels, bodies, scene));
     if (auto loads = std::make_unique<ForceLoads<Dim>>(scene, bodies); !loads->is_empty()) {
         sum.add(std::move(loads));
     }

@@ -1,5 +1,7 @@
 #include "potentials/smoothing.h"
 
+#include <pent/geometry.h>
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -54,11 +56,8 @@ struct WeighedCell {
 
     WeighedCell(const Positions<Dim>& rest, const Simplices<Dim + 1>& cells, Eigen::Index cell)
         : volume(cell_volume<Dim>(rest, cells, cell)) {
-        Eigen::Matrix<double, Dim, Dim> Dm;
-        for (int a = 0; a < Dim; ++a) {
-            Dm.col(a) = rest.col(cells(a + 1, cell)) - rest.col(cells(0, cell));
-        }
-        gradients.template rightCols<Dim>() = volume * Dm.inverse().transpose();
+        gradients.template rightCols<Dim>() =
+            volume * edge_matrix<Dim>(rest, cells, cell).inverse().transpose();
         gradients.col(0) = -gradients.template rightCols<Dim>().rowwise().sum();
     }
 };

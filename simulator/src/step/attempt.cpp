@@ -20,6 +20,10 @@ constexpr double kNegligible = 1e-10;
 // what it asks for: two thousandths of either, by default.
 constexpr double kSettled = 20;
 
+// Nothing sane moves by so many of the scene's extent in a step, and beyond it crossings drown in
+// rounding.
+constexpr double kMaxExtents = 1e3;
+
 // Dirichlet vertices have arrived when they are this part of the scene's extent from their place.
 constexpr double kArrived = 1e-14;
 
@@ -62,7 +66,6 @@ void Simulation<Dim>::Stepper::set_velocities(const StepProblem<Dim>& problem, d
 // Why the new state is none; empty unless it is beyond bounds that only a failed step leaves.
 template <int Dim>
 std::string Simulation<Dim>::Stepper::failure_reason(const Energies& before) const {
-    constexpr double kMaxExtents = 1e3;
     constexpr double kMaxGrowth = 1e2;
     if (!next_.positions.allFinite() || !next_.velocities.allFinite()
         || !energy_.sum.gradient().allFinite()
@@ -111,6 +114,7 @@ NewtonReport Simulation<Dim>::Stepper::minimize() {
     return newton(potential_,
                   {.tolerance = scene_.solver.newton_tolerance,
                    .min_correction = kNegligible * extent_,
+                   .bound = kMaxExtents * extent_,
                    .max_iterations = kMaxIterations,
                    .start_value = start.value,
                    .start_norm = start.gradient.norm()},
@@ -133,6 +137,7 @@ NewtonReport Simulation<Dim>::Stepper::minimize_bounded(const StepProblem<Dim>& 
                 .min_correction = std::max(kNegligible * extent_,
                                            tolerance * std::min(scene_.contact->distance, extent_)),
                 .settled = kSettled,
+                .bound = kMaxExtents * extent_,
                 .arrival = kArrived * extent_,
                 .max_iterations = kMaxBoundedIterations,
                 .extends_steps = true},

@@ -30,9 +30,8 @@ SimplexMesh<Dim> cells_of(const Bodies<Dim>& bodies,
     }
     std::vector<Eigen::Index> cells;
     SimplexMesh<Dim> mesh;
-    for (std::size_t body = 0; body < bodies.ranges.size(); ++body) {
-        for (Eigen::Index cell = bodies.ranges[body].begin; cell < bodies.ranges[body].end;
-             ++cell) {
+    for (const CellRange& range : bodies.ranges) {
+        for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
             bool is_one = false;
             for (int corner = 0; corner <= Dim && !is_one; ++corner) {
                 for (const std::uint32_t s : at_vertex[bodies.cells(corner, cell)]) {
@@ -41,7 +40,7 @@ SimplexMesh<Dim> cells_of(const Bodies<Dim>& bodies,
             }
             if (is_one) {
                 cells.push_back(cell);
-                mesh.regions.push_back(static_cast<std::uint16_t>(body));
+                mesh.regions.push_back(static_cast<std::uint16_t>(range.body));
             }
         }
     }

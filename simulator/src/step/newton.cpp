@@ -57,6 +57,7 @@ public:
 
     NewtonReport run() {
         at_ = function_.evaluate(x_);
+        start_ = x_;
         start_value_ = options_.start_norm ? options_.start_value : at_.value;
         start_norm_ = options_.start_norm.value_or(at_.gradient.norm());
         shift_ = function_.prescribed_shift(x_);
@@ -108,6 +109,9 @@ private:
         }
         if (!factor) {
             return fail("the line search found no decrease");
+        }
+        if (!((x_ - start_).cwiseAbs().maxCoeff() < options_.bound)) {
+            return fail("the motion grew beyond all bounds");
         }
         const bool has_changed = function_.accept(x_);
         if (!is_pending_ && *factor >= 1
@@ -247,6 +251,7 @@ private:
     const NewtonOptions& options_;
     Positions<Dim>& x_;
     Positions<Dim> trial_;
+    Positions<Dim> start_;
     Evaluation<Dim> at_;       // at x
     bool is_current_ = true;   // whether the function was last evaluated there
     Positions<Dim> shift_;     // of prescribed points, to their places

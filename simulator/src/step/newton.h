@@ -2,6 +2,7 @@
 
 #include "step/objective.h"
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -12,6 +13,9 @@ struct NewtonOptions {
     double min_correction = 0;  ///< Largest coordinate of a correction below which it is none.
     double settled = 0;  ///< A whole correction below so many min_correction, and a gradient below
                          ///< so many tolerances, are an end, too; 0 for no such rule.
+    double bound =
+        std::numeric_limits<double>::infinity();  ///< A coordinate that goes farther than
+                                                  ///< that from the start is a failure.
     double arrival = 0;  ///< How near to its place a prescribed point has arrived.
     int max_iterations = 150;
     bool extends_steps = false;  ///< Whether a whole step may go on along its line.

@@ -295,6 +295,8 @@ StepReport Simulation<Dim>::Stepper::step() {
     StepReport report;
     report.is_accepted = workers_.run([&] { return advance(time(), scene_.dt(), 0, report); });
     if (report.is_accepted) {
+        report.activation_work = energy_.elasticity->activation_work(
+            before.positions, current_.positions, {time(), time() + scene_.dt()});
         ++steps_;
         evaluate_current();
         break_springs();
@@ -315,9 +317,21 @@ StepReport Simulation<Dim>::Stepper::step() {
     if (energy_.attachments != nullptr) {
         report.attachments = energy_.attachments->summaries();
     }
+    report.regions = regions();
     add_work(report);
     report.seconds = watch.seconds();
     return report;
+}
+
+template <int Dim>
+std::vector<RegionSummary> Simulation<Dim>::Stepper::regions() const {
+    std::vector<RegionSummary> all;
+    for (std::size_t range = 0; range < bodies_.ranges.size(); ++range) {
+        if (bodies_.ranges[range].region > 0) {
+            all.push_back({energy_.elasticity->energy_of_ranges()[range]});
+        }
+    }
+    return all;
 }
 
 // A body that sleeps keeps the forces with which it fell asleep: what touches it sleeps, too, or

@@ -37,6 +37,7 @@ public:
     [[nodiscard]] const Positions<Dim>& forces() const { return forces_; }
     [[nodiscard]] Positions<Dim> contact_forces() const;
     [[nodiscard]] const ContactPotential<Dim>& contact() const { return *energy_.contact; }
+    [[nodiscard]] const ActiveStrain<Dim>& strain() const { return energy_.elasticity->strain(); }
     [[nodiscard]] const std::vector<SleepState>& sleep() const { return islands_.states(); }
     [[nodiscard]] Energies energies() const;
     [[nodiscard]] SimulationSize size() const;
@@ -63,6 +64,7 @@ private:
     void refuse_crossings(const Positions<Dim>& positions) const;
     void add_work(StepReport& report);
     [[nodiscard]] std::vector<std::uint8_t> broken_springs() const;
+    [[nodiscard]] std::vector<RegionSummary> regions() const;
     [[nodiscard]] double kinetic_energy(const Positions<Dim>& velocities) const;
 
     Scene scene_;

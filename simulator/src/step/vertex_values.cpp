@@ -24,23 +24,29 @@ Positions<Dim> reactions(const Bodies<Dim>& bodies, const Positions<Dim>& forces
 // The mean over the cells at each vertex, weighted by their volumes at rest.
 template <int Dim>
 Eigen::RowVectorXd energy_densities(const Bodies<Dim>& bodies,
+                                    const ActiveStrain<Dim>& strain,
                                     std::size_t body,
                                     const Positions<Dim>& x) {
-    const CellRange& range = bodies.ranges[body];
     const auto vertices = bodies.vertices(body);
     Eigen::RowVectorXd energy = Eigen::RowVectorXd::Zero(vertices.size);
     Eigen::RowVectorXd volume = Eigen::RowVectorXd::Zero(vertices.size);
-    for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
-        const Eigen::Matrix<double, Dim, Dim> rest =
-            edge_matrix<Dim>(bodies.rest, bodies.cells, cell);
-        const Eigen::Matrix<double, Dim, Dim> F =
-            edge_matrix<Dim>(x, bodies.cells, cell) * rest.inverse();
-        const double weight = rest.determinant();
-        const double density = energy_density(range.material, F);
-        for (int a = 0; a <= Dim; ++a) {
-            const Eigen::Index vertex = bodies.cells(a, cell) - vertices.begin;
-            energy[vertex] += weight * density;
-            volume[vertex] += weight;
+    for (const CellRange& range : bodies.ranges) {
+        for (Eigen::Index cell = range.begin; range.body == body && cell < range.end; ++cell) {
+            const Eigen::Matrix<double, Dim, Dim> rest =
+                edge_matrix<Dim>(bodies.rest, bodies.cells, cell);
+            const Eigen::Matrix<double, Dim, Dim> F =
+                edge_matrix<Dim>(x, bodies.cells, cell) * rest.inverse();
+            const double weight = rest.determinant();
+            const auto* shape = strain.of_cell(cell);
+            const double density =
+                shape == nullptr
+                    ? energy_density(range.material, F)
+                    : shape->growth * energy_density(range.material, F * shape->inverse);
+            for (int a = 0; a <= Dim; ++a) {
+                const Eigen::Index vertex = bodies.cells(a, cell) - vertices.begin;
+                energy[vertex] += weight * density;
+                volume[vertex] += weight;
+            }
         }
     }
     return energy.cwiseQuotient(volume);  // every vertex belongs to a cell
@@ -61,7 +67,8 @@ Eigen::MatrixXd Simulation<Dim>::vertex_values(VertexQuantity quantity, int body
         case VertexQuantity::EnergyDensity:
             break;
     }
-    return energy_densities(stepper_->bodies(), place, stepper_->current().positions);
+    return energy_densities(stepper_->bodies(), stepper_->strain(), place,
+                            stepper_->current().positions);
 }
 
 template Eigen::MatrixXd Simulation<3>::vertex_values(VertexQuantity, int) const;

@@ -54,6 +54,17 @@ inline constexpr Field kLambda =
 
 inline constexpr Field kLamePairs[] = {kYoung, kPoisson, kMu, kLambda};
 
+template <PartOf<Region> Part, typename Visit>
+void fields(Part& region, const Visit& visit) {
+    visit(key("name", "", "as of a body; used once in it").required(), region.name);
+    visit(key("select", "",
+              "as of a constraint, but of cells: those with their center there, with all vertices "
+              "in the layers, or with the region label")
+              .required(),
+          region.select);
+    visit(key("material", "", "as of a body").required(), region.material);
+}
+
 template <PartOf<Body> Part, typename Visit>
 void fields(Part& body, const Visit& visit) {
     visit(key("name", "", "1 to 100 letters, digits, `-`, `_`; used once").required(), body.name);
@@ -73,6 +84,8 @@ void fields(Part& body, const Visit& visit) {
               .may_be_missing()
               .default_is("that of `[contact]`"),
           body.friction);
+    visit(key("region", "", "cells of another material; of what two select the later one has it"),
+          body.regions);
 }
 
 }  // namespace pent::simulator

@@ -118,27 +118,4 @@ void fields(Part& attachment, const Visit& visit) {
           attachment.contact);
 }
 
-template <PartOf<Keyframe> Part, typename Visit>
-void fields(Part& keyframe, const Visit& visit) {
-    visit(key("time", "s", "", kNotNegative).required(), keyframe.time);
-    visit(key("factor").required(), keyframe.factor);
-}
-
-template <PartOf<Load> Part, typename Visit>
-void fields(Part& load, const Visit& visit) {
-    visit(key("body", "", "its name").required(), load.body);
-    visit(key("select", "", "as of a constraint").required(), load.select);
-    visit(key("force", "N", "of all selected vertices together; of constant direction")
-              .may_be_missing(),
-          load.force);
-    visit(key("pressure", "N/m^(n-1)",
-              "on the facets of the boundary of which every vertex is selected, against their "
-              "outward normals as they are now; below 0 it pulls"),
-          load.pressure);
-    visit(key("keyframes", "",
-              "what both are multiplied by: a smooth curve through these, constant before and "
-              "behind them"),
-          load.keyframes);
-}
-
 }  // namespace pent::simulator

@@ -26,10 +26,29 @@ template <int Dim>
                                                          const std::vector<Selection>& select,
                                                          const std::string& where);
 
+/// Which cells of a placed mesh are selected by any of these, one entry a cell: those whose center
+/// (the mean of the corners) is in a ball, box or half-space, those with all corners in layers, and
+/// those with a region label. Throws as select_vertices() does.
+template <int Dim>
+[[nodiscard]] std::vector<bool> select_cells(const SimplexMesh<Dim>& mesh,
+                                             const std::vector<Selection>& select,
+                                             const std::string& where);
+
+/// Of what every cell of a placed mesh is: 0 for the material of the body, i + 1 for that of its
+/// i-th region. Throws an Error if a region selects nothing.
+template <int Dim>
+[[nodiscard]] std::vector<std::uint16_t> materials_of_cells(const SimplexMesh<Dim>& mesh,
+                                                            const Body& body);
+
+/// The material of that number.
+[[nodiscard]] const Material& material_of(const Body& body, std::uint16_t number);
+
 /// "scene.toml:4:8: constraint on "a"", for messages.
 [[nodiscard]] std::string place_and_name(const Constraint& constraint);
 [[nodiscard]] std::string place_and_name(const Load& load);
+[[nodiscard]] std::string place_and_name(const Activation& activation);
 [[nodiscard]] std::string place_and_name(const Attachment& attachment);
+[[nodiscard]] std::string place_and_name(const Region& region);
 
 /// Vertices that a constraint, a load or an attachment selects.
 template <int Dim, typename Selecting>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/simulator/activation.h>
 #include <pent/simulator/attachment.h>
 #include <pent/simulator/body.h>
 #include <pent/simulator/constraint.h>
@@ -48,6 +49,7 @@ struct Scene {
     std::vector<Body> bodies;
     std::vector<Constraint> constraints;
     std::vector<Load> loads;
+    std::vector<Activation> activations;
     std::vector<Attachment> attachments;
     std::vector<Obstacle> obstacles;
     std::optional<Contact> contact;  ///< Absent: bodies pass through one another, at no cost.

@@ -28,15 +28,23 @@ template <>
 template <>
 [[nodiscard]] std::optional<Fault> fault_of(const Load& load);
 template <>
+[[nodiscard]] std::optional<Fault> fault_of(const Activation& activation);
+template <>
 [[nodiscard]] std::optional<Fault> fault_of(const Attachment& attachment);
 template <>
 [[nodiscard]] std::optional<Fault> fault_of(const Obstacle& obstacle);
+
+/// Whether every region of a body has a name, and each another.
+void check_regions(const Body& body);
 
 /// A barrier needs an integrator that iterates.
 void check_model(ContactModel model, Integrator integrator);
 
 /// Whether bodies have these names.
 void check_pairs(const std::vector<BodyPair>& pairs, const Scene& scene);
+
+/// Smoothed elements know no activation.
+void check_activations(const Scene& scene);
 
 /// Where there is no motion nothing can come to rest.
 void check_sleeping(Integrator integrator);

@@ -4,10 +4,11 @@
 #include <pent/simulator/constraint_schema.h>
 #include <pent/simulator/contact_schema.h>
 #include <pent/simulator/field.h>
+#include <pent/simulator/load_schema.h>
 #include <pent/simulator/scene.h>
 
 /// The schema of scenes: every key is written once, here and in the headers of bodies,
-/// constraints and contact.
+/// constraints, loads and contact.
 ///
 /// fields(part, visit) calls visit(Field, member) for each key of a part of a scene, in the order
 /// in which files have them; blocks(scene, visit) calls visit(name, member) for each block.
@@ -86,6 +87,7 @@ void blocks(Part& scene, const Visit& visit) {
     visit("body", scene.bodies);
     visit("constraint", scene.constraints);
     visit("load", scene.loads);
+    visit("activation", scene.activations);
     visit("attachment", scene.attachments);
     visit("obstacle", scene.obstacles);
     visit("contact", scene.contact);

@@ -54,6 +54,11 @@ struct AttachmentSummary {
     double largest_force = 0;  ///< Of one spring, N.
 };
 
+/// A region of a body at the end of a step.
+struct RegionSummary {
+    double energy = 0;  ///< Elastic, J.
+};
+
 /// What one step did.
 struct StepReport {
     std::uint64_t step = 0;     ///< Steps taken so far, this one included.
@@ -79,6 +84,8 @@ struct StepReport {
     Energies energies;  ///< At the end.
     ContactSummary contact;
     std::vector<AttachmentSummary> attachments;  ///< One for each of the scene.
+    std::vector<RegionSummary> regions;          ///< Of all bodies, one body after the other.
+    double activation_work = 0;                  ///< Done on the bodies in the step, J.
     double assembly_seconds = 0;
     double solve_seconds = 0;
     double seconds = 0;  ///< All of the step.

@@ -1,0 +1,284 @@
+#include "model/active_strain.h"
+
+#include "model/distance_field.h"
+#include "model/keyframes.h"
+
+#include <pent/error.h>
+#include <pent/simulator/placed_mesh.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pent::simulator {
+
+namespace {
+
+constexpr std::int32_t kNoShape = -1;
+
+// Part of a pulse in which it rises, and in which it falls.
+constexpr double kFlank = 0.2;
+
+// Gradients of a distance have length 1 but where it begins.
+constexpr double kNoDirection = 1e-6;
+
+double smooth(double s) {
+    const double t = std::clamp(s, 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
+
+// The elements of a body as a mesh: its cells as Bodies has them, or its quadratic cells as if their
+// edges were straight.
+template <int Dim>
+SimplexMesh<Dim> elements_of(const Bodies<Dim>& bodies, std::size_t body) {
+    const SimplexMesh<Dim>& mesh = bodies.meshes[body];
+    const auto first_vertex = static_cast<std::uint32_t>(bodies.first_vertex[body]);
+    SimplexMesh<Dim> elements;
+    elements.positions = mesh.positions;
+    elements.layers = mesh.layers;
+    std::vector<std::uint32_t> labeled;  // cell of the mesh that has the labels of each
+    const auto add = [&](Eigen::Index begin, Eigen::Index end, const auto& corners,
+                         const auto& cell_of) {
+        elements.cells.resize(Dim + 1, end - begin);
+        for (Eigen::Index i = begin; i < end; ++i) {
+            elements.cells.col(i - begin) =
+                corners.col(i).template head<Dim + 1>().array() - first_vertex;
+            labeled.push_back(cell_of(i));
+        }
+    };
+    const auto range = bodies.elements_of(body);
+    if (bodies.quadratic.nodes.cols() > 0) {
+        add(range.begin, range.begin + range.size, bodies.quadratic.nodes, [&](Eigen::Index i) {
+            return bodies.quadratic.first_child[static_cast<std::size_t>(i)];
+        });
+    } else {
+        add(range.begin, range.begin + range.size, bodies.cells,
+            [&](Eigen::Index i) { return bodies.mesh_cell(body, i); });
+    }
+    for (const std::uint32_t cell : labeled) {
+        if (!mesh.regions.empty()) {
+            elements.regions.push_back(mesh.regions[cell]);
+        }
+    }
+    if (mesh.fibers.cols() > 0) {
+        elements.fibers.resize(Dim, elements.cell_count());
+        for (std::size_t i = 0; i < labeled.size(); ++i) {
+            elements.fibers.col(static_cast<Eigen::Index>(i)) = mesh.fibers.col(labeled[i]);
+        }
+    }
+    return elements;
+}
+
+// The distance of every vertex from what an activation says.
+template <int Dim>
+Eigen::VectorXd distances(const Activation& activation, const SimplexMesh<Dim>& elements) {
+    const std::string where = place_and_name(activation);
+    const Eigen::VectorXd all = distance_within<Dim>(
+        elements, select_vertices(elements, activation.away_from, where + " (away_from)"));
+    for (const std::uint32_t vertex : elements.cells.reshaped()) {
+        if (!std::isfinite(all[vertex])) {
+            throw Error(where + ": no way within the body leads from \"away_from\" to vertex "
+                        + std::to_string(vertex) + "; select a vertex of each of its parts");
+        }
+    }
+    return all;
+}
+
+template <int Dim>
+Vector<Dim> unit(const Vector<Dim>& vector) {
+    const double length = vector.norm();
+    return length > kNoDirection ? Vector<Dim>(vector / length) : Vector<Dim>::Zero();
+}
+
+}  // namespace
+
+double signal_at(const Activation& activation, double time, double delay) {
+    const double periods = activation.frequency * time + activation.phase - delay;
+    switch (activation.signal) {
+        case Signal::Constant:
+            return 1;
+        case Signal::Keyframes:
+            return factor_at(activation.keyframes, time);
+        case Signal::Sine:
+            return 0.5 * (1 + std::sin(2 * std::numbers::pi * (periods - std::floor(periods))));
+        case Signal::Pulses:
+            break;
+    }
+    const double part = (periods - std::floor(periods)) / activation.duty;
+    return smooth(part / kFlank) * smooth((1 - part) / kFlank);
+}
+
+template <int Dim>
+Matrix<Dim> active_deformation(const Activation& activation,
+                               double signal,
+                               const Vector<Dim>& direction) {
+    const double stretch = 1 + signal * (activation.stretch - 1);
+    if (activation.fibers == Fibers::None) {
+        return stretch * Matrix<Dim>::Identity();
+    }
+    if (direction.isZero(0)) {
+        return Matrix<Dim>::Identity();
+    }
+    const double across = activation.preserves_volume ? std::pow(stretch, -1.0 / (Dim - 1)) : 1.0;
+    return across * Matrix<Dim>::Identity()
+           + (stretch - across) * direction * direction.transpose();
+}
+
+template <int Dim>
+ActiveStrain<Dim>::ActiveStrain(const Scene& scene, const Bodies<Dim>& bodies) {
+    for (const Activation& activation : scene.activations) {
+        const std::size_t body = index_of(scene, activation.body);
+        const auto range = bodies.elements_of(body);
+        muscles_.push_back(make_muscle(activation, body, elements_of(bodies, body), range.begin));
+    }
+    if (muscles_.empty()) {
+        return;
+    }
+    shape_of_.assign(static_cast<std::size_t>(bodies.element_count()), kNoShape);
+    for (const Muscle& muscle : muscles_) {
+        for (const Fiber& fiber : muscle.fibers) {
+            if (shape_of_[fiber.element] == kNoShape) {
+                shape_of_[fiber.element] = static_cast<std::int32_t>(shapes_.size());
+                shapes_.emplace_back();
+            }
+        }
+    }
+    if (bodies.quadratic.nodes.cols() > 0) {
+        find_cells_of_elements(scene, bodies);
+    }
+    static_cast<void>(set_time(0));
+}
+
+template <int Dim>
+typename ActiveStrain<Dim>::Muscle ActiveStrain<Dim>::make_muscle(const Activation& activation,
+                                                                  std::size_t body,
+                                                                  const SimplexMesh<Dim>& elements,
+                                                                  Eigen::Index first) {
+    const std::string where = place_and_name(activation);
+    const std::vector<bool> is_in = select_cells(elements, activation.select, where);
+    if (activation.fibers == Fibers::Mesh && elements.fibers.cols() == 0) {
+        throw Error(where + ": fibers = \"mesh\", but the mesh has none; expected the properties"
+                            " fiber_x, fiber_y .. of its cells (docs/pent-format.md)");
+    }
+    const bool has_distance = activation.fibers == Fibers::Distance;
+    const Eigen::VectorXd distance =
+        has_distance ? distances(activation, elements) : Eigen::VectorXd();
+    Muscle muscle{activation, body, {}};
+    for (Eigen::Index i = 0; i < elements.cell_count(); ++i) {
+        if (!is_in[static_cast<std::size_t>(i)]) {
+            continue;
+        }
+        Fiber fiber;
+        fiber.element = static_cast<std::uint32_t>(first + i);
+        if (activation.fibers == Fibers::Constant) {
+            fiber.direction = activation.direction;
+        } else if (activation.fibers == Fibers::Mesh) {
+            fiber.direction = unit<Dim>(elements.fibers.col(i));
+        } else if (has_distance) {
+            fiber.direction = unit<Dim>(gradient_in_cell(elements, i, distance));
+        }
+        for (const std::uint32_t corner : elements.cells.col(i)) {
+            if (activation.wave.size() > 0) {
+                fiber.delay += activation.wave.dot(elements.positions.col(corner)) / (Dim + 1);
+            }
+            if (has_distance) {
+                fiber.delay += activation.distance_wave * distance[corner] / (Dim + 1);
+            }
+        }
+        muscle.fibers.push_back(fiber);
+    }
+    return muscle;
+}
+
+// Which quadratic cell each cell is a child of.
+template <int Dim>
+void ActiveStrain<Dim>::find_cells_of_elements(const Scene& scene, const Bodies<Dim>& bodies) {
+    constexpr Eigen::Index kChildren = Eigen::Index{1} << Dim;
+    parent_of_.resize(static_cast<std::size_t>(bodies.cells.cols()));
+    for (std::size_t body = 0; body < bodies.count(); ++body) {
+        const std::vector<Eigen::Index> children =
+            child_cells<Dim>(bodies.meshes[body], scene.bodies[body].mesh);
+        std::vector<std::uint32_t> of_mesh_cell(children.size());
+        std::vector<Eigen::Index> group_of(children.size());
+        for (std::size_t i = 0; i < children.size(); ++i) {
+            group_of[static_cast<std::size_t>(children[i])] =
+                static_cast<Eigen::Index>(i) / kChildren;
+        }
+        const auto range = bodies.elements_of(body);
+        for (Eigen::Index element = range.begin; element < range.begin + range.size; ++element) {
+            const std::uint32_t first =
+                bodies.quadratic.first_child[static_cast<std::size_t>(element)];
+            for (Eigen::Index k = 0; k < kChildren; ++k) {
+                const Eigen::Index child =
+                    children[static_cast<std::size_t>(group_of[first] * kChildren + k)];
+                of_mesh_cell[static_cast<std::size_t>(child)] = static_cast<std::uint32_t>(element);
+            }
+        }
+        const auto cells = bodies.cells_of(body);
+        for (Eigen::Index cell = cells.begin; cell < cells.begin + cells.size; ++cell) {
+            parent_of_[static_cast<std::size_t>(cell)] = of_mesh_cell[bodies.mesh_cell(body, cell)];
+        }
+    }
+}
+
+template <int Dim>
+bool ActiveStrain<Dim>::set_time(double time) {
+    std::vector<Matrix<Dim>> deformations(shapes_.size(), Matrix<Dim>::Identity());
+    for (const Muscle& muscle : muscles_) {
+        for (const Fiber& fiber : muscle.fibers) {
+            Matrix<Dim>& all = deformations[static_cast<std::size_t>(shape_of_[fiber.element])];
+            all = (active_deformation<Dim>(muscle.activation,
+                                           signal_at(muscle.activation, time, fiber.delay),
+                                           fiber.direction)
+                   * all)
+                      .eval();
+        }
+    }
+    bool has_changed = false;
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+        const Shape shape{deformations[i].inverse(), deformations[i].determinant()};
+        has_changed = has_changed || !(shape == shapes_[i]);
+        shapes_[i] = shape;
+    }
+    return has_changed;
+}
+
+template <int Dim>
+const typename ActiveStrain<Dim>::Shape* ActiveStrain<Dim>::of_element(Eigen::Index element) const {
+    if (shape_of_.empty()) {
+        return nullptr;
+    }
+    const std::int32_t shape = shape_of_[static_cast<std::size_t>(element)];
+    return shape == kNoShape ? nullptr : &shapes_[static_cast<std::size_t>(shape)];
+}
+
+template <int Dim>
+const typename ActiveStrain<Dim>::Shape* ActiveStrain<Dim>::of_cell(Eigen::Index cell) const {
+    return of_element(parent_of_.empty() ? cell : parent_of_[static_cast<std::size_t>(cell)]);
+}
+
+template <int Dim>
+std::vector<std::size_t> ActiveStrain<Dim>::changing_bodies(double from, double to) const {
+    std::vector<std::size_t> bodies;
+    for (const Muscle& muscle : muscles_) {
+        const auto is_changing = [&](const Fiber& fiber) {
+            return signal_at(muscle.activation, from, fiber.delay)
+                   != signal_at(muscle.activation, to, fiber.delay);
+        };
+        if (std::any_of(muscle.fibers.begin(), muscle.fibers.end(), is_changing)) {
+            bodies.push_back(muscle.body);
+        }
+    }
+    return bodies;
+}
+
+#define PENT_INSTANTIATE(Dim)         \
+    template class ActiveStrain<Dim>; \
+    template Matrix<Dim> active_deformation<Dim>(const Activation&, double, const Vector<Dim>&);
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent::simulator
