@@ -143,6 +143,25 @@ TEST(Filter, IsClampWhereTheMatrixIsNotPositiveDefiniteWithoutIt) {
     }
 }
 
+// What a host may do and does not is in no report, no snapshot and no matrix.
+TEST(Host, HasNothingThereUntilItDoesSomething) {
+    Scene scene = test::box_scene<4>();
+    scene.bodies[0].velocity = Eigen::Vector4d(0, 1, 0, 0);
+    Simulation<4> simulation(scene, {cube<4>()});
+    const StepReport report = simulation.step();
+    ASSERT_EQ(report.energies.terms.size(), 1U);
+    EXPECT_EQ(report.energies.terms[0].name, "elastic");
+    const HostState<4> host = simulation.save().host;
+    EXPECT_TRUE(!host.gravity && host.forces.cols() == 0 && host.grabs.empty()
+                && host.held.empty());
+    const std::int64_t unknowns = report.unknowns;
+    simulation.set_targets(0, {0}, simulation.positions(0).leftCols(1));
+    EXPECT_EQ(simulation.step().unknowns, unknowns - 4);
+    simulation.release(0, {0});
+    EXPECT_EQ(simulation.step().unknowns, unknowns);
+    EXPECT_TRUE(simulation.save().host.held.empty());
+}
+
 TEST(History, IsKeptForBdf2Alone) {
     Scene scene = test::box_scene<4>();
     for (const Integrator integrator :

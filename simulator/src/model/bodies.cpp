@@ -228,6 +228,32 @@ void mark_dirichlet(std::uint64_t step, Bodies<Dim>& bodies) {
             bodies.is_dirichlet[vertex] = bodies.is_dirichlet[vertex] || set.is_held(step);
         }
     }
+    for (const std::uint32_t vertex : bodies.host_holds.vertices) {
+        bodies.is_dirichlet[vertex] = true;
+    }
+}
+
+// Puts what a host holds on the straight way to its target.
+template <int Dim>
+void place_host_holds(const HostHolds<Dim>& holds,
+                      double time,
+                      Positions<Dim>& positions,
+                      Positions<Dim>* velocities) {
+    constexpr double kSameTime = 1e-6;  // parts of a step end at rounded sums
+    const double h = holds.end - holds.begin;
+    const double part = (time - holds.begin) / h;
+    for (std::size_t i = 0; i < holds.vertices.size(); ++i) {
+        const std::uint32_t vertex = holds.vertices[i];
+        const auto column = static_cast<Eigen::Index>(i);
+        const Vector<Dim> way = holds.targets.col(column) - holds.starts.col(column);
+        positions.col(vertex) = holds.targets.col(column);
+        if (part < 1 - kSameTime) {
+            positions.col(vertex) = holds.starts.col(column) + part * way;
+        }
+        if (velocities != nullptr) {
+            velocities->col(vertex) = way / h;
+        }
+    }
 }
 
 // Takes up a set where it is.
@@ -370,6 +396,34 @@ void set_hold_places(const Scene& scene, const Positions<Dim>& places, Bodies<Di
 }
 
 template <int Dim>
+bool hold_for_host(std::vector<std::uint32_t> vertices,
+                   const Positions<Dim>& targets,
+                   Bodies<Dim>& bodies) {
+    HostHolds<Dim>& holds = bodies.host_holds;
+    const bool has_changed = vertices != holds.vertices;
+    holds.vertices = std::move(vertices);
+    holds.targets = targets;
+    if (has_changed) {
+        mark_dirichlet<Dim>(bodies.step, bodies);
+    }
+    return has_changed;
+}
+
+template <int Dim>
+void begin_host_holds(const Positions<Dim>& positions,
+                      double begin,
+                      double end,
+                      Bodies<Dim>& bodies) {
+    HostHolds<Dim>& holds = bodies.host_holds;
+    holds.begin = begin;
+    holds.end = end;
+    holds.starts.resize(Dim, holds.targets.cols());
+    for (std::size_t i = 0; i < holds.vertices.size(); ++i) {
+        holds.starts.col(static_cast<Eigen::Index>(i)) = positions.col(holds.vertices[i]);
+    }
+}
+
+template <int Dim>
 DofMap number_dofs(const Bodies<Dim>& bodies, const std::vector<bool>& is_in) {
     std::vector<bool> is_fixed = bodies.is_dirichlet;
     for (std::size_t body = 0; body < is_in.size(); ++body) {
@@ -423,18 +477,21 @@ void place_dirichlet(const Bodies<Dim>& bodies,
             }
         }
     }
+    place_host_holds<Dim>(bodies.host_holds, time, positions, velocities);
 }
 
-#define PENT_INSTANTIATE(Dim)                                                                  \
-    template struct Bodies<Dim>;                                                               \
-    template Bodies<Dim> make_bodies<Dim>(const Scene&, std::vector<SimplexMesh<Dim>>);        \
-    template std::vector<std::size_t> hold(const Scene&, std::uint64_t, const Positions<Dim>&, \
-                                           Bodies<Dim>&);                                      \
-    template Positions<Dim> hold_places(const Bodies<Dim>&);                                   \
-    template void set_hold_places(const Scene&, const Positions<Dim>&, Bodies<Dim>&);          \
-    template DofMap number_dofs<Dim>(const Bodies<Dim>&, const std::vector<bool>&);            \
-    template Positions<Dim> start_velocities<Dim>(const Scene&, const Bodies<Dim>&);           \
-    template void place_dirichlet<Dim>(const Bodies<Dim>&, double, Positions<Dim>&,            \
+#define PENT_INSTANTIATE(Dim)                                                                     \
+    template struct Bodies<Dim>;                                                                  \
+    template Bodies<Dim> make_bodies<Dim>(const Scene&, std::vector<SimplexMesh<Dim>>);           \
+    template std::vector<std::size_t> hold(const Scene&, std::uint64_t, const Positions<Dim>&,    \
+                                           Bodies<Dim>&);                                         \
+    template Positions<Dim> hold_places(const Bodies<Dim>&);                                      \
+    template void set_hold_places(const Scene&, const Positions<Dim>&, Bodies<Dim>&);             \
+    template bool hold_for_host(std::vector<std::uint32_t>, const Positions<Dim>&, Bodies<Dim>&); \
+    template void begin_host_holds(const Positions<Dim>&, double, double, Bodies<Dim>&);          \
+    template DofMap number_dofs<Dim>(const Bodies<Dim>&, const std::vector<bool>&);               \
+    template Positions<Dim> start_velocities<Dim>(const Scene&, const Bodies<Dim>&);              \
+    template void place_dirichlet<Dim>(const Bodies<Dim>&, double, Positions<Dim>&,               \
                                        Positions<Dim>*);
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)

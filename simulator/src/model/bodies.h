@@ -31,6 +31,17 @@ struct DirichletSet {
     [[nodiscard]] bool begins_later() const { return first_step > 0; }
 };
 
+/// Vertices that a host holds, whatever constraints say of them.
+template <int Dim>
+struct HostHolds {
+    std::vector<std::uint32_t> vertices;  ///< Of all bodies counted through, increasing.
+    Positions<Dim> targets =
+        Positions<Dim>(Dim, 0);                      ///< Dim x vertices: at the end of the step, m.
+    Positions<Dim> starts = Positions<Dim>(Dim, 0);  ///< At its start, m.
+    double begin = 0;                                ///< The step, s.
+    double end = 0;
+};
+
 /// All bodies of a scene as one mesh: vertices and cells of the bodies one after the other. While a
 /// simulation runs nothing in here changes but what is held; see hold().
 template <int Dim>
@@ -47,9 +58,10 @@ struct Bodies {
     Eigen::VectorXd masses;         ///< One a vertex, kg.
     double large_energy = 0;        ///< Elastic energy of all bodies at strains of about one, J.
     std::vector<DirichletSet<Dim>> dirichlet_sets;  ///< One a constraint.
-    std::vector<bool> is_dirichlet;                 ///< One a vertex: whether it is held now.
-    std::vector<bool> is_always_held;               ///< One a vertex: in every step.
-    std::uint64_t step = 0;                         ///< What is held is that of this step.
+    HostHolds<Dim> host_holds;
+    std::vector<bool> is_dirichlet;    ///< One a vertex: whether it is held now.
+    std::vector<bool> is_always_held;  ///< One a vertex: in every step.
+    std::uint64_t step = 0;            ///< What is held is that of this step.
     Columns columns;
 
     [[nodiscard]] Eigen::Index vertex_count() const { return rest.cols(); }
@@ -95,8 +107,8 @@ struct Bodies {
 template <int Dim>
 [[nodiscard]] Bodies<Dim> make_bodies(const Scene& scene, std::vector<SimplexMesh<Dim>> meshes);
 
-/// Holds what is held in a step, which may be any; what begins to be held in it is taken up where it
-/// is. Returns the bodies of which something is held or free now that was not before.
+/// Holds what is held in a step, which may be any; what begins to be held in it is taken up where
+/// it is. Returns the bodies of which something is held or free now that was not before.
 ///
 /// @param positions  Dim x vertices: where the step begins, m.
 template <int Dim>
@@ -112,6 +124,21 @@ template <int Dim>
 /// Puts them back, as many as hold_places() gives.
 template <int Dim>
 void set_hold_places(const Scene& scene, const Positions<Dim>& places, Bodies<Dim>& bodies);
+
+/// Holds these vertices for a host, and no others. Returns whether it held others before.
+template <int Dim>
+[[nodiscard]] bool hold_for_host(std::vector<std::uint32_t> vertices,
+                                 const Positions<Dim>& targets,
+                                 Bodies<Dim>& bodies);
+
+/// From where to where, and when, what a host holds is taken in the next step.
+///
+/// @param positions  Dim x vertices: where the step begins, m.
+template <int Dim>
+void begin_host_holds(const Positions<Dim>& positions,
+                      double begin,
+                      double end,
+                      Bodies<Dim>& bodies);
 
 /// Numbers the vertices of some bodies that are free to move.
 ///

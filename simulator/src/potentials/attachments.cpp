@@ -76,13 +76,11 @@ void Attachments<Dim>::add_springs(const Workers& workers,
 // To where it is, or by an offset to a point: its anchor is that point and the offset, which a
 // motion takes along.
 template <int Dim>
-typename Attachments<Dim>::Spring Attachments<Dim>::tie_to_space(const Bodies<Dim>& bodies,
-                                                                 const Attachment& attachment,
-                                                                 std::uint32_t vertex) {
-    Spring spring;
-    spring.vertices[0] = vertex;
-    spring.weights[0] = 1;
-    spring.count = 1;
+typename Attachments<Dim>::Tie Attachments<Dim>::tie_to_space(const Bodies<Dim>& bodies,
+                                                              const Attachment& attachment,
+                                                              std::uint32_t vertex) {
+    Tie spring;
+    spring.add(vertex, 1);
     spring.place = bodies.rest.col(vertex);
     if (attachment.point && attachment.offset == RestOffset::Zero) {
         spring.place = *attachment.point;
@@ -91,10 +89,10 @@ typename Attachments<Dim>::Spring Attachments<Dim>::tie_to_space(const Bodies<Di
 }
 
 template <int Dim>
-typename Attachments<Dim>::Spring Attachments<Dim>::tie_to_body(const Bodies<Dim>& bodies,
-                                                                const Group& group,
-                                                                std::uint32_t vertex,
-                                                                double& distance) {
+typename Attachments<Dim>::Tie Attachments<Dim>::tie_to_body(const Bodies<Dim>& bodies,
+                                                             const Group& group,
+                                                             std::uint32_t vertex,
+                                                             double& distance) {
     const auto cells = bodies.cells_of(group.target);
     const Vector<Dim> point = bodies.rest.col(vertex);
     MaterialPoint<Dim> nearest =
@@ -117,16 +115,10 @@ typename Attachments<Dim>::Spring Attachments<Dim>::tie_to_body(const Bodies<Dim
                         + "; use offset = \"zero\", or mend the mesh");
         }
     }
-    Spring spring;
-    spring.vertices[0] = vertex;
-    spring.weights[0] = 1;
-    spring.count = 1;
+    Tie spring;
+    spring.add(vertex, 1);
     for (std::size_t i = 0; i <= Dim; ++i) {
-        const double weight = nearest.weights[static_cast<Eigen::Index>(i)];
-        if (weight != 0) {
-            spring.vertices[static_cast<std::size_t>(spring.count)] = nearest.vertices[i];
-            spring.weights[spring.count++] = -weight;
-        }
+        spring.add(nearest.vertices[i], -nearest.weights[static_cast<Eigen::Index>(i)]);
     }
     return spring;
 }
@@ -142,15 +134,6 @@ void Attachments<Dim>::for_each_spring(const Visit& visit) const {
             }
         }
     }
-}
-
-template <int Dim>
-Vector<Dim> Attachments<Dim>::weighted_sum(const Spring& spring, const Positions<Dim>& x) {
-    Vector<Dim> sum = x.col(spring.vertices[0]);
-    for (std::int32_t i = 1; i < spring.count; ++i) {
-        sum += spring.weights[i] * x.col(spring.vertices[static_cast<std::size_t>(i)]);
-    }
-    return sum;
 }
 
 template <int Dim>
@@ -174,7 +157,7 @@ bool Attachments<Dim>::set_time(const TimeSpan& step) {
         const MotionChain<Dim> begin(group.motions, step.begin);
         const MotionChain<Dim> end(group.motions, step.end);
         for (std::size_t s = group.begin; s < group.end; ++s) {
-            Spring& spring = springs_[s];
+            Tie& spring = springs_[s];
             Vector<Dim> from = spring.place;
             Vector<Dim> to = spring.place;
             spring.velocity.setZero();
@@ -194,8 +177,7 @@ bool Attachments<Dim>::begin_step(const StepStart<Dim>& start) {
     bool has_damping = false;
     for (const Group& group : groups_) {
         for (std::size_t s = group.begin; s < group.end; ++s) {
-            springs_[s].start =
-                rate_ * weighted_sum(springs_[s], start.origin) + springs_[s].velocity;
+            springs_[s].begin_step(rate_, start.origin);
         }
         has_damping = has_damping || group.attachment->damping > 0;
     }
@@ -206,19 +188,11 @@ template <int Dim>
 double Attachments<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
     energy_ = 0;
     damping_energy_ = 0;
-    for_each_spring([&](const Group& group, const Spring& spring, std::size_t s) {
-        const Vector<Dim> sum = weighted_sum(spring, x);
-        springs_[s].stretch = sum - spring.anchor;
-        Vector<Dim> pull = group.attachment->stiffness * springs_[s].stretch;
-        energy_ += 0.5 * pull.dot(springs_[s].stretch);
-        if (rate_ > 0 && group.attachment->damping > 0) {
-            const Vector<Dim> velocity = rate_ * sum - spring.start;
-            pull += group.attachment->damping * velocity;
-            damping_energy_ += 0.5 * group.attachment->damping / rate_ * velocity.squaredNorm();
-        }
-        for (std::int32_t i = 0; i < spring.count; ++i) {
-            gradient.col(spring.vertices[static_cast<std::size_t>(i)]) += spring.weights[i] * pull;
-        }
+    for_each_spring([&](const Group& group, const Tie& /*spring*/, std::size_t s) {
+        const SpringLaw law{group.attachment->stiffness, group.attachment->damping};
+        const auto energy = springs_[s].evaluate(law, rate_, x, gradient);
+        energy_ += energy.elastic;
+        damping_energy_ += energy.damping;
     });
     return energy_ + damping_energy_;
 }
@@ -231,14 +205,8 @@ void Attachments<Dim>::add_hessian(double weight, Filter /*filter*/, NewtonSyste
             (attachment.stiffness + rate_ * attachment.damping) * Matrix<Dim>::Identity();
     }
     system.reserve_stencils(springs_.size());
-    for_each_spring([&](const Group& group, const Spring& spring, std::size_t /*s*/) {
-        system.add_stencil({.vertices = spring.vertices.data(),
-                            .weights = spring.weights.data(),
-                            .matrix = group.hessian.data(),
-                            .count = spring.count,
-                            .stride = Dim,
-                            .scale = weight,
-                            .is_checked = true});
+    for_each_spring([&](const Group& group, const Tie& spring, std::size_t /*s*/) {
+        system.add_stencil(spring.stencil(weight, group.hessian));
     });
 }
 
@@ -269,7 +237,7 @@ template <int Dim>
 std::vector<AttachmentSummary> Attachments<Dim>::summaries() const {
     std::vector<AttachmentSummary> all(groups_.size());
     std::vector<Vector<Dim>> forces(groups_.size(), Vector<Dim>::Zero());
-    for_each_spring([&](const Group& group, const Spring& spring, std::size_t /*s*/) {
+    for_each_spring([&](const Group& group, const Tie& spring, std::size_t /*s*/) {
         const auto g = static_cast<std::size_t>(&group - groups_.data());
         const Vector<Dim> force = -group.attachment->stiffness * spring.stretch;
         forces[g] += force;
@@ -288,7 +256,7 @@ std::vector<AttachmentSummary> Attachments<Dim>::summaries() const {
 template <int Dim>
 std::vector<std::size_t> Attachments<Dim>::break_springs() {
     std::vector<std::size_t> bodies;
-    for_each_spring([&](const Group& group, const Spring& spring, std::size_t s) {
+    for_each_spring([&](const Group& group, const Tie& spring, std::size_t s) {
         if (group.attachment->stiffness * spring.stretch.norm() > group.attachment->break_force) {
             broken_[s] = 1;
             bodies.push_back(group.body);

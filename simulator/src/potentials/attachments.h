@@ -2,6 +2,7 @@
 
 #include "model/bodies.h"
 #include "potentials/potential.h"
+#include "potentials/spring.h"
 
 #include <pent/parallel.h>
 #include <pent/simulator/simulation.h>
@@ -14,15 +15,11 @@ namespace pent::simulator {
 
 /// The springs of all attachments of a scene.
 ///
-/// One spring ties a vertex to a point q: that of a cell of another body with fixed barycentric
-/// coordinates, or a point in space that may move. With the stretch d = x - q its energy is
-///
-///     k/2 |d|^2 + c / (2 rate) |u|^2,     u = x' - q' = rate (d - d at the origin of the step),
-///
-/// a convex quadratic with the Hessian (k + c rate) w_i w_j I. The coordinates sum up to 1, so that
-/// the forces on vertex and cell have no sum and, but for the damping of what is stretched, no
-/// moment, wherever they are. An offset is kept by the coordinates of the vertex itself, beyond the
-/// faces of the cell: it turns and stretches with the cell.
+/// One spring ties a vertex x to a point q: that of a cell of another body with fixed barycentric
+/// coordinates, or a point in space that may move; its stretch is x - q. The coordinates sum up to
+/// 1, so that the forces on vertex and cell have no sum and, but for the damping of what is
+/// stretched, no moment, wherever they are. An offset is kept by the coordinates of the vertex
+/// itself, beyond the faces of the cell: it turns and stretches with the cell.
 template <int Dim>
 class Attachments final : public Potential<Dim> {
 public:
@@ -51,15 +48,8 @@ public:
     void set_broken(const std::vector<std::uint8_t>& broken) { broken_ = broken; }
 
 private:
-    struct Spring {
-        std::array<std::uint32_t, Dim + 2> vertices{};  // its own, then those of the cell
-        Eigen::Matrix<double, Dim + 2, 1> weights;      // 1, then minus the coordinates
-        std::int32_t count = 0;                         // in use
-        Vector<Dim> place = Vector<Dim>::Zero();        // q of a point in space, m, at t = 0
-        Vector<Dim> anchor = Vector<Dim>::Zero();       // at the end of the step
-        Vector<Dim> velocity = Vector<Dim>::Zero();     // q' there, m/s
-        Vector<Dim> start = Vector<Dim>::Zero();        // u = rate (sum of w_i x_i) - start
-        Vector<Dim> stretch = Vector<Dim>::Zero();      // d where last evaluated, m
+    struct Tie : Spring<Dim> {
+        Vector<Dim> place = Vector<Dim>::Zero();  // of a point in space at t = 0, m
     };
     // The springs of one attachment.
     struct Group {
@@ -75,14 +65,13 @@ private:
     };
 
     void add_springs(const Workers& workers, const Bodies<Dim>& bodies, Group& group);
-    [[nodiscard]] static Spring tie_to_space(const Bodies<Dim>& bodies,
-                                             const Attachment& attachment,
-                                             std::uint32_t vertex);
-    [[nodiscard]] static Spring tie_to_body(const Bodies<Dim>& bodies,
-                                            const Group& group,
-                                            std::uint32_t vertex,
-                                            double& distance);
-    [[nodiscard]] static Vector<Dim> weighted_sum(const Spring& spring, const Positions<Dim>& x);
+    [[nodiscard]] static Tie tie_to_space(const Bodies<Dim>& bodies,
+                                          const Attachment& attachment,
+                                          std::uint32_t vertex);
+    [[nodiscard]] static Tie tie_to_body(const Bodies<Dim>& bodies,
+                                         const Group& group,
+                                         std::uint32_t vertex,
+                                         double& distance);
     [[nodiscard]] bool is_there(const Attachment& attachment, double begin) const;
     template <typename Visit>
     void for_each_spring(const Visit& visit) const;
@@ -90,7 +79,7 @@ private:
     std::vector<Attachment> list_;
     double dt_;
     std::vector<Group> groups_;
-    std::vector<Spring> springs_;
+    std::vector<Tie> springs_;
     std::vector<std::uint8_t> broken_;
     double rate_ = 0;  // 1/s; 0 before the first step
     double energy_ = 0;

@@ -63,6 +63,10 @@ double ForceLoads<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradie
             energy_ -= force.dot(x.col(load.vertices[i]));
         }
     }
+    for (Eigen::Index v = 0; v < of_host_.cols(); ++v) {
+        gradient.col(v) -= of_host_.col(v);
+        energy_ -= of_host_.col(v).dot(x.col(v));
+    }
     return energy_;
 }
 

@@ -4,26 +4,33 @@
 #include "potentials/potential.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace pent::simulator {
 
 /// Forces of given size and direction on vertices, wherever these go: - sum of f . x over all
 /// vertices that a [[load]] with a force selects. Each has a part of the force like its part of the
-/// mass of all, so that the force acts at their center of mass.
+/// mass of all, so that the force acts at their center of mass. And those that a host sets.
 template <int Dim>
 class ForceLoads final : public Potential<Dim> {
 public:
     /// @param bodies  Placed; not needed afterwards.
     ForceLoads(const Scene& scene, const Bodies<Dim>& bodies);
 
-    [[nodiscard]] bool is_empty() const { return loads_.empty(); }
+    [[nodiscard]] bool is_empty() const { return loads_.empty() && of_host_.cols() == 0; }
+
+    /// Dim x vertices, N; no columns for none.
+    void set_of_host(Positions<Dim> forces) { of_host_ = std::move(forces); }
+    [[nodiscard]] const Positions<Dim>& of_host() const { return of_host_; }
 
     [[nodiscard]] bool set_time(const TimeSpan& step) override;
     void add_couplings(Couplings& couplings) const override;
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
     void add_hessian(double /*weight*/, Filter /*f*/, NewtonSystem<Dim>& /*s*/) override {}
-    [[nodiscard]] std::vector<TermEnergy> energies() const override { return {{"force", energy_}}; }
+    [[nodiscard]] std::vector<TermEnergy> energies() const override {
+        return is_empty() ? std::vector<TermEnergy>() : std::vector<TermEnergy>{{"force", energy_}};
+    }
 
 private:
     struct Load {
@@ -36,6 +43,7 @@ private:
     };
 
     std::vector<Load> loads_;
+    Positions<Dim> of_host_ = Positions<Dim>(Dim, 0);
     double energy_ = 0;
 };
 

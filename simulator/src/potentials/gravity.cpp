@@ -6,6 +6,9 @@ namespace pent::simulator {
 
 template <int Dim>
 double Gravity<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
+    if (acceleration_.isZero(0)) {
+        return 0;
+    }
     energy_ = sum_vertices(*workers_, x.cols(), [&](Eigen::Index v) {
         const double mass = (*masses_)[v];
         gradient.col(v) -= mass * acceleration_;

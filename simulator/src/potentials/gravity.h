@@ -6,7 +6,7 @@
 
 namespace pent::simulator {
 
-/// Gravity: -sum of m g . x.
+/// Gravity: -sum of m g . x. Without any, g = 0, it does no work and is in no report.
 template <int Dim>
 class Gravity final : public Potential<Dim> {
 public:
@@ -17,10 +17,13 @@ public:
     Gravity(const Workers& workers, const Eigen::VectorXd& masses, const Vector& acceleration)
         : workers_(&workers), masses_(&masses), acceleration_(acceleration) {}
 
+    void set_acceleration(const Vector& acceleration) { acceleration_ = acceleration; }
+
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
     void add_hessian(double /*weight*/, Filter /*f*/, NewtonSystem<Dim>& /*s*/) override {}
     [[nodiscard]] std::vector<TermEnergy> energies() const override {
-        return {{"gravity", energy_}};
+        return acceleration_.isZero(0) ? std::vector<TermEnergy>()
+                                       : std::vector<TermEnergy>{{"gravity", energy_}};
     }
 
 private:

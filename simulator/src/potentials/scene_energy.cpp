@@ -1,7 +1,5 @@
 #include "potentials/scene_energy.h"
 
-#include "potentials/force_loads.h"
-#include "potentials/gravity.h"
 #include "potentials/pressure_loads.h"
 
 #include <cmath>
@@ -37,13 +35,11 @@ SceneEnergy<Dim>::SceneEnergy(const Workers& workers,
                               const Kernels<Dim>& kernels,
                               const Bodies<Dim>& bodies,
                               const Scene& scene) {
-    if (!scene.gravity.isZero(0)) {
-        sum.add(std::make_unique<Gravity<Dim>>(workers, bodies.masses, scene.gravity));
-    }
+    // What a host may change later is there from the beginning, since sums have one order.
+    gravity = &sum.add(
+        std::make_unique<Gravity<Dim>>(workers, bodies.masses, Vector<Dim>(scene.gravity)));
     elasticity = &sum.add(std::make_unique<Elasticity<Dim>>(workers, kernels, bodies, scene));
-    if (auto loads = std::make_unique<ForceLoads<Dim>>(scene, bodies); !loads->is_empty()) {
-        sum.add(std::move(loads));
-    }
+    forces = &sum.add(std::make_unique<ForceLoads<Dim>>(scene, bodies));
     if (auto loads = std::make_unique<PressureLoads<Dim>>(workers, scene, bodies);
         !loads->is_empty()) {
         sum.add(std::move(loads));
@@ -51,6 +47,7 @@ SceneEnergy<Dim>::SceneEnergy(const Workers& workers,
     if (!scene.attachments.empty()) {
         attachments = &sum.add(std::make_unique<Attachments<Dim>>(workers, scene, bodies));
     }
+    grabs = &sum.add(std::make_unique<Grabs<Dim>>(scene, bodies));
     contact = &sum.add(std::make_unique<ContactPotential<Dim>>(workers, scene, bodies));
     if (const auto law = friction_law(scene)) {
         friction = &sum.add(std::make_unique<FrictionPotential<Dim>>(*contact, *law));

@@ -3,7 +3,10 @@
 #include "potentials/attachments.h"
 #include "potentials/contact_potential.h"
 #include "potentials/elasticity.h"
+#include "potentials/force_loads.h"
 #include "potentials/friction_potential.h"
+#include "potentials/grabs.h"
+#include "potentials/gravity.h"
 #include "potentials/potential_energy.h"
 
 namespace pent::simulator {
@@ -18,9 +21,12 @@ struct SceneEnergy {
                 const Scene& scene);
 
     PotentialEnergy<Dim> sum;
-    // Terms that have more to say than the others.
+    // Terms that have more to say than the others, or that a host changes.
+    Gravity<Dim>* gravity;
     Elasticity<Dim>* elasticity;
     ContactPotential<Dim>* contact;
+    ForceLoads<Dim>* forces;
+    Grabs<Dim>* grabs;
     FrictionPotential<Dim>* friction = nullptr;  // null without friction
     Attachments<Dim>* attachments = nullptr;     // null without [[attachment]]
 };

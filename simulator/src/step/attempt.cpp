@@ -173,7 +173,7 @@ bool Simulation<Dim>::Stepper::attempt(double time, double h, StepReport& report
         return false;
     }
     energy_.sum.update(current_.positions);
-    static_cast<void>(wake(problem.prescribed));
+    static_cast<void>(wake_for(problem.prescribed));
     energy_.sum.update(current_.positions);
     const Energies before{kinetic_energy(current_.velocities), energy_.sum.energies()};
     const bool is_linear = scene_.solver.integrator == Integrator::LinearEuler
@@ -201,7 +201,7 @@ bool Simulation<Dim>::Stepper::attempt(double time, double h, StepReport& report
         return false;
     }
     // Newton's method has forces at the end of the step: what was run into there has to give way.
-    if (!is_linear && wake(problem.prescribed)) {
+    if (!is_linear && wake_for(problem.prescribed)) {
         return attempt(time, h, report);
     }
     if (scene_.solver.integrator == Integrator::Bdf2) {

@@ -1,3 +1,4 @@
+#include "step/host_checks.h"
 #include "step/stepper.h"
 
 #include <pent/error.h>
@@ -12,7 +13,9 @@ template <int Dim>
 Simulation<Dim>::Simulation(const Scene& scene,
                             std::vector<SimplexMesh<Dim>> meshes,
                             const SimulationOptions& options)
-    : stepper_(std::make_unique<Stepper>(scene, std::move(meshes), options)) {}
+    : stepper_(std::make_unique<Stepper>(scene, std::move(meshes), options)) {
+    stepper_->start();
+}
 
 template <int Dim>
 Simulation<Dim>::~Simulation() = default;
@@ -24,6 +27,11 @@ Simulation<Dim>& Simulation<Dim>::operator=(Simulation&&) noexcept = default;
 template <int Dim>
 StepReport Simulation<Dim>::step() {
     return stepper_->step();
+}
+
+template <int Dim>
+const Scene& Simulation<Dim>::scene() const {
+    return stepper_->scene();
 }
 
 template <int Dim>
@@ -192,6 +200,7 @@ void Simulation<Dim>::restore(const Snapshot<Dim>& snapshot) {
                     + " vertices were given; expected finite ones of "
                     + std::to_string(now.hold_places.cols()));
     }
+    check_host(snapshot.host, stepper_->bodies());
     check_sleep(snapshot.sleep, stepper_->sleep().size(), stepper_->scene().sleep.has_value());
     stepper_->restore(snapshot);
 }

@@ -52,7 +52,8 @@ template <int Dim>
 Simulation<Dim>::Stepper::Stepper(const Scene& scene,
                                   std::vector<SimplexMesh<Dim>> meshes,
                                   const SimulationOptions& options)
-    : scene_(scene),
+    : options_(options),
+      scene_(scene),
       workers_(options.tasks ? Workers(*options.tasks) : Workers(options.threads)),
       isa_(choose_isa(options.isa)),
       kernels_(&kernels<Dim>(isa_)),
@@ -72,6 +73,10 @@ Simulation<Dim>::Stepper::Stepper(const Scene& scene,
     current_.positions = bodies_.rest;
     current_.velocities = start_velocities(scene, bodies_);
     place_dirichlet(bodies_, 0, current_.positions, &current_.velocities);
+}
+
+template <int Dim>
+void Simulation<Dim>::Stepper::start() {
     refuse_crossings(current_.positions);
     evaluate_current();
 }
@@ -108,7 +113,8 @@ Snapshot<Dim> Simulation<Dim>::Stepper::save() const {
             .steps = steps_,
             .contact_stiffness = energy_.contact->stiffness(),
             .hold_places = hold_places(bodies_),
-            .broken_springs = broken_springs()};
+            .broken_springs = broken_springs(),
+            .host = host()};
 }
 
 template <int Dim>
@@ -140,8 +146,9 @@ void Simulation<Dim>::Stepper::restore(const Snapshot<Dim>& snapshot) {
         energy_.sum.invalidate();
     }
     // What is held is that of the last step until the next one begins.
-    const bool has_changed =
+    bool has_changed =
         !hold(scene_, std::max<std::uint64_t>(steps_, 1) - 1, current_.positions, bodies_).empty();
+    has_changed = restore_host(snapshot.host) || has_changed;
     set_hold_places(scene_, snapshot.hold_places, bodies_);
     if (has_changed) {
         number_dofs_of_the_free();
@@ -216,7 +223,7 @@ void Simulation<Dim>::Stepper::still(Positions<Dim>& velocities) const {
 // Wakes bodies that a step from the current state moves, or that something touches where the energy
 // was evaluated last.
 template <int Dim>
-bool Simulation<Dim>::Stepper::wake(const Positions<Dim>& prescribed) {
+bool Simulation<Dim>::Stepper::wake_for(const Positions<Dim>& prescribed) {
     if (islands_.asleep_count() == 0
         || !islands_.wake(energy_.sum.couplings(), current_.positions, prescribed)) {
         return false;
@@ -287,6 +294,7 @@ template <int Dim>
 StepReport Simulation<Dim>::Stepper::step() {
     const Stopwatch watch;
     hold_and_release();
+    begin_host_holds(current_.positions, time(), time() + scene_.dt(), bodies_);
     const State<Dim> before = current_;
     const State<Dim> history_before = history_;
     const double stiffness_before = energy_.contact->stiffness();
@@ -298,6 +306,7 @@ StepReport Simulation<Dim>::Stepper::step() {
         report.activation_work = energy_.elasticity->activation_work(
             before.positions, current_.positions, {time(), time() + scene_.dt()});
         ++steps_;
+        energy_.grabs->arrive(time());
         evaluate_current();
         break_springs();
         put_to_sleep();

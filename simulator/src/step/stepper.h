@@ -10,6 +10,8 @@
 #include <pent/parallel.h>
 #include <pent/simulator/simulation.h>
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,18 +22,39 @@ namespace pent::simulator {
 template <int Dim>
 class Simulation<Dim>::Stepper {
 public:
+    using Holdings = std::vector<typename HostState<Dim>::Holding>;
+
     Stepper(const Scene& scene,
             std::vector<SimplexMesh<Dim>> meshes,
             const SimulationOptions& options);
+
+    /// Looks at the start for the first time. Throws a CrossingError as the constructor of
+    /// Simulation does.
+    void start();
 
     StepReport step();
     void set_body(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
     [[nodiscard]] Snapshot<Dim> save() const;
     void restore(const Snapshot<Dim>& snapshot);
 
+    // What a host does; see Simulation, which checks it.
+    void set_held(const std::map<std::uint32_t, Vector>& targets);
+    void set_grabs(const Holdings& grabs, std::uint64_t next, int body);  // wakes the body
+    [[nodiscard]] const Holdings& grabs() const { return energy_.grabs->holdings(); }
+    [[nodiscard]] std::uint64_t next_grab() const { return next_grab_; }
+    void set_forces(int body, const Positions<Dim>& forces);
+    void set_gravity(const Vector& gravity);
+    [[nodiscard]] HostState<Dim> host() const;
+
+    /// Bodies that touch, or are tied to, a body, or that touch an obstacle.
+    [[nodiscard]] std::vector<std::size_t> neighbors_of_body(std::size_t body) const;
+    [[nodiscard]] std::vector<std::size_t> neighbors_of_obstacle(std::size_t obstacle) const;
+    void wake(const std::vector<std::size_t>& bodies);
+
     [[nodiscard]] double time() const { return static_cast<double>(steps_) * scene_.dt(); }
     [[nodiscard]] std::uint64_t steps() const { return steps_; }
     [[nodiscard]] const Scene& scene() const { return scene_; }
+    [[nodiscard]] const SimulationOptions& options() const { return options_; }
     [[nodiscard]] const Bodies<Dim>& bodies() const { return bodies_; }
     [[nodiscard]] const State<Dim>& current() const { return current_; }
     [[nodiscard]] const Positions<Dim>& forces() const { return forces_; }
@@ -53,7 +76,8 @@ private:
     void set_velocities(const StepProblem<Dim>& problem, double time);
     [[nodiscard]] std::string failure_reason(const Energies& before) const;
     [[nodiscard]] bool may_have_tunneled() const;
-    [[nodiscard]] bool wake(const Positions<Dim>& prescribed);
+    [[nodiscard]] bool wake_for(const Positions<Dim>& prescribed);
+    bool restore_host(const HostState<Dim>& host);
     void break_springs();
     void put_to_sleep();
     void still(Positions<Dim>& velocities) const;
@@ -67,6 +91,7 @@ private:
     [[nodiscard]] std::vector<RegionSummary> regions() const;
     [[nodiscard]] double kinetic_energy(const Positions<Dim>& velocities) const;
 
+    SimulationOptions options_;
     Scene scene_;
     Workers workers_;
     Isa isa_;
@@ -83,6 +108,8 @@ private:
     Positions<Dim> forces_;  // at the current positions, N
     State<Dim> history_;     // one step of full length ago, for BDF2; else no columns
     std::uint64_t steps_ = 0;
+    std::optional<Vector> gravity_;  // a host's
+    std::uint64_t next_grab_ = 1;
 };
 
 }  // namespace pent::simulator

@@ -1,18 +1,17 @@
 #pragma once
 
-#include <pent/parallel.h>
 #include <pent/simplex_mesh.h>
 #include <pent/simulator/energies.h>
+#include <pent/simulator/host.h>
 #include <pent/simulator/scene.h>
+#include <pent/simulator/simulation_options.h>
 #include <pent/simulator/snapshot.h>
 #include <pent/simulator/step_report.h>
 
 #include <Eigen/Core>
 
 #include <cstdint>
-#include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,40 +23,15 @@ struct Contact;
 
 namespace pent::simulator {
 
-struct SimulationOptions {
-    int threads = 1;  ///< At least 1. Results do not depend on it.
-    std::optional<TaskSystem> tasks =
-        {};  ///< The host's, in place of `threads` of ours. Results do not depend on it.
-    std::string isa =
-        {};  ///< "scalar", "baseline", "avx2" or "avx512"; empty for the best there is.
-    /// Told of the path that Newton's method takes in a step: all positions (Dim x vertices, m)
-    /// where it starts, with true, and every iterate, with false. For plots of convergence, and
-    /// proofs that nothing crosses on the way.
-    std::function<void(const Eigen::MatrixXd& positions, bool is_start)> on_iterate = {};
-};
-
-/// How big a simulation is.
-struct SimulationSize {
-    std::int64_t vertices = 0;
-    std::int64_t cells = 0;
-    std::int64_t free_vertices = 0;  ///< Those with unknowns now: Dim each.
-    std::int64_t elements = 0;       ///< Cells, edges or quadratic cells, with a free
-                                     ///< vertex near; others cost nothing.
-    std::int64_t matrix_blocks = 0;  ///< Dim x Dim blocks stored, upper triangle.
-    std::int64_t element_bytes = 0;  ///< Of elements; part of `bytes`.
-    std::int64_t matrix_bytes = 0;   ///< Of the matrix; part of `bytes`.
-    std::int64_t contact_bytes = 0;  ///< Of surfaces and trees for contact; part of `bytes`.
-    std::int64_t bytes = 0;          ///< Of what grows with the mesh, in memory.
-};
-
 /// A scene in motion, which a host program steps.
 ///
 /// State is kept in double. Bodies are in the order of the scene; vertices in the order of their
-/// mesh. Views hold until the next step(), set_state() or restore(); then take them anew.
+/// mesh. Views hold until something that is not const is called; then take them anew.
 template <int Dim>
 class Simulation {
 public:
     using View = Eigen::Map<const Positions<Dim>>;
+    using Vector = Eigen::Matrix<double, Dim, 1>;
 
     /// @param meshes  One for each body, as loaded: placement is done here.
     ///
@@ -79,6 +53,10 @@ public:
     /// SolverOptions::max_halvings times. If that does not help, the report says so and the state
     /// stays as it was.
     [[nodiscard]] StepReport step();
+
+    /// With the bodies and obstacles that are there now; bodies have nothing left to be placed by
+    /// once one was added or removed.
+    [[nodiscard]] const Scene& scene() const;
 
     [[nodiscard]] int body_count() const;
     [[nodiscard]] const SimplexMesh<Dim>& mesh(int body) const;  ///< As placed.
@@ -119,18 +97,61 @@ public:
     /// changed then. To move several bodies at once, change a snapshot.
     void set_state(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
 
+    // What a host does, see HostState; it counts from the next step on, and forces() and energies()
+    // are until then those of before. What sleeps wakes where it matters. All throw an Error, and
+    // change nothing, where bodies, vertices or numbers are not in their range.
+
+    /// Holds vertices of a body and takes them, on a straight way, to targets (Dim x vertices, m)
+    /// by the end of the next step; there they stay until they have other targets. From then on a
+    /// constraint has no say in them.
+    void set_targets(int body,
+                     const std::vector<std::uint32_t>& vertices,
+                     const Positions<Dim>& targets);
+
+    /// Lets vertices go: they are free, or again where a constraint has them at the end of the next
+    /// step. Those that no host holds are left alone.
+    void release(int body, const std::vector<std::uint32_t>& vertices);
+
+    /// Takes hold of a point. The number returned stands for the grab below.
+    std::uint64_t add_grab(const Grab<Dim>& grab);
+    void move_grab(std::uint64_t grab, const Vector& anchor);  ///< By the end of the next step; m.
+    void remove_grab(std::uint64_t grab);
+
+    /// Forces on the vertices of a body, Dim x vertices, N, in all steps until they are set anew.
+    void set_forces(int body, const Positions<Dim>& forces);
+    void set_gravity(const Vector& gravity);  ///< m/s^2.
+
+    [[nodiscard]] HostState<Dim> host() const;
+
+    // Bodies and obstacles that come and go. Each costs what a start costs; views are gone. What is
+    // not right, or crosses at a barrier, is refused as by the constructor, and nothing has
+    // changed.
+
+    /// Adds a body behind all others, as a scene has it at its start.
+    void add_body(const Body& body, SimplexMesh<Dim> mesh);
+
+    /// Removes a body, and with it constraints, loads, attachments, grabs and pairs of contact that
+    /// have to do with it; later ones move up. What touched it, or was tied to it, wakes.
+    void remove_body(int body);
+
+    void add_obstacle(const Obstacle& obstacle);  ///< Behind all others.
+    void remove_obstacle(int obstacle);           ///< Later ones move up; what touched it wakes.
+
     /// Whether each body sleeps; none does without Scene::sleep.
     [[nodiscard]] const std::vector<SleepState>& sleep() const;
 
     [[nodiscard]] Snapshot<Dim> save() const;
 
     /// Puts everything back. Throws an Error, and changes nothing, unless the snapshot fits the
-    /// scene: as many vertices, bodies and springs, all finite, none asleep without Scene::sleep; and a
-    /// CrossingError where a barrier does not allow the positions.
+    /// scene as it is now: as many vertices, bodies and springs, all finite, none asleep without
+    /// Scene::sleep; and a CrossingError where a barrier does not allow the positions.
     void restore(const Snapshot<Dim>& snapshot);
 
 private:
     class Stepper;
+    void rebuild(const Scene& scene,
+                 std::vector<SimplexMesh<Dim>> meshes,
+                 const Snapshot<Dim>& snapshot);
     std::unique_ptr<Stepper> stepper_;
 };
 

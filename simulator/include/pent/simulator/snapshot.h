@@ -1,6 +1,7 @@
 #pragma once
 
 #include <pent/simplex_mesh.h>
+#include <pent/simulator/host.h>
 
 #include <cstdint>
 #include <vector>
@@ -35,6 +36,7 @@ struct Snapshot {
     Positions<Dim> hold_places;
     /// One for each spring of all attachments: 1 if it is broken, else 0.
     std::vector<std::uint8_t> broken_springs;
+    HostState<Dim> host;
 };
 
 }  // namespace pent::simulator

@@ -1,0 +1,195 @@
+#include "host_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+// What a host does beside contact, sleep, every kind of elements, attachments and constraints:
+// steps go on, to the bit for any number of threads and from every saved state.
+
+namespace pent::simulator {
+namespace {
+
+using test::corner;
+using test::expect_same;
+using test::kWithInertia;
+using test::low_side;
+
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+
+template <int Dim>
+using Vector = Eigen::Matrix<double, Dim, 1>;
+
+template <typename T>
+class HostPairs : public testing::Test {};
+TYPED_TEST_SUITE(HostPairs, Dimensions);
+
+// Two cubes on the ground, one on the other, that may sleep, with a tie and a hold that ends.
+template <int Dim>
+Scene scene_of(Integrator integrator, ElementKind elements, ContactModel model) {
+    Scene scene = test::two_cubes<Dim>(0.03);
+    scene.gravity[1] = -9.8;
+    scene.solver.integrator = integrator;
+    scene.solver.elements = elements;
+    scene.contact->model = model;
+    scene.contact->friction = 0.2;
+    scene.sleep = Sleep{.speed = 1e-2, .time = 0.05};
+    scene.damping = Damping{.mass = 1, .stiffness = 1e-3};
+    scene.obstacles = {
+        {.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(Dim, 1), .offset = -0.03}}};
+    Attachment tie;
+    tie.body = "a";
+    tie.select = {HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(Dim, 0), .offset = 1e-6}};
+    tie.stiffness = 100;
+    tie.damping = 1;
+    scene.attachments = {tie};
+    Constraint hold{.body = "b", .select = tie.select, .motion = {test::still(Dim)}};
+    hold.select = {HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(Dim, 0), .offset = 0.05}};
+    hold.motion[0].translate[0] = 0.2;
+    hold.from = 0.02;
+    hold.to = 0.06;
+    scene.constraints = {hold};
+    return scene;
+}
+
+// What the host does before step i.
+template <int Dim>
+void drive(Simulation<Dim>& simulation, int i) {
+    if (i == 1) {
+        Grab<Dim> grab = corner(simulation, 1, 400);
+        grab.damping = 5;
+        static_cast<void>(simulation.add_grab(grab));
+    } else if (i > 1 && i < 8) {
+        const Vector<Dim> anchor = simulation.host().grabs[0].grab.anchor;
+        simulation.move_grab(1, anchor + Vector<Dim>::LinSpaced(0.01, 0.02));
+    } else if (i == 10) {
+        simulation.remove_grab(1);
+        simulation.set_gravity(-4 * Vector<Dim>::Unit(1));
+    }
+    const auto side = low_side(simulation, 0, Dim - 1);
+    if (i == 3) {
+        Positions<Dim> forces = Positions<Dim>::Zero(Dim, simulation.masses(0).size());
+        forces.row(0).setConstant(2);
+        simulation.set_forces(0, forces);
+    } else if (i == 4 || i == 5) {
+        Positions<Dim> targets = test::places_of(simulation, 0, side);
+        targets.row(0).array() += 0.004;
+        simulation.set_targets(0, side, targets);
+        // Held by a constraint, too, from step 2 to 5.
+        simulation.set_targets(1, {0, 1}, test::places_of<Dim>(simulation, 1, {0, 1}));
+    } else if (i == 7) {
+        simulation.release(0, side);
+        simulation.release(1, {1, 0});
+    }
+}
+
+// A cube of 0.5 m with as few cells as there can be.
+template <int Dim>
+SimplexMesh<Dim> coarse_cube(const Scene& scene) {
+    if (scene.solver.elements == ElementKind::Quadratic) {
+        return test::quadratic_cube<Dim>(1, 0.5);
+    }
+    std::array<int, Dim> count{};
+    std::array<double, Dim> size{};
+    count.fill(1);
+    size.fill(0.5);
+    return pent::test::kuhn_box<Dim>(count, size);
+}
+
+template <int Dim>
+void expect_the_same_from_every_state(const Scene& scene) {
+    const auto mesh = coarse_cube<Dim>(scene);
+    Simulation<Dim> whole(scene, {mesh, mesh}, {.threads = 3});
+    Simulation<Dim> two(scene, {mesh, mesh}, {.threads = 2});
+    Simulation<Dim> often(scene, {mesh, mesh});
+    for (int i = 0; i < 14; ++i) {
+        for (Simulation<Dim>* simulation : {&whole, &two, &often}) {
+            drive(*simulation, i);
+            const StepReport report = simulation->step();
+            ASSERT_TRUE(report.is_accepted) << i << ": " << report.failure;
+        }
+        expect_same(whole, often);
+        expect_same(whole, two);
+        Simulation<Dim> next(scene, {mesh, mesh});
+        next.restore(often.save());
+        EXPECT_EQ(next.size().free_vertices, often.size().free_vertices) << i;
+        EXPECT_EQ(next.energies().total(), often.energies().total()) << i;
+        often = std::move(next);
+    }
+}
+
+TYPED_TEST(HostPairs, GoOnToTheBitWithContactByPenalties) {
+    for (const Integrator integrator : kWithInertia) {
+        for (const ElementKind elements :
+             {ElementKind::Linear, ElementKind::Smoothed, ElementKind::Quadratic}) {
+            SCOPED_TRACE(static_cast<int>(integrator) * 10 + static_cast<int>(elements));
+            expect_the_same_from_every_state<TypeParam::value>(
+                scene_of<TypeParam::value>(integrator, elements, ContactModel::Penalty));
+        }
+    }
+}
+
+TYPED_TEST(HostPairs, GoOnToTheBitWithABarrier) {
+    for (const Integrator integrator : {Integrator::NewtonEuler, Integrator::Bdf2}) {
+        for (const ElementKind elements : {ElementKind::Linear, ElementKind::Quadratic}) {
+            if (TypeParam::value == 4 && elements == ElementKind::Quadratic) {
+                continue;  // a minute, and nothing that three dimensions do not have
+            }
+            SCOPED_TRACE(static_cast<int>(integrator) * 10 + static_cast<int>(elements));
+            expect_the_same_from_every_state<TypeParam::value>(
+                scene_of<TypeParam::value>(integrator, elements, ContactModel::Barrier));
+        }
+    }
+}
+
+// A body that is pulled against another one, and against the floor, by far too long a spring: a
+// barrier holds, and penalties refuse nothing.
+TYPED_TEST(HostPairs, PullBodiesIntoEachOtherAndNothingCrosses) {
+    constexpr int kDim = TypeParam::value;
+    for (const ContactModel model : {ContactModel::Penalty, ContactModel::Barrier}) {
+        Scene scene = scene_of<kDim>(Integrator::NewtonEuler, ElementKind::Linear, model);
+        scene.constraints.clear();
+        Simulation<kDim> simulation(scene, {coarse_cube<kDim>(scene), coarse_cube<kDim>(scene)});
+        Grab<kDim> grab = corner(simulation, 1, 5000);
+        grab.anchor[1] -= 3;
+        static_cast<void>(simulation.add_grab(grab));
+        for (int i = 0; i < 40; ++i) {
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.is_accepted) << i << ": " << report.failure;
+            if (model == ContactModel::Barrier) {
+                EXPECT_GT(report.contact.smallest_distance, 0);
+            }
+        }
+        EXPECT_LT(simulation.positions(1).row(1).minCoeff(), 0.53);
+    }
+}
+
+// A sleeping body is grabbed through another that touches it: both are awake.
+TYPED_TEST(HostPairs, WakeWhatTouchesWhatIsGrabbed) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene =
+        scene_of<kDim>(Integrator::LinearEuler, ElementKind::Linear, ContactModel::Penalty);
+    scene.constraints.clear();
+    scene.attachments.clear();
+    Simulation<kDim> simulation(scene, {coarse_cube<kDim>(scene), coarse_cube<kDim>(scene)});
+    for (int i = 0; i < 30; ++i) {
+        const StepReport report = simulation.step();
+        ASSERT_TRUE(report.is_accepted) << report.failure;
+    }
+    Snapshot<kDim> snapshot = simulation.save();  // whatever they do: at rest, and asleep
+    snapshot.velocities.setZero();
+    snapshot.sleep.assign(2, {.is_asleep = true});
+    simulation.restore(snapshot);
+    ASSERT_EQ(simulation.step().asleep, 2);
+    ASSERT_FALSE(simulation.contacts().empty());
+    Grab<kDim> grab = corner(simulation, 1);
+    grab.anchor[1] += 0.2;
+    static_cast<void>(simulation.add_grab(grab));
+    const StepReport report = simulation.step();
+    ASSERT_TRUE(report.is_accepted) << report.failure;
+    EXPECT_FALSE(simulation.sleep()[0].is_asleep);
+    EXPECT_FALSE(simulation.sleep()[1].is_asleep);
+}
+
+}  // namespace
+}  // namespace pent::simulator

@@ -1,0 +1,478 @@
+#include "host_scenes.h"
+#include "support/messages.h"
+
+#include <pent/error.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+
+// A simulation that a host drives: scene and meshes are made in memory, and no file is there.
+
+namespace pent::simulator {
+namespace {
+
+using test::all_vertices;
+using test::corner;
+using test::cube;
+using test::expect_same;
+using test::kWithInertia;
+using test::low_side;
+using test::mean_velocity;
+using test::momentum;
+using test::places_of;
+
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+
+template <int Dim>
+using Vector = Eigen::Matrix<double, Dim, 1>;
+
+template <typename T>
+class Host : public testing::Test {};
+TYPED_TEST_SUITE(Host, Dimensions);
+
+// A cube of 2 cells of 0.25 m, of steps of 10 ms, solved so tightly that only the method is in the
+// result.
+template <int Dim>
+Scene floating_cube(Integrator integrator = Integrator::NewtonEuler) {
+    Scene scene = test::box_scene<Dim>();
+    scene.frames_per_second = 100;
+    scene.solver.integrator = integrator;
+    scene.solver.precision = Precision::Double;
+    scene.solver.tolerance = 1e-12;
+    scene.solver.newton_tolerance = 1e-9;
+    return scene;
+}
+
+template <int Dim>
+void take_step(Simulation<Dim>& simulation) {
+    const StepReport report = simulation.step();
+    ASSERT_TRUE(report.is_accepted) << report.failure;
+}
+
+// ---- targets
+
+TYPED_TEST(Host, TakesHeldVerticesToTheirTargetsByTheEndOfAStep) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : kWithInertia) {
+        Scene scene = floating_cube<kDim>(integrator);
+        scene.gravity[1] = -9.8;
+        Simulation<kDim> simulation(scene, {cube<kDim>()});
+        take_step(simulation);
+        const auto side = low_side(simulation, 0);
+        const Positions<kDim> start = places_of(simulation, 0, side);
+        Positions<kDim> targets = start;
+        targets.row(0).array() -= 0.02;
+        simulation.set_targets(0, side, targets);
+        EXPECT_EQ(simulation.size().free_vertices,
+                  simulation.mesh(0).vertex_count() - std::int64_t(side.size()));
+        take_step(simulation);
+        EXPECT_EQ(places_of(simulation, 0, side), targets);
+        for (std::size_t i = 0; i < side.size(); ++i) {  // 0.02 m in 10 ms
+            EXPECT_LT((simulation.velocities(0).col(side[i]) + 2 * Vector<kDim>::Unit(0)).norm(),
+                      1e-12);
+        }
+        take_step(simulation);  // there it stays
+        EXPECT_EQ(places_of(simulation, 0, side), targets);
+        EXPECT_EQ(simulation.velocities(0).col(side[0]), Vector<kDim>::Zero());
+        simulation.release(0, side);
+        EXPECT_EQ(simulation.size().free_vertices, simulation.mesh(0).vertex_count());
+        take_step(simulation);
+        EXPECT_GT((places_of(simulation, 0, side) - targets).norm(), 1e-5);
+    }
+}
+
+// What a host says by targets is what a constraint says by a motion.
+TYPED_TEST(Host, MovesVerticesAsAConstraintDoes) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : kWithInertia) {
+        Scene scene = floating_cube<kDim>(integrator);
+        Simulation<kDim> driven(scene, {cube<kDim>()});
+        scene.constraints = {
+            test::hold(HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(kDim, 0), .offset = 1e-6},
+                       test::still(kDim))};
+        scene.constraints[0].motion[0].translate[1] = 3;
+        Simulation<kDim> constrained(scene, {cube<kDim>()});
+        const auto side = low_side(driven, 0);
+        Positions<kDim> targets = places_of(driven, 0, side);
+        for (int i = 0; i < 10; ++i) {
+            targets.row(1).array() += 0.03;
+            driven.set_targets(0, side, targets);
+            take_step(driven);
+            take_step(constrained);
+            // To rounding, which the linear solver spreads: 1e-12 of some cm.
+            EXPECT_LT((driven.positions(0) - constrained.positions(0)).norm(), 1e-10) << i;
+            EXPECT_LT((driven.velocities(0) - constrained.velocities(0)).norm(), 1e-8) << i;
+        }
+    }
+}
+
+// A constraint holds from 30 to 80 ms and moves; the host takes over from 50 ms, and lets go behind
+// it or before its end.
+TYPED_TEST(Host, HasItsTargetsInPlaceOfConstraintsThatComeAndGo) {
+    constexpr int kDim = TypeParam::value;
+    for (const int last : {6, 12}) {
+        Scene scene = floating_cube<kDim>();
+        scene.gravity[1] = -9.8;
+        scene.constraints = {
+            test::hold(HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(kDim, 0), .offset = 1e-6},
+                       test::still(kDim))};
+        scene.constraints[0].motion[0].translate[0] = -1;
+        scene.constraints[0].from = 0.03;
+        scene.constraints[0].to = 0.08;
+        Simulation<kDim> simulation(scene, {cube<kDim>()});
+        const auto side = low_side(simulation, 0);
+        const std::int64_t all = simulation.mesh(0).vertex_count();
+        Positions<kDim> taken_up;
+        for (int i = 0; i < 15; ++i) {
+            const Positions<kDim> before = places_of(simulation, 0, side);
+            if (i == 3) {
+                taken_up = before;
+            } else if (i == 5) {
+                simulation.set_targets(0, side, before);
+            } else if (i == last) {
+                simulation.release(0, side);
+            }
+            take_step(simulation);
+            const Positions<kDim> now = places_of(simulation, 0, side);
+            const bool is_host = i >= 5 && i < last;
+            const bool is_constraint = i >= 3 && i < 8 && !is_host;
+            EXPECT_EQ(now == before, is_host) << i;
+            EXPECT_EQ(simulation.size().free_vertices < all, is_host || is_constraint) << i;
+            if (is_constraint) {  // where its motion has them, whatever the host did meanwhile
+                Positions<kDim> expected = taken_up;
+                expected.row(0).array() -= 0.01 * (i - 2);
+                EXPECT_LT((now - expected).norm(), 1e-12) << i;
+            }
+        }
+    }
+}
+
+TYPED_TEST(Host, LetsGoOfVerticesWithTheVelocityThatTheyHave) {
+    constexpr int kDim = TypeParam::value;
+    Simulation<kDim> simulation(floating_cube<kDim>(), {cube<kDim>(1)});
+    const auto all = all_vertices(simulation, 0);
+    Positions<kDim> targets = simulation.positions(0);
+    for (int i = 0; i < 5; ++i) {
+        targets.row(0).array() += 0.02;
+        simulation.set_targets(0, all, targets);
+        take_step(simulation);
+    }
+    simulation.release(0, all);
+    for (int i = 0; i < 5; ++i) {
+        take_step(simulation);
+    }
+    EXPECT_NEAR(simulation.positions(0)(0, 0), 0.2, 1e-10);
+}
+
+// A step that is cut in two goes to half of the way first: it ends where a whole one does.
+TYPED_TEST(Host, TakesTargetsAlongInStepsThatAreCut) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = test::two_cubes<kDim>(0.2);
+    scene.solver.integrator = Integrator::NewtonEuler;
+    Simulation<kDim> simulation(scene, {cube<kDim>(1), cube<kDim>(1)});
+    // Sideways by more than the thinnest body: refused as a possible tunnel, and cut.
+    Positions<kDim> targets = simulation.positions(1);
+    targets.row(0).array() += 0.7;
+    simulation.set_targets(1, all_vertices(simulation, 1), targets);
+    const StepReport report = simulation.step();
+    ASSERT_TRUE(report.is_accepted) << report.failure;
+    EXPECT_GT(report.substeps, 1);
+    EXPECT_EQ(Positions<kDim>(simulation.positions(1)), targets);
+    EXPECT_LT((mean_velocity(simulation, 1) - 70 * Vector<kDim>::Unit(0)).norm(), 1e-9);
+}
+
+// ---- grabs
+
+// A point of a free body on a spring to a fixed anchor: the body is pulled by what the anchor
+// feels, and a still one comes to rest at the anchor.
+TYPED_TEST(Host, TakesABodyToTheAnchorOfAGrab) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : kWithInertia) {
+        Scene scene = floating_cube<kDim>(integrator);
+        scene.damping = Damping{.mass = 3};
+        Simulation<kDim> simulation(scene, {cube<kDim>(1)});
+        Grab<kDim> grab = corner(simulation, 0);
+        grab.damping = 30;
+        const auto id = simulation.add_grab(grab);
+        const Vector<kDim> goal = grab.anchor + 0.3 * Vector<kDim>::Unit(kDim - 1);
+        simulation.move_grab(id, goal);
+        for (int i = 0; i < 500; ++i) {
+            take_step(simulation);
+        }
+        EXPECT_LT((place_of(simulation, grab.point) - goal).norm(), 2e-3);
+    }
+}
+
+// The impulse of the spring is what the body's momentum gains, step by step: backward Euler takes
+// the force at the end of a step.
+TYPED_TEST(Host, GivesABodyTheImpulseOfItsGrabAndNoOther) {
+    constexpr int kDim = TypeParam::value;
+    Simulation<kDim> simulation(floating_cube<kDim>(), {cube<kDim>()});
+    Grab<kDim> grab = corner(simulation, 0, 500);
+    grab.anchor += 0.1 * Vector<kDim>::LinSpaced(0.2, 1);
+    static_cast<void>(simulation.add_grab(grab));
+    Vector<kDim> before = momentum(simulation);
+    for (int i = 0; i < 30; ++i) {
+        take_step(simulation);
+        const Vector<kDim> force = 500 * (grab.anchor - place_of(simulation, grab.point));
+        const Vector<kDim> gained = momentum(simulation) - before;
+        EXPECT_LT((gained - 0.01 * force).norm(), 1e-7 * force.norm()) << i;
+        // What the simulation says of forces is the same.
+        EXPECT_LT((simulation.forces(0).rowwise().sum() - force).norm(), 1e-8 * force.norm());
+        before += gained;
+    }
+}
+
+// The whole mass on a spring, seen at the center of a stiff body: omega = sqrt(k / m).
+TYPED_TEST(Host, SwingsABodyAtTheFrequencyOfItsGrab) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = floating_cube<kDim>(Integrator::Bdf2);
+    scene.bodies[0].material.lame = lame_from_young(kDim, 1e9, 0.1);
+    Simulation<kDim> simulation(scene, {cube<kDim>()});
+    const double mass = simulation.masses(0).sum();
+    const double omega = 2;
+    const Vector<kDim> middle = simulation.positions(0).rowwise().mean();
+    const auto at = pick(simulation, Ray<kDim>{middle, Vector<kDim>::Unit(0)});
+    Grab<kDim> grab{.point = at->point, .anchor = middle, .stiffness = omega * omega * mass};
+    grab.anchor[1] += 0.1;
+    static_cast<void>(simulation.add_grab(grab));
+    double previous = 0;
+    double crossing = 0;
+    while (crossing == 0 && simulation.time() < 2) {
+        take_step(simulation);
+        const double now = simulation.positions(0).row(1).mean() - middle[1] - 0.1;
+        if (now > 0 && simulation.step_count() > 1) {
+            crossing = simulation.time() - 0.01 * now / (now - previous);
+        }
+        previous = now;
+    }
+    // A quarter of a period; BDF2 is right to (omega dt)^2, and its first step is backward Euler.
+    EXPECT_NEAR(crossing, std::acos(0.0) / omega, 2e-3);
+}
+
+// Pulled far too hard: no step fails for good, and let go the body is what it was. Without a bound
+// linear_euler would refuse each of these steps.
+TYPED_TEST(Host, RecoversFromAHardPull) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : {Integrator::LinearEuler, Integrator::NewtonEuler}) {
+        for (const double far : {1.1, 100.0}) {
+            Scene scene = floating_cube<kDim>(integrator);
+            scene.solver = {.integrator = integrator};
+            scene.gravity[1] = -9.8;
+            scene.damping = Damping{.mass = 1, .stiffness = 0.01};
+            scene.constraints = {test::hold(
+                HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(kDim, 1), .offset = 1e-6},
+                test::still(kDim))};
+            Simulation<kDim> simulation(scene, {cube<kDim>()});
+            const auto settle = [&] {
+                for (int i = 0; i < 300; ++i) {
+                    take_step(simulation);
+                }
+            };
+            settle();
+            const Positions<kDim> before = simulation.positions(0);
+            Grab<kDim> grab = corner(simulation, 0, 20000);
+            grab.anchor[kDim - 1] += far;
+            const auto id = simulation.add_grab(grab);
+            double farthest = 0;
+            for (int i = 0; i < 60; ++i) {
+                take_step(simulation);
+                farthest = std::max(farthest, (simulation.positions(0) - before).norm());
+            }
+            EXPECT_GT(farthest, 0.05);  // it was a hard pull
+            simulation.remove_grab(id);
+            settle();
+            EXPECT_LT((simulation.positions(0) - before).norm(), 1e-3) << far;
+        }
+    }
+}
+
+// ---- forces and gravity
+
+TYPED_TEST(Host, PushesByForcesUntilItTakesThemAway) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : kWithInertia) {
+        Simulation<kDim> simulation(floating_cube<kDim>(integrator), {cube<kDim>()});
+        // Of a uniform acceleration, so that the body moves as a whole.
+        const Vector<kDim> a = Vector<kDim>::LinSpaced(1, 2);
+        simulation.set_forces(0, a * simulation.masses(0).transpose());
+        for (int i = 0; i < 10; ++i) {
+            take_step(simulation);
+        }
+        EXPECT_LT((mean_velocity(simulation, 0) - 0.1 * a).norm(), 1e-9);
+        EXPECT_NEAR(simulation.energies().of("force"),
+                    -a.dot(simulation.positions(0) * simulation.masses(0)), 1e-9);
+        simulation.set_forces(0, Positions<kDim>::Zero(kDim, simulation.mesh(0).vertex_count()));
+        EXPECT_EQ(simulation.host().forces.cols(), 0);
+        const Vector<kDim> before = mean_velocity(simulation, 0);
+        take_step(simulation);
+        // BDF2 still has the last step in it: it goes by a third of what the last one did.
+        EXPECT_LT((mean_velocity(simulation, 0) - before).norm(),
+                  integrator == Integrator::Bdf2 ? 0.01 * a.norm() : 1e-9);
+    }
+}
+
+TYPED_TEST(Host, ChangesGravityToThatOfAnotherScene) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = floating_cube<kDim>();
+    Simulation<kDim> driven(scene, {cube<kDim>()});
+    scene.gravity = Vector<kDim>::LinSpaced(-3, 5);
+    Simulation<kDim> heavy(scene, {cube<kDim>()});
+    driven.set_gravity(scene.gravity);
+    for (int i = 0; i < 5; ++i) {
+        take_step(driven);
+        take_step(heavy);
+    }
+    expect_same(driven, heavy);
+    EXPECT_EQ(driven.energies().of("gravity"), heavy.energies().of("gravity"));
+    heavy.set_gravity(Vector<kDim>::Zero());
+    const Vector<kDim> speed = mean_velocity(heavy, 0);
+    take_step(heavy);
+    EXPECT_LT((mean_velocity(heavy, 0) - speed).norm(), 1e-9);
+    EXPECT_EQ(heavy.energies().of("gravity"), 0);
+}
+
+// ---- sleep
+
+TYPED_TEST(Host, WakesWhatSleepsByWhateverItDoes) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = floating_cube<kDim>();
+    scene.sleep = Sleep{.speed = 1e-3, .time = 0.05};
+    const std::vector<std::function<void(Simulation<kDim>&)>> deeds = {
+        [](auto& s) { static_cast<void>(s.add_grab(corner(s, 0))); },
+        [](auto& s) { s.move_grab(1, corner(s, 0).anchor * 1.1); },
+        [](auto& s) { s.remove_grab(1); },
+        [](auto& s) { s.set_gravity(-Vector<kDim>::Unit(1)); },
+        [](auto& s) { s.set_gravity(Vector<kDim>::Zero()); },
+        [](auto& s) { s.set_forces(0, Positions<kDim>::Ones(kDim, s.masses(0).size())); },
+        [](auto& s) { s.set_forces(0, Positions<kDim>::Zero(kDim, s.masses(0).size())); },
+        [](auto& s) { s.set_targets(0, {0}, s.positions(0).leftCols(1)); },
+        [](auto& s) { s.set_targets(0, {0}, 1.01 * s.positions(0).leftCols(1).array() + 0.1); },
+        [](auto& s) { s.release(0, {0}); },
+    };
+    for (std::size_t deed = 0; deed < deeds.size(); ++deed) {
+        Simulation<kDim> simulation(scene, {cube<kDim>(1)});
+        // What has to be there for it: a grab, gravity, forces, something held.
+        for (std::size_t earlier = 0; earlier < deed; ++earlier) {
+            const bool is_needed = (deed <= 2 && earlier == 0) || (deed == 4 && earlier == 3)
+                                   || (deed == 6 && earlier == 5) || (deed >= 8 && earlier == 7);
+            if (is_needed) {
+                deeds[earlier](simulation);
+            }
+        }
+        // However it moves now: let it sleep by force.
+        Snapshot<kDim> snapshot = simulation.save();
+        snapshot.velocities.setZero();
+        snapshot.sleep[0].is_asleep = true;
+        simulation.restore(snapshot);
+        deeds[deed](simulation);
+        take_step(simulation);
+        EXPECT_FALSE(simulation.sleep()[0].is_asleep) << deed;
+    }
+}
+
+// Held still, a grab lets a body sleep; what does not change wakes nothing.
+TYPED_TEST(Host, LetsABodySleepOnAStillGrab) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = floating_cube<kDim>();
+    scene.sleep = Sleep{.speed = 1e-3, .time = 0.05};
+    Simulation<kDim> simulation(scene, {cube<kDim>(1)});
+    static_cast<void>(simulation.add_grab(corner(simulation, 0)));
+    simulation.set_targets(0, {0}, simulation.positions(0).leftCols(1));
+    for (int i = 0; i < 5; ++i) {
+        take_step(simulation);
+    }
+    EXPECT_TRUE(simulation.sleep()[0].is_asleep);
+    simulation.set_gravity(Vector<kDim>::Zero());
+    simulation.set_forces(0, Positions<kDim>::Zero(kDim, simulation.masses(0).size()));
+    simulation.set_targets(0, {0}, simulation.positions(0).leftCols(1));
+    simulation.release(0, {1});
+    simulation.move_grab(1, corner(simulation, 0).anchor);
+    take_step(simulation);
+    EXPECT_TRUE(simulation.sleep()[0].is_asleep);
+}
+
+// ---- what is not right
+
+TYPED_TEST(Host, IsToldWhatIsNotRightAndNothingHasChanged) {
+    constexpr int kDim = TypeParam::value;
+    Simulation<kDim> simulation(floating_cube<kDim>(), {cube<kDim>(1)});
+    const Positions<kDim> one = simulation.positions(0).leftCols(1);
+    const Positions<kDim> nan = one * std::numeric_limits<double>::quiet_NaN();
+    const Grab<kDim> good = corner(simulation, 0);
+    const auto with = [&](const auto& change) {
+        return [&, change] {
+            Grab<kDim> grab = good;
+            change(grab);
+            static_cast<void>(simulation.add_grab(grab));
+        };
+    };
+    const std::vector<std::pair<std::function<void()>, std::string>> wrongs = {
+        {[&] { simulation.set_targets(1, {0}, one); }, "body 1 of 1"},
+        {[&] { simulation.set_targets(-1, {0}, one); }, "body -1 of 1"},
+        {[&] { simulation.set_targets(0, {99}, one); }, "vertex 99 of"},
+        {[&] {
+             simulation.set_targets(0, {0, 0}, one.replicate(1, 2));
+         },
+         "vertex 0 is in the list"},
+        {[&] {
+             simulation.set_targets(0, {0, 1}, one);
+         },
+         "targets of 1 vertices"},
+        {[&] { simulation.set_targets(0, {0}, nan); }, "finite numbers"},
+        {[&] { simulation.release(3, {0}); }, "body 3 of 1"},
+        {[&] { simulation.set_forces(0, one); }, "forces of 1 vertices"},
+        {[&] { simulation.set_gravity(nan.col(0)); }, "gravity must be finite"},
+        {[&] { simulation.move_grab(7, one.col(0)); }, "there is no grab 7"},
+        {[&] { simulation.remove_grab(7); }, "there is no grab 7"},
+        {[&] { simulation.remove_obstacle(0); }, "obstacle 0 of 0"},
+        {[&] { simulation.remove_body(1); }, "body 1 of 1"},
+        {[&] { simulation.remove_body(0); }, "no body"},
+        {with([](auto& g) { g.point.body = 4; }), "body 4 of 1"},
+        {with([](auto& g) { g.point.cell = 1000; }), "cell 1000 of"},
+        {with([](auto& g) { g.point.weights *= 2; }), "the sum 2"},
+        {with([](auto& g) { g.anchor[0] /= 0; }), "anchor of a grab must be finite"},
+        {with([](auto& g) { g.stiffness = 0; }), "stiffness 0"},
+        {with([](auto& g) { g.damping = -1; }), "damping -1"},
+        {with([](auto& g) { g.max_force = 0; }), "max_force 0"},
+    };
+    for (const auto& [wrong, text] : wrongs) {
+        pent::test::expect_contains(pent::test::error_of(wrong), {text});
+    }
+    const HostState<kDim> host = simulation.host();
+    EXPECT_TRUE(!host.gravity && host.grabs.empty() && host.held.empty() && host.next_grab == 1);
+}
+
+TEST(HostStates, ThatNoSimulationHasAreRefused) {
+    Simulation<3> simulation(floating_cube<3>(), {cube<3>(1)});
+    static_cast<void>(simulation.add_grab(corner(simulation, 0)));
+    simulation.set_targets(0, {1, 3}, simulation.positions(0).leftCols(2));
+    const Snapshot<3> good = simulation.save();
+    const auto refused = [&](const auto& change) {
+        Snapshot<3> snapshot = good;
+        change(snapshot.host);
+        return pent::test::error_of([&] { simulation.restore(snapshot); });
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    pent::test::expect_contains(refused([&](auto& h) { h.gravity = Vector<3>::Constant(nan); }),
+                                {"gravity"});
+    pent::test::expect_contains(refused([&](auto& h) { h.forces.setOnes(3, 2); }), {"forces of 2"});
+    pent::test::expect_contains(refused([&](auto& h) { h.held[1] = 8; }), {"below 8"});
+    pent::test::expect_contains(refused([&](auto& h) { h.held[1] = 0; }), {"increase"});
+    pent::test::expect_contains(refused([&](auto& h) { h.targets.setOnes(3, 1); }),
+                                {"targets of 1"});
+    pent::test::expect_contains(refused([&](auto& h) { h.next_grab = 1; }), {"grab 1"});
+    pent::test::expect_contains(refused([&](auto& h) { h.grabs[0].grab.max_force.reset(); }),
+                                {"max_force"});
+    pent::test::expect_contains(refused([&](auto& h) { h.grabs[0].grab.point.body = 1; }),
+                                {"body 1 of 1"});
+    EXPECT_NO_THROW(simulation.restore(good));
+}
+
+}  // namespace
+}  // namespace pent::simulator
