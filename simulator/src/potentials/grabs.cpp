@@ -15,6 +15,20 @@ double weakening(double force, double most) {
     return force > most ? most / force : 1;
 }
 
+// Of a cell of a body's mesh.
+template <int Dim>
+const Material& material_of(const Bodies<Dim>& bodies, std::size_t body, std::int64_t cell) {
+    const auto cells = bodies.cells_of(body);
+    Eigen::Index own = cells.begin;
+    while (bodies.mesh_cell(body, own) != cell) {
+        ++own;
+    }
+    const auto range = std::find_if(
+        bodies.ranges.begin(), bodies.ranges.end(),
+        [&](const CellRange& candidate) { return candidate.begin <= own && own < candidate.end; });
+    return range->material;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -137,17 +151,11 @@ void Grabs<Dim>::add_couplings(Couplings& couplings) const {
 template <int Dim>
 double bearable_force(const Bodies<Dim>& bodies, const BodyPoint<Dim>& point) {
     const auto body = static_cast<std::size_t>(point.body);
-    Eigen::Index own = point.cell;
-    for (std::size_t before = 0; before < body; ++before) {
-        own += bodies.meshes[before].cell_count();
-    }
-    const auto of_cell =
-        std::find_if(bodies.ranges.begin(), bodies.ranges.end(),
-                     [&](const CellRange& range) { return range.begin <= own && own < range.end; });
-    const Material& material = of_cell->material;
+    const Material& material = material_of(bodies, body, point.cell);
     double mass = 0;
     for (int i = 0; i <= Dim; ++i) {
-        mass += std::abs(point.weights[i]) * bodies.masses[bodies.cells(i, own)];
+        const std::uint32_t vertex = bodies.meshes[body].cells(i, point.cell);
+        mass += std::abs(point.weights[i]) * bodies.masses[bodies.first_vertex[body] + vertex];
     }
     // A vertex has a part of the mass of each of its cells, one for each of their corners.
     const double volume = (Dim + 1) * mass / material.density;

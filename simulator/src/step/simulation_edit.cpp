@@ -49,6 +49,7 @@ Scene without_body(Scene scene, std::size_t body) {
     scene.bodies.erase(scene.bodies.begin() + static_cast<std::ptrdiff_t>(body));
     std::erase_if(scene.constraints, is_of_it);
     std::erase_if(scene.loads, is_of_it);
+    std::erase_if(scene.activations, is_of_it);
     std::erase_if(scene.attachments, [&](const Attachment& attachment) {
         return is_of_it(attachment) || attachment.target == name;
     });

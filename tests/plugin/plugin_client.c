@@ -8,7 +8,7 @@
 typedef int (*version_function)(void);
 typedef const char* (*error_function)(void);
 typedef pent_simulation* (*open_function)(const char*, int);
-typedef void (*close_function)(pent_simulation*);
+typedef int (*close_function)(pent_simulation*);
 typedef int (*count_function)(const pent_simulation*);
 typedef int64_t (*size_function)(const pent_simulation*, int);
 typedef const double* (*array_function)(const pent_simulation*, int);
@@ -34,9 +34,9 @@ int drive_plugin(const char* library, const char* scene, int steps, struct plugi
     step_function step = NULL;
     void* handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
     if (handle == NULL || !find(handle, "pent_plugin_version", &version)
-        || !find(handle, "pent_last_error", &last_error) || !find(handle, "pent_open", &open_scene)
-        || !find(handle, "pent_close", &close_scene) || !find(handle, "pent_dimension", &dimension)
-        || !find(handle, "pent_body_count", &bodies)
+        || !find(handle, "pent_last_error", &last_error)
+        || !find(handle, "pent_open_file", &open_scene) || !find(handle, "pent_close", &close_scene)
+        || !find(handle, "pent_dimension", &dimension) || !find(handle, "pent_body_count", &bodies)
         || !find(handle, "pent_vertex_count", &vertices) || !find(handle, "pent_cell_count", &cells)
         || !find(handle, "pent_positions", &positions) || !find(handle, "pent_step", &step)) {
         return -1;
@@ -51,8 +51,8 @@ int drive_plugin(const char* library, const char* scene, int steps, struct plugi
     }
     sight->dimension = dimension(simulation);
     sight->bodies = bodies(simulation);
-    sight->vertices = (long)vertices(simulation, 0);
-    sight->cells = (long)cells(simulation, 0);
+    sight->vertices = vertices(simulation, 0);
+    sight->cells = cells(simulation, 0);
     if (positions(simulation, 99) == NULL) {
         snprintf(sight->bad_body, sizeof sight->bad_body, "%s", last_error());
     }
@@ -64,4 +64,15 @@ int drive_plugin(const char* library, const char* scene, int steps, struct plugi
     sight->height = positions(simulation, 0)[1];
     close_scene(simulation);
     return 0;
+}
+
+void drive_version_1(const char* library, const char* scene, char* told, int size) {
+    error_function last_error = NULL;
+    open_function open_scene = NULL;
+    void* handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
+    told[0] = 0;
+    if (handle != NULL && find(handle, "pent_last_error", &last_error)
+        && find(handle, "pent_open", &open_scene) && open_scene(scene, 1) == NULL) {
+        snprintf(told, (size_t)size, "%s", last_error());
+    }
 }

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <pent/error.h>
+#include <pent/simulator/simulation.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <pent_plugin.h>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace pent::plugin {
+
+using simulator::Scene;
+using simulator::Simulation;
+
+/// A triangle surface whose arrays a host sees.
+struct SeenSurface {
+    Positions<3> positions;
+    Simplices<3> triangles;
+    Simplices<2> ends;
+    Eigen::VectorXd weights;
+};
+
+/// What is behind a handle: a simulation, and what of it was handed out.
+struct Opened {
+    std::variant<std::unique_ptr<Simulation<3>>, std::unique_ptr<Simulation<4>>> simulation;
+    std::map<int, std::vector<std::uint32_t>> boundaries;  // by body, once asked for
+    SeenSurface surface;
+    std::vector<pent_contact> contacts;
+    std::vector<std::string> energy_names;
+    std::vector<pent_energy> energies;
+    std::mutex in_use;
+};
+
+using Saved = std::variant<simulator::Snapshot<3>, simulator::Snapshot<4>>;
+
+/// Things by handles. A handle is a number, the next of all, which nobody takes for an address: one
+/// that is not there is found to be so.
+template <typename Handle, typename Thing>
+class Handles {
+public:
+    [[nodiscard]] Handle* add(std::shared_ptr<Thing> thing);
+
+    /// Throws an Error that says what is not there.
+    [[nodiscard]] std::shared_ptr<Thing> find(const Handle* handle, const char* what);
+    void remove(const Handle* handle, const char* what);
+
+private:
+    std::mutex mutex_;
+    std::map<std::uintptr_t, std::shared_ptr<Thing>> things_;
+};
+
+[[nodiscard]] Handles<pent_simulation, Opened>& simulations();
+[[nodiscard]] Handles<pent_state, Saved>& states();
+
+/// What pent_last_error() says in this thread.
+[[nodiscard]] std::string& last_error();
+
+/// Calls work(); what it throws becomes last_error() and the value for failure.
+template <typename Value, typename Work>
+Value guarded(Value failure, const Work& work) noexcept {
+    try {
+        last_error().clear();
+        return work();
+    } catch (const std::exception& error) {
+        last_error() = error.what();
+    } catch (...) {  // GCOVR_EXCL_START: C cannot catch, so nothing may get out, whatever it is
+        last_error() = "unknown failure";
+    }  // GCOVR_EXCL_STOP
+    return failure;
+}
+
+/// Calls work(simulation, opened) with a simulation of either dimension that no other thread uses.
+template <typename Value, typename Work>
+Value with(const pent_simulation* handle, Value failure, const Work& work) noexcept {
+    return guarded(failure, [&]() -> Value {
+        const std::shared_ptr<Opened> opened = simulations().find(handle, "simulation");
+        const std::unique_lock<std::mutex> lock(opened->in_use, std::try_to_lock);
+        if (!lock.owns_lock()) {
+            throw Error("another thread is using this simulation; take turns");
+        }
+        return std::visit([&](auto& held) -> Value { return work(*held, *opened); },
+                          opened->simulation);
+    });
+}
+
+/// The same for one of its bodies, which has to be there.
+template <typename Value, typename Work>
+Value with_body(const pent_simulation* handle, int body, Value failure, const Work& work) noexcept {
+    return with(handle, failure, [&](auto& simulation, Opened& opened) -> Value {
+        if (body < 0 || body >= simulation.body_count()) {
+            throw Error("body " + std::to_string(body) + " of "
+                        + std::to_string(simulation.body_count()) + "; count from 0");
+        }
+        return work(simulation, opened);
+    });
+}
+
+/// Throws an Error where a host gave NULL.
+void require(const void* argument, const char* name);
+
+template <typename Held>
+inline constexpr int kDimOf = 0;
+template <int Dim>
+inline constexpr int kDimOf<Simulation<Dim>> = Dim;
+
+template <int Dim>
+[[nodiscard]] Eigen::Matrix<double, Dim, 1> vector(const double* numbers, const char* name) {
+    require(numbers, name);
+    return Eigen::Map<const Eigen::Matrix<double, Dim, 1>>(numbers);
+}
+
+/// dimension x count numbers of a host.
+template <int Dim>
+[[nodiscard]] Positions<Dim> array(const double* numbers, std::int64_t count, const char* name) {
+    if (count > 0) {
+        require(numbers, name);
+    }
+    return Eigen::Map<const Positions<Dim>>(numbers, Dim, count);
+}
+
+/// The mesh of a host, copied; what it says of vertices and cells is checked where it is placed.
+template <int Dim>
+[[nodiscard]] SimplexMesh<Dim> mesh_of(const pent_mesh& mesh, const std::string& body);
+
+}  // namespace pent::plugin

@@ -1,0 +1,148 @@
+// Simulations that are opened and closed, stepped, saved and restored.
+
+#include "handles.h"
+
+#include <pent/pent_file.h>
+#include <pent/runs/scene_file.h>
+
+#include <algorithm>
+#include <utility>
+
+using namespace pent;
+using namespace pent::plugin;
+
+namespace {
+
+template <int Dim>
+std::unique_ptr<Simulation<Dim>> make_simulation(const Scene& scene,
+                                                 const pent_mesh* meshes,
+                                                 int threads) {
+    std::vector<SimplexMesh<Dim>> all;
+    for (const simulator::Body& body : scene.bodies) {
+        all.push_back(meshes != nullptr ? mesh_of<Dim>(meshes[all.size()], body.name)
+                                        : read_mesh<Dim>(body.mesh).mesh);
+    }
+    return std::make_unique<Simulation<Dim>>(scene, std::move(all),
+                                             simulator::SimulationOptions{.threads = threads});
+}
+
+pent_simulation* open(const Scene& scene, const pent_mesh* meshes, int threads) {
+    auto opened = std::make_shared<Opened>();
+    const int count = std::max(threads, 1);
+    if (scene.dimension == 3) {
+        opened->simulation = make_simulation<3>(scene, meshes, count);
+    } else {
+        opened->simulation = make_simulation<4>(scene, meshes, count);
+    }
+    return simulations().add(std::move(opened));
+}
+
+pent_step_report c_report(const simulator::StepReport& step) {
+    return {.step = step.step,
+            .time = step.time,
+            .seconds = step.seconds,
+            .substeps = step.substeps,
+            .refused = step.refused,
+            .newton_iterations = step.newton_iterations,
+            .iterations = step.iterations,
+            .residual = step.residual,
+            .unknowns = step.unknowns,
+            .inverted = step.inverted,
+            .asleep = step.asleep,
+            .point_facet = step.contact.point_facet,
+            .mixed = step.contact.mixed,
+            .obstacle = step.contact.obstacle,
+            .deepest = step.contact.deepest,
+            .smallest_distance = step.contact.smallest_distance};
+}
+
+}  // namespace
+
+int pent_plugin_version(void) {
+    return PENT_PLUGIN_VERSION;
+}
+
+const char* pent_last_error(void) {
+    return last_error().c_str();
+}
+
+// What hosts of version 1 call first; no header has it any more.
+extern "C" PENT_PLUGIN_API void* pent_open(const char* scene_path, int threads);
+void* pent_open(const char* /*scene_path*/, int /*threads*/) {
+    return guarded<void*>(nullptr, []() -> void* {
+        throw Error("this host was built for version 1 of pent_plugin.h, the library has version "
+                    + std::to_string(PENT_PLUGIN_VERSION)
+                    + ": build it with the new header, where pent_open_file() takes the place of"
+                      " pent_open()");
+    });
+}
+
+pent_simulation* pent_open_file(const char* scene_path, int threads) {
+    return guarded<pent_simulation*>(nullptr, [&] {
+        require(scene_path, "scene_path");
+        return open(runs::read_scene(scene_path), nullptr, threads);
+    });
+}
+
+pent_simulation* pent_open_text(const char* scene,
+                                const pent_mesh* meshes,
+                                int64_t mesh_count,
+                                int threads) {
+    return guarded<pent_simulation*>(nullptr, [&] {
+        require(scene, "scene");
+        require(meshes, "meshes");
+        const Scene read = runs::parse_scene(scene, "scene", "");
+        const auto bodies = static_cast<std::int64_t>(read.bodies.size());
+        if (mesh_count != bodies) {
+            throw Error("the scene has " + std::to_string(bodies) + " bodies; got "
+                        + std::to_string(mesh_count) + " meshes");
+        }
+        return open(read, meshes, threads);
+    });
+}
+
+int pent_close(pent_simulation* simulation) {
+    return guarded(-1, [&] {
+        simulations().remove(simulation, "simulation");
+        return 0;
+    });
+}
+
+int pent_step(pent_simulation* simulation, pent_step_report* report) {
+    return with(simulation, -1, [&](auto& held, Opened& /*opened*/) {
+        const simulator::StepReport step = held.step();
+        if (report != nullptr) {
+            *report = c_report(step);
+        }
+        if (!step.is_accepted) {
+            throw Error(step.failure);
+        }
+        return 0;
+    });
+}
+
+pent_state* pent_save(const pent_simulation* simulation) {
+    return with<pent_state*>(simulation, nullptr, [](auto& held, Opened& /*opened*/) {
+        return states().add(std::make_shared<Saved>(held.save()));
+    });
+}
+
+int pent_restore(pent_simulation* simulation, const pent_state* state) {
+    return with(simulation, -1, [&](auto& held, Opened& /*opened*/) {
+        constexpr int kDim = kDimOf<std::remove_reference_t<decltype(held)>>;
+        const std::shared_ptr<Saved> saved = states().find(state, "state");
+        const auto* snapshot = std::get_if<simulator::Snapshot<kDim>>(saved.get());
+        if (snapshot == nullptr) {
+            throw Error("the state is of a simulation of another dimension");
+        }
+        held.restore(*snapshot);
+        return 0;
+    });
+}
+
+int pent_free_state(pent_state* state) {
+    return guarded(-1, [&] {
+        states().remove(state, "state");
+        return 0;
+    });
+}
