@@ -49,6 +49,20 @@ Scene scene_of(Integrator integrator, ElementKind elements, ContactModel model) 
     hold.from = 0.02;
     hold.to = 0.06;
     scene.constraints = {hold};
+    Region stiff;
+    stiff.name = "stiff";
+    stiff.select = {BallSelection{Eigen::VectorXd::Constant(Dim, 0.5), 0.7}};
+    stiff.material.lame = lame_from_young(Dim, 5e5, 0.2);
+    scene.bodies[1].regions = {stiff};
+    if (elements != ElementKind::Smoothed) {
+        Activation muscle;
+        muscle.body = "b";
+        muscle.select = {EverythingSelection{}};
+        muscle.stretch = 0.9;
+        muscle.signal = Signal::Sine;
+        muscle.frequency = 5;
+        scene.activations = {muscle};
+    }
     return scene;
 }
 
@@ -169,6 +183,7 @@ TYPED_TEST(HostPairs, WakeWhatTouchesWhatIsGrabbed) {
     constexpr int kDim = TypeParam::value;
     Scene scene =
         scene_of<kDim>(Integrator::LinearEuler, ElementKind::Linear, ContactModel::Penalty);
+    scene.activations.clear();  // one that changes keeps its body awake
     scene.constraints.clear();
     scene.attachments.clear();
     Simulation<kDim> simulation(scene, {coarse_cube<kDim>(scene), coarse_cube<kDim>(scene)});
