@@ -342,9 +342,6 @@ std::optional<Fault> fault_of(const Activation& activation) {
         return Fault{"fibers",
                      "fibers = \"distance\" go with \"away_from\", a selection of vertices"};
     }
-    if (activation.signal == Signal::Keyframes && activation.keyframes.empty()) {
-        return Fault{"keyframes", "the signal of \"keyframes\" has none"};
-    }
     return fault_of_times(activation.keyframes);
 }
 

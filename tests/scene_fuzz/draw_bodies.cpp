@@ -291,7 +291,7 @@ Json draw_activation(Random& random, const Plan& plan) {
                        {"select", half_or_all(random, plan)},
                        {"stretch", random.number(0.7, 1.3)}};
     const std::string fibers = random.pick({"none", "constant", "constant", "distance"});
-    const std::string signal = random.pick({"constant", "sine", "sine", "pulses", "keyframes"});
+    const std::string signal = random.pick({"constant", "sine", "sine", "pulses"});
     const bool is_periodic = signal == "sine" || signal == "pulses";
     activation["signal"] = signal;
     if (fibers != "none" || random.chance(0.5)) {
@@ -321,7 +321,7 @@ Json draw_activation(Random& random, const Plan& plan) {
     if (signal == "pulses" && random.chance(0.7)) {
         activation["duty"] = random.number(0.1, 0.9);
     }
-    if (signal == "keyframes") {
+    if (random.chance(0.3)) {
         activation["keyframes"] = draw_keyframes(random, plan);
     }
     return activation;

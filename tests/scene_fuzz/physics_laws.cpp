@@ -410,7 +410,7 @@ void check_sleep(const Scene& scene) {
         has_any(scene.loads, [](const Load& load) { return !load.keyframes.empty(); })
         || has_any(scene.activations,
                    [](const simulator::Activation& one) {
-                       return one.signal != simulator::Signal::Constant;
+                       return one.signal != simulator::Signal::Constant || !one.keyframes.empty();
                    })
         || has_any(scene.constraints, comes_or_goes) || has_any(scene.attachments, comes_or_goes)
         || has_any(

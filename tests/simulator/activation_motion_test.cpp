@@ -65,7 +65,6 @@ TYPED_TEST(ActivationMotion, SlowAndUnloadedReachesTheExactShape) {
             scene.frames_per_second = 50;
             scene.damping = Damping{.mass = 20, .stiffness = 0};
             scene.activations[0].preserves_volume = true;
-            scene.activations[0].signal = Signal::Keyframes;
             scene.activations[0].keyframes = {{0, 0}, {1, 1}};
             Simulation<kDim> simulation(scene, {test::cube_for<kDim>(scene, 2)});
             for (int i = 0; i < 75; ++i) {
@@ -106,7 +105,6 @@ TYPED_TEST(ActivationMotion, DoesTheWorkThatTheEnergyGrowsBy) {
         Scene scene = muscle_scene<kDim>(0.8);
         scene.solver.integrator = Integrator::Quasistatic;
         scene.frames_per_second = steps;
-        scene.activations[0].signal = Signal::Keyframes;
         scene.activations[0].keyframes = {{0, 0}, {1, 1}};
         for (const double side : {-1.0, 1.0}) {
             const Eigen::VectorXd normal = side * Eigen::VectorXd::Unit(kDim, 0);
@@ -135,7 +133,6 @@ TYPED_TEST(ActivationMotion, WakesASleeperWhenItBeginsAndLetsItSleepBefore) {
     Scene scene = muscle_scene<kDim>(0.7);
     scene.solver.integrator = Integrator::NewtonEuler;
     scene.sleep = Sleep{.speed = 1e-3, .time = 0.1};
-    scene.activations[0].signal = Signal::Keyframes;
     scene.activations[0].keyframes = {{0.5, 0}, {0.7, 1}};
     Simulation<kDim> simulation(scene, {cube<kDim>(1)});
     int slept = 0;

@@ -237,7 +237,6 @@ TYPED_TEST(ActiveStrainTest, SaysWhatItMisses) {
               "activation: smoothed elements know none; use elements = \"quadratic\" or"
               " \"linear\"");
     scene.solver.elements = ElementKind::Linear;
-    scene.activations[0].signal = Signal::Keyframes;
     scene.activations[0].keyframes = {{0, 0}, {1, 3}};
     EXPECT_EQ(error(),
               "activation of \"box\": the keyframe of factor 3 makes fibers -0.2 times as"

@@ -92,22 +92,24 @@ Vector<Dim> unit(const Vector<Dim>& vector) {
     return length > kNoDirection ? Vector<Dim>(vector / length) : Vector<Dim>::Zero();
 }
 
+// Between 0 and 1.
+double periodic_signal(const Activation& activation, double time, double delay) {
+    if (activation.signal == Signal::Constant) {
+        return 1;
+    }
+    const double periods = activation.frequency * time + activation.phase - delay;
+    const double phase = periods - std::floor(periods);
+    if (activation.signal == Signal::Sine) {
+        return 0.5 * (1 + std::sin(2 * std::numbers::pi * phase));
+    }
+    const double part = phase / activation.duty;
+    return smooth(part / kFlank) * smooth((1 - part) / kFlank);
+}
+
 }  // namespace
 
 double signal_at(const Activation& activation, double time, double delay) {
-    const double periods = activation.frequency * time + activation.phase - delay;
-    switch (activation.signal) {
-        case Signal::Constant:
-            return 1;
-        case Signal::Keyframes:
-            return factor_at(activation.keyframes, time);
-        case Signal::Sine:
-            return 0.5 * (1 + std::sin(2 * std::numbers::pi * (periods - std::floor(periods))));
-        case Signal::Pulses:
-            break;
-    }
-    const double part = (periods - std::floor(periods)) / activation.duty;
-    return smooth(part / kFlank) * smooth((1 - part) / kFlank);
+    return factor_at(activation.keyframes, time) * periodic_signal(activation, time, delay);
 }
 
 template <int Dim>

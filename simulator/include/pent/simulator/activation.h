@@ -14,17 +14,15 @@ namespace pent::simulator {
 
 /// How much of an activation is there at a time.
 enum class Signal {
-    Constant,   ///< 1.
-    Sine,       ///< Up and down between 0 and 1: (1 + sin(2 pi phase)) / 2.
-    Pulses,     ///< 1 during `duty` of each period, with smooth flanks; else 0.
-    Keyframes,  ///< The keyframes.
+    Constant,  ///< 1.
+    Sine,      ///< Up and down between 0 and 1: (1 + sin(2 pi phase)) / 2.
+    Pulses,    ///< 1 during `duty` of each period, with smooth flanks; else 0.
 };
 template <>
 inline constexpr std::array kWords<Signal> = {
     Word<Signal>{Signal::Constant, "constant"},
     Word<Signal>{Signal::Sine, "sine"},
     Word<Signal>{Signal::Pulses, "pulses"},
-    Word<Signal>{Signal::Keyframes, "keyframes"},
 };
 
 /// Which way the fibers of an activation run.
@@ -62,7 +60,7 @@ struct Activation {
     double duty = 0.5;          ///< Of pulses, in (0, 1).
     Eigen::VectorXd wave = {};  ///< Periods per m by which it is later along an axis, at rest.
     double distance_wave = 0;   ///< The same for each m of distance; of Fibers::Distance.
-    std::vector<Keyframe> keyframes = {};  ///< Of Signal::Keyframes.
+    std::vector<Keyframe> keyframes = {};  ///< What the signal is multiplied by; none: 1.
     std::string source = {};  ///< Where its selection stands in a scene file; as Body::source.
 };
 

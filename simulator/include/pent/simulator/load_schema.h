@@ -75,9 +75,7 @@ void fields(Part& activation, const Visit& visit) {
               .only_with(has_periods() && has_distance(),
                          "fibers = \"distance\" and a periodic signal"),
           activation.distance_wave);
-    visit(key("keyframes", "", "of the signal, as of a load")
-              .required()
-              .only_with(activation.signal == Signal::Keyframes, "signal = \"keyframes\""),
+    visit(key("keyframes", "", "what the signal is multiplied by, as of a load"),
           activation.keyframes);
 }
 
