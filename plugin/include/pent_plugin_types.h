@@ -21,6 +21,7 @@ typedef struct pent_mesh {
     const uint32_t* columns; /**< Of an extruded mesh, one a vertex, or NULL. */
     const uint32_t* layers;  /**< The same. */
     const uint32_t* parents; /**< Of quadratic cells, one a cell, or NULL. */
+    const double* fibers;    /**< Directions, dimension x cell_count, or NULL. */
 } pent_mesh;
 
 /** What one step did. */

@@ -48,12 +48,12 @@ std::uint64_t grab_number(int64_t grab) {
 // counted as the host counts them.
 Scene scene_of(const char* text, const char* name, int dimension, const std::string& besides) {
     require(text, "text");
-    const Scene scene = runs::parse_scene(
+    Scene scene = runs::parse_scene(
         std::string(text) + "\n[scene]\ndimension = " + std::to_string(dimension) + "\n" + besides,
         name, "");
     const std::size_t blocks = scene.bodies.size() + scene.obstacles.size()
                                + scene.constraints.size() + scene.loads.size()
-                               + scene.attachments.size();
+                               + scene.attachments.size() + scene.activations.size();
     if (blocks != (besides.empty() ? 1U : 2U) || scene.bodies.size() != 1 || scene.contact
         || scene.damping || scene.sleep) {
         throw Error(std::string(name) + ": expected one [[" + name + "]] and nothing else");

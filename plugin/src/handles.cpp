@@ -94,6 +94,9 @@ SimplexMesh<Dim> mesh_of(const pent_mesh& mesh, const std::string& body) {
     made.columns = labels(mesh.columns, mesh.vertices);
     made.layers = labels(mesh.layers, mesh.vertices);
     made.parents = labels(mesh.parents, mesh.cell_count);
+    if (mesh.fibers != nullptr) {
+        made.fibers = array<Dim>(mesh.fibers, mesh.cell_count, "fibers");
+    }
     return made;
 }
 

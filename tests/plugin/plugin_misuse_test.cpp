@@ -119,6 +119,7 @@ TEST(PluginMisuse, IsSaidAndChangesNothing) {
     const std::uint32_t vertex = 2;
     const std::uint32_t far = 99;
     const std::vector<double> nans(64, kNan);
+    const std::vector<double> many_nans(96, kNan);  // of 24 cells
     pent_hit hit = {};
     pent_surface surface = {};
     const pent_mesh mesh = closed_c_mesh(test::box<4>());
@@ -183,6 +184,14 @@ TEST(PluginMisuse, IsSaidAndChangesNothing) {
          "one [[body]] and nothing else"},
         {[&] { return pent_add_body(host, "[[body]]\nname = \"low\"\nmesh = \"-\"\n", &mesh); },
          "low"},
+        {[&] {
+             return pent_add_body(host,
+                                  "[[body]]\nname = \"c\"\nmesh = \"-\"\n[[activation]]\n"
+                                  "body = \"c\"\nselect = \"everything\"\nstretch = 2\n",
+                                  &mesh);
+         },
+         "one [[body]] and nothing else"},
+        {[&] { return mesh_with([&](auto& m) { m.fibers = many_nans.data(); }); }, "fiber"},
         {[&] { return mesh_with([](auto& m) { m.vertices = -1; }); }, "-1 vertices"},
         {[&] { return mesh_with([](auto& m) { m.cell_count = 0; }); }, "0 cells"},
         {[&] { return mesh_with([](auto& m) { m.positions = nullptr; }); }, "positions is NULL"},

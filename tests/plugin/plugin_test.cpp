@@ -261,6 +261,26 @@ TEST(Plugin, SlicesAndPicks) {
     EXPECT_STREQ(pent_last_error(), "");
 }
 
+// Muscles along the fibers of a mesh: as in the library; none without fibers.
+TEST(Plugin, TakesTheFibersOfAMesh) {
+    const char* scene =
+        "[[body]]\nname = \"a\"\nmesh = \"-\"\n[[activation]]\nbody = \"a\"\n"
+        "select = \"everything\"\nstretch = 1.5\nfibers = \"mesh\"\n";
+    pent_mesh mesh = closed_c_mesh(test::box<4>());
+    EXPECT_EQ(pent_open_text(scene, &mesh, 1, 1), nullptr);
+    expect_error("the mesh has none");
+    const Positions<4> fibers = Eigen::Vector4d::UnitZ().replicate(1, mesh.cell_count);
+    mesh.fibers = fibers.data();
+    const Host host(pent_open_text(scene, &mesh, 1, 1));
+    ASSERT_EQ(pent_step(host, nullptr), 0) << pent_last_error();
+    SimplexMesh<4> same = test::box<4>();
+    same.fibers = fibers;
+    Simulation<4> simulation(runs::parse_scene(scene, "scene", ""), {same});
+    ASSERT_TRUE(simulation.step().is_accepted);
+    EXPECT_GT((simulation.positions(0) - same.positions).norm(), 0.01);
+    expect_same(host, simulation);
+}
+
 TEST(Plugin, OpensASceneFromMemoryOrSaysWhereItIsWrong) {
     const pent_mesh mesh = closed_c_mesh(test::box<4>());
     EXPECT_EQ(pent_open_text("[scene]\ngravitty = 3\n", &mesh, 1, 1), nullptr);
