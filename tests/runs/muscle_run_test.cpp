@@ -113,7 +113,7 @@ TEST(SceneFile, SaysWhereAnActivationOrARegionIsWrong) {
     expect_contains(
         error("away_from = { half_space = { normal = [1, 0, 0, 0], offset = 0 } }\n", ""),
         {"s.toml:36:10", "go with \"away_from\""});
-    expect_contains(error("factor = 1 }]", "factor = -11 }]"), {"s.toml:46:13", "inside out"});
+    expect_contains(error("factor = 1 }]", "factor = -11 }]"), {"s.toml:45:13", "inside out"});
     expect_contains(error("duty = 0.3", "duty = 1"), {"s.toml:29:8", "duty"});
     expect_contains(error("name = \"skin\"", "name = \"bone\""),
                     {"s.toml", "two regions have the name \"bone\""});
