@@ -29,8 +29,8 @@ double smooth(double s) {
     return t * t * (3 - 2 * t);
 }
 
-// The elements of a body as a mesh: its cells as Bodies has them, or its quadratic cells as if their
-// edges were straight.
+// The elements of a body as a mesh: its cells as Bodies has them, or its quadratic cells as if
+// their edges were straight.
 template <int Dim>
 SimplexMesh<Dim> elements_of(const Bodies<Dim>& bodies, std::size_t body) {
     const SimplexMesh<Dim>& mesh = bodies.meshes[body];

@@ -13,7 +13,7 @@ namespace pent::simulator {
 /// What the activations of a scene make of its elements at a time: Fa of each, see Activation.
 ///
 /// An element is a cell of Bodies, or a quadratic cell where the bodies have been made for these.
-/// Where several activations select it their Fa are multiplied, the first of the scene acting first.
+/// Where several activations select it their Fa are multiplied, the first one acting first.
 template <int Dim>
 class ActiveStrain {
 public:

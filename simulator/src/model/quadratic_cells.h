@@ -52,8 +52,9 @@ template <int Dim>
 [[nodiscard]] QuadraticRest<Dim> quadratic_rest(
     const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>& places);
 
-/// The cells of a mesh by the quadratic simplices that they are the children of, 2^Dim each: by their parents, or,
-/// where it has none, every 2^Dim cells that follow one another, as subdivision leaves them.
+/// The cells of a mesh by the quadratic simplices that they are the children of, 2^Dim each: by
+/// their parents, or, where it has none, every 2^Dim cells that follow one another, as subdivision
+/// leaves them.
 ///
 /// @param name  Of the mesh, for messages.
 /// Throws an Error unless each has as many.
