@@ -58,14 +58,27 @@ public:
         return vertex >= scene_.is_fixed.size() || scene_.is_fixed[vertex];
     }
 
-    /// Whether all corners of a simplex are.
+    /// Whether a vertex may go where obstacles are; see ContactScene::is_always_fixed.
+    [[nodiscard]] bool may_enter_obstacles(std::uint32_t vertex) const {
+        return is_fixed(vertex)
+               && (vertex >= scene_.is_always_fixed.size() || scene_.is_always_fixed[vertex]);
+    }
+
+    /// Whether all corners of a simplex are fixed.
     template <int Count>
     [[nodiscard]] bool is_fixed(const Simplices<Count>& simplices, Eigen::Index i) const {
-        bool is_all = true;
-        for (int corner = 0; corner < Count; ++corner) {
-            is_all &= is_fixed(simplices(corner, i));
-        }
-        return is_all;
+        const auto corners = simplices.col(i);
+        return std::all_of(corners.begin(), corners.end(),
+                           [&](std::uint32_t corner) { return is_fixed(corner); });
+    }
+
+    /// Whether all corners of a simplex may.
+    template <int Count>
+    [[nodiscard]] bool may_enter_obstacles(const Simplices<Count>& simplices,
+                                           Eigen::Index i) const {
+        const auto corners = simplices.col(i);
+        return std::all_of(corners.begin(), corners.end(),
+                           [&](std::uint32_t corner) { return may_enter_obstacles(corner); });
     }
 
     /// Of all vertices, those of cores too.

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 
 namespace pent::contact {
@@ -62,6 +63,9 @@ public:
           colliders_(scene_),
           candidates_(colliders_),
           obstacle_vertices_(vertices_at_obstacles(colliders_)) {
+        std::copy_if(obstacle_vertices_.begin(), obstacle_vertices_.end(),
+                     std::back_inserter(pushed_vertices_),
+                     [&](std::uint32_t vertex) { return !scene_.is_fixed[vertex]; });
         for (const ContactBody<Dim>& body : scene_.bodies) {
             mean_edges_.push_back(mean_edge_length<Dim>(body.surface, scene_.rest));
         }
@@ -166,7 +170,8 @@ public:
             sum += body.surface.bytes();
         }
         return sum + static_cast<std::int64_t>(sizeof(double)) * colliders_.rest().size()
-               + static_cast<std::int64_t>(sizeof(std::uint32_t) * obstacle_vertices_.size());
+               + static_cast<std::int64_t>(sizeof(std::uint32_t)
+                                           * (obstacle_vertices_.size() + pushed_vertices_.size()));
     }
 
 private:
@@ -193,10 +198,10 @@ private:
         }
         contacts.pair_count = contacts.list.size();
         const std::vector<Contact<Dim>> at_obstacles =
-            find_obstacle_contacts<Dim>(colliders_, obstacle_vertices_, positions);
+            find_obstacle_contacts<Dim>(colliders_, pushed_vertices_, positions);
         contacts.list.insert(contacts.list.end(), at_obstacles.begin(), at_obstacles.end());
         report.obstacle_tests =
-            static_cast<std::int64_t>(scene_.obstacles.size() * obstacle_vertices_.size());
+            static_cast<std::int64_t>(scene_.obstacles.size() * pushed_vertices_.size());
         evaluate_all<Dim>(scene_, positions, stiffness, contacts);
         sum_up(contacts);
         report.seconds = watch.seconds();
@@ -206,7 +211,8 @@ private:
     ContactScene<Dim> scene_;
     Colliders<Dim> colliders_;
     Candidates<Dim> candidates_;
-    std::vector<std::uint32_t> obstacle_vertices_;  // that meet surfaces of obstacles
+    std::vector<std::uint32_t> obstacle_vertices_;  // that surfaces of obstacles keep out
+    std::vector<std::uint32_t> pushed_vertices_;    // of these, the free ones
     std::vector<double> mean_edges_;                // of bodies at rest, m
 };
 

@@ -104,20 +104,28 @@ private:
     [[nodiscard]] const BoxTree& tree(int i) const {
         return trees_[static_cast<std::size_t>(i)].template tree<Count>();
     }
-    [[nodiscard]] bool are_fixed(const std::vector<std::uint32_t>& vertices) const {
-        return std::all_of(vertices.begin(), vertices.end(),
-                           [&](std::uint32_t vertex) { return colliders_.is_fixed(vertex); });
+    template <typename May>
+    [[nodiscard]] static bool all(const std::vector<std::uint32_t>& first,
+                                  const std::vector<std::uint32_t>& second,
+                                  const May& may) {
+        return std::all_of(first.begin(), first.end(), may)
+               && std::all_of(second.begin(), second.end(), may);
     }
 
-    // Adds what may not be: fixed vertices alone may touch, and meet obstacles.
+    // Adds what may not be: fixed vertices alone may touch, and some of them meet obstacles.
     void add(CrossingKind kind,
              const Two& two,
              std::vector<std::uint32_t> first,
              std::vector<std::uint32_t> second,
              double distance) {
         const bool has_core = colliders_.is_core(two.first) || colliders_.is_core(two.second);
-        const bool may_be =
-            (has_core || kind == CrossingKind::Touching) && are_fixed(first) && are_fixed(second);
+        const auto is_fixed = [&](std::uint32_t vertex) { return colliders_.is_fixed(vertex); };
+        const auto may_enter = [&](std::uint32_t vertex) {
+            return colliders_.may_enter_obstacles(vertex);
+        };
+        const bool may_be = has_core
+                                ? all(first, second, may_enter)
+                                : kind == CrossingKind::Touching && all(first, second, is_fixed);
         if (may_be || found_.size() >= most_) {
             return;
         }

@@ -42,7 +42,7 @@ std::vector<std::uint32_t> vertices_at_obstacles(const Colliders<Dim>& colliders
     }
     for (const ContactBody<Dim>& body : scene.bodies) {
         for (const std::uint32_t vertex : body.surface.vertices.reshaped()) {
-            if (!body.is_kinematic && !scene.is_fixed[vertex]) {
+            if (!body.is_kinematic && !colliders.may_enter_obstacles(vertex)) {
                 vertices.push_back(vertex);
             }
         }

@@ -91,10 +91,10 @@ void shorten(const Candidates<Dim>& candidates,
         const Vector<Dim> together = a_motion.col(0);
         const bool do_keep_place =
             (a_motion.colwise() - together).isZero(0) && (b_motion.colwise() - together).isZero(0);
-        // Fixed vertices may touch if they stay as they are, and may go where obstacles are.
+        // Fixed vertices may touch if they stay as they are.
         if (do_keep_place
-            || (has_core && colliders.template is_fixed<K>(first, i)
-                && colliders.template is_fixed<L>(second, j))) {
+            || (has_core && colliders.template may_enter_obstacles<K>(first, i)
+                && colliders.template may_enter_obstacles<L>(second, j))) {
             return {1, i, j};
         }
         return {safe_fraction<Dim, K, L>(gather<Dim, K>(first, i, step.from), a_motion,

@@ -25,14 +25,19 @@ std::string where(std::string_view name, std::string_view element, Eigen::Index 
     return std::string(name) + ": " + std::string(element) + " " + std::to_string(index) + ": ";
 }
 
+// @param what    A column is of, as in "vertex".
+// @param prefix  Of the names of its entries.
 template <int Dim>
-void validate_positions(const Positions<Dim>& positions, std::string_view name) {
+void validate_finite(const Positions<Dim>& vectors,
+                     std::string_view what,
+                     const std::string& prefix,
+                     std::string_view name) {
     constexpr std::array<char, 4> kAxes = {'x', 'y', 'z', 'w'};
-    for (Eigen::Index vertex = 0; vertex < positions.cols(); ++vertex) {
+    for (Eigen::Index i = 0; i < vectors.cols(); ++i) {
         for (int axis = 0; axis < Dim; ++axis) {
-            const double value = positions(axis, vertex);
+            const double value = vectors(axis, i);
             if (!std::isfinite(value)) {
-                throw Error(where(name, "vertex", vertex) + kAxes[axis] + " is "
+                throw Error(where(name, what, i) + prefix + kAxes[axis] + " is "
                             + std::to_string(value) + ", expected a finite number");
             }
         }
@@ -137,12 +142,10 @@ void validate(const SimplexMesh<Dim>& mesh, std::string_view name) {
     validate_length(mesh.parents.size(), mesh.cell_count(), "parents", name);
     validate_length(static_cast<std::size_t>(mesh.fibers.cols()), mesh.cell_count(), "fibers",
                     name);
-    if (!mesh.fibers.allFinite()) {
-        throw Error(std::string(name) + ": a fiber is not finite");
-    }
     validate_length(mesh.columns.size(), mesh.vertex_count(), "columns", name);
     validate_length(mesh.layers.size(), mesh.vertex_count(), "layers", name);
-    validate_positions<Dim>(mesh.positions, name);
+    validate_finite<Dim>(mesh.positions, "vertex", "", name);
+    validate_finite<Dim>(mesh.fibers, cell_name(Dim), "fiber_", name);
     for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
         validate_indices(mesh, name, cell);
         validate_orientation(mesh, name, cell);

@@ -60,7 +60,8 @@ double way(const Scene& scene) {
 
 TEST(Crawler, GoesTheWayOfItsWavesByFrictionAlone) {
     const double there = way(crawler(0.6, 0.8));
-    EXPECT_GT(there, 0.1);
+    EXPECT_GT(there, 0.25);  // a cell
+    // The mirror image, but for the cells, which are cut along diagonals of one direction.
     EXPECT_NEAR(way(crawler(-0.6, 0.8)), -there, 0.2 * there);
     // Inner forces move no center of mass; what is left is what the linear solver leaves.
     EXPECT_LT(std::abs(way(crawler(0.6, 0))), 1e-3 * there);

@@ -218,7 +218,7 @@ TYPED_TEST(ActiveStrainTest, SaysWhatItMisses) {
     const auto error = [&] {
         return error_of([&] {
             const Setting<kDim> setting(scene, 2);
-            static_cast<void>(ActiveStrain<kDim>(scene, setting.bodies));
+            static_cast<void>(ActiveStrain<kDim>(setting.workers, scene, setting.bodies));
         });
     };
     scene.activations[0].fibers = Fibers::Mesh;

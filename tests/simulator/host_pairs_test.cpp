@@ -11,14 +11,10 @@ namespace pent::simulator {
 namespace {
 
 using test::corner;
+using test::Dimensions;
 using test::expect_same;
 using test::kWithInertia;
 using test::low_side;
-
-using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
-
-template <int Dim>
-using Vector = Eigen::Matrix<double, Dim, 1>;
 
 template <typename T>
 class HostPairs : public testing::Test {};

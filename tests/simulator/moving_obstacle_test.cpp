@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 // Obstacles that move, and what they push and carry.
 
@@ -181,6 +182,48 @@ TEST(MovingObstacles, ThatGoTooFarInAStepOfABarrierAreReportedAndCutTheStep) {
     EXPECT_TRUE(accepted.is_accepted) << accepted.failure;
     EXPECT_GT(accepted.substeps, 1);
     EXPECT_GT(gap<3>(cut, 0), 0);
+}
+
+// What is held for a while is let go again, and must not be inside an obstacle then; what is held
+// for good may go anywhere, as may obstacles through it. Surfaces of obstacles (a half-space) and
+// cores (a ball) are looked at by different code.
+TYPED_TEST(MovingObstacle, DoesNotMeetWhatIsHeldForGoodAndIsStoppedByWhatIsHeldForAWhile) {
+    constexpr int kDim = TypeParam::value;
+    const Eigen::VectorXd up = Eigen::VectorXd::Unit(kDim, 1);
+    const auto failure = [&](bool is_core, bool does_obstacle_move, double until) {
+        Scene scene = cube_on_floor<kDim>(ContactModel::Barrier);
+        scene.solver.max_halvings = 3;
+        if (is_core) {
+            Eigen::VectorXd center = Eigen::VectorXd::Constant(kDim, 0.125);  // below the middle
+            center[1] = -0.51;
+            scene.obstacles[0].shape = BallObstacle{.center = center, .radius = 0.5};
+        }
+        Motion motion = still(kDim);
+        motion.translate = (does_obstacle_move ? 3 : -3) * up;  // 3 cm a step, of a gap of 1 cm
+        scene.constraints = {test::hold(HalfSpaceSelection{-up, 100}, still(kDim))};
+        scene.constraints[0].to = until;
+        (does_obstacle_move ? scene.obstacles[0].motion[0] : scene.constraints[0].motion[0]) =
+            motion;
+        Simulation<kDim> simulation(scene, {cube<kDim>(1)});
+        for (int k = 0; k < 4; ++k) {
+            const StepReport report = simulation.step();
+            if (!report.is_accepted) {
+                return report.failure;
+            }
+        }
+        return std::string();
+    };
+    for (const bool is_core : {false, true}) {
+        for (const bool does_obstacle_move : {false, true}) {
+            EXPECT_EQ(failure(is_core, does_obstacle_move, std::numeric_limits<double>::infinity()),
+                      "");
+            EXPECT_NE(failure(is_core, does_obstacle_move, 1)
+                          .find(does_obstacle_move ? "an obstacle moves so far in a step"
+                                                   : "held vertices cannot go on"),
+                      std::string::npos)
+                << is_core << failure(is_core, does_obstacle_move, 1);
+        }
+    }
 }
 
 TEST(MovingObstacles, ThatAreBoxesDoNotTurn) {

@@ -1,4 +1,5 @@
 #include "contact_scenes.h"
+#include "potential_laws.h"
 #include "support/messages.h"
 
 #include <pent/error.h>
@@ -13,15 +14,11 @@ namespace pent::simulator {
 namespace {
 
 using test::cube;
-
-using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+using test::Dimensions;
 
 template <typename T>
 class Picking : public testing::Test {};
 TYPED_TEST_SUITE(Picking, Dimensions);
-
-template <int Dim>
-using Vector = Eigen::Matrix<double, Dim, 1>;
 
 // Cells are larger by 1e-12 of their size, so that no ray goes between two of them; a ray at a
 // small angle to a facet comes to it some times that sooner.

@@ -16,13 +16,9 @@ namespace {
 using test::all_vertices;
 using test::corner;
 using test::cube;
+using test::Dimensions;
 using test::expect_same;
 using test::kWithInertia;
-
-using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
-
-template <int Dim>
-using Vector = Eigen::Matrix<double, Dim, 1>;
 
 template <typename T>
 class Edit : public testing::Test {};

@@ -129,35 +129,41 @@ Matrix<Dim> active_deformation(const Activation& activation,
 }
 
 template <int Dim>
-ActiveStrain<Dim>::ActiveStrain(const Scene& scene, const Bodies<Dim>& bodies) {
+ActiveStrain<Dim>::ActiveStrain(const Workers& workers,
+                                const Scene& scene,
+                                const Bodies<Dim>& bodies) {
     for (const Activation& activation : scene.activations) {
         const std::size_t body = index_of(scene, activation.body);
-        const auto range = bodies.elements_of(body);
-        muscles_.push_back(make_muscle(activation, body, elements_of(bodies, body), range.begin));
+        muscles_.push_back({activation, body});
+        append_fibers(muscles_.size() - 1, elements_of(bodies, body),
+                      bodies.elements_of(body).begin);
     }
     if (muscles_.empty()) {
         return;
     }
+    std::stable_sort(fibers_.begin(), fibers_.end(),
+                     [](const Fiber& a, const Fiber& b) { return a.element < b.element; });
     shape_of_.assign(static_cast<std::size_t>(bodies.element_count()), kNoShape);
-    for (const Muscle& muscle : muscles_) {
-        for (const Fiber& fiber : muscle.fibers) {
-            if (shape_of_[fiber.element] == kNoShape) {
-                shape_of_[fiber.element] = static_cast<std::int32_t>(shapes_.size());
-                shapes_.emplace_back();
-            }
+    for (std::size_t i = 0; i < fibers_.size(); ++i) {
+        if (i == 0 || fibers_[i].element != fibers_[i - 1].element) {
+            shape_of_[fibers_[i].element] = static_cast<std::int32_t>(first_fiber_.size());
+            first_fiber_.push_back(i);
         }
     }
+    shapes_.resize(first_fiber_.size());
+    first_fiber_.push_back(fibers_.size());
     if (bodies.quadratic.nodes.cols() > 0) {
         find_cells_of_elements(scene, bodies);
     }
-    static_cast<void>(set_time(0));
+    static_cast<void>(set_time(workers, 0));
 }
 
+// @param first  Of the elements, counted through all bodies.
 template <int Dim>
-typename ActiveStrain<Dim>::Muscle ActiveStrain<Dim>::make_muscle(const Activation& activation,
-                                                                  std::size_t body,
-                                                                  const SimplexMesh<Dim>& elements,
-                                                                  Eigen::Index first) {
+void ActiveStrain<Dim>::append_fibers(std::size_t muscle,
+                                      const SimplexMesh<Dim>& elements,
+                                      Eigen::Index first) {
+    const Activation& activation = muscles_[muscle].activation;
     const std::string where = place_and_name(activation);
     const std::vector<bool> is_in = select_cells(elements, activation.select, where);
     if (activation.fibers == Fibers::Mesh && elements.fibers.cols() == 0) {
@@ -167,13 +173,12 @@ typename ActiveStrain<Dim>::Muscle ActiveStrain<Dim>::make_muscle(const Activati
     const bool has_distance = activation.fibers == Fibers::Distance;
     const Eigen::VectorXd distance =
         has_distance ? distances(activation, elements) : Eigen::VectorXd();
-    Muscle muscle{activation, body, {}};
     for (Eigen::Index i = 0; i < elements.cell_count(); ++i) {
         if (!is_in[static_cast<std::size_t>(i)]) {
             continue;
         }
-        Fiber fiber;
-        fiber.element = static_cast<std::uint32_t>(first + i);
+        Fiber fiber{.element = static_cast<std::uint32_t>(first + i),
+                    .muscle = static_cast<std::uint32_t>(muscle)};
         if (activation.fibers == Fibers::Constant) {
             fiber.direction = activation.direction;
         } else if (activation.fibers == Fibers::Mesh) {
@@ -189,9 +194,8 @@ typename ActiveStrain<Dim>::Muscle ActiveStrain<Dim>::make_muscle(const Activati
                 fiber.delay += activation.distance_wave * distance[corner] / (Dim + 1);
             }
         }
-        muscle.fibers.push_back(fiber);
+        fibers_.push_back(fiber);
     }
-    return muscle;
 }
 
 // Which quadratic cell each cell is a child of.
@@ -226,25 +230,43 @@ void ActiveStrain<Dim>::find_cells_of_elements(const Scene& scene, const Bodies<
 }
 
 template <int Dim>
-bool ActiveStrain<Dim>::set_time(double time) {
-    std::vector<Matrix<Dim>> deformations(shapes_.size(), Matrix<Dim>::Identity());
-    for (const Muscle& muscle : muscles_) {
-        for (const Fiber& fiber : muscle.fibers) {
-            Matrix<Dim>& all = deformations[static_cast<std::size_t>(shape_of_[fiber.element])];
-            all = (active_deformation<Dim>(muscle.activation,
-                                           signal_at(muscle.activation, time, fiber.delay),
-                                           fiber.direction)
-                   * all)
-                      .eval();
-        }
+double ActiveStrain<Dim>::signal(const Fiber& fiber, double time) const {
+    return signal_at(muscles_[fiber.muscle].activation, time, fiber.delay);
+}
+
+template <int Dim>
+typename ActiveStrain<Dim>::Shape ActiveStrain<Dim>::shape_at(std::size_t shape,
+                                                              double time) const {
+    Matrix<Dim> all = Matrix<Dim>::Identity();
+    for (std::size_t i = first_fiber_[shape]; i < first_fiber_[shape + 1]; ++i) {
+        const Fiber& fiber = fibers_[i];
+        all = (active_deformation<Dim>(muscles_[fiber.muscle].activation, signal(fiber, time),
+                                       fiber.direction)
+               * all)
+                  .eval();
     }
-    bool has_changed = false;
-    for (std::size_t i = 0; i < shapes_.size(); ++i) {
-        const Shape shape{deformations[i].inverse(), deformations[i].determinant()};
-        has_changed = has_changed || !(shape == shapes_[i]);
-        shapes_[i] = shape;
+    return {all.inverse(), all.determinant()};
+}
+
+template <int Dim>
+bool ActiveStrain<Dim>::set_time(const Workers& workers, double time) {
+    if (time == time_) {
+        return false;
     }
-    return has_changed;
+    time_ = time;
+    constexpr std::size_t kChunk = 1024;
+    const std::int64_t changed =
+        workers.sum(static_cast<int>((shapes_.size() + kChunk - 1) / kChunk), [&](int chunk) {
+            const std::size_t begin = static_cast<std::size_t>(chunk) * kChunk;
+            std::int64_t others = 0;
+            for (std::size_t i = begin; i < std::min(begin + kChunk, shapes_.size()); ++i) {
+                const Shape shape = shape_at(i, time);
+                others += shape == shapes_[i] ? 0 : 1;
+                shapes_[i] = shape;
+            }
+            return others;
+        });
+    return changed > 0;
 }
 
 template <int Dim>
@@ -263,14 +285,16 @@ const typename ActiveStrain<Dim>::Shape* ActiveStrain<Dim>::of_cell(Eigen::Index
 
 template <int Dim>
 std::vector<std::size_t> ActiveStrain<Dim>::changing_bodies(double from, double to) const {
+    std::vector<bool> is_changing(muscles_.size(), false);
+    for (const Fiber& fiber : fibers_) {
+        if (!is_changing[fiber.muscle]) {
+            is_changing[fiber.muscle] = signal(fiber, from) != signal(fiber, to);
+        }
+    }
     std::vector<std::size_t> bodies;
-    for (const Muscle& muscle : muscles_) {
-        const auto is_changing = [&](const Fiber& fiber) {
-            return signal_at(muscle.activation, from, fiber.delay)
-                   != signal_at(muscle.activation, to, fiber.delay);
-        };
-        if (std::any_of(muscle.fibers.begin(), muscle.fibers.end(), is_changing)) {
-            bodies.push_back(muscle.body);
+    for (std::size_t muscle = 0; muscle < muscles_.size(); ++muscle) {
+        if (is_changing[muscle]) {
+            bodies.push_back(muscles_[muscle].body);
         }
     }
     return bodies;

@@ -3,9 +3,11 @@
 #include "model/bodies.h"
 #include "model/rotation.h"
 
+#include <pent/parallel.h>
 #include <pent/simulator/scene.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pent::simulator {
@@ -25,13 +27,13 @@ public:
         bool operator==(const Shape&) const = default;
     };
 
-    /// Throws an Error if an activation selects nothing, or its fibers cannot be found.
-    ActiveStrain(const Scene& scene, const Bodies<Dim>& bodies);
+    /// Of time 0. Throws an Error if an activation selects nothing, or its fibers cannot be found.
+    ActiveStrain(const Workers& workers, const Scene& scene, const Bodies<Dim>& bodies);
 
     [[nodiscard]] bool is_empty() const { return muscles_.empty(); }
 
     /// Shapes are those of a time, s, from now on. Returns whether any has changed.
-    [[nodiscard]] bool set_time(double time);
+    [[nodiscard]] bool set_time(const Workers& workers, double time);
 
     /// Null for an element that no activation selects.
     [[nodiscard]] const Shape* of_element(Eigen::Index element) const;
@@ -41,28 +43,30 @@ public:
     [[nodiscard]] std::vector<std::size_t> changing_bodies(double from, double to) const;
 
 private:
-    // What an activation does to one element.
-    struct Fiber {
-        std::uint32_t element = 0;
-        Vector<Dim> direction = Vector<Dim>::Zero();  // unit length; zero without
-        double delay = 0;                             // periods
-    };
     struct Muscle {
         Activation activation;
         std::size_t body = 0;
-        std::vector<Fiber> fibers;
+    };
+    // What a muscle does to one element.
+    struct Fiber {
+        std::uint32_t element = 0;
+        std::uint32_t muscle = 0;
+        Vector<Dim> direction = Vector<Dim>::Zero();  // unit length; zero without
+        double delay = 0;                             // periods
     };
 
+    void append_fibers(std::size_t muscle, const SimplexMesh<Dim>& elements, Eigen::Index first);
     void find_cells_of_elements(const Scene& scene, const Bodies<Dim>& bodies);
-    [[nodiscard]] static Muscle make_muscle(const Activation& activation,
-                                            std::size_t body,
-                                            const SimplexMesh<Dim>& elements,
-                                            Eigen::Index first);
+    [[nodiscard]] double signal(const Fiber& fiber, double time) const;
+    [[nodiscard]] Shape shape_at(std::size_t shape, double time) const;
 
     std::vector<Muscle> muscles_;
+    std::vector<Fiber> fibers_;             // by element, those of one in the order of the scene
+    std::vector<std::size_t> first_fiber_;  // of each shape, and their number
     std::vector<std::int32_t> shape_of_;    // one an element; below 0: none
     std::vector<std::uint32_t> parent_of_;  // of cells, where elements are quadratic
     std::vector<Shape> shapes_;
+    std::optional<double> time_;  // that shapes are of, s
 };
 
 /// How much of an activation is there, for an element that is so many periods late: 0 to 1, or what

@@ -57,6 +57,7 @@ contact::ContactScene<Dim> contact_scene(const Scene& scene,
         }
     }
     result.is_fixed = bodies.is_dirichlet;
+    result.is_always_fixed = bodies.is_always_held;
     result.rest = bodies.rest;
     return result;
 }

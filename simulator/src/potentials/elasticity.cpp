@@ -22,7 +22,7 @@ Elasticity<Dim>::Elasticity(const Workers& workers,
       kernels_(&kernels),
       bodies_(&bodies),
       kind_(scene.solver.elements),
-      strain_(scene, bodies),
+      strain_(workers, scene, bodies),
       layout_(lay_out(number_dofs(bodies, std::vector<bool>(bodies.count(), true)))) {}
 
 template <int Dim>
@@ -89,7 +89,7 @@ void Elasticity<Dim>::add_tangent(const Positions<Dim>& x,
 template <int Dim>
 bool Elasticity<Dim>::set_time(const TimeSpan& step) {
     step_ = step;
-    if (strain_.is_empty() || !strain_.set_time(step.end)) {
+    if (strain_.is_empty() || !strain_.set_time(*workers_, step.end)) {
         return false;
     }
     layout_.elements.activate(*workers_, strain_);
@@ -104,7 +104,7 @@ void Elasticity<Dim>::add_couplings(Couplings& couplings) const {
 
 template <int Dim>
 double Elasticity<Dim>::energy_at(const Positions<Dim>& x, double time) {
-    if (strain_.set_time(time)) {
+    if (strain_.set_time(*workers_, time)) {
         layout_.elements.activate(*workers_, strain_);
     }
     Positions<Dim> gradient = Positions<Dim>::Zero(Dim, x.cols());

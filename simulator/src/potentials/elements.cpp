@@ -384,7 +384,12 @@ std::int64_t Elements<Dim>::add_hessian(const Workers& workers,
 
 template <int Dim>
 std::int64_t Elements<Dim>::bytes() const {
-    return static_cast<std::int64_t>(rest_.size() * sizeof(double)
+    std::size_t passive = 0;
+    for (const Passive& chunk : passive_) {
+        passive +=
+            chunk.rest.size() * sizeof(double) + chunk.elements.size() * sizeof(Eigen::Index);
+    }
+    return static_cast<std::int64_t>(passive + rest_.size() * sizeof(double)
                                      + (vertices_.size() + unknowns_.size() + blocks_.size())
                                            * sizeof(std::uint32_t));
 }

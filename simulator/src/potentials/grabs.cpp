@@ -18,15 +18,15 @@ double weakening(double force, double most) {
 // Of a cell of a body's mesh.
 template <int Dim>
 const Material& material_of(const Bodies<Dim>& bodies, std::size_t body, std::int64_t cell) {
-    const auto cells = bodies.cells_of(body);
-    Eigen::Index own = cells.begin;
-    while (bodies.mesh_cell(body, own) != cell) {
-        ++own;
-    }
-    const auto range = std::find_if(
-        bodies.ranges.begin(), bodies.ranges.end(),
-        [&](const CellRange& candidate) { return candidate.begin <= own && own < candidate.end; });
-    return range->material;
+    const auto has_it = [&](const CellRange& range) {
+        for (Eigen::Index own = range.begin; range.body == body && own < range.end; ++own) {
+            if (bodies.mesh_cell(body, own) == cell) {
+                return true;
+            }
+        }
+        return false;
+    };
+    return std::find_if(bodies.ranges.begin(), bodies.ranges.end(), has_it)->material;
 }
 
 }  // namespace

@@ -2,7 +2,7 @@ import { BodyReader } from "./body.ts";
 import type { Column } from "./body.ts";
 import { PentError } from "./error.ts";
 import { cellName, cellNamePlural, parseHeader } from "./header.ts";
-import type { Dimension, Header } from "./header.ts";
+import type { Dimension } from "./header.ts";
 import type { PlyElement, PlyType } from "./ply.ts";
 
 const kAxes = "xyzw";
@@ -57,11 +57,17 @@ function shown(value: number): string {
     return Number.isNaN(value) ? "nan" : value < 0 ? "-inf" : "inf";
 }
 
-function checkFinite(values: Float64Array | null, dimension: number, prefix: string, path: string) {
+function checkFinite(
+    values: Float64Array | null,
+    dimension: number,
+    prefix: string,
+    path: string,
+    what = "vertex",
+) {
     const bad = values?.findIndex((value) => !Number.isFinite(value)) ?? -1;
     if (values && bad >= 0) {
         throw new PentError(
-            `${path}: vertex ${Math.floor(bad / dimension)}: ` +
+            `${path}: ${what} ${Math.floor(bad / dimension)}: ` +
                 `${prefix}${kAxes[bad % dimension]} is ${shown(values[bad]!)}, ` +
                 "expected a finite number",
         );
@@ -155,11 +161,12 @@ function validateOrientation(
     );
 }
 
-function validate(mesh: Mesh, path: string): void {
+function validate(mesh: Mesh, fibers: Float64Array | null, path: string): void {
     if (mesh.cellCount === 0) {
         throw new PentError(`${path}: no ${cellNamePlural(mesh.dimension)}, expected at least one`);
     }
     checkFinite(mesh.positions, mesh.dimension, "", path);
+    checkFinite(fibers, mesh.dimension, "fiber_", path, cellName(mesh.dimension));
     const edges = new Float64Array(mesh.dimension ** 2);
     for (let cell = 0; cell < mesh.cellCount; ++cell) {
         const where = () => `${path}: ${cellName(mesh.dimension)} ${cell}: `;
@@ -183,6 +190,8 @@ export function readMesh(bytes: Uint8Array, path: string): Mesh {
     hasProperty(vertex, "column", "uint", path);
     hasProperty(vertex, "layer", "uint", path);
     hasProperty(cell, "region", "ushort", path);
+    hasProperty(cell, "parent", "uint", path);
+    const fibers = vectorOf(cell, dimension, "fiber_", "fiber", path);
     const corners = dimension + 1;
     const mesh: Mesh = {
         dimension,
@@ -194,25 +203,30 @@ export function readMesh(bytes: Uint8Array, path: string): Mesh {
         createdBy: header.createdBy,
     };
     reader.read(vectorColumns(mesh.positions, dimension, ""));
-    reader.read(
-        Array.from({ length: corners }, (_, k) => ({
+    reader.read([
+        ...Array.from({ length: corners }, (_, k) => ({
             name: `v${k}`,
             values: mesh.cells,
             first: k,
             stride: corners,
         })),
-    );
+        ...(fibers ? vectorColumns(fibers, dimension, "fiber_") : []),
+    ]);
     reader.finish();
-    validate(mesh, path);
+    validate(mesh, fibers, path);
     return mesh;
 }
 
 // A vector has all its components or none.
-function vectorOf(header: Header, prefix: string, what: string, path: string): Float64Array | null {
-    const { dimension } = header;
-    const vertex = header.elements[0]!;
+function vectorOf(
+    element: PlyElement,
+    dimension: Dimension,
+    prefix: string,
+    what: string,
+    path: string,
+): Float64Array | null {
     const found = [...kAxes.slice(0, dimension)].filter((axis) =>
-        hasProperty(vertex, prefix + axis, "double", path),
+        hasProperty(element, prefix + axis, "double", path),
     ).length;
     if (found !== 0 && found !== dimension) {
         throw new PentError(
@@ -220,7 +234,7 @@ function vectorOf(header: Header, prefix: string, what: string, path: string): F
                 `expected none or all of ${dimension}`,
         );
     }
-    return found ? new Float64Array(dimension * Number(vertex.count)) : null;
+    return found ? new Float64Array(dimension * Number(element.count)) : null;
 }
 
 /** Reads and validates a frame. Throws a PentError with the words of the C++ reader. */
@@ -234,8 +248,9 @@ export function readFrame(bytes: Uint8Array, path: string): Frame {
     const reader = new BodyReader(header, bytes, path);
     const { dimension } = header;
     const vertexCount = Number(header.elements[0]!.count);
-    const velocities = vectorOf(header, "v", "velocity", path);
-    const contactForces = vectorOf(header, "f", "contact force", path);
+    const vertex = header.elements[0]!;
+    const velocities = vectorOf(vertex, dimension, "v", "velocity", path);
+    const contactForces = vectorOf(vertex, dimension, "f", "contact force", path);
     const positions = new Float64Array(dimension * vertexCount);
     reader.read([
         ...vectorColumns(positions, dimension, ""),

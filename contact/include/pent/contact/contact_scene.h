@@ -50,8 +50,11 @@ struct ContactScene {
     std::vector<ContactBody<Dim>> bodies;
     std::vector<ContactObstacle<Dim>> obstacles;
     /// One for each vertex of the scene: moved from outside. Such vertices do not push each other
-    /// and do not meet obstacles, but a step does not lead them through each other.
+    /// and are not pushed by obstacles, but a step does not lead them through each other.
     std::vector<bool> is_fixed;
+    /// Of these, the ones that stay so for good, which may go where obstacles are; a step leads no
+    /// other into an obstacle, where it would be when it is let go. Empty: all that are fixed.
+    std::vector<bool> is_always_fixed = {};
     Positions<Dim> rest;  ///< Rest positions of all vertices, m.
     /// Pairs of bodies that do not see each other, and of bodies that do not see themselves, by
     /// their places, ascending, with the lower one first.

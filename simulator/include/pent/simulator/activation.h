@@ -28,7 +28,7 @@ inline constexpr std::array kWords<Signal> = {
 /// Which way the fibers of an activation run.
 enum class Fibers {
     None,      ///< It is the same in all directions: growth.
-    Constant,  ///< `direction`, turned with the body's mesh at t = 0, not with its motion.
+    Constant,  ///< Along `direction` at t = 0; they turn with the body.
     Mesh,      ///< As the mesh says for each cell.
     Distance,  ///< Along the shortest way within the body from what `away_from` selects.
 };
