@@ -28,7 +28,8 @@ double energy(double y, double e) {
 
 double Friction::between(const Collider& first, const Collider& second) const {
     const auto of = [&](const Collider& one) {
-        return one.is_obstacle() || of_bodies.empty() ? coefficient : of_bodies[one.index];
+        const std::vector<double>& own = one.is_obstacle() ? of_obstacles : of_bodies;
+        return own.empty() ? coefficient : own[one.index];
     };
     const double a = of(first);
     const double b = of(second);

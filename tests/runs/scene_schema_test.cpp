@@ -41,7 +41,7 @@ Tables tables_of(const std::string& text) {
 TEST(SchemaText, IsWhatTheDocsHave) {
     const Tables docs = tables_of(read_text(PENT_DOCS "/simulator.md", "the docs"));
     const Tables schema = tables_of(schema_text() + report_schema_text());
-    EXPECT_EQ(schema.size(), 20U);
+    EXPECT_EQ(schema.size(), 21U);
     for (const auto& [block, table] : schema) {
         const auto found = docs.find(block);
         ASSERT_NE(found, docs.end()) << block;
@@ -62,7 +62,7 @@ std::string error_of(const std::string& block) {
 TEST(ParseSceneErrors, NameTheBlockThatAKeyBelongsTo) {
     EXPECT_EQ(error_of("[solver]\nfriction = 1\n"),
               "s.toml:5:1: unknown key \"friction\" in \"solver\"; \"friction\" belongs to"
-              " [[body]] or [contact]");
+              " [[body]] or [[obstacle]] or [contact]");
     EXPECT_EQ(error_of("young = 1\n"),
               "s.toml:4:1: unknown key \"young\" in \"body\"; \"young\" belongs to \"material\" of"
               " [[body]] or \"region.material\" of [[body]]");

@@ -219,9 +219,47 @@ const Keys kMotion = {
 // Of what does not turn.
 const Keys kSlide = {{"translate", 1, motion_velocity}, {"from", 0.3, early}, {"to", 0.3, late}};
 
+namespace {
+
+const Keys kSmallTurn = {{"plane", 1, plane}, {"degrees", 1, number(-40, 40)}};
+
+// A motion through keyframes in place of rates, all behind what early() may draw.
+Json through_keyframes(const Json& rates, bool turns, Random& random, const Plan& plan) {
+    Json motion = Json::object();
+    for (const char* key : {"about", "from"}) {
+        if (rates.contains(key)) {
+            motion[key] = rates[key];
+        }
+    }
+    double time = 0.51 * plan.duration();
+    for (int i = random.pick({1, 2, 3}); i > 0; --i) {
+        Json keyframe = {{"time", time},
+                         {"translate", random_vector(random, plan, 0.2 * plan.size)}};
+        if (turns && random.chance(0.5)) {
+            keyframe["rotate"] = tables(kSmallTurn)(random, plan);
+        }
+        if (random.chance(0.4)) {
+            keyframe["velocity"] = motion_velocity(random, plan);
+        }
+        motion["keyframes"].push_back(keyframe);
+        time += random.number(0.1, 0.4) * plan.duration();
+    }
+    return motion;
+}
+
+}  // namespace
+
 // Motions, or the word for none.
 Json draw_motion(const Keys& keys, Random& random, const Plan& plan) {
-    return random.chance(0.3) ? Json("fixed") : tables(keys)(random, plan);
+    if (random.chance(0.3)) {
+        return "fixed";
+    }
+    Json motions = tables(keys)(random, plan);
+    if (random.chance(0.25)) {
+        Json& one = motions.is_array() ? motions.back() : motions;
+        one = through_keyframes(one, &keys == &kMotion, random, plan);
+    }
+    return motions;
 }
 
 namespace {

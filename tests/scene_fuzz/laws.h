@@ -31,7 +31,7 @@ struct Checked {
 
 struct CheckOptions {
     std::string only;  ///< The law to check; empty for all.
-    int seconds = 60;  ///< Of processor time, for each run of the scene.
+    int seconds = 150;  ///< Of processor time, for each run of the scene.
 };
 
 /// In the order in which they are checked.

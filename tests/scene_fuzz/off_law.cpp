@@ -3,6 +3,7 @@
 #include "folders.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace pent::scene_fuzz {
@@ -129,10 +130,13 @@ std::string extra_folder(const Json& scene, const std::filesystem::path& run) {
     if (!has_checkpoint && std::filesystem::exists(run / "checkpoint")) {
         return "checkpoint/ is there without bdf2, sleep and a barrier";
     }
-    const bool has_table = value_at(scene, "output.contact_pairs") == true;
-    return has_table == std::filesystem::exists(run / "contacts")
-               ? ""
-               : "contacts/ is there, or not, against output.contact_pairs";
+    for (const auto& [key, file] : {std::pair("output.contact_pairs", "contacts"),
+                                    std::pair("output.balance", "balance.csv")}) {
+        if ((value_at(scene, key) == true) != std::filesystem::exists(run / file)) {
+            return std::string(file) + " is there, or not, against " + key;
+        }
+    }
+    return "";
 }
 
 }  // namespace

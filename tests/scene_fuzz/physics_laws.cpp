@@ -243,12 +243,17 @@ private:
     }
 
     // Held vertices go where the scene says.
+    // What is held for good may go there, and inner vertices where cells are inside out.
     bool is_in_obstacle(const Positions<Dim>& positions) const {
+        const bool is_any_held_for_good = std::any_of(
+            scene_.constraints.begin(), scene_.constraints.end(),
+            [](const Constraint& held) { return held.from == 0 && held.to == kForever; });
         for (const pent::Obstacle<Dim>& obstacle : simulation_.obstacles()) {
-            for (Eigen::Index v = 0; v < positions.cols(); ++v) {
-                if (scene_.constraints.empty()
-                    && signed_distance<Dim>(obstacle, positions.col(v)) <= 0) {
-                    return true;
+            for (std::size_t s = 0; s < surfaces_.size() && !is_any_held_for_good; ++s) {
+                for (const std::uint32_t v : surfaces_[s].vertices.reshaped()) {
+                    if (signed_distance<Dim>(obstacle, positions.col(v)) <= 0) {
+                        return true;
+                    }
                 }
             }
         }

@@ -93,10 +93,11 @@ TYPED_TEST(ContactByPair, LeavesSingleBodiesOutOfContactWithThemselves) {
 }
 
 // On a floor that slopes by 30 degrees, of tan 30 = 0.58: a body stays where the geometric mean of
-// both coefficients is more, and slides where it is less.
-TYPED_TEST(ContactByPair, HasTheFrictionOfBothBodies) {
+// both coefficients is more, and slides where it is less; whether the body or the floor has its own.
+TYPED_TEST(ContactByPair, HasTheFrictionOfBothSides) {
     constexpr int kDim = TypeParam::value;
-    for (const double friction : {1.0, 0.2}) {
+    for (const auto& [of_body, of_floor] :
+         {std::pair(1.0, 0.8), std::pair(0.2, 0.8), std::pair(0.8, 1.0), std::pair(0.8, 0.2)}) {
         Scene scene = test::box_scene<kDim>();
         scene.gravity = 9.8
                         * (std::sin(0.5236) * Eigen::VectorXd::Unit(kDim, 0)
@@ -105,7 +106,8 @@ TYPED_TEST(ContactByPair, HasTheFrictionOfBothBodies) {
             {.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(kDim, 1), .offset = -0.015},
              .stiffness = 2e4}};
         scene.contact = Contact{.distance = 0.02, .stiffness = 2e4, .friction = 0.8};
-        scene.bodies[0].friction = friction;
+        (of_floor == 0.8 ? scene.bodies[0].friction : scene.obstacles[0].friction) =
+            of_floor == 0.8 ? of_body : of_floor;
         scene.solver.integrator = Integrator::NewtonEuler;
         scene.frames_per_second = 100;
         Simulation<kDim> simulation(scene, {cube<kDim>(1)});
@@ -119,7 +121,7 @@ TYPED_TEST(ContactByPair, HasTheFrictionOfBothBodies) {
         // mu = sqrt(0.16); what is left of hopping is a hundredth of that.
         const double before = speed_later();
         const double gained = speed_later() - before;
-        if (friction == 1.0) {
+        if (of_body * of_floor == 0.8) {
             EXPECT_LT(std::abs(before + gained), 0.01);
         } else {
             const double expected = 0.5 * 9.8 * (std::sin(0.5236) - 0.4 * std::cos(0.5236));

@@ -221,5 +221,33 @@ TEST(Holds, ThatDoNotLastAreNoneForStatics) {
                                 {"box", "no constraint that lasts"});
 }
 
+// Carried along a curve and let go at its last keyframe, which has a velocity: a throw. A box held
+// everywhere is thrown as it is, and falls from there on as any free body.
+TYPED_TEST(Hold, ThrowsWhatItLetsGoAtAKeyframeWithAVelocity) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : kWithInertia) {
+        Scene scene = falling_box<kDim>();
+        scene.solver.integrator = integrator;
+        const Eigen::VectorXd velocity = Eigen::VectorXd::LinSpaced(kDim, 1, 2);
+        const Eigen::VectorXd there = 0.05 * Eigen::VectorXd::Unit(kDim, kDim - 1);
+        Motion carry = still(kDim);
+        carry.keyframes = {
+            {.time = 0.1, .translate = there, .rotate = {}, .velocity = velocity, .spin = {}}};
+        scene.constraints = {test::hold(EverythingSelection{}, carry)};
+        scene.constraints[0].to = 0.1;
+        Simulation<kDim> simulation(scene, {cube<kDim>()});
+        for (int i = 0; i < 10; ++i) {
+            ASSERT_TRUE(simulation.step().is_accepted);
+        }
+        const Positions<kDim> start = simulation.mesh(0).positions;
+        EXPECT_LT((simulation.positions(0) - (start.colwise() + Vector<kDim>(there))).norm(),
+                  1e-12);
+        EXPECT_LT((simulation.velocities(0).colwise() - Vector<kDim>(velocity)).norm(), 1e-11);
+        ASSERT_TRUE(simulation.step().is_accepted);
+        const Eigen::VectorXd later = velocity + 0.01 * scene.gravity;
+        EXPECT_LT((test::mean_velocity<kDim>(simulation, 0) - Vector<kDim>(later)).norm(), 1e-4);
+    }
+}
+
 }  // namespace
 }  // namespace pent::simulator

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <random>
 
 namespace pent::simulator {
@@ -65,6 +66,27 @@ TEST(Keyframes, MakeACurveWithoutKinksThatStaysBetweenItsNeighbors) {
 TEST(Keyframes, DoNotStopWhereTheCurveGoesOn) {
     const std::vector<Keyframe> rising = {{0, 0}, {1, 1}, {3, 2}};
     EXPECT_GT(factor_at(rising, 1.001) - factor_at(rising, 0.999), 0.0005);
+}
+
+// A cubic is its Hermite data: whatever is given is met, and slopes are those of the values.
+TEST(Curves, HaveTheSlopesThatAreGivenAndTheirOwnAreDifferencesOfTheirValues) {
+    const std::vector<CurvePoint> points = {
+        {0.5, 1, 0}, {0.8, -2, 7.5}, {1.4, -2, std::nullopt}, {2, 3, -4.0}};
+    const auto at = [&](double time) {
+        return curve_at(
+            points.size(), [&](std::size_t i) { return points[i]; }, time);
+    };
+    for (const CurvePoint& point : points) {
+        EXPECT_NEAR(at(point.time).value, point.value, 1e-14);
+        EXPECT_NEAR(at(point.time).slope, point.slope.value_or(0), 1e-13);
+    }
+    for (double time = 0.33; time < 2.5; time += 0.07) {  // no keyframe, where curvature jumps
+        const double h = 1e-5;  // of h^2 times a third derivative of up to 1e3, and of rounding / h
+        EXPECT_NEAR(at(time).slope, (at(time + h).value - at(time - h).value) / (2 * h), 1e-6);
+    }
+    EXPECT_EQ(at(0.4).slope, 0);
+    EXPECT_EQ(at(2.1).slope, 0);
+    EXPECT_EQ(at(2.1).value, 3);
 }
 
 }  // namespace

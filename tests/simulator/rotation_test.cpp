@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace pent::simulator {
@@ -103,6 +104,90 @@ TEST(PoseAt, AppliesSpinsInTheOrderWritten) {
     motion.rotate = {{{0, 1}, 90}, {{1, 2}, 90}};
     const Pose<4> pose = pose_at<4>(motion, 1);
     EXPECT_LT((pose.rotation * Vector<4>::Unit(0) - Vector<4>::Unit(2)).norm(), 1e-15);
+}
+
+Motion through_keyframes() {
+    Motion motion;
+    motion.translate = Vector<4>::Zero();
+    motion.from = 0.5;
+    motion.keyframes = {
+        {.time = 1,
+         .translate = Vector<4>(1, 0, 0, -2),
+         .rotate = {{{0, 3}, 90}},
+         .velocity = Vector<4>(0, 1, 0, 3),
+         .spin = {{{0, 3}, -45}}},
+        {.time = 2,
+         .translate = Vector<4>(0, 0, 5, 0),
+         .rotate = {{{0, 3}, 30}, {{1, 2}, 60}},
+         .velocity = {},
+         .spin = {}},
+        {.time = 3,
+         .translate = Vector<4>(0, 0, 6, 0),
+         .rotate = {{{1, 2}, 90}},
+         .velocity = {},
+         .spin = {{{1, 2}, 10}}},
+    };
+    return motion;
+}
+
+TEST(PoseAt, GoesThroughKeyframesWithTheVelocitiesGiven) {
+    const double degree = std::numbers::pi / 180;
+    const Motion motion = through_keyframes();
+    for (const double time : {0.0, 0.5}) {
+        EXPECT_EQ(pose_at<4>(motion, time).rotation, Matrix<4>::Identity());
+        EXPECT_EQ(pose_at<4>(motion, time).shift, Vector<4>::Zero());
+        EXPECT_EQ(pose_at<4>(motion, time).velocity, Vector<4>::Zero());
+    }
+    const Pose<4> first = pose_at<4>(motion, 1);
+    EXPECT_LT((first.shift - Vector<4>(1, 0, 0, -2)).norm(), 1e-14);
+    EXPECT_LT((first.velocity - Vector<4>(0, 1, 0, 3)).norm(), 1e-14);
+    EXPECT_LT((first.rotation - plane_rotation<4>({0, 3}, 90 * degree)).norm(), 1e-14);
+    // x has become w, which turns back towards x at 45 degrees a second: in the plane wx, above 0.
+    EXPECT_NEAR((first.rate * Vector<4>::Unit(0))[0], 45 * degree, 1e-14);
+    const Pose<4> second = pose_at<4>(motion, 2);
+    const Matrix<4> both =
+        plane_rotation<4>({1, 2}, 60 * degree) * plane_rotation<4>({0, 3}, 30 * degree);
+    EXPECT_LT((second.rotation - both).norm(), 1e-14);
+    const Pose<4> end = pose_at<4>(motion, 3);
+    EXPECT_LT((end.rotation - plane_rotation<4>({1, 2}, 90 * degree)).norm(), 1e-14);
+    EXPECT_NEAR((end.rate * Vector<4>::Unit(1))[1], -10 * degree, 1e-14);
+    const Pose<4> later = pose_at<4>(motion, 3.01);
+    EXPECT_EQ(later.rotation, end.rotation);
+    EXPECT_EQ(later.rate, Matrix<4>::Zero());
+}
+
+TEST(PoseAt, HasRatesThroughKeyframesEqualToTheDifferenceInTime) {
+    const double h = 1e-5;
+    for (const double time : {0.6, 0.9, 1.3, 1.9, 2.2, 2.8}) {
+        const Pose<4> pose = pose_at<4>(through_keyframes(), time);
+        const Pose<4> before = pose_at<4>(through_keyframes(), time - h);
+        const Pose<4> after = pose_at<4>(through_keyframes(), time + h);
+        EXPECT_LT(((after.rotation - before.rotation) / (2 * h) - pose.rate).norm(), 1e-7);
+        EXPECT_LT(((after.shift - before.shift) / (2 * h) - pose.velocity).norm(), 1e-7);
+    }
+}
+
+// Times of steps are sums, which may be a rounding error behind a keyframe.
+TEST(PoseAt, MovesAtTheEndOfAMotionToRounding) {
+    const double time = 0.1 + 0.2;  // above 0.3
+    Motion motion;
+    motion.translate = Vector<4>(1, 0, 0, 0);
+    motion.to = 0.3;
+    EXPECT_EQ(pose_at<4>(motion, time).velocity, Vector<4>(1, 0, 0, 0));
+    motion.to = std::numeric_limits<double>::infinity();
+    motion.keyframes = {{.time = 0.3,
+                         .translate = Vector<4>(0, 1, 0, 0),
+                         .rotate = {},
+                         .velocity = Vector<4>(0, 2, 0, 0),
+                         .spin = {}}};
+    motion.translate.setZero();
+    EXPECT_LT((pose_at<4>(motion, time).velocity - Vector<4>(0, 2, 0, 0)).norm(), 1e-12);
+}
+
+TEST(LargestTurnRate, IsOfTheFastestPlaneAndLegBetweenKeyframes) {
+    EXPECT_EQ(largest_turn_rate(double_rotation()), 90);
+    EXPECT_NEAR(largest_turn_rate(through_keyframes()), 180, 1e-12);  // 90 degrees in 0.5 s
+    EXPECT_EQ(largest_turn_rate(Motion()), 0);
 }
 
 }  // namespace

@@ -130,17 +130,14 @@ private:
         }
         for (const Constraint& constraint : scene_.constraints) {
             for (const Motion& motion : constraint.motion) {
-                for (const Spin& spin : motion.rotate) {
-                    const double degrees = std::abs(spin.degrees_per_s) * scene_.dt();
-                    const double angle = degrees * std::numbers::pi / 180;
-                    if (angle > kMaxAngle) {
-                        advise(formatted(
-                            "a constraint of %s turns %.3g degrees a step, far for linear_euler:"
-                            " take %d steps_per_frame or newton_euler",
-                            constraint.body.c_str(), degrees,
-                            static_cast<int>(std::ceil(angle / kMaxAngle))
-                                * scene_.steps_per_frame));
-                    }
+                const double degrees = simulator::largest_turn_rate(motion) * scene_.dt();
+                const double angle = degrees * std::numbers::pi / 180;
+                if (angle > kMaxAngle) {
+                    advise(formatted(
+                        "a constraint of %s turns %.3g degrees a step, far for linear_euler: take"
+                        " %d steps_per_frame or newton_euler",
+                        constraint.body.c_str(), degrees,
+                        static_cast<int>(std::ceil(angle / kMaxAngle)) * scene_.steps_per_frame));
                 }
             }
         }
@@ -219,7 +216,8 @@ private:
     [[nodiscard]] bool is_anything_moving() const {
         const auto moves = [](const auto& part) {
             return std::any_of(part.motion.begin(), part.motion.end(), [](const Motion& motion) {
-                return !motion.translate.isZero(0) || !motion.rotate.empty();
+                return !motion.translate.isZero(0) || !motion.rotate.empty()
+                       || !motion.keyframes.empty();
             });
         };
         const auto has_any = [&](const auto& parts) {

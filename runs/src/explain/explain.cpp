@@ -275,9 +275,11 @@ private:
     }
 
     void friction() {
-        const auto own =
-            std::count_if(scene_.bodies.begin(), scene_.bodies.end(),
-                          [](const Body& body) { return std::isfinite(body.friction); });
+        const auto count_own = [](const auto& parts) {
+            return std::count_if(parts.begin(), parts.end(),
+                                 [](const auto& part) { return std::isfinite(part.friction); });
+        };
+        const auto own = count_own(scene_.bodies) + count_own(scene_.obstacles);
         if (!scene_.contact || (scene_.contact->friction == 0 && own == 0)) {
             add_off("friction",
                     scene_.contact ? "contact.friction = 0" : "no [contact], which would have it");
@@ -288,7 +290,8 @@ private:
              .why =
                  formatted("coefficient %.3g, sticks below %.3g m/s; its time is that of contact",
                            scene_.contact->friction, scene_.contact->slip_speed)
-                 + (own > 0 ? "; " + std::to_string(own) + " bodies have their own" : "")});
+                 + (own > 0 ? "; " + std::to_string(own) + " bodies or obstacles have their own"
+                            : "")});
     }
 
     void sleeping() {
@@ -328,10 +331,11 @@ private:
             what += (what.empty() ? "" : ", ") + std::string(simulator::word_of(quantity));
         }
         add({.name = "output",
-             .is_on = !output.vertex.empty() || output.contact_pairs,
+             .is_on = !output.vertex.empty() || output.contact_pairs || output.balance,
              .why = (what.empty() ? "nothing" : what) + " of every vertex, "
-                    + (output.contact_pairs ? "pairs" : "no pairs")
-                    + " in contact, in the run folder"});
+                    + (output.contact_pairs ? "pairs" : "no pairs") + " in contact, "
+                    + (output.balance ? "balance" : "no balance")
+                    + " of steps, in the run folder"});
     }
 
     Trial<Dim> trial_;

@@ -34,6 +34,16 @@ void fields(Part& contact, const Visit& visit) {
           contact.seconds);
 }
 
+template <PartOf<simulator::ConstraintSummary> Part, typename Visit>
+void fields(Part& constraint, const Visit& visit) {
+    visit(key("held", "", "vertices that it holds at the end"), constraint.held);
+    visit(key("center", "m", "mean of its vertices, held or not"), constraint.center);
+    visit(key("force", "N", "what holds them against all forces, without inertia and damping"),
+          constraint.force);
+    visit(key("moment", "N m", "of it about `center`: in the planes xy, xz, xw, yz, yw, zw"),
+          constraint.moment);
+}
+
 template <PartOf<simulator::AttachmentSummary> Part, typename Visit>
 void fields(Part& attachment, const Visit& visit) {
     visit(key("springs", "", "that pull at the end"), attachment.springs);
@@ -72,6 +82,13 @@ void fields(Part& step, const Visit& visit) {
     visit(key("energies", "J", "at the end: `kinetic` and each stored one that the scene has"),
           step.energies);
     visit(key("contact", "", "what touches at the end, and what contact cost"), step.contact);
+    visit(key("momentum", "kg m/s", "at the end, of all bodies; with `output.balance`")
+              .may_be_missing(),
+          step.momentum);
+    visit(key("angular_momentum", "kg m^2/s", "about the origin, in planes as of a moment")
+              .may_be_missing(),
+          step.angular_momentum);
+    visit(key("constraints", "", "one for each").may_be_missing(), step.constraints);
     visit(key("attachments", "", "one for each").may_be_missing(), step.attachments);
     visit(key("regions", "", "one for each, body after body").may_be_missing(), step.regions);
     visit(key("activation_work", "J", "done by activations on the bodies in the step")

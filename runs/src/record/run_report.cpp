@@ -22,6 +22,9 @@ struct TableWriter {
     void operator()(const Field& field, const std::vector<std::string>& /*texts*/) const {
         add(field, "list of texts");
     }
+    void operator()(const Field& field, const std::vector<double>& /*numbers*/) const {
+        add(field, "list of numbers");
+    }
     void operator()(const Field& field, const std::vector<NonRigidity>& /*bodies*/) const {
         add(field, "number for each name");
     }

@@ -2,6 +2,7 @@
 #include "record/checkpoint_file.h"
 #include "record/journal.h"
 #include "record/run_report.h"
+#include "run/balance_table.h"
 #include "run/contact_table.h"
 #include "run/earlier_run.h"
 #include "run/resume.h"
@@ -317,6 +318,9 @@ void Run<Dim>::write_report() {
         }
     }
     write_text(folder_.claim(kReportFile), report_text(report_));
+    if (scene_.output.balance) {
+        write_text(folder_.claim(kBalanceFile), balance_table(report_.steps, scene_.dimension));
+    }
 }
 
 template <int Dim>

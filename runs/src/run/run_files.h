@@ -12,6 +12,7 @@ inline constexpr const char* kRunFolder = "run";  // what its list calls it
 inline constexpr const char* kSceneFile = "scene.toml";
 inline constexpr const char* kObstaclesFile = "obstacles.json";
 inline constexpr const char* kReportFile = "report.json";
+inline constexpr const char* kBalanceFile = "balance.csv";
 inline constexpr const char* kJournalFile = "journal.txt";
 
 [[nodiscard]] inline std::string mesh_file(const std::string& body) {

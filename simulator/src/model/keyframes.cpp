@@ -1,56 +1,45 @@
 #include "model/keyframes.h"
 
-#include <algorithm>
-#include <cstddef>
-
 namespace pent::simulator {
 
 namespace {
 
-double rise(const Keyframe& a, const Keyframe& b) {
-    return (b.factor - a.factor) / (b.time - a.time);
-}
-
-// The weighted harmonic mean of the rises on both sides, [fritsch1984] Eq. 5.
-double slope_at(const std::vector<Keyframe>& keyframes, std::size_t i) {
-    if (i == 0 || i + 1 == keyframes.size()) {
-        return 0;
-    }
-    const double left = rise(keyframes[i - 1], keyframes[i]);
-    const double right = rise(keyframes[i], keyframes[i + 1]);
-    if (!(left * right > 0)) {
-        return 0;
-    }
-    const double before = keyframes[i].time - keyframes[i - 1].time;
-    const double behind = keyframes[i + 1].time - keyframes[i].time;
-    const double share = (before + 2 * behind) / (3 * (before + behind));
-    return left * right / (share * right + (1 - share) * left);
+double rise(const CurvePoint& a, const CurvePoint& b) {
+    return (b.value - a.value) / (b.time - a.time);
 }
 
 }  // namespace
 
-double factor_at(const std::vector<Keyframe>& keyframes, double time) {
-    if (keyframes.empty()) {
-        return 1;
+double detail::smooth_slope(const CurvePoint& before,
+                            const CurvePoint& here,
+                            const CurvePoint& behind) {
+    const double left = rise(before, here);
+    const double right = rise(here, behind);
+    if (!(left * right > 0)) {
+        return 0;
     }
-    const auto next =
-        std::upper_bound(keyframes.begin(), keyframes.end(), time,
-                         [](double t, const Keyframe& keyframe) { return t < keyframe.time; });
-    if (next == keyframes.begin()) {
-        return keyframes.front().factor;
-    }
-    if (next == keyframes.end()) {
-        return keyframes.back().factor;
-    }
-    const auto i = static_cast<std::size_t>(next - keyframes.begin());
-    const Keyframe& a = keyframes[i - 1];
-    const Keyframe& b = keyframes[i];
+    const double width = here.time - before.time;
+    const double next_width = behind.time - here.time;
+    const double share = (width + 2 * next_width) / (3 * (width + next_width));
+    return left * right / (share * right + (1 - share) * left);
+}
+
+CurveState detail::cubic_at(
+    const CurvePoint& a, const CurvePoint& b, double slope_a, double slope_b, double time) {
     const double width = b.time - a.time;
     const double s = (time - a.time) / width;
     const double blend = s * s * (3 - 2 * s);
-    return a.factor + blend * (b.factor - a.factor)
-           + width * s * (1 - s)
-                 * ((1 - s) * slope_at(keyframes, i - 1) - s * slope_at(keyframes, i));
+    const double climb = b.value - a.value;
+    return {a.value + blend * climb + width * s * (1 - s) * ((1 - s) * slope_a - s * slope_b),
+            6 * s * (1 - s) * climb / width + (1 - s) * (1 - 3 * s) * slope_a
+                + s * (3 * s - 2) * slope_b};
+}
+
+double factor_at(const std::vector<Keyframe>& keyframes, double time) {
+    const auto point = [&](std::size_t i) {
+        return CurvePoint{keyframes[i].time, keyframes[i].factor};
+    };
+    return keyframes.empty() ? 1 : curve_at(keyframes.size(), point, time).value;
 }
 
 }  // namespace pent::simulator

@@ -1,10 +1,13 @@
 #include "model/rotation.h"
 
+#include "model/keyframes.h"
+
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace pent::simulator {
 
@@ -44,19 +47,139 @@ SimplexMesh<Dim> place(SimplexMesh<Dim> mesh, const Body& body) {
     return mesh;
 }
 
+namespace {
+
+// How far a motion has gone, part by part.
+struct Turned {
+    Plane plane;
+    double angle = 0;  // radians
+    double rate = 0;   // radians/s
+};
 template <int Dim>
-Pose<Dim> pose_at(const Motion& motion, double time) {
+struct Course {
+    Vector<Dim> shift = Vector<Dim>::Zero();     // m
+    Vector<Dim> velocity = Vector<Dim>::Zero();  // m/s
+    std::vector<Turned> turns;                   // the first is applied first
+};
+
+template <int Dim>
+Course<Dim> steady_course(const Motion& motion, double time) {
     const double elapsed = std::clamp(time, motion.from, motion.to) - motion.from;
-    const bool is_moving = time >= motion.from && time <= motion.to;
+    const bool is_moving = time >= motion.from && !is_behind(time, motion.to);
     const Vector<Dim> translate = motion.translate;
-    Pose<Dim> pose{Matrix<Dim>::Identity(), elapsed * translate, Matrix<Dim>::Zero(),
-                   is_moving ? translate : Vector<Dim>::Zero()};
+    Course<Dim> course;
+    course.shift = elapsed * translate;
+    if (is_moving) {
+        course.velocity = translate;
+    }
     for (const Spin& spin : motion.rotate) {
         const double omega = kRadiansPerDegree * spin.degrees_per_s;
-        const Matrix<Dim> turn = plane_rotation<Dim>(spin.plane, omega * elapsed);
+        course.turns.push_back({spin.plane, omega * elapsed, is_moving ? omega : 0});
+    }
+    return course;
+}
+
+// The curve of one component, from rest at the start of the motion through all later keyframes.
+template <typename PointOf>
+CurveState component_at(const Motion& motion, double time, const PointOf& point_of) {
+    const auto first = std::find_if(motion.keyframes.begin(), motion.keyframes.end(),
+                                    [&](const auto& frame) { return frame.time > motion.from; });
+    const auto later = static_cast<std::size_t>(motion.keyframes.end() - first);
+    return curve_at(
+        1 + later,
+        [&](std::size_t i) {
+            return i == 0 ? CurvePoint{motion.from, 0, 0}
+                          : point_of(first[static_cast<std::ptrdiff_t>(i) - 1]);
+        },
+        time);
+}
+
+CurvePoint angle_in(const MotionKeyframe& keyframe, const Plane& plane) {
+    CurvePoint point{keyframe.time, 0};
+    for (const Turn& turn : keyframe.rotate) {
+        point.value += turn.plane == plane ? kRadiansPerDegree * turn.degrees : 0;
+    }
+    for (const Spin& spin : keyframe.spin) {
+        if (spin.plane == plane) {
+            point.slope = point.slope.value_or(0) + kRadiansPerDegree * spin.degrees_per_s;
+        }
+    }
+    return point;
+}
+
+template <int Dim>
+Course<Dim> course_through_keyframes(const Motion& motion, double time) {
+    Course<Dim> course;
+    for (int axis = 0; axis < Dim; ++axis) {
+        const CurveState state = component_at(motion, time, [&](const MotionKeyframe& keyframe) {
+            CurvePoint point{keyframe.time, keyframe.translate[axis]};
+            if (keyframe.velocity) {
+                point.slope = (*keyframe.velocity)[axis];
+            }
+            return point;
+        });
+        course.shift[axis] = state.value;
+        course.velocity[axis] = state.slope;
+    }
+    for (const Plane& plane : planes_of(motion)) {
+        const CurveState state = component_at(motion, time, [&](const MotionKeyframe& keyframe) {
+            return angle_in(keyframe, plane);
+        });
+        course.turns.push_back({plane, state.value, state.slope});
+    }
+    return course;
+}
+
+}  // namespace
+
+std::vector<Plane> planes_of(const Motion& motion) {
+    std::vector<Plane> planes;
+    const auto add = [&](const auto& turns) {
+        for (const auto& turn : turns) {
+            if (std::find(planes.begin(), planes.end(), turn.plane) == planes.end()) {
+                planes.push_back(turn.plane);
+            }
+        }
+    };
+    add(motion.rotate);
+    for (const MotionKeyframe& keyframe : motion.keyframes) {
+        add(keyframe.rotate);
+        add(keyframe.spin);
+    }
+    return planes;
+}
+
+double largest_turn_rate(const Motion& motion) {
+    double largest = 0;
+    for (const Spin& spin : motion.rotate) {
+        largest = std::max(largest, std::abs(spin.degrees_per_s));
+    }
+    for (const Plane& plane : planes_of(motion)) {
+        double time = motion.from;
+        double angle = 0;
+        for (const MotionKeyframe& keyframe : motion.keyframes) {
+            const double next = angle_in(keyframe, plane).value;
+            largest = std::max(largest,
+                               std::abs(next - angle) / (keyframe.time - time) / kRadiansPerDegree);
+            time = keyframe.time;
+            angle = next;
+        }
+    }
+    return largest;
+}
+
+template <int Dim>
+Pose<Dim> pose_at(const Motion& motion, double time) {
+    const Course<Dim> course = motion.keyframes.empty()
+                                   ? steady_course<Dim>(motion, time)
+                                   : course_through_keyframes<Dim>(motion, time);
+    Pose<Dim> pose{Matrix<Dim>::Identity(), course.shift, Matrix<Dim>::Zero(), course.velocity};
+    for (const Turned& turned : course.turns) {
+        const auto& [from, to] = turned.plane;
+        const Matrix<Dim> turn = plane_rotation<Dim>(turned.plane, turned.angle);
         Matrix<Dim> generator = Matrix<Dim>::Zero();
-        generator(spin.plane.to, spin.plane.from) = is_moving ? omega : 0;
-        generator(spin.plane.from, spin.plane.to) = is_moving ? -omega : 0;
+        generator(to, from) = turned.rate;
+        generator(from, to) = -turned.rate;
         pose.rate = (generator * turn * pose.rotation + turn * pose.rate).eval();
         pose.rotation = (turn * pose.rotation).eval();
     }

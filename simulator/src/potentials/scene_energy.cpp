@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace pent::simulator {
 
@@ -17,15 +18,20 @@ std::optional<contact::Friction> friction_law(const Scene& scene) {
         return std::nullopt;
     }
     contact::Friction law{scene.contact->friction, scene.contact->slip_speed};
-    bool has_own = false;
-    for (const Body& body : scene.bodies) {
-        law.of_bodies.push_back(std::isinf(body.friction) ? law.coefficient : body.friction);
-        has_own = has_own || law.of_bodies.back() != law.coefficient;
-    }
-    if (!has_own) {
-        law.of_bodies.clear();
-    }
-    return has_own || law.coefficient > 0 ? std::optional(law) : std::nullopt;
+    bool is_any_above = law.coefficient > 0;
+    const auto collect = [&](const auto& parts) {
+        std::vector<double> own;
+        bool has_own = false;
+        for (const auto& part : parts) {
+            own.push_back(std::isinf(part.friction) ? law.coefficient : part.friction);
+            has_own = has_own || own.back() != law.coefficient;
+            is_any_above = is_any_above || own.back() > 0;
+        }
+        return has_own ? own : std::vector<double>();
+    };
+    law.of_bodies = collect(scene.bodies);
+    law.of_obstacles = collect(scene.obstacles);
+    return is_any_above ? std::optional(law) : std::nullopt;
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ void Simulation<Dim>::Stepper::set_held(const std::map<std::uint32_t, Vector>& h
         islands_.wake(static_cast<int>(bodies_.body_of(vertex)));
     }
     number_dofs_of_the_free();
+    forget_history();
     evaluate_current();  // elements held all around have no part in it
 }
 

@@ -1,6 +1,7 @@
 #include "step/stepper.h"
 
 #include "potentials/vertex_chunks.h"
+#include "step/balance.h"
 #include "step/crossing_error.h"
 
 #include <pent/error.h>
@@ -206,6 +207,7 @@ void Simulation<Dim>::Stepper::hold_and_release() {
     }
     if (!changed.empty()) {
         number_dofs_of_the_free();
+        forget_history();  // what is let go had another acceleration, which BDF2 would carry on
     }
 }
 
@@ -323,6 +325,12 @@ StepReport Simulation<Dim>::Stepper::step() {
     report.inverted = energy_.elasticity->inverted_cells();
     report.collapsed = energy_.elasticity->collapsed();
     report.energies = energies();
+    if (scene_.output.balance) {
+        report.momentum = momentum<Dim>(bodies_.masses, current_.velocities);
+        report.angular_momentum =
+            angular_momentum<Dim>(bodies_.masses, current_.positions, current_.velocities);
+    }
+    report.constraints = constraint_summaries(bodies_, current_.positions, forces_);
     if (energy_.attachments != nullptr) {
         report.attachments = energy_.attachments->summaries();
     }

@@ -84,6 +84,7 @@ private:
     void number_dofs_of_the_awake();
     void number_dofs_of_the_free();
     void hold_and_release();
+    void forget_history() { history_ = {}; }
     void evaluate_current();
     void refuse_crossings(const Positions<Dim>& positions) const;
     void add_work(StepReport& report);

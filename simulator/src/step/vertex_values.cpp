@@ -1,3 +1,4 @@
+#include "step/balance.h"
 #include "step/stepper.h"
 
 #include <pent/geometry.h>
@@ -8,18 +9,6 @@
 namespace pent::simulator {
 
 namespace {
-
-// Minus all forces that act on vertices which a constraint holds now; 0 at all others.
-template <int Dim>
-Positions<Dim> reactions(const Bodies<Dim>& bodies, const Positions<Dim>& forces) {
-    Positions<Dim> all = Positions<Dim>::Zero(Dim, forces.cols());
-    for (Eigen::Index vertex = 0; vertex < forces.cols(); ++vertex) {
-        if (bodies.is_dirichlet[static_cast<std::size_t>(vertex)]) {
-            all.col(vertex) = -forces.col(vertex);
-        }
-    }
-    return all;
-}
 
 // The mean over the cells at each vertex, weighted by their volumes at rest.
 template <int Dim>

@@ -15,6 +15,7 @@ struct Friction {
         1e-3;  ///< m/s, > 0: what moves slower than that sticks, as if in thick honey.
     /// One for each body, in place of `coefficient`; none if that is all of theirs.
     std::vector<double> of_bodies = {};
+    std::vector<double> of_obstacles = {};  ///< The same for obstacles.
 
     /// Of two things that touch: the geometric mean of theirs.
     [[nodiscard]] double between(const Collider& first, const Collider& second) const;

@@ -12,12 +12,6 @@
 
 namespace pent::simulator {
 
-/// One rotation of a placement.
-struct Turn {
-    Plane plane;
-    double degrees = 0;
-};
-
 /// Where a mesh goes: scaled, then turned about the mesh's origin in the order given, then moved.
 struct Placement {
     double scale = 1;  ///< > 0.

@@ -50,10 +50,22 @@ inline constexpr std::string_view kSelectionNames[] = {"ball",   "box",    "half
 /// In place of motions: there is none.
 inline constexpr std::string_view kFixed = "fixed";
 
+template <PartOf<MotionKeyframe> Part, typename Visit>
+void fields(Part& keyframe, const Visit& visit) {
+    visit(key("time", "s", "", kNotNegative).required(), keyframe.time);
+    visit(key("translate", "m"), keyframe.translate);
+    visit(key("rotate"), keyframe.rotate);
+    visit(key("velocity", "m/s").may_be_missing().default_is("smooth"), keyframe.velocity);
+    visit(key("spin").may_be_missing().default_is("smooth"), keyframe.spin);
+}
+
 template <PartOf<Motion> Part, typename Visit>
 void fields(Part& motion, const Visit& visit) {
     visit(key("translate", "m/s"), motion.translate);
     visit(key("rotate", "", "two planes at once make a double rotation"), motion.rotate);
+    visit(key("keyframes", "",
+              "in place of both: where it has taken the vertices by a time, m and degrees"),
+          motion.keyframes);
     visit(key("about", "m", "what it turns about; is carried along by `translate`")
               .may_be_missing()
               .default_is("mean of the selected vertices, where it is at `from`"),

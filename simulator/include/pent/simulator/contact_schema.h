@@ -32,6 +32,10 @@ void fields(Part& obstacle, const Visit& visit) {
     visit(key("stiffness", "N/m for each vertex", "", kPositive), obstacle.stiffness);
     visit(key("motion", "", "as of a constraint, about its center; a `box` does not turn"),
           obstacle.motion);
+    visit(key("friction", "", "as of a body", kNotNegative)
+              .may_be_missing()
+              .default_is("that of `[contact]`"),
+          obstacle.friction);
 }
 
 template <PartOf<Contact> Part, typename Visit>

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <vector>
 
 namespace pent::simulator {
@@ -28,6 +29,8 @@ struct Obstacle {
     /// One after the other, as of a Constraint; each turns it about its center (a half-space about
     /// its point next to the origin) unless it says otherwise. A box does not turn.
     std::vector<Motion> motion = {};
+    /// Coulomb's coefficient, >= 0, as of a Body; infinite: that of Contact.
+    double friction = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace pent::simulator

@@ -24,6 +24,7 @@ inline constexpr std::array kWords<VertexQuantity> = {
 struct Output {
     std::vector<VertexQuantity> vertex = {};  ///< In the frame files.
     bool contact_pairs = false;               ///< Every pair in contact, in a table for each frame.
+    bool balance = false;                     ///< Energies and momenta of each step, in a table.
 };
 
 }  // namespace pent::simulator

@@ -32,6 +32,10 @@ template <>
 template <>
 [[nodiscard]] std::optional<Fault> fault_of(const Attachment& attachment);
 template <>
+[[nodiscard]] std::optional<Fault> fault_of(const Motion& motion);
+template <>
+[[nodiscard]] std::optional<Fault> fault_of(const Constraint& constraint);
+template <>
 [[nodiscard]] std::optional<Fault> fault_of(const Obstacle& obstacle);
 
 /// Whether every region of a body has a name, and each another.

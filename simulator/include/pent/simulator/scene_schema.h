@@ -66,6 +66,10 @@ void fields(Part& output, const Visit& visit) {
               "`contacts/000123.csv`: kind, bodies, signed distance, force on the first body, "
               "vertices and weights of every contact"),
           output.contact_pairs);
+    visit(key("balance", "",
+              "`balance.csv`: energies, momentum and angular momentum about the origin, a line for "
+              "each step"),
+          output.balance);
 }
 
 /// Of the block [scene] alone.

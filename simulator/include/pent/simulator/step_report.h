@@ -46,6 +46,15 @@ struct ContactSummary : ContactWork {
     double stiffness = 0;  ///< Of the barrier at the end, N/m; 0 without one.
 };
 
+/// A constraint at the end of a step: what holds its vertices against all forces on them, without
+/// inertia and damping, as VertexQuantity::Reaction.
+struct ConstraintSummary {
+    std::int64_t held = 0;       ///< Vertices: none of a constraint that is not there now.
+    std::vector<double> center;  ///< Mean of its vertices, held or not, m.
+    std::vector<double> force;   ///< Of all together, N.
+    std::vector<double> moment;  ///< About `center`, N m: planes xy, xz, xw, yz, yw, zw.
+};
+
 /// An attachment at the end of a step.
 struct AttachmentSummary {
     std::int64_t springs = 0;  ///< That pull: none of an attachment that is not there now.
@@ -83,6 +92,9 @@ struct StepReport {
         0;              ///< Elements in the false minimum at the end; see collapse_scale().
     Energies energies;  ///< At the end.
     ContactSummary contact;
+    std::vector<double> momentum;          ///< Of all bodies, kg m/s; empty unless Output::balance.
+    std::vector<double> angular_momentum;  ///< About the origin, kg m^2/s: planes as of a moment.
+    std::vector<ConstraintSummary> constraints;  ///< One for each of the scene.
     std::vector<AttachmentSummary> attachments;  ///< One for each of the scene.
     std::vector<RegionSummary> regions;          ///< Of all bodies, one body after the other.
     double activation_work = 0;                  ///< Done on the bodies in the step, J.

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "model/bodies.h"
+
+#include <pent/simulator/step_report.h>
+
+#include <vector>
+
+namespace pent::simulator {
+
+/// sum m v, kg m/s.
+template <int Dim>
+[[nodiscard]] std::vector<double> momentum(const Eigen::VectorXd& masses,
+                                           const Positions<Dim>& velocities);
+
+/// sum m (x ^ v) about the origin, kg m^2/s: a number for each plane, in the order xy, xz, xw, yz, yw,
+/// zw; above 0 where it turns the first axis towards the second.
+template <int Dim>
+[[nodiscard]] std::vector<double> angular_momentum(const Eigen::VectorXd& masses,
+                                                   const Positions<Dim>& positions,
+                                                   const Positions<Dim>& velocities);
+
+/// Minus all forces (N, without inertia and damping) that act on vertices which a constraint holds
+/// now; 0 at all others.
+template <int Dim>
+[[nodiscard]] Positions<Dim> reactions(const Bodies<Dim>& bodies, const Positions<Dim>& forces);
+
+/// What each constraint holds its vertices with: the reactions of these, together.
+template <int Dim>
+[[nodiscard]] std::vector<ConstraintSummary> constraint_summaries(const Bodies<Dim>& bodies,
+                                                                  const Positions<Dim>& positions,
+                                                                  const Positions<Dim>& forces);
+
+}  // namespace pent::simulator
