@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # From two surface files to moving 4D bodies on screen: builds the programs, then for the octopus and the
 # alien makes a pentachoral mesh, simulates it, slices it, and makes a contact sheet and a movie, by the
-# recipes in the comments of data/scenes/octopus.toml and alien.toml; and an octopus that crawls out of
-# the slice and back. What is up to date is not made again.
+# recipes in the comments of data/scenes/octopus.toml and alien.toml. What is up to date is not made again.
 #
 #   scripts/demo.sh [OUTPUT FOLDER]      default: out/demo
 set -euo pipefail
@@ -17,7 +16,7 @@ cmake --build --preset release
 built=$SECONDS
 bin=$PWD/build/release/bin
 mkdir -p "$out"
-for name in octopus alien octopus_crawl; do
+for name in octopus alien; do
     make_scene data/scenes/$name.toml "$out"
 done
 
@@ -27,7 +26,6 @@ demo: done in $((SECONDS - built)) s (and $((built - start)) s to install and bu
 
   $out/octopus-sheet.png   $out/alien-sheet.png    contact sheets: the slice w = 0 over time
   $out/octopus.mp4   $out/alien.mp4    movies
-  $out/octopus_crawl-slices.png   $out/octopus_crawl-across.png    a body with muscles crawls along w
   $out/octopus-slices/                 the slices as triangle meshes, for Blender or MeshLab
   $out/octopus/frames/                 the 4D frames themselves
 
@@ -35,5 +33,6 @@ Try next
   edit data/scenes/octopus.toml (another plane of rotation, a softer body) and run this script again
   $bin/pent-render $out/octopus -o other.mp4 --w 0.3        another slice of the same motion
   $bin/pent-mesh YOUR.obj -o your.pent                       a mesh of your own
+  scripts/gallery.sh                                         bodies that are tied, driven and alive
   scripts/paper.sh                                           the scenes of the paper
 END

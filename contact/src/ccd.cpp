@@ -14,8 +14,9 @@ namespace {
 // Stops the advances where the gap does not.
 constexpr int kMaxAdvances = 10'000;
 
-// How long the two simplices stay `target` apart along u. Every two corners are on their sides for
-// as long as that, so the hulls of the corners are too.
+// How long the two simplices stay `target` apart along u; 0 if they are not. Every two corners are on
+// their sides for as long as that, so the hulls of the corners are too: also those that move apart,
+// which rounding in u may have on the wrong sides where the gap is small.
 template <int Dim, int K, int L>
 double time_apart(const Vector<Dim>& u,
                   const Corners<Dim, K>& first,
@@ -29,8 +30,11 @@ double time_apart(const Vector<Dim>& u,
         const double speed = u.dot(first_motion.col(i));
         for (int j = 0; j < L; ++j) {
             const double closing = u.dot(second_motion.col(j)) - speed;
+            const double room = at - u.dot(second.col(j));
             if (closing > 0) {
-                time = std::min(time, (at - u.dot(second.col(j))) / closing);
+                time = std::min(time, room / closing);
+            } else if (room < 0) {
+                return 0;
             }
         }
     }
