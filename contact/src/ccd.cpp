@@ -14,9 +14,9 @@ namespace {
 // Stops the advances where the gap does not.
 constexpr int kMaxAdvances = 10'000;
 
-// How long the two simplices stay `target` apart along u; 0 if they are not. Every two corners are on
-// their sides for as long as that, so the hulls of the corners are too: also those that move apart,
-// which rounding in u may have on the wrong sides where the gap is small.
+// How long the two simplices stay `target` apart along u; 0 if they are not. Every two corners are
+// on their sides for as long as that, so the hulls of the corners are too: also those that move
+// apart, which rounding in u may have on the wrong sides where the gap is small.
 template <int Dim, int K, int L>
 double time_apart(const Vector<Dim>& u,
                   const Corners<Dim, K>& first,

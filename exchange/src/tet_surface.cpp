@@ -82,8 +82,8 @@ void turn_over(TetSurface& surface, Eigen::Index tetrahedron) {
     std::swap(surface.tetrahedra(2, tetrahedron), surface.tetrahedra(3, tetrahedron));
 }
 
-// The pieces of a closed surface, and which of their tetrahedra to turn over so that neighbors agree
-// with the first one of each.
+// The pieces of a closed surface, and which of their tetrahedra to turn over so that neighbors
+// agree with the first one of each.
 class Pieces {
 public:
     Pieces(const std::vector<Side>& sides, std::size_t tetrahedra)

@@ -76,8 +76,8 @@ inline void expect_same_surface(const Content& content, const TetSurface& expect
                 10 * error * enclosed_hypervolume(expected));
 }
 
-/// The vector perpendicular to three, with perp(x, y, z) = w: what programs of G4MF and godot-4d take
-/// for the outside of a tetrahedron.
+/// The vector perpendicular to three, with perp(x, y, z) = w: what programs of G4MF and godot-4d
+/// take for the outside of a tetrahedron.
 inline Eigen::Vector4d perpendicular(const Eigen::Vector4d& a,
                                      const Eigen::Vector4d& b,
                                      const Eigen::Vector4d& c) {

@@ -7,8 +7,8 @@
 
 namespace pent::runs::test {
 
-/// The text of report.json as version 0.1.0 wrote it: no parts, and every step with the same energies
-/// beside its other keys.
+/// The text of report.json as version 0.1.0 wrote it: no parts, and every step with the same
+/// energies beside its other keys.
 inline std::string report_text_of_version_010(const RunReport& report) {
     auto json = nlohmann::ordered_json::parse(report_text(report));
     json.erase("parts");

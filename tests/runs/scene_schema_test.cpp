@@ -15,8 +15,8 @@ namespace {
 
 using Tables = std::map<std::string, std::string>;
 
-// The first table behind each line that begins with the name of a block, bold: **[block]** of scenes,
-// **`steps`** of reports.
+// The first table behind each line that begins with the name of a block, bold: **[block]** of
+// scenes, **`steps`** of reports.
 Tables tables_of(const std::string& text) {
     Tables tables;
     std::istringstream lines(text);

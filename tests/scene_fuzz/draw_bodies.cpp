@@ -321,7 +321,7 @@ Json draw_load(Random& random, const Plan& plan) {
     return load;
 }
 
-// -------------------------------------------------------------------------------------- activations
+// ------------------------------------------------------------------------------------ activations
 
 // What goes together: fibers and their directions, signals and their numbers.
 Json draw_activation(Random& random, const Plan& plan) {
@@ -365,7 +365,7 @@ Json draw_activation(Random& random, const Plan& plan) {
     return activation;
 }
 
-// -------------------------------------------------------------------------------------- attachments
+// ------------------------------------------------------------------------------------ attachments
 
 // Newtons a meter that go with the bodies' stiffness, which is not known here: with their mass.
 Json contact_stiffness(Random& random, const Plan& plan) {

@@ -88,8 +88,8 @@ TEST(Rope, OfTiedBodiesSwingsOutOfTheSliceOnBothSidesAndHolds) {
     EXPECT_GT(most, 0.25);
 }
 
-// In equilibrium springs to points carry the weight, wherever the points are; after their motion the
-// body hangs in the same way somewhere else.
+// In equilibrium springs to points carry the weight, wherever the points are; after their motion
+// the body hangs in the same way somewhere else.
 TEST(Puppet, HangsFromPointsThatMoveAsItDidBefore) {
     Scene scene = test::box_scene<4>();
     scene.gravity[1] = -9.8;

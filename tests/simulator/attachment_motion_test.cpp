@@ -72,7 +72,8 @@ double lead(const Simulation<Dim>& simulation) {
 }
 
 // Two masses on springs of N k in all: x = v / omega e^(-gamma t) sin(omega t) with
-// omega_0^2 = N k / mu, mu = m1 m2 / (m1 + m2), gamma = N c / (2 mu), omega^2 = omega_0^2 - gamma^2.
+// omega_0^2 = N k / mu, mu = m1 m2 / (m1 + m2), gamma = N c / (2 mu), omega^2 = omega_0^2 -
+// gamma^2.
 // 200 steps a period of BDF2 are (omega h)^2 / 3 = 0.03% off in a turn of phase; the bodies are so
 // stiff that they give a thousandth.
 template <int Dim>
@@ -139,7 +140,8 @@ TYPED_TEST(AttachmentMotion, IsRightFromAMillionthToAMillionTimesTheStiffnessOfT
             for (int i = 0; i < 20; ++i) {
                 const StepReport report = simulation.step();
                 ASSERT_TRUE(report.is_accepted) << factor << report.failure;
-                // A step leaves a ten-thousandth of its momentum, twice that of its energy; 20 steps.
+                // A step leaves a ten-thousandth of its momentum, twice that of its energy; 20
+                // steps.
                 EXPECT_LE(report.energies.total(), 1.005 * energy) << factor;
             }
             EXPECT_LT((momentum<kDim>(simulation) - before).norm(), 2e-3 * before.norm())

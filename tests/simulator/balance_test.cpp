@@ -31,8 +31,8 @@ TEST(AngularMomentum, IsAboutTheOriginAndHasAPlaneForEachPairOfAxes) {
     EXPECT_EQ(momentum<4>(masses, v), (std::vector<double>{0, 30, 0, 700}));
 }
 
-// A body that nothing holds flies on: its momentum stays, and its angular momentum to the first order
-// of backward Euler, of which a second step of half the length loses half as much.
+// A body that nothing holds flies on: its momentum stays, and its angular momentum to the first
+// order of backward Euler, of which a second step of half the length loses half as much.
 TYPED_TEST(Balance, IsOfTheStateAtTheEndOfAStep) {
     constexpr int kDim = TypeParam::value;
     const auto lost = [](int steps_per_frame) {

@@ -93,7 +93,8 @@ TYPED_TEST(ContactByPair, LeavesSingleBodiesOutOfContactWithThemselves) {
 }
 
 // On a floor that slopes by 30 degrees, of tan 30 = 0.58: a body stays where the geometric mean of
-// both coefficients is more, and slides where it is less; whether the body or the floor has its own.
+// both coefficients is more, and slides where it is less; whether the body or the floor has its
+// own.
 TYPED_TEST(ContactByPair, HasTheFrictionOfBothSides) {
     constexpr int kDim = TypeParam::value;
     for (const auto& [of_body, of_floor] :

@@ -58,8 +58,9 @@ TYPED_TEST(DistanceWithin, FromAFaceOfABoxIsTheCoordinateAndItsGradientTheAxis) 
 }
 
 // Ways from a corner of a box are straight lines, which a mesh makes longer, never shorter; less so
-// the finer it is, and no longer than the way along its edges, which lead along every diagonal: with
-// the coordinates in decreasing order, (a - b) + (b - c) sqrt(2) + c sqrt(3) in three dimensions.
+// the finer it is, and no longer than the way along its edges, which lead along every diagonal:
+// with the coordinates in decreasing order, (a - b) + (b - c) sqrt(2) + c sqrt(3) in three
+// dimensions.
 TYPED_TEST(DistanceWithin, FromACornerIsNoShorterThanALineAndConvergesToIt) {
     constexpr int kDim = TypeParam::value;
     const auto largest_error = [](int count) {

@@ -133,8 +133,8 @@ TYPED_TEST(RegionTest, OfTheSameMaterialChangeNothing) {
 }
 
 // Two springs in a row, of which one is four times as stiff: without lateral contraction a bar
-// pulled along its axis is stretched by 4/5 in its soft half. The pull is so small that elasticity is
-// linear.
+// pulled along its axis is stretched by 4/5 in its soft half. The pull is so small that elasticity
+// is linear.
 TYPED_TEST(RegionTest, InARowStretchLikeSpringsInARow) {
     constexpr int kDim = TypeParam::value;
     for (const ElementKind kind : kKinds) {

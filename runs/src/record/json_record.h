@@ -16,8 +16,8 @@
 namespace pent::runs {
 
 /// Reports of runs as JSON, by their schema. Reading throws a nlohmann::json::exception for what is
-/// missing, has another type or is a count that is negative or not whole, and an Error for words that
-/// are none.
+/// missing, has another type or is a count that is negative or not whole, and an Error for words
+/// that are none.
 using Json = nlohmann::ordered_json;
 
 /// A visitor of the schema that writes the value of each key.

@@ -5,8 +5,8 @@
 
 namespace pent::runs {
 
-// The keys of report.json and of the lines of a journal, each once: writer, reader and the tables of
-// docs/simulator.md are visitors.
+// The keys of report.json and of the lines of a journal, each once: writer, reader and the tables
+// of docs/simulator.md are visitors.
 
 using simulator::key;
 using simulator::PartOf;

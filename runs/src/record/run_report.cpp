@@ -9,8 +9,8 @@ namespace pent::runs {
 
 namespace {
 
-// A visitor of the schema that writes the tables of the docs: one for the keys of a part, and behind
-// it one for each of its keys that has keys of its own.
+// A visitor of the schema that writes the tables of the docs: one for the keys of a part, and
+// behind it one for each of its keys that has keys of its own.
 struct TableWriter {
     using Field = simulator::Field;
 

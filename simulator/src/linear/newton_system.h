@@ -35,8 +35,8 @@ public:
     /// @param shift  Dim x vertices: how far vertices without a dof move, m; 0 for all others.
     void begin(BlockVector<Dim> right, Positions<Dim> shift);
 
-    /// Adds weight * masses to the diagonal. Elements must have been added, and stencils that are to
-    /// be checked: where masses drown in the rounding of the stiffness that is there,
+    /// Adds weight * masses to the diagonal. Elements must have been added, and stencils that are
+    /// to be checked: where masses drown in the rounding of the stiffness that is there,
     /// has_lost_inertia() says so.
     ///
     /// @param masses  One a vertex, kg.

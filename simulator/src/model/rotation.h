@@ -25,8 +25,8 @@ struct Pose {
     Vector<Dim> velocity;  ///< m/s.
 };
 
-/// Pose of a motion at a time in s, in closed form; at rest before `from`, and behind `to` or the last
-/// keyframe.
+/// Pose of a motion at a time in s, in closed form; at rest before `from`, and behind `to` or the
+/// last keyframe.
 template <int Dim>
 [[nodiscard]] Pose<Dim> pose_at(const Motion& motion, double time);
 

@@ -13,8 +13,8 @@ template <int Dim>
 [[nodiscard]] std::vector<double> momentum(const Eigen::VectorXd& masses,
                                            const Positions<Dim>& velocities);
 
-/// sum m (x ^ v) about the origin, kg m^2/s: a number for each plane, in the order xy, xz, xw, yz, yw,
-/// zw; above 0 where it turns the first axis towards the second.
+/// sum m (x ^ v) about the origin, kg m^2/s: a number for each plane, in the order xy, xz, xw, yz,
+/// yw, zw; above 0 where it turns the first axis towards the second.
 template <int Dim>
 [[nodiscard]] std::vector<double> angular_momentum(const Eigen::VectorXd& masses,
                                                    const Positions<Dim>& positions,

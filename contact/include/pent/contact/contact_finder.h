@@ -75,8 +75,8 @@ public:
     void move_obstacles(const std::vector<Obstacle<Dim>>& shapes);
 
     /// How far obstacles may go from these shapes to where they are now, while all vertices stay:
-    /// less than 1 where a barrier has them in the way, as limit_step() says, or 0 where a vertex is
-    /// then inside of one that repels vertices.
+    /// less than 1 where a barrier has them in the way, as limit_step() says, or 0 where a vertex
+    /// is then inside of one that repels vertices.
     [[nodiscard]] StepLimit limit_obstacles(const std::vector<Obstacle<Dim>>& from,
                                             const PositionsView<Dim>& positions);
 

@@ -61,8 +61,8 @@ public:
     /// @param velocities  Null for a step that minimizes. For one of a single linear solve those at
     ///                    its start, m/s: they tell how fast contacts slip, and so their
     ///                    resistance.
-    /// @param travel      How far the point of an obstacle that a contact touches moves in the step,
-    ///                    m; empty where none moves.
+    /// @param travel      How far the point of an obstacle that a contact touches moves in the
+    ///                    step, m; empty where none moves.
     void begin_step(const std::vector<Contact<Dim>>& contacts,
                     const Positions<Dim>& positions,
                     const Positions<Dim>* velocities,

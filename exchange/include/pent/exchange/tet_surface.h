@@ -39,8 +39,8 @@ void orient(TetSurface& surface, std::string_view name);
 /// The boundary of a mesh, with the vertices that it uses, in their order.
 [[nodiscard]] TetSurface boundary_of(const SimplexMesh<4>& mesh);
 
-/// The body inside a closed surface that some point sees all of, as it sees that of anything convex:
-/// pentachora from that point to each tetrahedron. The boundary is the surface, exactly.
+/// The body inside a closed surface that some point sees all of, as it sees that of anything
+/// convex: pentachora from that point to each tetrahedron. The boundary is the surface, exactly.
 ///
 /// Throws an Error that begins with `name` if the surface is not closed or no such point is found.
 [[nodiscard]] SimplexMesh<4> cone_of(const TetSurface& surface, std::string_view name);

@@ -62,8 +62,8 @@ struct RunReport {
     double seconds = 0;                        ///< Spent in all parts.
 };
 
-/// Reads the report.json of a run, of version 0.1.0 too. Its verdict is Running while a run goes on,
-/// and where one died and was not resumed.
+/// Reads the report.json of a run, of version 0.1.0 too. Its verdict is Running while a run goes
+/// on, and where one died and was not resumed.
 ///
 /// Throws an Error that names the file if it cannot be read or is not such a report.
 [[nodiscard]] RunReport read_report(const std::filesystem::path& path);

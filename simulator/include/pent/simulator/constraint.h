@@ -10,8 +10,8 @@
 namespace pent::simulator {
 
 /// Prescribes the motion of some vertices of a body, selected on placed positions at t = 0, in all
-/// steps that begin at `from` or later and before `to`; they are free in all others. One that begins
-/// later than the scene takes the vertices on from where they are then.
+/// steps that begin at `from` or later and before `to`; they are free in all others. One that
+/// begins later than the scene takes the vertices on from where they are then.
 struct Constraint {
     std::string body;
     std::vector<Selection> select;  ///< A union.

@@ -52,17 +52,17 @@ enum class Invariant { I1, I2, I3 };
 
 /// The uniform scale s of an element below which its own energy pulls it to a point, in [0, 1).
 ///
-/// F = 0 is a strict local minimum of the stable neo-Hookean energy for n >= 3, and of mooney-rivlin
-/// unless all of mu is on the second invariant. The slope along s R, R a rotation, vanishes at
-/// s = 0, at rest, and once in between, where
+/// F = 0 is a strict local minimum of the stable neo-Hookean energy for n >= 3, and of
+/// mooney-rivlin unless all of mu is on the second invariant. The slope along s R, R a rotation,
+/// vanishes at s = 0, at rest, and once in between, where
 ///
 ///     2 c1 + 2 (n - 1) c2 s^2 = (mu + 2 c2 + (lambda + mu - 2 c2) (1 - s^n)) s^(n-2),
 ///
 /// with c1 = mu / 2 and c2 = 0 for the former. For n = 3 and 4 everything with |F| < sqrt(n) s is
-/// driven to F = 0: det F <= (|F| / sqrt(n))^n and II >= n (n - 1) / 2 |det F|^(4/n) make P : F, the
-/// slope along F itself, positive there, so that |F| shrinks as the energy does. It is the largest
-/// such ball. At nu = 0.28 in 4D the scale is 0.43. 0 for n = 2 and for the other models, which
-/// have no such minimum.
+/// driven to F = 0: det F <= (|F| / sqrt(n))^n and II >= n (n - 1) / 2 |det F|^(4/n) make P : F,
+/// the slope along F itself, positive there, so that |F| shrinks as the energy does. It is the
+/// largest such ball. At nu = 0.28 in 4D the scale is 0.43. 0 for n = 2 and for the other models,
+/// which have no such minimum.
 [[nodiscard]] double collapse_scale(const Material& material, int dim);
 
 /// Second derivative of an isotropic function of F, in the frame of its singular vectors.

@@ -66,7 +66,8 @@ struct Keyframe {
 /// The planes in which a motion turns, in the order in which it does.
 [[nodiscard]] std::vector<Plane> planes_of(const Motion& motion);
 
-/// The fastest turn in one of its planes, degrees/s, >= 0; through keyframes that between two of them.
+/// The fastest turn in one of its planes, degrees/s, >= 0; through keyframes that between two of
+/// them.
 [[nodiscard]] double largest_turn_rate(const Motion& motion);
 
 /// "xw" for {0, 3}.
