@@ -1,6 +1,7 @@
 #include "draw.h"
 
 #include "draw_bodies.h"
+#include "draw_motions.h"
 
 #include <algorithm>
 #include <functional>

@@ -8,12 +8,6 @@ namespace pent::scene_fuzz {
 
 extern const Keys kScene;
 extern const Keys kBody;
-extern const Keys kMotion;
-extern const Keys kSlide;  ///< Motions of what does not turn.
-extern const Keys kConstraint;
-
-/// Motions by some keys, or the word for none.
-[[nodiscard]] Json draw_motion(const Keys& keys, Random& random, const Plan& plan);
 
 /// Newtons a meter that go with the bodies' stiffness.
 [[nodiscard]] Json contact_stiffness(Random& random, const Plan& plan);
