@@ -11,19 +11,16 @@
  * calls no other function here. Functions that give an int give 0 for success unless they say
  * otherwise. Whatever is refused has changed nothing.
  *
- * Arrays that are given belong to the simulation. They hold until a function that takes it without
- * `const` is called, and are gone after pent_close(). Arrays that are taken are copied. A
- * simulation that another thread is using at the time is refused; different simulations may be used
- * at once. */
+ * Arrays that are given belong to the simulation. Those of its vertices and cells stay where they
+ * are and show the state as it is at the time, until bodies or obstacles come or go or it is
+ * closed, and beyond that while they are kept (pent_keep()). All others hold until a function that
+ * takes it without `const` is called. Arrays that are taken are copied. A simulation that another
+ * thread is using at the time is refused; different simulations may be used at once.
+ *
+ * pent_plugin_meshes.h has meshes, frames and scenes without a simulation. */
 
 #ifdef __cplusplus
 extern "C" {
-#endif
-
-#if defined(__GNUC__)
-#define PENT_PLUGIN_API __attribute__((visibility("default")))
-#else
-#define PENT_PLUGIN_API
 #endif
 
 /** Grows when a function here changes its meaning; compare with pent_plugin_version(). Hosts of
@@ -33,7 +30,9 @@ extern "C" {
 /** PENT_PLUGIN_VERSION of the library that is loaded. */
 PENT_PLUGIN_API int pent_plugin_version(void);
 
-/** What went wrong in the last call of this thread, one line; "" if nothing did. */
+/** What went wrong in the last call of this thread, one line; "" if nothing did. Functions that
+ * close or free leave it as it is where they succeed: collectors of garbage call them at any time.
+ * */
 PENT_PLUGIN_API const char* pent_last_error(void);
 
 /** Reads a scene file and its meshes. `threads` is at least 1; results do not depend on it. */
@@ -46,6 +45,11 @@ PENT_PLUGIN_API pent_simulation* pent_open_text(const char* scene,
                                                 int64_t mesh_count,
                                                 int threads);
 PENT_PLUGIN_API int pent_close(pent_simulation* simulation);
+
+/** Keeps the arrays of vertices, cells and boundaries of now where they are until pent_free_kept(),
+ * whatever becomes of the simulation: they show what was there last. */
+PENT_PLUGIN_API pent_kept* pent_keep(const pent_simulation* simulation);
+PENT_PLUGIN_API int pent_free_kept(pent_kept* kept);
 
 /* What is there. `body` is from 0 to pent_body_count() - 1. */
 

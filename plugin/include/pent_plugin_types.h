@@ -3,13 +3,20 @@
 
 #include <stdint.h>
 
+#if defined(__GNUC__)
+#define PENT_PLUGIN_API __attribute__((visibility("default")))
+#else
+#define PENT_PLUGIN_API
+#endif
+
 /** What pent_plugin.h takes and gives. Points and vectors have as many numbers as the scene has
  * dimensions, 3 or 4; where there is room for 4 the last is 0 in three dimensions. */
 
-/** A simulation, and a state that one was in. Both are numbers in disguise: one that is not there
- * (any more) is an error, never a crash. */
+/** A simulation, a state that one was in, and arrays of one. All are numbers in disguise: one that
+ * is not there (any more) is an error, never a crash. */
 typedef struct pent_simulation pent_simulation;
 typedef struct pent_state pent_state;
+typedef struct pent_kept pent_kept;
 
 /** A mesh of a host, read while it is handed over. */
 typedef struct pent_mesh {

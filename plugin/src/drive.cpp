@@ -143,8 +143,8 @@ int pent_add_body(pent_simulation* simulation, const char* text, const pent_mesh
         constexpr int kDim = kDimOf<std::remove_reference_t<decltype(held)>>;
         require(mesh, "mesh");
         const simulator::Body body = scene_of(text, "body", kDim, "").bodies[0];
-        held.add_body(body, mesh_of<kDim>(*mesh, body.name));
-        opened.boundaries.clear();
+        held.add_body(body, mesh_of<kDim>(*mesh, "mesh of \"" + body.name + "\""));
+        opened.boundaries = std::make_shared<Boundaries>();
         return 0;
     });
 }
@@ -152,7 +152,7 @@ int pent_add_body(pent_simulation* simulation, const char* text, const pent_mesh
 int pent_remove_body(pent_simulation* simulation, int body) {
     return with_body(simulation, body, -1, [&](auto& held, Opened& opened) {
         held.remove_body(body);
-        opened.boundaries.clear();
+        opened.boundaries = std::make_shared<Boundaries>();
         return 0;
     });
 }

@@ -52,6 +52,9 @@ void Handles<Handle, Thing>::remove(const Handle* handle, const char* what) {
 
 template class Handles<pent_simulation, Opened>;
 template class Handles<pent_state, Saved>;
+template class Handles<pent_kept, Kept>;
+template class Handles<pent_stored_mesh, StoredMesh>;
+template class Handles<pent_stored_frame, StoredFrame>;
 
 Handles<pent_simulation, Opened>& simulations() {
     static Handles<pent_simulation, Opened> all;  // a C interface has nowhere else to keep them
@@ -60,6 +63,21 @@ Handles<pent_simulation, Opened>& simulations() {
 
 Handles<pent_state, Saved>& states() {
     static Handles<pent_state, Saved> all;
+    return all;
+}
+
+Handles<pent_kept, Kept>& kept_arrays() {
+    static Handles<pent_kept, Kept> all;
+    return all;
+}
+
+Handles<pent_stored_mesh, StoredMesh>& meshes() {
+    static Handles<pent_stored_mesh, StoredMesh> all;
+    return all;
+}
+
+Handles<pent_stored_frame, StoredFrame>& frames() {
+    static Handles<pent_stored_frame, StoredFrame> all;
     return all;
 }
 
@@ -75,8 +93,8 @@ void require(const void* argument, const char* name) {
 }
 
 template <int Dim>
-SimplexMesh<Dim> mesh_of(const pent_mesh& mesh, const std::string& body) {
-    const std::string of = "mesh of \"" + body + "\": ";
+SimplexMesh<Dim> mesh_of(const pent_mesh& mesh, const std::string& name) {
+    const std::string of = name + ": ";
     constexpr auto kMost = std::int64_t{std::numeric_limits<std::uint32_t>::max()};
     if (mesh.vertices < 1 || mesh.vertices > kMost || mesh.cell_count < 1
         || mesh.cell_count > kMost) {
@@ -100,6 +118,7 @@ SimplexMesh<Dim> mesh_of(const pent_mesh& mesh, const std::string& body) {
     return made;
 }
 
+template SimplexMesh<2> mesh_of(const pent_mesh&, const std::string&);
 template SimplexMesh<3> mesh_of(const pent_mesh&, const std::string&);
 template SimplexMesh<4> mesh_of(const pent_mesh&, const std::string&);
 

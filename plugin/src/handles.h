@@ -1,13 +1,14 @@
 #pragma once
 
 #include <pent/error.h>
+#include <pent/pent_file.h>
 #include <pent/simulator/simulation.h>
 
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <pent_plugin.h>
+#include <pent_plugin_meshes.h>
 #include <string>
 #include <variant>
 #include <vector>
@@ -25,10 +26,13 @@ struct SeenSurface {
     Eigen::VectorXd weights;
 };
 
+/// Those of bodies that were asked for.
+using Boundaries = std::map<int, std::vector<std::uint32_t>>;
+
 /// What is behind a handle: a simulation, and what of it was handed out.
 struct Opened {
     std::variant<std::unique_ptr<Simulation<3>>, std::unique_ptr<Simulation<4>>> simulation;
-    std::map<int, std::vector<std::uint32_t>> boundaries;  // by body, once asked for
+    std::shared_ptr<Boundaries> boundaries = std::make_shared<Boundaries>();
     SeenSurface surface;
     std::vector<pent_contact> contacts;
     std::vector<std::string> energy_names;
@@ -37,6 +41,24 @@ struct Opened {
 };
 
 using Saved = std::variant<simulator::Snapshot<3>, simulator::Snapshot<4>>;
+
+/// Arrays of a simulation that outlive it.
+struct Kept {
+    std::shared_ptr<const void> arrays;
+    std::shared_ptr<const Boundaries> boundaries;
+};
+
+/// A mesh without a simulation. Nothing of it changes, but that its boundary is found once.
+struct StoredMesh {
+    std::variant<SimplexMesh<2>, SimplexMesh<3>, SimplexMesh<4>> mesh;
+    std::string name;  // in messages
+    std::string created_by;
+    std::uint32_t crc32c = 0;
+    std::once_flag has_boundary;
+    std::vector<std::uint32_t> boundary;
+};
+
+using StoredFrame = std::variant<Frame<2>, Frame<3>, Frame<4>>;
 
 /// Things by handles. A handle is a number, the next of all, which nobody takes for an address: one
 /// that is not there is found to be so.
@@ -56,6 +78,9 @@ private:
 
 [[nodiscard]] Handles<pent_simulation, Opened>& simulations();
 [[nodiscard]] Handles<pent_state, Saved>& states();
+[[nodiscard]] Handles<pent_kept, Kept>& kept_arrays();
+[[nodiscard]] Handles<pent_stored_mesh, StoredMesh>& meshes();
+[[nodiscard]] Handles<pent_stored_frame, StoredFrame>& frames();
 
 /// What pent_last_error() says in this thread.
 [[nodiscard]] std::string& last_error();
@@ -72,6 +97,17 @@ Value guarded(Value failure, const Work& work) noexcept {
         last_error() = "unknown failure";
     }  // GCOVR_EXCL_STOP
     return failure;
+}
+
+/// Takes a thing from its handle. Where that succeeds last_error() stays as it is.
+template <typename Things, typename Handle>
+int release(Things& things, Handle* handle, const char* what) noexcept {
+    const std::string before = last_error();
+    return guarded(-1, [&] {
+        things.remove(handle, what);
+        last_error() = before;
+        return 0;
+    });
 }
 
 /// Calls work(simulation, opened) with a simulation of either dimension that no other thread uses.
@@ -123,8 +159,16 @@ template <int Dim>
     return Eigen::Map<const Positions<Dim>>(numbers, Dim, count);
 }
 
-/// The mesh of a host, copied; what it says of vertices and cells is checked where it is placed.
+/// The mesh of a host, copied; what it says of vertices and cells is not checked here.
+///
+/// @param name  In messages.
 template <int Dim>
-[[nodiscard]] SimplexMesh<Dim> mesh_of(const pent_mesh& mesh, const std::string& body);
+[[nodiscard]] SimplexMesh<Dim> mesh_of(const pent_mesh& mesh, const std::string& name);
+
+/// The boundary facets of a stored mesh, Dim indices each. Throws an Error where cells do not fit
+/// together.
+template <int Dim>
+[[nodiscard]] const std::vector<std::uint32_t>& boundary_of(StoredMesh& stored,
+                                                            const SimplexMesh<Dim>& mesh);
 
 }  // namespace pent::plugin

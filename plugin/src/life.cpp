@@ -19,8 +19,9 @@ std::unique_ptr<Simulation<Dim>> make_simulation(const Scene& scene,
                                                  int threads) {
     std::vector<SimplexMesh<Dim>> all;
     for (const simulator::Body& body : scene.bodies) {
-        all.push_back(meshes != nullptr ? mesh_of<Dim>(meshes[all.size()], body.name)
-                                        : read_mesh<Dim>(body.mesh).mesh);
+        all.push_back(meshes != nullptr
+                          ? mesh_of<Dim>(meshes[all.size()], "mesh of \"" + body.name + "\"")
+                          : read_mesh<Dim>(body.mesh).mesh);
     }
     return std::make_unique<Simulation<Dim>>(scene, std::move(all),
                                              simulator::SimulationOptions{.threads = threads});
@@ -88,10 +89,21 @@ pent_simulation* pent_open_text(const char* scene,
                                 const pent_mesh* meshes,
                                 int64_t mesh_count,
                                 int threads) {
+    return pent_open_scene(scene, "scene", "", meshes, mesh_count, threads);
+}
+
+pent_simulation* pent_open_scene(const char* scene,
+                                 const char* name,
+                                 const char* folder,
+                                 const pent_mesh* meshes,
+                                 int64_t mesh_count,
+                                 int threads) {
     return guarded<pent_simulation*>(nullptr, [&] {
         require(scene, "scene");
+        require(name, "name");
+        require(folder, "folder");
         require(meshes, "meshes");
-        const Scene read = runs::parse_scene(scene, "scene", "");
+        const Scene read = runs::parse_scene(scene, name, folder);
         const auto bodies = static_cast<std::int64_t>(read.bodies.size());
         if (mesh_count != bodies) {
             throw Error("the scene has " + std::to_string(bodies) + " bodies; got "
@@ -102,10 +114,17 @@ pent_simulation* pent_open_text(const char* scene,
 }
 
 int pent_close(pent_simulation* simulation) {
-    return guarded(-1, [&] {
-        simulations().remove(simulation, "simulation");
-        return 0;
+    return release(simulations(), simulation, "simulation");
+}
+
+pent_kept* pent_keep(const pent_simulation* simulation) {
+    return with<pent_kept*>(simulation, nullptr, [](auto& held, Opened& opened) {
+        return kept_arrays().add(std::make_shared<Kept>(Kept{held.arrays(), opened.boundaries}));
     });
+}
+
+int pent_free_kept(pent_kept* kept) {
+    return release(kept_arrays(), kept, "set of kept arrays");
 }
 
 int pent_step(pent_simulation* simulation, pent_step_report* report) {
@@ -141,8 +160,5 @@ int pent_restore(pent_simulation* simulation, const pent_state* state) {
 }
 
 int pent_free_state(pent_state* state) {
-    return guarded(-1, [&] {
-        states().remove(state, "state");
-        return 0;
-    });
+    return release(states(), state, "state");
 }

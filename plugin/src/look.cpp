@@ -141,7 +141,7 @@ const uint32_t* pent_boundary(pent_simulation* simulation, int body, int64_t* co
         simulation, body, nullptr, [&](auto& held, Opened& opened) -> const uint32_t* {
             constexpr int kDim = kDimOf<std::remove_reference_t<decltype(held)>>;
             require(count, "count");
-            const auto [at, is_new] = opened.boundaries.try_emplace(body);
+            const auto [at, is_new] = opened.boundaries->try_emplace(body);
             if (is_new) {
                 const auto& mesh = held.mesh(body);
                 const Simplices<kDim> facets =

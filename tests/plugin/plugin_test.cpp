@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <map>
+#include <pent_plugin_meshes.h>
 #include <string>
 #include <vector>
 
@@ -287,6 +288,15 @@ TEST(Plugin, OpensASceneFromMemoryOrSaysWhereItIsWrong) {
     expect_error("scene:2:1: ");
     EXPECT_EQ(pent_open_text("[[body]]\nname = \"a\"\nmesh = \"-\"\n", &mesh, 2, 1), nullptr);
     expect_error("the scene has 1 bodies; got 2 meshes");
+    const char* selects_nothing =
+        "[[body]]\nname = \"a\"\nmesh = \"-\"\n[[constraint]]\n"
+        "body = \"a\"\nselect = { layers = { first = 7 } }\n";
+    EXPECT_EQ(pent_open_scene(selects_nothing, "my.toml", "/x", &mesh, 1, 1), nullptr);
+    expect_error("my.toml:6:");
+    EXPECT_EQ(pent_open_scene(selects_nothing, nullptr, "/x", &mesh, 1, 1), nullptr);
+    expect_error("name is NULL");
+    EXPECT_EQ(pent_open_scene(selects_nothing, "my.toml", nullptr, &mesh, 1, 1), nullptr);
+    expect_error("folder is NULL");
     EXPECT_EQ(pent_open_file("/no/such/scene.toml", 1), nullptr);
     expect_error("/no/such/scene.toml");
 }

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 // Bodies and obstacles that a host adds and removes between steps.
@@ -52,6 +54,49 @@ template <int Dim>
 Simulation<Dim> start(const Scene& scene, int threads = 1) {
     return Simulation<Dim>(scene, std::vector<SimplexMesh<Dim>>(scene.bodies.size(), cube<Dim>(1)),
                            {.threads = threads});
+}
+
+// Through steps of every integrator, states that are set and restored: one address, and what it shows
+// is the state of the time.
+TYPED_TEST(Edit, ViewsShowTheStateWhereverAStepTakesIt) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : kWithInertia) {
+        Simulation<kDim> simulation = start<kDim>(tower<kDim>(integrator));
+        const auto positions = simulation.positions(1);
+        const auto velocities = simulation.velocities(1);
+        const auto forces = simulation.forces(1);
+        const Snapshot<kDim> begin = simulation.save();
+        const auto expect_current = [&] {
+            EXPECT_EQ(positions.data(), simulation.positions(1).data());
+            EXPECT_EQ(velocities.data(), simulation.velocities(1).data());
+            EXPECT_EQ(forces.data(), simulation.forces(1).data());
+        };
+        take_steps(simulation, 3);
+        expect_current();
+        EXPECT_NE(positions,
+                  begin.positions.middleCols(simulation.first_vertex(1), positions.cols()));
+        simulation.set_state(1, 1.01 * positions, 2 * velocities);
+        expect_current();
+        simulation.restore(begin);
+        expect_current();
+        EXPECT_EQ(positions,
+                  begin.positions.middleCols(simulation.first_vertex(1), positions.cols()));
+    }
+}
+
+TYPED_TEST(Edit, ViewsThatAreKeptShowWhatWasThereLast) {
+    constexpr int kDim = TypeParam::value;
+    std::optional<Simulation<kDim>> simulation(start<kDim>(tower<kDim>()));
+    const auto positions = simulation->positions(2);
+    const std::shared_ptr<const void> kept = simulation->arrays();
+    take_steps(*simulation, 1);
+    const Positions<kDim> last = positions;
+    simulation->remove_body(0);
+    take_steps(*simulation, 1);
+    EXPECT_NE(simulation->positions(1).data(), positions.data());
+    EXPECT_EQ(positions, last);
+    simulation.reset();
+    EXPECT_EQ(positions, last);
 }
 
 // A body that is added at the start is one of the scene.

@@ -207,7 +207,7 @@ bool Simulation<Dim>::Stepper::attempt(double time, double h, StepReport& report
     if (scene_.solver.integrator == Integrator::Bdf2) {
         history_ = h == scene_.dt() ? current_ : State<Dim>();
     }
-    std::swap(current_, next_);
+    current_ = next_;  // copied: hosts see the arrays where they lie
     return true;
 }
 

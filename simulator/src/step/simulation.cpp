@@ -13,7 +13,7 @@ template <int Dim>
 Simulation<Dim>::Simulation(const Scene& scene,
                             std::vector<SimplexMesh<Dim>> meshes,
                             const SimulationOptions& options)
-    : stepper_(std::make_unique<Stepper>(scene, std::move(meshes), options)) {
+    : stepper_(std::make_shared<Stepper>(scene, std::move(meshes), options)) {
     stepper_->start();
 }
 
@@ -120,6 +120,11 @@ std::span<const contact::Contact<Dim>> Simulation<Dim>::contacts() const {
 template <int Dim>
 const std::vector<pent::Obstacle<Dim>>& Simulation<Dim>::obstacles() const {
     return stepper_->contact().obstacles();
+}
+
+template <int Dim>
+std::shared_ptr<const void> Simulation<Dim>::arrays() const {
+    return stepper_;
 }
 
 template <int Dim>

@@ -140,7 +140,7 @@ template <int Dim>
 void Simulation<Dim>::rebuild(const Scene& scene,
                               std::vector<SimplexMesh<Dim>> meshes,
                               const Snapshot<Dim>& snapshot) {
-    auto next = std::make_unique<Stepper>(scene, std::move(meshes), stepper_->options());
+    auto next = std::make_shared<Stepper>(scene, std::move(meshes), stepper_->options());
     next->restore(snapshot);
     stepper_ = std::move(next);
 }
@@ -151,7 +151,7 @@ void Simulation<Dim>::add_body(const Body& body, SimplexMesh<Dim> mesh) {
     scene.bodies.push_back(body);
     std::vector<SimplexMesh<Dim>> meshes = stepper_->bodies().meshes;
     meshes.push_back(std::move(mesh));
-    auto next = std::make_unique<Stepper>(scene, std::move(meshes), stepper_->options());
+    auto next = std::make_shared<Stepper>(scene, std::move(meshes), stepper_->options());
     const State<Dim>& begin = next->current();
     Snapshot<Dim> snapshot = stepper_->save();
     const Eigen::Index before = snapshot.positions.cols();

@@ -97,7 +97,7 @@ void Simulation<Dim>::Stepper::set_body(int body,
     Positions<Dim> all = current_.positions;
     all.middleCols(range.begin, range.size) = positions;
     refuse_crossings(all);
-    current_.positions = std::move(all);
+    current_.positions = all;  // copied: hosts see the arrays where they lie
     current_.velocities.middleCols(range.begin, range.size) = velocities;
     islands_.wake(body);
     number_dofs_of_the_awake();
@@ -134,7 +134,8 @@ void Simulation<Dim>::Stepper::restore(const Snapshot<Dim>& snapshot) {
         evaluate_current();  // obstacles are where they were
         throw;
     }
-    current_ = {snapshot.positions, snapshot.velocities};
+    current_.positions = snapshot.positions;
+    current_.velocities = snapshot.velocities;
     history_ = {snapshot.previous_positions, snapshot.previous_velocities};
     islands_.set_states(snapshot.sleep);
     steps_ = snapshot.steps;

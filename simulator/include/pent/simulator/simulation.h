@@ -26,7 +26,7 @@ namespace pent::simulator {
 /// A scene in motion, which a host program steps.
 ///
 /// State is kept in double. Bodies are in the order of the scene; vertices in the order of their
-/// mesh. Views hold until something that is not const is called; then take them anew.
+/// mesh. Views show the state as it is at the time, until bodies or obstacles come or go.
 template <int Dim>
 class Simulation {
 public:
@@ -64,6 +64,8 @@ public:
     [[nodiscard]] View velocities(int body) const;               ///< m/s.
     [[nodiscard]] View forces(int body) const;                   ///< Of all that has an energy, N.
     [[nodiscard]] Eigen::Map<const Eigen::VectorXd> masses(int body) const;  ///< Lumped, kg.
+
+    [[nodiscard]] std::shared_ptr<const void> arrays() const;  ///< Keeps what views of now show.
 
     /// Forces of contact alone, of bodies and obstacles, on the vertices of a body, Dim x vertices,
     /// N.
@@ -152,7 +154,7 @@ private:
     void rebuild(const Scene& scene,
                  std::vector<SimplexMesh<Dim>> meshes,
                  const Snapshot<Dim>& snapshot);
-    std::unique_ptr<Stepper> stepper_;
+    std::shared_ptr<Stepper> stepper_;
 };
 
 }  // namespace pent::simulator

@@ -1,0 +1,102 @@
+#ifndef PENT_PLUGIN_MESHES_H
+#define PENT_PLUGIN_MESHES_H
+
+#include "pent_plugin.h"
+
+/** What a host does without a simulation: meshes and frames from files and arrays, and the text of
+ * scenes. All that pent_plugin.h says of errors holds here. */
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** A mesh, and a frame of a run, that the library keeps. Both are numbers in disguise. They never
+ * change: any number of threads may look at one, and its arrays hold until it is freed. */
+typedef struct pent_stored_mesh pent_stored_mesh;
+typedef struct pent_stored_frame pent_stored_frame;
+
+typedef struct pent_mesh_info {
+    int32_t dimension;      /**< 2, 3 or 4. */
+    pent_mesh arrays;       /**< NULL for what the mesh does not have. */
+    double hypervolume;     /**< m^dimension. */
+    const char* created_by; /**< Program and version, of a file; else "". */
+    uint32_t crc32c;        /**< The checksum that the file states; else 0. */
+} pent_mesh_info;
+
+typedef struct pent_frame_info {
+    int32_t dimension;
+    int64_t vertices;
+    const double* positions;      /**< dimension x vertices, m. */
+    const double* velocities;     /**< The same, m/s, or NULL. */
+    const double* contact_forces; /**< The same, N, or NULL. */
+    int64_t field_count;          /**< Further quantities of the vertices. */
+    const char* mesh_name;        /**< File name of the mesh. */
+    uint32_t mesh_crc32c;         /**< The checksum that it states. */
+    uint64_t frame;               /**< From 0. */
+    uint64_t step;                /**< Steps taken so far. */
+    double time;                  /**< s. */
+} pent_frame_info;
+
+typedef struct pent_field {
+    const char* name;
+    const double* values; /**< rows x vertices. */
+    int32_t rows;         /**< 1, or dimension for a vector. */
+} pent_field;
+
+/** A .pent file with a mesh, read and validated. */
+PENT_PLUGIN_API pent_stored_mesh* pent_read_mesh(const char* path);
+
+/** A mesh of arrays, copied, and validated as files are: indices in range, cells positively oriented
+ * and not degenerate, numbers finite. */
+PENT_PLUGIN_API pent_stored_mesh* pent_store_mesh(int dimension, const pent_mesh* mesh);
+
+/** Writes a .pent file. `created_by` is one line; `is_ascii` 0 for binary. */
+PENT_PLUGIN_API int pent_write_mesh(const pent_stored_mesh* mesh,
+                                    const char* path,
+                                    const char* created_by,
+                                    int is_ascii);
+PENT_PLUGIN_API int pent_mesh_info_of(const pent_stored_mesh* mesh, pent_mesh_info* info);
+
+/** The facets of its boundary: `dimension` indices each, outward, and how many there are. An error
+ * where cells do not fit together. */
+PENT_PLUGIN_API const uint32_t* pent_mesh_boundary(const pent_stored_mesh* mesh, int64_t* count);
+
+/** pent_slice() of a mesh of three or four dimensions, with its vertices at `positions`, or at rest
+ * where that is NULL. The arrays of the surface hold until this thread slices a mesh again. */
+PENT_PLUGIN_API int pent_slice_mesh(const pent_stored_mesh* mesh,
+                                    const double* positions,
+                                    const double* normal,
+                                    double offset,
+                                    pent_surface* surface);
+PENT_PLUGIN_API int pent_free_mesh(pent_stored_mesh* mesh);
+
+/** A .pent file with a frame, read and validated. */
+PENT_PLUGIN_API pent_stored_frame* pent_read_frame(const char* path);
+PENT_PLUGIN_API int pent_frame_info_of(const pent_stored_frame* frame, pent_frame_info* info);
+
+/** `field` from 0 to field_count - 1. */
+PENT_PLUGIN_API int pent_frame_field(const pent_stored_frame* frame,
+                                     int64_t field,
+                                     pent_field* found);
+PENT_PLUGIN_API int pent_free_frame(pent_stored_frame* frame);
+
+/** The text of a scene, checked and with every default filled in. `name` stands for its file in
+ * messages, and paths of meshes come out behind `folder`. The text given holds until this thread
+ * calls this again. */
+PENT_PLUGIN_API const char* pent_scene_text(const char* scene,
+                                            const char* name,
+                                            const char* folder);
+
+/** pent_open_text() of a text with such a name and folder. */
+PENT_PLUGIN_API pent_simulation* pent_open_scene(const char* scene,
+                                                 const char* name,
+                                                 const char* folder,
+                                                 const pent_mesh* meshes,
+                                                 int64_t mesh_count,
+                                                 int threads);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

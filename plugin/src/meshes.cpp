@@ -1,0 +1,229 @@
+// Meshes, frames and scenes without a simulation.
+
+#include "handles.h"
+
+#include <pent/facets.h>
+#include <pent/runs/scene_file.h>
+
+#include <utility>
+
+using namespace pent;
+using namespace pent::plugin;
+
+namespace {
+
+// work(std::integral_constant) with the dimension, 2, 3 or 4.
+template <typename Work>
+auto for_dimension(int dimension, const Work& work) {
+    switch (dimension) {
+        case 2:
+            return work(std::integral_constant<int, 2>());
+        case 3:
+            return work(std::integral_constant<int, 3>());
+        case 4:
+            return work(std::integral_constant<int, 4>());
+        default:
+            throw Error("a mesh of " + std::to_string(dimension)
+                        + " dimensions was given; expected 2, 3 or 4");
+    }
+}
+
+template <int Dim>
+constexpr int dimension_of(const SimplexMesh<Dim>& /*mesh*/) {
+    return Dim;
+}
+
+template <int Dim>
+constexpr int dimension_of(const Frame<Dim>& /*frame*/) {
+    return Dim;
+}
+
+// Calls work(mesh, stored).
+template <typename Value, typename Work>
+Value with_mesh(const pent_stored_mesh* handle, Value failure, const Work& work) {
+    return guarded(failure, [&]() -> Value {
+        const std::shared_ptr<StoredMesh> stored = meshes().find(handle, "mesh");
+        return std::visit([&](const auto& mesh) -> Value { return work(mesh, *stored); },
+                          stored->mesh);
+    });
+}
+
+template <typename List>
+auto* data_or_null(const List& list) {
+    return list.size() == 0 ? nullptr : list.data();
+}
+
+template <int Dim>
+pent_mesh c_mesh(const SimplexMesh<Dim>& mesh) {
+    return {.positions = mesh.positions.data(),
+            .vertices = mesh.vertex_count(),
+            .cells = mesh.cells.data(),
+            .cell_count = mesh.cell_count(),
+            .regions = data_or_null(mesh.regions),
+            .columns = data_or_null(mesh.columns),
+            .layers = data_or_null(mesh.layers),
+            .parents = data_or_null(mesh.parents),
+            .fibers = data_or_null(mesh.fibers)};
+}
+
+}  // namespace
+
+template <int Dim>
+const std::vector<std::uint32_t>& plugin::boundary_of(StoredMesh& stored,
+                                                      const SimplexMesh<Dim>& mesh) {
+    std::call_once(stored.has_boundary, [&] {
+        const FacetMatch<Dim> match = match_facets<Dim>(mesh.cells, mesh.vertex_count());
+        if (!match.is_conforming()) {
+            throw Error(stored.name + ": " + std::string(cell_name(Dim)) + " "
+                        + std::to_string(match.first_fault)
+                        + " does not fit its neighbors; expected every facet on the boundary, or"
+                          " shared by two cells from opposite sides");
+        }
+        stored.boundary.assign(match.boundary.data(),
+                               match.boundary.data() + match.boundary.size());
+    });
+    return stored.boundary;
+}
+
+template const std::vector<std::uint32_t>& plugin::boundary_of(StoredMesh&, const SimplexMesh<2>&);
+template const std::vector<std::uint32_t>& plugin::boundary_of(StoredMesh&, const SimplexMesh<3>&);
+template const std::vector<std::uint32_t>& plugin::boundary_of(StoredMesh&, const SimplexMesh<4>&);
+
+pent_stored_mesh* pent_read_mesh(const char* path) {
+    return guarded<pent_stored_mesh*>(nullptr, [&] {
+        require(path, "path");
+        const FileInfo info = read_info(path);
+        auto stored = std::make_shared<StoredMesh>();
+        for_dimension(info.dimension, [&](auto dimension) {
+            stored->mesh = read_mesh<decltype(dimension)::value>(path).mesh;
+        });
+        stored->name = path;
+        stored->created_by = info.created_by;
+        stored->crc32c = info.crc32c;
+        return meshes().add(std::move(stored));
+    });
+}
+
+pent_stored_mesh* pent_store_mesh(int dimension, const pent_mesh* mesh) {
+    return guarded<pent_stored_mesh*>(nullptr, [&] {
+        require(mesh, "mesh");
+        auto stored = std::make_shared<StoredMesh>();
+        stored->name = "mesh";
+        for_dimension(dimension, [&](auto constant) {
+            constexpr int kDim = decltype(constant)::value;
+            SimplexMesh<kDim> made = mesh_of<kDim>(*mesh, stored->name);
+            validate(made, stored->name);
+            stored->mesh = std::move(made);
+        });
+        return meshes().add(std::move(stored));
+    });
+}
+
+int pent_write_mesh(const pent_stored_mesh* mesh,
+                    const char* path,
+                    const char* created_by,
+                    int is_ascii) {
+    return with_mesh(mesh, -1, [&](const auto& held, StoredMesh& /*stored*/) {
+        require(path, "path");
+        require(created_by, "created_by");
+        static_cast<void>(
+            write_mesh(path, held,
+                       {.encoding = is_ascii != 0 ? Encoding::Ascii : Encoding::Binary,
+                        .created_by = created_by}));
+        return 0;
+    });
+}
+
+int pent_mesh_info_of(const pent_stored_mesh* mesh, pent_mesh_info* info) {
+    return with_mesh(mesh, -1, [&](const auto& held, StoredMesh& stored) {
+        require(info, "info");
+        *info = {.dimension = dimension_of(held),
+                 .arrays = c_mesh(held),
+                 .hypervolume = total_volume(held),
+                 .created_by = stored.created_by.c_str(),
+                 .crc32c = stored.crc32c};
+        return 0;
+    });
+}
+
+const uint32_t* pent_mesh_boundary(const pent_stored_mesh* mesh, int64_t* count) {
+    return with_mesh<const uint32_t*>(
+        mesh, nullptr, [&](const auto& held, StoredMesh& stored) -> const uint32_t* {
+            require(count, "count");
+            const std::vector<std::uint32_t>& boundary = boundary_of(stored, held);
+            *count = static_cast<int64_t>(boundary.size()) / dimension_of(held);
+            return boundary.data();
+        });
+}
+
+int pent_free_mesh(pent_stored_mesh* mesh) {
+    return release(meshes(), mesh, "mesh");
+}
+
+pent_stored_frame* pent_read_frame(const char* path) {
+    return guarded<pent_stored_frame*>(nullptr, [&] {
+        require(path, "path");
+        return for_dimension(read_info(path).dimension, [&](auto dimension) {
+            return frames().add(
+                std::make_shared<StoredFrame>(read_frame<decltype(dimension)::value>(path)));
+        });
+    });
+}
+
+int pent_frame_info_of(const pent_stored_frame* frame, pent_frame_info* info) {
+    return guarded(-1, [&] {
+        const std::shared_ptr<StoredFrame> stored = frames().find(frame, "frame");
+        require(info, "info");
+        std::visit(
+            [&](const auto& held) {
+                *info = {.dimension = dimension_of(held),
+                         .vertices = held.positions.cols(),
+                         .positions = held.positions.data(),
+                         .velocities = data_or_null(held.velocities),
+                         .contact_forces = data_or_null(held.contact_forces),
+                         .field_count = static_cast<int64_t>(held.fields.size()),
+                         .mesh_name = held.mesh_name.c_str(),
+                         .mesh_crc32c = held.mesh_crc,
+                         .frame = held.frame,
+                         .step = held.step,
+                         .time = held.time};
+            },
+            *stored);
+        return 0;
+    });
+}
+
+int pent_frame_field(const pent_stored_frame* frame, int64_t field, pent_field* found) {
+    return guarded(-1, [&] {
+        const std::shared_ptr<StoredFrame> stored = frames().find(frame, "frame");
+        require(found, "found");
+        const std::vector<VertexField>& fields = std::visit(
+            [](const auto& held) -> const std::vector<VertexField>& { return held.fields; },
+            *stored);
+        const auto count = static_cast<int64_t>(fields.size());
+        if (field < 0 || field >= count) {
+            throw Error("field " + std::to_string(field) + " of " + std::to_string(count)
+                        + "; count from 0");
+        }
+        const VertexField& held = fields[static_cast<std::size_t>(field)];
+        *found = {.name = held.name.c_str(),
+                  .values = held.values.data(),
+                  .rows = static_cast<int32_t>(held.values.rows())};
+        return 0;
+    });
+}
+
+int pent_free_frame(pent_stored_frame* frame) {
+    return release(frames(), frame, "frame");
+}
+
+const char* pent_scene_text(const char* scene, const char* name, const char* folder) {
+    return guarded<const char*>(nullptr, [&] {
+        require(scene, "scene");
+        require(name, "name");
+        require(folder, "folder");
+        static thread_local std::string text;
+        text = runs::scene_text(runs::parse_scene(scene, name, folder));
+        return text.c_str();
+    });
+}

@@ -1,0 +1,326 @@
+#include "plugin_scenes.h"
+#include "support/temp_folder.h"
+
+#include <pent/facets.h>
+#include <pent/pent_file.h>
+#include <pent/read_text.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <pent_plugin_meshes.h>
+#include <string>
+#include <thread>
+#include <vector>
+
+// Meshes, frames and scenes of a host without a simulation, and arrays that outlive one.
+
+namespace pent {
+namespace {
+
+using test::closed_c_mesh;
+using test::expect_error;
+using test::Host;
+using test::TempFolder;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+class Mesh {
+public:
+    explicit Mesh(pent_stored_mesh* mesh) : mesh_(mesh) {
+        EXPECT_NE(mesh, nullptr) << pent_last_error();
+        EXPECT_EQ(pent_mesh_info_of(mesh, &info), 0) << pent_last_error();
+    }
+    ~Mesh() { EXPECT_EQ(pent_free_mesh(mesh_), 0); }
+    Mesh(const Mesh&) = delete;
+    Mesh(Mesh&&) = delete;
+    Mesh& operator=(const Mesh&) = delete;
+    Mesh& operator=(Mesh&&) = delete;
+
+    // NOLINTNEXTLINE(google-explicit-constructor): stands for it
+    operator pent_stored_mesh*() const { return mesh_; }
+    pent_mesh_info info = {};
+
+private:
+    pent_stored_mesh* mesh_;
+};
+
+// A mesh with everything that meshes may have.
+template <int Dim>
+SimplexMesh<Dim> full_mesh() {
+    std::array<int, Dim> count{};
+    std::array<double, Dim> size{};
+    count.fill(2);
+    size.fill(1);
+    SimplexMesh<Dim> mesh = test::kuhn_box<Dim>(count, size);
+    const auto cells = static_cast<std::size_t>(mesh.cell_count());
+    const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
+    mesh.fibers = Positions<Dim>::Random(Dim, mesh.cell_count());
+    for (std::size_t i = 0; i < cells; ++i) {
+        mesh.regions.push_back(static_cast<std::uint16_t>(i % 7));
+    }
+    for (std::size_t i = 0; i < vertices; ++i) {
+        mesh.columns.push_back(static_cast<std::uint32_t>(i / 2));
+        mesh.layers.push_back(static_cast<std::uint32_t>(i % 2));
+    }
+    return mesh;
+}
+
+template <int Dim>
+pent_mesh full_c_mesh(const SimplexMesh<Dim>& mesh) {
+    pent_mesh made = closed_c_mesh(mesh);
+    made.regions = mesh.regions.data();
+    made.columns = mesh.columns.data();
+    made.layers = mesh.layers.data();
+    made.fibers = mesh.fibers.data();
+    return made;
+}
+
+template <int Dim>
+void expect_round_trip(const TempFolder& folder, int is_ascii) {
+    const SimplexMesh<Dim> mesh = full_mesh<Dim>();
+    const std::string first = folder / "first.pent";
+    const std::string second = folder / "second.pent";
+    const Encoding encoding = is_ascii != 0 ? Encoding::Ascii : Encoding::Binary;
+    write_mesh(first, mesh, {.encoding = encoding, .created_by = "somebody 1.2"});
+    const Mesh read(pent_read_mesh(first.c_str()));
+    EXPECT_EQ(read.info.dimension, Dim);
+    EXPECT_STREQ(read.info.created_by, "somebody 1.2");
+    EXPECT_EQ(read.info.crc32c, read_info(first).crc32c);
+    EXPECT_NEAR(read.info.hypervolume, 1, 1e-14);  // a few hundred roundings
+    EXPECT_EQ(read.info.arrays.parents, nullptr);
+    ASSERT_EQ(pent_write_mesh(read, second.c_str(), "somebody 1.2", is_ascii), 0);
+    EXPECT_EQ(read_text(first, "a mesh"), read_text(second, "a mesh"));
+    const pent_mesh arrays = full_c_mesh(mesh);
+    const Mesh stored(pent_store_mesh(Dim, &arrays));
+    ASSERT_EQ(pent_write_mesh(stored, second.c_str(), "somebody 1.2", is_ascii), 0);
+    EXPECT_EQ(read_text(first, "a mesh"), read_text(second, "a mesh"));
+}
+
+TEST(PluginMeshes, GoThroughFilesAndArraysToTheByte) {
+    const TempFolder folder;
+    for (const int is_ascii : {0, 1}) {
+        expect_round_trip<2>(folder, is_ascii);
+        expect_round_trip<3>(folder, is_ascii);
+        expect_round_trip<4>(folder, is_ascii);
+    }
+}
+
+TEST(PluginMeshes, HaveTheBoundaryThatTheLibraryFinds) {
+    const SimplexMesh<4> mesh = full_mesh<4>();
+    const pent_mesh arrays = full_c_mesh(mesh);
+    const Mesh stored(pent_store_mesh(4, &arrays));
+    std::int64_t count = 0;
+    const std::uint32_t* boundary = pent_mesh_boundary(stored, &count);
+    const Simplices<4> facets = match_facets<4>(mesh.cells, mesh.vertex_count()).boundary;
+    ASSERT_EQ(count, facets.cols());
+    EXPECT_TRUE(std::equal(facets.data(), facets.data() + facets.size(), boundary));
+    const std::uint32_t* seen = nullptr;
+    std::thread([&] { seen = pent_mesh_boundary(stored, &count); }).join();
+    EXPECT_EQ(seen, boundary);
+}
+
+// Two pentachora on one side of a tetrahedron.
+TEST(PluginMeshes, SayWhereCellsDoNotFit) {
+    const std::vector<double> positions = {0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0,   0,
+                                           0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.1, 2};
+    const std::vector<std::uint32_t> cells = {0, 1, 2, 3, 4, 0, 1, 2, 3, 5};
+    pent_mesh arrays = {};
+    arrays.positions = positions.data();
+    arrays.vertices = 6;
+    arrays.cells = cells.data();
+    arrays.cell_count = 2;
+    const Mesh stored(pent_store_mesh(4, &arrays));
+    std::int64_t count = 0;
+    EXPECT_EQ(pent_mesh_boundary(stored, &count), nullptr);
+    expect_error("mesh: pentachoron 0 does not fit its neighbors");
+    const std::array<double, 4> w = {0, 0, 0, 1};
+    pent_surface slice = {};
+    EXPECT_EQ(pent_slice_mesh(stored, nullptr, w.data(), 0.5, &slice), -1);
+    expect_error("does not fit its neighbors");
+}
+
+// At rest and displaced: what pent_slice() gives of the same body.
+TEST(PluginMeshes, AreSlicedAsBodiesAre) {
+    const Host host = test::open4();
+    const pent_mesh arrays = closed_c_mesh(test::box<4>());
+    const Mesh stored(pent_store_mesh(4, &arrays));
+    const std::array<double, 4> normal = {0.1, 0.2, 0.3, 1};
+    for (int i = 0; i < 2; ++i) {
+        pent_surface own = {};
+        ASSERT_EQ(pent_slice(host, 0, normal.data(), 0.5, &own), 0) << pent_last_error();
+        pent_surface slice = {};
+        const double* positions = i == 0 ? nullptr : pent_positions(host, 0);
+        ASSERT_EQ(pent_slice_mesh(stored, positions, normal.data(), 0.5, &slice), 0);
+        ASSERT_EQ(slice.vertices, own.vertices);
+        ASSERT_GT(slice.triangle_count, 0);
+        ASSERT_EQ(slice.triangle_count, own.triangle_count);
+        EXPECT_TRUE(std::equal(own.positions, own.positions + 3 * own.vertices, slice.positions));
+        EXPECT_TRUE(
+            std::equal(own.triangles, own.triangles + 3 * own.triangle_count, slice.triangles));
+        EXPECT_TRUE(std::equal(own.ends, own.ends + 2 * own.vertices, slice.ends));
+        EXPECT_TRUE(std::equal(std::begin(own.frame), std::end(own.frame), slice.frame));
+        ASSERT_EQ(pent_step(host, nullptr), 0);
+    }
+    const pent_mesh solid = closed_c_mesh(test::box<3>());
+    const Mesh stored3(pent_store_mesh(3, &solid));
+    pent_surface skin = {};
+    ASSERT_EQ(pent_slice_mesh(stored3, nullptr, nullptr, 0, &skin), 0);
+    EXPECT_EQ(skin.triangle_count, 12);
+}
+
+TEST(PluginFrames, HaveAllThatAFileHas) {
+    const TempFolder folder;
+    Frame<4> frame;
+    frame.positions = Positions<4>::Random(4, 9);
+    frame.contact_forces = Positions<4>::Random(4, 9);
+    frame.fields = {{"heat", Eigen::MatrixXd::Random(1, 9)},
+                    {"pull", Eigen::MatrixXd::Random(4, 9)}};
+    frame.mesh_name = "a.pent";
+    frame.mesh_crc = 0x12345678;
+    frame.frame = 3;
+    frame.step = 7;
+    frame.time = 0.25;
+    const std::string path = folder / "frame.pent";
+    write_frame(path, frame);
+    pent_stored_frame* stored = pent_read_frame(path.c_str());
+    pent_frame_info info = {};
+    ASSERT_EQ(pent_frame_info_of(stored, &info), 0) << pent_last_error();
+    EXPECT_EQ(info.dimension, 4);
+    EXPECT_EQ(info.vertices, 9);
+    EXPECT_TRUE(std::equal(info.positions, info.positions + 36, frame.positions.data()));
+    EXPECT_EQ(info.velocities, nullptr);
+    EXPECT_TRUE(
+        std::equal(info.contact_forces, info.contact_forces + 36, frame.contact_forces.data()));
+    EXPECT_STREQ(info.mesh_name, "a.pent");
+    EXPECT_EQ(info.mesh_crc32c, 0x12345678U);
+    EXPECT_EQ(info.frame, 3U);
+    EXPECT_EQ(info.step, 7U);
+    EXPECT_EQ(info.time, 0.25);
+    ASSERT_EQ(info.field_count, 2);
+    for (std::int64_t i = 0; i < 2; ++i) {
+        const VertexField& own = frame.fields[static_cast<std::size_t>(i)];
+        pent_field field = {};
+        ASSERT_EQ(pent_frame_field(stored, i, &field), 0);
+        EXPECT_EQ(field.name, own.name);
+        EXPECT_EQ(field.rows, own.values.rows());
+        EXPECT_TRUE(std::equal(field.values, field.values + own.values.size(), own.values.data()));
+    }
+    EXPECT_EQ(pent_free_frame(stored), 0);
+    EXPECT_EQ(pent_frame_info_of(stored, &info), -1);
+    expect_error("there is no such frame");
+}
+
+TEST(PluginScenes, ComeBackWithEveryDefaultAndReadAgainTheSame) {
+    const char* text =
+        pent_scene_text("[[body]]\nname = \"a\"\nmesh = \"a.pent\"\n", "s", "/models");
+    ASSERT_NE(text, nullptr) << pent_last_error();
+    const std::string once = text;
+    EXPECT_NE(once.find("/models/a.pent"), std::string::npos) << once;
+    EXPECT_NE(once.find("integrator"), std::string::npos) << once;
+    EXPECT_EQ(pent_scene_text(once.c_str(), "s", ""), once);
+    EXPECT_EQ(pent_scene_text("[scene]\ngravitty = 3\n", "my.toml", ""), nullptr);
+    expect_error("my.toml:2:1: ");
+}
+
+TEST(PluginKeeps, WhatArraysShowedLastWhateverBecomesOfTheSimulation) {
+    const double* positions = nullptr;
+    const std::uint32_t* boundary = nullptr;
+    std::vector<double> last;
+    pent_kept* kept = nullptr;
+    std::int64_t count = 0;
+    {
+        const Host host = test::open4();
+        positions = pent_positions(host, 1);
+        boundary = pent_boundary(host, 1, &count);
+        const std::vector<double> first(positions, positions + 64);
+        kept = pent_keep(host);
+        ASSERT_NE(kept, nullptr);
+        ASSERT_EQ(pent_step(host, nullptr), 0);
+        EXPECT_EQ(pent_positions(host, 1), positions);
+        last.assign(positions, positions + 64);
+        EXPECT_NE(last, first);
+        ASSERT_EQ(pent_remove_body(host, 0), 0);
+        ASSERT_EQ(pent_step(host, nullptr), 0);
+        EXPECT_NE(pent_positions(host, 0), positions);
+        EXPECT_NE(pent_boundary(host, 0, &count), boundary);
+    }
+    EXPECT_TRUE(std::equal(last.begin(), last.end(), positions));
+    EXPECT_LT(*std::max_element(boundary, boundary + 4 * count), 16U);
+    EXPECT_EQ(pent_free_kept(kept), 0);
+    EXPECT_EQ(pent_free_kept(kept), -1);
+    expect_error("there is no such set of kept arrays");
+}
+
+TEST(PluginMeshesMisuse, GivesASentence) {
+    const TempFolder folder;
+    const std::string nowhere = (folder / "none" / "a.pent").string();
+    const pent_mesh right = closed_c_mesh(test::box<4>());
+    const Mesh mesh(pent_store_mesh(4, &right));
+    const std::array<double, 4> w = {0, 0, 0, 1};
+    const std::vector<double> nans(64, kNan);
+    pent_surface surface = {};
+    const auto found = [](const void* pointer) { return pointer != nullptr ? 0 : -1; };
+    const auto store = [&](const auto& change) {
+        pent_mesh changed = right;
+        change(changed);
+        return found(pent_store_mesh(4, &changed));
+    };
+    const std::vector<std::uint32_t> far(5, 99);
+    const std::vector<std::uint32_t> mirrored = {1, 0, 2, 3, 4};
+    const pent_mesh arrays2 = closed_c_mesh(test::box<2>());
+    const Mesh mesh2(pent_store_mesh(2, &arrays2));
+    const std::vector<std::pair<std::function<int()>, std::string>> wrongs = {
+        {[&] { return found(pent_read_mesh(nullptr)); }, "path is NULL"},
+        {[&] { return found(pent_read_mesh(nowhere.c_str())); }, nowhere},
+        {[&] { return found(pent_read_frame(nowhere.c_str())); }, nowhere},
+        {[&] { return found(pent_store_mesh(4, nullptr)); }, "mesh is NULL"},
+        {[&] { return found(pent_store_mesh(5, &right)); }, "5 dimensions"},
+        {[&] { return store([](auto& m) { m.vertices = 0; }); }, "mesh: 0 vertices"},
+        {[&] { return store([](auto& m) { m.cells = nullptr; }); }, "cells is NULL"},
+        {[&] {
+             return store([&](auto& m) {
+                 m.cells = far.data();
+                 m.cell_count = 1;
+             });
+         },
+         "99"},
+        {[&] {
+             return store([&](auto& m) {
+                 m.cells = mirrored.data();
+                 m.cell_count = 1;
+             });
+         },
+         "mesh: pentachoron 0"},
+        {[&] { return store([&](auto& m) { m.positions = nans.data(); }); }, "mesh: "},
+        {[&] { return pent_write_mesh(mesh, nullptr, "", 0); }, "path is NULL"},
+        {[&] { return pent_write_mesh(mesh, nowhere.c_str(), nullptr, 0); }, "created_by is NULL"},
+        {[&] { return pent_write_mesh(mesh, nowhere.c_str(), "", 0); }, nowhere},
+        {[&] { return pent_mesh_info_of(mesh, nullptr); }, "info is NULL"},
+        {[&] { return pent_mesh_info_of(nullptr, nullptr); }, "there is no such mesh"},
+        {[&] { return found(pent_mesh_boundary(mesh, nullptr)); }, "count is NULL"},
+        {[&] { return pent_slice_mesh(mesh, nullptr, nullptr, 0, &surface); }, "normal is NULL"},
+        {[&] { return pent_slice_mesh(mesh, nullptr, w.data(), kNan, &surface); }, "finite"},
+        {[&] { return pent_slice_mesh(mesh, nans.data(), w.data(), 0, &surface); }, "finite"},
+        {[&] { return pent_slice_mesh(mesh, nullptr, w.data(), 0, nullptr); }, "surface is NULL"},
+        {[&] { return pent_slice_mesh(mesh2, nullptr, w.data(), 0, &surface); }, "2 dimensions"},
+        {[&] { return pent_free_mesh(nullptr); }, "there is no such mesh"},
+        {[&] { return pent_free_frame(nullptr); }, "there is no such frame"},
+        {[&] { return pent_frame_field(nullptr, 0, nullptr); }, "there is no such frame"},
+        {[&] { return found(pent_scene_text(nullptr, "", "")); }, "scene is NULL"},
+        {[&] { return found(pent_scene_text("", nullptr, "")); }, "name is NULL"},
+        {[&] { return found(pent_scene_text("", "", nullptr)); }, "folder is NULL"},
+        {[&] { return found(pent_keep(nullptr)); }, "there is no such simulation"},
+    };
+    for (const auto& [wrong, text] : wrongs) {
+        EXPECT_EQ(wrong(), -1) << text;
+        expect_error(text);
+    }
+}
+
+}  // namespace
+}  // namespace pent
