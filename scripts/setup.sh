@@ -5,6 +5,7 @@
 #   scripts/setup.sh --tools    also what lint.sh, coverage.sh and fuzz.sh need
 #   scripts/setup.sh --portable also what test.sh --portable needs: clang, libc++, the sources of GoogleTest
 #   scripts/setup.sh --web      also what web.sh and test.sh --web need: node, npm and Chromium
+#   scripts/setup.sh --python   also what test.sh --python needs: pytest, mypy, tqdm, Jupyter's nbconvert
 #   scripts/setup.sh --check    only say what is missing; exit code 1 if anything is
 #
 # Works as root or with sudo. Safe to run again: when nothing is missing it does nothing.
@@ -13,14 +14,16 @@ set -euo pipefail
 with_tools=false
 with_portable=false
 with_web=false
+with_python=false
 only_check=false
 for argument in "$@"; do
     case $argument in
         --tools) with_tools=true ;;
         --portable) with_portable=true ;;
         --web) with_web=true ;;
+        --python) with_python=true ;;
         --check) only_check=true ;;
-        *) echo "setup: unknown argument $argument; expected --tools, --portable, --web or --check" >&2; exit 2 ;;
+        *) echo "setup: unknown argument $argument; expected --tools, --portable, --web, --python or --check" >&2; exit 2 ;;
     esac
 done
 
@@ -55,6 +58,12 @@ if $with_web; then
     fi
 fi
 
+if $with_python; then
+    packages+=(
+        python3-pytest mypy python3-tqdm python3-pip python3-venv
+        jupyter-nbconvert python3-ipykernel  # runs the notebooks
+    )
+fi
 if $with_portable; then
     packages+=(
         clang libc++-dev libc++abi-dev    # another compiler, another C++ library

@@ -10,9 +10,11 @@
 #   scripts/test.sh --web                     only the page of web/: builds it, its readers and its view in node,
 #                                             and the page in Chromium; beside pent-slice and pent-check
 #                                             where the preset dev is built
+#   scripts/test.sh --python                  only the Python package: its tests, its types, 10,000 calls at random,
+#                                             its wheel in a fresh environment, its notebooks
 #   scripts/test.sh --all                     every test, every test under the address and undefined-behavior
 #                                             sanitizers, a minute of scripts/scene_fuzz.sh from a fixed
-#                                             seed, --threads, --portable and --web (long: each builds anew)
+#                                             seed, --threads, --portable, --web and --python (long: each builds anew)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -49,6 +51,14 @@ run_web() {
     npm --prefix web run e2e
 }
 
+# With Debian's own Python, which has the packages.
+run_python() {
+    scripts/setup.sh --python
+    cmake --preset dev
+    cmake --build --preset dev --target wheel
+    PENTIMENTO_FUZZ_CALLS=10000 /usr/bin/python3 python/tests/run.py --all
+}
+
 launcher=()
 scripts/setup.sh
 case ${1:-} in
@@ -69,6 +79,9 @@ case ${1:-} in
     --web)
         run_web
         ;;
+    --python)
+        run_python
+        ;;
     --all)
         run_preset dev
         run_preset asan
@@ -76,6 +89,7 @@ case ${1:-} in
         run_threads
         run_portable
         run_web
+        run_python
         ;;
     "")
         run_preset dev

@@ -1,0 +1,340 @@
+"""Meshes of bodies: triangles, tetrahedra or pentachora, as `.pent` files have them."""
+
+from __future__ import annotations
+
+import ctypes
+import html
+import math
+import os
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _interop
+from ._arrays import Floats, Indices, address_of, floats, indices, real, text, view
+from ._library import Handle, MeshArrays, MeshInfo, library
+from ._library import Surface as CSurface
+from ._version import __version__
+from .errors import Error
+from .surface import Surface, copied
+
+Path = str | os.PathLike[str]
+
+_CELLS = {2: "triangles", 3: "tetrahedra", 4: "pentachora"}
+
+
+class Mesh:
+    """A mesh of simplices in two, three or four dimensions that is valid, and never changes.
+
+    Its arrays are read-only views of the library's, without a copy. They stay valid as long as
+    anybody has one, also without the mesh.
+    """
+
+    __slots__ = ("_handle", "_info", "report", "__weakref__")
+
+    report: dict[str, Any] | None
+    """What pent-mesh reported, of a mesh that make_mesh() made."""
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        cells: ArrayLike,
+        *,
+        regions: ArrayLike | None = None,
+        columns: ArrayLike | None = None,
+        layers: ArrayLike | None = None,
+        parents: ArrayLike | None = None,
+        fibers: ArrayLike | None = None,
+    ) -> None:
+        """A mesh of arrays, which are copied.
+
+        points   (vertices, dimension), m; dimension 2, 3 or 4.
+        cells    (cells, dimension + 1), from 0, each positively oriented and not degenerate.
+        regions  (cells,), labels 0 to 65535, free to use.
+        columns, layers  (vertices,): from which vertex of the base each was extruded, and in which layer.
+        parents  (cells,): which quadratic cell each is a child of.
+        fibers   (cells, dimension): directions, of any length; zero for none.
+
+        Raises a TypeError or ValueError for arrays of other kinds or shapes, an IndexError for
+        numbers out of range, and an Error for cells that are not valid.
+        """
+        places = floats(points, ("vertices", "dimension"), "points")
+        dimension = places.shape[1]
+        if dimension not in _CELLS:
+            raise ValueError(f"points: found {dimension} columns; expected 2, 3 or 4")
+        count = len(places)
+        corners = indices(cells, ("cells", dimension + 1), "cells", max(count, 1))
+        per_cell: tuple[int | str, ...] = (len(corners),)
+        optional: dict[str, NDArray[Any] | None] = {
+            "regions": _labels(regions, per_cell, "regions", np.uint16),
+            "columns": _labels(columns, (count,), "columns", np.uint32),
+            "layers": _labels(layers, (count,), "layers", np.uint32),
+            "parents": _labels(parents, per_cell, "parents", np.uint32),
+            "fibers": None if fibers is None else floats(fibers, (*per_cell, dimension), "fibers"),
+        }
+        arrays = MeshArrays(
+            address_of(places),
+            count,
+            address_of(corners),
+            len(corners),
+            *[address_of(array) for array in optional.values()],
+        )
+        self._take(library().pent_store_mesh(dimension, ctypes.byref(arrays)))
+
+    @classmethod
+    def read(cls, path: Path) -> Mesh:
+        """A mesh from a `.pent` file. Raises an Error that says what is wrong with the file."""
+        made = cls.__new__(cls)
+        made._take(library().pent_read_mesh(path_bytes(path)))
+        return made
+
+    def _take(self, number: int) -> None:
+        self._handle = Handle(number, library().pent_free_mesh)
+        self._info = MeshInfo()
+        self.report = None
+        library().pent_mesh_info_of(number, ctypes.byref(self._info))
+
+    def write(self, path: Path, *, ascii: bool = False, created_by: str | None = None) -> None:
+        """Writes a `.pent` file, by default in the name of the program that made the mesh.
+
+        The same mesh, name and kind give the same bytes. Raises an Error where the file cannot be
+        written; there is none then.
+        """
+        name = self.created_by or f"pentimento {__version__}" if created_by is None else created_by
+        library().pent_write_mesh(
+            self._handle.number, path_bytes(path), text(name, "created_by"), int(bool(ascii))
+        )
+
+    @property
+    def dimension(self) -> int:
+        """2, 3 or 4."""
+        return int(self._info.dimension)
+
+    @property
+    def vertex_count(self) -> int:
+        return int(self._info.arrays.vertices)
+
+    @property
+    def cell_count(self) -> int:
+        return int(self._info.arrays.cell_count)
+
+    @property
+    def created_by(self) -> str:
+        """Program and version that wrote the file; "" for a mesh of arrays."""
+        return str(self._info.created_by.decode("utf-8", "replace"))
+
+    @property
+    def crc32c(self) -> int:
+        """The checksum that the file states; 0 for a mesh of arrays."""
+        return int(self._info.crc32c)
+
+    @property
+    def points(self) -> Floats:
+        """(vertices, dimension), m."""
+        return self._seen("positions", (self.vertex_count, self.dimension), np.float64)
+
+    @property
+    def cells(self) -> Indices:
+        """(cells, dimension + 1), from 0."""
+        return self._seen("cells", (self.cell_count, self.dimension + 1), np.uint32)
+
+    @property
+    def regions(self) -> NDArray[np.uint16] | None:
+        """(cells,), or None."""
+        return self._optional("regions", (self.cell_count,), np.uint16)
+
+    @property
+    def columns(self) -> Indices | None:
+        """(vertices,), or None."""
+        return self._optional("columns", (self.vertex_count,), np.uint32)
+
+    @property
+    def layers(self) -> Indices | None:
+        """(vertices,), or None."""
+        return self._optional("layers", (self.vertex_count,), np.uint32)
+
+    @property
+    def parents(self) -> Indices | None:
+        """(cells,), or None."""
+        return self._optional("parents", (self.cell_count,), np.uint32)
+
+    @property
+    def fibers(self) -> Floats | None:
+        """(cells, dimension), or None."""
+        return self._optional("fibers", (self.cell_count, self.dimension), np.float64)
+
+    @property
+    def hypervolume(self) -> float:
+        """Sum of the cells, m^dimension."""
+        return float(self._info.hypervolume)
+
+    @property
+    def box(self) -> Floats:
+        """(2, dimension): the lowest and the highest coordinates, m."""
+        return np.array([self.points.min(axis=0), self.points.max(axis=0)])
+
+    def boundary(self) -> Indices:
+        """The facets of its boundary, outward, (facets, dimension); found once, then a view.
+
+        Raises an Error where cells do not fit together.
+        """
+        count = ctypes.c_int64()
+        address = library().pent_mesh_boundary(self._handle.number, ctypes.byref(count))
+        return view(address, (count.value, self.dimension), np.uint32, self._handle)
+
+    def slice(
+        self,
+        normal: ArrayLike = (0.0, 0.0, 0.0, 1.0),
+        offset: float = 0.0,
+        points: ArrayLike | None = None,
+    ) -> Surface:
+        """The slice by the hyperplane normal . x = offset, in m; in three dimensions the whole
+        surface, whatever normal and offset.
+
+        points  (vertices, dimension): where its vertices are instead of at rest, m.
+
+        Raises an Error for a normal that is zero, numbers that are not finite, or a mesh in two
+        dimensions.
+        """
+        shape = (self.vertex_count, self.dimension)
+        places = None if points is None else floats(points, shape, "points")
+        across = None if self.dimension == 3 else floats(normal, (4,), "normal")
+        seen = CSurface()
+        library().pent_slice_mesh(
+            self._handle.number,
+            address_of(places),
+            address_of(across),
+            real(offset, "offset"),
+            ctypes.byref(seen),
+        )
+        return copied(seen)
+
+    def cell_hypervolumes(self) -> Floats:
+        """(cells,), m^dimension, all above 0."""
+        determinants: Floats = np.linalg.det(self._edges())
+        return determinants / math.factorial(self.dimension)
+
+    def quality(self) -> Floats:
+        """(cells,): the mean ratio of each, 1 for a regular simplex and 0 for a flat one.
+
+        c V^(2/d) / (mean squared edge), with c such that the regular simplex of dimension d has 1;
+        what `pent-check` calls quality.
+        """
+        d = self.dimension
+        edges = self._edges()
+        first, second = np.triu_indices(d, 1)
+        between = edges[:, second] - edges[:, first]
+        squares = (edges**2).sum(axis=(1, 2)) + (between**2).sum(axis=(1, 2))
+        mean = squares / (d * (d + 1) / 2)
+        regular = math.sqrt(d + 1) / (math.factorial(d) * 2 ** (d / 2))  # volume at edge 1
+        ratio: Floats = (self.cell_hypervolumes() / regular) ** (2 / d) / mean
+        return ratio
+
+    def to_meshio(self) -> Any:
+        """A meshio.Mesh: of triangles or tetrahedra in two or three dimensions, of the boundary's
+        tetrahedra with w as point data in four. Raises an ImportError where it is not installed."""
+        return _interop.mesh_to_meshio(self)
+
+    @classmethod
+    def from_meshio(cls, other: Any) -> Mesh:
+        """The tetrahedra of a meshio.Mesh, or its triangles where it has points of the plane."""
+        return cls(*_interop.mesh_from_meshio(other))
+
+    def to_pyvista(self) -> Any:
+        """A pyvista.UnstructuredGrid, as to_meshio(). Raises an ImportError where it is not
+        installed."""
+        return _interop.mesh_to_pyvista(self)
+
+    @classmethod
+    def from_pyvista(cls, grid: Any) -> Mesh:
+        """The tetrahedra of a pyvista.UnstructuredGrid."""
+        return cls(*_interop.mesh_from_pyvista(grid))
+
+    def to_trimesh(self) -> Any:
+        """The surface of a mesh in three dimensions as a trimesh.Trimesh. Raises an ImportError
+        where it is not installed. To go back: make_mesh((other.vertices, other.faces))."""
+        if self.dimension != 3:
+            raise Error(f"a mesh of {self.dimension} dimensions is no surface; slice() gives one")
+        return self.slice().to_trimesh()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        arrays = (self.regions, self.columns, self.layers, self.parents, self.fibers)
+        return _unpickled, (np.array(self.points), np.array(self.cells), arrays)
+
+    def __repr__(self) -> str:
+        return (
+            f"<pentimento.Mesh: {self.dimension}D, {self.vertex_count} vertices,"
+            f" {self.cell_count} {_CELLS[self.dimension]}>"
+        )
+
+    def _repr_png_(self) -> bytes | None:
+        from . import _look
+
+        return _look.picture_of(self)
+
+    def _repr_html_(self) -> str:
+        from . import _look
+
+        rows = {
+            "vertices": str(self.vertex_count),
+            _CELLS[self.dimension]: str(self.cell_count),
+            "hypervolume": f"{self.hypervolume:.6g} m^{self.dimension}",
+            "box": " x ".join(f"{side:.4g}" for side in self.box[1] - self.box[0]) + " m",
+        }
+        return html_table("Mesh", rows) + _look.html_picture(self._repr_png_())
+
+    def _seen(self, name: str, shape: tuple[int, ...], dtype: type[Any]) -> NDArray[Any]:
+        return view(getattr(self._info.arrays, name), shape, dtype, self._handle)
+
+    def _optional(
+        self, name: str, shape: tuple[int, ...], dtype: type[Any]
+    ) -> NDArray[Any] | None:
+        return None if getattr(self._info.arrays, name) is None else self._seen(name, shape, dtype)
+
+    def _edges(self) -> Floats:
+        corners = self.points[self.cells]
+        edges: Floats = corners[:, 1:] - corners[:, :1]
+        return edges
+
+
+def c_arrays(mesh: Mesh) -> MeshArrays:
+    """As the C interface takes a mesh; valid as long as the mesh is."""
+    arrays: MeshArrays = mesh._info.arrays
+    return arrays
+
+
+def path_bytes(path: Path) -> bytes:
+    """A path as C has it. Raises a TypeError or a ValueError for what is none."""
+    try:
+        name = os.fsencode(path)
+    except TypeError:
+        raise TypeError(f"path: found {type(path).__name__}; expected text or a Path") from None
+    if b"\0" in name:
+        raise ValueError("path: has a zero character in it")
+    return name
+
+
+def html_table(title: str, rows: dict[str, str]) -> str:
+    """A table for notebooks."""
+    cells = "".join(
+        f"<tr><th>{html.escape(key)}</th><td>{html.escape(value)}</td></tr>"
+        for key, value in rows.items()
+    )
+    return f"<table><caption>{html.escape(title)}</caption>{cells}</table>"
+
+
+def _labels(
+    value: ArrayLike | None,
+    shape: tuple[int | str, ...],
+    name: str,
+    dtype: type[np.unsignedinteger[Any]],
+) -> NDArray[Any] | None:
+    if value is None:
+        return None
+    return indices(value, shape, name, int(np.iinfo(dtype).max) + 1, dtype)
+
+
+def _unpickled(points: Floats, cells: Indices, others: tuple[Any, ...]) -> Mesh:
+    names = ("regions", "columns", "layers", "parents", "fibers")
+    return Mesh(points, cells, **dict(zip(names, others)))

@@ -1,0 +1,159 @@
+"""Pictures and movies by pent-render, slices by pent-slice."""
+
+from __future__ import annotations
+
+import inspect
+import os
+import re
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _programs
+from .errors import Error
+from .image import Image
+from .mesh import Mesh
+from .run import Run
+from .surface import Surface
+
+_Path = str | os.PathLike[str]
+_Words = str | float | Sequence[float] | Sequence[str]
+
+def render(
+    what: Mesh | Run | _Path,
+    *,
+    sheet: bool = False,
+    sheet_frames: int | None = None,
+    frames: str | int | None = None,
+    w: _Words | None = None,
+    rotate: _Words | None = None,
+    normal: Sequence[float] | None = None,
+    offset: _Words | None = None,
+    project: str | None = None,
+    eye: float | None = None,
+    color: str | None = None,
+    size: tuple[int, int] | None = None,
+    azimuth: float | None = None,
+    elevation: float | None = None,
+    fov: float | None = None,
+    onion: bool = False,
+    sweep: bool = False,
+    range: tuple[float, float] | None = None,
+    no_floor: bool = False,
+    no_obstacles: bool = False,
+    no_caption: bool = False,
+    threads: int | None = None,
+) -> Image:
+    """A picture of the slice of a mesh or a run, by pent-render; its options are the keywords, and
+    docs/viewer.md says what each means.
+
+    sheet  Several frames on one sheet; otherwise one picture, of the last frame where `frames` does
+           not say.
+    size   Pixels, (width, height).
+
+    Raises a ProgramError with the line of pent-render.
+    """
+    look = {name: value for name, value in locals().items() if name not in ("what", "sheet")}
+    if not sheet and frames is None:
+        look["frames"] = "last"
+    with tempfile.TemporaryDirectory(prefix="pentimento-") as folder:
+        picture = Path(folder, "picture.png")
+        _render(what, "--sheet" if sheet else "--output", picture, look)
+        return Image(picture.read_bytes())
+
+
+def movie(what: Mesh | Run | _Path, output: _Path, *, fps: float | None = None, **look: Any) -> Path:
+    """A movie of a run, or of a mesh with `sweep`, by pent-render; other keywords are those of
+    render(), but `sheet`.
+
+    output  Ends in .mp4, which needs ffmpeg; or the name of a folder, for a picture of each frame.
+    fps     Pictures a second; by default as in the simulation.
+    """
+    unknown = look.keys() - (inspect.signature(render).parameters.keys() - {"what", "sheet"})
+    if unknown:
+        raise TypeError(f"{min(unknown)}: is no keyword of movie()")
+    _render(what, "--output", Path(output), {**look, "fps": fps})
+    return Path(output)
+
+
+def _render(what: Any, kind: str, output: Path, look: dict[str, Any]) -> None:
+    if isinstance(look.get("size"), tuple):
+        look = {**look, "size": "x".join(str(side) for side in look["size"])}
+    with _programs.as_input(what) as path:
+        _programs.run("pent-render", path, [*_programs.options(**look), kind, str(output)])
+
+
+@dataclass(frozen=True, eq=False)
+class Slice:
+    """What pent-slice made of one body at one frame."""
+
+    body: str  #: Its name; "obstacle.1" and so on for obstacles.
+    frame: int
+    index: int  #: Of the hyperplane, in the order given; 0 where there is one.
+    surface: Surface
+
+
+def slice(
+    what: Mesh | Run | _Path,
+    *,
+    frames: str | int | None = None,
+    w: _Words | None = None,
+    rotate: _Words | None = None,
+    normal: Sequence[float] | None = None,
+    offset: _Words | None = None,
+    project: str | None = None,
+    eye: float | None = None,
+    color: str | None = None,
+    keep_degenerate: bool = False,
+    obstacles: bool = False,
+    threads: int | None = None,
+) -> list[Slice]:
+    """Slices of a mesh or a run as surfaces, by pent-slice; its options are the keywords, and
+    docs/viewer.md says what each means. Vertices have the colors, and the quantity of `color`, as
+    attributes.
+
+    Raises a ProgramError with the line of pent-slice.
+    """
+    words = _programs.options(
+        frames=None if frames is None else str(frames), w=w, rotate=rotate, normal=normal,
+        offset=offset, project=project, eye=eye, color=color, keep_degenerate=keep_degenerate,
+        obstacles=obstacles, threads=threads,
+    )  # fmt: skip
+    with _programs.as_input(what) as path, tempfile.TemporaryDirectory() as folder:
+        out = Path(folder, "slices")
+        _programs.run("pent-slice", path, [*words, "--output", str(out)])
+        return [_slice_of(file) for file in sorted(out.glob("*.ply"))]
+
+
+def _slice_of(path: Path) -> Slice:
+    found = re.fullmatch(r"(.+?)(?:_s(\d+))?_(\d{6,})", path.stem)
+    if found is None:
+        raise Error(f"{path.name}: expected a name as BODY_000123.ply")
+    body, index, frame = found.groups()
+    return Slice(body, int(frame), int(index or 0), _read_ply(path))
+
+
+def _read_ply(path: Path) -> Surface:
+    """A surface as pent-slice writes it (docs/viewer.md)."""
+    header, body = path.read_bytes().split(b"end_header\n", 1)
+    types = {"double": "<f8", "float": "<f4", "uchar": "u1"}
+    counts: dict[str, int] = {}
+    fields: list[tuple[str, str]] = []
+    for words in (line.split() for line in header.decode().splitlines()):
+        if words[:1] == ["element"]:
+            counts[words[1]] = int(words[2])
+        elif words[:1] == ["property"] and words[1] != "list":
+            fields.append((words[2], types[words[1]]))
+    vertices = np.frombuffer(body, np.dtype(fields), counts["vertex"])
+    triangle = np.dtype([("count", "u1"), ("corners", "<u4", 3)])
+    faces = np.frombuffer(body, triangle, counts["face"], vertices.nbytes)
+    attributes: dict[str, NDArray[Any]] = {
+        name: vertices[name].copy() for name, _ in fields if name not in "xyz"
+    }
+    points = np.column_stack([vertices[axis] for axis in "xyz"])
+    return Surface(points, faces["corners"].copy(), attributes=attributes)

@@ -1,0 +1,83 @@
+"""Speed against accuracy: studies of pent-study."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from . import _programs
+from .errors import Error
+
+
+class Frontier:
+    """What a study found: error against time of every combination of settings, and which of them no
+    other beats in both (docs/study.md)."""
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        """folder  That of a study that is finished. Raises an Error if it is none."""
+        self.folder = Path(folder)
+        path = self.folder / "study.json"
+        try:
+            self.report: dict[str, Any] = json.loads(path.read_bytes())
+            self.results: list[dict[str, Any]] = self.report["results"]
+            self.frontier: list[dict[str, Any]] = [
+                self.results[number] for number in self.report["frontier"]
+            ]
+        except (OSError, ValueError, KeyError, IndexError, TypeError) as error:
+            raise Error(f"{path}: expected the folder of a finished study ({error})") from None
+
+    @property
+    def sentences(self) -> list[str]:
+        """What to choose, one for each level of error."""
+        return [str(sentence) for sentence in self.report.get("sentences", [])]
+
+    def __repr__(self) -> str:
+        return f"<pentimento.Frontier: {self.folder}, {len(self.frontier)} of {len(self.results)}>"
+
+    def _repr_png_(self) -> bytes | None:
+        path = self.folder / "frontier.png"
+        return path.read_bytes() if path.exists() else None
+
+    def _repr_html_(self) -> str:
+        from . import _look
+
+        lines = "".join(f"<li>{html.escape(line)}</li>" for line in self.sentences)
+        return f"<ul>{lines}</ul>" + _look.html_picture(self._repr_png_())
+
+
+def study(
+    scene: str | os.PathLike[str],
+    folder: str | os.PathLike[str],
+    vary: Mapping[str, Sequence[Any]],
+    *,
+    repeat: int | None = None,
+    frames: int | None = None,
+    reference_halvings: int | None = None,
+    reference_integrator: str | None = None,
+    keep_runs: bool = False,
+    force: bool = False,
+    error: float | None = None,
+    budget: float | None = None,
+    write_scene: str | os.PathLike[str] | None = None,
+    threads: int | None = None,
+) -> Frontier:
+    """Runs a scene file over settings and compares, by pent-study; its options are the keywords.
+
+    vary  Values by what is varied: {"dt": ["1/30", "1/60"], "integrator": ["linear_euler", "bdf2"]}.
+
+    A study that was interrupted goes on where it stopped. Raises a ProgramError with the line of
+    pent-study.
+    """
+    words = _programs.options(
+        output=folder, repeat=repeat, frames=frames, reference_halvings=reference_halvings,
+        reference_integrator=reference_integrator, keep_runs=keep_runs, force=force, error=error,
+        budget=budget, write_scene=write_scene, threads=threads,
+    )  # fmt: skip
+    for name, values in vary.items():
+        words += ["--vary", f"{name}=" + ",".join(str(value) for value in values)]
+    _programs.run("pent-study", scene, words)
+    return Frontier(folder)

@@ -1,0 +1,84 @@
+"""Slices: closed surfaces of triangles in three dimensions."""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _interop
+from ._arrays import Floats, Indices, copy
+from ._library import Surface as CSurface
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A surface of triangles, counter-clockwise from outside. Its arrays are its own."""
+
+    points: Floats  #: (vertices, 3), m, in the frame of the slice.
+    triangles: Indices  #: (triangles, 3).
+    ends: Indices | None = None
+    """(vertices, 2): each vertex lies on the edge between these of the mesh; None where a program
+    made the slice."""
+    weights: Floats | None = None  #: (vertices,): this far from the first towards the second, 0..1.
+    frame: Floats | None = None
+    """(4, 4): rows x, y, z of the picture and the normal; the identity in three dimensions."""
+    attributes: dict[str, NDArray[Any]] = field(default_factory=dict)
+    """What pent-slice writes of each vertex, as `red`, `speed`."""
+
+    @property
+    def area(self) -> float:
+        """m^2."""
+        return float(np.linalg.norm(self._normals(), axis=1).sum() / 2)
+
+    @property
+    def volume(self) -> float:
+        """Of what is inside, m^3."""
+        corners = self.points[self.triangles[:, 0]]
+        return float(np.einsum("ij,ij->", corners, self._normals()) / 6)
+
+    def interpolate(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Values at the vertices of the mesh, (vertices of the mesh, ...), carried to the vertices
+        of the slice. Raises a ValueError for a surface that does not know its mesh."""
+        if self.ends is None or self.weights is None:
+            raise ValueError("this surface does not know its mesh; Mesh.slice() gives one that does")
+        given = np.asarray(values)
+        if given.ndim == 0 or (len(self.ends) > 0 and len(given) <= int(self.ends.max())):
+            raise ValueError(f"values: found the shape {given.shape}; expected one a vertex of the mesh")
+        far = self.weights.reshape(-1, *[1] * (given.ndim - 1))
+        return np.asarray((1 - far) * given[self.ends[:, 0]] + far * given[self.ends[:, 1]])
+
+    def to_trimesh(self) -> Any:
+        """A trimesh.Trimesh. Raises an ImportError where trimesh is not installed."""
+        return _interop.surface_to_trimesh(self)
+
+    def to_pyvista(self) -> Any:
+        """A pyvista.PolyData. Raises an ImportError where pyvista is not installed."""
+        return _interop.surface_to_pyvista(self)
+
+    def to_meshio(self) -> Any:
+        """A meshio.Mesh. Raises an ImportError where meshio is not installed."""
+        return _interop.surface_to_meshio(self)
+
+    def __repr__(self) -> str:
+        return f"<pentimento.Surface: {len(self.points)} vertices, {len(self.triangles)} triangles>"
+
+    def _normals(self) -> Floats:
+        a, b, c = (self.points[self.triangles[:, i]] for i in range(3))
+        normals: Floats = np.cross(b - a, c - a)
+        return normals
+
+
+def copied(seen: CSurface) -> Surface:
+    """What the library shows of a slice, copied: the next slice takes its place."""
+    vertices = seen.vertices
+    return Surface(
+        points=copy(seen.positions, (vertices, 3), np.float64),
+        triangles=copy(seen.triangles, (seen.triangle_count, 3), np.uint32),
+        ends=copy(seen.ends, (vertices, 2), np.uint32),
+        weights=copy(seen.weights, (vertices,), np.float64),
+        frame=copy(ctypes.addressof(seen) + CSurface.frame.offset, (4, 4), np.float64),
+    )
