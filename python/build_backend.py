@@ -1,7 +1,7 @@
 """Packs the wheel: this package, the library and the programs as they were built.
 
-`pip install ./python` calls it (PEP 517); it needs nothing but Python's own library. What was built is
-looked for in build/release beside this folder, or in the folder that PENTIMENTO_BUILD names.
+`pip install ./python` calls it (PEP 517); it needs nothing but Python's own library. What was built
+is looked for in ../build/release, or in the folder that PENTIMENTO_BUILD names.
 """
 
 from __future__ import annotations
@@ -54,8 +54,8 @@ def built() -> pathlib.Path:
     folder = pathlib.Path(os.environ.get("PENTIMENTO_BUILD") or ROOT / "build" / "release")
     if not (folder / "plugin" / "libpent_plugin.so.2").exists():
         raise SystemExit(
-            f"{folder}: has no plugin/libpent_plugin.so.2; build it by cmake --preset release && cmake --build"
-            " --preset release, or let PENTIMENTO_BUILD name the folder of another build"
+            f"{folder}: has no plugin/libpent_plugin.so.2; build it by cmake --preset release &&"
+            " cmake --build --preset release, or let PENTIMENTO_BUILD name another build's folder"
         )
     return folder
 

@@ -16,9 +16,10 @@ from .image import Image
 from .make_mesh import convert, make_mesh
 from .mesh import Mesh
 from .render import Slice, movie, render, slice
+from .reports import BodyPoint, Energy, Grab, Hit, State, StepReport
 from .run import Frame, Run
 from .scene import Scene, SceneBuilder
-from .simulation import BodyPoint, Energy, Grab, Hit, Simulation, State, StepReport
+from .simulation import Simulation
 from .study import Frontier, study
 from .surface import Surface
 

@@ -7,7 +7,8 @@ import functools
 import os
 import weakref
 from collections.abc import Callable
-from ctypes import POINTER, c_char_p, c_double, c_int, c_int32, c_int64, c_uint32, c_uint64, c_void_p
+from ctypes import POINTER, c_char_p, c_double, c_int, c_int32, c_int64, c_void_p
+from ctypes import c_uint32, c_uint64
 from pathlib import Path
 from typing import Any
 

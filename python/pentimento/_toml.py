@@ -25,7 +25,8 @@ def dumps(tables: Mapping[str, Any]) -> str:
             for table in value:
                 lines += [f"[[{_key(name)}]]", *_entries(name, table), ""]
         else:
-            raise TypeError(f"{name}: found {type(value).__name__}; expected a table or a list of them")
+            kind = type(value).__name__
+            raise TypeError(f"{name}: found {kind}; expected a table or a list of them")
     return "\n".join(lines)
 
 
@@ -59,4 +60,5 @@ def _value(where: str, value: Any) -> str:
         return "{ " + ", ".join(inside) + " }"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_value(where, part) for part in value) + "]"
-    raise TypeError(f"{where}: found {type(value).__name__}; expected a number, text, a list or a table")
+    kind = type(value).__name__
+    raise TypeError(f"{where}: found {kind}; expected a number, text, a list or a table")

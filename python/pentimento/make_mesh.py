@@ -75,7 +75,8 @@ def make_mesh(
     The mesh has what pent-mesh reported in `report`: its proof, its quality, its repairs. Raises a
     ProgramError with the line of pent-mesh.
     """
-    given = {name: value for name, value in locals().items() if name not in ("input", "output", "more")}
+    others = ("input", "output", "more")
+    given = {name: value for name, value in locals().items() if name not in (*others, "others")}
     unknown = {"quiet", "json", "quality", "help", "version"} & more.keys()
     if unknown:
         raise TypeError(f"{unknown.pop()}: is no keyword of make_mesh(); mesh.report has it all")
@@ -112,17 +113,18 @@ def _file_of(input: Any) -> Iterator[str | None]:
     kinds = {3: "Triangles", 4: "Tetrahedra"}
     if cells.shape[1] not in kinds:
         raise ValueError(f"cells: found {cells.shape[1]} corners; expected 3 or 4")
+    from_one = (cells.astype(np.int64) + 1).tolist()
     with tempfile.TemporaryDirectory(prefix="pentimento-") as folder:
         if cells.shape[1] == 3:
             path = Path(folder, "surface.obj")
             lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in points.tolist()]
-            lines += ["f {} {} {}".format(*corners) for corners in (cells.astype(np.int64) + 1).tolist()]
+            lines += ["f {} {} {}".format(*corners) for corners in from_one]
         else:
             path = Path(folder, "solid.mesh")
             lines = ["MeshVersionFormatted 2", "Dimension 3", "Vertices", str(len(points))]
             lines += [f"{x!r} {y!r} {z!r} 0" for x, y, z in points.tolist()]
             lines += ["Tetrahedra", str(len(cells))]
-            lines += ["{} {} {} {} 0".format(*c) for c in (cells.astype(np.int64) + 1).tolist()]
+            lines += ["{} {} {} {} 0".format(*corners) for corners in from_one]
             lines += ["End"]
         path.write_text("\n".join(lines) + "\n")
         yield str(path)

@@ -52,7 +52,8 @@ class Mesh:
         points   (vertices, dimension), m; dimension 2, 3 or 4.
         cells    (cells, dimension + 1), from 0, each positively oriented and not degenerate.
         regions  (cells,), labels 0 to 65535, free to use.
-        columns, layers  (vertices,): from which vertex of the base each was extruded, and in which layer.
+        columns, layers  (vertices,): from which vertex of the base each was extruded, and in which
+                         layer.
         parents  (cells,): which quadratic cell each is a child of.
         fibers   (cells, dimension): directions, of any length; zero for none.
 

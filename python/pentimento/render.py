@@ -67,7 +67,9 @@ def render(
         return Image(picture.read_bytes())
 
 
-def movie(what: Mesh | Run | _Path, output: _Path, *, fps: float | None = None, **look: Any) -> Path:
+def movie(
+    what: Mesh | Run | _Path, output: _Path, *, fps: float | None = None, **look: Any
+) -> Path:
     """A movie of a run, or of a mesh with `sweep`, by pent-render; other keywords are those of
     render(), but `sheet`.
 

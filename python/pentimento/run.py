@@ -72,7 +72,7 @@ def _fields(handle: Handle, info: FrameInfo) -> Iterator[tuple[str, Floats]]:
 
 
 class Run:
-    """A run folder. Nothing is read before it is asked for; a run that goes on is seen as it grows."""
+    """A run folder. Nothing is read before it is asked for; a run that goes on grows in sight."""
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         """Raises an Error if the folder is none of a run."""
@@ -118,8 +118,9 @@ class Run:
         return self._meshes[name]
 
     def frame(self, number: int, body: int | str = 0) -> Frame:
-        """A frame of a body; -1 is the last, and so on. Raises an IndexError if it is not there, and
-        an Error if it is damaged or of another mesh."""
+        """A frame of a body; -1 is the last, and so on.
+
+        Raises an IndexError if it is not there, an Error if it is damaged or of another mesh."""
         name = self._name(body)
         frames = self.frames
         count = len(frames)

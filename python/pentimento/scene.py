@@ -35,8 +35,8 @@ class Scene:
         folder: _Path = "",
         meshes: Mapping[str, Mesh] | None = None,
     ) -> None:
-        """A scene from a dict, as a scene file is written: tables by their names, lists of tables for
-        `body`, `constraint`, `obstacle` and so on.
+        """A scene from a dict, as a scene file is written: tables by their names, lists of tables
+        for `body`, `constraint`, `obstacle` and so on.
 
         The `mesh` of a body is a Mesh or a path; `meshes` has those of bodies by name instead.
         folder  What paths are relative to.
@@ -56,7 +56,8 @@ class Scene:
         except OSError as error:
             raise Error(f"{os.fsdecode(name)}: {error.strerror}") from None
         made = cls.__new__(cls)
-        made._check(content.decode("utf-8", "surrogateescape"), os.fsdecode(name), Path(path).parent, {})
+        text = content.decode("utf-8", "surrogateescape")
+        made._check(text, os.fsdecode(name), Path(path).parent, {})
         return made
 
     @classmethod
@@ -79,7 +80,7 @@ class Scene:
         self._meshes = meshes
         for body, mesh in meshes.items():
             if body not in self.bodies:
-                raise Error(f'a mesh was given for the body "{body}"; the scene has none of this name')
+                raise Error(f'a mesh was given for the body "{body}", which is not in the scene')
             if not isinstance(mesh, Mesh):
                 raise TypeError(f"the mesh of {body}: found {type(mesh).__name__}; expected a Mesh")
 
@@ -148,7 +149,9 @@ class Scene:
         from ._progress import FrameCounter
         from .run import Run
 
-        words = _programs.options(output=folder, threads=threads, force=force, resume=resume, isa=isa)
+        words = _programs.options(
+            output=folder, threads=threads, force=force, resume=resume, isa=isa
+        )
         with tempfile.TemporaryDirectory(prefix="pentimento-") as place:
             path = Path(place, "scene.toml")
             files = Path(os.path.abspath(folder) + ".meshes")
@@ -174,7 +177,7 @@ class Scene:
 
 
 def _without_meshes(value: Any, meshes: dict[str, Mesh]) -> Any:
-    """A table, or a list of them, with "given" where there is a Mesh, which is put into `meshes`."""
+    """A table, or a list of them, with "given" where there is a Mesh, which goes into `meshes`."""
     if isinstance(value, (list, tuple)):
         return [_without_meshes(part, meshes) for part in value]
     if isinstance(value, Mapping) and isinstance(value.get("mesh"), Mesh):

@@ -67,7 +67,7 @@ def study(
 ) -> Frontier:
     """Runs a scene file over settings and compares, by pent-study; its options are the keywords.
 
-    vary  Values by what is varied: {"dt": ["1/30", "1/60"], "integrator": ["linear_euler", "bdf2"]}.
+    vary  Values by what is varied, as in {"dt": ["1/30", "1/60"], "integrator": ["bdf2"]}.
 
     A study that was interrupted goes on where it stopped. Raises a ProgramError with the line of
     pent-study.

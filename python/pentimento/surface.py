@@ -44,10 +44,11 @@ class Surface:
         """Values at the vertices of the mesh, (vertices of the mesh, ...), carried to the vertices
         of the slice. Raises a ValueError for a surface that does not know its mesh."""
         if self.ends is None or self.weights is None:
-            raise ValueError("this surface does not know its mesh; Mesh.slice() gives one that does")
+            raise ValueError("this surface does not know its mesh; one of Mesh.slice() does")
         given = np.asarray(values)
         if given.ndim == 0 or (len(self.ends) > 0 and len(given) <= int(self.ends.max())):
-            raise ValueError(f"values: found the shape {given.shape}; expected one a vertex of the mesh")
+            shape = given.shape
+            raise ValueError(f"values: found the shape {shape}; expected one a vertex of the mesh")
         far = self.weights.reshape(-1, *[1] * (given.ndim - 1))
         return np.asarray((1 - far) * given[self.ends[:, 0]] + far * given[self.ends[:, 1]])
 

@@ -28,9 +28,10 @@ def box(dimension: int, count: int = 1) -> tuple[np.ndarray, np.ndarray]:
     cells = []
     for corner in itertools.product(range(count), repeat=dimension):
         for order in itertools.permutations(range(dimension)):
-            steps = np.vstack([corner, np.array(corner) + np.cumsum(np.eye(dimension)[list(order)], axis=0)])
+            moves = np.eye(dimension)[list(order)]
+            steps = np.vstack([corner, np.array(corner) + np.cumsum(moves, axis=0)])
             path = [int(step @ strides) for step in steps]
-            if np.linalg.det(np.eye(dimension)[list(order)]) < 0:
+            if np.linalg.det(moves) < 0:
                 path[0], path[1] = path[1], path[0]
             cells.append(path)
     return grid / count, np.array(cells)
@@ -51,7 +52,8 @@ def two_boxes(mesh: pentimento.Mesh, **solver) -> pentimento.Scene:
     zeros = [0.0] * (mesh.dimension - 2)
     up = [0.0, 1.0, *zeros]
     return (
-        pentimento.SceneBuilder(gravity=[0, -9, *zeros], frames=6, steps_per_frame=2, dimension=mesh.dimension)
+        pentimento.SceneBuilder(dimension=mesh.dimension, gravity=[0, -9, *zeros])
+        .table("scene", frames=6, steps_per_frame=2)
         .body("low", mesh)
         .body("high", mesh, place={"translate": [0.2, 1.3, *zeros]}, velocity=[0.0, -2.0, *zeros])
         .obstacle(half_space={"normal": up}, distance=0.1)

@@ -18,4 +18,5 @@ here = pathlib.Path(__file__).resolve().parent
 arguments = sys.argv[1:]
 chosen = [] if "--all" in arguments else ["-m", "not slow"]
 arguments = [word for word in arguments if word != "--all"] or [str(here)]
-sys.exit(pytest.main(["-q", "-p", "no:cacheprovider", "--rootdir", str(here.parent), *chosen, *arguments]))
+plain = ["-q", "-p", "no:cacheprovider", "--rootdir", str(here.parent)]
+sys.exit(pytest.main([*plain, *chosen, *arguments]))

@@ -34,9 +34,10 @@ class Draw:
 
     def rubbish(self):
         return self.one(
-            None, "", "x", "a\0b", b"bytes", -1, 2**31, 2**63, 2**70, 1.5, math.nan, math.inf, -1e308, True,
-            [], [[]], {}, object(), 1j, "\ud800", np.float32(1), np.zeros(0), np.zeros((2, 3)), np.array("x"),
-            np.array([None]), [[1], [2, 3]], range(3), np.zeros((1, 1, 1), complex), lambda: 1,
+            None, "", "x", "a\0b", b"bytes", -1, 2**31, 2**63, 2**70, 1.5, math.nan, math.inf,
+            -1e308, True, [], [[]], {}, object(), 1j, "\ud800", np.float32(1), np.zeros(0),
+            np.zeros((2, 3)), np.array("x"), np.array([None]), [[1], [2, 3]], range(3),
+            np.zeros((1, 1, 1), complex), lambda: 1,
         )  # fmt: skip
 
     def real(self):
@@ -59,12 +60,17 @@ class Draw:
             made = np.asfortranarray(made)
         elif kind > 0.7:
             made = np.repeat(made, 2, axis=-1)[..., ::2]
-        return made.astype(self.one("f8", "f8", "f4", "i4", "f2", ">f8"), copy=False) if kind > 0.3 else made.tolist()
+        if kind < 0.3:
+            return made.tolist()
+        with np.errstate(all="ignore"):  # what does not fit becomes rubbish, as it may
+            return made.astype(self.one("f8", "f8", "f4", "i4", "f2", ">f8"), copy=False)
 
     def vertices(self):
         count = self.one(0, 1, 3, 16)
         good = self.numbers.permutation(16)[:count]
-        return self.one(good, good.tolist(), good + self.one(0, 1, 9), good.astype("i1"), -good, good * 1.0, self.rubbish())
+        near = good + self.one(0, 1, 9)
+        wrong = self.one(-good, good * 1.0, self.rubbish())
+        return self.one(good, good.tolist(), near, good.astype("i1"), wrong)
 
     def kept(self, view):
         self.views.append(view)
@@ -77,10 +83,12 @@ def calls(draw: Draw, simulation: Simulation, mesh: Mesh, states: list, grabs: l
     s, d = simulation, simulation.dimension
     body = draw.body(s)
     n = 16 if d == 4 else 8
-    point = draw.one(
-        BodyPoint(draw.one(0, 1, 5), draw.one(0, 3, 99, -1), draw.one([1] + [0] * d, [0.5, 0.5] + [0] * (d - 1), draw.array(d + 1))),
-        draw.rubbish(),
-    )  # fmt: skip
+    weights = draw.one([1] + [0] * d, [0.5, 0.5] + [0] * (d - 1), draw.array(d + 1))
+    point = BodyPoint(draw.one(0, 1, 5), draw.one(0, 3, 99, -1), weights)
+    point = draw.one(point, point, draw.rubbish())
+    pull = {"damping": draw.real(), "max_force": draw.one(None, draw.real())}
+    place = {"translate": draw.array(d)}
+    cells = draw.one([range(d + 1)], draw.array(2, d + 1), draw.rubbish())
     return [
         lambda: s.step(draw.one(1, 1, 1, 2, 0, -1, 1.5, 2**70, None, "x")),
         lambda: next(s.iterate(draw.one(None, 1, draw.rubbish()))),
@@ -99,7 +107,7 @@ def calls(draw: Draw, simulation: Simulation, mesh: Mesh, states: list, grabs: l
         lambda: s.energies(),
         lambda: s.set_targets(body, draw.vertices(), draw.array(draw.one(1, 3, 16), d)),
         lambda: s.release(body, draw.vertices()),
-        lambda: grabs.append(s.add_grab(point, draw.array(d), draw.real(), damping=draw.real(), max_force=draw.one(None, draw.real()))),
+        lambda: grabs.append(s.add_grab(point, draw.array(d), draw.real(), **pull)),
         lambda: draw.one(*grabs).move(draw.array(d)),
         lambda: draw.one(*grabs).remove(),
         lambda: s._move_grab(draw.rubbish(), draw.array(d)),
@@ -110,12 +118,13 @@ def calls(draw: Draw, simulation: Simulation, mesh: Mesh, states: list, grabs: l
         lambda: s.restore(draw.one(*states)),
         lambda: s.restore(draw.rubbish()),
         lambda: states.pop(),
-        lambda: s.add_body(draw.one("new", "low", draw.rubbish()), draw.one(mesh, mesh, draw.rubbish()), place={"translate": draw.array(d)}),
+        lambda: s.add_body(draw.one("new", "low", draw.rubbish()), mesh, place=place),
+        lambda: s.add_body("new", draw.rubbish()),
         lambda: s.add_body("new", mesh, place={"translate": [9.0] * d}),
         lambda: s.remove_body(draw.one(2, "new", 0, draw.rubbish())),
         lambda: s.add_obstacle(half_space={"normal": draw.array(d), "offset": draw.real()}),
         lambda: s.remove_obstacle(draw.one(1, draw.rubbish())),
-        lambda: draw.kept(Mesh(draw.array(6, d), draw.one([range(d + 1)], draw.array(2, d + 1), draw.rubbish())).points),
+        lambda: draw.kept(Mesh(draw.array(6, d), cells).points),
         lambda: draw.kept(mesh.points),
         lambda: mesh.slice(draw.array(4), draw.real(), draw.one(None, draw.array(n, d))),
         lambda: Mesh.read(draw.rubbish()),
@@ -123,7 +132,7 @@ def calls(draw: Draw, simulation: Simulation, mesh: Mesh, states: list, grabs: l
         lambda: Scene({"scene": {draw.one("gravity", "frames", "x"): draw.rubbish()}}),
         lambda: Image(draw.one(b"", b"\x89PNG\r\n\x1a\n" + bytes(99))).array,
         lambda: s.close() if draw.random.random() < 0.05 else None,
-    ]  # fmt: skip
+    ]
 
 
 def test_calls_drawn_at_random_answer_or_raise_a_sentence():

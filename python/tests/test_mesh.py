@@ -70,9 +70,8 @@ def test_every_facet_of_the_boundary_looks_outward(dimension):
 
 def test_quality_is_what_pent_check_says(tmp_path):
     mesh = pentimento.make_mesh(ball=2, thickness=0.5, output=tmp_path / "a.pent")
-    subprocess.run(
-        [_programs.find("pent-check"), tmp_path / "a.pent", "--quiet", "--json", tmp_path / "a.json"], check=True
-    )
+    words = [tmp_path / "a.pent", "--quiet", "--json", tmp_path / "a.json"]
+    subprocess.run([_programs.find("pent-check"), *words], check=True)
     said = json.loads((tmp_path / "a.json").read_text())["quality"]["mean_ratio"]
     quality = mesh.quality()
     assert quality.min() == pytest.approx(said["min"], rel=1e-9)
@@ -98,7 +97,8 @@ def test_a_slice_of_a_tesseract_is_a_cube(tesseract):
     w = surface.interpolate(tesseract.points)[:, 3]
     np.testing.assert_allclose(w, 0.25, atol=1e-15)
     np.testing.assert_array_equal(surface.frame, np.eye(4))
-    np.testing.assert_allclose(surface.points, surface.interpolate(tesseract.points)[:, :3], atol=1e-15)
+    places = surface.interpolate(tesseract.points)[:, :3]
+    np.testing.assert_allclose(surface.points, places, atol=1e-15)
 
 
 def test_a_slice_is_where_the_vertices_are(tesseract):

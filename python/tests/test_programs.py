@@ -13,7 +13,8 @@ from pentimento import Error, Image, Mesh, ProgramError, _programs, make_mesh, r
 
 
 def options_of(program: str) -> set[str]:
-    text = subprocess.run([_programs.find(program), "--help"], capture_output=True, text=True).stdout
+    path = _programs.find(program)
+    text = subprocess.run([path, "--help"], capture_output=True, text=True).stdout
     found = set(re.findall(r"^ +(?:-\w,)?--([a-z][a-z-]*)", text, re.M))
     return {name.replace("-", "_") for name in found} - {"help", "version", "quiet", "json"}
 
@@ -41,7 +42,7 @@ def test_every_option_is_a_keyword(program, functions, without):
     except ProgramError:
         pytest.skip(f"{program} was not built")
     keywords = set().union(*map(keywords_of, functions))
-    common = {"threads"} if program == "pent-convert" else set()  # which has nothing to share out
+    common = {"threads"} if program == "pent-convert" else set()  # has nothing to share out
     assert options - without - common <= keywords
 
 
@@ -90,11 +91,8 @@ def test_a_picture_is_an_array_and_a_file(tesseract, tmp_path):
 def test_pixels_are_those_of_ffmpeg(tesseract, tmp_path):
     image = render(tesseract, size=(121, 77))
     image.save(tmp_path / "a.png")
-    raw = subprocess.run(
-        ["ffmpeg", "-loglevel", "error", "-i", tmp_path / "a.png", "-f", "rawvideo", "-pix_fmt", "rgb24", "-"],
-        capture_output=True,
-        check=True,
-    ).stdout
+    words = ["-loglevel", "error", "-i", tmp_path / "a.png", "-f", "rawvideo", "-pix_fmt", "rgb24"]
+    raw = subprocess.run(["ffmpeg", *words, "-"], capture_output=True, check=True).stdout
     np.testing.assert_array_equal(image.array, np.frombuffer(raw, np.uint8).reshape(77, 121, 3))
 
 
@@ -151,13 +149,15 @@ def test_a_frontier_shows_itself(tmp_path, tesseract):
     tesseract.write(tmp_path / "a.pent")
     (tmp_path / "s.toml").write_text(
         '[scene]\nframes = 4\ngravity = [0, -9, 0, 0]\n[[body]]\nname = "a"\nmesh = "a.pent"\n'
-        '[[constraint]]\nbody = "a"\nselect = { box = { low = [-1, 0.9, -1, -1], high = [2, 2, 2, 2] } }\n'
+        '[[constraint]]\nbody = "a"\n'
+        "select = { box = { low = [-1, 0.9, -1, -1], high = [2, 2, 2, 2] } }\n"
     )
     try:
         _programs.find("pent-study")
     except ProgramError:
         pytest.skip("pent-study was not built")
-    found = pentimento.study(tmp_path / "s.toml", tmp_path / "study", {"dt": ["1/30", "1/60"]}, repeat=1)
+    vary = {"dt": ["1/30", "1/60"]}
+    found = pentimento.study(tmp_path / "s.toml", tmp_path / "study", vary, repeat=1)
     assert len(found.results) == 2 and 1 <= len(found.frontier) <= 2
     assert found._repr_png_()[:4] == b"\x89PNG" and "<li>" in found._repr_html_()
     with pytest.raises(Error, match="expected the folder of a finished study"):

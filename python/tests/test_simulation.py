@@ -12,7 +12,9 @@ from pentimento import BodyPoint, Error
 
 @pytest.mark.parametrize("integrator", ["linear_euler", "newton_euler", "bdf2"])
 @pytest.mark.parametrize("dimension", [3, 4])
-def test_steps_give_the_frames_of_pent_sim_to_the_bit(tmp_path, cube, tesseract, dimension, integrator):
+def test_steps_give_the_frames_of_pent_sim_to_the_bit(
+    tmp_path, cube, tesseract, dimension, integrator
+):
     scene = two_boxes(cube if dimension == 3 else tesseract, integrator=integrator)
     run = scene.run(tmp_path / "run", threads=1)
     assert run.report["verdict"] == "finished"
@@ -121,7 +123,8 @@ def test_slices_are_those_of_the_mesh_where_the_vertices_are(simulation, tessera
 
 def test_bodies_come_and_go(simulation, tesseract):
     assert simulation.bodies == ("low", "high")
-    simulation.add_body("third", tesseract, place={"translate": [0, 5, 0, 0]}, velocity=[1, 0, 0, 0])
+    place = {"translate": [0, 5, 0, 0]}
+    simulation.add_body("third", tesseract, place=place, velocity=[1, 0, 0, 0])
     assert simulation.bodies == ("low", "high", "third")
     simulation.step()
     np.testing.assert_allclose(simulation.velocities("third")[:, 0], 1, atol=1e-4)  # of the solver

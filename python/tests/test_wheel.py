@@ -29,7 +29,8 @@ def test_pip_installs_it_offline_and_it_can_be_moved(tmp_path):
     if not (BUILT / "plugin" / "libpent_plugin.so.2").exists():
         pytest.skip(f"{BUILT} is no folder of a build")
     plain = {key: value for key, value in os.environ.items() if not key.startswith("PENTIMENTO")}
-    subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", tmp_path / "env"], check=True)
+    words = ["venv", "--system-site-packages", tmp_path / "env"]
+    subprocess.run([sys.executable, "-m", *words], check=True)
     python = tmp_path / "env" / "bin" / "python"
     installed = subprocess.run(
         [python, "-m", "pip", "install", "--no-index", "--quiet", PYTHON],
@@ -38,7 +39,8 @@ def test_pip_installs_it_offline_and_it_can_be_moved(tmp_path):
         text=True,
     )
     assert installed.returncode == 0, installed.stderr
-    done = subprocess.run([python, "-c", FIRST_BODY], cwd=tmp_path, env=plain, capture_output=True, text=True)
+    words = [python, "-c", FIRST_BODY]
+    done = subprocess.run(words, cwd=tmp_path, env=plain, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     # Elsewhere: nothing in it knows where it was.
     (package,) = (tmp_path / "env").glob("lib/python*/site-packages/pentimento")
@@ -47,7 +49,11 @@ def test_pip_installs_it_offline_and_it_can_be_moved(tmp_path):
     package.rename(moved / "pentimento")
     code = "import pentimento; print(pentimento.make_mesh(box=(1, 1, 1, 1)).cell_count)"
     done = subprocess.run(
-        [sys.executable, "-c", code], cwd=tmp_path, env={**plain, "PYTHONPATH": str(moved)}, capture_output=True, text=True
+        [sys.executable, "-c", code],
+        cwd=tmp_path,
+        env={**plain, "PYTHONPATH": str(moved)},
+        capture_output=True,
+        text=True,
     )
     assert done.stdout == "24\n", done.stderr
 
