@@ -82,7 +82,11 @@ def run(
         words = [path, *_positional(file), *arguments, "--quiet", "--json", str(report)]
         try:
             process = subprocess.Popen(
-                words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+                words,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                process_group=0,  # Ctrl-C reaches it through us: a second signal would kill it
             )
         except (OSError, ValueError) as error:
             raise ProgramError(f"{program} cannot be run: {error}", program, None) from None
@@ -111,7 +115,11 @@ def _wait(process: subprocess.Popen[bytes], tick: Callable[[], None] | None) -> 
                     tick()
     except BaseException:
         process.terminate()
-        process.communicate()
+        try:
+            process.communicate()
+        except BaseException:
+            process.kill()
+            process.communicate()
         raise
 
 

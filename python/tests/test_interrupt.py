@@ -2,6 +2,8 @@
 
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 
@@ -66,14 +68,43 @@ def test_other_threads_run_during_a_step(slow):
     assert during > 0
 
 
-def test_ctrl_c_ends_a_program_and_the_run_goes_on_later(slow, tmp_path):
-    thread = interrupt_soon(1.0)
-    with pytest.raises(KeyboardInterrupt):
-        slow.run(tmp_path / "run", threads=1)
-    thread.join()
+LONG_RUN = """
+import pentimento
+mesh = pentimento.make_mesh(box=(6, 6, 6, 6))
+scene = pentimento.SceneBuilder(gravity=[0, -9, 0, 0], frames=3000).body("a", mesh).build()
+try:
+    scene.run("run", threads=1)
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+
+
+# As a terminal does it: everybody in the group gets the signal.
+def test_ctrl_c_ends_a_program_and_the_run_goes_on_later(tmp_path):
+    words = [sys.executable, "-c", LONG_RUN]
+    paths = os.pathsep.join(sys.path)
+    process = subprocess.Popen(
+        words,
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": paths},
+        stdout=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    while not (tmp_path / "run" / "frames" / "a_000003.pent").exists():
+        assert process.poll() is None
+        time.sleep(0.02)
+    os.killpg(process.pid, signal.SIGINT)
+    said, _ = process.communicate(timeout=60)
+    assert said == "interrupted\n"
     run = pentimento.Run(tmp_path / "run")
     assert run.report["verdict"] == "stopped"
-    assert 0 < len(run) < 3000
+    frames = len(run)
+    assert 3 < frames < 3000
+    tables = run.scene.tables
+    tables["scene"]["frames"] = frames + 1
+    again = pentimento.Scene(tables).run(tmp_path / "run", threads=1, resume=True)
+    assert again.report["verdict"] == "finished" and len(again) == frames + 2
 
 
 def test_a_program_that_is_not_there_is_said_to_be_missing(monkeypatch, tmp_path):
@@ -81,3 +112,12 @@ def test_a_program_that_is_not_there_is_said_to_be_missing(monkeypatch, tmp_path
     monkeypatch.setenv("PATH", "")
     with pytest.raises(pentimento.ProgramError, match="pent-mesh is neither in .* PENTIMENTO_BIN"):
         _programs.find("pent-mesh")
+
+
+def test_progress_is_shown_where_tqdm_is(simulation, monkeypatch, capsys):
+    pytest.importorskip("tqdm")
+    simulation.step(3, progress=True)
+    assert "3/3" in capsys.readouterr().err
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)  # as if it were not installed
+    assert simulation.step(3, progress=True).step == 6
+    assert capsys.readouterr().err == ""
