@@ -21,11 +21,11 @@ import zipfile
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
 PROGRAMS = ("mesh", "tetgen", "sim", "slice", "render", "convert", "study", "check")
-OPTIONAL = ("mesh", "tetgen")  # of another licence, see PENT_BUILD_MESHER
+# Programs of another licence, which PENT_BUILD_MESHER leaves out.
 LICENSES = {
-    "LICENSE": HERE / "LICENSE",
-    "LICENSE.pent-mesh": ROOT / "mesher" / "LICENSE",
-    "LICENSE.pent-tetgen": ROOT / "mesher" / "tetgen_worker" / "LICENSE",
+    "mesh": ROOT / "mesher" / "LICENSE",
+    "check": ROOT / "mesher" / "LICENSE",
+    "tetgen": ROOT / "mesher" / "tetgen_worker" / "LICENSE",
 }
 
 
@@ -34,12 +34,15 @@ def version() -> str:
     return re.search(r"project\(pent VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1]
 
 
+INFO = f"pentimento-{version()}.dist-info"
+
+
 def metadata() -> str:
     return f"""Metadata-Version: 2.1
 Name: pentimento
 Version: {version()}
 Summary: Meshes and simulates deformable bodies of four spatial dimensions
-License: MIT; the program pent-mesh GPL-3.0-or-later, its worker pent-tetgen AGPL-3.0-or-later
+License: MIT; the programs pent-mesh and pent-check GPL-3.0-or-later, pent-tetgen AGPL-3.0-or-later
 Requires-Python: >=3.11
 Requires-Dist: numpy >=1.24
 Provides-Extra: progress
@@ -86,22 +89,23 @@ def contents() -> dict[str, tuple[bytes, bool]]:
         program = folder / "bin" / f"pent-{name}"
         if program.exists():
             found[f"pentimento/bin/{program.name}"] = (stripped(program), True)
-        elif name not in OPTIONAL:
+            if name in LICENSES:
+                license = f"{INFO}/licenses/LICENSE.{program.name}"
+                found[license] = (LICENSES[name].read_bytes(), False)
+        elif name not in LICENSES:
             raise SystemExit(f"{program}: is not there; build all programs first")
     return found
 
 
 def build_wheel(wheel_directory: str, config_settings=None, metadata_directory=None) -> str:
     tag = "py3-none-" + re.sub(r"[-.]", "_", sysconfig.get_platform())
-    info = f"pentimento-{version()}.dist-info"
     files = contents()
-    for name, path in LICENSES.items():
-        files[f"{info}/licenses/{name}"] = (path.read_bytes(), False)
-    files[f"{info}/METADATA"] = (metadata().encode(), False)
+    files[f"{INFO}/licenses/LICENSE"] = ((HERE / "LICENSE").read_bytes(), False)
+    files[f"{INFO}/METADATA"] = (metadata().encode(), False)
     wheel = f"Wheel-Version: 1.0\nGenerator: pentimento\nRoot-Is-Purelib: false\nTag: {tag}\n"
-    files[f"{info}/WHEEL"] = (wheel.encode(), False)
+    files[f"{INFO}/WHEEL"] = (wheel.encode(), False)
     record = "".join(f"{name},{digest(data)},{len(data)}\n" for name, (data, _) in files.items())
-    files[f"{info}/RECORD"] = (f"{record}{info}/RECORD,,\n".encode(), False)
+    files[f"{INFO}/RECORD"] = (f"{record}{INFO}/RECORD,,\n".encode(), False)
     name = f"pentimento-{version()}-{tag}.whl"
     with zipfile.ZipFile(pathlib.Path(wheel_directory, name), "w", zipfile.ZIP_DEFLATED) as archive:
         for path, (data, is_program) in files.items():

@@ -31,7 +31,7 @@ class Image:
         with open(path, "wb") as file:
             file.write(self.png)
 
-    def __array__(self, dtype: Any = None) -> NDArray[Any]:
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         return self.array if dtype is None else self.array.astype(dtype)
 
     def __repr__(self) -> str:

@@ -109,6 +109,11 @@ def test_slices_of_the_program_are_those_of_the_library(tesseract):
     assert made.surface.volume == pytest.approx(own.volume, abs=1e-12)
     assert len(made.surface.points) == len(own.points)
     assert {"red", "green", "blue"} <= set(made.surface.attributes)
+    # A turn within the picture changes no volume.
+    (one,) = pentimento.slice(tesseract, w=0.4, rotate="xw:30")
+    (both,) = pentimento.slice(tesseract, w=0.4, rotate=["xw:30", "yz:20"])
+    assert both.surface.volume == pytest.approx(one.surface.volume, abs=1e-12)
+    assert not np.allclose(both.surface.points, one.surface.points)
 
 
 def test_slices_of_a_run_have_body_frame_and_number(tesseract, tmp_path):

@@ -2,6 +2,7 @@
 
 import ctypes
 import gc
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -99,3 +100,11 @@ def test_memory_goes_with_the_last_view(cube):
     del owner, seen
     gc.collect()
     assert not finalizer.alive
+
+
+def test_any_number_of_threads_looks_at_one_mesh():
+    mesh = Mesh(*box(4, 3))
+    heights = np.linspace(0.05, 0.95, 40)
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(lambda height: mesh.slice(offset=height).volume, heights))
+    np.testing.assert_allclose(found, 1, atol=1e-12)

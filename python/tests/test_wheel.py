@@ -14,7 +14,7 @@ FIRST_BODY = """
 import pentimento, pathlib
 assert pentimento.__version__[0].isdigit(), pentimento.__version__
 assert "site-packages" in pentimento.__file__, pentimento.__file__
-ball = pentimento.make_mesh(ball=2, thickness=1.0)
+ball = pentimento.make_mesh(sphere=2, generator="tetgen", thickness=1.0)
 scene = pentimento.SceneBuilder(gravity=[0, -9.8, 0, 0], frames=3).body("ball", ball).build()
 with scene.simulate() as simulation:
     simulation.step(3)
