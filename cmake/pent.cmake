@@ -7,6 +7,13 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(PENT_AVX512 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mfma)
 endif()
 
+# Libraries that are headers alone are those of this machine, behind the headers of emscripten: before them,
+# the C library would be this machine's, too.
+if(EMSCRIPTEN)
+  list(APPEND CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES /usr/include)
+  add_compile_options(-idirafter /usr/include -w)  # warnings are the business of compilers for 64 bits
+endif()
+
 add_library(pent_build_flags INTERFACE)  # our own code only; not seen by users of the package
 target_compile_options(pent_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
@@ -49,7 +56,7 @@ function(pent_add_library name)
     target_compile_definitions(pent_${name} INTERFACE $<INSTALL_INTERFACE:EIGEN_MALLOC_ALREADY_ALIGNED=1>)
   endif()
   set_target_properties(pent_${name} PROPERTIES EXPORT_NAME ${name} CXX_EXTENSIONS OFF
-    POSITION_INDEPENDENT_CODE ON VERIFY_INTERFACE_HEADER_SETS ON)
+    POSITION_INDEPENDENT_CODE $<NOT:$<BOOL:${EMSCRIPTEN}>> VERIFY_INTERFACE_HEADER_SETS ON)
   target_link_libraries(pent_${name} PUBLIC ${arg_DEPS}
     PRIVATE $<BUILD_INTERFACE:pent_build_flags> ${arg_PRIVATE_DEPS})
 endfunction()

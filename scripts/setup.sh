@@ -4,7 +4,7 @@
 #   scripts/setup.sh            what building, testing and the demo need
 #   scripts/setup.sh --tools    also what lint.sh, coverage.sh and fuzz.sh need
 #   scripts/setup.sh --portable also what test.sh --portable needs: clang, libc++, the sources of GoogleTest
-#   scripts/setup.sh --web      also what web.sh and test.sh --web need: node, npm and Chromium
+#   scripts/setup.sh --web      also what web.sh and test.sh --web need: node, npm, emscripten, Chromium
 #   scripts/setup.sh --python   also what test.sh --python needs: pytest, mypy, tqdm, Jupyter's nbconvert
 #   scripts/setup.sh --check    only say what is missing; exit code 1 if anything is
 #
@@ -51,7 +51,10 @@ if $with_tools; then
     )
 fi
 if $with_web; then
-    packages+=(chromium)                  # end-to-end tests
+    packages+=(
+        emscripten                        # the simulator for browsers
+        chromium                          # end-to-end tests
+    )
     # A node from elsewhere does as well, and has npm with it.
     if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
         packages+=(nodejs npm)

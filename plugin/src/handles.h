@@ -10,6 +10,7 @@
 #include <mutex>
 #include <pent_plugin_meshes.h>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -29,9 +30,38 @@ struct SeenSurface {
 /// Those of bodies that were asked for.
 using Boundaries = std::map<int, std::vector<std::uint32_t>>;
 
+/// Simulations and states of the dimensions that scenes may have here.
+template <int... Dims>
+struct Offer {
+    using Simulations = std::variant<std::unique_ptr<Simulation<Dims>>...>;
+    using Snapshots = std::variant<simulator::Snapshot<Dims>...>;
+};
+#ifdef PENT_PLUGIN_ONLY_4D  // half the code: for a module that a page loads
+using Offered = Offer<4>;
+#else
+using Offered = Offer<3, 4>;
+#endif
+
+/// Calls work(constant) with the dimension of a scene; throws an Error for one that is not offered.
+template <typename Work>
+void with_dimension(int dimension, const Work& work) {
+#ifdef PENT_PLUGIN_ONLY_4D
+    if (dimension != 4) {
+        throw Error("the scene has dimension " + std::to_string(dimension)
+                    + "; here it must have 4");
+    }
+#else
+    if (dimension == 3) {
+        work(std::integral_constant<int, 3>());
+        return;
+    }
+#endif
+    work(std::integral_constant<int, 4>());
+}
+
 /// What is behind a handle: a simulation, and what of it was handed out.
 struct Opened {
-    std::variant<std::unique_ptr<Simulation<3>>, std::unique_ptr<Simulation<4>>> simulation;
+    Offered::Simulations simulation;
     std::shared_ptr<Boundaries> boundaries = std::make_shared<Boundaries>();
     SeenSurface surface;
     std::vector<pent_contact> contacts;
@@ -40,7 +70,7 @@ struct Opened {
     std::mutex in_use;
 };
 
-using Saved = std::variant<simulator::Snapshot<3>, simulator::Snapshot<4>>;
+using Saved = Offered::Snapshots;
 
 /// Arrays of a simulation that outlive it.
 struct Kept {

@@ -30,11 +30,9 @@ std::unique_ptr<Simulation<Dim>> make_simulation(const Scene& scene,
 pent_simulation* open(const Scene& scene, const pent_mesh* meshes, int threads) {
     auto opened = std::make_shared<Opened>();
     const int count = std::max(threads, 1);
-    if (scene.dimension == 3) {
-        opened->simulation = make_simulation<3>(scene, meshes, count);
-    } else {
-        opened->simulation = make_simulation<4>(scene, meshes, count);
-    }
+    with_dimension(scene.dimension, [&](auto dim) {
+        opened->simulation = make_simulation<dim>(scene, meshes, count);
+    });
     return simulations().add(std::move(opened));
 }
 

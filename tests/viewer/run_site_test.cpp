@@ -48,6 +48,14 @@ TEST_F(RunSiteOf, ARunGivesThePageItsFilesAndAList) {
     EXPECT_EQ(get("/my run/frames/a_000007.pent").status, 404);
 }
 
+TEST_F(RunSiteOf, APageGivesItsPlaygroundIfThereIsOne) {
+    EXPECT_EQ(get("/playground.js").status, 404);
+    write_text(page_.parent_path() / "playground.js", "simulator");
+    EXPECT_EQ(get("/playground.js").body, "simulator");
+    EXPECT_EQ(get("/playground.js").type, "text/javascript; charset=utf-8");
+    EXPECT_NE(get("/").headers.find("'wasm-unsafe-eval'"), std::string::npos);
+}
+
 TEST_F(RunSiteOf, ARunFollowsItWhileItIsWritten) {
     const RunSite site = this->site();
     const auto get = [&](const std::string& path) {

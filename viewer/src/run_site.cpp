@@ -17,9 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the page needs: its own script and style, a worker that it makes itself, files of the run.
+constexpr const char* kPlayground = "playground.js";  // beside the page, where it was built
+
+// What the page needs: its own scripts and style, workers that it makes itself, the simulator in one
+// of them, files of the run.
 constexpr const char* kPolicy =
-    "Content-Security-Policy: default-src 'none'; script-src 'unsafe-inline' blob:; "
+    "Content-Security-Policy: default-src 'none'; "
+    "script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval' blob:; "
     "worker-src blob:; style-src 'unsafe-inline'; img-src data: blob:; media-src blob:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n";
 
@@ -86,7 +90,8 @@ HttpResponse binary(std::optional<std::string> bytes, const std::string& type) {
 
 }  // namespace
 
-RunSite::RunSite(const fs::path& page, const fs::path& run) : page_(read_web_page(page)) {
+RunSite::RunSite(const fs::path& page, const fs::path& run)
+    : page_(read_web_page(page)), playground_(page.parent_path() / kPlayground) {
     is_mesh_ = open_run(run).is_mesh;
     run_ = fs::canonical(run);
     name_ = run_.filename().string();
@@ -110,6 +115,9 @@ HttpResponse RunSite::answer(const HttpRequest& request, int port) const {
         HttpResponse response = binary(page_, "text/html; charset=utf-8");
         response.headers = kPolicy;
         return response;
+    }
+    if (request.path == std::string("/") + kPlayground) {
+        return binary(read_file(playground_), "text/javascript; charset=utf-8");
     }
     if (is_mesh_) {
         return binary(request.path == "/" + name_ ? read_file(run_) : std::nullopt,

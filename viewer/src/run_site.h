@@ -11,6 +11,7 @@ namespace pent::viewer {
 /// it asks for.
 ///
 ///     /                          the page
+///     /playground.js             what it loads when its playground is opened, if it is built
 ///     /NAME/run.json             bodies and frames there are now, and whether more may come
 ///     /NAME/meshes/BODY.pent     files of the run NAME; also frames/, scene.toml, report.json
 ///     /NAME.pent                 in place of a run: a mesh
@@ -37,6 +38,7 @@ private:
     bool is_mesh_ = false;
     std::string name_;  // of the run
     std::string page_;  // its bytes
+    std::filesystem::path playground_;
 };
 
 }  // namespace pent::viewer

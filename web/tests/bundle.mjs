@@ -2,9 +2,9 @@
 import { build } from "esbuild";
 import { mkdirSync, readdirSync, rmSync } from "node:fs";
 import { dirname, join } from "node:path";
-import { fileURLToPath } from "node:url";
+import { options as playground, web } from "../playground_module.mjs";
 
-export const web = dirname(dirname(fileURLToPath(import.meta.url)));
+export { web };
 process.env.PENT_ROOT = dirname(web);
 
 // In node there is no page to start a worker from; what needs one is tested in the browser.
@@ -37,7 +37,8 @@ export async function bundle(folder) {
         target: "node18",
         outExtension: { ".js": ".mjs" },
         packages: "external",
-        plugins: [noWorkers],
+        loader: playground.loader,
+        plugins: [noWorkers, ...playground.plugins],
         sourcemap: "inline",
         logLevel: "warning",
     });

@@ -21,6 +21,9 @@ std::string_view isa_name(Isa isa) {
 bool is_supported(Isa isa) {
     switch (isa) {
         case Isa::Scalar:
+#ifdef PENT_NO_SCALAR_KERNELS
+            return false;
+#endif
         case Isa::Baseline:
             return true;
 #ifdef PENT_X86_KERNELS
@@ -49,8 +52,10 @@ Isa best_isa() {
 template <>
 const Kernels<3>& kernels<3>(Isa isa) {
     switch (isa) {
+#ifndef PENT_NO_SCALAR_KERNELS
         case Isa::Scalar:
             return kernels_3_scalar();
+#endif
 #ifdef PENT_X86_KERNELS
         case Isa::Avx2:
             return kernels_3_avx2();
@@ -65,8 +70,10 @@ const Kernels<3>& kernels<3>(Isa isa) {
 template <>
 const Kernels<4>& kernels<4>(Isa isa) {
     switch (isa) {
+#ifndef PENT_NO_SCALAR_KERNELS
         case Isa::Scalar:
             return kernels_4_scalar();
+#endif
 #ifdef PENT_X86_KERNELS
         case Isa::Avx2:
             return kernels_4_avx2();

@@ -16,8 +16,8 @@ interface Example {
     motion(p: Point, time: number): Point;
 }
 
-// From the largest coordinate to the length: a cube becomes a ball.
-function toBall(p: number[]): number[] {
+/** From the largest coordinate to the length: a cube becomes a ball. */
+export function toBall(p: number[]): number[] {
     const largest = Math.max(...p.map(Math.abs));
     const length = Math.hypot(...p);
     return length > 0 ? p.map((value) => (value * largest) / length) : p;

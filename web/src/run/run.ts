@@ -20,6 +20,9 @@ export interface Run {
     readonly frames: number[];
     /** Whether more frames may come; see refresh(). */
     readonly isGrowing: boolean;
+    /** A moment that is never shown, and that the picture takes in as well: of a simulation, whose frames are not
+     * known before. */
+    readonly stage?: Moment;
     load(frame: number): Promise<Moment>;
     /** Fills the strain of a moment in; false where this run cannot know it. */
     addStrain(moment: Moment): Promise<boolean>;

@@ -7,9 +7,13 @@ export class LocalFiles implements FileSource {
     readonly title: string;
     private prefix = "";
 
-    /** @param files  By path, as in "run/frames/octopus_000012.pent". */
-    constructor(private files: Map<string, File>) {
-        const first = [...files.keys()][0] ?? "nothing";
+    /** @param files  By path, as in "run/frames/octopus_000012.pent".
+     *  @param title  Default: the name of the folder or file. */
+    constructor(
+        private files: Map<string, File>,
+        title?: string,
+    ) {
+        const first = title ?? [...files.keys()][0] ?? "nothing";
         this.title = first.split("/")[0]!.replace(/\.pent$/, "");
     }
 

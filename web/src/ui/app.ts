@@ -5,6 +5,8 @@ import type { FileSource } from "../run/listing.ts";
 import { PentRun } from "../run/run.ts";
 import type { Run } from "../run/run.ts";
 import { LocalFiles, WebFiles, chosenFiles, droppedFiles } from "../run/sources.ts";
+import { kGallery } from "../play/scene_list.ts";
+import { sceneAmong } from "../play/scene_files.ts";
 import { defaultState, formatState, kThemes, parseState } from "../view/state.ts";
 import type { ViewState } from "../view/state.ts";
 import { Viewer } from "../view/viewer.ts";
@@ -17,11 +19,16 @@ import { kIcons } from "./icons.ts";
 import { Messages } from "./messages.ts";
 import { Overlay } from "./overlay.ts";
 import { Panel } from "./panel.ts";
-import { Pointer, kTools, kToolTexts } from "./pointer.ts";
+import { PlayPage } from "./play/play_page.ts";
+import { Pointer } from "./pointer.ts";
+import { Tools } from "./tools.ts";
 import { VideoRecorder, savePicture, saveSlice } from "./saving.ts";
+import { showWelcome } from "./welcome.ts";
 
 const kFollowEvery = 1500; // ms
 const kFirstExample = "tesseract";
+const kFirstScene = "octopus";
+const kModes = ["view", "play"] as const;
 
 /** The page: everything around a viewer. */
 export class App {
@@ -29,15 +36,36 @@ export class App {
     private messages = new Messages(byId("messages"));
     private recorder: VideoRecorder;
     private title = element("span", { class: "run-title" });
+    private welcome = () =>
+        showWelcome({
+            openFolder: () => this.folder.click(),
+            openFiles: () => this.files.click(),
+            play: () => void this.openScene(kFirstScene),
+        });
     private opening = 0; // counts, so that only the last of several openings counts
     private files = element("input", {
         type: "file",
         multiple: true,
-        accept: ".pent",
+        accept: ".pent,.toml",
         hidden: true,
     });
     private folder = element("input", { type: "file", webkitdirectory: true, hidden: true });
     private addressTimer = 0;
+    readonly play: PlayPage;
+    private mode = segments(
+        "Mode",
+        [
+            ["view", "Viewer"],
+            [
+                "play",
+                "Playground",
+                "Bodies that are simulated in this page, to be pulled and dropped",
+            ],
+        ] as const,
+        (mode) => this.setMode(mode),
+    );
+    // What the viewer showed last: to come back to.
+    private viewed: () => Promise<void> = () => this.openExample(kFirstExample);
 
     constructor() {
         this.viewer = new Viewer(byId<HTMLCanvasElement>("canvas"));
@@ -48,7 +76,14 @@ export class App {
         const pointer = new Pointer(viewer.canvas, viewer, (text) => overlay.showTurn(text));
         this.recorder = new VideoRecorder(viewer);
         this.fillTop();
-        this.fillTools(pointer);
+        this.play = new PlayPage({
+            viewer,
+            messages: this.messages,
+            pointer,
+            tools: new Tools(byId("tools"), pointer, viewer),
+            open: (run) => this.open(run, { ...this.kept(), box: false }),
+            watch: (files, title) => this.watch(files, title),
+        });
         fillHelp(byId<HTMLDialogElement>("help"));
         this.listen();
         this.watchSize();
@@ -73,6 +108,11 @@ export class App {
             await this.openFiles(new WebFiles(address), state);
             return;
         }
+        const scene = parameters.get("play");
+        if (scene !== null) {
+            await this.openScene(Object.hasOwn(kGallery, scene) ? scene : kFirstScene);
+            return;
+        }
         const embedded = await this.attempt(() => Promise.resolve(EmbeddedRun.find()));
         if (embedded) {
             await this.open(embedded, state);
@@ -86,11 +126,40 @@ export class App {
                 );
             }
             await this.openExample(kFirstExample, location.hash ? state : undefined);
-            this.showWelcome();
+            this.welcome();
         }
     }
 
+    /** Opens a scene of the playground. */
+    async openScene(name: string): Promise<void> {
+        this.setAddress(`?play=${name}`);
+        this.mode.show("play");
+        await this.play.openGallery(name);
+        if (!this.viewer.run) {
+            await this.openExample(kFirstExample);
+        }
+        this.mode.show(this.play.isOpen ? "play" : "view");
+    }
+
+    private setMode(mode: (typeof kModes)[number]): void {
+        if (mode === "play") {
+            void this.openScene(kFirstScene);
+        } else {
+            this.setAddress("");
+            void this.viewed();
+        }
+    }
+
+    private watch(files: Map<string, Uint8Array>, title: string): void {
+        const all = [...files].map(([path, bytes]): [string, File] => [
+            path,
+            new File([bytes as Uint8Array<ArrayBuffer>], path),
+        ]);
+        void this.openFiles(new LocalFiles(new Map(all), title), this.kept());
+    }
+
     async openExample(name: string, state?: ViewState): Promise<void> {
+        this.viewed = () => this.openExample(name);
         await this.open(
             new ExampleRun(kExamples[name]!, name),
             state ?? { ...this.kept(), box: true, rotation: defaultState().rotation },
@@ -99,6 +168,7 @@ export class App {
 
     async openFiles(source: FileSource, state: ViewState): Promise<void> {
         const turn = ++this.opening;
+        this.viewed = () => this.openFiles(source, this.kept());
         this.messages.clear();
         this.messages.busy(`Opening ${source.title}`);
         const run = await this.attempt(() =>
@@ -113,7 +183,7 @@ export class App {
         if (!this.viewer.run) {
             // there is always something to see
             await this.openExample(kFirstExample);
-            this.showWelcome();
+            this.welcome();
         }
     }
 
@@ -125,6 +195,11 @@ export class App {
         if (this.viewer.run === before) {
             run.close();
             return;
+        }
+        const isLive = run.stage !== undefined;
+        this.mode.show(isLive ? "play" : "view");
+        if (!isLive) {
+            this.play.leave();
         }
         this.title.textContent = run.title;
         document.title = `${run.title} \u2013 Pentimento`;
@@ -150,8 +225,13 @@ export class App {
     }
 
     private async openLocal(files: Map<string, File>): Promise<void> {
+        const scene = sceneAmong([...files.keys()]);
         if (files.size > 0) {
-            history.replaceState(null, "", location.pathname);
+            this.setAddress("");
+        }
+        if (scene) {
+            await this.play.openFiles(await scene.read(files), scene.path);
+        } else if (files.size > 0) {
             await this.openFiles(new LocalFiles(files), this.kept());
         }
     }
@@ -170,13 +250,13 @@ export class App {
         const { viewer } = this;
         const openers = [
             ["A folder of pent-sim\u2026", () => this.folder.click()],
-            [".pent files\u2026", () => this.files.click()],
+            ["Files (.pent, .toml)\u2026", () => this.files.click()],
             ...Object.entries(kExamples).map(
                 ([name, { title }]) =>
                     [
                         title,
                         () => {
-                            history.replaceState(null, "", `${location.pathname}?example=${name}`);
+                            this.setAddress(`?example=${name}`);
                             void this.openExample(name);
                         },
                     ] as const,
@@ -190,6 +270,7 @@ export class App {
         ] as const;
         byId("top").append(
             element("h1", {}, "Pentimento"),
+            this.mode.root,
             this.title,
             element("span", { class: "grow" }),
             menu("Open", kIcons.open, "Open", openers),
@@ -216,24 +297,6 @@ export class App {
         );
     }
 
-    private fillTools(pointer: Pointer): void {
-        const tools = segments(
-            "What dragging does",
-            kTools.map((tool) => [tool, ...kToolTexts[tool]] as const),
-            (tool) => {
-                pointer.tool = tool;
-            },
-        );
-        tools.show(pointer.tool);
-        byId("tools").append(tools.root);
-        this.viewer.on("run", (run) => {
-            const inputs = [...tools.root.querySelectorAll("input")];
-            inputs.forEach((input) => {
-                input.parentElement!.hidden = run.dimension === 3 && /[xz]w/.test(input.value);
-            });
-        });
-    }
-
     private async record(): Promise<void> {
         if (this.viewer.run!.frames.length < 2) {
             this.messages.error("A single frame makes no video; save a picture");
@@ -250,6 +313,10 @@ export class App {
         this.messages.note("The address of this view is in the clipboard");
     }
 
+    private setAddress(search: string): void {
+        history.replaceState(null, "", location.pathname + search);
+    }
+
     private writeAddress(): void {
         const state = formatState(this.viewer.state);
         history.replaceState(
@@ -257,35 +324,6 @@ export class App {
             "",
             location.pathname + location.search + (state && `#${state}`),
         );
-    }
-
-    private showWelcome(): void {
-        const card = byId("welcome");
-        card.replaceChildren(
-            element(
-                "p",
-                {},
-                element("b", {}, "Bodies of four dimensions, a slice at a time. "),
-                "Move w below and turn xw beside: what you see is the part of the body that " +
-                    "lies in the space w = 0.",
-            ),
-            element("p", {}, "Drop a run folder of pent-sim or a .pent mesh here, or "),
-            element(
-                "div",
-                { class: "actions" },
-                button(
-                    "Open a run folder",
-                    kIcons.open,
-                    () => this.folder.click(),
-                    "Open a folder",
-                ),
-                button("Open .pent files", kIcons.open, () => this.files.click(), "Open files"),
-            ),
-            button("Close", kIcons.close, () => {
-                card.hidden = true;
-            }),
-        );
-        card.hidden = false;
     }
 
     private applyTheme(): void {
@@ -349,6 +387,10 @@ export class App {
             (event.code === "Space" && target.matches("button, summary, input")) ||
             (event.code.startsWith("Arrow") && target.matches("input"))
         ) {
+            return;
+        }
+        if (this.play.onKey(event)) {
+            event.preventDefault();
             return;
         }
         if (event.key === "?") {

@@ -76,25 +76,35 @@ export function segments<Value extends string>(
     return { root, show } satisfies Control<Value>;
 }
 
+/** How far along a slider a value is. */
+export interface Curve {
+    toPlace(value: number): number;
+    toValue(place: number): number;
+}
+
+const kStraight: Curve = { toPlace: (value) => value, toValue: (place) => place };
+
 /** A slider with its number beside it. */
 export class Slider {
     readonly root: HTMLElement;
     readonly input: HTMLInputElement;
     readonly number: HTMLInputElement;
 
-    /** @param onChange  Is given what was chosen, by either. */
+    /** @param range     Of places.
+     *  @param onChange  Is given what was chosen, by either. */
     constructor(
         label: string,
         unit: string,
         range: { min: number; max: number; step: number },
         onChange: (value: number) => void,
+        private curve = kStraight,
     ) {
         const shared = { min: range.min, max: range.max, step: range.step };
         this.input = element("input", {
             type: "range",
             ...shared,
             "aria-label": label,
-            input: () => onChange(Number(this.input.value)),
+            input: () => onChange(this.curve.toValue(Number(this.input.value))),
         });
         this.number = element("input", {
             type: "number",
@@ -123,7 +133,7 @@ export class Slider {
     }
 
     show(value: number, digits: number): void {
-        this.input.value = String(value);
+        this.input.value = String(this.curve.toPlace(value));
         if (document.activeElement !== this.number) {
             this.number.value = String(Number(value.toFixed(digits)));
         }

@@ -11,5 +11,9 @@ export const kIcons = {
     next: "M9 5l7 7-7 7",
     loop: "M4 12a6.5 6.5 0 0 1 6.5-6.5H18m0 0L15 2.6M18 5.5l-3 2.9M20 12a6.5 6.5 0 0 1-6.5 6.5H6m0 0l3 2.9m-3-2.9l3-2.9",
     reset: "M4.5 12a7.5 7.5 0 1 0 2.4-5.5M4.5 4v4.5H9",
+    step: "M6 5v14l9-7zM18.5 5v14",
+    begin: "M6 5v14M19 5v14l-10-7z",
+    record: "M12 6.5a5.5 5.5 0 1 0 0 11a5.5 5.5 0 1 0 0-11z",
+    stop: "M7 7h10v10H7z",
     close: "M6 6l12 12M18 6L6 18",
 } as const;

@@ -19,6 +19,24 @@ export class Messages {
         this.add(text, false);
     }
 
+    /** A note with something that can be done about it; stays until it is closed. */
+    offer(text: string, name: string, action: () => void): void {
+        const message = this.add(text, false, Infinity);
+        const accept = element(
+            "button",
+            {
+                type: "button",
+                class: "button",
+                click: () => {
+                    message.remove();
+                    action();
+                },
+            },
+            name,
+        );
+        message.lastElementChild!.before(accept);
+    }
+
     /** A line that something is under way; "" ends it. */
     busy(text: string): void {
         this.progress ??= element("div", { class: "message busy" });
@@ -40,7 +58,7 @@ export class Messages {
         byId("status").textContent = text;
     }
 
-    private add(text: string, isError: boolean): void {
+    private add(text: string, isError: boolean, milliseconds = kShown): HTMLElement {
         const same = [...this.root.children].find((one) => one.textContent === text);
         same?.remove();
         const close = button("Close this message", kIcons.close, () => message.remove());
@@ -54,8 +72,9 @@ export class Messages {
         while (this.root.childElementCount > kMost) {
             this.root.firstElementChild!.remove();
         }
-        if (!isError) {
-            setTimeout(() => message.remove(), kShown);
+        if (!isError && milliseconds < Infinity) {
+            setTimeout(() => message.remove(), milliseconds);
         }
+        return message;
     }
 }

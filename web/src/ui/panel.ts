@@ -101,11 +101,17 @@ export class Panel {
         const facts = this.root.querySelector("#facts")!;
         const count = (key: "vertexCount" | "cellCount") =>
             run!.bodies.reduce((sum, body) => sum + body[key], 0).toLocaleString("en");
+        // A simulation has no frames to count.
+        const frames =
+            !run || run.stage
+                ? ""
+                : run.frames.length === 1
+                  ? ", 1 frame"
+                  : `, ${run.frames.length} frames`;
         facts.textContent = run
             ? `${run.bodies.length === 1 ? "1 body" : `${run.bodies.length} bodies`}` +
               `, ${count("vertexCount")} vertices, ${count("cellCount")} ` +
-              `${dimension === 4 ? "pentachora" : "tetrahedra"}, ` +
-              `${run.frames.length === 1 ? "1 frame" : `${run.frames.length} frames`}`
+              `${dimension === 4 ? "pentachora" : "tetrahedra"}${frames}`
             : "";
     }
 

@@ -1,12 +1,18 @@
 import type { Viewer } from "../view/viewer.ts";
 import { moveW, zoom } from "./actions.ts";
+import type { Hand } from "./play/hand.ts";
 
+/** What dragging does to a body that moves, where there is one. */
+export const kPulls = ["pull", "pullw"] as const;
 /** What dragging does. */
-export const kTools = ["look", "xw", "zw", "xz", "pan"] as const;
+export const kTools = [...kPulls, "look", "xw", "zw", "xz", "pan"] as const;
 export type Tool = (typeof kTools)[number];
+type ViewTool = Exclude<Tool, (typeof kPulls)[number]>;
 
 /** Name on the button, and what it says when pointed at. */
 export const kToolTexts: Record<Tool, readonly [string, string]> = {
+    pull: ["Pull", "Drag a body to pull at it; along w with shift or the wheel"],
+    pullw: ["Pull w", "Drag a body up or down to pull at it along w"],
     look: ["Look", "Drag to look around"],
     xw: ["xw yw", "Drag across to turn in xw, upright in yw (right button, or shift)"],
     zw: ["zw xy", "Drag upright to turn in zw, across in xy (alt or control)"],
@@ -24,8 +30,10 @@ interface Finger {
 /** Turns drags, the wheel and touches on the canvas into changes of the view. */
 export class Pointer {
     tool: Tool = "look";
+    /** What pulls at bodies, where there are some to pull at. */
+    hand: Hand | null = null;
     private fingers = new Map<number, Finger>();
-    private dragged: Tool | null = null;
+    private dragged: ViewTool | null = null;
     private sum = { across: 0, upright: 0 };
 
     /** @param onTurn  Told what is being turned, as in "xw 12°"; "" at the end. */
@@ -50,19 +58,59 @@ export class Pointer {
         if (event.button === 1) {
             event.preventDefault();
         }
+        const dragged = this.viewToolOf(event);
+        if (this.isPull(event)) {
+            void this.tryToTake(event, dragged);
+        } else {
+            this.hand?.release();
+            this.dragged = dragged;
+        }
+    }
+
+    private viewToolOf(event: PointerEvent): ViewTool {
         const is4 = this.viewer.run?.dimension === 4;
-        this.dragged =
-            this.fingers.size > 1 || event.button === 1
-                ? "pan"
-                : is4 && (event.button === 2 || event.shiftKey)
-                  ? "xw"
-                  : is4 && (event.altKey || event.ctrlKey || event.metaKey)
-                    ? "zw"
-                    : this.tool;
+        return this.fingers.size > 1 || event.button === 1
+            ? "pan"
+            : is4 && (event.button === 2 || event.shiftKey)
+              ? "xw"
+              : is4 && (event.altKey || event.ctrlKey || event.metaKey)
+                ? "zw"
+                : this.tool === "pull" || this.tool === "pullw"
+                  ? "look"
+                  : this.tool;
+    }
+
+    private isPull(event: PointerEvent): boolean {
+        const isPlain = event.button === 0 && !event.altKey && !event.ctrlKey && !event.metaKey;
+        const doesPull = this.tool === "pull" || this.tool === "pullw";
+        return this.hand !== null && doesPull && isPlain && this.fingers.size === 1;
+    }
+
+    // Where nothing is to be held the view is turned, as ever. The answer takes a moment.
+    private async tryToTake(event: PointerEvent, otherwise: ViewTool): Promise<void> {
+        const { hand } = this;
+        this.dragged = null;
+        const isHeld = await hand!.take(this.placeOf(event));
+        if (isHeld && this.fingers.size !== 1) {
+            hand!.release();
+        } else if (!isHeld && this.fingers.has(event.pointerId)) {
+            this.dragged = otherwise;
+        }
+    }
+
+    private placeOf(event: PointerEvent): { x: number; y: number } {
+        const box = this.canvas.getBoundingClientRect();
+        return {
+            x: (event.clientX - box.left) / box.width,
+            y: (event.clientY - box.top) / box.height,
+        };
     }
 
     private onMove(event: PointerEvent): void {
         const finger = this.fingers.get(event.pointerId);
+        if (finger && this.hand?.isHolding) {
+            this.hand.drag(this.placeOf(event), this.tool === "pullw" || event.shiftKey);
+        }
         if (!finger || !this.dragged) {
             return;
         }
@@ -85,6 +133,7 @@ export class Pointer {
 
     private onUp(event: PointerEvent): void {
         this.fingers.delete(event.pointerId);
+        this.hand?.release();
         if (this.fingers.size === 0) {
             this.dragged = null;
             this.onTurn("");
@@ -94,14 +143,16 @@ export class Pointer {
     private onWheel(event: WheelEvent): void {
         event.preventDefault();
         const pixels = (event.deltaY || event.deltaX) * (event.deltaMode === 1 ? 20 : 1);
-        if ((event.shiftKey || event.altKey) && this.viewer.run?.dimension === 4) {
+        if (this.hand?.isHolding) {
+            this.hand.moveW(-pixels / 2000);
+        } else if ((event.shiftKey || event.altKey) && this.viewer.run?.dimension === 4) {
             moveW(this.viewer, -pixels / 50);
         } else {
             zoom(this.viewer, Math.exp(-pixels / 600));
         }
     }
 
-    private drag(tool: Tool, dx: number, dy: number): void {
+    private drag(tool: ViewTool, dx: number, dy: number): void {
         const { viewer } = this;
         const { orbit } = viewer.state;
         if (tool === "look") {

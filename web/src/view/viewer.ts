@@ -84,8 +84,9 @@ export class Viewer {
             moments.push(await run.load(run.frames[place]!));
         }
         const bounds = new Bounds();
-        bounds.add(moments);
-        bounds.settle(moments);
+        const seen = run.stage ? [...moments, run.stage] : moments;
+        bounds.add(seen);
+        bounds.settle(seen);
         this.renderer.setBodies(run.bodies);
         this.run?.close();
         this.pause();
@@ -189,6 +190,11 @@ export class Viewer {
             this.tell("run", run);
             this.stream!.want(this.place, kAhead, this.state.loop);
         }
+    }
+
+    /** Shows a moment that is no frame of the run: of a simulation that goes on. */
+    present(moment: Moment): void {
+        this.show(moment);
     }
 
     resize(width: number, height: number, pixelRatio: number): void {

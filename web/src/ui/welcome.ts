@@ -1,0 +1,33 @@
+import { button } from "./controls.ts";
+import { byId, element } from "./dom.ts";
+import { kIcons } from "./icons.ts";
+
+/** The card that greets where no run is open. */
+export function showWelcome(actions: {
+    openFolder(): void;
+    openFiles(): void;
+    play(): void;
+}): void {
+    const card = byId("welcome");
+    card.replaceChildren(
+        element(
+            "p",
+            {},
+            element("b", {}, "Bodies of four dimensions, a slice at a time. "),
+            "Move w below and turn xw beside: what you see is the part of the body that " +
+                "lies in the space w = 0.",
+        ),
+        element("p", {}, "Drop a run folder of pent-sim or a .pent mesh here, or "),
+        element(
+            "div",
+            { class: "actions" },
+            button("Open a run folder", kIcons.open, actions.openFolder, "Open a folder"),
+            button("Open .pent files", kIcons.open, actions.openFiles, "Open files"),
+            button("Pull at bodies in the playground", kIcons.play, actions.play, "Play"),
+        ),
+        button("Close", kIcons.close, () => {
+            card.hidden = true;
+        }),
+    );
+    card.hidden = false;
+}

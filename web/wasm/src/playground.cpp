@@ -1,0 +1,209 @@
+#include "playground.h"
+
+#include "handles.h"
+#include "run/run_files.h"
+#include "scene/scene_meshes.h"
+
+#include <pent/obstacles_file.h>
+#include <pent/output_file.h>
+#include <pent/pent_file.h>
+#include <pent/runs/scene_file.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+using namespace pent;
+using namespace pent::plugin;
+
+// Where web/src/play/library.ts reads and writes.
+static_assert(sizeof(void*) == 4);
+static_assert(offsetof(pent_step_report, seconds) == 16 && offsetof(pent_step_report, refused) == 28
+              && offsetof(pent_step_report, iterations) == 36
+              && offsetof(pent_step_report, inverted) == 56
+              && offsetof(pent_step_report, point_facet) == 72
+              && offsetof(pent_step_report, obstacle) == 88 && sizeof(pent_step_report) == 112);
+static_assert(offsetof(pent_energy, energy) == 8 && offsetof(pent_energy, is_stored) == 16
+              && sizeof(pent_energy) == 24);
+static_assert(offsetof(pent_point, cell) == 8 && offsetof(pent_point, weights) == 16);
+static_assert(offsetof(pent_hit, place) == 56 && offsetof(pent_hit, distance) == 88);
+static_assert(offsetof(pent_grab, anchor) == 56 && offsetof(pent_grab, stiffness) == 88
+              && sizeof(pent_grab) == 112);
+static_assert(offsetof(play_facts, gravity) == 16 && offsetof(play_facts, floor) == 48);
+
+namespace {
+
+constexpr const char* kCreatedBy = "Pentimento playground";
+
+namespace fs = std::filesystem;
+using simulator::Material;
+
+void stiffen(Material& material, double factor) {
+    material.lame.lambda *= factor;
+    material.lame.mu *= factor;
+}
+
+Scene with_settings(Scene scene, const play_settings& settings) {
+    for (simulator::Body& body : scene.bodies) {
+        stiffen(body.material, settings.stiffness);
+        for (simulator::Region& region : body.regions) {
+            stiffen(region.material, settings.stiffness);
+        }
+    }
+    if (settings.damping >= 0) {
+        const double mass = scene.damping ? scene.damping->mass : 0;
+        scene.damping.reset();
+        if (mass > 0 || settings.damping > 0) {
+            scene.damping = simulator::Damping{.mass = mass, .stiffness = settings.damping};
+        }
+    }
+    if (settings.steps_per_second > 0) {
+        scene.frames_per_second = settings.steps_per_second;
+        scene.steps_per_frame = 1;
+    }
+    simulator::check(scene);
+    return scene;
+}
+
+// The state of another simulation at the step of this one that is nearest in time.
+template <int Dim>
+void take_over(const Simulation<Dim>& before, Simulation<Dim>& simulation) {
+    simulator::Snapshot<Dim> state = before.save();
+    const double dt = simulation.scene().dt();
+    if (dt != before.scene().dt()) {
+        state.steps = static_cast<std::uint64_t>(std::llround(before.time() / dt));
+        state.previous_positions.resize(Dim, 0);
+        state.previous_velocities.resize(Dim, 0);
+    }
+    simulation.restore(state);
+}
+
+template <int Dim>
+std::unique_ptr<Simulation<Dim>> open(const Scene& scene, const pent_simulation* before) {
+    auto simulation =
+        std::make_unique<Simulation<Dim>>(scene, runs::read_meshes<Dim>(scene).meshes);
+    if (before != nullptr) {
+        const std::shared_ptr<Opened> opened = simulations().find(before, "simulation");
+        const auto* held = std::get_if<std::unique_ptr<Simulation<Dim>>>(&opened->simulation);
+        if (held == nullptr) {
+            throw Error("the state is of a simulation of another dimension");
+        }
+        take_over(**held, *simulation);
+    }
+    return simulation;
+}
+
+template <int Dim>
+double floor_of(const Simulation<Dim>& simulation) {
+    double highest = -std::numeric_limits<double>::infinity();
+    for (const pent::Obstacle<Dim>& obstacle : simulation.obstacles()) {
+        const auto* ground = std::get_if<HalfSpace<Dim>>(&obstacle);
+        if (ground != nullptr && ground->normal[1] > 0.999) {
+            highest = std::max(highest, ground->offset);
+        }
+    }
+    return std::isfinite(highest) ? highest : std::numeric_limits<double>::quiet_NaN();
+}
+
+// The scene with the meshes that are beside it, as placed.
+Scene as_written(Scene scene) {
+    for (simulator::Body& body : scene.bodies) {
+        body.mesh = runs::mesh_file(body.name);
+        body.place = simulator::Placement();
+        body.place.translate.setZero(scene.dimension);
+    }
+    return scene;
+}
+
+}  // namespace
+
+pent_simulation* play_open(const char* scene_path,
+                           const play_settings* settings,
+                           const pent_simulation* before) {
+    return guarded<pent_simulation*>(nullptr, [&] {
+        require(scene_path, "scene_path");
+        require(settings, "settings");
+        const Scene scene = with_settings(runs::read_scene(scene_path), *settings);
+        auto opened = std::make_shared<Opened>();
+        with_dimension(scene.dimension,
+                       [&](auto dim) { opened->simulation = open<dim>(scene, before); });
+        return simulations().add(std::move(opened));
+    });
+}
+
+int play_get_facts(const pent_simulation* simulation, play_facts* facts) {
+    return with(simulation, -1, [&](auto& held, Opened& /*opened*/) {
+        require(facts, "facts");
+        const Scene& scene = held.scene();
+        *facts = {.time_step = scene.dt(),
+                  .damping = scene.damping ? scene.damping->stiffness : 0,
+                  .gravity = {},
+                  .floor = floor_of(held)};
+        const auto gravity = held.host().gravity;
+        for (int axis = 0; axis < scene.dimension; ++axis) {
+            facts->gravity[axis] = gravity ? (*gravity)[axis] : scene.gravity[axis];
+        }
+        return 0;
+    });
+}
+
+const double* play_contact_forces(const pent_simulation* simulation, int body) {
+    static std::vector<double> forces;
+    return with_body<const double*>(simulation, body, nullptr, [&](auto& held, Opened& /*opened*/) {
+        const auto all = held.contact_forces(body);
+        forces.assign(all.data(), all.data() + all.size());
+        return forces.data();
+    });
+}
+
+int play_begin_run(const pent_simulation* simulation, const char* folder) {
+    return with(simulation, -1, [&](auto& held, Opened& /*opened*/) {
+        require(folder, "folder");
+        const fs::path run = folder;
+        for (const char* part : {"meshes", "frames"}) {
+            fs::create_directories(run / part);
+        }
+        const Scene& scene = held.scene();
+        write_text(run / runs::kSceneFile, runs::scene_text(as_written(scene)));
+        for (int body = 0; body < held.body_count(); ++body) {
+            const std::string& name = scene.bodies[static_cast<std::size_t>(body)].name;
+            write_mesh(run / runs::mesh_file(name), held.mesh(body), {.created_by = kCreatedBy});
+        }
+        const bool do_move = std::any_of(scene.obstacles.begin(), scene.obstacles.end(),
+                                         [](const auto& one) { return !one.motion.empty(); });
+        if (do_move) {
+            fs::create_directories(run / "obstacles");
+        } else if (!scene.obstacles.empty()) {
+            write_obstacles(run / runs::kObstaclesFile, held.obstacles());
+        }
+        return 0;
+    });
+}
+
+int play_add_frame(const pent_simulation* simulation, const char* folder, int frame) {
+    return with(simulation, -1, [&](auto& held, Opened& /*opened*/) {
+        require(folder, "folder");
+        constexpr int kDim = kDimOf<std::remove_reference_t<decltype(held)>>;
+        const fs::path run = folder;
+        for (int body = 0; body < held.body_count(); ++body) {
+            const std::string& name = held.scene().bodies[static_cast<std::size_t>(body)].name;
+            Frame<kDim> file;
+            file.positions = held.positions(body);
+            file.velocities = held.velocities(body);
+            file.contact_forces = held.contact_forces(body);
+            file.mesh_name = name + ".pent";
+            file.mesh_crc = read_info(run / runs::mesh_file(name)).crc32c;
+            file.frame = static_cast<std::uint64_t>(frame);
+            file.step = held.step_count();
+            file.time = held.time();
+            write_frame(run / runs::frame_file(name, frame), file, {.created_by = kCreatedBy});
+        }
+        if (fs::exists(run / "obstacles")) {
+            write_obstacles(run / runs::moved_obstacles_file(frame), held.obstacles());
+        }
+        return 0;
+    });
+}
