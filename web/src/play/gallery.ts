@@ -87,8 +87,8 @@ function heap(): Parts {
         text:
             head() +
             body("slab", "young = 3e4, density = 100", at(0, 0.32, 0)) +
-            body("ball", "young = 2e4, density = 100", at(0.2, 1.05, 0.1)) +
-            body("crate", "young = 2e4, density = 100", at(-0.15, 1.8, -0.1)) +
+            body("ball", "young = 2e4, density = 100", at(0.12, 1.8, 0.06)) +
+            body("crate", "young = 2e4, density = 100", at(-0.1, 1.02, -0.05)) +
             kFloor +
             kWalls +
             kSettings,

@@ -154,7 +154,10 @@ export class Playground {
         try {
             this.report = this.held.step();
         } catch (error) {
-            this.recover(error as Error);
+            if (!(error instanceof PentError)) {
+                throw error; // the module itself has failed
+            }
+            this.recover(error);
             return false;
         }
         this.refusals = 0;
@@ -284,7 +287,7 @@ export class Playground {
 
     private record(): void {
         if (this.recording?.add(this.held) === false) {
-            this.notice("The recording has become large: no more frames are added", true);
+            this.notice("The recording has become large: no more frames are added", false);
         }
     }
 }

@@ -28,7 +28,6 @@ import { showWelcome } from "./welcome.ts";
 const kFollowEvery = 1500; // ms
 const kFirstExample = "tesseract";
 const kFirstScene = "octopus";
-const kModes = ["view", "play"] as const;
 
 /** The page: everything around a viewer. */
 export class App {
@@ -64,8 +63,8 @@ export class App {
         ] as const,
         (mode) => this.setMode(mode),
     );
-    // What the viewer showed last: to come back to.
-    private viewed: () => Promise<void> = () => this.openExample(kFirstExample);
+    private sceneState: ViewState | null = null; // of the view that a scene opens with
+    private viewed = () => this.openExample(kFirstExample); // to come back to
 
     constructor() {
         this.viewer = new Viewer(byId<HTMLCanvasElement>("canvas"));
@@ -81,7 +80,7 @@ export class App {
             messages: this.messages,
             pointer,
             tools: new Tools(byId("tools"), pointer, viewer),
-            open: (run) => this.open(run, { ...this.kept(), box: false }),
+            open: (run) => this.open(run, this.sceneState ?? this.kept()),
             watch: (files, title) => this.watch(files, title),
         });
         fillHelp(byId<HTMLDialogElement>("help"));
@@ -110,7 +109,7 @@ export class App {
         }
         const scene = parameters.get("play");
         if (scene !== null) {
-            await this.openScene(Object.hasOwn(kGallery, scene) ? scene : kFirstScene);
+            await this.openScene(Object.hasOwn(kGallery, scene) ? scene : kFirstScene, state);
             return;
         }
         const embedded = await this.attempt(() => Promise.resolve(EmbeddedRun.find()));
@@ -131,17 +130,19 @@ export class App {
     }
 
     /** Opens a scene of the playground. */
-    async openScene(name: string): Promise<void> {
+    async openScene(name: string, state: ViewState | null = null): Promise<void> {
         this.setAddress(`?play=${name}`);
         this.mode.show("play");
+        this.sceneState = state;
         await this.play.openGallery(name);
+        this.sceneState = null;
         if (!this.viewer.run) {
             await this.openExample(kFirstExample);
         }
         this.mode.show(this.play.isOpen ? "play" : "view");
     }
 
-    private setMode(mode: (typeof kModes)[number]): void {
+    private setMode(mode: "view" | "play"): void {
         if (mode === "play") {
             void this.openScene(kFirstScene);
         } else {

@@ -72,6 +72,12 @@ export class PlayPage {
                 this.hand?.show(host.viewer.moment);
             }
         });
+        // Nobody looks: it stands still.
+        document.addEventListener("visibilitychange", () => {
+            if (this.run && this.isRunning) {
+                void this.ask("setRunning", !document.hidden);
+            }
+        });
         this.showMode(false);
     }
 
@@ -165,9 +171,13 @@ export class PlayPage {
             onFrame: (frame) => this.onFrame(frame),
             onFacts: (facts: PlayFacts) => this.panel.showFacts(facts),
             onNotice: (text, isError) => {
-                this.hand?.drop();
                 const { messages } = this.host;
-                (isError ? messages.error : messages.note).call(messages, text);
+                if (isError) {
+                    this.hand?.drop();
+                    messages.error(text);
+                } else {
+                    messages.note(text);
+                }
             },
             onDeath: (text) => {
                 this.client = null;
@@ -181,8 +191,9 @@ export class PlayPage {
 
     private onFrame(frame: PlayFrame): void {
         const { viewer } = this.host;
+        requestAnimationFrame(() => void this.client?.call("taken"));
         if (!this.run || viewer.run !== this.run) {
-            return;
+            return; // of the scene before
         }
         viewer.present(frame.moment);
         this.bar.show(frame, this.isRunning);
@@ -190,7 +201,6 @@ export class PlayPage {
         if (this.isRecording) {
             this.bar.showRecording(frame.recorded);
         }
-        requestAnimationFrame(() => void this.client?.call("taken"));
     }
 
     private setRunning(isRunning: boolean): void {
