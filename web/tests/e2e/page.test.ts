@@ -297,7 +297,7 @@ test("the page opens from a file by a double click, and takes chosen folders", a
     await page.waitForFunction(() => window.pentimento!.viewer.run!.title === "chosen");
     assert.match(await page.locator("#facts").innerText(), /72 pentachora, 3 frames/);
     await page
-        .locator("input[accept='.pent']")
+        .locator("input[accept='.pent,.toml']")
         .setInputFiles({ name: "mesh.pent", mimeType: "", buffer: Buffer.from(kMesh) });
     await page.waitForFunction(() => window.pentimento!.viewer.run!.title === "mesh");
     assert.equal(await page.locator("input.time").isVisible(), false);
