@@ -9,7 +9,9 @@ endif()
 
 # Libraries that are headers alone are those of this machine, behind the headers of emscripten: before them,
 # the C library would be this machine's, too.
+set(PENT_POSITION_INDEPENDENT ON)  # for the shared library of plugin
 if(EMSCRIPTEN)
+  set(PENT_POSITION_INDEPENDENT OFF)
   list(APPEND CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES /usr/include)
   add_compile_options(-idirafter /usr/include -w)  # warnings are the business of compilers for 64 bits
 endif()
@@ -56,7 +58,7 @@ function(pent_add_library name)
     target_compile_definitions(pent_${name} INTERFACE $<INSTALL_INTERFACE:EIGEN_MALLOC_ALREADY_ALIGNED=1>)
   endif()
   set_target_properties(pent_${name} PROPERTIES EXPORT_NAME ${name} CXX_EXTENSIONS OFF
-    POSITION_INDEPENDENT_CODE $<NOT:$<BOOL:${EMSCRIPTEN}>> VERIFY_INTERFACE_HEADER_SETS ON)
+    POSITION_INDEPENDENT_CODE ${PENT_POSITION_INDEPENDENT} VERIFY_INTERFACE_HEADER_SETS ON)
   target_link_libraries(pent_${name} PUBLIC ${arg_DEPS}
     PRIVATE $<BUILD_INTERFACE:pent_build_flags> ${arg_PRIVATE_DEPS})
 endfunction()

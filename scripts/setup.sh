@@ -4,6 +4,7 @@
 #   scripts/setup.sh            what building, testing and the demo need
 #   scripts/setup.sh --tools    also what lint.sh, coverage.sh and fuzz.sh need
 #   scripts/setup.sh --portable also what test.sh --portable needs: clang, libc++, the sources of GoogleTest
+#   scripts/setup.sh --page     also what web.sh --viewer and test.sh --page need: node, npm, Chromium
 #   scripts/setup.sh --web      also what web.sh and test.sh --web need: node, npm, emscripten, Chromium
 #   scripts/setup.sh --python   also what test.sh --python needs: pytest, mypy, tqdm, Jupyter's nbconvert
 #   scripts/setup.sh --check    only say what is missing; exit code 1 if anything is
@@ -13,6 +14,7 @@ set -euo pipefail
 
 with_tools=false
 with_portable=false
+with_page=false
 with_web=false
 with_python=false
 only_check=false
@@ -20,10 +22,11 @@ for argument in "$@"; do
     case $argument in
         --tools) with_tools=true ;;
         --portable) with_portable=true ;;
-        --web) with_web=true ;;
+        --page) with_page=true ;;
+        --web) with_page=true; with_web=true ;;
         --python) with_python=true ;;
         --check) only_check=true ;;
-        *) echo "setup: unknown argument $argument; expected --tools, --portable, --web, --python or --check" >&2; exit 2 ;;
+        *) echo "setup: unknown argument $argument; expected --tools, --portable, --page, --web, --python or --check" >&2; exit 2 ;;
     esac
 done
 
@@ -51,10 +54,10 @@ if $with_tools; then
     )
 fi
 if $with_web; then
-    packages+=(
-        emscripten                        # the simulator for browsers
-        chromium                          # end-to-end tests
-    )
+    packages+=(emscripten)                # the simulator for browsers
+fi
+if $with_page; then
+    packages+=(chromium)                  # end-to-end tests
     # A node from elsewhere does as well, and has npm with it.
     if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
         packages+=(nodejs npm)

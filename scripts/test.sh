@@ -10,6 +10,7 @@
 #   scripts/test.sh --web                     only the page of web/: builds it, its readers and its view in node,
 #                                             and the page in Chromium; beside pent-slice and pent-check
 #                                             where the preset dev is built
+#   scripts/test.sh --page                    the same without the playground, whose module takes minutes to build
 #   scripts/test.sh --python                  only the Python package: its tests, its types, 10,000 calls at random,
 #                                             its wheel in a fresh environment, its notebooks
 #   scripts/test.sh --all                     every test, every test under the address and undefined-behavior
@@ -46,7 +47,7 @@ run_portable() {
 }
 
 run_web() {
-    scripts/web.sh
+    scripts/web.sh "$@"
     npm --prefix web test
     npm --prefix web run e2e
 }
@@ -78,6 +79,9 @@ case ${1:-} in
         ;;
     --web)
         run_web
+        ;;
+    --page)
+        run_web --viewer
         ;;
     --python)
         run_python
