@@ -112,7 +112,7 @@ test(
         assert.ok(server.asked.includes("playground.js"));
         assert.match(page.url(), /\?play=octopus/);
         await page.waitForFunction(() =>
-            /ms a step.* J/.test(document.querySelector(".numbers")!.textContent!),
+            /ms a step.* J/.test(document.querySelector(".numbers")?.textContent ?? ""),
         );
         await page.locator("select[aria-label=Scene]").selectOption("jelly");
         await page.waitForFunction(() => window.pentimento!.viewer.run!.title.includes("jelly"));
@@ -162,7 +162,9 @@ test("a body is pulled by the pointer and along w, and comes back", { skip }, as
 
     // The wheel pulls along w, from the slice.
     await page.mouse.wheel(0, -400);
-    await page.waitForFunction(() => /^w \+/.test(document.querySelector(".depth")!.textContent!));
+    await page.waitForFunction(() =>
+        /^w \+/.test(document.querySelector(".depth")?.textContent ?? ""),
+    );
     await step(page, 10);
     const along = await shape(page);
     assert.ok(along.middle[3]! - right.middle[3]! > 0.02, `${along.middle}`);
@@ -247,7 +249,7 @@ test(
         await drop(page, [["scene.toml", kScene]]);
         await page.waitForFunction(() =>
             /^scene\.toml:5:8: .*cube\.pent/.test(
-                document.querySelector(".message.error")!.textContent!,
+                document.querySelector(".message.error")?.textContent ?? "",
             ),
         );
         assert.equal(
