@@ -1,4 +1,4 @@
-#include "scenes.h"
+#include "penalty_scenes.h"
 #include "support/host_tasks.h"
 #include "support/messages.h"
 
@@ -11,22 +11,11 @@
 namespace pent::contact {
 namespace {
 
-constexpr double kEps = 0.2;  // the cells of the bodies are 1 m
-constexpr double kStiffness = 1000;
-constexpr ContactOptions kOptions{.distance = kEps};
-
-template <int Dim>
-Contacts<Dim> contacts_of(const test::Scene<Dim>& scene, const ContactOptions& options = kOptions) {
-    return ContactFinder<Dim>(test::contact_scene<Dim>(scene, options))
-        .find(scene.positions, kStiffness);
-}
-
-template <int Dim>
-Positions<Dim> forces_of(const Contacts<Dim>& contacts, Eigen::Index vertices) {
-    Positions<Dim> gradient = Positions<Dim>::Zero(Dim, vertices);
-    add_gradient<Dim>(contacts, gradient);
-    return -gradient;
-}
+using test::contacts_of;
+using test::forces_of;
+using test::kEps;
+using test::kOptions;
+using test::kStiffness;
 
 // Everything of two results, to the bit.
 template <int Dim>
@@ -288,93 +277,6 @@ TYPED_TEST(ContactFinderTest, AreNoneBetweenKinematicBodies) {
     EXPECT_FALSE(ContactFinder<kDim>(model).find(scene.positions, kStiffness).list.empty());
     model.bodies[1].is_kinematic = true;
     EXPECT_TRUE(ContactFinder<kDim>(model).find(scene.positions, kStiffness).list.empty());
-}
-
-TYPED_TEST(ContactFinderTest, AreNoneWithinABodyUnlessAskedFor) {
-    constexpr int kDim = TypeParam::value;
-    test::Scene<kDim> scene;
-    scene.add(test::cube<kDim>(2), Vector<kDim>::Zero());
-    const Contacts<kDim> contacts = contacts_of(scene);
-    EXPECT_TRUE(contacts.list.empty());
-    EXPECT_EQ(contacts.report.candidates, 0);  // nothing was even looked for
-}
-
-// A box of 3 cells along y with the middle one taken out but for a column: a mouth.
-template <int Dim>
-SimplexMesh<Dim> mouth() {
-    std::array<int, Dim> count{};
-    std::array<double, Dim> size{};
-    count.fill(1);
-    size.fill(1);
-    count[0] = 3;
-    count[1] = 3;
-    size[0] = 3;
-    size[1] = 3;
-    SimplexMesh<Dim> box = pent::test::kuhn_box<Dim>(count, size);
-    Simplices<Dim + 1> kept(Dim + 1, box.cell_count());
-    Eigen::Index cells = 0;
-    for (Eigen::Index c = 0; c < box.cell_count(); ++c) {
-        Vector<Dim> center = Vector<Dim>::Zero();
-        for (const std::uint32_t v : box.cells.col(c)) {
-            center += box.positions.col(v) / (Dim + 1);
-        }
-        if (center[0] < 1 || center[1] < 1 || center[1] > 2) {
-            kept.col(cells++) = box.cells.col(c);
-        }
-    }
-    box.cells = kept.leftCols(cells);
-    return box;
-}
-
-TYPED_TEST(ContactFinderTest, WithinABodyBeginWhereItsPartsMeet) {
-    constexpr int kDim = TypeParam::value;
-    test::Scene<kDim> scene;
-    scene.add(mouth<kDim>(), Vector<kDim>::Zero());
-    const Positions<kDim> rest = scene.positions;
-    ContactOptions options = kOptions;
-    options.self = true;
-    ContactFinder<kDim> finder(test::contact_scene<kDim>(scene, options));
-    EXPECT_TRUE(finder.find(rest, kStiffness).list.empty());
-    // The upper lip comes down, and goes a little into the lower one.
-    for (const double gap : {0.5, 0.15, 0.01, -0.05}) {
-        Positions<kDim> closed = rest;
-        for (Eigen::Index v = 0; v < rest.cols(); ++v) {
-            if (rest(0, v) > 0.5 && rest(1, v) > 1.5) {
-                closed(1, v) -= (1 - gap) * std::min(rest(0, v) - 0.5, 1.5) / 1.5;
-                closed(0, v) += 0.1 * (rest(0, v) - 1);  // not vertex upon vertex
-            }
-        }
-        const Contacts<kDim> contacts = finder.find(closed, kStiffness);
-        EXPECT_EQ(contacts.list.empty(), gap > kEps) << gap;
-        EXPECT_EQ(contacts.report.self, static_cast<std::int64_t>(contacts.list.size()));
-        if (gap < kEps) {
-            const Positions<kDim> forces = forces_of(contacts, rest.cols());
-            double on_upper = 0;
-            for (Eigen::Index v = 0; v < rest.cols(); ++v) {
-                on_upper += rest(1, v) > 1.5 ? forces(1, v) : 0;
-            }
-            EXPECT_GT(on_upper, 0) << gap;
-            EXPECT_LT(forces.rowwise().sum().norm(), 1e-13 * forces.norm());
-        }
-    }
-}
-
-TYPED_TEST(ContactFinderTest, WithinABodyAreNoneAtRestNorInSomethingThinThatIsSqueezed) {
-    constexpr int kDim = TypeParam::value;
-    ContactOptions options = kOptions;
-    options.self = true;
-    for (const double thickness : {0.5, 1.5, 2.5}) {  // of the distance of contact
-        test::Scene<kDim> scene;
-        SimplexMesh<kDim> sheet = test::cube<kDim>(2);
-        sheet.positions.row(1) *= thickness * kEps / 2;
-        scene.add(sheet, Vector<kDim>::Zero());
-        ContactFinder<kDim> finder(test::contact_scene<kDim>(scene, options));
-        EXPECT_TRUE(finder.find(scene.positions, kStiffness).list.empty());
-        const Positions<kDim> squeezed =
-            Vector<kDim>(Vector<kDim>::Ones() - 0.7 * Vector<kDim>::UnitY()).asDiagonal()
-            * scene.positions;
-        EXPECT_TRUE(finder.find(squeezed, kStiffness).list.empty()) << thickness;
-    }
 }
 
 TYPED_TEST(ContactFinderTest, TwoRigidBoxesThrownAtEachOtherSeparateAgain) {

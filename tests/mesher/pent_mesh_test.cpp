@@ -1,6 +1,5 @@
 #include "apps/run_program.h"
 #include "shapes.h"
-#include "support/kuhn_box.h"
 #include "support/messages.h"
 
 #include <pent/pent_file.h>
@@ -399,90 +398,6 @@ TEST(PentMesh, WantsExactlyOneInput) {
     EXPECT_EQ(run_program("pent-mesh a.obj --ball 4 -o out.pent").exit_code, 2);
     EXPECT_EQ(run_program("pent-mesh a.obj --thickness 1 --extrude 0,0,0,1 -o o.pent").exit_code,
               2);
-}
-
-TEST(PentCheck, ProvesTheTables) {
-    const Outcome outcome = run_program("pent-check");
-    EXPECT_EQ(outcome.exit_code, 0);
-    test::expect_contains(outcome.out, {"720 of 720", "211", "436", "975", "finished: all proved"});
-}
-
-TEST(PentCheck, SaysWhenItsReportCannotBeWritten) {
-    const Outcome sound = run_program("pent-check --json /no/such/folder/report.json");
-    EXPECT_EQ(sound.exit_code, 1);
-    test::expect_one_error_line(sound, "pent-check");
-    test::expect_contains(sound.err, {"/no/such/folder/report.json", "cannot be written"});
-    // What is wrong with the input is more to the point.
-    const Outcome missing = run_program("pent-check none.pent --json /no/such/folder/report.json");
-    EXPECT_EQ(missing.exit_code, 1);
-    test::expect_one_error_line(missing, "pent-check");
-    test::expect_contains(missing.err, {"none.pent"});
-}
-
-TEST(PentCheck, NeverWritesItsReportOverTheFile) {
-    const test::TempFolder folder;
-    const std::string out = (folder / "a.pent").string();
-    write_mesh(out, test::kuhn_box<2>({1, 1}, {1, 1}));
-    const std::string before = test::text_of(out);
-    const Outcome outcome = run_program("pent-check " + out + " --json " + out);
-    EXPECT_EQ(outcome.exit_code, 1);
-    test::expect_contains(outcome.err, {"--json is the same file as the input"});
-    EXPECT_TRUE(test::text_of(out) == before);
-}
-
-TEST(PentCheck, TakesOneFile) {
-    const Outcome outcome = run_program("pent-check a.pent b.pent");
-    EXPECT_EQ(outcome.exit_code, 2);
-    test::expect_one_error_line(outcome, "pent-check");
-}
-
-TEST(PentCheck, TellsFramesAndDimensions) {
-    const test::TempFolder folder;
-    const std::string out = (folder / "a.pent").string();
-    write_mesh(out, test::kuhn_box<2>({1, 1}, {1, 1}));
-    test::expect_contains(run_program("pent-check " + out).out, {"dimension 2", "is sound"});
-    Frame<3> frame;
-    frame.positions = Positions<3>::Zero(3, 5);
-    frame.mesh_name = "body.pent";
-    frame.frame = 7;
-    frame.step = 70;
-    frame.time = 0.5;
-    write_frame(out, frame);
-    test::expect_contains(run_program("pent-check " + out).out,
-                          {"7 of body.pent, step 70, 0.5 s, 5 vertices", "is sound"});
-}
-
-TEST(PentCheck, NamesCellsThatDoNotFitAndPartsThatTouch) {
-    const test::TempFolder folder;
-    const std::string out = (folder / "a.pent").string();
-    SimplexMesh<3> mesh;
-    mesh.positions.resize(3, 7);  // the corner of a cube and its mirror image behind the origin
-    mesh.positions << Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(),
-        -Eigen::Matrix3d::Identity();
-    mesh.cells.resize(4, 2);
-    mesh.cells << 0, 0, 1, 4, 2, 6, 3, 5;
-    write_mesh(out, mesh);
-    const Outcome touching = run_program("pent-check " + out);
-    EXPECT_EQ(touching.exit_code, 1);
-    test::expect_contains(touching.err, {"not a manifold at 1 vertices (first: 0)"});
-    mesh.cells.col(1) = mesh.cells.col(0);
-    write_mesh(out, mesh);
-    const Outcome doubled = run_program("pent-check " + out);
-    EXPECT_EQ(doubled.exit_code, 1);
-    test::expect_one_error_line(doubled, "pent-check");
-    test::expect_contains(doubled.err, {"a.pent: "});
-}
-
-TEST(PentCheck, RefusesADamagedFile) {
-    const test::TempFolder folder;
-    const std::string out = (folder / "cube.pent").string();
-    ASSERT_EQ(run_program("pent-mesh --box 1,1,1,1 -o " + out).exit_code, 0);
-    std::string bytes = test::text_of(out);
-    bytes.back() = static_cast<char>(bytes.back() ^ 1);
-    test::write_file(out, bytes);
-    const Outcome outcome = run_program("pent-check " + out);
-    EXPECT_EQ(outcome.exit_code, 1);
-    test::expect_one_error_line(outcome, "pent-check");
 }
 
 }  // namespace

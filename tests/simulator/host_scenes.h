@@ -84,4 +84,23 @@ Positions<Dim> places_of(const Simulation<Dim>& simulation,
     return places;
 }
 
+// A cube of 2 cells of 0.25 m, of steps of 10 ms, solved so tightly that only the method is in the
+// result.
+template <int Dim>
+Scene floating_cube(Integrator integrator = Integrator::NewtonEuler) {
+    Scene scene = test::box_scene<Dim>();
+    scene.frames_per_second = 100;
+    scene.solver.integrator = integrator;
+    scene.solver.precision = Precision::Double;
+    scene.solver.tolerance = 1e-12;
+    scene.solver.newton_tolerance = 1e-9;
+    return scene;
+}
+
+template <int Dim>
+void take_step(Simulation<Dim>& simulation) {
+    const StepReport report = simulation.step();
+    ASSERT_TRUE(report.is_accepted) << report.failure;
+}
+
 }  // namespace pent::simulator::test

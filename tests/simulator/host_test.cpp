@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
@@ -21,34 +20,16 @@ using test::corner;
 using test::cube;
 using test::Dimensions;
 using test::expect_same;
+using test::floating_cube;
 using test::kWithInertia;
 using test::low_side;
 using test::mean_velocity;
-using test::momentum;
 using test::places_of;
+using test::take_step;
 
 template <typename T>
 class Host : public testing::Test {};
 TYPED_TEST_SUITE(Host, Dimensions);
-
-// A cube of 2 cells of 0.25 m, of steps of 10 ms, solved so tightly that only the method is in the
-// result.
-template <int Dim>
-Scene floating_cube(Integrator integrator = Integrator::NewtonEuler) {
-    Scene scene = test::box_scene<Dim>();
-    scene.frames_per_second = 100;
-    scene.solver.integrator = integrator;
-    scene.solver.precision = Precision::Double;
-    scene.solver.tolerance = 1e-12;
-    scene.solver.newton_tolerance = 1e-9;
-    return scene;
-}
-
-template <int Dim>
-void take_step(Simulation<Dim>& simulation) {
-    const StepReport report = simulation.step();
-    ASSERT_TRUE(report.is_accepted) << report.failure;
-}
 
 // ---- targets
 
@@ -184,128 +165,6 @@ TYPED_TEST(Host, TakesTargetsAlongInStepsThatAreCut) {
 
 // ---- grabs
 
-// A point of a free body on a spring to a fixed anchor: the body is pulled by what the anchor
-// feels, and a still one comes to rest at the anchor.
-TYPED_TEST(Host, TakesABodyToTheAnchorOfAGrab) {
-    constexpr int kDim = TypeParam::value;
-    for (const Integrator integrator : kWithInertia) {
-        Scene scene = floating_cube<kDim>(integrator);
-        scene.damping = Damping{.mass = 3};
-        Simulation<kDim> simulation(scene, {cube<kDim>(1)});
-        Grab<kDim> grab = corner(simulation, 0);
-        grab.damping = 30;
-        const auto id = simulation.add_grab(grab);
-        const Vector<kDim> goal = grab.anchor + 0.3 * Vector<kDim>::Unit(kDim - 1);
-        simulation.move_grab(id, goal);
-        for (int i = 0; i < 500; ++i) {
-            take_step(simulation);
-        }
-        EXPECT_LT((place_of(simulation, grab.point) - goal).norm(), 2e-3);
-    }
-}
-
-// The impulse of the spring is what the body's momentum gains, step by step: backward Euler takes
-// the force at the end of a step.
-TYPED_TEST(Host, GivesABodyTheImpulseOfItsGrabAndNoOther) {
-    constexpr int kDim = TypeParam::value;
-    Simulation<kDim> simulation(floating_cube<kDim>(), {cube<kDim>()});
-    Grab<kDim> grab = corner(simulation, 0, 500);
-    grab.anchor += 0.1 * Vector<kDim>::LinSpaced(0.2, 1);
-    static_cast<void>(simulation.add_grab(grab));
-    Vector<kDim> before = momentum(simulation);
-    for (int i = 0; i < 30; ++i) {
-        take_step(simulation);
-        const Vector<kDim> force = 500 * (grab.anchor - place_of(simulation, grab.point));
-        const Vector<kDim> gained = momentum(simulation) - before;
-        EXPECT_LT((gained - 0.01 * force).norm(), 1e-7 * force.norm()) << i;
-        // What the simulation says of forces is the same.
-        EXPECT_LT((simulation.forces(0).rowwise().sum() - force).norm(), 1e-8 * force.norm());
-        before += gained;
-    }
-}
-
-// The whole mass on a spring, seen at the center of a stiff body: omega = sqrt(k / m).
-TYPED_TEST(Host, SwingsABodyAtTheFrequencyOfItsGrab) {
-    constexpr int kDim = TypeParam::value;
-    Scene scene = floating_cube<kDim>(Integrator::Bdf2);
-    scene.bodies[0].material.lame = lame_from_young(kDim, 1e9, 0.1);
-    Simulation<kDim> simulation(scene, {cube<kDim>()});
-    const double mass = simulation.masses(0).sum();
-    const double omega = 2;
-    const Vector<kDim> middle = simulation.positions(0).rowwise().mean();
-    const auto at = pick(simulation, Ray<kDim>{middle, Vector<kDim>::Unit(0)});
-    Grab<kDim> grab{.point = at->point, .anchor = middle, .stiffness = omega * omega * mass};
-    grab.anchor[1] += 0.1;
-    static_cast<void>(simulation.add_grab(grab));
-    double previous = 0;
-    double crossing = 0;
-    while (crossing == 0 && simulation.time() < 2) {
-        take_step(simulation);
-        const double now = simulation.positions(0).row(1).mean() - middle[1] - 0.1;
-        if (now > 0 && simulation.step_count() > 1) {
-            crossing = simulation.time() - 0.01 * now / (now - previous);
-        }
-        previous = now;
-    }
-    // A quarter of a period; BDF2 is right to (omega dt)^2, and its first step is backward Euler.
-    EXPECT_NEAR(crossing, std::acos(0.0) / omega, 2e-3);
-}
-
-// Without a bound, by an anchor 100 m away: steps fail, and go on to fail when the grab is gone.
-TEST(HostWithoutABound, PullsABodyIntoAStateThatItDoesNotComeBackFrom) {
-    Scene scene = test::box_scene<4>();
-    scene.frames_per_second = 100;
-    scene.constraints = {test::hold(
-        HalfSpaceSelection{.normal = Eigen::Vector4d::UnitY(), .offset = 1e-6}, test::still(4))};
-    Simulation<4> simulation(scene, {cube<4>()});
-    Grab<4> grab = corner(simulation, 0, 20000);
-    grab.anchor[3] += 100;
-    grab.max_force = 1e30;
-    const auto id = simulation.add_grab(grab);
-    for (int i = 0; i < 10; ++i) {
-        static_cast<void>(simulation.step());
-    }
-    simulation.remove_grab(id);
-    EXPECT_FALSE(simulation.step().is_accepted);
-}
-
-// Pulled as far, but no harder than its cells bear, no step fails, and let go the body is what it
-// was.
-TYPED_TEST(Host, RecoversFromAHardPull) {
-    constexpr int kDim = TypeParam::value;
-    for (const Integrator integrator : {Integrator::LinearEuler, Integrator::NewtonEuler}) {
-        for (const double far : {1.1, 100.0}) {
-            Scene scene = floating_cube<kDim>(integrator);
-            scene.solver = {.integrator = integrator};
-            scene.gravity[1] = -9.8;
-            scene.damping = Damping{.mass = 1, .stiffness = 0.01};
-            scene.constraints = {test::hold(
-                HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(kDim, 1), .offset = 1e-6},
-                test::still(kDim))};
-            Simulation<kDim> simulation(scene, {cube<kDim>()});
-            const auto settle = [&] {
-                for (int i = 0; i < 300; ++i) {
-                    take_step(simulation);
-                }
-            };
-            settle();
-            const Positions<kDim> before = simulation.positions(0);
-            Grab<kDim> grab = corner(simulation, 0, 20000);
-            grab.anchor[kDim - 1] += far;
-            const auto id = simulation.add_grab(grab);
-            double farthest = 0;
-            for (int i = 0; i < 60; ++i) {
-                take_step(simulation);
-                farthest = std::max(farthest, (simulation.positions(0) - before).norm());
-            }
-            EXPECT_GT(farthest, 0.05);  // it was a hard pull
-            simulation.remove_grab(id);
-            settle();
-            EXPECT_LT((simulation.positions(0) - before).norm(), 1e-3) << far;
-        }
-    }
-}
-
 // ---- forces and gravity
 
 TYPED_TEST(Host, PushesByForcesUntilItTakesThemAway) {
@@ -388,27 +247,6 @@ TYPED_TEST(Host, WakesWhatSleepsByWhateverItDoes) {
         take_step(simulation);
         EXPECT_FALSE(simulation.sleep()[0].is_asleep) << deed;
     }
-}
-
-// Held still, a grab lets a body sleep; what does not change wakes nothing.
-TYPED_TEST(Host, LetsABodySleepOnAStillGrab) {
-    constexpr int kDim = TypeParam::value;
-    Scene scene = floating_cube<kDim>();
-    scene.sleep = Sleep{.speed = 1e-3, .time = 0.05};
-    Simulation<kDim> simulation(scene, {cube<kDim>(1)});
-    static_cast<void>(simulation.add_grab(corner(simulation, 0)));
-    simulation.set_targets(0, {0}, simulation.positions(0).leftCols(1));
-    for (int i = 0; i < 5; ++i) {
-        take_step(simulation);
-    }
-    EXPECT_TRUE(simulation.sleep()[0].is_asleep);
-    simulation.set_gravity(Vector<kDim>::Zero());
-    simulation.set_forces(0, Positions<kDim>::Zero(kDim, simulation.masses(0).size()));
-    simulation.set_targets(0, {0}, simulation.positions(0).leftCols(1));
-    simulation.release(0, {1});
-    simulation.move_grab(1, corner(simulation, 0).anchor);
-    take_step(simulation);
-    EXPECT_TRUE(simulation.sleep()[0].is_asleep);
 }
 
 // ---- what is not right

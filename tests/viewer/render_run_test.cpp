@@ -1,22 +1,16 @@
+#include "pictures.h"
 #include "runs.h"
-#include "survey.h"
 
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/obstacles_file.h>
 #include <pent/viewer/movie.h>
 #include <pent/viewer/render_run.h>
-#include <pent/viewer/slice.h>
 #include <pent/viewer/slice_run.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <limits>
-#include <numbers>
-#include <png.h>
-#include <sstream>
 #include <support/messages.h>
 #include <support/temp_folder.h>
 
@@ -26,242 +20,12 @@ namespace {
 using pent::test::error_of;
 using pent::test::expect_contains;
 using pent::test::TempFolder;
+using test::count_files;
+using test::floor_and_ball;
+using test::go_on;
+using test::read_png;
+using test::small_pictures;
 using test::write_run;
-
-Image read_png(const std::filesystem::path& path) {
-    png_image png = {};
-    png.version = PNG_IMAGE_VERSION;
-    EXPECT_NE(png_image_begin_read_from_file(&png, path.c_str()), 0) << png.message;
-    png.format = PNG_FORMAT_RGB;
-    Image image(static_cast<int>(png.width), static_cast<int>(png.height));
-    EXPECT_NE(png_image_finish_read(&png, nullptr, image.rgb.data(), 0, nullptr), 0) << png.message;
-    return image;
-}
-
-bool go_on(std::string_view /*what*/, std::int64_t /*done*/, std::int64_t /*total*/) {
-    return true;
-}
-
-std::string text_in(const std::filesystem::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
-}
-
-std::size_t count_files(const std::filesystem::path& folder) {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
-}
-
-RenderRunOptions small_pictures(const RunFolder& run) {
-    RenderRunOptions options;
-    options.frames = run.frames;
-    options.width = 96;
-    options.height = 64;
-    return options;
-}
-
-TEST(MakeSections, GoesThroughTheMiddleUnlessTold) {
-    const SimplexMesh<4> mesh = pent::test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 3});
-    Frame<4> frame;
-    frame.positions = mesh.positions;
-    const std::vector<Section> sections = make_sections<4>({}, std::span(&frame, 1));
-    ASSERT_EQ(sections.size(), 1U);
-    EXPECT_EQ(sections[0].plane.offset, 1.5);
-    EXPECT_EQ(sections[0].label, "w = 1.5");
-}
-
-TEST(MakeSections, LetsTheLastRotationTakeSeveralAngles) {
-    Frame<4> frame;
-    frame.positions = Positions<4>::Identity(4, 4);
-    SectionOptions options;
-    options.offsets = {0.1, 0.2};
-    options.rotations = {{1, 2, 0.3}, {0, 3, 0}};
-    options.last_angles = {0.4, 0.5};
-    const std::vector<Section> sections = make_sections<4>(options, std::span(&frame, 1));
-    ASSERT_EQ(sections.size(), 4U);
-    const PlaneRotation turns[] = {{1, 2, 0.3}, {0, 3, 0.5}};
-    EXPECT_EQ(sections[3].plane.frame, rotation_matrix(turns));
-    EXPECT_EQ(sections[3].plane.offset, 0.2);
-}
-
-TEST(MakeSections, NamesAHyperplaneByItsUnitNormal) {
-    Frame<4> frame;
-    frame.positions = Positions<4>::Identity(4, 4);
-    SectionOptions options;
-    options.normal = Eigen::Vector4d(0, 3, 0, 4);
-    options.offsets = {0.5};
-    EXPECT_EQ(make_sections<4>(options, std::span(&frame, 1))[0].label,
-              "(0, 0.6, 0, 0.8) . p = 0.5");
-}
-
-TEST(SpanLabel, TellsOffsetsAndAnglesFromTheFirstToTheLast) {
-    SectionOptions options;
-    EXPECT_EQ(span_label(options), "");
-    options.offsets = {-0.1, 0, 0.3};
-    EXPECT_EQ(span_label(options), "-0.1 to 0.3");
-    options.rotations = {{1, 2, 0.3}, {0, 3, 0}};
-    options.last_angles = {0, std::numbers::pi / 2};
-    EXPECT_EQ(span_label(options), "-0.1 to 0.3, xw 0 to 90");
-    options.offsets = {0};
-    EXPECT_EQ(span_label(options), "xw 0 to 90");
-}
-
-TEST(Survey, TakesTheRoundingOfAQuantityThatIsTheSameEverywhereForOneValue) {
-    const SimplexMesh<4> mesh = test::jittered_box({2, 2, 2, 2}, 23);
-    const Eigen::VectorXd w = mesh.positions.row(3).transpose();
-    for (const double offset : {0.0, 0.1, 0.7}) {
-        Survey survey;
-        for (const double turn : {0.0, 0.1}) {  // two bodies, which round in other ways
-            const Positions<4> positions = test::twisted(mesh.positions, turn);
-            const Surface surface =
-                slice(make_boundary(mesh, "box"), positions, hyperplane_at(offset));
-            survey.add(surface, positions.row(3).transpose(), ColorBy::W);
-        }
-        const ColorRange range = survey.range();
-        EXPECT_EQ(range.low, range.high);
-        EXPECT_NEAR(range.low, offset, 1e-15);
-    }
-}
-
-// What is left of the solver's single precision in a body that falls freely; stiff ones are
-// strained by not much more.
-TEST(Survey, TakesStrainsOfLessThanARoundingOfSinglePrecisionForNone) {
-    const SimplexMesh<4> mesh = test::jittered_box({1, 1, 1, 1}, 23);
-    const Surface surface = slice(make_boundary(mesh, "box"), mesh.positions, hyperplane_at(0.5));
-    const auto range_of = [&](double strain) {
-        Survey survey;
-        survey.add(surface, Eigen::VectorXd::Constant(mesh.vertex_count(), strain),
-                   ColorBy::Strain);
-        return survey.range();
-    };
-    EXPECT_EQ(range_of(1e-7).high, 0);
-    EXPECT_NEAR(range_of(2e-7).high, 2e-7, 1e-20);
-}
-
-TEST(MakeSections, RefusesWhatContradictsItself) {
-    const Frame<4> frame;
-    SectionOptions both;
-    both.normal = Eigen::Vector4d(1, 0, 0, 0);
-    both.rotations = {{0, 3, 1}};
-    EXPECT_THROW((void)make_sections<4>(both, std::span(&frame, 1)), Error);
-    SectionOptions endless;
-    endless.offsets = {0, std::numeric_limits<double>::infinity()};
-    expect_contains(error_of([&] { (void)make_sections<4>(endless, std::span(&frame, 1)); }),
-                    {"an offset that is not finite"});
-    SectionOptions angles;
-    angles.last_angles = {1, 2};
-    expect_contains(error_of([&] { (void)make_sections<4>(angles, std::span(&frame, 1)); }),
-                    {"angles without a rotation"});
-    const Frame<3> flat;
-    SectionOptions offset;
-    offset.offsets = {0.5};
-    EXPECT_THROW((void)make_sections<3>(offset, std::span(&flat, 1)), Error);
-}
-
-TEST(SliceRun, WritesEveryFrameBodyAndSectionWithTheirVolumes) {
-    const TempFolder folder;
-    write_run(folder / "run", "a", {0, 1});
-    write_run(folder / "run", "b", {0, 1});
-    const RunFolder run = open_run(folder / "run");
-    SliceRunOptions options;
-    options.frames = run.frames;
-    options.sections.offsets = {0.3, 0.6};
-    const SliceRunReport report = slice_run(run, folder / "out", options, go_on);
-    EXPECT_TRUE(report.is_complete);
-    ASSERT_EQ(report.slices.size(), 8U);
-    EXPECT_EQ(count_files(folder / "out"), 9U);  // and slices.csv
-
-    const std::vector<Body<4>> bodies = load_bodies<4>(run);
-    const Frame<4> frame = load_frame<4>(run, bodies[1], 1);
-    const Surface expected = slice(bodies[1].boundary, frame.positions, hyperplane_at(0.6));
-    const SliceRecord& record = report.slices.back();
-    EXPECT_EQ(record.file, "b_s01_000001.ply");
-    EXPECT_EQ(record.time, 0.1);
-    EXPECT_NEAR(record.volume, enclosed_volume(expected), 1e-13);
-}
-
-// Ground under the run's body, and a ball that reaches past both hyperplanes.
-std::vector<Obstacle<4>> floor_and_ball() {
-    return {HalfSpace<4>{Eigen::Vector4d::UnitY(), -0.1},
-            Ball<4>{Eigen::Vector4d(2, 0.5, 0.5, 0.5), 0.4}};
-}
-
-TEST(SliceRun, WritesObstaclesIntoFilesOfTheirOwnWhereAsked) {
-    const TempFolder folder;
-    write_run(folder / "run", "a", {0, 1});
-    write_obstacles<4>(folder / "run/obstacles.json", floor_and_ball());
-    const RunFolder run = open_run(folder / "run");
-    SliceRunOptions options;
-    options.frames = run.frames;
-    const SliceRunReport without = slice_run(run, folder / "without", options, go_on);
-    EXPECT_EQ(without.obstacles, 2);
-    EXPECT_EQ(without.slices.size(), 2U);
-    EXPECT_NE(text_in(folder / "without/a_000000.ply").find("without obstacles"),
-              std::string::npos);
-
-    options.has_obstacles = true;
-    options.sections.offsets = {0.4, 0.6};
-    const SliceRunReport with = slice_run(run, folder / "with", options, go_on);
-    EXPECT_EQ(with.slices.size(), 2U * 2U * 3U);
-    EXPECT_EQ(count_files(folder / "with"), 13U);  // and slices.csv
-    EXPECT_NE(text_in(folder / "with/a_s00_000000.ply").find("obstacles in files of their own"),
-              std::string::npos);
-    EXPECT_NE(text_in(folder / "with/obstacle.1_s01_000001.ply")
-                  .find("obstacle 1, half_space, w = 0.6, cut off"),
-              std::string::npos);
-    const SliceRecord& ball = with.slices.back();
-    EXPECT_EQ(ball.file, "obstacle.2_s01_000001.ply");
-    EXPECT_TRUE(ball.is_obstacle);
-    const double radius = std::sqrt(0.4 * 0.4 - 0.1 * 0.1);
-    const double volume = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
-    EXPECT_NEAR(ball.volume, volume, 1e-3 * volume);  // chords of 192 corners
-    EXPECT_TRUE(std::isnan(with.slices[2].volume));   // a plane has none
-}
-
-TEST(SliceRun, StopsBetweenFramesAndListsWhatItWrote) {
-    const TempFolder folder;
-    write_run(folder / "run", "a", {0, 1, 2});
-    const RunFolder run = open_run(folder / "run");
-    SliceRunOptions options;
-    options.frames = run.frames;
-    const SliceRunReport report =
-        slice_run(run, folder / "out", options,
-                  [](std::string_view, std::int64_t done, std::int64_t) { return done < 2; });
-    EXPECT_FALSE(report.is_complete);
-    EXPECT_EQ(report.slices.size(), 2U);
-    EXPECT_EQ(count_files(folder / "out"), 3U);
-}
-
-TEST(SliceRun, KeepsOtherFilesInAUsedFolder) {
-    const TempFolder folder;
-    write_run(folder / "run", "a", {0});
-    const RunFolder run = open_run(folder / "run");
-    SliceRunOptions options;
-    options.frames = run.frames;
-    make_folder(folder / "out");
-    write_text(folder / "out/mine.txt", "keep");
-    for (int repeat = 0; repeat < 2; ++repeat) {
-        (void)slice_run(run, folder / "out", options, go_on);
-    }
-    EXPECT_EQ(count_files(folder / "out"), 3U);
-    EXPECT_TRUE(std::filesystem::exists(folder / "out/mine.txt"));
-}
-
-TEST(SliceRun, PutsVtuFilesInTime) {
-    const TempFolder folder;
-    write_run(folder / "run", "a", {0, 1});
-    const RunFolder run = open_run(folder / "run");
-    SliceRunOptions options;
-    options.frames = run.frames;
-    options.format = SurfaceFormat::Vtu;
-    options.color = ColorBy::Speed;
-    (void)slice_run(run, folder / "out", options, go_on);
-    std::ostringstream collection;
-    collection << std::ifstream(folder / "out/a.pvd").rdbuf();
-    EXPECT_NE(collection.str().find("timestep=\"0.10000000000000001\" part=\"0\" "
-                                    "file=\"a_000001.vtu\""),
-              std::string::npos);
-}
 
 TEST(RenderRun, MakesPicturesSheetAndFolder) {
     const TempFolder folder;
