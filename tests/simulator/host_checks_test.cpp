@@ -1,0 +1,102 @@
+#include "host_scenes.h"
+#include "support/messages.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+// What a host asks for and cannot have.
+
+namespace pent::simulator {
+namespace {
+
+using test::corner;
+using test::cube;
+using test::Dimensions;
+using test::floating_cube;
+
+template <typename T>
+class HostChecks : public testing::Test {};
+TYPED_TEST_SUITE(HostChecks, Dimensions);
+
+TYPED_TEST(HostChecks, SayWhatIsNotRightAndNothingHasChanged) {
+    constexpr int kDim = TypeParam::value;
+    Simulation<kDim> simulation(floating_cube<kDim>(), {cube<kDim>(1)});
+    const Positions<kDim> one = simulation.positions(0).leftCols(1);
+    const Positions<kDim> nan = one * std::numeric_limits<double>::quiet_NaN();
+    const Grab<kDim> good = corner(simulation, 0);
+    const auto with = [&](const auto& change) {
+        return [&, change] {
+            Grab<kDim> grab = good;
+            change(grab);
+            static_cast<void>(simulation.add_grab(grab));
+        };
+    };
+    const std::vector<std::pair<std::function<void()>, std::string>> wrongs = {
+        {[&] { simulation.set_targets(1, {0}, one); }, "body 1 of 1"},
+        {[&] { simulation.set_targets(-1, {0}, one); }, "body -1 of 1"},
+        {[&] { simulation.set_targets(0, {99}, one); }, "vertex 99 of"},
+        {[&] {
+             simulation.set_targets(0, {0, 0}, one.replicate(1, 2));
+         },
+         "vertex 0 is in the list"},
+        {[&] {
+             simulation.set_targets(0, {0, 1}, one);
+         },
+         "targets of 1 vertices"},
+        {[&] { simulation.set_targets(0, {0}, nan); }, "finite numbers"},
+        {[&] { simulation.release(3, {0}); }, "body 3 of 1"},
+        {[&] { simulation.set_forces(0, one); }, "forces of 1 vertices"},
+        {[&] { simulation.set_gravity(nan.col(0)); }, "gravity must be finite"},
+        {[&] { simulation.move_grab(7, one.col(0)); }, "there is no grab 7"},
+        {[&] { simulation.remove_grab(7); }, "there is no grab 7"},
+        {[&] { simulation.remove_obstacle(0); }, "obstacle 0 of 0"},
+        {[&] { simulation.remove_body(1); }, "body 1 of 1"},
+        {[&] { simulation.remove_body(0); }, "no body"},
+        {with([](auto& g) { g.point.body = 4; }), "body 4 of 1"},
+        {with([](auto& g) { g.point.cell = 1000; }), "cell 1000 of"},
+        {with([](auto& g) { g.point.weights *= 2; }), "the sum 2"},
+        {with([](auto& g) { g.anchor[0] /= 0; }), "anchor of a grab must be finite"},
+        {with([](auto& g) { g.stiffness = 0; }), "stiffness 0"},
+        {with([](auto& g) { g.damping = -1; }), "damping -1"},
+        {with([](auto& g) { g.max_force = 0; }), "max_force 0"},
+    };
+    for (const auto& [wrong, text] : wrongs) {
+        pent::test::expect_contains(pent::test::error_of(wrong), {text});
+    }
+    const HostState<kDim> host = simulation.host();
+    EXPECT_TRUE(!host.gravity && host.grabs.empty() && host.held.empty() && host.next_grab == 1);
+}
+
+TEST(HostStates, ThatNoSimulationHasAreRefused) {
+    Simulation<3> simulation(floating_cube<3>(), {cube<3>(1)});
+    static_cast<void>(simulation.add_grab(corner(simulation, 0)));
+    simulation.set_targets(0, {1, 3}, simulation.positions(0).leftCols(2));
+    const Snapshot<3> good = simulation.save();
+    const auto refused = [&](const auto& change) {
+        Snapshot<3> snapshot = good;
+        change(snapshot.host);
+        return pent::test::error_of([&] { simulation.restore(snapshot); });
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    pent::test::expect_contains(refused([&](auto& h) { h.gravity = Vector<3>::Constant(nan); }),
+                                {"gravity"});
+    pent::test::expect_contains(refused([&](auto& h) { h.forces.setOnes(3, 2); }), {"forces of 2"});
+    pent::test::expect_contains(refused([&](auto& h) { h.held[1] = 8; }), {"below 8"});
+    pent::test::expect_contains(refused([&](auto& h) { h.held[1] = 0; }), {"increase"});
+    pent::test::expect_contains(refused([&](auto& h) { h.targets.setOnes(3, 1); }),
+                                {"targets of 1"});
+    pent::test::expect_contains(refused([&](auto& h) { h.next_grab = 1; }), {"grab 1"});
+    pent::test::expect_contains(refused([&](auto& h) { h.grabs[0].grab.max_force.reset(); }),
+                                {"max_force"});
+    pent::test::expect_contains(refused([&](auto& h) { h.grabs[0].grab.point.body = 1; }),
+                                {"body 1 of 1"});
+    EXPECT_NO_THROW(simulation.restore(good));
+}
+
+}  // namespace
+}  // namespace pent::simulator
