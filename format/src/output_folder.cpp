@@ -1,5 +1,7 @@
 #include "pent/output_folder.h"
 
+#include "folder_lock.h"
+
 #include <pent/error.h>
 #include <pent/output_file.h>
 
@@ -188,7 +190,27 @@ OutputFolder::OutputFolder(fs::path path, std::string kind)
     names_ = std::move(list->names);
     has_list_ = true;
     if (!list->is_whole) {
+        lock();
         write_list();
+    }
+}
+
+OutputFolder::~OutputFolder() = default;
+OutputFolder::OutputFolder(OutputFolder&&) noexcept = default;
+OutputFolder& OutputFolder::operator=(OutputFolder&&) noexcept = default;
+
+// What another program did between our look and now would be lost in our list.
+void OutputFolder::lock() {
+    if (lock_ != nullptr) {
+        return;
+    }
+    make_folder(path_);
+    lock_ = std::make_unique<FolderLock>(path_);
+    const std::optional<List> list = read_list(path_);
+    if ((list ? list->names : std::set<std::string>()) != names_) {
+        throw Error(path_.string()
+                    + ": another program has just written to this folder; try again, or use another"
+                      " folder");
     }
 }
 
@@ -210,6 +232,7 @@ void OutputFolder::refuse_foreign() const {
 
 fs::path OutputFolder::claim(const std::string& name) {
     const fs::path path = path_ / name;
+    lock();
     if (names_.count(name) != 0) {
         make_folder(path.parent_path());  // may have been removed
         return path;
@@ -225,13 +248,13 @@ fs::path OutputFolder::claim(const std::string& name) {
 }
 
 void OutputFolder::adopt(const std::string& name) {
+    lock();
     if (!names_.insert(name).second) {
         return;
     }
     if (has_list_) {
         append_text(path_ / kList, name + "\n");
     } else {
-        make_folder(path_);
         write_list();
         has_list_ = true;
     }
@@ -239,12 +262,14 @@ void OutputFolder::adopt(const std::string& name) {
 
 void OutputFolder::remove(const std::string& name) {
     if (names_.count(name) != 0) {
+        lock();
         remove_entry(path_, name);
     }
 }
 
 void OutputFolder::clear(const std::vector<fs::path>& inputs) {
     refuse_inputs(path_, names_, inputs);
+    lock();
     remove_temporaries();
     for (const std::string& name : names_) {
         remove_entry(path_, name);
@@ -259,7 +284,8 @@ void OutputFolder::clear(const std::vector<fs::path>& inputs) {
     }
 }
 
-void OutputFolder::remove_temporaries() const {
+void OutputFolder::remove_temporaries() {
+    lock();
     std::set<fs::path> folders = {""};
     for (const std::string& name : names_) {
         folders.insert(fs::path(name).parent_path());

@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -95,8 +97,49 @@ TEST_F(OutputFolders, AreClearedOfWhatIsListedAndOfNothingElse) {
     for (const char* name : {"out/notes.txt", "out/meshes/torus.pent", "out/frames/sub/x.pent"}) {
         EXPECT_EQ(text_of(name), "mine") << name;
     }
-    EXPECT_TRUE(OutputFolder(out_, "run").has_list());  // still ours to write to
-    EXPECT_NO_THROW(static_cast<void>(OutputFolder(out_, "run").claim("scene.toml")));
+    output = OutputFolder(out_, "run");
+    EXPECT_TRUE(output.has_list());  // still ours to write to
+    EXPECT_NO_THROW(static_cast<void>(output.claim("scene.toml")));
+}
+
+TEST_F(OutputFolders, AreWrittenToByOneProgramAtATime) {
+    auto first = std::make_unique<OutputFolder>(out_, "run");
+    static_cast<void>(first->claim("a"));
+    OutputFolder second(out_, "run");  // looking is allowed
+    EXPECT_TRUE(second.has_list());
+    const auto claim = [&] { static_cast<void>(second.claim("b")); };
+    const std::string list = text_of("out/written.txt");
+    for (int i = 0; i < 2; ++i) {
+        expect_contains(error_of(claim),
+                        {out_.string() + ": another program is writing to this folder"});
+        expect_contains(error_of([&] { second.clear({}); }), {"another program is writing"});
+    }
+    EXPECT_EQ(text_of("out/written.txt"), list);
+    first.reset();
+    EXPECT_NO_THROW(claim());
+    expect_contains(text_of("out/written.txt"), {"\na\n", "\nb\n"});
+}
+
+// What another has written between a look and the first change would be lost from the list.
+TEST_F(OutputFolders, AreNotWrittenToAfterALookThatIsTooOld) {
+    OutputFolder output(out_, "run");
+    static_cast<void>(OutputFolder(out_, "run").claim("a"));
+    expect_contains(error_of([&] { static_cast<void>(output.claim("b")); }),
+                    {"another program has just written to this folder"});
+}
+
+// Programs that are started while a folder is locked do not keep it locked when they live longer.
+TEST_F(OutputFolders, AreNotLockedByProgramsThatWereStartedMeanwhile) {
+    FILE* child = nullptr;
+    {
+        OutputFolder output(out_, "run");
+        static_cast<void>(output.claim("a"));
+        child = popen("cat", "w");  // lives until its input ends
+        ASSERT_NE(child, nullptr);
+    }
+    OutputFolder output(out_, "run");
+    EXPECT_NO_THROW(static_cast<void>(output.claim("b")));
+    pclose(child);
 }
 
 TEST_F(OutputFolders, KeepTheirFoldersWithAListOfTheirOwnApart) {

@@ -79,6 +79,27 @@ TEST_P(ResumeIntegrators, StopWhenAskedAndResumeToTheSameBytes) {
     }
 }
 
+// Two at once would mix their frames.
+TEST(Resume, IsRefusedWhileAnotherProgramWritesToTheFolder) {
+    const TempFolder folder;
+    const Scene scene = falling_bar(folder, 2);
+    int frames = 0;
+    const auto resume_too = [&](const FrameReport& /*frame*/, const StepReport& /*step*/) {
+        ++frames;
+        pent::test::expect_contains(
+            pent::test::error_of(
+                [&] { static_cast<void>(run(scene, {.folder = folder / "run", .resume = true})); }),
+            {"another program is writing to this folder"});
+    };
+    const RunReport report =
+        run(scene, {.folder = folder / "run"}, {.should_stop = nullptr, .on_frame = resume_too});
+    EXPECT_EQ(frames, 3);
+    EXPECT_EQ(report.verdict, RunVerdict::Finished);
+    static_cast<void>(run(scene, {.folder = folder / "once"}));
+    EXPECT_EQ(bytes_of(folder / "run/frames/box_000002.pent"),
+              bytes_of(folder / "once/frames/box_000002.pent"));
+}
+
 TEST(Resume, RemovesWhatAKilledRunLeftHalfWritten) {
     const TempFolder folder;
     const Scene scene = falling_bar(folder, 1);

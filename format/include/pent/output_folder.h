@@ -1,11 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace pent {
+
+class FolderLock;
 
 /// A folder of which a program knows what it wrote there. The names of its files stand in
 /// FOLDER/written.txt, each from before it is written, so that they do after a kill at any moment
@@ -16,7 +19,8 @@ namespace pent {
 ///     frames/box_000000.pent
 ///     runs/fine/                    a folder with a list of its own
 ///
-/// Every function throws an Error that names the path where a file cannot be read or written.
+/// Every function throws an Error that names the path where a file cannot be read or written. From
+/// the first one that changes something on, no other program may change anything in the folder.
 class OutputFolder {
 public:
     /// Looks at a folder and writes nothing. Throws an Error if the path is not a folder, or if its
@@ -25,6 +29,9 @@ public:
     /// @param kind  What the folder holds, as in "run": of folders of another kind nothing is
     ///              touched.
     OutputFolder(std::filesystem::path path, std::string kind);
+    ~OutputFolder();
+    OutputFolder(OutputFolder&&) noexcept;
+    OutputFolder& operator=(OutputFolder&&) noexcept;
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
@@ -58,9 +65,10 @@ public:
     void clear(const std::vector<std::filesystem::path>& inputs);
 
     /// Removes what a killed program left half written: `.NAME.PID.tmp` beside a listed NAME.
-    void remove_temporaries() const;
+    void remove_temporaries();
 
 private:
+    void lock();
     void write_list() const;
 
     std::filesystem::path path_;
@@ -68,6 +76,7 @@ private:
     std::set<std::string> names_;
     bool has_list_ = false;
     bool is_foreign_ = false;
+    std::unique_ptr<FolderLock> lock_;  // from the first change on
 };
 
 }  // namespace pent
