@@ -1,5 +1,4 @@
-#include "box_tree.h"
-
+#include <pent/contact/box_tree.h>
 #include <pent/parallel.h>
 
 #include <array>
@@ -231,9 +230,11 @@ std::vector<BoxTree::Work> BoxTree::split(const BoxTree& first,
 template Box box_around(const Eigen::Matrix<double, 3, 1>&, double);
 template Box box_around(const Eigen::Matrix<double, 3, 2>&, double);
 template Box box_around(const Eigen::Matrix<double, 3, 3>&, double);
+template Box box_around(const Eigen::Matrix<double, 3, 4>&, double);
 template Box box_around(const Eigen::Matrix<double, 4, 1>&, double);
 template Box box_around(const Eigen::Matrix<double, 4, 2>&, double);
 template Box box_around(const Eigen::Matrix<double, 4, 3>&, double);
 template Box box_around(const Eigen::Matrix<double, 4, 4>&, double);
+template Box box_around(const Eigen::Matrix<double, 4, 5>&, double);
 
 }  // namespace pent::contact

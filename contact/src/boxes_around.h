@@ -1,8 +1,8 @@
 #pragma once
 
-#include "box_tree.h"
 #include "gather.h"
 
+#include <pent/contact/box_tree.h>
 #include <pent/parallel.h>
 
 #include <vector>

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "box_tree.h"
 #include "candidate.h"
 #include "chunks.h"
 #include "closest_point_search.h"
 #include "gather.h"
+
+#include <pent/contact/box_tree.h>
 
 #include <algorithm>
 #include <cmath>

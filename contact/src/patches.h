@@ -1,7 +1,6 @@
 #pragma once
 
-#include "box_tree.h"
-
+#include <pent/contact/box_tree.h>
 #include <pent/contact/surface.h>
 
 #include <limits>

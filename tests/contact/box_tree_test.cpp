@@ -1,4 +1,4 @@
-#include "box_tree.h"
+#include <pent/contact/box_tree.h>
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,8 @@
 
 #include <bit>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace pent::simulator {
 
@@ -42,14 +44,18 @@ typename MaterialPoint<Dim>::Weights foot(const Corners<Dim>& corners,
     return weights;
 }
 
+// A point of a cell, and its distance.
+template <int Dim>
+struct PointOfCell {
+    typename MaterialPoint<Dim>::Weights weights = MaterialPoint<Dim>::Weights::Zero();
+    double distance = std::numeric_limits<double>::infinity();
+};
+
 // The nearest point of one cell: the least distant of those feet upon its faces that lie in them.
 template <int Dim>
-void take_nearer(const Corners<Dim>& corners,
-                 const Vector<Dim>& point,
-                 MaterialPoint<Dim>& nearest,
-                 bool& is_taken) {
+PointOfCell<Dim> nearest_of_cell(const Corners<Dim>& corners, const Vector<Dim>& point) {
     constexpr unsigned kFaces = 1U << (Dim + 1);
-    is_taken = false;
+    PointOfCell<Dim> nearest;
     for (unsigned face = kFaces - 1; face > 0; --face) {  // the whole cell first
         const auto weights = foot<Dim>(corners, face, point);
         if (weights.minCoeff() < 0) {
@@ -57,47 +63,59 @@ void take_nearer(const Corners<Dim>& corners,
         }
         const double distance = face == kFaces - 1 ? 0 : (corners * weights - point).norm();
         if (distance < nearest.distance) {
-            nearest.distance = distance;
-            nearest.weights = weights;
-            is_taken = true;
+            nearest = {weights, distance};
         }
         if (distance == 0) {
-            return;
+            break;
         }
     }
+    return nearest;
 }
 
 }  // namespace
 
 template <int Dim>
-MaterialPoint<Dim> nearest_point(const Positions<Dim>& positions,
-                                 const Eigen::Ref<const Simplices<Dim + 1>>& cells,
-                                 const Vector<Dim>& point) {
-    // No farther than the nearest corner; most boxes around cells are.
-    double bound = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t vertex : cells.reshaped()) {
-        bound = std::min(bound, (positions.col(vertex) - point).squaredNorm());
+NearestPointSearch<Dim>::NearestPointSearch(const Positions<Dim>& positions,
+                                            Simplices<Dim + 1> cells)
+    : positions_(positions), cells_(std::move(cells)) {
+    std::vector<contact::Box> boxes;
+    boxes.reserve(static_cast<std::size_t>(cells_.cols()));
+    for (Eigen::Index cell = 0; cell < cells_.cols(); ++cell) {
+        boxes.push_back(contact::box_around<Dim, Dim + 1>(corners(cell), 0));
     }
+    tree_ = contact::BoxTree(boxes);
+}
+
+template <int Dim>
+Corners<Dim> NearestPointSearch<Dim>::corners(Eigen::Index cell) const {
+    Corners<Dim> corners;
+    for (int i = 0; i <= Dim; ++i) {
+        corners.col(i) = positions_.col(cells_(i, cell));
+    }
+    return corners;
+}
+
+template <int Dim>
+MaterialPoint<Dim> NearestPointSearch<Dim>::nearest(const Vector<Dim>& point) const {
+    // A box may round to a hair beyond the cell that it holds: none that is as near is left out.
+    constexpr double kSlack = 1 + 1e-12;
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    PointOfCell<Dim> best;
+    std::uint32_t first = 0;
+    tree_.for_each_near<Dim>(point, kFar, [&](std::uint32_t cell) {
+        const PointOfCell<Dim> of_cell = nearest_of_cell<Dim>(corners(cell), point);
+        if (of_cell.distance < best.distance
+            || (of_cell.distance == best.distance && cell < first)) {
+            best = of_cell;
+            first = cell;
+        }
+        return best.distance * best.distance * kSlack;
+    });
     MaterialPoint<Dim> nearest;
-    nearest.distance = std::numeric_limits<double>::infinity();
-    for (Eigen::Index cell = 0; cell < cells.cols(); ++cell) {
-        Corners<Dim> corners;
-        for (int i = 0; i <= Dim; ++i) {
-            corners.col(i) = positions.col(cells(i, cell));
-        }
-        const Vector<Dim> low = corners.rowwise().minCoeff();
-        const Vector<Dim> high = corners.rowwise().maxCoeff();
-        if ((low - point).cwiseMax(point - high).cwiseMax(0).squaredNorm() > bound) {
-            continue;
-        }
-        bool is_taken = false;
-        take_nearer<Dim>(corners, point, nearest, is_taken);
-        if (is_taken) {
-            for (int i = 0; i <= Dim; ++i) {
-                nearest.vertices[static_cast<std::size_t>(i)] = cells(i, cell);
-            }
-            bound = std::min(bound, nearest.distance * nearest.distance);
-        }
+    nearest.weights = best.weights;
+    nearest.distance = best.distance;
+    for (int i = 0; i <= Dim; ++i) {
+        nearest.vertices[static_cast<std::size_t>(i)] = cells_(i, first);
     }
     return nearest;
 }
@@ -112,10 +130,9 @@ typename MaterialPoint<Dim>::Weights barycentric(const Eigen::Matrix<double, Dim
     return weights;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                                    \
-    template MaterialPoint<Dim> nearest_point<Dim>(                                              \
-        const Positions<Dim>&, const Eigen::Ref<const Simplices<Dim + 1>>&, const Vector<Dim>&); \
-    template MaterialPoint<Dim>::Weights barycentric<Dim>(                                       \
+#define PENT_INSTANTIATE(Dim)                              \
+    template class NearestPointSearch<Dim>;                \
+    template MaterialPoint<Dim>::Weights barycentric<Dim>( \
         const Eigen::Matrix<double, Dim, Dim + 1>&, const Vector<Dim>&);
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)

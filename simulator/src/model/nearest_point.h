@@ -2,6 +2,7 @@
 
 #include "model/rotation.h"
 
+#include <pent/contact/box_tree.h>
 #include <pent/simplex_mesh.h>
 
 #include <array>
@@ -19,16 +20,26 @@ struct MaterialPoint {
     double distance = 0;                            ///< From the point that was asked about, m.
 };
 
-/// The point of some cells that is nearest to a point in space: that point itself, inside of them.
-///
-/// The weights are not negative, and exactly 0 for the corners that the nearest face lacks. Of
-/// cells that are equally near the first counts.
-///
-/// @param cells  At least one; the volume of none is 0.
+/// Finds the point of some cells that is nearest to a point in space: that point itself, inside of
+/// them. By a tree, so that a search takes about as long in a million cells as in a thousand.
 template <int Dim>
-[[nodiscard]] MaterialPoint<Dim> nearest_point(const Positions<Dim>& positions,
-                                               const Eigen::Ref<const Simplices<Dim + 1>>& cells,
-                                               const Vector<Dim>& point);
+class NearestPointSearch {
+public:
+    /// @param positions  Dim x vertices, m; kept by reference, and not to be changed.
+    /// @param cells      At least one; the volume of none is 0.
+    NearestPointSearch(const Positions<Dim>& positions, Simplices<Dim + 1> cells);
+
+    /// The weights are not negative, and exactly 0 for the corners that the nearest face lacks. Of
+    /// cells that are equally near the first counts.
+    [[nodiscard]] MaterialPoint<Dim> nearest(const Vector<Dim>& point) const;
+
+private:
+    [[nodiscard]] Eigen::Matrix<double, Dim, Dim + 1> corners(Eigen::Index cell) const;
+
+    const Positions<Dim>& positions_;
+    Simplices<Dim + 1> cells_;
+    contact::BoxTree tree_;
+};
 
 /// Barycentric coordinates of any point in a cell, which is taken on beyond its faces: some are
 /// negative outside.

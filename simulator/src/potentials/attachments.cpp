@@ -1,13 +1,12 @@
 #include "potentials/attachments.h"
 
-#include "model/nearest_point.h"
-
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace pent::simulator {
 
@@ -49,11 +48,16 @@ void Attachments<Dim>::add_springs(const Workers& workers,
     springs_.resize(group.begin + selected.size());
     std::vector<double> distances(selected.size(), 0);
     const auto first = static_cast<std::uint32_t>(bodies.first_vertex[group.body]);
+    std::optional<NearestPointSearch<Dim>> target;
+    if (group.target != group.body) {
+        const auto cells = bodies.cells_of(group.target);
+        target.emplace(bodies.rest, bodies.cells.middleCols(cells.begin, cells.size));
+    }
     workers.for_each(selected.size(), [&](std::size_t i) {
-        springs_[group.begin + i] =
-            group.target == group.body
-                ? tie_to_space(bodies, attachment, first + selected[i])
-                : tie_to_body(bodies, group, first + selected[i], distances[i]);
+        const std::uint32_t vertex = first + selected[i];
+        springs_[group.begin + i] = target
+                                        ? tie_to_body(bodies, group, *target, vertex, distances[i])
+                                        : tie_to_space(bodies, attachment, vertex);
     });
     group.end = springs_.size();
     const auto farthest = std::max_element(distances.begin(), distances.end());
@@ -91,12 +95,11 @@ typename Attachments<Dim>::Tie Attachments<Dim>::tie_to_space(const Bodies<Dim>&
 template <int Dim>
 typename Attachments<Dim>::Tie Attachments<Dim>::tie_to_body(const Bodies<Dim>& bodies,
                                                              const Group& group,
+                                                             const NearestPointSearch<Dim>& target,
                                                              std::uint32_t vertex,
                                                              double& distance) {
-    const auto cells = bodies.cells_of(group.target);
     const Vector<Dim> point = bodies.rest.col(vertex);
-    MaterialPoint<Dim> nearest =
-        nearest_point<Dim>(bodies.rest, bodies.cells.middleCols(cells.begin, cells.size), point);
+    MaterialPoint<Dim> nearest = target.nearest(point);
     distance = nearest.distance;
     if (group.attachment->offset == RestOffset::Keep && distance > 0) {
         Eigen::Matrix<double, Dim, Dim + 1> corners;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/bodies.h"
+#include "model/nearest_point.h"
 #include "potentials/potential.h"
 #include "potentials/spring.h"
 
@@ -70,6 +71,7 @@ private:
                                           std::uint32_t vertex);
     [[nodiscard]] static Tie tie_to_body(const Bodies<Dim>& bodies,
                                          const Group& group,
+                                         const NearestPointSearch<Dim>& target,
                                          std::uint32_t vertex,
                                          double& distance);
     [[nodiscard]] bool is_there(const Attachment& attachment, double begin) const;
