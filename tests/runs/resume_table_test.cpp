@@ -44,11 +44,17 @@ BarrierScene<Dim> busy_scene(const ResumeRow& row) {
     }
     fork = test::without<Dim>(fork, {-0.03, 0}, {0.03, 1});
     made.add(fork, vector<Dim>(0, 0));
-    // Where there is inertia the other prong is left behind less: the bend has to be quicker.
-    const double bend = row.integrator == Integrator::Quasistatic ? 0.6 : 1.1;
+    // In statics nothing but a foot that is held keeps the fork from going along as a whole. Where
+    // there is inertia the other prong is left behind, but less the slower the bend.
+    const bool is_static = row.integrator == Integrator::Quasistatic;
+    if (is_static) {
+        made.hold(-all, vector<Dim>(9, -0.1, 9), vector<Dim>(0, 0));
+    }
+    const double bend = is_static ? 0.8 : 1.1;
     made.hold(vector<Dim>(-0.2, 0.1, -9), vector<Dim>(-0.02, 9, 9), vector<Dim>(bend, 0));
-    made.add(box<Dim>(1, 1, 1, small), vector<Dim>(0.12, 0.22)).velocity = vector<Dim>(-0.4, -0.5);
-    made.hold(vector<Dim>(-9, 0.26, -9), all, vector<Dim>(-0.4, -0.5));
+    const Eigen::VectorXd slide = (is_static ? 0.5 : 1) * vector<Dim>(-0.4, -0.5);
+    made.add(box<Dim>(1, 1, 1, small), vector<Dim>(0.12, 0.22)).velocity = slide;
+    made.hold(vector<Dim>(-9, 0.26, -9), all, slide);
     made.add(box<Dim>(1, 1, 1, small), vector<Dim>(1, 0.5));
     made.hold(vector<Dim>(1.04, -9, -9), all, vector<Dim>(0, 0));
     made.add(box<Dim>(1, 1, 1, small), vector<Dim>(0.83, 0.51, 0.02)).velocity = vector<Dim>(1, 0);
