@@ -50,7 +50,7 @@ struct Bench {
     BlockVector<4> y = BlockVector<4>::Zero(4, beam.pattern.rows());
     Positions<4> forces = Positions<4>::Zero(4, beam.mesh.vertex_count());
     BlockVector<4> at_unknowns{4, beam.pattern.rows()};
-    Aggregates aggregates;
+    std::unique_ptr<Hierarchy> hierarchy;
     std::unique_ptr<Preconditioner<4>> preconditioner;
 
     explicit Bench(ElementKind kind) : beam(bench::beam(), kind) {
@@ -65,8 +65,8 @@ struct Bench {
         if (kind == ElementKind::Linear) {
             sparse = both_triangles(matrix);
         }
-        const std::vector<std::uint32_t> bodies(static_cast<std::size_t>(matrix.rows()), 0);
-        aggregates = make_aggregates<4>(at_unknowns, bodies);
+        hierarchy = std::make_unique<Hierarchy>(
+            make_hierarchy<4>(beam.pattern, beam.dofs.column_start(), at_unknowns), beam.pattern);
         preconditioner = make_preconditioner(workers);
         work.size.vertices = beam.mesh.vertex_count();
         work.size.free_vertices = matrix.rows();
@@ -74,13 +74,13 @@ struct Bench {
         work.size.element_bytes = beam.elements->bytes();
         work.size.matrix_blocks = beam.pattern.blocks();
         work.flops = count_flops(kind);
-        work.aggregates = aggregates.count();
+        work.aggregate_blocks = static_cast<double>(hierarchy->patterns[0].columns.size());
     }
 
     [[nodiscard]] std::unique_ptr<Preconditioner<4>> make_preconditioner(
         const Workers& workers) const {
-        return with_rigid_modes(workers, matrix, aggregates, at_unknowns,
-                                column_jacobi(workers, matrix, beam.dofs.column_start()));
+        return multilevel(workers, kernels<4>(best_isa()).blocks, matrix, *hierarchy, at_unknowns,
+                          column_jacobi(workers, matrix, beam.dofs.column_start()));
     }
 };
 

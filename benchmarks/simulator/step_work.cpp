@@ -6,8 +6,8 @@ namespace {
 
 constexpr double kVector = 4 * sizeof(double);  // of a vertex
 constexpr double kBlock = 16 * sizeof(float);
-constexpr double kColumn = sizeof(std::uint32_t);  // of a block
-constexpr int kModes = 10;                         // of an aggregate
+constexpr double kColumn = sizeof(std::uint32_t);     // of a block
+constexpr double kCoarseBlock = 100 * sizeof(float);  // 10 modes of one aggregate by another
 
 }  // namespace
 
@@ -28,15 +28,14 @@ Work StepWork::hessian() const {
 Work StepWork::setup() const {
     const auto rows = static_cast<double>(size.free_vertices);
     const auto blocks = static_cast<double>(size.matrix_blocks);
-    const double coarse = kModes * aggregates;
     // A block times 10 modes: 4 columns as they are, 6 rotations of 3 operations an entry, and the
     // sum.
     constexpr double kProjection = 6 * 4 * 3 + 40;
     // A row: 10 modes times 4 x 10, and two factors of the column blocks.
     constexpr double kRow = 400 + 300;
-    return {.double_flops = blocks * kProjection + rows * kRow + coarse * coarse * coarse / 3,
+    return {.double_flops = blocks * kProjection + rows * kRow,
             .bytes = blocks * (kBlock + kColumn) + rows * (2 * kBlock + 2 * kVector)
-                     + coarse * coarse * sizeof(double)};
+                     + aggregate_blocks * kCoarseBlock};
 }
 
 Work StepWork::product() const {
@@ -48,10 +47,10 @@ Work StepWork::product() const {
 
 Work StepWork::precondition() const {
     const auto rows = static_cast<double>(size.free_vertices);
-    const double coarse = kModes * aggregates;
-    // Three 4 x 4 blocks a row up and down the column, 10 modes twice.
-    return {.double_flops = rows * (3 * 32 + 2 * 44) + 2 * coarse * coarse,
-            .bytes = rows * (2 * kBlock + 3 * kVector) + coarse * coarse / 2 * sizeof(double)};
+    // Three 4 x 4 blocks a row up and down the column, 10 modes twice; two products with the matrix
+    // of the finest aggregates.
+    return {.double_flops = rows * (3 * 32 + 2 * 44) + 2 * 200 * aggregate_blocks,
+            .bytes = rows * (2 * kBlock + 3 * kVector) + aggregate_blocks * kCoarseBlock};
 }
 
 Work StepWork::vectors() const {

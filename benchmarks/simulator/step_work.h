@@ -12,7 +12,7 @@ namespace pent::simulator::bench {
 struct StepWork {
     SimulationSize size;
     FlopCount flops;
-    int aggregates = 0;
+    double aggregate_blocks = 0;  ///< Of the finest aggregates; all coarser ones are a tenth more.
 
     [[nodiscard]] Work forces() const;
     [[nodiscard]] Work hessian() const;       ///< Projected, and assembled.

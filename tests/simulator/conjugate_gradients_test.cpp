@@ -28,45 +28,50 @@ BlockMatrix<4, Scalar> definite_matrix(const ElasticBox<4>& box, double mass) {
 struct Problem {
     ElasticBox<4> box{{.lame = {.lambda = 2, .mu = 1}}};
     BlockVector<4> b;
-    BlockVector<4> x;
-    LinearSolveSpace<4> space;
+    BlockVector<4> guess;
 
     Problem() {
         box.scramble(0.1, 1);
         std::mt19937 random(2);
         std::normal_distribution<double> normal;
         b = BlockVector<4>::NullaryExpr(4, box.pattern.rows(), [&]() { return normal(random); });
-        x.setZero(4, box.pattern.rows());
+        guess.setZero(4, box.pattern.rows());
     }
 };
+
+template <typename Scalar>
+LinearSolution<4> solve(const Problem& problem,
+                        const BlockMatrix<4, Scalar>& A,
+                        const Preconditioner<4>& preconditioner,
+                        const LinearSolveOptions& options) {
+    const Workers workers(1);
+    ConjugateGradients<4> iteration(workers, kernels<4>(best_isa()).blocks);
+    return iteration.solve(A, preconditioner, problem.b, options, problem.guess);
+}
 
 TEST(ConjugateGradients, FindTheSolutionOfTheDenseFactorization) {
     Problem problem;
     const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
     const Workers workers(1);
     const auto preconditioner = column_jacobi(workers, A, problem.box.dofs.column_start());
-    const LinearSolveReport report =
-        conjugate_gradients(workers, kernels<4>(best_isa()).blocks, A, *preconditioner, problem.b,
-                            {.tolerance = 1e-12}, problem.space, problem.x);
+    const auto [x, report] = solve(problem, A, *preconditioner, {.tolerance = 1e-12});
     EXPECT_TRUE(report.has_converged);
     EXPECT_LE(report.residual, 1e-12);
     const Eigen::VectorXd expected =
         ElasticBox<4>::dense(A).ldlt().solve(problem.b.reshaped()).eval();
     // Condition about 1e4 times the residual.
-    EXPECT_LT((problem.x.reshaped() - expected).norm(), 1e-8 * expected.norm());
+    EXPECT_LT((x.reshaped() - expected).norm(), 1e-8 * expected.norm());
 }
 
 TEST(ConjugateGradients, ReachOneMillionthWithAFloatMatrix) {
     Problem problem;
     const BlockMatrix<4, float> A = definite_matrix<float>(problem.box, 0.01);
     const Workers workers(1);
-    const LinearSolveReport report =
-        conjugate_gradients(workers, kernels<4>(best_isa()).blocks, A,
-                            *column_jacobi(workers, A, problem.box.dofs.column_start()), problem.b,
-                            {.tolerance = 1e-6}, problem.space, problem.x);
+    const auto [x, report] =
+        solve(problem, A, *column_jacobi(workers, A, problem.box.dofs.column_start()),
+              {.tolerance = 1e-6});
     EXPECT_TRUE(report.has_converged);
-    const Eigen::VectorXd gap =
-        problem.b.reshaped() - ElasticBox<4>::dense(A) * problem.x.reshaped();
+    const Eigen::VectorXd gap = problem.b.reshaped() - ElasticBox<4>::dense(A) * x.reshaped();
     EXPECT_NEAR(gap.norm() / problem.b.norm(), report.residual, 1e-12);
 }
 
@@ -76,10 +81,9 @@ TEST(ConjugateGradients, ReportAMatrixThatIsNotPositiveDefinite) {
     A.diagonal(3).setZero();
     A.diagonal(3).diagonal().setConstant(-1);
     const Workers workers(1);
-    const LinearSolveReport report =
-        conjugate_gradients(workers, kernels<4>(best_isa()).blocks, A,
-                            *column_jacobi(workers, A, problem.box.dofs.column_start()), problem.b,
-                            {.tolerance = 1e-8}, problem.space, problem.x);
+    const auto [x, report] =
+        solve(problem, A, *column_jacobi(workers, A, problem.box.dofs.column_start()),
+              {.tolerance = 1e-8});
     EXPECT_TRUE(report.has_broken_down);
     EXPECT_FALSE(report.has_converged);
 }
@@ -88,10 +92,9 @@ TEST(ConjugateGradients, SayWhenIterationsRunOut) {
     Problem problem;
     const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
     const Workers workers(1);
-    const LinearSolveReport report =
-        conjugate_gradients(workers, kernels<4>(best_isa()).blocks, A,
-                            *column_jacobi(workers, A, problem.box.dofs.column_start()), problem.b,
-                            {.tolerance = 1e-12, .max_iterations = 3}, problem.space, problem.x);
+    const auto [x, report] =
+        solve(problem, A, *column_jacobi(workers, A, problem.box.dofs.column_start()),
+              {.tolerance = 1e-12, .max_iterations = 3});
     EXPECT_FALSE(report.has_converged);
     EXPECT_EQ(report.iterations, 3);
     EXPECT_GT(report.residual, 1e-12);
@@ -101,15 +104,13 @@ TEST(ConjugateGradients, GiveZeroForZeroWithoutIterating) {
     Problem problem;
     const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 1);
     problem.b.setZero();
-    problem.x.setOnes();
+    problem.guess.setOnes();
     const Workers workers(1);
-    const LinearSolveReport report =
-        conjugate_gradients(workers, kernels<4>(best_isa()).blocks, A,
-                            *column_jacobi(workers, A, problem.box.dofs.column_start()), problem.b,
-                            {}, problem.space, problem.x);
+    const auto [x, report] =
+        solve(problem, A, *column_jacobi(workers, A, problem.box.dofs.column_start()), {});
     EXPECT_TRUE(report.has_converged);
     EXPECT_EQ(report.iterations, 0);
-    EXPECT_EQ(problem.x.norm(), 0);
+    EXPECT_EQ(x.norm(), 0);
 }
 
 }  // namespace

@@ -67,8 +67,7 @@ struct SpringyBox {
         return make_iterative_solver<kBoxDim>(
             workers, kernels<kBoxDim>(best_isa()).blocks, kind,
             {.column_start = box.dofs.column_start(),
-             .rest = at_dofs<kBoxDim>(box.dofs, box.mesh.positions),
-             .bodies = std::vector<std::uint32_t>(box.dofs.count(), 0)});
+             .rest = at_dofs<kBoxDim>(box.dofs, box.mesh.positions)});
     }
     [[nodiscard]] LinearSolution<kBoxDim> solve(LinearSolver<kBoxDim>& solver,
                                                 double tolerance) const {

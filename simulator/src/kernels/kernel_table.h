@@ -19,6 +19,16 @@ constexpr auto choose_multiply() {
     }
 }
 
+template <int Dim, typename Scalar, bool IsVectorized>
+constexpr auto choose_multiply_modes() {
+    constexpr int kModes = Dim * (Dim + 1) / 2;
+    if constexpr (IsVectorized) {
+        return &multiply_spans_by_vectors<kModes, Scalar>;
+    } else {
+        return &multiply_spans<kModes, Scalar>;
+    }
+}
+
 template <int Dim, typename Real>
 RunEnergy add_gradient_of(const ElementRun& run, const double* positions, double* gradient) {
     if (run.kind == ElementKind::Quadratic) {
@@ -42,11 +52,14 @@ std::int64_t add_hessian_of(const ElementRun& run,
 template <int Dim, typename FloatPack, typename DoublePack>
 constexpr Kernels<Dim> kernel_table() {
     constexpr bool kIsVectorized = Lanes<DoublePack>::kCount > 1;
-    return {.gradient = &add_gradient_of<Dim, DoublePack>,
-            .hessian_float = &add_hessian_of<Dim, FloatPack, float>,
-            .hessian_double = &add_hessian_of<Dim, DoublePack, double>,
-            .blocks = {.multiply_float = choose_multiply<Dim, float, kIsVectorized>(),
-                       .multiply_double = choose_multiply<Dim, double, kIsVectorized>()}};
+    return {
+        .gradient = &add_gradient_of<Dim, DoublePack>,
+        .hessian_float = &add_hessian_of<Dim, FloatPack, float>,
+        .hessian_double = &add_hessian_of<Dim, DoublePack, double>,
+        .blocks = {.multiply_float = choose_multiply<Dim, float, kIsVectorized>(),
+                   .multiply_double = choose_multiply<Dim, double, kIsVectorized>(),
+                   .multiply_modes_float = choose_multiply_modes<Dim, float, kIsVectorized>(),
+                   .multiply_modes_double = choose_multiply_modes<Dim, double, kIsVectorized>()}};
 }
 
 }  // namespace

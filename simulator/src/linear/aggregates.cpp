@@ -1,79 +1,374 @@
 #include "linear/aggregates.h"
 
+#include "linear/links.h"
+
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 namespace pent::simulator {
 
 namespace {
 
-constexpr double kAggregateSize = 550;
-// The dense coarse matrix of 10 modes for each aggregate is factored in every step and read in
-// every iteration. Beyond this number of aggregates it grows as the root of the number of unknowns,
-// so that it stays a sixth of the matrix of the mesh.
-constexpr double kManyAggregates = 100;
+constexpr double kDofs = 48;     // of an aggregate
+constexpr double kChildren = 6;  // aggregates of an aggregate of aggregates
+constexpr int kRounds = 8;       // of moving borders
+constexpr double kTie = 1e-9;    // relative difference of squared distances that is none
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-// Most unknowns of an aggregate; halving leaves pieces of half of that or more.
-std::size_t most_unknowns(std::size_t unknowns) {
-    const double count = static_cast<double>(unknowns);
-    const double aggregates =
-        kManyAggregates * std::sqrt(std::max(1.0, count / (kManyAggregates * kAggregateSize)));
-    return static_cast<std::size_t>(std::max(kAggregateSize, 2 * count / aggregates));
+// How thick the layer of a dof is, in units of its distance from the nearest dof beside it; 1 where
+// it is thicker.
+template <int Dim>
+std::vector<double> layer_ratios(const Links& links,
+                                 const std::vector<std::uint32_t>& column_start,
+                                 const Positions<Dim>& rest) {
+    std::vector<double> ratios(links.size(), 1.0);
+    for (std::size_t column = 0; column + 1 < column_start.size(); ++column) {
+        const std::uint32_t begin = column_start[column];
+        const std::uint32_t end = column_start[column + 1];
+        for (std::uint32_t dof = begin; dof < end; ++dof) {
+            double within = std::numeric_limits<double>::infinity();
+            double beside = std::numeric_limits<double>::infinity();
+            links.for_each(dof, [&](std::uint32_t other) {
+                double& nearest = other >= begin && other < end ? within : beside;
+                nearest = std::min(nearest, (rest.col(other) - rest.col(dof)).norm());
+            });
+            if (within < beside) {
+                ratios[dof] = within / beside;
+            }
+        }
+    }
+    return ratios;
+}
+
+// What aggregates grow from.
+template <int Dim>
+struct Nodes {
+    Links links;
+    Positions<Dim> places;
+    std::vector<double> weights;  // what each counts for the size of an aggregate
+    std::vector<double> dofs;     // in each
+};
+
+// Nodes that are parts of others, without weights.
+template <int Dim>
+Nodes<Dim> nodes_of(const Aggregates& parts, const Nodes<Dim>& children) {
+    const auto count = parts.members.size();
+    Nodes<Dim> nodes{link_parts(children.links, parts.of_child, count),
+                     Positions<Dim>::Zero(Dim, parts.count()), std::vector<double>(count, 1.0),
+                     std::vector<double>(count, 0.0)};
+    for (std::size_t a = 0; a < count; ++a) {
+        auto place = nodes.places.col(static_cast<Eigen::Index>(a));
+        for (const std::uint32_t child : parts.members[a]) {
+            place += children.dofs[child] * children.places.col(child);
+            nodes.dofs[a] += children.dofs[child];
+        }
+        place /= nodes.dofs[a];
+    }
+    return nodes;
+}
+
+// The columns in pieces as thick as the mesh is fine: thin layers are coupled too strongly to be
+// told apart.
+Aggregates cut_columns(const std::vector<double>& ratios,
+                       const std::vector<std::uint32_t>& column_start) {
+    Aggregates pieces;
+    for (std::size_t column = 0; column + 1 < column_start.size(); ++column) {
+        const std::uint32_t begin = column_start[column];
+        const std::uint32_t end = column_start[column + 1];
+        const double thickness = std::accumulate(ratios.begin() + begin, ratios.begin() + end, 0.0);
+        const std::size_t first = pieces.members.size();
+        const auto dofs = static_cast<std::int64_t>(end - begin);
+        const auto count = static_cast<std::size_t>(std::clamp<std::int64_t>(
+            std::lround(thickness), std::min<std::int64_t>(1, dofs), dofs));
+        pieces.members.resize(first + count);
+        double below = 0;
+        for (std::uint32_t dof = begin; dof < end; ++dof) {
+            const double middle = (below + ratios[dof] / 2) / thickness;
+            below += ratios[dof];
+            const std::size_t piece =
+                first + static_cast<std::size_t>(static_cast<double>(count) * middle);
+            pieces.members[piece].push_back(dof);
+            pieces.of_child.push_back(static_cast<std::uint32_t>(piece));
+        }
+    }
+    return pieces;
+}
+
+// Pieces of columns. A whole column counts no less than the side of an aggregate of cubes, which it
+// takes the place of.
+template <int Dim>
+Nodes<Dim> nodes_of_pieces(const Aggregates& pieces,
+                           const std::vector<double>& ratios,
+                           const std::vector<std::uint32_t>& column_start,
+                           const Nodes<Dim>& dofs) {
+    Nodes<Dim> nodes = nodes_of(pieces, dofs);
+    std::fill(nodes.weights.begin(), nodes.weights.end(), 0.0);
+    for (std::size_t column = 0; column + 1 < column_start.size(); ++column) {
+        const std::uint32_t begin = column_start[column];
+        const std::uint32_t end = column_start[column + 1];
+        const double least = std::min(1.0, std::pow(kDofs, 1.0 / Dim) / (end - begin));
+        for (std::uint32_t dof = begin; dof < end; ++dof) {
+            nodes.weights[pieces.of_child[dof]] += std::max(least, ratios[dof]);
+        }
+    }
+    return nodes;
 }
 
 template <int Dim>
-void bisect(const Positions<Dim>& rest,
-            std::size_t most,
-            std::vector<std::uint32_t> unknowns,
-            std::vector<std::vector<std::uint32_t>>& pieces) {
-    if (unknowns.size() <= most) {
-        std::sort(unknowns.begin(), unknowns.end());
-        pieces.push_back(std::move(unknowns));
-        return;
+class Growth {
+public:
+    Growth(const Nodes<Dim>& nodes, double size)
+        : nodes_(&nodes), size_(size), owner_(nodes.links.size(), kNone), seen_(owner_) {}
+
+    Aggregates run() {
+        for (std::uint32_t node = 0; node < owner_.size(); ++node) {
+            if (owner_[node] == kNone) {
+                seeds_ = {node};
+                for (std::size_t next = 0; next < seeds_.size(); ++next) {
+                    if (owner_[seeds_[next]] == kNone) {
+                        grow(seeds_[next]);
+                    }
+                }
+            }
+        }
+        join_small_ones();
+        for (int round = 0; round < kRounds && move_borders(); ++round) {
+        }
+        split();
+        join_small_ones();
+        return collect();
     }
-    Eigen::Matrix<double, Dim, 1> low = rest.col(unknowns[0]);
-    Eigen::Matrix<double, Dim, 1> high = low;
-    for (const std::uint32_t unknown : unknowns) {
-        low = low.cwiseMin(rest.col(unknown));
-        high = high.cwiseMax(rest.col(unknown));
+
+private:
+    // The nodes beside it that nobody has become seeds of the next.
+    void grow(std::uint32_t seed) {
+        const auto piece = static_cast<std::uint32_t>(weights_.size());
+        weights_.push_back(0);
+        members_.emplace_back();
+        Eigen::Matrix<double, Dim, 1> sum = Eigen::Matrix<double, Dim, 1>::Zero();
+        std::vector<std::uint32_t> border = {seed};
+        seen_[seed] = piece;
+        while (!border.empty() && weights_[piece] < size_) {
+            const auto nearest = std::min_element(
+                border.begin(), border.end(), [&](std::uint32_t a, std::uint32_t b) {
+                    return std::pair(distance(a, sum, piece), a)
+                           < std::pair(distance(b, sum, piece), b);
+                });
+            const std::uint32_t node = *nearest;
+            border.erase(nearest);
+            owner_[node] = piece;
+            members_[piece].push_back(node);
+            weights_[piece] += nodes_->weights[node];
+            sum += nodes_->places.col(node);
+            nodes_->links.for_each(node, [&](std::uint32_t other) {
+                if (owner_[other] == kNone && seen_[other] != piece) {
+                    seen_[other] = piece;
+                    border.push_back(other);
+                }
+            });
+        }
+        seeds_.insert(seeds_.end(), border.begin(), border.end());
     }
-    Eigen::Index axis = 0;
-    (high - low).maxCoeff(&axis);
-    const auto middle = unknowns.begin() + static_cast<std::ptrdiff_t>(unknowns.size() / 2);
-    std::nth_element(unknowns.begin(), middle, unknowns.end(),
-                     [&](std::uint32_t a, std::uint32_t b) {
-                         return std::pair(rest(axis, a), a) < std::pair(rest(axis, b), b);
-                     });
-    bisect(rest, most, {unknowns.begin(), middle}, pieces);
-    bisect(rest, most, {middle, unknowns.end()}, pieces);
+
+    [[nodiscard]] double distance(std::uint32_t node,
+                                  const Eigen::Matrix<double, Dim, 1>& sum,
+                                  std::uint32_t piece) const {
+        const auto count = static_cast<double>(members_[piece].size());
+        return count == 0 ? 0 : (nodes_->places.col(node) - sum / count).squaredNorm();
+    }
+
+    // Every node goes to the nearest of the aggregates that it or its neighbors are in: borders
+    // become planes halfway between middles, as Lloyd's method makes them. Returns whether any
+    // went.
+    bool move_borders() {
+        Positions<Dim> middles = Positions<Dim>::Zero(Dim, count());
+        std::vector<double> dofs(members_.size(), 0.0);
+        for (std::uint32_t node = 0; node < owner_.size(); ++node) {
+            middles.col(owner_[node]) += nodes_->dofs[node] * nodes_->places.col(node);
+            dofs[owner_[node]] += nodes_->dofs[node];
+        }
+        const std::vector<std::uint32_t> before = owner_;
+        for (std::uint32_t node = 0; node < owner_.size(); ++node) {
+            const auto distance_to = [&](std::uint32_t piece) {
+                return (nodes_->places.col(node) - middles.col(piece) / dofs[piece]).squaredNorm();
+            };
+            double nearest = distance_to(before[node]);
+            nodes_->links.for_each(node, [&](std::uint32_t other) {
+                if (before[other] == owner_[node]) {
+                    return;
+                }
+                const double distance = distance_to(before[other]);
+                if (distance < (1 - kTie) * nearest) {
+                    nearest = distance;
+                    owner_[node] = before[other];
+                }
+            });
+        }
+        list_members();
+        return owner_ != before;
+    }
+
+    // Each part of an aggregate that hangs together becomes one.
+    void split() {
+        std::vector<std::uint32_t> parts(owner_.size(), kNone);
+        std::uint32_t count = 0;
+        for (std::uint32_t root = 0; root < owner_.size(); ++root) {
+            if (parts[root] != kNone) {
+                continue;
+            }
+            parts[root] = count;
+            std::vector<std::uint32_t> reached = {root};
+            for (std::size_t next = 0; next < reached.size(); ++next) {
+                nodes_->links.for_each(reached[next], [&](std::uint32_t other) {
+                    if (parts[other] == kNone && owner_[other] == owner_[root]) {
+                        parts[other] = count;
+                        reached.push_back(other);
+                    }
+                });
+            }
+            ++count;
+        }
+        owner_ = std::move(parts);
+        members_.resize(count);
+        list_members();
+    }
+
+    void list_members() {
+        for (std::vector<std::uint32_t>& members : members_) {
+            members.clear();
+        }
+        weights_.assign(members_.size(), 0.0);
+        for (std::uint32_t node = 0; node < owner_.size(); ++node) {
+            members_[owner_[node]].push_back(node);
+            weights_[owner_[node]] += nodes_->weights[node];
+        }
+    }
+
+    void join_small_ones() {
+        for (std::uint32_t piece = 0; piece < weights_.size(); ++piece) {
+            if (3 * weights_[piece] < size_) {
+                join_neighbor(piece);
+            }
+        }
+    }
+
+    // What was left over between others joins the one it has most links with.
+    void join_neighbor(std::uint32_t piece) {
+        std::vector<std::uint32_t> others;
+        for (const std::uint32_t node : members_[piece]) {
+            nodes_->links.for_each(node, [&](std::uint32_t other) {
+                if (owner_[other] != piece) {
+                    others.push_back(owner_[other]);
+                }
+            });
+        }
+        std::sort(others.begin(), others.end());
+        std::uint32_t best = kNone;
+        std::ptrdiff_t most = 0;
+        for (auto first = others.begin(); first != others.end();) {
+            const auto last = std::upper_bound(first, others.end(), *first);
+            if (last - first > most) {
+                most = last - first;
+                best = *first;
+            }
+            first = last;
+        }
+        if (best == kNone) {
+            return;
+        }
+        for (const std::uint32_t node : members_[piece]) {
+            owner_[node] = best;
+            members_[best].push_back(node);
+        }
+        weights_[best] += weights_[piece];
+        members_[piece].clear();
+        weights_[piece] = 0;
+    }
+
+    // By color: those that share no link follow one another.
+    Aggregates collect() {
+        const std::vector<std::uint32_t> colors =
+            color_nodes(link_parts(nodes_->links, owner_, members_.size()));
+        std::vector<std::uint32_t> order;
+        for (std::uint32_t piece = 0; piece < members_.size(); ++piece) {
+            if (!members_[piece].empty()) {
+                order.push_back(piece);
+            }
+        }
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return colors[a] < colors[b]; });
+        Aggregates aggregates;
+        aggregates.of_child.resize(owner_.size());
+        for (const std::uint32_t piece : order) {
+            std::vector<std::uint32_t>& members = members_[piece];
+            std::sort(members.begin(), members.end());
+            for (const std::uint32_t node : members) {
+                aggregates.of_child[node] = static_cast<std::uint32_t>(aggregates.members.size());
+            }
+            aggregates.members.push_back(std::move(members));
+        }
+        return aggregates;
+    }
+
+    [[nodiscard]] Eigen::Index count() const { return static_cast<Eigen::Index>(members_.size()); }
+
+    const Nodes<Dim>* nodes_;
+    double size_;
+    std::vector<std::uint32_t> owner_;  // of each node
+    std::vector<std::uint32_t> seen_;   // the last whose border a node was in
+    std::vector<std::uint32_t> seeds_;
+    std::vector<std::vector<std::uint32_t>> members_;
+    std::vector<double> weights_;  // of the aggregates
+};
+
+// What aggregates of parts are of the children of these.
+Aggregates compose(const Aggregates& parts, const Aggregates& aggregates) {
+    Aggregates composed;
+    composed.members.resize(aggregates.members.size());
+    for (std::uint32_t child = 0; child < parts.of_child.size(); ++child) {
+        const std::uint32_t a = aggregates.of_child[parts.of_child[child]];
+        composed.of_child.push_back(a);
+        composed.members[a].push_back(child);
+    }
+    return composed;
 }
 
 }  // namespace
 
 template <int Dim>
-Aggregates make_aggregates(const Positions<Dim>& rest, const std::vector<std::uint32_t>& bodies) {
-    std::map<std::uint32_t, std::vector<std::uint32_t>> of_body;
-    for (std::uint32_t unknown = 0; unknown < bodies.size(); ++unknown) {
-        of_body[bodies[unknown]].push_back(unknown);
+std::vector<Aggregates> make_hierarchy(const BlockPattern& pattern,
+                                       const std::vector<std::uint32_t>& column_start,
+                                       const Positions<Dim>& rest) {
+    std::vector<Aggregates> levels;
+    if (pattern.rows() == 0) {
+        return levels;
     }
-    const std::size_t most = most_unknowns(bodies.size());
-    Aggregates aggregates;
-    for (auto& [body, unknowns] : of_body) {
-        bisect(rest, most, std::move(unknowns), aggregates.members);
-    }
-    aggregates.of_unknown.resize(bodies.size());
-    for (std::uint32_t piece = 0; piece < aggregates.members.size(); ++piece) {
-        for (const std::uint32_t unknown : aggregates.members[piece]) {
-            aggregates.of_unknown[unknown] = piece;
+    Nodes<Dim> nodes{link_dofs(pattern), rest, {}, std::vector<double>(rest.cols(), 1.0)};
+    const std::vector<double> ratios = layer_ratios<Dim>(nodes.links, column_start, rest);
+    const Aggregates pieces = cut_columns(ratios, column_start);
+    const Nodes<Dim> piece_nodes = nodes_of_pieces(pieces, ratios, column_start, nodes);
+    levels.push_back(compose(pieces, Growth<Dim>(piece_nodes, kDofs).run()));
+    while (levels.back().count() > kCoarsestAggregates) {
+        nodes = nodes_of(levels.back(), nodes);
+        Aggregates next = Growth<Dim>(nodes, kChildren).run();
+        if (next.count() == levels.back().count()) {
+            break;
         }
+        levels.push_back(std::move(next));
     }
-    return aggregates;
+    return levels;
 }
 
-template Aggregates make_aggregates<3>(const Positions<3>&, const std::vector<std::uint32_t>&);
-template Aggregates make_aggregates<4>(const Positions<4>&, const std::vector<std::uint32_t>&);
+template std::vector<Aggregates> make_hierarchy<3>(const BlockPattern&,
+                                                   const std::vector<std::uint32_t>&,
+                                                   const Positions<3>&);
+template std::vector<Aggregates> make_hierarchy<4>(const BlockPattern&,
+                                                   const std::vector<std::uint32_t>&,
+                                                   const Positions<4>&);
 
 }  // namespace pent::simulator

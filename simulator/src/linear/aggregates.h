@@ -1,5 +1,7 @@
 #pragma once
 
+#include "linear/block_pattern.h"
+
 #include <pent/simplex_mesh.h>
 
 #include <cstdint>
@@ -7,22 +9,35 @@
 
 namespace pent::simulator {
 
-/// A partition of the unknowns into compact pieces of about equal size.
+/// A partition of children (dofs, or the aggregates of the level below) into connected, compact
+/// pieces of about equal size.
 struct Aggregates {
-    std::vector<std::uint32_t> of_unknown;            ///< Which aggregate an unknown belongs to.
-    std::vector<std::vector<std::uint32_t>> members;  ///< Increasing.
+    std::vector<std::uint32_t> of_child;              ///< Which aggregate a child belongs to.
+    std::vector<std::vector<std::uint32_t>> members;  ///< Children of each, increasing.
 
     [[nodiscard]] int count() const { return static_cast<int>(members.size()); }
 };
 
-/// Cuts the unknowns of each body in two along the longest side of their box, until the pieces
-/// are small: at most 550 unknowns, or more where that would make over 100 pieces, whose number
-/// then grows as the root of that of the unknowns.
+/// Most aggregates at which a hierarchy ends, unless they share no link.
+inline constexpr int kCoarsestAggregates = 24;
+
+/// Aggregates of about 48 dofs each, aggregates of about 6 of these, and so on until few are left.
 ///
-/// @param rest    Dim x unknowns, rest positions, m.
-/// @param bodies  The body of each unknown.
+/// Pieces of columns as thick as the mesh is fine, single dofs where layers are not thin, are never
+/// cut: what is coupled strongly stays together. Aggregates of them grow from a seed beside those
+/// that are there, along links of the matrix, always by what is nearest to their middle; then
+/// borders move until they are halfway between middles, for ragged ones lock where a body bends.
+/// Arms of a body that lie side by side never share an aggregate, as pieces of space would make
+/// them. What has no link to others stays alone. Those that share no link follow one another, by
+/// color.
+///
+/// @param pattern       Links of the dofs.
+/// @param column_start  As DofMap::column_start().
+/// @param rest          Dim x dofs, rest positions, m.
+/// @return              The finest first; empty without dofs.
 template <int Dim>
-[[nodiscard]] Aggregates make_aggregates(const Positions<Dim>& rest,
-                                         const std::vector<std::uint32_t>& bodies);
+[[nodiscard]] std::vector<Aggregates> make_hierarchy(const BlockPattern& pattern,
+                                                     const std::vector<std::uint32_t>& column_start,
+                                                     const Positions<Dim>& rest);
 
 }  // namespace pent::simulator

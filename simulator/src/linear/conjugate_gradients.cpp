@@ -1,6 +1,9 @@
 #include "linear/conjugate_gradients.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace pent::simulator {
 
@@ -42,97 +45,107 @@ double residual(const Workers& workers, const BlockVector<Dim>& b, BlockVector<D
 template <int Dim>
 double advance(const Workers& workers,
                double alpha,
-               const LinearSolveSpace<Dim>& space,
+               const BlockVector<Dim>& p,
+               const BlockVector<Dim>& q,
                BlockVector<Dim>& r,
                BlockVector<Dim>& x) {
     return sum_chunks(workers, x.cols(), [&](Eigen::Index begin, Eigen::Index count) {
-        x.middleCols(begin, count) += alpha * space.p.middleCols(begin, count);
+        x.middleCols(begin, count) += alpha * p.middleCols(begin, count);
         auto part = r.middleCols(begin, count);
-        part -= alpha * space.q.middleCols(begin, count);
+        part -= alpha * q.middleCols(begin, count);
         return part.squaredNorm();
     });
 }
 
 // p = z + beta p.
 template <int Dim>
-void redirect(const Workers& workers, double beta, LinearSolveSpace<Dim>& space) {
-    workers.for_each(chunk_count(space.p.cols()), [&](int chunk) {
+void redirect(const Workers& workers, double beta, const BlockVector<Dim>& z, BlockVector<Dim>& p) {
+    workers.for_each(chunk_count(p.cols()), [&](int chunk) {
         const Eigen::Index begin = chunk * kChunkColumns;
-        const Eigen::Index count = std::min(kChunkColumns, space.p.cols() - begin);
-        auto part = space.p.middleCols(begin, count);
-        part = space.z.middleCols(begin, count) + beta * part;
+        const Eigen::Index count = std::min(kChunkColumns, p.cols() - begin);
+        auto part = p.middleCols(begin, count);
+        part = z.middleCols(begin, count) + beta * part;
     });
 }
 
 }  // namespace
 
-template <int Dim, typename Scalar>
-LinearSolveReport conjugate_gradients(const Workers& workers,
-                                      const BlockKernels& kernels,
-                                      const BlockMatrix<Dim, Scalar>& A,
-                                      const Preconditioner<Dim>& preconditioner,
-                                      const BlockVector<Dim>& b,
-                                      const LinearSolveOptions& options,
-                                      LinearSolveSpace<Dim>& space,
-                                      BlockVector<Dim>& x) {
-    LinearSolveReport report;
-    const double b_norm = std::sqrt(dot(workers, b, b));
+template <int Dim>
+template <typename Scalar>
+LinearSolution<Dim> ConjugateGradients<Dim>::solve(const BlockMatrix<Dim, Scalar>& A,
+                                                   const Preconditioner<Dim>& preconditioner,
+                                                   const BlockVector<Dim>& b,
+                                                   const LinearSolveOptions& options,
+                                                   BlockVector<Dim> guess) {
+    LinearSolution<Dim> solution{std::move(guess), {}};
+    LinearSolveReport& report = solution.report;
+    const double b_norm = std::sqrt(dot(*workers_, b, b));
     if (b_norm == 0) {
-        x.setZero();
+        solution.x.setZero();
         report.has_converged = true;
-        return report;
+        return solution;
     }
-    for (BlockVector<Dim>* vector : {&space.r, &space.z, &space.p, &space.q}) {
-        vector->resize(Dim, x.cols());
+    for (BlockVector<Dim>* vector : {&r_, &z_, &p_, &q_}) {
+        vector->resize(Dim, b.cols());
     }
-    A.multiply(workers, kernels, x, space.r);
-    double r_norm = std::sqrt(residual(workers, b, space.r));
-    if (r_norm > options.tolerance * b_norm && preconditioner.correct(workers, space.r, x)) {
-        A.multiply(workers, kernels, x, space.r);
-        r_norm = std::sqrt(residual(workers, b, space.r));
+    double r_norm = find_residual(A, b, solution.x);
+    if (r_norm > options.tolerance * b_norm && preconditioner.correct(*workers_, r_, solution.x)) {
+        r_norm = find_residual(A, b, solution.x);
     }
     constexpr int kMaxStarts = 5;
-    for (int start = 0; start < kMaxStarts; ++start) {
-        if (start > 0) {
-            A.multiply(workers, kernels, x, space.r);
-            r_norm = std::sqrt(residual(workers, b, space.r));
-        }
+    for (int start = 0;; ++start) {
         report.residual = r_norm / b_norm;
         report.has_converged = report.residual <= options.tolerance;
-        if (report.has_converged || !std::isfinite(r_norm)
+        if (report.has_converged || !std::isfinite(r_norm) || start == kMaxStarts
             || report.iterations >= options.max_iterations || report.has_broken_down) {
-            return report;
+            return solution;
         }
-        space.p.setZero();
-        double rz_before = 1;
         // A little below the tolerance, so that the true residual meets it at the first check.
-        while (r_norm > 0.95 * options.tolerance * b_norm
-               && report.iterations < options.max_iterations) {
-            preconditioner.apply(workers, space.r, space.z);
-            const double rz = dot(workers, space.r, space.z);
-            redirect(workers, rz / rz_before, space);
-            A.multiply(workers, kernels, space.p, space.q);
-            const double curvature = dot(workers, space.p, space.q);
-            if (!(curvature > 0) || !std::isfinite(curvature) || !(rz > 0)) {
-                report.has_broken_down = true;
-                break;
-            }
-            r_norm = std::sqrt(advance(workers, rz / curvature, space, space.r, x));
-            rz_before = rz;
-            ++report.iterations;
-        }
+        iterate(A, preconditioner, options, 0.95 * options.tolerance * b_norm, solution);
+        r_norm = find_residual(A, b, solution.x);
     }
-    A.multiply(workers, kernels, x, space.r);
-    report.residual = std::sqrt(residual(workers, b, space.r)) / b_norm;
-    report.has_converged = report.residual <= options.tolerance;
-    return report;
 }
 
-#define PENT_INSTANTIATE(Dim, Scalar)                                                   \
-    template LinearSolveReport conjugate_gradients<Dim, Scalar>(                        \
-        const Workers&, const BlockKernels&, const BlockMatrix<Dim, Scalar>&,           \
-        const Preconditioner<Dim>&, const BlockVector<Dim>&, const LinearSolveOptions&, \
-        LinearSolveSpace<Dim>&, BlockVector<Dim>&);
+template <int Dim>
+template <typename Scalar>
+double ConjugateGradients<Dim>::find_residual(const BlockMatrix<Dim, Scalar>& A,
+                                              const BlockVector<Dim>& b,
+                                              const BlockVector<Dim>& x) {
+    A.multiply(*workers_, *kernels_, x, r_);
+    return std::sqrt(residual(*workers_, b, r_));
+}
+
+template <int Dim>
+template <typename Scalar>
+void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
+                                      const Preconditioner<Dim>& preconditioner,
+                                      const LinearSolveOptions& options,
+                                      double enough,
+                                      LinearSolution<Dim>& solution) {
+    LinearSolveReport& report = solution.report;
+    p_.setZero();
+    double r_norm = std::numeric_limits<double>::infinity();
+    double rz_before = 1;
+    while (r_norm > enough && report.iterations < options.max_iterations) {
+        preconditioner.apply(*workers_, r_, z_);
+        const double rz = dot(*workers_, r_, z_);
+        redirect(*workers_, rz / rz_before, z_, p_);
+        A.multiply(*workers_, *kernels_, p_, q_);
+        const double curvature = dot(*workers_, p_, q_);
+        if (!(curvature > 0) || !std::isfinite(curvature) || !(rz > 0)) {
+            report.has_broken_down = true;
+            return;
+        }
+        r_norm = std::sqrt(advance(*workers_, rz / curvature, p_, q_, r_, solution.x));
+        rz_before = rz;
+        ++report.iterations;
+    }
+}
+
+#define PENT_INSTANTIATE(Dim, Scalar)                                                         \
+    template LinearSolution<Dim> ConjugateGradients<Dim>::solve(                              \
+        const BlockMatrix<Dim, Scalar>&, const Preconditioner<Dim>&, const BlockVector<Dim>&, \
+        const LinearSolveOptions&, BlockVector<Dim>);
 PENT_INSTANTIATE(3, float)
 PENT_INSTANTIATE(3, double)
 PENT_INSTANTIATE(4, float)

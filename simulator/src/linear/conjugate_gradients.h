@@ -6,29 +6,45 @@
 
 namespace pent::simulator {
 
-/// Vectors that a solve works in; kept between solves.
-template <int Dim>
-struct LinearSolveSpace {
-    BlockVector<Dim> r;
-    BlockVector<Dim> z;
-    BlockVector<Dim> p;
-    BlockVector<Dim> q;
-};
-
 /// Preconditioned conjugate gradients for A x = b, A symmetric positive definite.
 ///
 /// The residual that is carried along drifts from the true one; the true one decides at the end,
 /// and where it is too large the iteration starts again from there.
-///
-/// @param x  First guess in, solution out.
-template <int Dim, typename Scalar>
-[[nodiscard]] LinearSolveReport conjugate_gradients(const Workers& workers,
-                                                    const BlockKernels& kernels,
-                                                    const BlockMatrix<Dim, Scalar>& A,
-                                                    const Preconditioner<Dim>& preconditioner,
-                                                    const BlockVector<Dim>& b,
-                                                    const LinearSolveOptions& options,
-                                                    LinearSolveSpace<Dim>& space,
-                                                    BlockVector<Dim>& x);
+template <int Dim>
+class ConjugateGradients {
+public:
+    /// @param workers, kernels  Must outlive this.
+    ConjugateGradients(const Workers& workers, const BlockKernels& kernels)
+        : workers_(&workers), kernels_(&kernels) {}
+
+    template <typename Scalar>
+    [[nodiscard]] LinearSolution<Dim> solve(const BlockMatrix<Dim, Scalar>& A,
+                                            const Preconditioner<Dim>& preconditioner,
+                                            const BlockVector<Dim>& b,
+                                            const LinearSolveOptions& options,
+                                            BlockVector<Dim> guess);
+
+private:
+    // r_ = b - A x; returns |r_|.
+    template <typename Scalar>
+    double find_residual(const BlockMatrix<Dim, Scalar>& A,
+                         const BlockVector<Dim>& b,
+                         const BlockVector<Dim>& x);
+    // From x, whose residual is r_, until the one that is carried along is small enough, iterations
+    // are spent, or a direction shows that A is not positive definite.
+    template <typename Scalar>
+    void iterate(const BlockMatrix<Dim, Scalar>& A,
+                 const Preconditioner<Dim>& preconditioner,
+                 const LinearSolveOptions& options,
+                 double enough,
+                 LinearSolution<Dim>& solution);
+
+    const Workers* workers_;
+    const BlockKernels* kernels_;
+    BlockVector<Dim> r_;  // kept between solves
+    BlockVector<Dim> z_;
+    BlockVector<Dim> p_;
+    BlockVector<Dim> q_;
+};
 
 }  // namespace pent::simulator

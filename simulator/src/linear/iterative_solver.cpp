@@ -1,9 +1,9 @@
-#include "linear/aggregates.h"
 #include "linear/conjugate_gradients.h"
 #include "linear/linear_solver.h"
 #include "linear/preconditioner.h"
 
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -21,13 +21,12 @@ public:
         : workers_(&workers),
           kernels_(&kernels),
           kind_(preconditioner),
-          column_start_(std::move(geometry.column_start)) {
+          column_start_(std::move(geometry.column_start)),
+          rest_(std::move(geometry.rest)),
+          iteration_(workers, kernels) {
         if (kind_ == PreconditionerKind::BlockJacobi) {
-            column_start_.resize(static_cast<std::size_t>(geometry.rest.cols()) + 1);
+            column_start_.resize(static_cast<std::size_t>(rest_.cols()) + 1);
             std::iota(column_start_.begin(), column_start_.end(), 0U);
-        }
-        if (kind_ == PreconditionerKind::RigidModes) {
-            aggregates_ = make_aggregates<Dim>(geometry.rest, geometry.bodies);
         }
     }
 
@@ -35,36 +34,40 @@ public:
                               const BlockVector<Dim>& positions,
                               const LinearSolveOptions& options,
                               BlockVector<Dim> guess) override {
-        LinearSolution<Dim> solution{std::move(guess), {}};
-        solution.report = std::visit(
+        return std::visit(
             [&](const auto& matrix) {
                 const std::unique_ptr<Preconditioner<Dim>> preconditioner =
                     precondition(matrix, positions);
-                return conjugate_gradients(*workers_, *kernels_, matrix, *preconditioner,
-                                           system.right(), options, space_, solution.x);
+                return iteration_.solve(matrix, *preconditioner, system.right(), options,
+                                        std::move(guess));
             },
             system.matrix());
-        return solution;
     }
 
 private:
     template <typename Scalar>
     [[nodiscard]] std::unique_ptr<Preconditioner<Dim>> precondition(
-        const BlockMatrix<Dim, Scalar>& matrix, const BlockVector<Dim>& positions) const {
+        const BlockMatrix<Dim, Scalar>& matrix, const BlockVector<Dim>& positions) {
         std::unique_ptr<Preconditioner<Dim>> smoother =
             column_jacobi(*workers_, matrix, column_start_);
-        if (kind_ != PreconditionerKind::RigidModes) {
+        if (kind_ != PreconditionerKind::RigidModes || matrix.rows() == 0) {
             return smoother;
         }
-        return with_rigid_modes(*workers_, matrix, aggregates_, positions, std::move(smoother));
+        if (!hierarchy_) {
+            const BlockPattern& pattern = matrix.pattern();
+            hierarchy_.emplace(make_hierarchy<Dim>(pattern, column_start_, rest_), pattern);
+        }
+        return multilevel(*workers_, *kernels_, matrix, *hierarchy_, positions,
+                          std::move(smoother));
     }
 
     const Workers* workers_;
     const BlockKernels* kernels_;
     PreconditionerKind kind_;
     std::vector<std::uint32_t> column_start_;  // columns that are solved together
-    Aggregates aggregates_;                    // for the coarse space, if there is one
-    LinearSolveSpace<Dim> space_;
+    BlockVector<Dim> rest_;
+    std::optional<Hierarchy> hierarchy_;  // of the dofs, from the first solve on
+    ConjugateGradients<Dim> iteration_;
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "linear/block_matrix.h"
+
 namespace pent::simulator {
 
 struct LinearSolveOptions {
@@ -12,6 +14,12 @@ struct LinearSolveReport {
     double residual = 0;           ///< |b - A x| / |b| computed from x at the end; 0 if b = 0.
     bool has_converged = false;    ///< residual <= tolerance.
     bool has_broken_down = false;  ///< A direction p with p . A p <= 0 or not finite turned up.
+};
+
+template <int Dim>
+struct LinearSolution {
+    BlockVector<Dim> x;
+    LinearSolveReport report;
 };
 
 }  // namespace pent::simulator

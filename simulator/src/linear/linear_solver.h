@@ -8,12 +8,6 @@
 
 namespace pent::simulator {
 
-template <int Dim>
-struct LinearSolution {
-    BlockVector<Dim> x;
-    LinearSolveReport report;
-};
-
 /// Solves the symmetric positive definite equations of Newton's method.
 template <int Dim>
 class LinearSolver {
@@ -38,7 +32,6 @@ template <int Dim>
 struct DofGeometry {
     std::vector<std::uint32_t> column_start;  ///< As DofMap::column_start().
     BlockVector<Dim> rest;                    ///< Dim x dofs, m.
-    std::vector<std::uint32_t> bodies;        ///< The body of each dof.
 };
 
 /// Preconditioned conjugate gradients.

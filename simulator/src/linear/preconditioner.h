@@ -1,5 +1,6 @@
 #pragma once
 
+#include "linear/aggregate_matrix.h"
 #include "linear/aggregates.h"
 #include "linear/block_matrix.h"
 #include "linear/dof_map.h"
@@ -50,18 +51,45 @@ template <int Dim, typename Scalar>
     const BlockMatrix<Dim, Scalar>& matrix,
     const std::vector<std::uint32_t>& column_start);
 
-/// Adds a coarse space to a smoother: z = S r + P (P^T A P)^-1 P^T r.
+/// Aggregates of a mesh over all levels, and which blocks their matrices have.
+class Hierarchy {
+public:
+    /// @param aggregates  The finest first; at least one level.
+    /// @param fine        Pattern of the dofs; must outlive this.
+    Hierarchy(std::vector<Aggregates> aggregates, const BlockPattern& fine);
+
+    std::vector<Aggregates> levels;
+    std::vector<AggregatePattern> patterns;  ///< One a level.
+
+    /// The patterns of a matrix that has a second part.
+    [[nodiscard]] std::vector<AggregatePattern> patterns_with(const BlockPattern& coupling) const {
+        return make_patterns(&coupling);
+    }
+
+private:
+    [[nodiscard]] std::vector<AggregatePattern> make_patterns(const BlockPattern* coupling) const;
+
+    const BlockPattern* fine_;
+};
+
+/// Adds rigid motions of aggregates, on several levels, to a smoother:
+///
+///     z = S r + P C P^T r,     C near (P^T A P)^-1 by multigrid
 ///
 /// The columns of P are the rigid motions of each aggregate (Dim translations and a rotation in
-/// each of the Dim (Dim - 1) / 2 planes), which are what a smoother removes slowest.
-/// Gives the smoother alone if P^T A P cannot be factored.
+/// each of the Dim (Dim - 1) / 2 planes), which are what a smoother removes slowest. On the levels
+/// below, C is a Gauss-Seidel sweep before and one after a correction by larger aggregates, which
+/// is enlarged by 1.8, in a W-cycle; the coarsest is solved exactly. Plain aggregation [notay2010]
+/// of rigid modes [vanek1996] with over-correction [braess1995].
 ///
-/// @param positions  Dim x unknowns, where the vertices are now, m.
+/// @param hierarchy  Must outlive the result.
+/// @param positions  Dim x dofs, where the vertices are now, m.
 template <int Dim, typename Scalar>
-[[nodiscard]] std::unique_ptr<Preconditioner<Dim>> with_rigid_modes(
+[[nodiscard]] std::unique_ptr<Preconditioner<Dim>> multilevel(
     const Workers& workers,
+    const BlockKernels& kernels,
     const BlockMatrix<Dim, Scalar>& matrix,
-    const Aggregates& aggregates,
+    const Hierarchy& hierarchy,
     const BlockVector<Dim>& positions,
     std::unique_ptr<Preconditioner<Dim>> smoother);
 

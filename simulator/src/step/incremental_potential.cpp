@@ -45,12 +45,9 @@ void IncrementalPotential<Dim>::set_up_solver() {
     if (options_.linear == LinearSolverKind::Direct) {
         solver_ = make_direct_solver<Dim>();
     } else {
-        DofGeometry<Dim> geometry{dofs_.column_start(), at_dofs(dofs_, bodies_->rest), {}};
-        for (const std::uint32_t vertex : dofs_.vertices()) {
-            geometry.bodies.push_back(static_cast<std::uint32_t>(bodies_->body_of(vertex)));
-        }
-        solver_ = make_iterative_solver<Dim>(*workers_, kernels_->blocks, options_.preconditioner,
-                                             std::move(geometry));
+        solver_ = make_iterative_solver<Dim>(
+            *workers_, kernels_->blocks, options_.preconditioner,
+            DofGeometry<Dim>{dofs_.column_start(), at_dofs(dofs_, bodies_->rest)});
     }
     float_system_.reset();
     double_system_.reset();

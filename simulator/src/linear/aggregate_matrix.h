@@ -1,0 +1,92 @@
+#pragma once
+
+#include "linear/aggregates.h"
+#include "linear/block_matrix.h"
+#include "linear/rigid_modes.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pent::simulator {
+
+/// Which blocks of a matrix over aggregates are stored: both triangles, so that rows of a product
+/// need nothing of one another.
+struct AggregatePattern {
+    std::vector<std::int64_t> row_start;  ///< rows + 1 entries.
+    std::vector<std::uint32_t> columns;   ///< Increasing within a row, the row itself among them.
+    std::vector<std::int64_t> diagonal;   ///< Index of the diagonal block of each row.
+    std::vector<std::int64_t> above;      ///< One more: of the first block behind it.
+    /// Rows [batches[i], batches[i + 1]) share no block: sweeps take them at the same time.
+    std::vector<std::int64_t> batches;
+
+    [[nodiscard]] std::int64_t rows() const {
+        return static_cast<std::int64_t>(row_start.size()) - 1;
+    }
+    /// Index of block (row, column), which must be there.
+    [[nodiscard]] std::int64_t find(std::uint32_t row, std::uint32_t column) const;
+};
+
+/// Blocks of all pairs of aggregates whose children share a block; with `coupling` or null.
+[[nodiscard]] AggregatePattern make_aggregate_pattern(const Aggregates& aggregates,
+                                                      const BlockPattern& children,
+                                                      const BlockPattern* coupling);
+[[nodiscard]] AggregatePattern make_aggregate_pattern(const Aggregates& aggregates,
+                                                      const AggregatePattern& children);
+
+enum class BlockPart { Whole, BelowDiagonal, AboveDiagonal };
+
+/// Symmetric matrix over the rigid modes of aggregates.
+template <int Dim, typename Scalar>
+struct AggregateMatrix {
+    static constexpr std::int64_t kEntries = std::int64_t{kModes<Dim>} * kModes<Dim>;
+    using Block = Eigen::Matrix<Scalar, kModes<Dim>, kModes<Dim>>;
+    using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+    const AggregatePattern* pattern = nullptr;
+    std::vector<Scalar, LineAllocator<Scalar>> values;
+
+    [[nodiscard]] Eigen::Map<Block> block(std::int64_t index) {
+        return Eigen::Map<Block>(values.data() + index * kEntries);
+    }
+    [[nodiscard]] Eigen::Map<const Block> block(std::int64_t index) const {
+        return Eigen::Map<const Block>(values.data() + index * kEntries);
+    }
+
+    /// y = A x, or the product with a part of A.
+    void multiply(const Workers& workers,
+                  const BlockKernels& kernels,
+                  BlockPart part,
+                  const Vector& x,
+                  Vector& y) const;
+
+    /// The same for rows [rows.begin, rows.end).
+    struct RowRange {
+        std::int64_t begin = 0;
+        std::int64_t end = 0;
+    };
+    void multiply_rows(const BlockKernels& kernels,
+                       BlockPart part,
+                       RowRange rows,
+                       const Scalar* x,
+                       Scalar* y) const;
+};
+
+/// The Galerkin product P^T A P, P being the rigid modes of the aggregates: a sum of T_i^T A_ij T_j
+/// over their children, in one order for any number of threads. Symmetric to the bit.
+///
+/// @param arms     One a child.
+/// @param pattern  Of the product; must outlive it.
+template <int Dim, typename Scalar>
+[[nodiscard]] AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,
+                                                            const BlockMatrix<Dim, Scalar>& A,
+                                                            const Aggregates& aggregates,
+                                                            const std::vector<Arm<Dim>>& arms,
+                                                            const AggregatePattern& pattern);
+template <int Dim, typename Scalar>
+[[nodiscard]] AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,
+                                                            const AggregateMatrix<Dim, Scalar>& A,
+                                                            const Aggregates& aggregates,
+                                                            const std::vector<Arm<Dim>>& arms,
+                                                            const AggregatePattern& pattern);
+
+}  // namespace pent::simulator

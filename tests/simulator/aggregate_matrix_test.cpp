@@ -1,0 +1,104 @@
+#include "linear/aggregate_matrix.h"
+
+#include "aggregate_levels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace pent::simulator {
+namespace {
+
+using test::dense;
+using test::dense_modes;
+using test::kModeCount;
+using test::TwoLevels;
+
+TEST(GalerkinProduct, IsThatOfDenseMatricesOnEveryLevelSpringsIncluded) {
+    const TwoLevels<double> levels(Precision::Double);
+    const Eigen::MatrixXd P = dense_modes(levels.fine, levels.fine_arms, 4);
+    const Eigen::MatrixXd Q = dense_modes(levels.coarse, levels.coarse_arms, kModeCount);
+    const Eigen::MatrixXd first = P.transpose() * levels.problem.dense() * P;
+    const Eigen::MatrixXd second = Q.transpose() * first * Q;
+    // Sums of some hundred terms.
+    EXPECT_LT((dense(levels.first) - first).norm(), 1e-13 * first.norm());
+    EXPECT_LT((dense(levels.second) - second).norm(), 1e-13 * second.norm());
+}
+
+TEST(GalerkinProduct, IsSymmetricToTheBitAndTheSameForAnyNumberOfThreads) {
+    const TwoLevels<float> one(Precision::Float, 1);
+    const Eigen::MatrixXd A = dense(one.second);
+    EXPECT_EQ(A, A.transpose());
+    for (const int threads : {2, 3}) {
+        const TwoLevels<float> more(Precision::Float, threads);
+        EXPECT_EQ(dense(more.first), dense(one.first));
+        EXPECT_EQ(dense(more.second), A);
+    }
+}
+
+// Sums of some hundred terms, in the precision of the blocks.
+template <typename Scalar>
+void expect_product_of_the_dense_matrix(Precision precision, double tolerance) {
+    const TwoLevels<Scalar> levels(precision);
+    using Vector = typename AggregateMatrix<4, Scalar>::Vector;
+    const Vector x = Vector::Random(kModeCount * 9);
+    const Eigen::VectorXd expected = dense(levels.first) * x.template cast<double>();
+    for (const Isa isa : test::supported_isas()) {
+        Vector y;
+        levels.first.multiply(Workers(2), kernels<4>(isa).blocks, BlockPart::Whole, x, y);
+        EXPECT_LT((y.template cast<double>() - expected).norm(), tolerance * expected.norm());
+    }
+}
+
+TEST(AggregateMatrix, MultipliesAsItsDenseMatrixOnEveryInstructionSet) {
+    expect_product_of_the_dense_matrix<float>(Precision::Float, 1e-6);
+    expect_product_of_the_dense_matrix<double>(Precision::Double, 1e-14);
+}
+
+TEST(AggregateMatrix, MultipliesByItsPartsBesideTheDiagonalToo) {
+    const TwoLevels<double> levels(Precision::Double);
+    const Eigen::VectorXd x = Eigen::VectorXd::Random(kModeCount * 9);
+    Eigen::MatrixXd below = dense(levels.first);
+    for (Eigen::Index row = 0; row < 9; ++row) {
+        below.block(kModeCount * row, kModeCount * row, kModeCount, kModeCount * (9 - row))
+            .setZero();
+    }
+    const Eigen::MatrixXd above = below.transpose();
+    for (const Isa isa : test::supported_isas()) {
+        const BlockKernels& blocks = kernels<4>(isa).blocks;
+        Eigen::VectorXd y;
+        levels.first.multiply(Workers(2), blocks, BlockPart::BelowDiagonal, x, y);
+        EXPECT_LT((y - below * x).norm(), 1e-14 * y.norm());
+        levels.first.multiply(Workers(2), blocks, BlockPart::AboveDiagonal, x, y);
+        EXPECT_LT((y - above * x).norm(), 1e-14 * y.norm());
+    }
+}
+
+// As long as they can be: the first row of each is linked to one of the batch before.
+TEST(AggregatePattern, HasBatchesOfRowsThatShareNoBlock) {
+    const TwoLevels<double> levels(Precision::Double);
+    for (const AggregatePattern* pattern : {&levels.fine_pattern, &levels.coarse_pattern}) {
+        ASSERT_EQ(pattern->batches.front(), 0);
+        ASSERT_EQ(pattern->batches.back(), pattern->rows());
+        for (std::size_t i = 0; i + 1 < pattern->batches.size(); ++i) {
+            const std::int64_t begin = pattern->batches[i];
+            const std::int64_t end = pattern->batches[i + 1];
+            ASSERT_LT(begin, end);
+            const auto is_linked = [&](std::int64_t row, std::int64_t first, std::int64_t last) {
+                const auto at = static_cast<std::size_t>(row);
+                return std::any_of(pattern->columns.begin() + pattern->row_start[at],
+                                   pattern->columns.begin() + pattern->row_start[at + 1],
+                                   [&](std::uint32_t column) {
+                                       return column != row && column >= first && column < last;
+                                   });
+            };
+            for (std::int64_t row = begin; row < end; ++row) {
+                EXPECT_FALSE(is_linked(row, begin, end));
+            }
+            EXPECT_TRUE(i == 0 || is_linked(begin, pattern->batches[i - 1], begin));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace pent::simulator

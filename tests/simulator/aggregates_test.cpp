@@ -1,0 +1,204 @@
+#include "linear/aggregates.h"
+
+#include "linear/aggregate_matrix.h"
+#include "support/kuhn_box.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+namespace pent::simulator {
+namespace {
+
+struct Box {
+    SimplexMesh<4> mesh;
+    DofMap dofs;
+    BlockPattern pattern;
+    Positions<4> rest;
+
+    Box(const std::array<int, 4>& count, const std::array<double, 4>& size)
+        : mesh(pent::test::kuhn_box<4>(count, size)) {
+        const auto base =
+            static_cast<std::uint32_t>((count[0] + 1) * (count[1] + 1) * (count[2] + 1));
+        Columns columns;
+        for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+            columns.columns.push_back(v % base);
+            columns.layers.push_back(v / base);
+        }
+        const std::vector<bool> is_held(static_cast<std::size_t>(mesh.vertex_count()), false);
+        dofs = number_dofs<4>(mesh.cells, is_held, columns);
+        pattern = make_pattern<4>(mesh.cells, dofs);
+        rest = at_dofs<4>(dofs, mesh.positions);
+    }
+
+    [[nodiscard]] std::vector<Aggregates> hierarchy() const {
+        return make_hierarchy<4>(pattern, dofs.column_start(), rest);
+    }
+};
+
+void expect_partition(const Aggregates& aggregates, std::size_t children) {
+    ASSERT_EQ(aggregates.of_child.size(), children);
+    std::size_t total = 0;
+    for (std::uint32_t a = 0; a < aggregates.members.size(); ++a) {
+        const auto& members = aggregates.members[a];
+        EXPECT_FALSE(members.empty());
+        EXPECT_TRUE(std::is_sorted(members.begin(), members.end()));
+        total += members.size();
+        for (const std::uint32_t child : members) {
+            EXPECT_EQ(aggregates.of_child[child], a);
+        }
+    }
+    EXPECT_EQ(total, children);
+}
+
+// Dofs of the set that can be reached from its first without leaving it.
+std::size_t reached(const BlockPattern& pattern, const std::vector<std::uint32_t>& set) {
+    std::set<std::uint32_t> left(set.begin() + 1, set.end());
+    std::vector<std::uint32_t> queue = {set[0]};
+    for (std::size_t next = 0; next < queue.size(); ++next) {
+        for (auto other = left.begin(); other != left.end();) {
+            const std::uint32_t a = std::min(queue[next], *other);
+            const std::uint32_t b = std::max(queue[next], *other);
+            const std::int64_t k = pattern.find(a, b);
+            const bool is_linked =
+                k < pattern.row_start[a + 1] && pattern.columns[static_cast<std::size_t>(k)] == b;
+            if (is_linked) {
+                queue.push_back(*other);
+                other = left.erase(other);
+            } else {
+                ++other;
+            }
+        }
+    }
+    return queue.size();
+}
+
+TEST(MakeHierarchy, PartitionsEveryLevelIntoConnectedPiecesOfBoundedSize) {
+    const Box box({12, 6, 4, 4}, {12, 6, 4, 4});
+    const std::vector<Aggregates> levels = box.hierarchy();
+    ASSERT_EQ(levels.size(), 2U);  // of 2275 dofs, 47 and 8 aggregates or so
+    auto children = static_cast<std::size_t>(box.pattern.rows());
+    for (const Aggregates& level : levels) {
+        expect_partition(level, children);
+        EXPECT_LT(3 * level.members.size(), children);
+        children = level.members.size();
+    }
+    EXPECT_LE(levels.back().count(), kCoarsestAggregates);
+    for (const auto& members : levels[0].members) {
+        EXPECT_EQ(reached(box.pattern, members), members.size());
+        EXPECT_LE(members.size(), 2U * 48);  // and what was left over beside it
+    }
+}
+
+int cut_links(const Box& box) {
+    const std::vector<Aggregates> levels = box.hierarchy();
+    const auto& start = box.dofs.column_start();
+    int cut = 0;
+    for (std::size_t column = 0; column + 1 < start.size(); ++column) {
+        for (std::uint32_t dof = start[column]; dof + 1 < start[column + 1]; ++dof) {
+            cut += levels[0].of_child[dof] != levels[0].of_child[dof + 1] ? 1 : 0;
+        }
+    }
+    return cut;
+}
+
+// Layers of a twentieth: a column is thinner than its cells are wide.
+TEST(MakeHierarchy, CutsNoColumnOfThinLayers) {
+    EXPECT_EQ(cut_links(Box({6, 4, 4, 5}, {6, 4, 4, 0.25})), 0);
+}
+
+// 16 layers of a quarter: pieces of a column as thick as the cells are wide, four vertices each, so
+// that of the 16 links of a column at most those between its pieces are cut.
+TEST(MakeHierarchy, CutsThinLayersOnlyBetweenPiecesAsThickAsTheMeshIsFine) {
+    const Box box({4, 4, 4, 16}, {4, 4, 4, 4});
+    const auto columns = static_cast<int>(box.dofs.column_start().size()) - 1;
+    EXPECT_LE(cut_links(box), 3 * columns);
+    EXPECT_GT(cut_links(box), 0);
+}
+
+// Borders are halfway between middles: no vertex is nearer to the middle of a neighbor, but where
+// a last round left something to move.
+TEST(MakeHierarchy, GivesNearlyEveryVertexToTheNearestMiddleBesideIt) {
+    const Box box({10, 8, 6, 4}, {10, 8, 6, 4});
+    const Aggregates level = box.hierarchy()[0];
+    Positions<4> middles = Positions<4>::Zero(4, level.count());
+    for (int a = 0; a < level.count(); ++a) {
+        const auto& members = level.members[static_cast<std::size_t>(a)];
+        for (const std::uint32_t dof : members) {
+            middles.col(a) += box.rest.col(dof) / static_cast<double>(members.size());
+        }
+    }
+    int misplaced = 0;
+    for (std::uint32_t row = 0; row < box.pattern.rows(); ++row) {
+        for (std::int64_t k = box.pattern.row_start[row]; k < box.pattern.row_start[row + 1]; ++k) {
+            const std::uint32_t column = box.pattern.columns[static_cast<std::size_t>(k)];
+            const auto distance = [&](std::uint32_t a) {
+                return (box.rest.col(row) - middles.col(a)).norm();
+            };
+            misplaced += distance(level.of_child[column]) < 0.9 * distance(level.of_child[row]);
+        }
+    }
+    EXPECT_LT(misplaced, box.pattern.rows() / 50);
+}
+
+// So that sweeps have few batches.
+TEST(MakeHierarchy, NumbersAggregatesByColor) {
+    const Box box({10, 8, 6, 4}, {10, 8, 6, 4});
+    const std::vector<Aggregates> levels = box.hierarchy();
+    const AggregatePattern pattern = make_aggregate_pattern(levels[0], box.pattern, nullptr);
+    std::int64_t most = 0;  // neighbors, and itself
+    for (std::size_t row = 0; row + 1 < pattern.row_start.size(); ++row) {
+        most = std::max(most, pattern.row_start[row + 1] - pattern.row_start[row]);
+    }
+    EXPECT_LE(static_cast<std::int64_t>(pattern.batches.size()) - 1, most);
+}
+
+// Two sheets closer together than the vertices of either.
+TEST(MakeHierarchy, NeverJoinsWhatOnlyLiesSideBySide) {
+    SimplexMesh<4> mesh = pent::test::kuhn_box<4>({6, 3, 1, 1}, {6, 3, 1, 1});
+    const auto half = static_cast<std::uint32_t>(mesh.vertex_count());
+    const Eigen::Index cells = mesh.cell_count();
+    mesh.positions.conservativeResize(4, 2 * half);
+    mesh.positions.rightCols(half) = mesh.positions.leftCols(half);
+    mesh.positions.rightCols(half).row(3).array() += 1.01;
+    mesh.cells.conservativeResize(5, 2 * cells);
+    mesh.cells.rightCols(cells) = mesh.cells.leftCols(cells).array() + half;
+    std::vector<std::uint32_t> own(2 * half);
+    std::iota(own.begin(), own.end(), 0U);
+    const DofMap dofs = number_dofs<4>(mesh.cells, std::vector<bool>(2 * half, false), {own, own});
+    const BlockPattern pattern = make_pattern<4>(mesh.cells, dofs);
+    const auto levels =
+        make_hierarchy<4>(pattern, dofs.column_start(), at_dofs<4>(dofs, mesh.positions));
+    for (const auto& members : levels[0].members) {
+        const bool is_first = dofs.vertex_of(members[0]) < half;
+        for (const std::uint32_t dof : members) {
+            EXPECT_EQ(dofs.vertex_of(dof) < half, is_first);
+        }
+    }
+}
+
+TEST(MakeHierarchy, LeavesAloneWhatHasNoLinksAndEndsThere) {
+    BlockPattern pattern;
+    constexpr std::uint32_t kCount = 40;  // more than may be the coarsest
+    for (std::uint32_t row = 0; row < kCount; ++row) {
+        pattern.row_start.push_back(row);
+        pattern.columns.push_back(row);
+    }
+    pattern.row_start.push_back(kCount);
+    std::vector<std::uint32_t> columns(kCount + 1);
+    std::iota(columns.begin(), columns.end(), 0U);
+    const auto levels = make_hierarchy<3>(pattern, columns, Positions<3>::Random(3, kCount));
+    ASSERT_EQ(levels.size(), 1U);
+    EXPECT_EQ(levels[0].count(), static_cast<int>(kCount));
+}
+
+TEST(MakeHierarchy, IsEmptyWithoutDofs) {
+    BlockPattern pattern;
+    pattern.row_start = {0};
+    EXPECT_TRUE(make_hierarchy<4>(pattern, {0}, Positions<4>(4, 0)).empty());
+}
+
+}  // namespace
+}  // namespace pent::simulator
