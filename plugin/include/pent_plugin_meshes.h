@@ -43,6 +43,21 @@ typedef struct pent_field {
     int32_t rows;         /**< 1, or dimension for a vector. */
 } pent_field;
 
+/** A turn of bodies about the origin that takes axis `from` towards axis `to`; 0 to 3 are x y z w.
+ */
+typedef struct pent_turn {
+    int32_t from;
+    int32_t to;
+    double degrees;
+} pent_turn;
+
+/** w = offset, of bodies that were turned before, in this order. */
+typedef struct pent_hyperplane {
+    const pent_turn* turns;
+    int64_t turn_count;
+    double offset; /**< m. */
+} pent_hyperplane;
+
 /** A .pent file with a mesh, read and validated. */
 PENT_PLUGIN_API pent_stored_mesh* pent_read_mesh(const char* path);
 
@@ -68,6 +83,28 @@ PENT_PLUGIN_API int pent_slice_mesh(const pent_stored_mesh* mesh,
                                     const double* normal,
                                     double offset,
                                     pent_surface* surface);
+
+/** The same by a hyperplane as pent-slice --rotate has it, to the bit; `plane` may be NULL in three
+ * dimensions. `normals` gets, unless it is NULL, those of smooth shading: 3 numbers for each corner
+ * of each triangle, of the boundary in all its dimensions, with edges where it turns sharply. */
+PENT_PLUGIN_API int pent_slice_turned(const pent_stored_mesh* mesh,
+                                      const double* positions,
+                                      const pent_hyperplane* plane,
+                                      pent_surface* surface,
+                                      const double** normals);
+
+/** How much the cells around each vertex are strained, with the vertices at `positions`: the mean of
+ * |E|, the Frobenius norm of the Green strain, over the cells by their volume. One number a vertex,
+ * which hold until this thread asks again. */
+PENT_PLUGIN_API const double* pent_mesh_strain(const pent_stored_mesh* mesh,
+                                               const double* positions);
+
+/** The colors in which pent-render shows a quantity ("body", "w", "speed", "strain", "force",
+ * "reaction", "energy_density"): red, green, blue a value, 0..1, linear light. `low` and `high` get
+ * the first and the last color; of "body" values are numbers of bodies, from 0. They hold until this
+ * thread asks again. */
+PENT_PLUGIN_API const float* pent_colors(
+    const char* quantity, const double* values, int64_t count, double low, double high);
 PENT_PLUGIN_API int pent_free_mesh(pent_stored_mesh* mesh);
 
 /** A .pent file with a frame, read and validated. */

@@ -78,7 +78,8 @@ struct Kept {
     std::shared_ptr<const Boundaries> boundaries;
 };
 
-/// A mesh without a simulation. Nothing of it changes, but that its boundary is found once.
+/// A mesh without a simulation. Nothing of it changes, but that its boundary is found and
+/// indexed once.
 struct StoredMesh {
     std::variant<SimplexMesh<2>, SimplexMesh<3>, SimplexMesh<4>> mesh;
     std::string name;  // in messages
@@ -86,6 +87,8 @@ struct StoredMesh {
     std::uint32_t crc32c = 0;
     std::once_flag has_boundary;
     std::vector<std::uint32_t> boundary;
+    std::once_flag is_indexed;
+    std::shared_ptr<const void> index;  // viewer::Boundary of the dimension, for slices
 };
 
 using StoredFrame = std::variant<Frame<2>, Frame<3>, Frame<4>>;

@@ -3,9 +3,14 @@
 #include "handles.h"
 
 #ifdef PENT_HAS_VIEWER
+#include <pent/viewer/attributes.h>
 #include <pent/viewer/slice.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <memory>
+#include <numbers>
 #include <utility>
 #endif
 
@@ -54,24 +59,105 @@ pent_surface show(viewer::Surface made, const viewer::Hyperplane& plane, SeenSur
     return surface;
 }
 
+// Calls work(mesh, stored) with a mesh of 3 or 4 dimensions.
+template <typename Value, typename Work>
+Value with_solid(const pent_stored_mesh* handle, Value failure, const Work& work) {
+    return guarded(failure,
+                   [&]() -> Value {
+                       const std::shared_ptr<StoredMesh> stored = meshes().find(handle, "mesh");
+                       return std::visit(
+                           [&]<int Dim>(const SimplexMesh<Dim>& held) -> Value {
+                               if constexpr (Dim == 2) {
+                                   throw Error(stored->name
+                                + ": a mesh of 2 dimensions; slices and strains are of bodies of 3 or 4");
+                               } else {
+                                   return work(held, *stored);
+                               }
+                           },
+                           stored->mesh);
+                   });
+}
+
+// The boundary of a stored mesh as slices need it.
 template <int Dim>
-pent_surface slice_stored(StoredMesh& stored,
-                          const SimplexMesh<Dim>& mesh,
-                          const double* positions,
-                          const viewer::Hyperplane& plane) {
-    static thread_local SeenSurface seen;
+const viewer::Boundary<Dim>& indexed(StoredMesh& stored, const SimplexMesh<Dim>& mesh) {
+    std::call_once(stored.is_indexed, [&] {
+        const std::vector<std::uint32_t>& facets = boundary_of(stored, mesh);
+        const Eigen::Map<const Simplices<Dim>> columns(
+            facets.data(), Dim, static_cast<Eigen::Index>(facets.size()) / Dim);
+        stored.index = std::make_shared<const viewer::Boundary<Dim>>(
+            viewer::index_boundary<Dim>(columns, mesh.vertex_count()));
+    });
+    return *static_cast<const viewer::Boundary<Dim>*>(stored.index.get());
+}
+
+// Where the vertices of a stored mesh are: as a host says, or at rest.
+template <int Dim>
+Positions<Dim> places_of(const StoredMesh& stored,
+                         const SimplexMesh<Dim>& mesh,
+                         const double* positions) {
     const Positions<Dim> places = positions == nullptr
                                       ? mesh.positions
                                       : array<Dim>(positions, mesh.vertex_count(), "positions");
     if (!places.allFinite()) {
         throw Error(stored.name + ": the positions of a slice must be finite");
     }
-    const std::vector<std::uint32_t>& facets = boundary_of(stored, mesh);
-    const auto boundary = viewer::index_boundary<Dim>(
-        Eigen::Map<const Simplices<Dim>>(facets.data(), Dim,
-                                         static_cast<Eigen::Index>(facets.size()) / Dim),
-        mesh.vertex_count());
-    return show(section<Dim>(boundary, places, plane), plane, seen);
+    return places;
+}
+
+// The slice by the hyperplane that plane(dimension) gives; `normals` gets those of smooth shading
+// unless it is NULL.
+template <typename Plane>
+int slice_stored(const pent_stored_mesh* mesh,
+                 const double* positions,
+                 const Plane& plane_of,
+                 pent_surface* surface,
+                 const double** normals) {
+    return with_solid(mesh, -1, [&]<int Dim>(const SimplexMesh<Dim>& held, StoredMesh& stored) {
+        require(surface, "surface");
+        const viewer::Hyperplane plane = plane_of(std::integral_constant<int, Dim>());
+        const Positions<Dim> places = places_of(stored, held, positions);
+        const viewer::Boundary<Dim>& boundary = indexed(stored, held);
+        viewer::Surface made = section<Dim>(boundary, places, plane);
+        if (normals != nullptr) {
+            static thread_local Positions<3> shading;
+            const Eigen::Matrix<double, 3, Dim> axes = plane.frame.topLeftCorner<3, Dim>();
+            shading = viewer::corner_normals<Dim>(made, boundary, places, axes, viewer::kCrease);
+            *normals = shading.data();
+        }
+        static thread_local SeenSurface seen;
+        *surface = show(std::move(made), plane, seen);
+        return 0;
+    });
+}
+
+viewer::PlaneRotation rotation_of(const pent_turn& turn) {
+    const auto is_axis = [](std::int32_t axis) { return axis >= 0 && axis < 4; };
+    if (!is_axis(turn.from) || !is_axis(turn.to) || turn.from == turn.to) {
+        throw Error("turn: found the axes " + std::to_string(turn.from) + " and "
+                    + std::to_string(turn.to) + "; expected two of 0 to 3");
+    }
+    if (!std::isfinite(turn.degrees)) {
+        throw Error("turn: found an angle that is not finite; expected degrees");
+    }
+    return {turn.from, turn.to, turn.degrees * (std::numbers::pi / 180)};
+}
+
+viewer::Hyperplane hyperplane_of(const pent_hyperplane* plane) {
+    require(plane, "plane");
+    if (!std::isfinite(plane->offset)) {
+        throw Error("the offset of a slice must be finite");
+    }
+    if (plane->turn_count < 0) {
+        throw Error("turn_count is " + std::to_string(plane->turn_count) + "; expected 0 or more");
+    }
+    if (plane->turn_count > 0) {
+        require(plane->turns, "turns");
+    }
+    std::vector<viewer::PlaneRotation> rotations;
+    std::transform(plane->turns, plane->turns + plane->turn_count, std::back_inserter(rotations),
+                   rotation_of);
+    return viewer::hyperplane_at(plane->offset, rotations);
 }
 
 }  // namespace
@@ -97,21 +183,28 @@ int pent_slice_mesh(const pent_stored_mesh* mesh,
                     const double* normal,
                     double offset,
                     pent_surface* surface) {
-    return guarded(-1, [&] {
-        const std::shared_ptr<StoredMesh> stored = meshes().find(mesh, "mesh");
-        require(surface, "surface");
-        *surface = std::visit(
-            [&]<int Dim>(const SimplexMesh<Dim>& held) -> pent_surface {
-                if constexpr (Dim == 2) {
-                    throw Error(stored->name
-                                + ": a mesh of 2 dimensions; slices are of bodies of 3 or 4");
-                } else {
-                    return slice_stored(*stored, held, positions, hyperplane<Dim>(normal, offset));
-                }
-            },
-            stored->mesh);
-        return 0;
-    });
+    const auto plane = [&](auto dimension) { return hyperplane<dimension>(normal, offset); };
+    return slice_stored(mesh, positions, plane, surface, nullptr);
+}
+
+int pent_slice_turned(const pent_stored_mesh* mesh,
+                      const double* positions,
+                      const pent_hyperplane* plane,
+                      pent_surface* surface,
+                      const double** normals) {
+    const auto plane_of = [&](auto dimension) {
+        return dimension == 3 ? viewer::Hyperplane() : hyperplane_of(plane);
+    };
+    return slice_stored(mesh, positions, plane_of, surface, normals);
+}
+
+const double* pent_mesh_strain(const pent_stored_mesh* mesh, const double* positions) {
+    return with_solid<const double*>(
+        mesh, nullptr, [&]<int Dim>(const SimplexMesh<Dim>& held, StoredMesh& stored) {
+            static thread_local Eigen::VectorXd strain;
+            strain = viewer::vertex_strain<Dim>(held, places_of(stored, held, positions));
+            return static_cast<const double*>(strain.data());
+        });
 }
 
 #else
@@ -138,6 +231,18 @@ int pent_slice_mesh(const pent_stored_mesh* /*mesh*/,
                     double /*offset*/,
                     pent_surface* /*surface*/) {
     return guarded(-1, []() -> int { throw Error(kNoViewer); });
+}
+
+int pent_slice_turned(const pent_stored_mesh* /*mesh*/,
+                      const double* /*positions*/,
+                      const pent_hyperplane* /*plane*/,
+                      pent_surface* /*surface*/,
+                      const double** /*normals*/) {
+    return guarded(-1, []() -> int { throw Error(kNoViewer); });
+}
+
+const double* pent_mesh_strain(const pent_stored_mesh* /*mesh*/, const double* /*positions*/) {
+    return guarded<const double*>(nullptr, []() -> const double* { throw Error(kNoViewer); });
 }
 
 #endif

@@ -5,6 +5,7 @@
     Simulation                     a scene in motion, step by step
     Run, Frame                     what pent-sim wrote
     render, movie, slice           pictures, movies, surfaces
+    View                           slices of a run as they are looked at
     study, Frontier                speed against accuracy
 
 docs/python.md begins at the beginning.
@@ -22,6 +23,7 @@ from .scene import Scene, SceneBuilder
 from .simulation import Simulation
 from .study import Frontier, study
 from .surface import Surface
+from .view import View
 
 __all__ = [
     "BodyPoint",
@@ -42,6 +44,7 @@ __all__ = [
     "State",
     "StepReport",
     "Surface",
+    "View",
     "__version__",
     "convert",
     "make_mesh",

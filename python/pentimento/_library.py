@@ -148,6 +148,18 @@ class Surface(ctypes.Structure):
     ]
 
 
+class Turn(ctypes.Structure):
+    """`pent_turn`."""
+
+    _fields_ = [("from_axis", c_int32), ("to_axis", c_int32), ("degrees", c_double)]
+
+
+class Hyperplane(ctypes.Structure):
+    """`pent_hyperplane`."""
+
+    _fields_ = [("turns", POINTER(Turn)), ("turn_count", c_int64), ("offset", c_double)]
+
+
 _OF_BODY = (c_void_p, c_int)
 _COUNT = POINTER(c_int64)
 
@@ -203,6 +215,12 @@ _FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "pent_mesh_info_of": (c_int, (c_void_p, POINTER(MeshInfo))),
     "pent_mesh_boundary": (c_void_p, (c_void_p, _COUNT)),
     "pent_slice_mesh": (c_int, (c_void_p, c_void_p, c_void_p, c_double, POINTER(Surface))),
+    "pent_slice_turned": (
+        c_int,
+        (c_void_p, c_void_p, POINTER(Hyperplane), POINTER(Surface), POINTER(c_void_p)),
+    ),
+    "pent_mesh_strain": (c_void_p, (c_void_p, c_void_p)),
+    "pent_colors": (c_void_p, (c_char_p, c_void_p, c_int64, c_double, c_double)),
     "pent_free_mesh": (c_int, (c_void_p,)),
     "pent_read_frame": (c_void_p, (c_char_p,)),
     "pent_frame_info_of": (c_int, (c_void_p, POINTER(FrameInfo))),

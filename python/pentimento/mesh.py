@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _interop
-from ._arrays import Floats, Indices, address_of, floats, indices, real, text, view
+from ._arrays import Floats, Indices, address_of, copy, floats, indices, real, text, view
 from ._library import Handle, MeshArrays, MeshInfo, library
 from ._library import Surface as CSurface
+from ._rotations import Rotations, hyperplane
 from ._version import __version__
 from .errors import Error
 from .surface import Surface, copied
@@ -186,30 +187,53 @@ class Mesh:
 
     def slice(
         self,
-        normal: ArrayLike = (0.0, 0.0, 0.0, 1.0),
+        normal: ArrayLike | None = None,
         offset: float = 0.0,
         points: ArrayLike | None = None,
+        *,
+        rotate: Rotations | None = None,
+        shading: bool = False,
     ) -> Surface:
-        """The slice by the hyperplane normal . x = offset, in m; in three dimensions the whole
-        surface, whatever normal and offset.
+        """The slice by the hyperplane normal . x = offset, in m, by default w = offset; in three
+        dimensions the whole surface, whatever normal, offset and rotations.
 
-        points  (vertices, dimension): where its vertices are instead of at rest, m.
+        points   (vertices, dimension): where its vertices are instead of at rest, m.
+        rotate   In place of a normal: the mesh turned about the origin first, as in "xw:30", in
+                 degrees, or several: ["xw:30", "yz:10"] or {"xw": 30, "yz": 10}, in this order. To
+                 the bit what pent-slice makes.
+        shading  Whether Surface.normals are wanted. Not with a normal.
 
         Raises an Error for a normal that is zero, numbers that are not finite, or a mesh in two
-        dimensions.
+        dimensions; a ValueError for rotations that are not understood.
         """
         shape = (self.vertex_count, self.dimension)
-        places = None if points is None else floats(points, shape, "points")
-        across = None if self.dimension == 3 else floats(normal, (4,), "normal")
+        places = address_of(None if points is None else floats(points, shape, "points"))
         seen = CSurface()
+        if normal is None:
+            plane = hyperplane(rotate, real(offset, "offset"))
+            normals = ctypes.c_void_p()
+            wanted = ctypes.byref(normals) if shading else None
+            library().pent_slice_turned(
+                self._handle.number, places, ctypes.byref(plane), ctypes.byref(seen), wanted
+            )
+            return copied(seen, normals.value or 0 if shading else None)
+        if rotate is not None or shading:
+            raise ValueError("normal: not together with rotate or shading")
+        across = None if self.dimension == 3 else floats(normal, (4,), "normal")
         library().pent_slice_mesh(
-            self._handle.number,
-            address_of(places),
-            address_of(across),
-            real(offset, "offset"),
+            self._handle.number, places, address_of(across), real(offset, "offset"),
             ctypes.byref(seen),
-        )
+        )  # fmt: skip
         return copied(seen)
+
+    def strain(self, points: ArrayLike) -> Floats:
+        """(vertices,): how much the cells around each vertex are strained with the vertices at
+        `points`, (vertices, dimension), m: the mean of |E|, the Frobenius norm of the Green strain,
+        by their volume. Raises an Error for a mesh in two dimensions."""
+        places = floats(points, (self.vertex_count, self.dimension), "points")
+        address = library().pent_mesh_strain(self._handle.number, address_of(places))
+        found: Floats = copy(address, (self.vertex_count,), np.float64)
+        return found
 
     def cell_hypervolumes(self) -> Floats:
         """(cells,), m^dimension, all above 0."""

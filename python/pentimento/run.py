@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import Floats, view, whole
 from ._library import Field, FrameInfo, Handle, library
+from ._rotations import Rotations
 from .errors import Error
 from .mesh import Mesh, html_table, path_bytes
 from .scene import Scene
@@ -130,6 +131,9 @@ class Run:
         if number not in frames:
             known = f"{frames[0]} to {frames[-1]}" if frames else "none yet"
             raise IndexError(f"{self.path}: has no frame {number}; there are {known}")
+        return self._read(number, name)
+
+    def _read(self, number: int, name: str) -> Frame:
         path = self.path / "frames" / f"{name}_{number:06d}.pent"
         frame = Frame.read(path)
         if frame.mesh_crc32c != self.mesh(name).crc32c:
@@ -166,11 +170,15 @@ class Run:
         self,
         frame: int,
         body: int | str = 0,
-        normal: ArrayLike = (0.0, 0.0, 0.0, 1.0),
+        normal: ArrayLike | None = None,
         offset: float = 0.0,
+        *,
+        rotate: Rotations | None = None,
+        shading: bool = False,
     ) -> Surface:
         """The slice of a body at a frame, as Mesh.slice()."""
-        return self.mesh(body).slice(normal, offset, self.frame(frame, body).positions)
+        points = self.frame(frame, body).positions
+        return self.mesh(body).slice(normal, offset, points, rotate=rotate, shading=shading)
 
     def __repr__(self) -> str:
         return f"<pentimento.Run: {self.path}, {', '.join(self.bodies)}, {len(self)} frames>"

@@ -10,8 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _interop
-from ._arrays import Floats, Indices, copy
+from ._arrays import Floats, Indices, address_of, copy, real, text
 from ._library import Surface as CSurface
+from ._library import library
+from .errors import Error
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,8 +28,10 @@ class Surface:
     weights: Floats | None = None  #: (vertices,): this far from the first towards the second, 0..1.
     frame: Floats | None = None
     """(4, 4): rows x, y, z of the picture and the normal; the identity in three dimensions."""
+    normals: Floats | None = None
+    """(triangles, 3, 3): of smooth shading, unit, at each corner of each triangle; where asked."""
     attributes: dict[str, NDArray[Any]] = field(default_factory=dict)
-    """What pent-slice writes of each vertex, as `red`, `speed`."""
+    """Of each vertex: what pent-slice writes, as `red`, `speed`, or what a View carries to it."""
 
     @property
     def area(self) -> float:
@@ -52,6 +56,27 @@ class Surface:
         far = self.weights.reshape(-1, *[1] * (given.ndim - 1))
         return np.asarray((1 - far) * given[self.ends[:, 0]] + far * given[self.ends[:, 1]])
 
+    def color_range(self, quantity: str) -> tuple[float, float]:
+        """The values of an attribute that get the first and the last color, as pent-render has
+        them: w from end to end, all others from 0 to what a hundredth is above."""
+        values = self._attribute(quantity)
+        if len(values) == 0:
+            return (0.0, 0.0)
+        if quantity == "w":
+            return (float(values.min()), float(values.max()))
+        place = (len(values) - 1) * 99 // 100
+        return (0.0, float(np.partition(values, place)[place]))
+
+    def colors(self, quantity: str, low: float, high: float) -> NDArray[np.float32]:
+        """(vertices, 3): red, green, blue, 0..1, linear light, as pent-render colors by an
+        attribute of a View's slice; `low` and `high` get the first and the last color."""
+        values = np.ascontiguousarray(self._attribute(quantity), np.float64)
+        address = library().pent_colors(
+            text(quantity, "quantity"), address_of(values), len(values), real(low, "low"),
+            real(high, "high"),
+        )  # fmt: skip
+        return copy(address, (len(values), 3), np.float32)
+
     def to_trimesh(self) -> Any:
         """A trimesh.Trimesh. Raises an ImportError where trimesh is not installed."""
         return _interop.surface_to_trimesh(self)
@@ -67,14 +92,23 @@ class Surface:
     def __repr__(self) -> str:
         return f"<pentimento.Surface: {len(self.points)} vertices, {len(self.triangles)} triangles>"
 
+    def _attribute(self, name: str) -> NDArray[Any]:
+        if name not in self.attributes:
+            there = ", ".join(self.attributes) or "none"
+            raise Error(f"surface: has no attribute {name}; there are {there}")
+        return self.attributes[name]
+
     def _normals(self) -> Floats:
         a, b, c = (self.points[self.triangles[:, i]] for i in range(3))
         normals: Floats = np.cross(b - a, c - a)
         return normals
 
 
-def copied(seen: CSurface) -> Surface:
-    """What the library shows of a slice, copied: the next slice takes its place."""
+def copied(seen: CSurface, normals: int | None = None) -> Surface:
+    """What the library shows of a slice, copied: the next slice takes its place.
+
+    normals  Where they are, if they were asked for.
+    """
     vertices = seen.vertices
     return Surface(
         points=copy(seen.positions, (vertices, 3), np.float64),
@@ -82,4 +116,7 @@ def copied(seen: CSurface) -> Surface:
         ends=copy(seen.ends, (vertices, 2), np.uint32),
         weights=copy(seen.weights, (vertices,), np.float64),
         frame=copy(ctypes.addressof(seen) + CSurface.frame.offset, (4, 4), np.float64),
+        normals=None
+        if normals is None
+        else copy(normals, (seen.triangle_count, 3, 3), np.float64),
     )

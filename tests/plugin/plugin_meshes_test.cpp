@@ -1,4 +1,5 @@
 #include "plugin_scenes.h"
+#include "stored_mesh.h"
 #include "support/temp_folder.h"
 
 #include <pent/facets.h>
@@ -25,29 +26,10 @@ namespace {
 using test::closed_c_mesh;
 using test::expect_error;
 using test::Host;
+using Mesh = test::StoredMesh;
 using test::TempFolder;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-class Mesh {
-public:
-    explicit Mesh(pent_stored_mesh* mesh) : mesh_(mesh) {
-        EXPECT_NE(mesh, nullptr) << pent_last_error();
-        EXPECT_EQ(pent_mesh_info_of(mesh, &info), 0) << pent_last_error();
-    }
-    ~Mesh() { EXPECT_EQ(pent_free_mesh(mesh_), 0); }
-    Mesh(const Mesh&) = delete;
-    Mesh(Mesh&&) = delete;
-    Mesh& operator=(const Mesh&) = delete;
-    Mesh& operator=(Mesh&&) = delete;
-
-    // NOLINTNEXTLINE(google-explicit-constructor): stands for it
-    operator pent_stored_mesh*() const { return mesh_; }
-    pent_mesh_info info = {};
-
-private:
-    pent_stored_mesh* mesh_;
-};
 
 // A mesh with everything that meshes may have.
 template <int Dim>
@@ -142,35 +124,6 @@ TEST(PluginMeshes, SayWhereCellsDoNotFit) {
     pent_surface slice = {};
     EXPECT_EQ(pent_slice_mesh(stored, nullptr, w.data(), 0.5, &slice), -1);
     expect_error("does not fit its neighbors");
-}
-
-// At rest and displaced: what pent_slice() gives of the same body.
-TEST(PluginMeshes, AreSlicedAsBodiesAre) {
-    const Host host = test::open4();
-    const pent_mesh arrays = closed_c_mesh(test::box<4>());
-    const Mesh stored(pent_store_mesh(4, &arrays));
-    const std::array<double, 4> normal = {0.1, 0.2, 0.3, 1};
-    for (int i = 0; i < 2; ++i) {
-        pent_surface own = {};
-        ASSERT_EQ(pent_slice(host, 0, normal.data(), 0.5, &own), 0) << pent_last_error();
-        pent_surface slice = {};
-        const double* positions = i == 0 ? nullptr : pent_positions(host, 0);
-        ASSERT_EQ(pent_slice_mesh(stored, positions, normal.data(), 0.5, &slice), 0);
-        ASSERT_EQ(slice.vertices, own.vertices);
-        ASSERT_GT(slice.triangle_count, 0);
-        ASSERT_EQ(slice.triangle_count, own.triangle_count);
-        EXPECT_TRUE(std::equal(own.positions, own.positions + 3 * own.vertices, slice.positions));
-        EXPECT_TRUE(
-            std::equal(own.triangles, own.triangles + 3 * own.triangle_count, slice.triangles));
-        EXPECT_TRUE(std::equal(own.ends, own.ends + 2 * own.vertices, slice.ends));
-        EXPECT_TRUE(std::equal(std::begin(own.frame), std::end(own.frame), slice.frame));
-        ASSERT_EQ(pent_step(host, nullptr), 0);
-    }
-    const pent_mesh solid = closed_c_mesh(test::box<3>());
-    const Mesh stored3(pent_store_mesh(3, &solid));
-    pent_surface skin = {};
-    ASSERT_EQ(pent_slice_mesh(stored3, nullptr, nullptr, 0, &skin), 0);
-    EXPECT_EQ(skin.triangle_count, 12);
 }
 
 TEST(PluginFrames, HaveAllThatAFileHas) {
@@ -274,6 +227,11 @@ TEST(PluginMeshesMisuse, GivesASentence) {
     const std::vector<std::uint32_t> mirrored = {1, 0, 2, 3, 4};
     const pent_mesh arrays2 = closed_c_mesh(test::box<2>());
     const Mesh mesh2(pent_store_mesh(2, &arrays2));
+    const std::array<double, 1> minus = {-1};
+    const std::array<pent_turn, 3> wrong_turns = {{{0, 4, 9}, {2, 2, 9}, {0, 3, kNan}}};
+    const auto turned = [&](const pent_hyperplane& plane) {
+        return pent_slice_turned(mesh, nullptr, &plane, &surface, nullptr);
+    };
     const std::vector<std::pair<std::function<int()>, std::string>> wrongs = {
         {[&] { return found(pent_read_mesh(nullptr)); }, "path is NULL"},
         {[&] { return found(pent_read_mesh(nowhere.c_str())); }, nowhere},
@@ -308,6 +266,41 @@ TEST(PluginMeshesMisuse, GivesASentence) {
         {[&] { return pent_slice_mesh(mesh, nans.data(), w.data(), 0, &surface); }, "finite"},
         {[&] { return pent_slice_mesh(mesh, nullptr, w.data(), 0, nullptr); }, "surface is NULL"},
         {[&] { return pent_slice_mesh(mesh2, nullptr, w.data(), 0, &surface); }, "2 dimensions"},
+        {[&] { return pent_slice_turned(mesh, nullptr, nullptr, &surface, nullptr); },
+         "plane is NULL"},
+        {[&] {
+             return turned({nullptr, 0, kNan});
+         },
+         "finite"},
+        {[&] {
+             return turned({nullptr, 1, 0});
+         },
+         "turns is NULL"},
+        {[&] {
+             return turned({nullptr, -1, 0});
+         },
+         "turn_count is -1"},
+        {[&] {
+             return turned({wrong_turns.data(), 1, 0});
+         },
+         "axes 0 and 4"},
+        {[&] {
+             return turned({wrong_turns.data() + 1, 1, 0});
+         },
+         "axes 2 and 2"},
+        {[&] {
+             return turned({wrong_turns.data() + 2, 1, 0});
+         },
+         "angle that is not finite"},
+        {[&] { return found(pent_mesh_strain(mesh, nans.data())); }, "finite"},
+        {[&] { return found(pent_mesh_strain(mesh2, nullptr)); }, "2 dimensions"},
+        {[&] { return found(pent_colors(nullptr, w.data(), 4, 0, 1)); }, "quantity is NULL"},
+        {[&] { return found(pent_colors("taste", w.data(), 4, 0, 1)); }, "expected one of body, w"},
+        {[&] { return found(pent_colors("w", nullptr, 4, 0, 1)); }, "values is NULL"},
+        {[&] { return found(pent_colors("w", w.data(), -1, 0, 1)); }, "count is -1"},
+        {[&] { return found(pent_colors("w", w.data(), 4, 0, kNan)); }, "finite"},
+        {[&] { return found(pent_colors("body", nans.data(), 1, 0, 1)); }, "finite"},
+        {[&] { return found(pent_colors("body", minus.data(), 1, 0, 1)); }, "number of a body"},
         {[&] { return pent_free_mesh(nullptr); }, "there is no such mesh"},
         {[&] { return pent_free_frame(nullptr); }, "there is no such frame"},
         {[&] { return pent_frame_field(nullptr, 0, nullptr); }, "there is no such frame"},

@@ -14,7 +14,6 @@ namespace pent::viewer {
 
 namespace {
 
-constexpr double kCrease = 1.0;  // radians: edges of boxes stay sharp, coarse organic shapes smooth
 constexpr float kOnionOpacity = 0.22F;
 constexpr float kOutlineOpacity = 0.07F;
 constexpr double kMaxLegend = 1.0 / 3;  // of the height of a picture

@@ -33,6 +33,9 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd vertex_w(const Positions<Dim>& positions);
 
+/// Radians: the crease of pictures. Edges of boxes stay sharp, coarse organic shapes smooth.
+inline constexpr double kCrease = 1.0;
+
 /// Outward normals for smooth shading, one per corner of each triangle of a surface: 3 x 3
 /// triangles.
 ///

@@ -1,0 +1,158 @@
+"""What programs that show slices look at."""
+
+from __future__ import annotations
+
+import bisect
+import dataclasses
+import math
+import os
+from pathlib import Path
+
+import numpy as np
+
+from ._arrays import Floats
+from ._rotations import Rotations, normal_of
+from .errors import Error
+from .mesh import Mesh
+from .run import Frame, Run
+from .surface import Surface
+
+_PLANES = ("zw", "yw", "yz", "xw", "xz", "xy")
+
+
+class View:
+    """A run folder, or one mesh as a run of one frame, as it is looked at: slices, a frame at a
+    time, with what is known of their vertices. Of each body the last frame is kept, and no other.
+    """
+
+    PLANES = _PLANES  #: In the order in which programs with six angles turn, as pent-view does.
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        """path  The run folder, a file of it as scene.toml, or a mesh, which ends in .pent.
+
+        Raises an Error that says what is wrong with what there is."""
+        self.path = Path(path)  #: The run folder or the mesh.
+        if self.path.is_file() and self.path.suffix != ".pent":
+            self.path = self.path.parent
+        self._run: Run | None = None
+        if self.path.is_file():
+            self._meshes = {self.path.stem: Mesh.read(self.path)}
+        else:
+            self._run = Run(self.path)
+            self._meshes = {name: self._run.mesh(name) for name in self._run.bodies}
+        self.bodies: tuple[str, ...] = tuple(self._meshes)  #: Their names, in ascending order.
+        dimensions = {mesh.dimension for mesh in self._meshes.values()}
+        if len(dimensions) > 1:
+            raise Error(f"{self.path}: has bodies of different dimensions; expected one")
+        self.dimension: int = dimensions.pop()  #: 3 or 4; three-dimensional bodies are seen whole.
+        if self.dimension == 2:
+            raise Error(f"{self.path}: a mesh of 2 dimensions; slices are of bodies of 3 or 4")
+        self._last: dict[str, tuple[int, Frame, dict[str, Floats]]] = {}
+        self.frames: tuple[int, ...] = ()
+        """Numbers of the frames that every body has, ascending, as of the last refresh()."""
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Looks again which frames there are: a run that goes on grows. Raises an Error if there
+        is none."""
+        self._last.clear()
+        self.frames = (0,) if self._run is None else self._run.frames
+        if not self.frames:
+            raise Error(f"{self.path}: has no frame of every body yet; expected frames/")
+
+    @property
+    def frames_per_second(self) -> float:
+        """Of the simulation; 0 where there is one frame."""
+        if len(self.frames) < 2:
+            return 0.0
+        first, last = self.frames[0], self.frames[-1]
+        seconds = self.time(last) - self.time(first)
+        return (last - first) / seconds if seconds > 0 else 0.0
+
+    def frame_at(self, number: float) -> int:
+        """The last frame that is there up to `number`, or the first: where one is missing, the one
+        before it stays."""
+        return self.frames[max(bisect.bisect_right(self.frames, number) - 1, 0)]
+
+    def extent(self, rotate: Rotations | None = None) -> tuple[float, float]:
+        """The lowest and the highest w of the bodies at the first frame, turned, m. Zeros in three
+        dimensions."""
+        if self.dimension == 3:
+            return (0.0, 0.0)
+        normal = normal_of(rotate)
+        heights = [self._frame(self.frames[0], body)[0].positions @ normal for body in self.bodies]
+        lowest = min(float(of_body.min()) for of_body in heights)
+        return (lowest, max(float(of_body.max()) for of_body in heights))
+
+    def middle(self, rotate: Rotations | None = None) -> float:
+        """The offset of the slice that pent-slice takes by itself: through the middle of the bodies
+        at the first frame, to about a hundredth of their extent, m. 0 in three dimensions."""
+        low, high = self.extent(rotate)
+        middle = (low + high) / 2
+        if not high > low:
+            return middle
+        digit = 10.0 ** (math.floor(math.log10(high - low)) - 2)
+        return round(middle / digit) * digit
+
+    def slice(
+        self,
+        body: str,
+        number: int,
+        rotate: Rotations | None = None,
+        offset: float = 0.0,
+        *,
+        shading: bool = False,
+    ) -> Surface:
+        """The slice of a body at one of its frames, as Mesh.slice(), with attributes:
+
+        body    Its number, from 0.
+        w, speed, strain, force and others that frames have, as `pent-slice --color` has them:
+        force is there where frames have contact forces, vectors are there by their length.
+
+        Raises an Error if the frame is not there, or damaged.
+        """
+        frame, quantities = self._frame(number, body)
+        mesh = self._meshes[body]
+        surface = mesh.slice(None, offset, frame.positions, rotate=rotate, shading=shading)
+        attributes = {name: surface.interpolate(values) for name, values in quantities.items()}
+        index = np.full(len(surface.points), float(self.bodies.index(body)))
+        return dataclasses.replace(surface, attributes={"body": index, **attributes})
+
+    def time(self, number: int) -> float:
+        """s, of a frame."""
+        return self._frame(number, self.bodies[0])[0].time
+
+    def _frame(self, number: int, body: str) -> tuple[Frame, dict[str, Floats]]:
+        held = self._last.get(body)
+        if held is None or held[0] != number:
+            mesh = self._meshes[body]
+            frame = _at_rest(mesh) if self._run is None else self._run._read(number, body)
+            held = (number, frame, _quantities(mesh, frame))
+            self._last[body] = held
+        return held[1:]
+
+
+def _at_rest(mesh: Mesh) -> Frame:
+    return Frame(0, 0, 0.0, mesh.points, None, None, {}, mesh.crc32c)
+
+
+def _quantities(mesh: Mesh, frame: Frame) -> dict[str, Floats]:
+    """At the vertices of the mesh."""
+    zeros = np.zeros(mesh.vertex_count)
+    found = {
+        "w": frame.positions[:, 3] if mesh.dimension == 4 else zeros,
+        "speed": zeros if frame.velocities is None else _lengths(frame.velocities),
+        "strain": mesh.strain(frame.positions),
+    }
+    if frame.contact_forces is not None:
+        found["force"] = _lengths(frame.contact_forces)
+    for name, values in frame.fields.items():
+        found.setdefault(name, _lengths(values))
+    return found
+
+
+def _lengths(values: Floats) -> Floats:
+    if values.ndim == 1:
+        return np.abs(values)
+    lengths: Floats = np.linalg.norm(values, axis=1)
+    return lengths

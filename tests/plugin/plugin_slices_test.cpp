@@ -1,0 +1,112 @@
+#include "plugin_scenes.h"
+#include "stored_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <pent_plugin_meshes.h>
+#include <vector>
+
+// Slices of meshes without a simulation, and what is shown of them.
+
+namespace pent {
+namespace {
+
+using test::closed_c_mesh;
+using test::Host;
+using Mesh = test::StoredMesh;
+
+// At rest and displaced: what pent_slice() gives of the same body.
+TEST(PluginSlices, AreThoseOfBodies) {
+    const Host host = test::open4();
+    const pent_mesh arrays = closed_c_mesh(test::box<4>());
+    const Mesh stored(pent_store_mesh(4, &arrays));
+    const std::array<double, 4> normal = {0.1, 0.2, 0.3, 1};
+    for (int i = 0; i < 2; ++i) {
+        pent_surface own = {};
+        ASSERT_EQ(pent_slice(host, 0, normal.data(), 0.5, &own), 0) << pent_last_error();
+        pent_surface slice = {};
+        const double* positions = i == 0 ? nullptr : pent_positions(host, 0);
+        ASSERT_EQ(pent_slice_mesh(stored, positions, normal.data(), 0.5, &slice), 0);
+        ASSERT_EQ(slice.vertices, own.vertices);
+        ASSERT_GT(slice.triangle_count, 0);
+        ASSERT_EQ(slice.triangle_count, own.triangle_count);
+        EXPECT_TRUE(std::equal(own.positions, own.positions + 3 * own.vertices, slice.positions));
+        EXPECT_TRUE(
+            std::equal(own.triangles, own.triangles + 3 * own.triangle_count, slice.triangles));
+        EXPECT_TRUE(std::equal(own.ends, own.ends + 2 * own.vertices, slice.ends));
+        EXPECT_TRUE(std::equal(std::begin(own.frame), std::end(own.frame), slice.frame));
+        ASSERT_EQ(pent_step(host, nullptr), 0);
+    }
+    const pent_mesh solid = closed_c_mesh(test::box<3>());
+    const Mesh stored3(pent_store_mesh(3, &solid));
+    pent_surface skin = {};
+    ASSERT_EQ(pent_slice_mesh(stored3, nullptr, nullptr, 0, &skin), 0);
+    EXPECT_EQ(skin.triangle_count, 12);
+}
+
+// Without turns the slice by a normal along w, to the bit; a quarter turn takes x to w.
+TEST(PluginSlices, TurnBodiesFirst) {
+    const pent_mesh arrays = closed_c_mesh(test::box<4>());
+    const Mesh stored(pent_store_mesh(4, &arrays));
+    pent_surface slice = {};
+    const std::array<double, 4> w = {0, 0, 0, 1};
+    ASSERT_EQ(pent_slice_mesh(stored, nullptr, w.data(), 0.3, &slice), 0);
+    const std::vector<double> straight(slice.positions, slice.positions + 3 * slice.vertices);
+    pent_hyperplane plane = {.turns = nullptr, .turn_count = 0, .offset = 0.3};
+    ASSERT_EQ(pent_slice_turned(stored, nullptr, &plane, &slice, nullptr), 0);
+    EXPECT_EQ(straight, std::vector<double>(slice.positions, slice.positions + 3 * slice.vertices));
+
+    const std::array<pent_turn, 2> turns = {{{0, 3, 90}, {1, 2, 180}}};
+    plane = {.turns = turns.data(), .turn_count = 2, .offset = 0.3};
+    const double* normals = nullptr;
+    ASSERT_EQ(pent_slice_turned(stored, nullptr, &plane, &slice, &normals), 0);
+    ASSERT_GT(slice.triangle_count, 0);
+    const Eigen::Map<const Positions<3>> points(slice.positions, 3, slice.vertices);
+    // w' = x = 0.3; x' = -w, y' = -y, z' = -z; and rounding of the sines.
+    EXPECT_LT((points.rowwise().minCoeff() + Eigen::Vector3d(1, 1, 1)).norm(), 1e-15);
+    EXPECT_LT(points.rowwise().maxCoeff().norm(), 1e-15);
+    for (std::int64_t corner = 0; corner < 3 * slice.triangle_count; ++corner) {
+        const Eigen::Map<const Eigen::Vector3d> normal(normals + 3 * corner);
+        const Eigen::Vector3d place = points.col(slice.triangles[corner]);
+        EXPECT_NEAR(normal.cwiseAbs().maxCoeff(), 1, 1e-15);  // a box has six
+        EXPECT_GT(normal.dot(place + Eigen::Vector3d::Constant(0.5)), 0);
+    }
+    const pent_mesh solid = closed_c_mesh(test::box<3>());
+    const Mesh stored3(pent_store_mesh(3, &solid));
+    ASSERT_EQ(pent_slice_turned(stored3, nullptr, nullptr, &slice, &normals), 0);
+    EXPECT_EQ(slice.triangle_count, 12);
+}
+
+// x stretched by s: E = (s^2 - 1) / 2 in xx, and nothing else.
+TEST(PluginSlices, HaveTheStrainOfAStretch) {
+    const pent_mesh arrays = closed_c_mesh(test::box<4>());
+    const Mesh stored(pent_store_mesh(4, &arrays));
+    Positions<4> stretched = test::box<4>().positions;
+    const double* strain = pent_mesh_strain(stored, stretched.data());
+    ASSERT_NE(strain, nullptr) << pent_last_error();
+    EXPECT_EQ(*std::max_element(strain, strain + stored.info.arrays.vertices), 0);
+    stretched.row(0) *= 1.5;
+    strain = pent_mesh_strain(stored, stretched.data());
+    for (std::int64_t vertex = 0; vertex < stored.info.arrays.vertices; ++vertex) {
+        EXPECT_NEAR(strain[vertex], 0.625, 1e-15);
+    }
+}
+
+TEST(PluginColors, GoFromTheFirstToTheLastAndStayThere) {
+    const std::array<double, 4> values = {-5, 0, 1, 7};
+    const float* colors = pent_colors("speed", values.data(), 4, 0, 1);
+    ASSERT_NE(colors, nullptr) << pent_last_error();
+    EXPECT_TRUE(std::equal(colors, colors + 3, colors + 3));
+    EXPECT_TRUE(std::equal(colors + 6, colors + 9, colors + 9));
+    EXPECT_FALSE(std::equal(colors, colors + 3, colors + 6));
+    const std::array<double, 3> bodies = {0, 1, 0};
+    colors = pent_colors("body", bodies.data(), 3, 0, 0);
+    EXPECT_TRUE(std::equal(colors, colors + 3, colors + 6));
+    EXPECT_FALSE(std::equal(colors, colors + 3, colors + 3));
+    EXPECT_NE(pent_colors("w", nullptr, 0, 0, 1), nullptr);
+}
+
+}  // namespace
+}  // namespace pent
