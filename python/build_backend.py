@@ -107,13 +107,18 @@ def build_wheel(wheel_directory: str, config_settings=None, metadata_directory=N
     record = "".join(f"{name},{digest(data)},{len(data)}\n" for name, (data, _) in files.items())
     files[f"{INFO}/RECORD"] = (f"{record}{INFO}/RECORD,,\n".encode(), False)
     name = f"pentimento-{version()}-{tag}.whl"
-    with zipfile.ZipFile(pathlib.Path(wheel_directory, name), "w", zipfile.ZIP_DEFLATED) as archive:
-        for path, (data, is_program) in files.items():
-            entry = zipfile.ZipInfo(path, (2020, 1, 1, 0, 0, 0))  # the same bytes at any time
+    write_zip(pathlib.Path(wheel_directory, name), files)
+    return name
+
+
+def write_zip(path: pathlib.Path, files: dict[str, tuple[bytes, bool]]) -> None:
+    """As of contents(); the same bytes at any time."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, (data, is_program) in files.items():
+            entry = zipfile.ZipInfo(name, (2020, 1, 1, 0, 0, 0))
             entry.compress_type = zipfile.ZIP_DEFLATED
             entry.external_attr = (0o100755 if is_program else 0o100644) << 16
             archive.writestr(entry, data)
-    return name
 
 
 def digest(data: bytes) -> str:

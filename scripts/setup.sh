@@ -7,6 +7,7 @@
 #   scripts/setup.sh --page     also what web.sh --viewer and test.sh --page need: node, npm, Chromium
 #   scripts/setup.sh --web      also what web.sh and test.sh --web need: node, npm, emscripten, Chromium
 #   scripts/setup.sh --python   also what test.sh --python needs: pytest, mypy, tqdm, Jupyter's nbconvert
+#   scripts/setup.sh --hosts    also what test.sh --hosts needs: Blender, ParaView, a display in memory (1.2 GB)
 #   scripts/setup.sh --check    only say what is missing; exit code 1 if anything is
 #
 # Works as root or with sudo. Safe to run again: when nothing is missing it does nothing.
@@ -17,6 +18,7 @@ with_portable=false
 with_page=false
 with_web=false
 with_python=false
+with_hosts=false
 only_check=false
 for argument in "$@"; do
     case $argument in
@@ -25,8 +27,9 @@ for argument in "$@"; do
         --page) with_page=true ;;
         --web) with_page=true; with_web=true ;;
         --python) with_python=true ;;
+        --hosts) with_hosts=true ;;
         --check) only_check=true ;;
-        *) echo "setup: unknown argument $argument; expected --tools, --portable, --page, --web, --python or --check" >&2; exit 2 ;;
+        *) echo "setup: unknown argument $argument; expected --tools, --portable, --page, --web, --python, --hosts or --check" >&2; exit 2 ;;
     esac
 done
 
@@ -68,6 +71,13 @@ if $with_python; then
     packages+=(
         python3-pytest mypy python3-tqdm python3-pip python3-venv
         jupyter-nbconvert python3-ipykernel  # runs the notebooks
+    )
+fi
+if $with_hosts; then
+    packages+=(
+        blender
+        paraview python3-paraview
+        xvfb xauth libgl1-mesa-dri        # Debian's ParaView draws with X alone
     )
 fi
 if $with_portable; then

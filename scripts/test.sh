@@ -13,9 +13,10 @@
 #   scripts/test.sh --page                    the same without the playground, whose module takes minutes to build
 #   scripts/test.sh --python                  only the Python package: its tests, its types, 10,000 calls at random,
 #                                             its wheel in a fresh environment, its notebooks
+#   scripts/test.sh --hosts                   only the add-on for Blender and the reader for ParaView, in both
 #   scripts/test.sh --all                     every test, every test under the address and undefined-behavior
 #                                             sanitizers, a minute of scripts/scene_fuzz.sh from a fixed
-#                                             seed, --threads, --portable, --web and --python (long: each builds anew)
+#                                             seed, --threads, --portable, --web, --python and --hosts (long: each builds anew)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -60,6 +61,14 @@ run_python() {
     PENTIMENTO_FUZZ_CALLS=10000 /usr/bin/python3 python/tests/run.py --all
 }
 
+# In Blender and ParaView themselves; what is skipped, and why, stands in lines that begin with SKIPPED.
+run_hosts() {
+    scripts/setup.sh --hosts
+    cmake --preset dev
+    cmake --build --preset dev --target wheel
+    ctest --preset dev --verbose -L hosts_test
+}
+
 launcher=()
 scripts/setup.sh
 case ${1:-} in
@@ -86,6 +95,9 @@ case ${1:-} in
     --python)
         run_python
         ;;
+    --hosts)
+        run_hosts
+        ;;
     --all)
         run_preset dev
         run_preset asan
@@ -94,6 +106,7 @@ case ${1:-} in
         run_portable
         run_web
         run_python
+        run_hosts
         ;;
     "")
         run_preset dev

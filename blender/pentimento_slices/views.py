@@ -1,0 +1,36 @@
+"""What is open: a View of each path, with the Python package that the add-on carries."""
+
+import os
+
+import bpy
+
+try:
+    from .pentimento import Error, View
+except ModuleNotFoundError:  # used from where it is written, without the zip
+    from pentimento import Error, View
+
+#: What reading and slicing raise for what is wrong outside.
+FAILURES = (Error, OSError, IndexError)
+
+_open = {}
+
+
+def view_of(path):
+    """The View of a path as Blender has it, "//" and all; read once."""
+    absolute = os.path.abspath(bpy.path.abspath(path))
+    if absolute not in _open:
+        _open[absolute] = View(absolute)
+    return _open[absolute]
+
+
+def forget(path=None):
+    """The next view_of() reads anew: this path, or all."""
+    if path is None:
+        _open.clear()
+    else:
+        _open.pop(os.path.abspath(bpy.path.abspath(path)), None)
+
+
+def one_line(error):
+    """What an error says, as reports and panels have it."""
+    return " ".join(str(error).split())
