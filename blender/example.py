@@ -5,7 +5,6 @@
 It shows how a script drives the add-on: import, keys for hyperplane and colors, camera and lamps.
 """
 
-import math
 import sys
 
 import addon_utils

@@ -27,6 +27,8 @@ def refresh(run, depsgraph=None):
     try:
         view = view_of(settings.path)
         look = look_of(settings, view)
+        if run.pentimento.dimension != view.dimension:
+            run.pentimento.dimension = view.dimension
         for thing in bodies_of(run):
             _cut(thing, view, look)
         _tell(run, "")

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _interop
-from ._arrays import Floats, Indices, address_of, copy, real, text
+from ._arrays import Floats, Indices, address_of, copy, floats, real, text
 from ._library import Surface as CSurface
 from ._library import library
 from .errors import Error
@@ -70,7 +70,7 @@ class Surface:
     def colors(self, quantity: str, low: float, high: float) -> NDArray[np.float32]:
         """(vertices, 3): red, green, blue, 0..1, linear light, as pent-render colors by an
         attribute of a View's slice; `low` and `high` get the first and the last color."""
-        values = np.ascontiguousarray(self._attribute(quantity), np.float64)
+        values = floats(self._attribute(quantity), ("vertices",), "attribute")
         address = library().pent_colors(
             text(quantity, "quantity"), address_of(values), len(values), real(low, "low"),
             real(high, "high"),

@@ -123,6 +123,12 @@ class View:
         return self._frame(number, self.bodies[0])[0].time
 
     def _frame(self, number: int, body: str) -> tuple[Frame, dict[str, Floats]]:
+        if body not in self._meshes:
+            known = ", ".join(self.bodies)
+            raise Error(f'{self.path}: no body is called "{body}"; there are {known}')
+        if self.frame_at(number) != number:
+            known = f"{self.frames[0]} to {self.frames[-1]}"
+            raise Error(f"{self.path}: has no frame {number}; there are {known}")
         held = self._last.get(body)
         if held is None or held[0] != number:
             mesh = self._meshes[body]

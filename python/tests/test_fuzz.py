@@ -14,7 +14,7 @@ import numpy as np
 from conftest import box, two_boxes
 
 import pentimento
-from pentimento import BodyPoint, Error, Image, Mesh, Scene, Simulation
+from pentimento import BodyPoint, Error, Image, Mesh, Scene, Simulation, Surface
 
 CALLS = int(os.environ.get("PENTIMENTO_FUZZ_CALLS", "2000"))
 SEED = int(os.environ.get("PENTIMENTO_FUZZ_SEED", "22"))
@@ -64,6 +64,14 @@ class Draw:
             return made.tolist()
         with np.errstate(all="ignore"):  # what does not fit becomes rubbish, as it may
             return made.astype(self.one("f8", "f8", "f4", "i4", "f2", ">f8"), copy=False)
+
+    def rotations(self):
+        plane = self.one("xw", "yz", "ww", "xv", "x", self.rubbish())
+        try:
+            turn = self.one(f"{plane}:{self.real()}", {plane: self.real()})
+        except TypeError:  # not hashable
+            turn = plane
+        return self.one(None, "xw:30", {"zw": self.real()}, [turn], turn, ["xy:1", "xw:nan"])
 
     def vertices(self):
         count = self.one(0, 1, 3, 16)
@@ -127,6 +135,14 @@ def calls(draw: Draw, simulation: Simulation, mesh: Mesh, states: list, grabs: l
         lambda: draw.kept(Mesh(draw.array(6, d), cells).points),
         lambda: draw.kept(mesh.points),
         lambda: mesh.slice(draw.array(4), draw.real(), draw.one(None, draw.array(n, d))),
+        lambda: mesh.slice(
+            draw.one(None, draw.array(4)), draw.real(), draw.one(None, draw.array(n, d)),
+            rotate=draw.rotations(), shading=draw.one(True, False),
+        ),
+        lambda: mesh.strain(draw.array(n, d)),
+        lambda: Surface(
+            np.zeros((3, 3)), np.zeros((1, 3)), attributes={"w": draw.array(3), "body": draw.array(3)}
+        ).colors(draw.one("w", "body", "speed", draw.rubbish()), draw.real(), draw.real()),
         lambda: Mesh.read(draw.rubbish()),
         lambda: Scene.from_text(draw.rubbish()),
         lambda: Scene({"scene": {draw.one("gravity", "frames", "x"): draw.rubbish()}}),

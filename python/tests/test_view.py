@@ -132,6 +132,11 @@ def test_what_is_nothing_to_see_is_refused(data, tmp_path):
         View(tmp_path)
     with pytest.raises(Error, match="is a frame of the mesh"):
         View(data / "run" / "frames" / "low_000001.pent")
+    with pytest.raises(Error, match='no body is called "lowest"; there are high, low'):
+        view.slice("lowest", 3)
+    for number in (-1, 9):
+        with pytest.raises(Error, match=f"has no frame {number}; there are 0 to 8"):
+            view.slice("low", number)
     with pytest.raises(Error, match="no attribute reaction; there are body, w, speed"):
         view.slice("low", 3).colors("reaction", 0, 1)
 
