@@ -65,7 +65,7 @@ run_python() {
 run_hosts() {
     scripts/setup.sh --hosts
     cmake --preset dev
-    cmake --build --preset dev --target wheel
+    cmake --build --preset dev --target pent_plugin pent-sim pent-slice
     ctest --preset dev --verbose -L hosts_test
 }
 

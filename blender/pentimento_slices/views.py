@@ -15,10 +15,18 @@ FAILURES = (Error, OSError, IndexError)
 _open = {}
 
 
+def _absolute(path):
+    return os.path.abspath(bpy.path.abspath(path))
+
+
 def view_of(path):
-    """The View of a path as Blender has it, "//" and all; read once."""
-    absolute = os.path.abspath(bpy.path.abspath(path))
+    """The View of a path as Blender has it, "//" and all; read once. Those that no object has any
+    more are closed when another is opened."""
+    absolute = _absolute(path)
     if absolute not in _open:
+        used = {_absolute(thing.pentimento.path) for thing in bpy.data.objects}
+        for other in set(_open) - used:
+            del _open[other]
         _open[absolute] = View(absolute)
     return _open[absolute]
 
@@ -28,7 +36,7 @@ def forget(path=None):
     if path is None:
         _open.clear()
     else:
-        _open.pop(os.path.abspath(bpy.path.abspath(path)), None)
+        _open.pop(_absolute(path), None)
 
 
 def one_line(error):

@@ -5,6 +5,7 @@ import io
 import math
 import os
 import pathlib
+import runpy
 import shutil
 import sys
 import unittest
@@ -478,6 +479,17 @@ class AddOn(unittest.TestCase):
             seen = (np.nonzero(alpha.max(axis=1) > 0.5)[0].max() + 1 - 12) / 8 + 1.2
             made = sliced(DATA / "run", "high", frame - FIRST)
             self.assertLess(abs(seen - made.points[:, 1].max()), 1 / 8)  # a row
+
+    def test_the_example_makes_a_picture(self):
+        names = runpy.run_path(str(PYTHON.parent / "blender" / "example.py"), run_name="example")
+        run = names["import_run"](str(DATA / "run"))
+        names["set_up"](run)
+        bpy.context.scene.render.resolution_percentage = 5
+        names["render"](str(DATA / "example.png"), 1)
+        image = bpy.data.images.load(str(DATA / "example.png"))
+        self.assertEqual(tuple(image.size), (36, 24))
+        orange = np.array(image.pixels[:]).reshape(24, 36, 4)[10:14, 16:20].mean(axis=(0, 1))
+        self.assertGreater(orange[0], orange[2])  # the first body, in the middle
 
     def test_exported_sequences_have_every_slice(self):
         imported(DATA / "run", as_one=True)

@@ -22,7 +22,8 @@ _PLANES = ("zw", "yw", "yz", "xw", "xz", "xy")
 
 class View:
     """A run folder, or one mesh as a run of one frame, as it is looked at: slices, a frame at a
-    time, with what is known of their vertices. Of each body the last frame is kept, and no other.
+    time, with what is known of their vertices. Of each body two frames are kept: the first, and the
+    last that was looked at.
     """
 
     PLANES = _PLANES  #: In the order in which programs with six angles turn, as pent-view does.
@@ -47,7 +48,9 @@ class View:
         self.dimension: int = dimensions.pop()  #: 3 or 4; three-dimensional bodies are seen whole.
         if self.dimension == 2:
             raise Error(f"{self.path}: a mesh of 2 dimensions; slices are of bodies of 3 or 4")
+        self._first: dict[str, Frame] = {}
         self._last: dict[str, tuple[int, Frame, dict[str, Floats]]] = {}
+        self._rate: float | None = None
         self.frames: tuple[int, ...] = ()
         """Numbers of the frames that every body has, ascending, as of the last refresh()."""
         self.refresh()
@@ -55,7 +58,9 @@ class View:
     def refresh(self) -> None:
         """Looks again which frames there are: a run that goes on grows. Raises an Error if there
         is none."""
+        self._first.clear()
         self._last.clear()
+        self._rate = None
         self.frames = (0,) if self._run is None else self._run.frames
         if not self.frames:
             raise Error(f"{self.path}: has no frame of every body yet; expected frames/")
@@ -63,11 +68,11 @@ class View:
     @property
     def frames_per_second(self) -> float:
         """Of the simulation; 0 where there is one frame."""
-        if len(self.frames) < 2:
-            return 0.0
-        first, last = self.frames[0], self.frames[-1]
-        seconds = self.time(last) - self.time(first)
-        return (last - first) / seconds if seconds > 0 else 0.0
+        if self._rate is None:
+            first, last = self.frames[0], self.frames[-1]
+            seconds = self.time(last) - self.time(first)
+            self._rate = (last - first) / seconds if seconds > 0 else 0.0
+        return self._rate
 
     def frame_at(self, number: float) -> int:
         """The last frame that is there up to `number`, or the first: where one is missing, the one
@@ -80,7 +85,7 @@ class View:
         if self.dimension == 3:
             return (0.0, 0.0)
         normal = normal_of(rotate)
-        heights = [self._frame(self.frames[0], body)[0].positions @ normal for body in self.bodies]
+        heights = [self._start(body).positions @ normal for body in self.bodies]
         lowest = min(float(of_body.min()) for of_body in heights)
         return (lowest, max(float(of_body.max()) for of_body in heights))
 
@@ -120,20 +125,31 @@ class View:
 
     def time(self, number: int) -> float:
         """s, of a frame."""
-        return self._frame(number, self.bodies[0])[0].time
+        first = number == self.frames[0]
+        body = self.bodies[0]
+        return (self._start(body) if first else self._read(number, body)).time
 
-    def _frame(self, number: int, body: str) -> tuple[Frame, dict[str, Floats]]:
+    def _start(self, body: str) -> Frame:
+        if body not in self._first:
+            self._first[body] = self._read(self.frames[0], body)
+        return self._first[body]
+
+    def _read(self, number: int, body: str) -> Frame:
         if body not in self._meshes:
             known = ", ".join(self.bodies)
             raise Error(f'{self.path}: no body is called "{body}"; there are {known}')
         if self.frame_at(number) != number:
             known = f"{self.frames[0]} to {self.frames[-1]}"
             raise Error(f"{self.path}: has no frame {number}; there are {known}")
+        if self._run is None:
+            return _at_rest(self._meshes[body])
+        return self._run._read(number, body)
+
+    def _frame(self, number: int, body: str) -> tuple[Frame, dict[str, Floats]]:
         held = self._last.get(body)
         if held is None or held[0] != number:
-            mesh = self._meshes[body]
-            frame = _at_rest(mesh) if self._run is None else self._run._read(number, body)
-            held = (number, frame, _quantities(mesh, frame))
+            frame = self._read(number, body)
+            held = (number, frame, _quantities(self._meshes[body], frame))
             self._last[body] = held
         return held[1:]
 

@@ -141,7 +141,7 @@ def calls(draw: Draw, simulation: Simulation, mesh: Mesh, states: list, grabs: l
         ),
         lambda: mesh.strain(draw.array(n, d)),
         lambda: Surface(
-            np.zeros((3, 3)), np.zeros((1, 3)), attributes={"w": draw.array(3), "body": draw.array(3)}
+            np.zeros((3, 3)), np.zeros((1, 3)), attributes={q: draw.array(3) for q in ("w", "body")}
         ).colors(draw.one("w", "body", "speed", draw.rubbish()), draw.real(), draw.real()),
         lambda: Mesh.read(draw.rubbish()),
         lambda: Scene.from_text(draw.rubbish()),
