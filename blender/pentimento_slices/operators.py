@@ -74,11 +74,9 @@ def _add_body(context, run, body):
     thing.pentimento_body.run = run
     thing.pentimento_body.body = body
     thing.data.materials.append(_material())
-    driver = thing.driver_add("pentimento_body.frame").driver
-    driver.type = "SUM"
-    target = driver.variables.new().targets[0]
-    target.id = run
-    target.data_path = "pentimento.frame"
+    # Exporters to Alembic and USD write a mesh once only, unless its object has a modifier.
+    mark = thing.modifiers.new("Changes from frame to frame", "TRIANGULATE")
+    mark.show_viewport = mark.show_render = False
 
 
 def _material():

@@ -126,8 +126,6 @@ class PentimentoBody(bpy.types.PropertyGroup):
 
     run: PointerProperty(type=bpy.types.Object, name="Run", description="Whose slice it is")
     body: StringProperty(name="Body", description="Its name; empty for all in one")
-    # Driven by that of the run, so that exporters and the render see that the object moves.
-    frame: FloatProperty(name="Frame", description="Of the run; driven")
 
 
 def run_of(thing):

@@ -507,6 +507,14 @@ class AddOn(unittest.TestCase):
             # OBJ has six digits.
             self.assertAlmostEqual(found.volume, sum(one.volume for one in made), delta=2e-5)
 
+    def test_objects_have_the_modifier_by_which_exporters_see_that_they_change(self):
+        run = imported(DATA / "run")
+        self.at(FIRST + 5)
+        for thing in bodies(run).values():
+            self.assertEqual(len(thing.modifiers), 1)
+            shown = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+            self.assertEqual(len(shown.polygons), len(thing.data.polygons))
+
     def test_alembic_has_every_slice(self):
         if not bpy.app.build_options.alembic:
             self.skipTest("this Blender was built without Alembic, as Debian's is")
