@@ -2,8 +2,9 @@
 # pent::simulator and pent::runs, the permissive part a host program links. The mesher and the viewer are installed as programs only.
 
 include(CMakePackageConfigHelpers)
-install(TARGETS pent_format pent_exchange pent_contact pent_simulator pent_runs EXPORT pentTargets FILE_SET HEADERS)
-install(EXPORT pentTargets NAMESPACE pent:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pent)
+install(TARGETS pent_format pent_exchange pent_contact pent_simulator pent_runs EXPORT pentTargets
+  ARCHIVE COMPONENT development FILE_SET HEADERS COMPONENT development)
+install(EXPORT pentTargets NAMESPACE pent:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pent COMPONENT development)
 write_basic_package_version_file(pentConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 if(PENT_THREADS STREQUAL tbb)
   set(pent_find_threads "find_dependency(TBB)\n")
@@ -15,4 +16,57 @@ file(WRITE ${PROJECT_BINARY_DIR}/pentConfig.cmake
   "${pent_find_threads}"
   "include(\${CMAKE_CURRENT_LIST_DIR}/pentTargets.cmake)\n")
 install(FILES ${PROJECT_BINARY_DIR}/pentConfig.cmake ${PROJECT_BINARY_DIR}/pentConfigVersion.cmake
-  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pent)
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pent COMPONENT development)
+
+# What comes along: scenes and models of our own to try, and what is to be said of licences.
+install(DIRECTORY data/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/pentimento FILES_MATCHING PATTERN "*.toml")
+install(FILES data/models/alien_4006f.obj data/models/octopus_5246f.obj
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/pentimento/models)
+install(FILES cmake/packages/copyright LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(PENT_BUILD_MESHER)
+  install(FILES mesher/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME LICENSE.pent-mesh)
+  install(FILES mesher/tetgen_worker/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME LICENSE.pent-tetgen)
+endif()
+
+# Packages, see scripts/package.sh: an archive of everything that works in any folder, and for Debian the programs
+# with the library to load, and apart from them what is linked.
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()
+endif()
+set(CPACK_PACKAGE_NAME pentimento)
+set(CPACK_PACKAGE_VENDOR "The Pentimento authors")
+set(CPACK_PACKAGE_CONTACT "The Pentimento authors <pentimento@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "meshes and simulates deformable bodies of four dimensions")
+set(CPACK_PACKAGE_CHECKSUM SHA256)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_GENERATOR TGZ DEB)
+set(CPACK_PACKAGE_FILE_NAME pentimento-${PROJECT_VERSION}-linux-${CMAKE_SYSTEM_PROCESSOR})
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL programs development)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME pentimento)
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS fonts-dejavu-core)  # of captions
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS ffmpeg)          # makes movies
+set(CPACK_DEBIAN_PROGRAMS_DESCRIPTION
+"Makes pentachoral meshes (the four-dimensional counterpart of tetrahedral
+ones) of surfaces and shapes, simulates them as elastic bodies, and shows
+three-dimensional slices of what happens as surfaces, pictures, movies
+and in the browser. With a library that hosts load for its C interface.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME pentimento-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+  "pentimento (= ${PROJECT_VERSION}), libeigen3-dev")
+if(PENT_THREADS STREQUAL tbb)
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libtbb-dev")
+endif()
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
+"Headers, static libraries and the CMake package of the simulator, of scene
+files and of meshes, and the header of the C interface.")
+include(CPack)

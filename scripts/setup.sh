@@ -8,6 +8,8 @@
 #   scripts/setup.sh --web      also what web.sh and test.sh --web need: node, npm, emscripten, Chromium
 #   scripts/setup.sh --python   also what test.sh --python needs: pytest, mypy, tqdm, Jupyter's nbconvert
 #   scripts/setup.sh --hosts    also what test.sh --hosts needs: Blender, ParaView, a display in memory (1.2 GB)
+#   scripts/setup.sh --site     also what site.sh and the pictures of the front page need: Sphinx, Doxygen, webp
+#   scripts/setup.sh --package  also what package.sh needs: dpkg-dev, lintian
 #   scripts/setup.sh --check    only say what is missing; exit code 1 if anything is
 #
 # Works as root or with sudo. Safe to run again: when nothing is missing it does nothing.
@@ -19,6 +21,8 @@ with_page=false
 with_web=false
 with_python=false
 with_hosts=false
+with_site=false
+with_package=false
 only_check=false
 for argument in "$@"; do
     case $argument in
@@ -28,8 +32,10 @@ for argument in "$@"; do
         --web) with_page=true; with_web=true ;;
         --python) with_python=true ;;
         --hosts) with_hosts=true ;;
+        --site) with_site=true ;;
+        --package) with_package=true ;;
         --check) only_check=true ;;
-        *) echo "setup: unknown argument $argument; expected --tools, --portable, --page, --web, --python, --hosts or --check" >&2; exit 2 ;;
+        *) echo "setup: unknown argument $argument; expected --tools, --portable, --page, --web, --python, --hosts, --site, --package or --check" >&2; exit 2 ;;
     esac
 done
 
@@ -80,6 +86,16 @@ if $with_hosts; then
         xvfb xauth libgl1-mesa-dri        # Debian's ParaView draws with X alone
     )
 fi
+if $with_site; then
+    packages+=(
+        python3-sphinx python3-myst-parser furo  # the pages of docs/
+        doxygen                                  # the reference of C++
+        webp                                     # the animation of README
+    )
+fi
+if $with_package; then
+    packages+=(dpkg-dev file lintian)     # what a .deb depends on, and its judge
+fi
 if $with_portable; then
     packages+=(
         clang libc++-dev libc++abi-dev    # another compiler, another C++ library
@@ -128,5 +144,5 @@ fi
 echo "setup: installing ${#missing[@]} packages: ${missing[*]}"
 "${as_root[@]}" apt-get update -qq
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+    apt-get install -y -qq --no-install-recommends -o DPkg::Lock::Timeout=600 "${missing[@]}" >/dev/null
 echo "setup: done"

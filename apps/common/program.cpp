@@ -1,5 +1,7 @@
 #include "program.h"
 
+#include "build_info.h"
+
 #include <pent/error.h>
 #include <pent/nearest_name.h>
 #include <pent/output_file.h>
@@ -120,7 +122,8 @@ bool stop_requested() {
 Program::Program(std::string name, const std::string& description, const std::string& example)
     : name_(std::move(name)), cli_(description, name_) {
     common_.threads = default_threads();
-    cli_.set_version_flag("--version", name_and_version());
+    cli_.set_version_flag("--version", name_and_version() + "\n" + build_info(),
+                          "Print version, commit and features of this build, and exit");
     cli_.add_option("--threads", common_.threads, "Threads to use; default: the number of cores")
         ->check(CLI::Range(1, 1024));
     cli_.add_flag("--quiet", common_.quiet, "Print nothing but errors");

@@ -10,6 +10,7 @@
 // TetGen's license (AGPL-3.0) out of the programs that start it.
 
 #define TETLIBRARY
+#include "build_info.h"
 #include "protocol.h"
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <string_view>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <tetgen.h>
@@ -125,6 +127,10 @@ void fill(char* switches, tetgenio& in, tetgenio& out) noexcept {
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (argc == 2 && std::string_view(argv[1]) == "--version") {
+        std::printf("pent-tetgen " PENT_VERSION "\n%s\n", pent::build_info());
+        return pent::tetgen::kDone;
+    }
     if (argc != 4) {
         std::fprintf(stderr,
                      "pent-tetgen is started by pent-mesh:\n"

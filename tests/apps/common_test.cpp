@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -46,13 +48,58 @@ TEST_P(EveryProgram, SaysThatWhatItPrintsDoesNotArrive) {
                                   " free some space or print elsewhere\n");
 }
 
-TEST_P(EveryProgram, SaysItsVersion) {
-    const Outcome outcome = run_program(GetParam() + " --version");
+// "--version" of a program, which says PENT_VERSION, what it was built from, and what it has.
+void expect_build_info(const std::string& program) {
+    const Outcome outcome = run_program(program + " --version");
     EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_EQ(outcome.out.rfind(GetParam() + " ", 0), 0U) << outcome.out;
-    EXPECT_TRUE(std::any_of(outcome.out.begin(), outcome.out.end(), [](char c) {
-        return c >= '0' && c <= '9';
-    })) << outcome.out;
+    const std::regex said(program
+                          + " " PENT_VERSION
+                            "\n"
+                            "commit: ([0-9a-f]{12,}\\+?|unknown)\n"
+                            "compiler: [^\n]+\n"
+                            "features: [^\n]*threads (tbb|serial|plain), kernels scalar[^\n]*\n");
+    EXPECT_TRUE(std::regex_match(outcome.out, said)) << outcome.out;
+}
+
+TEST_P(EveryProgram, SaysItsVersionCommitAndFeatures) {
+    expect_build_info(GetParam());
+}
+
+#ifdef PENT_HAS_MESHER
+TEST(Tetgen, SaysItsVersionCommitAndFeatures) {
+    expect_build_info("pent-tetgen");
+}
+#endif
+
+// What is written before each build of a source.
+std::string written_commit(const std::filesystem::path& source) {
+    const test::TempFolder folder;
+    const std::string header = (folder / "commit.h").string();
+    const std::string line = "cmake -DSOURCE=" + source.string() + " -DHEADER=" + header
+                             + " -P " PENT_SOURCE "/cmake/build_info/write_commit.cmake";
+    EXPECT_EQ(std::system(line.c_str()), 0);  // NOLINT(cert-env33-c)
+    return test::text_of(header);
+}
+
+TEST(BuildInfo, NamesTheCommitOfACheckoutAndThatItWasChanged) {
+    const test::TempFolder folder;
+    const std::string source = folder.path().string();
+    const std::string git = "git -C " + source + " -c user.name=a -c user.email=a@b ";
+    std::ofstream(folder / "a") << "1";
+    const std::string commit = (folder / "commit").string();
+    const std::string lines = git + "init -q && " + git + "add a && " + git + "commit -qm a && "
+                              + git + "rev-parse --short=12 HEAD >" + commit;
+    ASSERT_EQ(std::system(lines.c_str()), 0);  // NOLINT(cert-env33-c)
+    std::string expected = test::text_of(commit);
+    expected.pop_back();
+    EXPECT_EQ(written_commit(source), "#define PENT_COMMIT \"" + expected + "\"\n");
+    std::ofstream(folder / "a") << "2";
+    EXPECT_EQ(written_commit(source), "#define PENT_COMMIT \"" + expected + "+\"\n");
+}
+
+TEST(BuildInfo, IsUnknownWhereThereIsNoCheckout) {
+    const test::TempFolder folder;
+    EXPECT_EQ(written_commit(folder.path()), "#define PENT_COMMIT \"unknown\"\n");
 }
 
 TEST_P(EveryProgram, RefusesAnUnknownOptionAndNamesTheNearest) {
@@ -79,7 +126,9 @@ Outcome run_on_missing(const std::string& program,
                        const std::string& options = "") {
     const std::string name_of_output =
         program == "pent-mesh" || program == "pent-convert" ? "out.pent" : "out.png";
-    const std::string option = program == "pent-view" ? " --export " : " -o ";
+    const std::string option = program == "pent-view"    ? " --export "
+                               : program == "pent-study" ? " --vary dt=0.1 -o "
+                                                         : " -o ";
     const std::string output =
         program == "pent-check" ? "" : option + (folder / name_of_output).string();
     return run_program(program + " " + (folder / name).string() + output + options);

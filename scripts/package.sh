@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Makes the packages, out of the preset `release`, into out/packages: for Debian 12 pentimento (programs, and the
+# library of the C interface) and pentimento-dev (what C++ hosts link); an archive that works in any folder; the
+# wheel of the Python package; and SHA256SUMS of all. docs/install.md says what each needs.
+#
+# The page of pent-view is in them if scripts/web.sh has built it.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/setup.sh
+scripts/setup.sh --package
+if [ ! -e web/dist/index.html ]; then
+    echo "package: without the page of pent-view; scripts/web.sh builds it"
+elif [ ! -e web/dist/playground.js ]; then
+    echo "package: the page has no playground; scripts/web.sh builds it"
+fi
+cmake --preset release
+cmake --build --preset release
+cmake --build --preset release --target wheel
+
+out=out/packages
+rm -rf "$out"
+mkdir -p "$out"
+cpack --config build/release/CPackConfig.cmake -B "$out" >build/release/cpack.log || {
+    cat build/release/cpack.log >&2
+    exit 1
+}
+rm -rf "$out/_CPack_Packages" "$out"/*.sha256
+cp build/release/dist/*.whl "$out"
+# What the overrides do not name is to be looked at; lintian knows of no other distribution.
+lintian --fail-on error --suppress-tags-from-file cmake/packages/lintian_not_ours "$out"/*.deb
+cd "$out"
+sha256sum -- * >SHA256SUMS
+ls -l --block-size=kB | awk 'NF > 5 { print "package: " $5 "  " $NF }'
