@@ -8,7 +8,7 @@
 #   scripts/setup.sh --web      also what web.sh and test.sh --web need: node, npm, emscripten, Chromium
 #   scripts/setup.sh --python   also what test.sh --python needs: pytest, mypy, tqdm, Jupyter's nbconvert
 #   scripts/setup.sh --hosts    also what test.sh --hosts needs: Blender, ParaView, a display in memory (1.2 GB)
-#   scripts/setup.sh --site     also what site.sh and the pictures of the front page need: Sphinx, Doxygen, webp
+#   scripts/setup.sh --site     also what site.sh needs: Sphinx, MyST, Furo, Doxygen
 #   scripts/setup.sh --package  also what package.sh needs: dpkg-dev, lintian
 #   scripts/setup.sh --check    only say what is missing; exit code 1 if anything is
 #
@@ -52,7 +52,7 @@ packages=(
     libembree-dev libpng-dev      # viewer: ray tracer, pictures
     libfreetype-dev fonts-dejavu-core  # viewer: captions
     libgtest-dev libbenchmark-dev # tests and benchmarks
-    ffmpeg                        # movies
+    ffmpeg webp                   # movies, animations
     python3 python3-numpy         # the numpy reader, the table of paper.sh
 )
 if $with_tools; then
@@ -90,7 +90,6 @@ if $with_site; then
     packages+=(
         python3-sphinx python3-myst-parser furo  # the pages of docs/
         doxygen                                  # the reference of C++
-        webp                                     # the animation of README
     )
 fi
 if $with_package; then

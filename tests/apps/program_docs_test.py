@@ -1,4 +1,4 @@
-"""Man pages and completions have the options of the programs, and nothing else; bash loads what was made.
+"""Man pages and completions have the options of the programs, and no others; bash loads them.
 
     program_docs_test.py SOURCE BUILD
 """
@@ -24,6 +24,10 @@ def said(program: str, option: str) -> str:
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
+def man_page(program: str) -> str:
+    return gzip.decompress((BUILD / "docs" / "man" / f"{program}.1.gz").read_bytes()).decode()
+
+
 def options_in(text: str) -> set[str]:
     """Of the help's first column, counted apart from program_docs."""
     found = re.findall(r"^ {2,6}(-\w,)?(--[a-z][\w-]*)", text, re.M)
@@ -33,8 +37,10 @@ def options_in(text: str) -> set[str]:
 def complete(program: str, *words: str) -> list[str]:
     """What bash offers for the last of the words."""
     script = (
-        f"source {BUILD}/docs/completions/{program}; COMP_WORDS=({shlex.join([program, *words])});"
-        f" COMP_CWORD={len(words)}; _{program.replace('-', '_')}; printf '%s\\n' \"${{COMPREPLY[@]}}\""
+        f"source {BUILD}/docs/completions/{program}\n"
+        f"COMP_WORDS=({shlex.join([program, *words])}) COMP_CWORD={len(words)}\n"
+        f"_{program.replace('-', '_')}\n"
+        "printf '%s\\n' \"${COMPREPLY[@]}\"\n"
     )
     run = ["bash", "-u", "-c", script]
     return subprocess.run(run, check=True, capture_output=True, text=True).stdout.split()
@@ -64,9 +70,10 @@ class ProgramDocs(unittest.TestCase):
 
     def test_every_option_has_its_text_in_the_man_page(self):
         for program in PROGRAMS:
-            text = gzip.decompress((BUILD / "docs" / "man" / f"{program}.1.gz").read_bytes()).decode()
+            text = man_page(program)
             listed = re.findall(r"^\.TP\n(.*)\n(.*)$", text, re.M)
-            names = {name.replace("\\-", "-") for head, _ in listed for name in re.findall(r"\\fB(.*?)\\fR", head)}
+            heads = "".join(head for head, _ in listed).replace("\\-", "-")
+            names = set(re.findall(r"\\fB(.*?)\\fR", heads))
             with self.subTest(program):
                 self.assertLessEqual(options_in(said(program, "--help")), names)
                 self.assertEqual([head for head, about in listed if not about.strip()], [])
@@ -75,9 +82,9 @@ class ProgramDocs(unittest.TestCase):
     @unittest.skipUnless(shutil.which("groff"), "no groff")
     def test_groff_has_nothing_to_say(self):
         for program in PROGRAMS:
-            page = gzip.decompress((BUILD / "docs" / "man" / f"{program}.1.gz").read_bytes())
             run = ["groff", "-man", "-ww", "-Tutf8"]
-            told = subprocess.run(run, input=page, capture_output=True, check=True).stderr.decode()
+            page = man_page(program)
+            told = subprocess.run(run, input=page, capture_output=True, text=True).stderr
             with self.subTest(program):
                 self.assertEqual(told, "")
 
