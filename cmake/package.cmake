@@ -22,7 +22,7 @@ install(FILES ${PROJECT_BINARY_DIR}/pentConfig.cmake ${PROJECT_BINARY_DIR}/pentC
 install(DIRECTORY data/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/pentimento FILES_MATCHING PATTERN "*.toml")
 install(FILES data/models/alien_4006f.obj data/models/octopus_5246f.obj
   DESTINATION ${CMAKE_INSTALL_DATADIR}/pentimento/models)
-install(FILES cmake/packages/copyright LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES cmake/packages/copyright LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 if(PENT_BUILD_MESHER)
   install(FILES mesher/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME LICENSE.pent-mesh)
   install(FILES mesher/tetgen_worker/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME LICENSE.pent-tetgen)
@@ -35,7 +35,7 @@ if(NOT PROJECT_IS_TOP_LEVEL)
 endif()
 set(CPACK_PACKAGE_NAME pentimento)
 set(CPACK_PACKAGE_VENDOR "The Pentimento authors")
-set(CPACK_PACKAGE_CONTACT "The Pentimento authors <pentimento@localhost>")
+set(CPACK_PACKAGE_CONTACT "The Pentimento authors <maintainers@pentimento.invalid>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "meshes and simulates deformable bodies of four dimensions")
 set(CPACK_PACKAGE_CHECKSUM SHA256)
 set(CPACK_STRIP_FILES ON)
@@ -46,11 +46,15 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL programs development)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME pentimento)
+set(pent_debian ${PROJECT_BINARY_DIR}/packages)
+get_target_property(pent_soversion pent_plugin SOVERSION)
+file(WRITE ${pent_debian}/shlibs "libpent_plugin ${pent_soversion} pentimento (>= ${PROJECT_VERSION})\n")
+file(WRITE ${pent_debian}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_CONTROL_EXTRA ${pent_debian}/shlibs ${pent_debian}/triggers)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS fonts-dejavu-core)  # of captions
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS ffmpeg)          # makes movies
 set(CPACK_DEBIAN_PROGRAMS_DESCRIPTION
@@ -61,6 +65,15 @@ and in the browser. With a library that hosts load for its C interface.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME pentimento-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
+# Debian wants its own form of a list of changes; ours is CHANGELOG.md beside it.
+string(TIMESTAMP pent_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+file(WRITE ${pent_debian}/changelog
+  "pentimento (${PROJECT_VERSION}) stable; urgency=medium\n\n  * See CHANGELOG.md.\n\n"
+  " -- ${CPACK_PACKAGE_CONTACT}  ${pent_date}\n")
+execute_process(COMMAND gzip -9nf ${pent_debian}/changelog)
+install(FILES ${pent_debian}/changelog.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${pent_debian}/changelog.gz cmake/packages/copyright
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/pentimento-dev COMPONENT development)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "pentimento (= ${PROJECT_VERSION}), libeigen3-dev")
 if(PENT_THREADS STREQUAL tbb)

@@ -2,6 +2,7 @@
 # that programs never name a commit they were not built from. A + behind it: with changes. What is no
 # checkout, as an unpacked archive, has "unknown", or what PENT_COMMIT says in the environment. Call with
 # -DSOURCE=<source> -DHEADER=<file>.
+cmake_minimum_required(VERSION 3.25)
 set(commit unknown)
 if(EXISTS ${SOURCE}/.git)
   execute_process(COMMAND git -C ${SOURCE} describe --always --exclude=* --abbrev=12 --dirty=+

@@ -1,6 +1,9 @@
-# Installs the package into a folder of its own, then configures, builds and runs two programs that find
-# it there; the one that links no more than the simulator must have nothing of files in it. Call with
+# Installs everything into a folder of its own, then configures, builds and runs three programs that find
+# it there; the one that links no more than the simulator must have nothing of files in it. Then runs what
+# was installed. Call with
 # -DBUILD=<build folder> -DSOURCE=<consumer> -DWORK=<folder> -DNM=<nm>.
+cmake_minimum_required(VERSION 3.25)
+
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT code EQUAL 0)
@@ -14,6 +17,25 @@ run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH=
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
 run(${WORK}/build/core)
+run(${WORK}/build/plugin)
+
+# The programs work where they were installed, with what they run and show.
+file(GLOB programs ${WORK}/prefix/bin/pent-*)
+foreach(program IN LISTS programs)
+  run(${program} --version)
+  cmake_path(GET program FILENAME name)
+  if(EXISTS ${BUILD}/docs/man/${name}.1.gz)
+    foreach(file share/man/man1/${name}.1.gz share/bash-completion/completions/${name})
+      if(NOT EXISTS ${WORK}/prefix/${file})
+        message(FATAL_ERROR "${file} was not installed")
+      endif()
+    endforeach()
+  endif()
+endforeach()
+if(EXISTS ${WORK}/prefix/bin/pent-mesh)  # which runs pent-tetgen
+  run(${WORK}/prefix/bin/pent-mesh ${WORK}/prefix/share/pentimento/models/alien_4006f.obj
+    --surface-triangles 400 --generator tetgen --thickness 0.5 -o ${WORK}/alien.pent)
+endif()
 
 # Of the libraries that read and write: nothing is in the host of the simulator, and, so that this test can
 # fail, something is in the other.
