@@ -33,4 +33,4 @@ lintian --allow-root --fail-on error --suppress-tags package-name-doesnt-match-s
     "$out"/*.deb
 cd "$out"
 sha256sum -- * >SHA256SUMS
-ls -l --block-size=kB | awk 'NF > 5 { print "package: " $5 "  " $NF }'
+du --apparent-size --block-size=kB -- * | sed 's/^/package: /'

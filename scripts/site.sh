@@ -23,12 +23,13 @@ version=$(sed -n 's/^project(pent VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
     echo "HTML_OUTPUT = cpp"
 } | doxygen - 2>"$out/doxygen.log"
 
-if [ -e web/dist/index.html ]; then
-    cp web/dist/*.html web/dist/*.js "$out/extra/page/" 2>/dev/null || true
-    [ -e web/dist/playground.js ] || echo "site: the page has no playground; scripts/web.sh builds it"
-else
-    echo "site: without viewer and playground; scripts/web.sh builds them"
-fi
+for part in index.html playground.js; do
+    if [ -e "web/dist/$part" ]; then
+        cp "web/dist/$part" "$out/extra/page/"
+    else
+        echo "site: without $part of the viewer and the playground; scripts/web.sh builds it"
+    fi
+done
 
 # Debian's own Python has Sphinx, numpy and furo.
 /usr/bin/python3 docs/site/stage.py "$out/source"
