@@ -17,6 +17,9 @@ file(WRITE ${PROJECT_BINARY_DIR}/pentConfig.cmake
   "include(\${CMAKE_CURRENT_LIST_DIR}/pentTargets.cmake)\n")
 install(FILES ${PROJECT_BINARY_DIR}/pentConfig.cmake ${PROJECT_BINARY_DIR}/pentConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pent COMPONENT development)
+if(NOT PROJECT_IS_TOP_LEVEL)  # hosts that build us among their own install and pack what they want
+  return()
+endif()
 
 # What comes along: scenes and models of our own to try, and what is to be said of licences.
 install(DIRECTORY data/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/pentimento FILES_MATCHING PATTERN "*.toml")
@@ -30,14 +33,10 @@ endif()
 
 # Packages, see scripts/package.sh: an archive of everything that works in any folder, and for Debian the programs
 # with the library to load, and apart from them what is linked.
-if(NOT PROJECT_IS_TOP_LEVEL)
-  return()
-endif()
 set(CPACK_PACKAGE_NAME pentimento)
 set(CPACK_PACKAGE_VENDOR "The Pentimento authors")
 set(CPACK_PACKAGE_CONTACT "The Pentimento authors <maintainers@pentimento.invalid>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "meshes and simulates deformable bodies of four dimensions")
-set(CPACK_PACKAGE_CHECKSUM SHA256)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_GENERATOR TGZ DEB)
 set(CPACK_PACKAGE_FILE_NAME pentimento-${PROJECT_VERSION}-linux-${CMAKE_SYSTEM_PROCESSOR})

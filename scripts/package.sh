@@ -25,7 +25,7 @@ cpack --config build/release/CPackConfig.cmake -B "$out" >build/release/cpack.lo
     cat build/release/cpack.log >&2
     exit 1
 }
-rm -rf "$out/_CPack_Packages" "$out"/*.sha256
+rm -rf "$out/_CPack_Packages"
 cp build/release/dist/*.whl "$out"
 # The library is for hosts that load it, and goes with the programs rather than into a package of its own; CPack calls
 # ldconfig itself, beside the trigger.
