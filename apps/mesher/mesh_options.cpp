@@ -181,6 +181,21 @@ void add_extrusion(CLI::App& cli, MeshArguments& arguments) {
                        "Layers of pentachora; default: as many as give the best shapes")
             ->check(CLI::Range(1, 1'000'000))
             ->group(group);
+    CLI::Option* grade =
+        cli.add_option("--grade", extrusion.grade,
+                       "Each layer this many times as high as its neighbor towards w = 0")
+            ->check(CLI::Range(1.0, 100.0))
+            ->capture_default_str()
+            ->group(group);
+    cli.add_option("--layer-heights", extrusion.layer_heights,
+                   "Instead: heights of the layers from w = 0 outward (m), to both sides of it; "
+                   "thickness, profile and the like are shared out in proportion")
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber)
+        ->type_name("H,H,...")
+        ->excludes(layers)
+        ->excludes(grade)
+        ->group(group);
     CLI::Option* round = cli.add_flag("--round", extrusion.round,
                                       "Shrink to a point at both ends: a ball becomes a hyperball")
                              ->excludes(direction)
@@ -190,7 +205,6 @@ void add_extrusion(CLI::App& cli, MeshArguments& arguments) {
         ->type_name("FILE")
         ->excludes(thickness)
         ->excludes(direction)
-        ->excludes(layers)
         ->excludes(round)
         ->group(group);
     cli.add_flag("--one-sided", arguments.one_sided,

@@ -82,8 +82,13 @@ void say_base(const Program& program, const BodyReport& report, int dim) {
                           static_cast<Long>(report.base_cells),
                           pent::cell_name_plural(dim - 1).data(), report.generator.c_str(),
                           report.base_volume, dim - 1, report.base_edge));
+    // Beyond what rounding makes of equal ones.
+    const bool is_graded = report.highest_layer > report.lowest_layer * (1 + 1e-9);
     program.say(formatted("extrusion  %.6g m along %c, %d layer%s", report.direction[dim - 1],
-                          "xyzw"[dim - 1], report.layers, report.layers == 1 ? "" : "s"));
+                          "xyzw"[dim - 1], report.layers, report.layers == 1 ? "" : "s")
+                + (is_graded ? formatted(", the thinnest %.4g m, the thickest %.4g m",
+                                         report.lowest_layer, report.highest_layer)
+                             : ""));
 }
 
 template <int Dim>
@@ -140,7 +145,9 @@ nlohmann::ordered_json to_json(const pent::mesher::Body<Dim>& body) {
     json["extrusion"] = {
         {"direction", std::vector<double>(report.direction.data(),
                                           report.direction.data() + report.direction.size())},
-        {"layers", report.layers}};
+        {"layers", report.layers},
+        {"thinnest_layer", report.lowest_layer},
+        {"thickest_layer", report.highest_layer}};
     json["mesh"] = {{"vertices", body.mesh.vertex_count()},
                     {"cells", report.proof.cells},
                     {"interior_facets", report.proof.interior_facets},

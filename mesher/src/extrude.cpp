@@ -1,3 +1,5 @@
+#include "layer_places.h"
+
 #include <pent/error.h>
 #include <pent/mesher/extrude.h>
 
@@ -220,14 +222,16 @@ std::vector<Layer<Dim>> straight_layers(const Eigen::Matrix<double, Dim, 1>& dir
                                         int slabs,
                                         Anchor anchor) {
     assert(slabs >= 1);
-    std::vector<Layer<Dim>> layers(slabs + 1);
-    for (int l = 0; l <= slabs; ++l) {
-        // Symmetric to the last bit about the middle.
-        const double place = anchor == Anchor::Middle
-                                 ? static_cast<double>(2 * l - slabs) / (2 * slabs)
-                                 : static_cast<double>(l) / slabs;
+    return straight_layers<Dim>(direction, even_places(slabs, anchor == Anchor::Middle ? 0.5 : 0));
+}
+
+template <int Dim>
+std::vector<Layer<Dim>> straight_layers(const Eigen::Matrix<double, Dim, 1>& direction,
+                                        const std::vector<double>& places) {
+    std::vector<Layer<Dim>> layers(places.size());
+    for (std::size_t l = 0; l < places.size(); ++l) {
         layers[l].linear.setIdentity();
-        layers[l].offset = place * direction;
+        layers[l].offset = places[l] * direction;
     }
     return layers;
 }
@@ -276,6 +280,8 @@ SimplexMesh<Dim> extrude(const SimplexMesh<Dim - 1>& base,
 #define PENT_INSTANTIATE(Dim)                                                                   \
     template std::vector<Layer<Dim>> straight_layers<Dim>(const Eigen::Matrix<double, Dim, 1>&, \
                                                           int, Anchor);                         \
+    template std::vector<Layer<Dim>> straight_layers<Dim>(const Eigen::Matrix<double, Dim, 1>&, \
+                                                          const std::vector<double>&);          \
     template double mean_edge<Dim - 1>(const SimplexMesh<Dim - 1>&);                            \
     template SimplexMesh<Dim> extrude<Dim>(const SimplexMesh<Dim - 1>&,                         \
                                            const OrderedCells<Dim - 1>&,                        \

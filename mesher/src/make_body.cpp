@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -36,6 +37,10 @@ OrderedCells<Dim> ordered_cells(const ExtrusionRequest& request,
 }
 
 void check(const BodyRequest& request, int dim) {
+    if (!(request.extrusion.grade >= 1) || !std::isfinite(request.extrusion.grade)) {
+        throw Error("a grade of " + std::to_string(request.extrusion.grade)
+                    + "; expected a finite number of 1 or more");
+    }
     if (!(request.scale > 0) || !std::isfinite(request.scale)) {
         throw Error("a scale of " + std::to_string(request.scale)
                     + "; expected a finite number above 0");
@@ -57,7 +62,8 @@ void refuse_extrusion(const BodyRequest& request) {
     if (extrusion.thickness || extrusion.direction || extrusion.layers > 0
         || !extrusion.profile.empty() || extrusion.round || !extrusion.alternate
         || extrusion.anchor != Anchor::Middle || extrusion.order != VertexOrder::Index
-        || !extrusion.edge_directions.empty()) {
+        || !extrusion.edge_directions.empty() || extrusion.grade != 1
+        || !extrusion.layer_heights.empty()) {
         throw Error(name_of_input(request)
                     + ": it is the body already, and not extruded; leave out thickness, direction,"
                       " layers, profile, order and the like");
@@ -128,6 +134,16 @@ ExpectedSize expected_size(double base_cells,
 }
 
 template <int Dim>
+void note_heights(const std::vector<Layer<Dim>>& layers, BodyReport& report) {
+    report.lowest_layer = std::numeric_limits<double>::infinity();
+    for (std::size_t l = 1; l < layers.size(); ++l) {
+        const double height = (layers[l].offset - layers[l - 1].offset).norm();
+        report.lowest_layer = std::min(report.lowest_layer, height);
+        report.highest_layer = std::max(report.highest_layer, height);
+    }
+}
+
+template <int Dim>
 Body<Dim> extrude_and_prove(const SimplexMesh<Dim - 1>& base,
                             const BodyRequest& request,
                             const ExtrusionRequest& extrusion,
@@ -141,6 +157,7 @@ Body<Dim> extrude_and_prove(const SimplexMesh<Dim - 1>& base,
         extrusion, {largest_side<Dim - 1>(base.positions), report.base_volume, report.base_edge});
     report.direction = layers.layers.back().offset - layers.layers.front().offset;
     report.layers = static_cast<int>(layers.layers.size()) - 1;
+    note_heights<Dim>(layers.layers, report);
     if (request.target_cells == 0) {
         announce(request, expected_size<Dim>(static_cast<double>(report.base_cells),
                                              layers.cells_over(), report.layers, request));
@@ -164,10 +181,10 @@ Tetrahedra fill_to_cells(const Surface& surface,
     const double side = largest_side<3>(surface.points);
     const double cells =
         static_cast<double>(request.target_cells) / std::pow(parts_of_edge(request), 4);
-    if (extrusion.layers == 0 && extrusion.profile.empty()) {
+    if (has_automatic_layers(extrusion)) {
         const double height = extrusion_length(extrusion, side);
         const double edge_length = std::pow(4 * regular * height / (0.7 * cells), 0.25);
-        extrusion.layers = automatic_slabs(height, edge_length);
+        extrusion.layers = suitable_slabs(extrusion, side, edge_length);
     }
     const double tets = cells / requested_layers<4>(extrusion, {side, 0, 0}).cells_over();
     TargetFilling found =

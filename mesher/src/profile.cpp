@@ -1,8 +1,8 @@
-
 #include <pent/error.h>
 #include <pent/mesher/profile.h>
 #include <pent/text_reader.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -72,18 +72,72 @@ std::vector<Layer<4>> read_profile(const std::filesystem::path& path) {
     return layers;
 }
 
-std::vector<Layer<4>> round_layers(double radius, int slabs) {
-    assert(slabs >= 2);
-    std::vector<Layer<4>> layers(slabs + 1);
-    for (int l = 0; l <= slabs; ++l) {
-        const double angle = std::numbers::pi * (2 * l - slabs) / (2.0 * slabs);
-        const bool is_end = l == 0 || l == slabs;
+std::vector<Layer<4>> round_layers(double radius, const std::vector<double>& places) {
+    assert(places.size() >= 3);
+    std::vector<Layer<4>> layers(places.size());
+    for (std::size_t l = 0; l < places.size(); ++l) {
+        const double angle = std::numbers::pi * places[l];
+        const bool is_end = l == 0 || l + 1 == places.size();
         layers[l].linear.setZero();
         layers[l].linear.topRows<3>().setIdentity();
         layers[l].linear *= is_end ? 0 : std::cos(angle);
         layers[l].offset << 0, 0, 0, radius * std::sin(angle);
     }
     return layers;
+}
+
+double path_length(const std::vector<Layer<4>>& layers) {
+    double length = 0;
+    for (std::size_t l = 1; l < layers.size(); ++l) {
+        length += (layers[l].offset - layers[l - 1].offset).norm();
+    }
+    return length;
+}
+
+double slice_on_path(const std::vector<Layer<4>>& layers) {
+    const double length = path_length(layers);
+    double passed = 0;
+    for (std::size_t l = 1; l < layers.size(); ++l) {
+        const double from = layers[l - 1].offset[3];
+        const double to = layers[l].offset[3];
+        const double step = (layers[l].offset - layers[l - 1].offset).norm();
+        if (from == 0) {
+            return passed / length;
+        }
+        if (from * to < 0) {
+            return (passed + step * (from / (from - to))) / length;
+        }
+        passed += step;
+    }
+    return std::abs(layers.back().offset[3]) < std::abs(layers.front().offset[3]) ? 1 : 0;
+}
+
+std::vector<Layer<4>> relayer(const std::vector<Layer<4>>& layers,
+                              const std::vector<double>& places) {
+    const double length = path_length(layers);
+    std::vector<Layer<4>> result;
+    std::size_t next = 1;  // the layer at the end of the step that is walked
+    double passed = 0;     // before that step
+    for (const double place : places) {
+        const auto step = [&] { return (layers[next].offset - layers[next - 1].offset).norm(); };
+        while (next + 1 < layers.size() && passed + step() < place * length) {
+            passed += step();
+            ++next;
+        }
+        if (step() == 0) {
+            throw Error("layers " + std::to_string(next) + " and " + std::to_string(next + 1)
+                        + " have one middle; other layers cannot lie between them");
+        }
+        const double t = std::clamp((place * length - passed) / step(), 0.0, 1.0);
+        result.push_back({(1 - t) * layers[next - 1].linear + t * layers[next].linear,
+                          (1 - t) * layers[next - 1].offset + t * layers[next].offset});
+    }
+    result.front() = layers.front();
+    result.back() = layers.back();
+    if (result.size() == 2 && result[0].is_point() && result[1].is_point()) {
+        throw Error("one layer between two points; expected two or more");
+    }
+    return result;
 }
 
 }  // namespace pent::mesher

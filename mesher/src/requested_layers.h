@@ -24,8 +24,14 @@ template <int Dim>
 [[nodiscard]] Eigen::Matrix<double, Dim, 1> extrusion_direction(const ExtrusionRequest& request,
                                                                 double largest_side);
 
-/// Along which length layers are counted, m: that of the extrusion, or of half a meridian of a
-/// round body. Throws an Error as extrusion_direction() does.
+/// Whether the layers follow from the size of the cells, and not from the request alone.
+[[nodiscard]] bool has_automatic_layers(const ExtrusionRequest& request);
+
+/// How many slabs suit cells with edges of this length.
+[[nodiscard]] int suitable_slabs(const ExtrusionRequest& request, double largest_side, double edge);
+
+/// Along which length layers are counted, m: that of the extrusion, of half a meridian of a round
+/// body, or of a profile's way. Throws an Error as extrusion_direction() does.
 [[nodiscard]] double extrusion_length(const ExtrusionRequest& request, double largest_side);
 
 /// The layers that are asked for, and what is known of the volume they enclose.

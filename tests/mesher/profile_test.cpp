@@ -1,3 +1,4 @@
+#include "layer_places.h"
 #include "shapes.h"
 #include "support/kuhn_box.h"
 #include "support/messages.h"
@@ -91,11 +92,52 @@ TEST(ReadProfile, MakesTaperedBentAndClosedBodies) {
 TEST(RoundLayers, MakeAHyperballOfABall) {
     // Volume pi^2 / 2, from within at second order in both resolutions at once.
     const double whole = std::numbers::pi * std::numbers::pi / 2;
-    const double coarse = whole - total_volume(extruded(ball(4), round_layers(1, 10)));
-    const double fine = whole - total_volume(extruded(ball(8), round_layers(1, 20)));
+    const double coarse =
+        whole - total_volume(extruded(ball(4), round_layers(1, even_places(10, 0.5))));
+    const double fine =
+        whole - total_volume(extruded(ball(8), round_layers(1, even_places(20, 0.5))));
     EXPECT_GT(fine, 0);
     EXPECT_NEAR(coarse / fine, 4, 0.3);
-    EXPECT_TRUE(prove(extruded(ball(4), round_layers(-1, 10))).holds());
+    EXPECT_TRUE(prove(extruded(ball(4), round_layers(-1, even_places(10, 0.5)))).holds());
+}
+
+TEST(Relayer, KeepsTheBodyWhereEveryBendHasALayer) {
+    // A body that swells, leans and ends in a point, cut anew with layers at its bends and between.
+    const auto layers = read_text("-1 0.5\n0 1 0.3 0 0\n1 0\n");
+    const double length = path_length(layers);
+    const double bend = (layers[1].offset - layers[0].offset).norm() / length;
+    EXPECT_EQ(slice_on_path(layers), bend);
+    const auto finer = relayer(layers, {0, bend / 3, bend, bend + (1 - bend) / 4, 1});
+    ASSERT_EQ(finer.size(), 5U);
+    EXPECT_TRUE(finer.back().is_point());
+    EXPECT_LT((finer[2].linear - layers[1].linear).norm(), 1e-15);
+    // In each slab columns are straight, as they were: the same body, by another cut. Prisms that
+    // scale and move have flat sides, so that the cut of the sides makes no difference either.
+    SimplexMesh<3> base = test::kuhn_box<3>({2, 2, 2}, {1, 1, 1});
+    base.positions.array() -= 0.5;
+    const SimplexMesh<4> body = extruded(base, finer);
+    EXPECT_TRUE(prove(body).holds());
+    EXPECT_NEAR(total_volume(body), total_volume(extruded(base, layers)), 1e-14);
+}
+
+TEST(Relayer, RefusesWhatHasNoWayOrNothingBetweenItsEnds) {
+    const auto turned = read_text("0 1\n0 1 0 0 0 0 0 20 0 0 0\n");
+    test::expect_contains(test::error_of([&] {
+                              static_cast<void>(relayer(turned, {0, 0.5, 1}));
+                          }),
+                          {"layers 1 and 2 have one middle"});
+    const auto closed = read_text("0 0\n1 1\n2 0\n");
+    test::expect_contains(test::error_of([&] {
+                              static_cast<void>(relayer(closed, {0, 1}));
+                          }),
+                          {"one layer between two points"});
+}
+
+TEST(SliceOnPath, IsWhereTheWayCrossesZeroOrTheNearerEnd) {
+    EXPECT_EQ(slice_on_path(read_text("-1 1\n3 1\n")), 0.25);
+    EXPECT_EQ(slice_on_path(read_text("1 1\n3 1\n")), 0);
+    EXPECT_EQ(slice_on_path(read_text("-3 1\n-1 1\n")), 1);
+    EXPECT_EQ(slice_on_path(read_text("-2 1\n0 1\n2 1\n")), 0.5);
 }
 
 }  // namespace

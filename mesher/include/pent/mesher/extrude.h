@@ -38,6 +38,11 @@ template <int Dim>
 [[nodiscard]] std::vector<Layer<Dim>> straight_layers(
     const Eigen::Matrix<double, Dim, 1>& direction, int slabs, Anchor anchor = Anchor::Middle);
 
+/// The same with a layer at each of these places along the direction, in order.
+template <int Dim>
+[[nodiscard]] std::vector<Layer<Dim>> straight_layers(
+    const Eigen::Matrix<double, Dim, 1>& direction, const std::vector<double>& places);
+
 /// Number of slabs that makes the worst simplices of an extrusion best: height over 0.7 times the
 /// mean edge of the base, rounded, at least 1.
 [[nodiscard]] int automatic_slabs(double height, double mean_edge);

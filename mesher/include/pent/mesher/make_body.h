@@ -42,11 +42,20 @@ struct ExtrusionRequest {
     std::optional<double> thickness;
     /// The whole extrusion as a vector of the body's space, m; instead of thickness.
     std::optional<Eigen::VectorXd> direction;
-    int layers = 0;  ///< Slabs of simplices, 1 to 1e6; 0: see automatic_slabs().
+    int layers = 0;  ///< Slabs of simplices, 1 to 1e6; 0: so that the lowest is as
+                     ///< automatic_slabs() has it.
+    /// Each slab is this many times as high as its neighbor towards w = 0: thin where slices are
+    /// looked at, thick away from there; 1 or more.
+    double grade = 1;
+    /// Heights of the slabs from w = 0 outward, to either side of it where the extrusion has two;
+    /// instead of layers and grade, m. They are the thickness, or share out the one that is asked
+    /// for: along a round body's meridian, along the way of a profile.
+    std::vector<double> layer_heights;
     Anchor anchor = Anchor::Middle;
-    std::filesystem::path profile;  ///< File of layers (see read_profile), instead of all above.
-    bool round = false;  ///< Instead: to a point at both ends, see round_layers(); thickness is the
-                         ///< whole height, and by default the largest side.
+    std::filesystem::path profile;  ///< File of layers (see read_profile), instead of thickness and
+                                    ///< direction; with layers, grade or heights see relayer().
+    bool round = false;  ///< To a point at both ends, see round_layers(); thickness is the whole
+                         ///< height, and by default the largest side.
     bool alternate = true;
     VertexOrder order = VertexOrder::Index;
     std::filesystem::path edge_directions;  ///< File of directed edges, instead of an order.
@@ -120,6 +129,8 @@ struct BodyReport {
 
     Eigen::VectorXd direction;  ///< From the first layer to the last, m.
     int layers = 0;             ///< Slabs of simplices; 0: not extruded.
+    double lowest_layer = 0;    ///< Distance of the middles of two layers, m.
+    double highest_layer = 0;   ///< The same.
     std::int64_t beveled = 0;   ///< Of a shape's boundary: see StuffedSolid.
 
     Proof proof;

@@ -17,11 +17,27 @@ namespace pent::mesher {
 /// Throws an Error that names file and line for what cannot be read, or fewer than two layers.
 [[nodiscard]] std::vector<Layer<4>> read_profile(const std::filesystem::path& path);
 
-/// Layers that make a round body of a base: scale sqrt(1 - (w / radius)^2) at equal steps of the
-/// angle from w = -radius to radius, closed at both ends.
+/// Layers that make a round body of a base: scale sqrt(1 - (w / radius)^2) at places of half
+/// a meridian from w = -radius to radius, closed at both ends.
 ///
 /// @param radius  Along w, m, not 0.
-/// @param slabs   2 or more.
-[[nodiscard]] std::vector<Layer<4>> round_layers(double radius, int slabs);
+/// @param places  -1/2 for the first end to 1/2 for the last, 0 for the widest layer; 3 or more.
+[[nodiscard]] std::vector<Layer<4>> round_layers(double radius, const std::vector<double>& places);
+
+/// Length of the way through the middles of the layers, m.
+[[nodiscard]] double path_length(const std::vector<Layer<4>>& layers);
+
+/// Where the way through the middles of the layers first crosses w = 0, as a share of its length;
+/// where it does not, the end that is nearer to w = 0.
+[[nodiscard]] double slice_on_path(const std::vector<Layer<4>>& layers);
+
+/// Other layers of the same body: at these places along the way through the middles, each halfway
+/// between its two neighbors as far as it lies between them. The columns run straight from layer
+/// to layer before and after; where a bend of theirs gets no layer it is cut.
+///
+/// @param places  Shares of the length of the way, from 0 to 1.
+/// Throws an Error if two layers in a row have one middle, or nothing is left between two points.
+[[nodiscard]] std::vector<Layer<4>> relayer(const std::vector<Layer<4>>& layers,
+                                            const std::vector<double>& places);
 
 }  // namespace pent::mesher
