@@ -5,6 +5,7 @@
 #include <pent/error.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <system_error>
 #include <utility>
@@ -58,9 +59,9 @@ void add_placement(CLI::App& cli,
     CLI::Option* format =
         cli.add_option("--format", arguments.request.format,
                        "Read the input as this, whatever its name; needed for standard input")
-            ->check(CLI::IsMember({"obj", "off", "ply", "stl", "mesh", "msh", "vtk", "tobj"},
+            ->check(CLI::IsMember({"obj", "off", "ply", "stl", "mesh", "msh", "vtk", "vtu", "tobj"},
                                   CLI::ignore_case))
-            ->option_text("obj|off|ply|stl|mesh|msh|vtk|tobj")
+            ->option_text("obj|off|ply|stl|mesh|msh|vtk|vtu|tobj")
             ->group(group);
     CLI::Option* unit =
         choose<double>(cli.add_option("--unit", arguments.unit, "Unit of the file's coordinates"),
@@ -85,9 +86,10 @@ void add_placement(CLI::App& cli,
 void add_input(CLI::App& cli, MeshArguments& arguments) {
     CLI::Option_group* input = cli.add_option_group("Input", "One of these");
     input
-        ->add_option("input", arguments.input,
-                     "A surface (.obj .off .ply .stl .gltf .glb), tetrahedra (.node/.ele .mesh "
-                     ".msh .vtk .tobj) or a four-dimensional shape (.toml); - for standard input")
+        ->add_option(
+            "input", arguments.input,
+            "A surface (.obj .off .ply .stl .gltf .glb), tetrahedra (.node/.ele .mesh "
+            ".msh .vtk .vtu .tobj) or a four-dimensional shape (.toml); - for standard input")
         ->type_name("FILE");
     const std::vector<CLI::Option*> shapes = add_shapes(*input, arguments);
     input->require_option(1);
@@ -226,6 +228,106 @@ void add_extrusion(CLI::App& cli, MeshArguments& arguments) {
         ->group(group);
 }
 
+void add_space_time(CLI::App& cli, MeshArguments& arguments) {
+    SpaceTimeArguments& moving = arguments.space_time;
+    const auto group = "Space-time";
+    CLI::Option* space_time =
+        cli.add_flag(
+               "--space-time", moving.is_asked_for,
+               "The input is a moving mesh (.pvd, .series, numbered .vtu or .vtk files, a run "
+               "folder of three dimensions): what it sweeps")
+            ->group(group);
+    const auto goes_with = [&](CLI::Option* option) {
+        return option->needs(space_time)->group(group);
+    };
+    goes_with(cli.add_option("--time-scale", moving.options.time_scale,
+                             "The time t is at w = this times t (m/s)")
+                  ->check(CLI::PositiveNumber)
+                  ->capture_default_str());
+    goes_with(cli.add_option("--refine-time", moving.refine_time,
+                             "Layers for each step from frame to frame: a number, or auto for as "
+                             "many as it takes")
+                  ->type_name("N|auto")
+                  ->capture_default_str());
+    goes_with(cli.add_option("--every", moving.series.every, "Only every K-th frame")
+                  ->check(CLI::Range(1, 1'000'000))
+                  ->type_name("K"));
+    goes_with(
+        cli.add_option("--time-step", moving.time_step, "From one numbered file to the next (s)")
+            ->check(CLI::PositiveNumber));
+    goes_with(cli.add_option("--body", moving.series.body, "Of a run folder with several bodies"));
+    goes_with(cli.add_option("--region-array", moving.series.region_array,
+                             "Array of the cells with their labels; default: region, material, "
+                             "attribute or the like"));
+    goes_with(cli.add_flag("--slabs", moving.has_slabs,
+                           "A file for each step from frame to frame: NAME_000000.pent and so on"));
+    goes_with(cli.add_flag("--bisection", moving.options.is_bisection_ready,
+                           "Cells with tags in an order in which bisection keeps them conforming"));
+}
+
+// What has no meaning for a moving mesh, and would be left unheeded without a word.
+void refuse_other_options(const CLI::App& cli) {
+    for (const char* name : {"--repair",
+                             "--wrap-distance",
+                             "--surface-triangles",
+                             "--edge-length",
+                             "--target-pentachora",
+                             "--generator",
+                             "--radius-edge-ratio",
+                             "--subdivide-surface",
+                             "--subdivide",
+                             "--quadratic",
+                             "--thickness",
+                             "--extrude",
+                             "--layers",
+                             "--grade",
+                             "--layer-heights",
+                             "--round",
+                             "--profile",
+                             "--one-sided",
+                             "--edge-directions",
+                             "--format",
+                             "--sphere",
+                             "--ball",
+                             "--box"}) {
+        if (cli.count(name) > 0) {
+            throw Error(std::string(name)
+                        + ": without meaning for a moving mesh; leave it out, or --space-time");
+        }
+    }
+    if (cli["--dim"]->count() > 0 && cli["--dim"]->as<int>() != 4) {
+        throw Error("--dim 3: a space-time mesh has four dimensions; leave it out");
+    }
+}
+
+int layers_of_a_step(const std::string& text) {
+    int count = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+    if (text == "auto") {
+        return 0;
+    }
+    if (error != std::errc() || end != text.data() + text.size() || count < 1 || count > 65536) {
+        throw Error("--refine-time: found \"" + text
+                    + "\"; expected auto or a whole number from 1 to 65536");
+    }
+    return count;
+}
+
+void complete_space_time(const CLI::App& cli, MeshArguments& arguments) {
+    SpaceTimeArguments& moving = arguments.space_time;
+    if (!moving.is_asked_for) {
+        return;
+    }
+    refuse_other_options(cli);
+    moving.series.scale = arguments.request.scale;
+    if (cli.count("--time-step") > 0) {
+        moving.series.time_step = moving.time_step;
+    }
+    moving.options.refine_time = layers_of_a_step(moving.refine_time);
+    moving.options.order = arguments.request.extrusion.order;
+    moving.options.alternate = !arguments.lean;
+}
+
 decltype(mesher::BodyRequest::input) input_of(const MeshArguments& arguments) {
     if (arguments.sphere > 0) {
         return mesher::SphereShape{arguments.sphere, arguments.size[0]};
@@ -290,6 +392,7 @@ void add_options(CLI::App& cli, MeshArguments& arguments) {
     add_surface(cli, arguments.request);
     add_resolution(cli, arguments);
     add_extrusion(cli, arguments);
+    add_space_time(cli, arguments);
 }
 
 void complete(const CLI::App& cli, MeshArguments& arguments) {
@@ -314,6 +417,7 @@ void complete(const CLI::App& cli, MeshArguments& arguments) {
         limits.memory_mib = std::max<std::int64_t>(1, std::llround(arguments.memory_limit));
     }
     request.limit_steps(limits);
+    complete_space_time(cli, arguments);
 }
 
 }  // namespace pent::apps

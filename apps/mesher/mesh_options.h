@@ -1,6 +1,7 @@
 #pragma once
 
 #include <pent/mesher/make_body.h>
+#include <pent/mesher/space_time.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -8,10 +9,21 @@
 
 namespace pent::apps {
 
+/// What the command line says of moving meshes.
+struct SpaceTimeArguments {
+    bool is_asked_for = false;
+    bool has_slabs = false;  ///< A file for each step from frame to frame.
+    std::string refine_time = "1";
+    double time_step = 0;  ///< s.
+    mesher::SeriesOptions series;
+    mesher::SpaceTimeOptions options;
+};
+
 /// What the command line of pent-mesh says; what is not a field of the request yet becomes one in
 /// complete().
 struct MeshArguments {
     mesher::BodyRequest request;
+    SpaceTimeArguments space_time;
     std::filesystem::path output;
     int dim = 4;
     bool ascii = false;

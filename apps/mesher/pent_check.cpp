@@ -16,6 +16,7 @@
 #include <pent/pent_file.h>
 
 #include <filesystem>
+#include <map>
 
 namespace {
 
@@ -134,6 +135,35 @@ Checked<Dim> check(const std::filesystem::path& path, bool quiet) {
     return checked;
 }
 
+// What a file has beside its mesh.
+template <int Dim>
+void say_extras(const Program& program, const pent::MeshExtras<Dim>& extras) {
+    std::string fields;
+    for (const auto* all : {&extras.vertex_fields, &extras.cell_fields}) {
+        for (const pent::VertexField& field : *all) {
+            fields += (fields.empty() ? "" : ", ") + field.name
+                      + (all == &extras.cell_fields ? " of cells" : "");
+        }
+    }
+    if (!fields.empty()) {
+        program.say("fields     " + fields);
+    }
+    if (!extras.bisection_tags.empty()) {
+        program.say("tags       for bisection");
+    }
+    std::map<std::uint16_t, Long> counts;
+    for (const std::uint16_t label : extras.labels) {
+        ++counts[label];
+    }
+    std::string labels;
+    for (const auto& [label, count] : counts) {
+        labels += formatted("%s%d: %lld", labels.empty() ? "" : ", ", label, count);
+    }
+    if (!labels.empty()) {
+        program.say("labels     " + labels + " facets");
+    }
+}
+
 template <int Dim>
 void check_mesh(Program& program, const std::filesystem::path& path) {
     const auto [file, proof, links, quality] = check<Dim>(path, program.common().quiet);
@@ -152,6 +182,7 @@ void check_mesh(Program& program, const std::filesystem::path& path) {
                           static_cast<Long>(links.boundary_vertices - links.faulty),
                           static_cast<Long>(links.faulty)));
     program.say("quality    " + pent::apps::quality_line(quality));
+    say_extras<Dim>(program, file.extras);
     program.report()["mesh"] = {{"dimension", Dim},
                                 {"vertices", file.mesh.vertex_count()},
                                 {"cells", proof.cells},

@@ -5,8 +5,10 @@
 #include "common/heartbeat.h"
 #include "common/program.h"
 #include "common/progress.h"
+#include "expected_size.h"
 #include "mesh_options.h"
 #include "mesh_text.h"
+#include "space_time_body.h"
 #include "watchdog.h"
 
 #include <pent/error.h>
@@ -166,37 +168,6 @@ nlohmann::ordered_json to_json(const pent::mesher::Body<Dim>& body) {
     return json;
 }
 
-// "3200", "1.25 million", "4.35 billion".
-std::string readable_count(double count) {
-    if (count < 1e6) {
-        return formatted("%.0f", count);
-    }
-    return count < 1e9 ? formatted("%.3g million", count / 1e6)
-                       : formatted("%.4g billion", count / 1e9);
-}
-
-// Large bodies, and long work, only where they are meant.
-void ask_about_size(const Program& program, bool yes, const ExpectedSize& size, int dim) {
-    constexpr double kManyCells = 5e6;
-    constexpr double kLong = 60;  // s
-    if (size.cells <= kManyCells && size.seconds <= kLong) {
-        return;
-    }
-    const std::string layers = size.layers > 0
-                                   ? formatted(" (%s cells of the base in %d layers)",
-                                               readable_count(size.base_cells).c_str(), size.layers)
-                                   : "";
-    const std::string text = "about " + readable_count(size.cells) + " "
-                             + std::string(pent::cell_name_plural(dim)) + layers + ", and about "
-                             + pent::apps::readable_time(size.seconds) + " of work";
-    if (!yes) {
-        throw pent::Error("this would make " + text
-                          + "; ask for less by --edge-length, --surface-triangles, --layers or"
-                            " --target-pentachora, or for all of it by --yes");
-    }
-    program.say("expected   " + text);
-}
-
 template <int Dim>
 pent::mesher::Body<Dim> make(Program& program,
                              const MeshArguments& arguments,
@@ -205,7 +176,7 @@ pent::mesher::Body<Dim> make(Program& program,
     pent::mesher::BodyRequest request = arguments.request;
     request.on_stage = [&](const std::string& stage) { heartbeat.begin(stage); };
     request.on_size = [&](const ExpectedSize& size) {
-        ask_about_size(program, arguments.yes, size, Dim);
+        pent::apps::ask_about_size(program, arguments.yes, size, Dim);
     };
     if constexpr (Dim == 4) {
         return pent::mesher::make_body(request);
@@ -286,8 +257,12 @@ int main(int argc, char** argv) {
                               {{"-o", arguments.output}, {"--histogram", arguments.histogram}});
         pent::apps::limit_memory(arguments.memory_limit);
         try {
-            arguments.dim == 4 ? make_and_write<4>(program, arguments)
-                               : make_and_write<3>(program, arguments);
+            if (arguments.space_time.is_asked_for) {
+                pent::apps::make_and_write_space_time(program, arguments);
+            } else {
+                arguments.dim == 4 ? make_and_write<4>(program, arguments)
+                                   : make_and_write<3>(program, arguments);
+            }
         } catch (const std::bad_alloc&) {
             throw pent::Error(
                 "out of memory; ask for fewer cells or a coarser surface, or raise --memory-limit");

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 
 namespace pent {
 
@@ -54,6 +55,29 @@ std::optional<std::string> from_base64(std::string_view text) {
         }
     }
     return bytes;
+}
+
+std::optional<std::string> from_base64_prefix(std::string_view text, std::size_t bytes) {
+    std::string result;
+    std::string group;
+    for (const char c : text) {
+        if (result.size() >= bytes) {
+            break;
+        }
+        if (c == ' ' || c == '\t' || c == '\n' || c == '\r') {
+            continue;
+        }
+        group += c;
+        if (group.size() == 4) {
+            const std::optional<std::string> three = from_base64(group);
+            if (!three) {
+                return std::nullopt;
+            }
+            result += *three;
+            group.clear();
+        }
+    }
+    return group.empty() ? std::optional(std::move(result)) : std::nullopt;
 }
 
 }  // namespace pent

@@ -76,6 +76,26 @@ private:
 /// Puts header (with the body's checksum) and body into a file; returns the checksum.
 std::uint32_t write_file(const std::filesystem::path& path, Header header, const std::string& body);
 
+/// The columns of a field: its name alone, or with an axis behind it.
+[[nodiscard]] std::vector<Column> field_columns(const VertexField& field);
+
+/// Every property of doubles that is none of those known, with no values yet: a vector where all
+/// axes follow one another, else a number.
+///
+/// @param prefixes  Of known vectors: "" is x, y and so on.
+[[nodiscard]] std::vector<VertexField> fields_of(const PlyElement& element,
+                                                 int dimension,
+                                                 const std::vector<std::string_view>& prefixes);
+
+/// Throws an Error unless fields have finite values, one or `dimension` for each of `count`.
+///
+/// @param of  What they are quantities of: "vertex".
+void check_fields(const std::vector<VertexField>& fields,
+                  int dimension,
+                  Eigen::Index count,
+                  std::string_view of,
+                  const std::filesystem::path& path);
+
 /// The element that these columns make.
 [[nodiscard]] PlyElement make_element(std::string_view name,
                                       std::uint64_t count,

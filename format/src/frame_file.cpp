@@ -5,7 +5,6 @@
 #include <pent/formatted.h>
 #include <pent/pent_file.h>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -29,70 +28,7 @@ void check_finite(const Positions<Dim>& values,
     }
 }
 
-constexpr std::string_view kFieldAxes[] = {"_x", "_y", "_z", "_w"};
-
-// The columns of a field: its name alone, or with an axis behind it.
-std::vector<Column> field_columns(const VertexField& field) {
-    std::vector<Column> columns;
-    for (Eigen::Index row = 0; row < field.values.rows(); ++row) {
-        const std::string_view axis = field.values.rows() == 1 ? "" : kFieldAxes[row];
-        // Encoding only reads through the pointer; decoding is given arrays that are not const.
-        auto* data = const_cast<double*>(field.values.data());
-        columns.push_back({field.name + std::string(axis), PlyType::Double,
-                           reinterpret_cast<char*>(data == nullptr ? data : data + row),
-                           static_cast<std::size_t>(field.values.rows()) * sizeof(double)});
-    }
-    return columns;
-}
-
-template <int Dim>
-void check_fields(const Frame<Dim>& frame, const std::filesystem::path& path) {
-    for (const VertexField& field : frame.fields) {
-        const Eigen::Index rows = field.values.rows();
-        if ((rows != 1 && rows != Dim) || field.values.cols() != frame.positions.cols()) {
-            throw Error(path.string() + ": " + field.name + " has " + std::to_string(rows) + " x "
-                        + std::to_string(field.values.cols()) + " values, expected 1 or "
-                        + std::to_string(Dim) + " x " + std::to_string(frame.positions.cols()));
-        }
-        for (Eigen::Index vertex = 0; vertex < field.values.cols(); ++vertex) {
-            if (!field.values.col(vertex).allFinite()) {
-                throw Error(path.string() + ": vertex " + std::to_string(vertex) + ": " + field.name
-                            + " is not finite, expected finite numbers");
-            }
-        }
-    }
-}
-
-// Every property of doubles that is none of those known: a vector where all axes follow one
-// another, else a number.
-template <int Dim>
-std::vector<VertexField> fields_of(const PlyElement& vertex) {
-    const std::vector<PlyProperty>& all = vertex.properties;
-    const auto is_known = [](const std::string& name) {
-        const std::string_view axes = std::string_view("xyzw").substr(0, Dim);
-        const bool has_prefix = name.size() == 2 && (name[0] == 'v' || name[0] == 'f');
-        return (name.size() == 1 || has_prefix) && axes.find(name.back()) != axes.npos;
-    };
-    std::vector<VertexField> fields;
-    for (std::size_t i = 0; i < all.size();) {
-        const std::string& name = all[i].name;
-        if (all[i].type != PlyType::Double || all[i].count_type || is_known(name)) {
-            ++i;
-            continue;
-        }
-        const std::string stem = name.substr(0, std::max<std::size_t>(name.size(), 2) - 2);
-        std::size_t axes = 0;
-        while (axes < Dim && i + axes < all.size() && all[i + axes].type == PlyType::Double
-               && all[i + axes].name == stem + std::string(kFieldAxes[axes])) {
-            ++axes;
-        }
-        const bool is_vector = axes == Dim && !stem.empty();
-        const auto count = static_cast<Eigen::Index>(vertex.count);
-        fields.push_back({is_vector ? stem : name, Eigen::MatrixXd(is_vector ? Dim : 1, count)});
-        i += is_vector ? Dim : 1;
-    }
-    return fields;
-}
+const std::vector<std::string_view> kVectors = {"", "v", "f"};
 
 template <int Dim>
 std::vector<Column> frame_columns(const Frame<Dim>& frame) {
@@ -134,7 +70,7 @@ void write_frame(const std::filesystem::path& path,
     check_finite<Dim>(frame.contact_forces, "f", path);
     check_count<Dim>(frame.velocities, frame.positions.cols(), "velocities", path);
     check_count<Dim>(frame.contact_forces, frame.positions.cols(), "contact forces", path);
-    check_fields(frame, path);
+    check_fields(frame.fields, Dim, frame.positions.cols(), "vertex", path);
     if (frame.mesh_name.empty() || frame.mesh_name.find_first_of(" \n\r") != std::string::npos) {
         throw Error(path.string() + ": mesh name '" + frame.mesh_name
                     + "', expected a name without spaces");
@@ -179,7 +115,7 @@ Frame<Dim> read_frame(const std::filesystem::path& path) {
     if (has_vector(header.elements[0], Dim, "f", "contact force", path)) {
         frame.contact_forces.resize(Dim, count);
     }
-    frame.fields = fields_of<Dim>(header.elements[0]);
+    frame.fields = fields_of(header.elements[0], Dim, kVectors);
     frame.mesh_name = header.mesh_name;
     frame.mesh_crc = header.mesh_crc;
     frame.frame = header.frame;
@@ -190,7 +126,7 @@ Frame<Dim> read_frame(const std::filesystem::path& path) {
     check_finite<Dim>(frame.positions, "", path);
     check_finite<Dim>(frame.velocities, "v", path);
     check_finite<Dim>(frame.contact_forces, "f", path);
-    check_fields(frame, path);
+    check_fields(frame.fields, Dim, frame.positions.cols(), "vertex", path);
     return frame;
 }
 

@@ -270,6 +270,7 @@ CutCells cut_cells(const CellSoup& soup, const std::string& name) {
                     warped.note(kind, cell);
                 }
             }
+            result.cells.resize(result.tets.size(), static_cast<std::uint32_t>(cell));
             if (soup.has_labels) {
                 result.labels.resize(result.tets.size(), soup.labels[cell]);
             }

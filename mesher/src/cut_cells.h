@@ -12,6 +12,7 @@ namespace pent::mesher {
 /// Cells of a file cut into tetrahedra.
 struct CutCells {
     std::vector<std::array<std::uint32_t, 4>> tets;  ///< In the order of the cells.
+    std::vector<std::uint32_t> cells;                ///< Which of the soup's each comes from.
     std::vector<std::int64_t> labels;                ///< One a tetrahedron, or empty.
     std::int64_t turned_cells = 0;  ///< Cells of the file that were negatively oriented.
     std::string cut;  ///< As in "2 hexahedra into 12 tetrahedra"; empty if all were tetrahedra.

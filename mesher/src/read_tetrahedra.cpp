@@ -17,11 +17,12 @@ namespace {
 
 using Reader = CellSoup (*)(const std::filesystem::path&);
 
-constexpr std::array<std::pair<std::string_view, Reader>, 6> kReaders = {{{".node", read_tetgen},
+constexpr std::array<std::pair<std::string_view, Reader>, 7> kReaders = {{{".node", read_tetgen},
                                                                           {".ele", read_tetgen},
                                                                           {".mesh", read_medit},
                                                                           {".msh", read_gmsh},
                                                                           {".vtk", read_vtk},
+                                                                          {".vtu", read_vtu},
                                                                           {".tobj", read_tobj}}};
 
 Reader reader_for(const std::filesystem::path& path, const std::string& format) {
@@ -48,16 +49,10 @@ bool is_tetrahedra_file(const std::filesystem::path& path, const std::string& fo
     return reader_for(path, format) != nullptr;
 }
 
-TetrahedraFile read_tetrahedra(const std::filesystem::path& path, const std::string& format) {
-    const std::string name = input_name(path);
-    require_file(path);
-    const Reader reader = reader_for(path, format);
-    if (reader == nullptr) {
-        throw Error(name + ": tetrahedra are in .node and .ele, .mesh, .msh, .vtk or .tobj files");
-    }
-    const CellSoup soup = reader(path);
-    const CutCells cut = cut_cells(soup, name);
-    TetrahedraFile file;
+NumberedTetrahedra number_tetrahedra(const CellSoup& soup, const std::string& name) {
+    CutCells cut = cut_cells(soup, name);
+    NumberedTetrahedra numbered;
+    TetrahedraFile& file = numbered.file;
     file.cut = cut.cut;
     file.left_out = list_counts(soup.counts, CellKind::Triangle, CellKind::Point);
     file.curved_cells = soup.curved_cells;
@@ -73,9 +68,11 @@ TetrahedraFile read_tetrahedra(const std::filesystem::path& path, const std::str
         }
     }
     std::uint32_t used = 0;
-    for (std::uint32_t& entry : names) {
-        used += entry;
-        entry = used - entry;
+    for (std::size_t point = 0; point < names.size(); ++point) {
+        if (names[point] == 1) {
+            numbered.points.push_back(static_cast<std::uint32_t>(point));
+            names[point] = used++;
+        }
     }
     file.unused_points = static_cast<std::int64_t>(soup.points.size()) - used;
     file.mesh.positions.resize(3, used);
@@ -92,7 +89,19 @@ TetrahedraFile read_tetrahedra(const std::filesystem::path& path, const std::str
         file.mesh.regions.push_back(region_of(label, name));
     }
     validate(file.mesh, name);
-    return file;
+    numbered.cells = std::move(cut.cells);
+    return numbered;
+}
+
+TetrahedraFile read_tetrahedra(const std::filesystem::path& path, const std::string& format) {
+    const std::string name = input_name(path);
+    require_file(path);
+    const Reader reader = reader_for(path, format);
+    if (reader == nullptr) {
+        throw Error(name
+                    + ": tetrahedra are in .node and .ele, .mesh, .msh, .vtk, .vtu or .tobj files");
+    }
+    return number_tetrahedra(reader(path), name).file;
 }
 
 }  // namespace pent::mesher

@@ -1,5 +1,6 @@
 #include "number_reader.h"
 #include "tet_readers.h"
+#include "vtk_grid.h"
 
 #include <algorithm>
 #include <array>
@@ -11,72 +12,6 @@
 namespace pent::mesher {
 
 namespace {
-
-// VTK's number for a type of cells and what it is. In all of them the corners come first.
-constexpr std::array<std::pair<std::int64_t, CellKind>, 50> kTypes = {{
-    {1, CellKind::Point},
-    {2, CellKind::Point},
-    {3, CellKind::Line},
-    {4, CellKind::Line},
-    {5, CellKind::Triangle},
-    {6, CellKind::Polygon},  // a strip of triangles
-    {7, CellKind::Polygon},
-    {8, CellKind::Quadrilateral},  // a pixel
-    {9, CellKind::Quadrilateral},
-    {10, CellKind::Tetrahedron},
-    {11, CellKind::Hexahedron},
-    {12, CellKind::Hexahedron},  // the first of these a voxel
-    {13, CellKind::Prism},
-    {14, CellKind::Pyramid},
-    {15, CellKind::PentagonalPrism},
-    {16, CellKind::HexagonalPrism},
-    {21, CellKind::Line},
-    {22, CellKind::Triangle},
-    {23, CellKind::Quadrilateral},
-    {24, CellKind::Tetrahedron},
-    {25, CellKind::Hexahedron},
-    {26, CellKind::Prism},
-    {27, CellKind::Pyramid},
-    {28, CellKind::Quadrilateral},
-    {29, CellKind::Hexahedron},
-    {30, CellKind::Quadrilateral},
-    {31, CellKind::Prism},
-    {32, CellKind::Prism},
-    {33, CellKind::Hexahedron},
-    {34, CellKind::Triangle},
-    {35, CellKind::Line},
-    {36, CellKind::Polygon},
-    {37, CellKind::Pyramid},
-    {41, CellKind::Polyhedron},
-    {42, CellKind::Polyhedron},
-    {68, CellKind::Line},
-    {69, CellKind::Triangle},
-    {70, CellKind::Quadrilateral},
-    {71, CellKind::Tetrahedron},
-    {72, CellKind::Hexahedron},
-    {73, CellKind::Prism},
-    {74, CellKind::Pyramid},
-    {75, CellKind::Line},
-    {76, CellKind::Triangle},
-    {77, CellKind::Quadrilateral},
-    {78, CellKind::Tetrahedron},
-    {79, CellKind::Hexahedron},
-    {80, CellKind::Prism},
-    {81, CellKind::Pyramid},
-    {0, CellKind::Point},  // empty
-}};
-constexpr std::int64_t kEmpty = 0;
-constexpr std::int64_t kVoxel = 11;
-
-CellKind kind_of(const TextReader& text, std::int64_t number) {
-    for (const auto& [known, kind] : kTypes) {
-        if (number == known) {
-            return kind;
-        }
-    }
-    text.fail("a cell of VTK's type " + std::to_string(number) + "; expected 0 to 16, 21 to 37, 41,"
-              " 42 or 68 to 81");
-}
 
 // Bytes of a value of a type of arrays, or nothing for types without a fixed size.
 std::optional<std::size_t> size_of(std::string_view type) {
@@ -116,7 +51,8 @@ public:
     explicit VtkReader(const std::filesystem::path& path)
         : text_(path, '\0'), numbers_(text_, Encoding::Text) {}
 
-    CellSoup read() {
+    // Reads the mesh alone, or its arrays too.
+    VtkGrid read(bool with_arrays) {
         read_start();
         while (text_.next_line()) {
             const std::string_view keyword = text_.word();
@@ -134,10 +70,13 @@ public:
             } else if (keyword == "CELL_TYPES") {
                 read_types();
             } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
+                if (with_arrays) {
+                    read_arrays(keyword == "POINT_DATA");
+                }
                 break;
             }
         }
-        return std::move(soup_);
+        return std::move(grid_);
     }
 
 private:
@@ -196,7 +135,8 @@ private:
         }
         const bool is_double = type == "double";
         for (std::int64_t i = 0; i < count; ++i) {
-            soup_.points.push_back(is_double ? numbers_.point<double>() : numbers_.point<float>());
+            grid_.soup.points.push_back(is_double ? numbers_.point<double>()
+                                                  : numbers_.point<float>());
         }
     }
 
@@ -261,46 +201,161 @@ private:
             text_.fail(std::to_string(count) + " types of " + std::to_string(cells_.count())
                        + " cells");
         }
+        const Fail fail = [this](const std::string& message) { text_.fail(message); };
         for (std::int64_t cell = 0; cell < count; ++cell) {
             const std::int64_t type = numbers_.whole<std::int32_t>("the type of a cell");
-            if (type != kEmpty) {
-                add_cell(cell, type);
+            const auto first = static_cast<std::size_t>(cells_.first[cell]);
+            const auto end = static_cast<std::size_t>(cells_.first[cell + 1]);
+            add_cell(grid_, type, std::span(cells_.corners).subspan(first, end - first), fail);
+        }
+    }
+
+    // The arrays of the points and of the cells, to the end of the file.
+    void read_arrays(bool is_of_points) {
+        expect_count(is_of_points);
+        while (text_.next_line()) {
+            const std::string keyword(text_.word());
+            std::vector<VtkArray>& arrays = is_of_points ? grid_.point_arrays : grid_.cell_arrays;
+            const std::int64_t rows = is_of_points ? point_count() : grid_.cell_count;
+            if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
+                is_of_points = keyword == "POINT_DATA";
+                expect_count(is_of_points);
+            } else if (keyword == "SCALARS") {
+                arrays.push_back(read_scalars(rows));
+            } else if (keyword == "VECTORS" || keyword == "NORMALS") {
+                const std::string name(text_.next_word("the name of an array"));
+                arrays.push_back(
+                    read_values(name, 3, rows, std::string(text_.next_word("a type"))));
+            } else if (keyword == "TENSORS") {
+                const std::string name(text_.next_word("the name of an array"));
+                arrays.push_back(
+                    read_values(name, 9, rows, std::string(text_.next_word("a type"))));
+            } else if (keyword == "FIELD") {
+                read_field(arrays, rows);
+            } else if (keyword == "LOOKUP_TABLE") {
+                skip_lookup_table();
+            } else if (keyword != "METADATA" && keyword != "INFORMATION" && keyword != "NAME"
+                       && keyword != "DATA") {
+                text_.fail("found \"" + keyword.substr(0, 40)
+                           + "\", expected SCALARS, VECTORS, NORMALS, TENSORS, FIELD, LOOKUP_TABLE,"
+                             " POINT_DATA or CELL_DATA");
             }
         }
     }
 
-    void add_cell(std::int64_t cell, std::int64_t type) {
-        const CellKind kind = kind_of(text_, type);
-        const std::int64_t count = cells_.first[cell + 1] - cells_.first[cell];
-        if (count < static_cast<std::int64_t>(corners_of(kind))) {
-            CellCounts one{};
-            one[static_cast<std::size_t>(kind)] = 1;
-            text_.fail(list_counts(one, kind, kind) + " with " + std::to_string(count)
-                       + " corners; expected " + std::to_string(corners_of(kind)));
+    [[nodiscard]] std::int64_t point_count() const {
+        return static_cast<std::int64_t>(grid_.soup.points.size());
+    }
+
+    void expect_count(bool is_of_points) {
+        const std::int64_t count = line_count();
+        const std::int64_t expected = is_of_points ? point_count() : grid_.cell_count;
+        if (count != expected) {
+            text_.fail("data of " + std::to_string(count)
+                       + (is_of_points ? " points, of " : " cells, of ")
+                       + std::to_string(expected));
         }
-        nodes_.clear();
-        for (std::int64_t i = 0; i < count && corners_of(kind) > 0; ++i) {
-            nodes_.push_back(text_.index(cells_.corners[cells_.first[cell] + i],
-                                         static_cast<std::int64_t>(soup_.points.size())));
+    }
+
+    VtkArray read_scalars(std::int64_t rows) {
+        const std::string name(text_.next_word("the name of an array"));
+        const std::string type(text_.next_word("a type"));
+        const std::string_view word = text_.word();
+        const std::int64_t components =
+            word.empty() ? 1 : text_.count(word, "a number of components");
+        const std::string_view keyword = text_.next_word("LOOKUP_TABLE");
+        if (keyword != "LOOKUP_TABLE") {
+            text_.fail("found \"" + std::string(keyword.substr(0, 40))
+                       + "\", expected LOOKUP_TABLE");
         }
-        if (type == kVoxel) {  // it counts along the axes, not around its sides
-            std::swap(nodes_[2], nodes_[3]);
-            std::swap(nodes_[6], nodes_[7]);
+        text_.skip_line();
+        return read_values(name, components, rows, type);
+    }
+
+    void read_field(std::vector<VtkArray>& arrays, std::int64_t rows) {
+        static_cast<void>(text_.word());  // its name
+        const std::int64_t count = line_count();
+        for (std::int64_t i = 0; i < count; ++i) {
+            std::string name(text_.next_word("the name of an array"));
+            while (name == "METADATA" || name == "INFORMATION" || name == "NAME"
+                   || name == "DATA") {  // of the array before
+                text_.skip_line();
+                name = text_.next_word("the name of an array");
+            }
+            const std::int64_t components = line_count();
+            const std::int64_t found = line_count();
+            if (found != rows) {
+                text_.fail("array " + name.substr(0, 40) + " has " + std::to_string(found)
+                           + " rows, expected " + std::to_string(rows));
+            }
+            arrays.push_back(
+                read_values(name, components, rows, std::string(text_.next_word("a type"))));
         }
-        soup_.add(kind, nodes_);
+    }
+
+    // Colors of a table of their own.
+    void skip_lookup_table() {
+        static_cast<void>(text_.next_word("the name of a table"));
+        const std::int64_t size = 4 * line_count();
+        for (std::int64_t i = 0; i < size; ++i) {
+            static_cast<void>(numbers_.is_text()
+                                  ? text_.number(text_.next_word("a color"), "a color")
+                                  : numbers_.real<std::uint8_t>("a color"));
+        }
+    }
+
+    VtkArray read_values(const std::string& name,
+                         std::int64_t components,
+                         std::int64_t rows,
+                         const std::string& type) {
+        VtkArray array{name, components, {}};
+        if (components > text_.size()) {
+            text_.fail(std::to_string(components) + " components; the file has fewer bytes");
+        }
+        for (std::int64_t i = 0; i < rows * components; ++i) {
+            array.values.push_back(value_of_type(type));
+        }
+        return array;
+    }
+
+    double value_of_type(const std::string& type) {
+        if (type == "float") {
+            return numbers_.real<float>("a number");
+        }
+        if (type == "double") {
+            return numbers_.real<double>("a number");
+        }
+        const bool is_unsigned = type.starts_with("unsigned") || type == "vtktypeuint64";
+        switch (bytes_of(type)) {
+            case 1:
+                return is_unsigned ? numbers_.real<std::uint8_t>("a number")
+                                   : numbers_.real<std::int8_t>("a number");
+            case 2:
+                return is_unsigned ? numbers_.real<std::uint16_t>("a number")
+                                   : numbers_.real<std::int16_t>("a number");
+            case 4:
+                return is_unsigned ? numbers_.real<std::uint32_t>("a number")
+                                   : numbers_.real<std::int32_t>("a number");
+            default:
+                return is_unsigned ? numbers_.real<std::uint64_t>("a number")
+                                   : numbers_.real<std::int64_t>("a number");
+        }
     }
 
     TextReader text_;
     NumberReader numbers_;
-    CellSoup soup_;
+    VtkGrid grid_;
     Cells cells_;
-    std::vector<std::uint32_t> nodes_;  // of one cell
 };
 
 }  // namespace
 
 CellSoup read_vtk(const std::filesystem::path& path) {
-    return VtkReader(path).read();
+    return VtkReader(path).read(false).soup;
+}
+
+VtkGrid read_vtk_grid(const std::filesystem::path& path) {
+    return VtkReader(path).read(true);
 }
 
 }  // namespace pent::mesher

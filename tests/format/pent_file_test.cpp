@@ -3,11 +3,13 @@
 #include "support/temp_folder.h"
 
 #include <pent/crc32c.h>
+#include <pent/facets.h>
 #include <pent/formatted.h>
 #include <pent/pent_file.h>
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -98,6 +100,59 @@ TEST(PentFile, RoundTripKeepsFibers) {
     expect_round_trip(mesh);
     add_optional_arrays(mesh);
     expect_round_trip(mesh);
+}
+
+MeshExtras<4> some_extras(const SimplexMesh<4>& mesh) {
+    MeshExtras<4> extras;
+    const FacetMatch<4> match = match_facets<4>(mesh.cells, mesh.vertex_count());
+    extras.vertex_fields = {{"heat", Eigen::MatrixXd::Random(1, mesh.vertex_count())},
+                            {"flow", Eigen::MatrixXd::Random(4, mesh.vertex_count())}};
+    extras.cell_fields = {{"age", Eigen::MatrixXd::Random(1, mesh.cell_count())}};
+    extras.boundary = match.boundary.leftCols(5);
+    extras.labels = {1, 2, 3, 4, 65535};
+    extras.base_labels = {0, 9, 8, 7, 6};
+    extras.bisection_tags.assign(static_cast<std::size_t>(mesh.cell_count()), 1);
+    return extras;
+}
+
+TEST(PentFile, RoundTripKeepsFieldsTagsAndLabelsOfTheBoundary) {
+    const test::TempFolder folder;
+    SimplexMesh<4> mesh = crooked(test::kuhn_box<4>({2, 1, 1, 1}, {2, 1, 1, 1}));
+    mesh.fibers = Positions<4>::Random(4, mesh.cell_count());
+    const MeshExtras<4> extras = some_extras(mesh);
+    for (const Encoding encoding : {Encoding::Binary, Encoding::Ascii}) {
+        write_mesh(folder / "a.pent", mesh, {.encoding = encoding}, extras);
+        const MeshFile<4> file = read_mesh<4>(folder / "a.pent");
+        expect_same_bits(file.mesh, mesh);
+        EXPECT_EQ(file.extras.vertex_fields, extras.vertex_fields);
+        EXPECT_EQ(file.extras.cell_fields, extras.cell_fields);
+        EXPECT_EQ(file.extras.boundary, extras.boundary);
+        EXPECT_EQ(file.extras.labels, extras.labels);
+        EXPECT_EQ(file.extras.base_labels, extras.base_labels);
+        EXPECT_EQ(file.extras.bisection_tags, extras.bisection_tags);
+    }
+}
+
+TEST(PentFile, RefusesFieldsTagsAndLabelsThatDoNotFit) {
+    const test::TempFolder folder;
+    const SimplexMesh<4> mesh = test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1});
+    const auto message = [&](const auto& change) {
+        MeshExtras<4> extras = some_extras(mesh);
+        change(extras);
+        return test::error_of([&] { write_mesh(folder / "a.pent", mesh, {}, extras); });
+    };
+    test::expect_contains(message([](auto& e) { e.labels.pop_back(); }),
+                          {"4 labels of the boundary, expected 5"});
+    test::expect_contains(message([](auto& e) { e.base_labels.pop_back(); }), {"4 base labels"});
+    test::expect_contains(message([](auto& e) { e.bisection_tags.pop_back(); }),
+                          {"23 bisection tags, expected 24"});
+    test::expect_contains(message([](auto& e) { e.boundary(2, 3) = 16; }),
+                          {"boundary 3: vertex 16 of 16"});
+    test::expect_contains(message([](auto& e) { e.vertex_fields[0].values(0, 2) = NAN; }),
+                          {"vertex 2: heat is not finite"});
+    test::expect_contains(message([](auto& e) { e.cell_fields[0].values.resize(3, 24); }),
+                          {"age has 3 x 24 values, expected 1 or 4 x 24"});
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.pent"));
 }
 
 TEST(PentFile, FibersHaveAllComponentsAndAreFinite) {

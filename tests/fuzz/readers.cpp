@@ -19,6 +19,7 @@
 #include <pent/runs/scene_file.h>
 #ifdef PENT_FUZZ_MESHER
 #include <pent/mesher/edge_order.h>
+#include <pent/mesher/moving_mesh.h>
 #include <pent/mesher/profile.h>
 #include <pent/mesher/read_solid.h>
 #include <pent/mesher/read_tetrahedra.h>
@@ -253,6 +254,39 @@ void try_shape(const fs::path& path) {
     require(solid.piece_count() > 0, "a shape that is accepted has a surface");
 }
 
+void check_moving(const mesher::MovingMesh& moving) {
+    validate(moving.base, "accepted mesh");
+    require(moving.positions.size() == moving.times.size() && moving.times.size() >= 2,
+            "a moving mesh has two frames or more, with their times");
+    for (const Positions<3>& positions : moving.positions) {
+        require(positions.cols() == moving.base.vertex_count() && positions.allFinite(),
+                "every frame has all vertices");
+    }
+    for (const mesher::MovingField& field : moving.vertex_fields) {
+        require(field.values.size() == moving.times.size(), "fields are there in every frame");
+    }
+}
+
+// One file as both frames of a series, with its arrays.
+void try_frames(const fs::path& path) {
+    const fs::path list = folder() / "list.pvd";
+    const std::string name = path.filename().string();
+    std::ofstream(list, std::ios::binary)
+        << "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"" << name
+        << "\"/><DataSet timestep=\"1\" file=\"" << name << "\"/></Collection></VTKFile>";
+    check_moving(mesher::read_moving_mesh(list));
+}
+
+// A list of frames; a.vtk and b.vtk are there.
+void try_series(const fs::path& path) {
+    for (const char* name : {"a.vtk", "b.vtk"}) {
+        std::ofstream(folder() / name, std::ios::binary)
+            << "# vtk DataFile Version 3.0\n-\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
+               "0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
+    }
+    check_moving(mesher::read_moving_mesh(path));
+}
+
 void try_profile(const fs::path& path) {
     require(mesher::read_profile(path).size() >= 2, "a profile has two layers or more");
 }
@@ -302,6 +336,10 @@ const std::vector<Reader>& readers() {
         {"gmsh", ".msh", try_tetrahedra},
         {"medit", ".mesh", try_tetrahedra},
         {"vtk", ".vtk", try_tetrahedra},
+        {"vtk_arrays", ".vtk", try_frames},
+        {"vtu", ".vtu", try_frames},
+        {"pvd", ".pvd", try_series},
+        {"series", ".series", try_series},
         {"tobj", ".tobj", try_tetrahedra},
         {"tetgen", ".pair", try_tetgen},
         {"edges", ".edges", try_edges},

@@ -30,7 +30,8 @@ struct FileInfo {
     bool is_frame = false;    ///< Positions (and velocities) without cells.
 };
 
-/// A further quantity of the vertices of a frame, by a name of letters, digits and '_'.
+/// A further quantity of the vertices of a frame or a mesh, or of the cells of a mesh, by a name of
+/// letters, digits and '_'.
 struct VertexField {
     std::string name;
     Eigen::MatrixXd values;  ///< A column each, of one number or of one an axis.
@@ -67,10 +68,31 @@ template <int Dim>
     return nullptr;
 }
 
+/// What the boundary of a body that was extruded or swept along its last axis is made of.
+enum class BoundaryLabel : std::uint16_t {
+    Bottom = 1,
+    Lateral = 2,
+    Top = 3,
+    InterfaceBelow = 4,  ///< The top of the slab below is the same, in a file of its own.
+    InterfaceAbove = 5,  ///< The bottom of the slab above is.
+};
+
+/// What a file may say of a mesh beside the mesh itself.
+template <int Dim>
+struct MeshExtras {
+    std::vector<VertexField> vertex_fields;    ///< A column a vertex.
+    std::vector<VertexField> cell_fields;      ///< A column a cell.
+    Simplices<Dim> boundary;                   ///< Facets that have labels, outward.
+    std::vector<std::uint16_t> labels;         ///< Theirs: a BoundaryLabel, or free to use.
+    std::vector<std::uint16_t> base_labels;    ///< What the base mesh has there, 0 if nothing.
+    std::vector<std::uint8_t> bisection_tags;  ///< One a cell, or empty; see docs/pent-format.md.
+};
+
 template <int Dim>
 struct MeshFile {
     SimplexMesh<Dim> mesh;
     FileInfo info;
+    MeshExtras<Dim> extras;
 };
 
 /// Reads the header alone. Throws an Error for a file that is missing or has a damaged header.
@@ -84,7 +106,8 @@ struct MeshFile {
 template <int Dim>
 std::uint32_t write_mesh(const std::filesystem::path& path,
                          const SimplexMesh<Dim>& mesh,
-                         const WriteOptions& options = {});
+                         const WriteOptions& options = {},
+                         const MeshExtras<Dim>& extras = {});
 
 /// Reads and fully validates a mesh. Nothing is allocated from a count that the file's size does
 /// not bear out. Throws an Error with file, element, what was found and what was expected.

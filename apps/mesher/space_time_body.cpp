@@ -1,0 +1,232 @@
+#include "space_time_body.h"
+
+#include "common/heartbeat.h"
+#include "expected_size.h"
+#include "mesh_text.h"
+#include "watchdog.h"
+
+#include <pent/error.h>
+#include <pent/formatted.h>
+#include <pent/output_file.h>
+#include <pent/pent_file.h>
+
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace pent::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using mesher::MovingMesh;
+using mesher::SpaceTimeBody;
+using Long = long long;  // NOLINT(google-runtime-int): printf's type
+
+struct Made {
+    SpaceTimeBody body;
+    std::string cut;       // see MovingMesh
+    std::string left_out;  // the same
+    std::size_t frames = 0;
+    double from = 0;  // s
+    double to = 0;    // s
+};
+
+// What is read is never written to: not into the run that is read.
+void require_outside(const fs::path& output, const fs::path& input) {
+    std::error_code ignored;
+    const fs::path within =
+        fs::weakly_canonical(output, ignored).lexically_relative(fs::canonical(input, ignored));
+    if (fs::is_directory(input) && !within.empty() && *within.begin() != "..") {
+        throw Error(output.string() + ": lies in " + input.string()
+                    + ", which is read; give it another place");
+    }
+}
+
+Made make(Program& program, const MeshArguments& arguments, Heartbeat& heartbeat) {
+    const Watchdog watchdog(program, arguments.time_limit);
+    require_outside(arguments.output, arguments.input);
+    heartbeat.begin("read");
+    MovingMesh moving = mesher::read_moving_mesh(arguments.input, arguments.space_time.series);
+    Made made{{},
+              moving.cut,
+              moving.left_out,
+              moving.frame_count(),
+              moving.times.front(),
+              moving.times.back()};
+    mesher::SpaceTimeOptions options = arguments.space_time.options;
+    options.on_stage = [&](const std::string& stage) { heartbeat.begin(stage); };
+    options.on_size = [&](double pentachora) {
+        constexpr double kSeconds = 1e-6;  // to make, prove and measure a cell on one core
+        ask_about_size(program, arguments.yes,
+                       {.cells = pentachora, .seconds = kSeconds * pentachora}, 4);
+    };
+    made.body = mesher::make_space_time(std::move(moving), options);
+    for (Eigen::Index axis = 0; axis < arguments.request.translation.size(); ++axis) {
+        made.body.mesh.positions.row(axis).array() += arguments.request.translation[axis];
+    }
+    return made;
+}
+
+fs::path slab_path(const fs::path& output, std::size_t slab) {
+    fs::path path = output;
+    return path.replace_filename(frame_file_name(output.stem().string(), static_cast<int>(slab)));
+}
+
+// Files that are there all or none: those written before one that cannot be are removed.
+std::vector<fs::path> write_slabs(const SpaceTimeBody& body,
+                                  const fs::path& output,
+                                  const WriteOptions& options) {
+    std::vector<fs::path> written;
+    try {
+        for (std::size_t slab = 0; slab + 1 < body.frame_layers.size(); ++slab) {
+            const MeshFile<4> file = mesher::slab_of(body, slab);
+            const fs::path path = slab_path(output, slab);
+            write_mesh(path, file.mesh, options, file.extras);
+            written.push_back(path);
+        }
+    } catch (...) {
+        for (const fs::path& path : written) {
+            std::error_code ignored;
+            fs::remove(path, ignored);
+        }
+        throw;
+    }
+    return written;
+}
+
+void write(const Program& program, const MeshArguments& arguments, const SpaceTimeBody& body) {
+    const WriteOptions options{.encoding = arguments.ascii ? Encoding::Ascii : Encoding::Binary,
+                               .created_by = program.name_and_version()};
+    if (arguments.output.has_parent_path()) {
+        make_folder(arguments.output.parent_path());
+    }
+    if (arguments.space_time.has_slabs) {
+        write_slabs(body, arguments.output, options);
+    } else {
+        write_mesh(arguments.output, body.mesh, options, body.extras);
+    }
+    if (!arguments.histogram.empty()) {
+        write_text(arguments.histogram,
+                   mesher::quality_svg(body.quality, arguments.output.filename().string()));
+    }
+}
+
+std::string names_of(const SpaceTimeBody& body) {
+    std::string names;
+    for (const std::vector<VertexField>& fields :
+         {body.extras.vertex_fields, body.extras.cell_fields}) {
+        for (const VertexField& field : fields) {
+            names += (names.empty() ? "" : ", ") + field.name;
+        }
+    }
+    if (body.mesh.fibers.cols() > 0) {
+        names += names.empty() ? "fibers" : ", fibers";
+    }
+    return names;
+}
+
+void say_time(const Program& program, const MeshArguments& arguments, const Made& made) {
+    const double scale = arguments.space_time.options.time_scale;
+    const SpaceTimeBody& body = made.body;
+    const auto layers = static_cast<int>(body.frame_layers.back());
+    program.say(formatted("moving     %lld frames from t = %.6g to %.6g s, mean edge %.4g m",
+                          static_cast<Long>(made.frames), made.from, made.to, body.base_edge));
+    const std::string heights =
+        body.highest_layer > body.lowest_layer * (1 + 1e-9)
+            ? formatted("%.4g to %.4g m", body.lowest_layer, body.highest_layer)
+            : formatted("%.4g m", body.lowest_layer);
+    // Where layers are 0.7 edges high, the worst cells of a body at rest are best.
+    const double best = scale * 0.7 * body.base_edge * layers / (scale * (made.to - made.from));
+    program.say(
+        formatted("time       w = %g m/s * t; %d layer%s of %s, best for cells at"
+                  " --time-scale %.3g",
+                  scale, layers, layers == 1 ? "" : "s", heights.c_str(), best));
+}
+
+void say_body(const Program& program, const Made& made) {
+    const SpaceTimeBody& body = made.body;
+    if (!made.cut.empty()) {
+        program.say("cut        " + made.cut);
+    }
+    if (!made.left_out.empty()) {
+        program.say("left out   " + made.left_out);
+    }
+    if (const std::string names = names_of(body); !names.empty()) {
+        program.say("carried    " + names);
+    }
+    if (!body.way_of_bisection.empty()) {
+        program.say("bisection  ready " + body.way_of_bisection);
+    }
+    program.say(formatted("body       %lld vertices, %lld pentachora, %.10g m^4",
+                          static_cast<Long>(body.mesh.vertex_count()),
+                          static_cast<Long>(body.proof.cells), body.proof.volume));
+    program.say(
+        formatted("integral   of the moving volume over w: %.10g m^4; the body has %.2g of it %s",
+                  body.integral, std::abs(body.proof.volume / body.integral - 1),
+                  body.proof.volume < body.integral ? "less" : "more"));
+    program.say(box_line<4>(body.mesh.positions));
+    program.say(formatted("proved     %lld inner facets match, boundary of %lld facets closed",
+                          static_cast<Long>(body.proof.interior_facets),
+                          static_cast<Long>(body.proof.boundary_facets)));
+    program.say("quality    " + quality_line(body.quality));
+}
+
+nlohmann::ordered_json json_of(const MeshArguments& arguments, const Made& made) {
+    const SpaceTimeBody& body = made.body;
+    nlohmann::ordered_json json;
+    json["space_time"] = {{"frames", made.frames},
+                          {"from", made.from},
+                          {"to", made.to},
+                          {"time_scale", arguments.space_time.options.time_scale},
+                          {"layers", body.frame_layers.back()},
+                          {"frame_layers", body.frame_layers},
+                          {"thinnest_layer", body.lowest_layer},
+                          {"thickest_layer", body.highest_layer},
+                          {"integral", body.integral},
+                          {"cut", made.cut},
+                          {"left_out", made.left_out},
+                          {"carried", names_of(body)},
+                          {"bisection", body.way_of_bisection}};
+    json["mesh"] = {{"vertices", body.mesh.vertex_count()},
+                    {"cells", body.proof.cells},
+                    {"interior_facets", body.proof.interior_facets},
+                    {"boundary_facets", body.proof.boundary_facets},
+                    {"volume", body.proof.volume},
+                    {"boundary_volume", body.proof.boundary_volume},
+                    {"volume_tolerance", body.proof.tolerance},
+                    {"box", box_json<4>(body.mesh.positions)}};
+    json["quality"] = to_json(body.quality);
+    return json;
+}
+
+}  // namespace
+
+void make_and_write_space_time(Program& program, const MeshArguments& arguments) {
+    Made made;
+    {
+        Heartbeat heartbeat(program.common().quiet);
+        made = make(program, arguments, heartbeat);
+        heartbeat.begin("write");
+        write(program, arguments, made.body);
+    }
+    say_time(program, arguments, made);
+    say_body(program, made);
+    if (arguments.show_quality) {
+        program.say(mesher::quality_text(made.body.quality));
+    }
+    program.report().update(json_of(arguments, made));
+    std::string output = arguments.output.string();
+    if (arguments.space_time.has_slabs) {
+        const std::size_t slabs = made.body.frame_layers.size() - 1;
+        output = slab_path(arguments.output, 0).string() + " to "
+                 + slab_path(arguments.output, slabs - 1).string();
+    }
+    program.report()["output"] = output;
+    program.say("finished: " + output);
+}
+
+}  // namespace pent::apps

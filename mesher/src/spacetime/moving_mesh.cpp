@@ -1,0 +1,374 @@
+#include "../tet_readers.h"
+#include "../vtk_grid.h"
+#include "../xml_file.h"
+#include "frame_list.h"
+#include "run_frames.h"
+
+#include <pent/error.h>
+#include <pent/formatted.h>
+#include <pent/input_path.h>
+#include <pent/mesher/moving_mesh.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace pent::mesher {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 8> kRegionNames = {
+    "region",        "regions",   "material",      "attribute",
+    "gmsh:physical", "medit:ref", "CellEntityIds", "PhysicalIds"};
+
+VtkGrid read_grid(const fs::path& path) {
+    require_file(path);
+    const std::string ending = format_of(path, "");
+    if (ending == ".vtu") {
+        return read_vtu_grid(path);
+    }
+    if (ending == ".vtk") {
+        return read_vtk_grid(path);
+    }
+    throw Error(path.string() + ": expected an unstructured grid as .vtu or legacy .vtk"
+                + (ending == ".pvtu" ? ": merge the parts first" : ""));
+}
+
+// The array of cells with their labels; null if there is none.
+const VtkArray* region_array(const VtkGrid& grid, const std::string& asked, const fs::path& path) {
+    if (!asked.empty()) {
+        const VtkArray* found = find_array(grid.cell_arrays, asked);
+        if (found == nullptr || found->components != 1) {
+            std::string all;
+            for (const VtkArray& array : grid.cell_arrays) {
+                all += (all.empty() ? "" : ", ") + in_quotes(array.name);
+            }
+            throw Error(path.string() + ": no array \"" + asked
+                        + "\" of one number a cell; its cells have "
+                        + (all.empty() ? "none" : all));
+        }
+        return found;
+    }
+    for (const std::string_view name : kRegionNames) {
+        const VtkArray* found = find_array(grid.cell_arrays, name);
+        if (found != nullptr && found->components == 1) {
+            return found;
+        }
+    }
+    return nullptr;
+}
+
+std::int64_t label_of(const VtkArray& array, std::int64_t cell, const fs::path& path) {
+    const double value = array.values[static_cast<std::size_t>(cell)];
+    if (!(value >= 0 && value <= std::numeric_limits<std::uint16_t>::max())
+        || value != std::floor(value)) {
+        throw Error(path.string() + ": array " + in_quotes(array.name) + ": cell "
+                    + std::to_string(cell)
+                    + formatted(" has %g; expected whole numbers from 0 to 65535", value));
+    }
+    return static_cast<std::int64_t>(value);
+}
+
+std::string corners_text(const CellSoup& soup, std::size_t first, std::size_t count) {
+    std::string text;
+    for (std::size_t i = first; i < std::min(first + count, soup.corners.size()); ++i) {
+        text += (text.empty() ? "" : " ") + std::to_string(soup.corners[i]);
+    }
+    return text;
+}
+
+// Throws unless both grids have the same cells.
+void require_same_cells(const VtkGrid& first,
+                        const VtkGrid& grid,
+                        const fs::path& first_path,
+                        const fs::path& path) {
+    const std::string remedy =
+        "; the frames of a space-time mesh have one connectivity: end the series before this file,"
+        " or carry one mesh through all frames";
+    const auto differ = [&](const std::string& found, const std::string& expected) {
+        throw Error(path.string() + ": " + found + ", in " + first_path.filename().string() + " "
+                    + expected + remedy);
+    };
+    const CellSoup& a = first.soup;
+    const CellSoup& b = grid.soup;
+    if (a.points.size() != b.points.size()) {
+        differ(std::to_string(b.points.size()) + " points", std::to_string(a.points.size()));
+    }
+    std::size_t at = 0;
+    for (std::size_t cell = 0; cell < std::min(a.kinds.size(), b.kinds.size()); ++cell) {
+        const std::size_t count = corners_of(a.kinds[cell]);
+        const std::size_t found = corners_of(b.kinds[cell]);
+        if (a.kinds[cell] != b.kinds[cell]
+            || !std::equal(a.corners.begin() + static_cast<std::ptrdiff_t>(at),
+                           a.corners.begin() + static_cast<std::ptrdiff_t>(at + count),
+                           b.corners.begin() + static_cast<std::ptrdiff_t>(at))) {
+            differ("cell " + std::to_string(grid.solid_cells[cell]) + " has the corners "
+                       + corners_text(b, at, found),
+                   corners_text(a, at, count));
+        }
+        at += count;
+    }
+    if (a.kinds.size() != b.kinds.size()) {
+        differ(std::to_string(b.kinds.size()) + " cells of three dimensions",
+               std::to_string(a.kinds.size()));
+    }
+}
+
+// As a property of a .pent file may be called, and not one with a meaning there.
+std::string field_name(const std::string& name) {
+    static const std::set<std::string> kTaken = {"column", "layer", "region", "parent",
+                                                 "bisection_tag"};
+    std::string result;
+    for (const char c : name) {
+        const bool is_plain =
+            (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+        result += is_plain ? c : '_';
+    }
+    const bool is_axis = !result.empty() && result.size() <= 2
+                         && std::string_view("xyzw01234").find(result.back()) != std::string::npos;
+    return result.empty() || is_axis || kTaken.count(result) > 0 ? result + "_" : result;
+}
+
+// The values of an array for these of its tuples.
+Eigen::MatrixXd values_at(const VtkArray& array, const std::vector<std::int64_t>& tuples) {
+    Eigen::MatrixXd values(array.components, static_cast<Eigen::Index>(tuples.size()));
+    for (std::size_t i = 0; i < tuples.size(); ++i) {
+        for (std::int64_t k = 0; k < array.components; ++k) {
+            values(k, static_cast<Eigen::Index>(i)) =
+                array.values[static_cast<std::size_t>(tuples[i] * array.components + k)];
+        }
+    }
+    return values;
+}
+
+// Collects the frames of a series of grids.
+class Collector {
+public:
+    Collector(MovingMesh& mesh, const SeriesOptions& options) : mesh_(mesh), options_(options) {}
+
+    void add_first(VtkGrid grid, const fs::path& path) {
+        first_path_ = path;
+        const VtkArray* regions = region_array(grid, options_.region_array, path);
+        if (regions != nullptr) {
+            region_name_ = regions->name;
+            grid.soup.has_labels = true;
+            for (std::size_t i = 0; i < grid.solid_cells.size(); ++i) {
+                grid.soup.labels[i] = label_of(*regions, grid.solid_cells[i], path);
+            }
+        }
+        if (regions != nullptr) {  // which triangles have, too: their labels are carried
+            grid.soup.counts[static_cast<std::size_t>(CellKind::Triangle)] = 0;
+        }
+        NumberedTetrahedra numbered = number_tetrahedra(grid.soup, path.string());
+        mesh_.base = std::move(numbered.file.mesh);
+        mesh_.base.positions *= options_.scale;
+        mesh_.cut = std::move(numbered.file.cut);
+        mesh_.left_out = std::move(numbered.file.left_out);
+        for (const std::uint32_t point : numbered.points) {
+            points_.push_back(point);
+        }
+        for (const std::uint32_t cell : numbered.cells) {
+            cells_.push_back(grid.solid_cells[cell]);
+            mesh_.cell_numbers.push_back(static_cast<std::uint32_t>(grid.solid_cells[cell]));
+        }
+        if (regions != nullptr) {
+            add_triangles(grid, *regions);
+        }
+        choose_fields(grid.point_arrays, vertex_arrays_, mesh_.vertex_fields);
+        choose_fields(grid.cell_arrays, cell_arrays_, mesh_.cell_fields);
+        first_ = std::move(grid);
+        add_frame(first_, path);
+    }
+
+    void add(const VtkGrid& grid, const fs::path& path) {
+        require_same_cells(first_, grid, first_path_, path);
+        if (!region_name_.empty()) {
+            require_same_regions(grid, path);
+        }
+        add_frame(grid, path);
+    }
+
+    // Says what the files have and the mesh will not.
+    void finish() {
+        drop_unfinished(mesh_.vertex_fields);
+        drop_unfinished(mesh_.cell_fields);
+        for (const std::string& name : dropped_) {
+            mesh_.left_out += (mesh_.left_out.empty() ? "" : ", ") + name;
+        }
+    }
+
+private:
+    void add_triangles(const VtkGrid& grid, const VtkArray& regions) {
+        std::vector<std::int64_t> vertex_of(grid.soup.points.size(), -1);
+        for (std::size_t vertex = 0; vertex < points_.size(); ++vertex) {
+            vertex_of[static_cast<std::size_t>(points_[vertex])] =
+                static_cast<std::int64_t>(vertex);
+        }
+        std::vector<std::array<std::uint32_t, 3>> kept;
+        for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+            std::array<std::uint32_t, 3> corners{};
+            bool is_of_mesh = true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::int64_t vertex = vertex_of[grid.triangles[t][k]];
+                is_of_mesh = is_of_mesh && vertex >= 0;
+                corners[k] = static_cast<std::uint32_t>(std::max<std::int64_t>(vertex, 0));
+            }
+            if (is_of_mesh) {
+                kept.push_back(corners);
+                mesh_.triangle_labels.push_back(static_cast<std::uint16_t>(
+                    label_of(regions, grid.triangle_cells[t], first_path_)));
+            }
+        }
+        mesh_.triangles.resize(3, static_cast<Eigen::Index>(kept.size()));
+        for (std::size_t t = 0; t < kept.size(); ++t) {
+            for (int k = 0; k < 3; ++k) {
+                mesh_.triangles(k, static_cast<Eigen::Index>(t)) = kept[t][k];
+            }
+        }
+    }
+
+    void choose_fields(const std::vector<VtkArray>& arrays,
+                       std::vector<std::string>& names,
+                       std::vector<MovingField>& fields) {
+        std::set<std::string> taken;
+        for (const VtkArray& array : arrays) {
+            if (array.name == region_name_ && &fields == &mesh_.cell_fields) {
+                continue;
+            }
+            const std::string name = field_name(array.name);
+            const bool has_room = array.components == 1 || array.components == 3;
+            if (!has_room || !taken.insert(name).second) {
+                dropped_.push_back("array " + array.name
+                                   + (has_room ? ""
+                                               : formatted(" of %d components",
+                                                           static_cast<int>(array.components))));
+                continue;
+            }
+            names.push_back(array.name);
+            fields.push_back({name, {}});
+        }
+    }
+
+    void add_frame(const VtkGrid& grid, const fs::path& path) {
+        Positions<3> positions(3, static_cast<Eigen::Index>(points_.size()));
+        for (std::size_t vertex = 0; vertex < points_.size(); ++vertex) {
+            positions.col(static_cast<Eigen::Index>(vertex)) =
+                grid.soup.points[static_cast<std::size_t>(points_[vertex])] * options_.scale;
+        }
+        mesh_.positions.push_back(std::move(positions));
+        mesh_.frames.push_back(path.filename().string());
+        add_fields(grid.point_arrays, points_, vertex_arrays_, mesh_.vertex_fields);
+        add_fields(grid.cell_arrays, cells_, cell_arrays_, mesh_.cell_fields);
+    }
+
+    static void add_fields(const std::vector<VtkArray>& arrays,
+                           const std::vector<std::int64_t>& tuples,
+                           const std::vector<std::string>& names,
+                           std::vector<MovingField>& fields) {
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const VtkArray* found = find_array(arrays, names[i]);
+            if (found == nullptr) {
+                continue;
+            }
+            Eigen::MatrixXd values = values_at(*found, tuples);
+            const bool fits =
+                fields[i].values.empty() || values.rows() == fields[i].values.front().rows();
+            if (fits && values.allFinite()) {
+                fields[i].values.push_back(std::move(values));
+            }
+        }
+    }
+
+    void require_same_regions(const VtkGrid& grid, const fs::path& path) const {
+        const VtkArray& first = *find_array(first_.cell_arrays, region_name_);
+        const VtkArray* now = find_array(grid.cell_arrays, region_name_);
+        for (const std::int64_t cell : cells_) {
+            if (now == nullptr || now->components != 1
+                || now->values[static_cast<std::size_t>(cell)]
+                       != first.values[static_cast<std::size_t>(cell)]) {
+                throw Error(path.string() + ": array " + in_quotes(region_name_)
+                            + (now == nullptr ? " is missing"
+                                              : ": cell " + std::to_string(cell)
+                                                    + " has another label")
+                            + " than in " + first_path_.filename().string()
+                            + "; labels are those of the cells in all frames: choose another array"
+                              " by --region-array");
+            }
+        }
+    }
+
+    void drop_unfinished(std::vector<MovingField>& fields) {
+        std::vector<MovingField> kept;
+        for (MovingField& field : fields) {
+            if (field.values.size() == mesh_.positions.size()) {
+                kept.push_back(std::move(field));
+            } else {
+                dropped_.push_back("array " + field.name
+                                   + ", which some frames do not have in finite numbers");
+            }
+        }
+        fields = std::move(kept);
+    }
+
+    MovingMesh& mesh_;
+    const SeriesOptions& options_;
+    VtkGrid first_;
+    fs::path first_path_;
+    std::string region_name_;
+    std::vector<std::int64_t> points_;  // of the files, for each vertex
+    std::vector<std::int64_t> cells_;   // the same for each tetrahedron
+    std::vector<std::string> vertex_arrays_;
+    std::vector<std::string> cell_arrays_;
+    std::vector<std::string> dropped_;
+};
+
+MovingMesh read_grids(const fs::path& path, const SeriesOptions& options) {
+    const std::vector<FrameFile> all = list_frames(path, options.time_step);
+    MovingMesh mesh;
+    Collector collector(mesh, options);
+    for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(options.every)) {
+        mesh.times.push_back(all[i].time);
+        if (i == 0) {
+            collector.add_first(read_grid(all[i].path), all[i].path);
+        } else {
+            collector.add(read_grid(all[i].path), all[i].path);
+        }
+    }
+    collector.finish();
+    return mesh;
+}
+
+}  // namespace
+
+bool is_series(const fs::path& path) {
+    const std::string ending = format_of(path, "");
+    return ending == ".pvd" || ending == ".series" || ending == ".vtu" || ending == ".vtk"
+           || fs::is_directory(path);
+}
+
+MovingMesh read_moving_mesh(const fs::path& path, const SeriesOptions& options) {
+    if (options.every < 1) {
+        throw Error("each " + std::to_string(options.every) + "th frame; expected 1 or more");
+    }
+    if (!is_series(path)) {
+        throw Error(path.string()
+                    + ": expected a list of frames (.pvd, .series), the first of numbered .vtu or"
+                      " .vtk files, or a run folder of three dimensions");
+    }
+    MovingMesh mesh =
+        fs::is_directory(path) ? read_run_frames(path, options) : read_grids(path, options);
+    if (mesh.frame_count() < 2) {
+        throw Error(path.string()
+                    + formatted(": every %dth frame leaves one; a space-time mesh"
+                                " needs two or more",
+                                options.every));
+    }
+    return mesh;
+}
+
+}  // namespace pent::mesher

@@ -1,0 +1,143 @@
+#include "run_frames.h"
+
+#include <pent/error.h>
+#include <pent/formatted.h>
+
+#include <algorithm>
+#include <numeric>
+#include <system_error>
+#include <utility>
+
+namespace pent::mesher {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Names without their ending of the .pent files in a folder, sorted; hidden ones are temporary.
+std::vector<std::string> pent_stems(const fs::path& folder) {
+    std::vector<std::string> stems;
+    std::error_code error;
+    fs::directory_iterator entry(folder, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+        const fs::path name = entry->path().filename();
+        if (name.extension() == ".pent" && name.string().front() != '.') {
+            stems.push_back(name.stem().string());
+        }
+    }
+    if (error) {
+        throw Error(folder.string() + ": " + error.message()
+                    + "; expected a run folder of pent-sim, with meshes/ and frames/");
+    }
+    std::sort(stems.begin(), stems.end());
+    return stems;
+}
+
+std::string body_of(const fs::path& folder, const std::string& asked) {
+    const std::vector<std::string> bodies = pent_stems(folder / "meshes");
+    std::string all;
+    for (const std::string& body : bodies) {
+        all += (all.empty() ? "" : ", ") + body;
+    }
+    if (asked.empty() && bodies.size() == 1) {
+        return bodies.front();
+    }
+    if (asked.empty() || std::find(bodies.begin(), bodies.end(), asked) == bodies.end()) {
+        throw Error(folder.string() + ": "
+                    + (asked.empty() ? "several bodies or none" : "no body \"" + asked + "\"")
+                    + "; expected one by --body: " + (all.empty() ? "there is none" : all));
+    }
+    return asked;
+}
+
+// The frames of a body, in their order.
+std::vector<fs::path> frames_of(const fs::path& folder, const std::string& body) {
+    std::vector<fs::path> frames;
+    for (const std::string& stem : pent_stems(folder)) {
+        const bool has_name = stem.starts_with(body + "_") && stem.size() > body.size() + 6;
+        if (has_name
+            && stem.find_first_not_of("0123456789", body.size() + 1) == std::string::npos) {
+            frames.push_back(folder / (stem + ".pent"));
+        }
+    }
+    std::sort(frames.begin(), frames.end(), [](const fs::path& a, const fs::path& b) {
+        const std::size_t left = a.native().size();
+        const std::size_t right = b.native().size();
+        return left != right ? left < right : a < b;  // by number, past the sixth digit too
+    });
+    return frames;
+}
+
+void add_field(const std::string& name,
+               const Eigen::MatrixXd& values,
+               std::vector<MovingField>& fields) {
+    if (values.cols() == 0) {
+        return;
+    }
+    const auto known = std::find_if(fields.begin(), fields.end(),
+                                    [&](const MovingField& field) { return field.name == name; });
+    MovingField& field =
+        known == fields.end() ? fields.emplace_back(MovingField{name, {}}) : *known;
+    field.values.push_back(values);
+}
+
+void add_frame(const Frame<3>& frame, const fs::path& path, double scale, MovingMesh& mesh) {
+    if (frame.positions.cols() != mesh.base.vertex_count()) {
+        throw Error(path.string() + ": " + std::to_string(frame.positions.cols())
+                    + " vertices, expected " + std::to_string(mesh.base.vertex_count())
+                    + " as its mesh has");
+    }
+    if (!mesh.times.empty() && frame.time <= mesh.times.back()) {
+        throw Error(path.string()
+                    + formatted(": the time %g behind %g; expected times that"
+                                " increase",
+                                frame.time, mesh.times.back()));
+    }
+    mesh.times.push_back(frame.time);
+    mesh.frames.push_back(path.filename().string());
+    mesh.positions.push_back(frame.positions * scale);
+    add_field("velocity", frame.velocities * scale, mesh.vertex_fields);
+    add_field("contact_force", frame.contact_forces, mesh.vertex_fields);
+    for (const VertexField& field : frame.fields) {
+        add_field(field.name, field.values, mesh.vertex_fields);
+    }
+}
+
+}  // namespace
+
+MovingMesh read_run_frames(const fs::path& folder, const SeriesOptions& options) {
+    const std::string body = body_of(folder, options.body);
+    const fs::path mesh_path = folder / "meshes" / (body + ".pent");
+    const FileInfo info = read_info(mesh_path);
+    if (info.dimension != 3) {
+        throw Error(mesh_path.string() + ": has dimension " + std::to_string(info.dimension)
+                    + "; a space-time mesh is of tetrahedra that move in three dimensions");
+    }
+    const MeshFile<3> file = read_mesh<3>(mesh_path);
+    MovingMesh mesh;
+    mesh.base = file.mesh;
+    mesh.triangles = file.extras.boundary;
+    mesh.triangle_labels = file.extras.labels;
+    mesh.cell_numbers.resize(static_cast<std::size_t>(mesh.base.cell_count()));
+    std::iota(mesh.cell_numbers.begin(), mesh.cell_numbers.end(), 0U);
+    const std::vector<fs::path> frames = frames_of(folder / "frames", body);
+    if (frames.size() < 2) {
+        throw Error(folder.string() + ": " + std::to_string(frames.size()) + " frames of " + body
+                    + "; a space-time mesh needs two or more");
+    }
+    for (std::size_t i = 0; i < frames.size(); i += static_cast<std::size_t>(options.every)) {
+        const Frame<3> frame = read_frame<3>(frames[i]);
+        if (frame.mesh_crc != info.crc32c) {
+            throw Error(frames[i].string() + ": is a frame of another mesh than "
+                        + mesh_path.string());
+        }
+        add_frame(frame, frames[i], options.scale, mesh);
+    }
+    mesh.base.positions = mesh.positions.front();
+    std::erase_if(mesh.vertex_fields, [&](const MovingField& field) {
+        return field.values.size() != mesh.frame_count();
+    });
+    return mesh;
+}
+
+}  // namespace pent::mesher

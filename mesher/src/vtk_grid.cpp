@@ -1,0 +1,127 @@
+#include "vtk_grid.h"
+
+#include <utility>
+
+namespace pent::mesher {
+
+namespace {
+
+// VTK's number for a type of cells and what it is. In all of them the corners come first.
+constexpr std::array<std::pair<std::int64_t, CellKind>, 50> kTypes = {{
+    {1, CellKind::Point},
+    {2, CellKind::Point},
+    {3, CellKind::Line},
+    {4, CellKind::Line},
+    {5, CellKind::Triangle},
+    {6, CellKind::Polygon},  // a strip of triangles
+    {7, CellKind::Polygon},
+    {8, CellKind::Quadrilateral},  // a pixel
+    {9, CellKind::Quadrilateral},
+    {10, CellKind::Tetrahedron},
+    {11, CellKind::Hexahedron},
+    {12, CellKind::Hexahedron},  // the first of these a voxel
+    {13, CellKind::Prism},
+    {14, CellKind::Pyramid},
+    {15, CellKind::PentagonalPrism},
+    {16, CellKind::HexagonalPrism},
+    {21, CellKind::Line},
+    {22, CellKind::Triangle},
+    {23, CellKind::Quadrilateral},
+    {24, CellKind::Tetrahedron},
+    {25, CellKind::Hexahedron},
+    {26, CellKind::Prism},
+    {27, CellKind::Pyramid},
+    {28, CellKind::Quadrilateral},
+    {29, CellKind::Hexahedron},
+    {30, CellKind::Quadrilateral},
+    {31, CellKind::Prism},
+    {32, CellKind::Prism},
+    {33, CellKind::Hexahedron},
+    {34, CellKind::Triangle},
+    {35, CellKind::Line},
+    {36, CellKind::Polygon},
+    {37, CellKind::Pyramid},
+    {41, CellKind::Polyhedron},
+    {42, CellKind::Polyhedron},
+    {68, CellKind::Line},
+    {69, CellKind::Triangle},
+    {70, CellKind::Quadrilateral},
+    {71, CellKind::Tetrahedron},
+    {72, CellKind::Hexahedron},
+    {73, CellKind::Prism},
+    {74, CellKind::Pyramid},
+    {75, CellKind::Line},
+    {76, CellKind::Triangle},
+    {77, CellKind::Quadrilateral},
+    {78, CellKind::Tetrahedron},
+    {79, CellKind::Hexahedron},
+    {80, CellKind::Prism},
+    {81, CellKind::Pyramid},
+    {0, CellKind::Point},  // empty
+}};
+constexpr std::int64_t kEmpty = 0;
+constexpr std::int64_t kVoxel = 11;
+
+CellKind kind_of(std::int64_t number, const Fail& fail) {
+    for (const auto& [known, kind] : kTypes) {
+        if (number == known) {
+            return kind;
+        }
+    }
+    fail("a cell of VTK's type " + std::to_string(number)
+         + "; expected 0 to 16, 21 to 37, 41, 42 or 68 to 81");
+    return CellKind::Point;  // GCOVR_EXCL_LINE: fail() does not return
+}
+
+std::uint32_t checked_corner(std::int64_t corner, std::size_t points, const Fail& fail) {
+    if (corner < 0 || std::cmp_greater_equal(corner, points)) {
+        fail("index " + std::to_string(corner) + " of " + std::to_string(points));
+    }
+    return static_cast<std::uint32_t>(corner);
+}
+
+}  // namespace
+
+void add_cell(VtkGrid& grid,
+              std::int64_t type,
+              std::span<const std::int64_t> corners,
+              const Fail& fail) {
+    const std::int64_t number = grid.cell_count++;
+    if (type == kEmpty) {
+        return;
+    }
+    const CellKind kind = kind_of(type, fail);
+    const std::size_t needed = kind == CellKind::Triangle ? 3 : corners_of(kind);
+    if (corners.size() < needed) {
+        CellCounts one{};
+        one[static_cast<std::size_t>(kind)] = 1;
+        fail(list_counts(one, kind, kind) + " with " + std::to_string(corners.size())
+             + " corners; expected " + std::to_string(needed));
+    }
+    std::vector<std::uint32_t> nodes;
+    for (std::size_t i = 0; i < corners.size() && needed > 0; ++i) {
+        nodes.push_back(checked_corner(corners[i], grid.soup.points.size(), fail));
+    }
+    if (type == kVoxel) {  // it counts along the axes, not around its sides
+        std::swap(nodes[2], nodes[3]);
+        std::swap(nodes[6], nodes[7]);
+    }
+    grid.soup.add(kind, nodes);
+    if (dimension_of(kind) == 3) {
+        grid.solid_cells.push_back(number);
+    } else if (kind == CellKind::Triangle) {
+        grid.triangles.push_back({nodes[0], nodes[1], nodes[2]});
+        grid.triangle_cells.push_back(number);
+    }
+}
+
+const VtkArray* find_array(const std::vector<VtkArray>& arrays, std::string_view name) {
+    for (const VtkArray& array : arrays) {
+        if (array.name == name) {
+            return &array;
+        }
+    }
+    return nullptr;
+}
+
+}  // namespace pent::mesher
