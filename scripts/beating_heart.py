@@ -3,7 +3,7 @@
 it, that shortens, thickens and wrings itself once in 0.8 s.
 
     python3 scripts/beating_heart.py FOLDER [FRAMES]     FOLDER/heart.pvd and FOLDER/heart_000.vtu and so on
-    pent-mesh FOLDER/heart.pvd --space-time --time-scale 0.06 -o heart.pent
+    pent-mesh FOLDER/heart.pvd --space-time --time-scale 0.08 -o heart.pent
 
 Nothing but Python's own library. Arrays are in base64 and compressed by zlib. Cells have a region (1 inside,
 2 outside of the middle of the wall), fibers and a contraction; labels of the triangles of the surface are 1
@@ -17,7 +17,7 @@ import struct
 import sys
 import zlib
 
-ACROSS = 14  # cubes from rim to rim through the tip
+ACROSS = 20  # cubes from rim to rim through the tip
 THROUGH = 3  # cubes through the wall
 PERIOD = 0.8
 
@@ -47,16 +47,16 @@ def position(point, t):
     r = (inner + wall * through) * bulge
     height = -1.55 * (1 - 0.15 * c) * r * math.cos(theta)
     turn = phi + 0.35 * c * math.cos(theta)  # the tip against the rim
-    return r * math.sin(theta) * math.cos(turn), r * math.sin(theta) * math.sin(turn), height
+    return r * math.sin(theta) * math.cos(turn), height, -r * math.sin(theta) * math.sin(turn)
 
 
 def fiber(corners, through):
     """Along the wall, turning from +60 to -60 degrees from inside to outside."""
     x = [sum(p[axis] for p in corners) / 4 for axis in range(3)]
-    around = (-x[1], x[0], 0.0)
+    around = (x[2], 0.0, -x[0])
     length = math.hypot(*around) or 1.0
     angle = math.radians(60 - 120 * through)
-    return (math.cos(angle) * around[0] / length, math.cos(angle) * around[1] / length, math.sin(angle))
+    return (math.cos(angle) * around[0] / length, math.sin(angle), math.cos(angle) * around[2] / length)
 
 
 def grid():

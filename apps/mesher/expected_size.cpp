@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "expected_size.h"
 
 #include "common/heartbeat.h"

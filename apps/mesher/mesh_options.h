@@ -54,6 +54,13 @@ struct MeshArguments {
 /// Adds every option of pent-mesh but the common ones.
 void add_options(CLI::App& cli, MeshArguments& arguments);
 
+/// Adds those of moving meshes, which add_options() calls.
+void add_space_time_options(CLI::App& cli, MeshArguments& arguments);
+
+/// Fills what make_space_time() needs, after the request. Throws an Error for options that have no
+/// meaning for a moving mesh.
+void complete_space_time(const CLI::App& cli, MeshArguments& arguments);
+
 /// Fills the request from the other fields, after parsing. Throws an Error if the output is no
 /// .pent file.
 void complete(const CLI::App& cli, MeshArguments& arguments);

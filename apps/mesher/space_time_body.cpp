@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "space_time_body.h"
 
 #include "common/heartbeat.h"

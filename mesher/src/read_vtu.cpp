@@ -74,8 +74,8 @@ private:
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
         if (error != std::errc() || end != word.data() + word.size() || word.empty() || count < 0
             || count >= kMax) {
-            fail(piece,
-                 std::string(key) + " is " + in_quotes(word) + ", expected a whole number below 2^32");
+            fail(piece, std::string(key) + " is " + in_quotes(word)
+                            + ", expected a whole number below 2^32");
         }
         return count;
     }

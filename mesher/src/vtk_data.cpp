@@ -277,7 +277,8 @@ std::vector<Value> values_of(const XmlElement& array,
     }
     const std::string_view format = array.attribute("format");
     if (!format.empty() && format != "ascii" && format != "binary" && format != "appended") {
-        fail(array, encoding, "format " + in_quotes(format) + ", expected ascii, binary or appended");
+        fail(array, encoding,
+             "format " + in_quotes(format) + ", expected ascii, binary or appended");
     }
     std::vector<Value> values =
         format == "binary" || format == "appended"

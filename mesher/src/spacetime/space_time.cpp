@@ -1,8 +1,8 @@
 #include "bisection.h"
+#include "boundary_labels.h"
 #include "time_layers.h"
 
 #include <pent/error.h>
-#include <pent/facets.h>
 #include <pent/formatted.h>
 #include <pent/mesher/extrude.h>
 #include <pent/mesher/space_time.h>
@@ -221,99 +221,6 @@ void carry_fields(const MovingMesh& moving,
     }
 }
 
-using Triangle = std::array<std::uint32_t, 3>;
-
-// Labels of triangles of the base, by their sorted corners.
-class TriangleLabels {
-public:
-    void add(Triangle corners, std::uint16_t label) {
-        std::sort(corners.begin(), corners.end());
-        known_.emplace_back(corners, label);
-    }
-    void sort() {
-        std::stable_sort(known_.begin(), known_.end(),
-                         [](const auto& a, const auto& b) { return a.first < b.first; });
-    }
-    // 0 where there is none.
-    [[nodiscard]] std::uint16_t of(const Triangle& corners) const {
-        const auto found =
-            std::lower_bound(known_.begin(), known_.end(), corners,
-                             [](const auto& a, const Triangle& b) { return a.first < b; });
-        return found != known_.end() && found->first == corners ? found->second : 0;
-    }
-
-private:
-    std::vector<std::pair<Triangle, std::uint16_t>> known_;
-};
-
-// The triangle of the base that a lateral facet stands on: of its four columns two are one.
-Triangle triangle_below(const SimplexMesh<4>& mesh, const Eigen::Vector4<std::uint32_t>& facet) {
-    std::array<std::uint32_t, 4> columns{};
-    for (int k = 0; k < 4; ++k) {
-        columns[k] = mesh.columns[facet[k]];
-    }
-    std::sort(columns.begin(), columns.end());
-    Triangle triangle{};
-    std::unique_copy(columns.begin(), columns.end(), triangle.begin());
-    return triangle;
-}
-
-struct EndLabels {
-    BoundaryLabel first = BoundaryLabel::Bottom;
-    BoundaryLabel last = BoundaryLabel::Top;
-};
-
-void label_boundary(const SimplexMesh<4>& mesh,
-                    const TriangleLabels& triangles,
-                    const EndLabels& ends,
-                    MeshExtras<4>& extras) {
-    FacetMatch<4> match = match_facets<4>(mesh.cells, mesh.vertex_count());
-    const std::uint32_t first = *std::min_element(mesh.layers.begin(), mesh.layers.end());
-    for (Eigen::Index f = 0; f < match.boundary.cols(); ++f) {
-        const Eigen::Vector4<std::uint32_t> facet = match.boundary.col(f);
-        const std::uint32_t layer = mesh.layers[facet[0]];
-        const bool is_end = std::all_of(facet.begin(), facet.end(),
-                                        [&](std::uint32_t v) { return mesh.layers[v] == layer; });
-        BoundaryLabel label = BoundaryLabel::Lateral;
-        std::uint16_t base = 0;
-        if (is_end) {
-            label = layer == first ? ends.first : ends.last;
-            base = mesh.regions.empty()
-                       ? std::uint16_t{0}
-                       : mesh.regions[match.boundary_cells[static_cast<std::size_t>(f)]];
-        } else {
-            base = triangles.of(triangle_below(mesh, facet));
-        }
-        extras.labels.push_back(static_cast<std::uint16_t>(label));
-        extras.base_labels.push_back(base);
-    }
-    extras.boundary = std::move(match.boundary);
-}
-
-TriangleLabels labels_of(const MovingMesh& moving) {
-    TriangleLabels labels;
-    for (Eigen::Index t = 0; t < moving.triangles.cols(); ++t) {
-        labels.add({moving.triangles(0, t), moving.triangles(1, t), moving.triangles(2, t)},
-                   moving.triangle_labels[static_cast<std::size_t>(t)]);
-    }
-    labels.sort();
-    return labels;
-}
-
-// As they stand at the sides of a whole body.
-TriangleLabels labels_of(const SpaceTimeBody& body) {
-    TriangleLabels labels;
-    for (Eigen::Index f = 0; f < body.extras.boundary.cols(); ++f) {
-        const auto i = static_cast<std::size_t>(f);
-        if (body.extras.labels[i] == static_cast<std::uint16_t>(BoundaryLabel::Lateral)) {
-            labels.add(triangle_below(body.mesh, body.extras.boundary.col(f)),
-                       body.extras.base_labels[i]);
-        }
-    }
-    labels.sort();
-    return labels;
-}
-
 double integral_over_w(const MovingMesh& moving, double time_scale) {
     double sum = 0;
     for (std::size_t frame = 0; frame + 1 < moving.frame_count(); ++frame) {
@@ -348,30 +255,6 @@ void measure_layers(const MovingMesh& moving,
             body.lowest_layer = std::min(body.lowest_layer, height);
             body.highest_layer = std::max(body.highest_layer, height);
         }
-    }
-}
-
-// What some vertices and cells of a body have, for a file of their own.
-void hand_down(const SpaceTimeBody& body,
-               const std::vector<Eigen::Index>& vertices,
-               const std::vector<Eigen::Index>& cells,
-               MeshFile<4>& file) {
-    for (const Eigen::Index cell : cells) {
-        if (!body.mesh.regions.empty()) {
-            file.mesh.regions.push_back(body.mesh.regions[cell]);
-        }
-        if (!body.extras.bisection_tags.empty()) {
-            file.extras.bisection_tags.push_back(body.extras.bisection_tags[cell]);
-        }
-    }
-    if (body.mesh.fibers.cols() > 0) {
-        file.mesh.fibers = body.mesh.fibers(Eigen::all, cells);
-    }
-    for (const VertexField& field : body.extras.vertex_fields) {
-        file.extras.vertex_fields.push_back({field.name, field.values(Eigen::all, vertices)});
-    }
-    for (const VertexField& field : body.extras.cell_fields) {
-        file.extras.cell_fields.push_back({field.name, field.values(Eigen::all, cells)});
     }
 }
 
@@ -417,39 +300,6 @@ SpaceTimeBody make_space_time(MovingMesh moving, const SpaceTimeOptions& options
     begin("quality");
     body.quality = measure_quality<4>(body.mesh);
     return body;
-}
-
-MeshFile<4> slab_of(const SpaceTimeBody& body, std::size_t slab) {
-    const std::uint32_t from = body.frame_layers[slab];
-    const std::uint32_t to = body.frame_layers[slab + 1];
-    const SimplexMesh<4>& whole = body.mesh;
-    const std::uint32_t all = body.frame_layers.back() + 1;  // layers in a column
-    const std::uint32_t own = to - from + 1;
-    MeshFile<4> file;
-    std::vector<Eigen::Index> vertices;
-    for (Eigen::Index v = 0; v < whole.vertex_count(); ++v) {
-        if (whole.layers[v] >= from && whole.layers[v] <= to) {
-            vertices.push_back(v);
-            file.mesh.columns.push_back(whole.columns[v]);
-            file.mesh.layers.push_back(whole.layers[v]);
-        }
-    }
-    const auto new_name = [&](std::uint32_t v) { return v / all * own + (v % all - from); };
-    std::vector<Eigen::Index> cells;
-    for (Eigen::Index cell = 0; cell < whole.cell_count(); ++cell) {
-        const Eigen::Index layer = cell / kPerPrism % (all - 1);
-        if (layer >= from && layer < to) {
-            cells.push_back(cell);
-        }
-    }
-    file.mesh.positions = whole.positions(Eigen::all, vertices);
-    file.mesh.cells = whole.cells(Eigen::all, cells).unaryExpr(new_name);
-    hand_down(body, vertices, cells, file);
-    label_boundary(file.mesh, labels_of(body),
-                   {from == 0 ? BoundaryLabel::Bottom : BoundaryLabel::InterfaceBelow,
-                    to + 1 == all ? BoundaryLabel::Top : BoundaryLabel::InterfaceAbove},
-                   file.extras);
-    return file;
 }
 
 }  // namespace pent::mesher

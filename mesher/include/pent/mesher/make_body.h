@@ -44,8 +44,7 @@ struct ExtrusionRequest {
     std::optional<Eigen::VectorXd> direction;
     int layers = 0;  ///< Slabs of simplices, 1 to 1e6; 0: so that the lowest is as
                      ///< automatic_slabs() has it.
-    /// Each slab is this many times as high as its neighbor towards w = 0: thin where slices are
-    /// looked at, thick away from there; 1 or more.
+    /// Each slab is this many times as high as its neighbor towards w = 0, where slices are; >= 1.
     double grade = 1;
     /// Heights of the slabs from w = 0 outward, to either side of it where the extrusion has two;
     /// instead of layers and grade, m. They are the thickness, or share out the one that is asked
@@ -129,7 +128,7 @@ struct BodyReport {
 
     Eigen::VectorXd direction;  ///< From the first layer to the last, m.
     int layers = 0;             ///< Slabs of simplices; 0: not extruded.
-    double lowest_layer = 0;    ///< Distance of the middles of two layers, m.
+    double lowest_layer = 0;    ///< From middle to middle of two, m.
     double highest_layer = 0;   ///< The same.
     std::int64_t beveled = 0;   ///< Of a shape's boundary: see StuffedSolid.
 
