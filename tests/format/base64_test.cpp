@@ -32,5 +32,22 @@ TEST(Base64, IsRefusedWhereItIsNone) {
     }
 }
 
+TEST(Base64Prefix, PassesThePaddingOfTextsOneBehindTheOther) {
+    const std::string text =
+        " " + to_base64("abcd") + "\n\t" + to_base64("efghi") + to_base64("jkl");
+    EXPECT_EQ(from_base64_prefix(text, 12), "abcdefghijkl");
+    EXPECT_EQ(from_base64_prefix(text, 100), "abcdefghijkl");
+    // Three bytes at a time, and what is behind those asked for is not looked at.
+    EXPECT_EQ(from_base64_prefix(text + "!", 12), "abcdefghijkl");
+    EXPECT_EQ(from_base64_prefix(text, 2), "abc");
+    EXPECT_EQ(from_base64_prefix("", 5), "");
+}
+
+TEST(Base64Prefix, IsNothingForOtherTexts) {
+    for (const char* text : {"abc", "ab!=", "a===", "=abc", "abcde"}) {
+        EXPECT_EQ(from_base64_prefix(text, 9), std::nullopt) << text;
+    }
+}
+
 }  // namespace
 }  // namespace pent

@@ -2,7 +2,6 @@
 #include "shapes.h"
 #include "support/messages.h"
 #include "support/temp_folder.h"
-#include "tet_readers.h"
 
 #include <pent/mesher/moving_mesh.h>
 #include <pent/mesher/shapes.h>
@@ -17,136 +16,9 @@ namespace pent::mesher {
 namespace {
 
 namespace fs = std::filesystem;
-using test::VtuWay;
-
-test::VtuParts parts_of(const SimplexMesh<3>& mesh) {
-    return {mesh.positions, mesh.cells, {}, {}, {}, {}};
-}
-
-// Two tetrahedra with a labeled triangle, regions, a temperature and a flow.
-test::VtuParts rich_parts(double t) {
-    test::VtuParts parts;
-    parts.points.resize(3, 5);
-    parts.points << 0, 1, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 0, 1, 1;
-    parts.points *= 1 + t / 3;
-    parts.tetrahedra.resize(4, 2);
-    parts.tetrahedra << 0, 1, 1, 2, 2, 4, 3, 3;
-    parts.triangles.resize(3, 1);
-    parts.triangles << 0, 1, 2;
-    parts.regions = {3, 4, 9};
-    parts.temperature = {t, 1 / 3.0, 2 + t, -1e-300, 5};
-    parts.cell_vectors = {1, 2, 3, 4, 5, 6, 7, 8, 9};
-    return parts;
-}
-
-std::string write_pvd(const fs::path& folder,
-                      const std::vector<std::pair<double, std::string>>& frames) {
-    std::string text =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
-        "<Collection>\n";
-    for (const auto& [time, file] : frames) {
-        text += formatted("<DataSet timestep=\"%.17g\" group=\"\" part=\"0\" file=\"", time) + file
-                + "\"/>\n";
-    }
-    test::write_file(folder / "a.pvd", text + "</Collection>\n</VTKFile>\n");
-    return (folder / "a.pvd").string();
-}
-
-TEST(ReadVtu, ReadsTheSameNumbersInEveryEncoding) {
-    const test::TempFolder folder;
-    std::vector<VtuWay> ways = {{}};
-    for (const bool compressed : {false, true}) {
-        for (const bool is_long : {false, true}) {
-            for (const bool is_big : {false, true}) {
-                ways.push_back({"binary", true, compressed, is_long, is_big});
-                ways.push_back({"appended", true, compressed, is_long, is_big});
-                ways.push_back({"appended", false, compressed, is_long, is_big, 24});
-            }
-        }
-    }
-    for (const VtuWay& way : ways) {
-        const std::string name =
-            way.format + (way.is_raw ? " raw" : " base64") + (way.is_compressed ? " zlib" : "")
-            + (way.has_long_headers ? " UInt64" : " UInt32") + (way.is_big_endian ? " big" : "");
-        for (const double t : {0.0, 0.7}) {
-            test::write_file(folder / formatted("f%d.vtu", t > 0 ? 1 : 0),
-                             test::to_vtu(rich_parts(t), way));
-        }
-        const MovingMesh mesh =
-            read_moving_mesh(write_pvd(folder.path(), {{1.5, "f0.vtu"}, {2.25, "f1.vtu"}}));
-        EXPECT_EQ(mesh.times, (std::vector<double>{1.5, 2.25})) << name;
-        ASSERT_EQ(mesh.positions.size(), 2U) << name;
-        EXPECT_EQ(mesh.positions[0], rich_parts(0).points) << name;
-        EXPECT_EQ(mesh.positions[1], rich_parts(0.7).points) << name;
-        EXPECT_EQ(mesh.base.regions, (std::vector<std::uint16_t>{3, 4})) << name;
-        EXPECT_EQ(mesh.triangle_labels, (std::vector<std::uint16_t>{9})) << name;
-        ASSERT_EQ(mesh.vertex_fields.size(), 1U) << name;
-        EXPECT_EQ(mesh.vertex_fields[0].name, "temperature");
-        const Eigen::MatrixXd temperature = mesh.vertex_fields[0].values[1];
-        for (int i = 0; i < 5; ++i) {
-            EXPECT_EQ(temperature(0, i), rich_parts(0.7).temperature[i]) << name;
-        }
-        ASSERT_EQ(mesh.cell_fields.size(), 1U) << name;
-        EXPECT_EQ(mesh.cell_fields[0].values[0].col(1), Eigen::Vector3d(4, 5, 6)) << name;
-    }
-}
-
-TEST(ReadVtu, GivesTheSameTetrahedraAsALegacyFile) {
-    const test::TempFolder folder;
-    const SimplexMesh<3> mesh = ball(2);
-    test::write_file(folder / "a.vtu", test::to_vtu(parts_of(mesh), {"appended"}));
-    test::write_file(folder / "a.vtk", test::to_legacy_vtk(parts_of(mesh)));
-    const TetrahedraFile a = read_tetrahedra(folder / "a.vtu");
-    const TetrahedraFile b = read_tetrahedra(folder / "a.vtk");
-    EXPECT_EQ(a.mesh.positions, b.mesh.positions);
-    EXPECT_EQ(a.mesh.cells, b.mesh.cells);
-    EXPECT_EQ(a.mesh.positions, mesh.positions);
-}
-
-TEST(ReadVtu, RefusesEveryCutOfAFileInOneLine) {
-    const test::TempFolder folder;
-    for (const VtuWay& way : {VtuWay{}, VtuWay{"binary", true, true}, VtuWay{"appended"},
-                              VtuWay{"appended", false, true, true}}) {
-        const std::string whole = test::to_vtu(rich_parts(0), way);
-        // Behind the last array only the tags at the end are left.
-        const std::size_t last = whole.rfind("</Piece>");
-        const std::size_t end =
-            way.format == "appended" ? whole.rfind("\n</AppendedData>") - 1 : last;
-        for (std::size_t length = 0; length < end; length += 7) {
-            test::write_file(folder / "a.vtu", whole.substr(0, length));
-            const std::string error =
-                test::error_of([&] { static_cast<void>(read_tetrahedra(folder / "a.vtu")); });
-            ASSERT_NE(error, "") << way.format << " cut at " << length;
-            ASSERT_EQ(error.find('\n'), std::string::npos) << error;
-            ASSERT_NE(error.find("a.vtu: "), std::string::npos) << error;
-        }
-    }
-}
-
-TEST(ReadVtu, SaysWhatItDoesNotRead) {
-    const test::TempFolder folder;
-    const std::string good = test::to_vtu(rich_parts(0), {});
-    const auto message = [&](const std::string& what, const std::string& with) {
-        std::string text = good;
-        text.replace(text.find(what), what.size(), with);
-        test::write_file(folder / "a.vtu", text);
-        return test::error_of([&] { static_cast<void>(read_tetrahedra(folder / "a.vtu")); });
-    };
-    test::expect_contains(message("header_type", "compressor=\"vtkLZ4DataCompressor\" header_type"),
-                          {"vtkLZ4DataCompressor", "vtkZLibDataCompressor or none"});
-    test::expect_contains(message("type=\"UnstructuredGrid\"", "type=\"PolyData\""),
-                          {"line 2", "PolyData", "expected VTKFile of type UnstructuredGrid"});
-    test::expect_contains(message("NumberOfPoints=\"5\"", "NumberOfPoints=\"4000000000\""),
-                          {"array \"Points\"", "15 numbers, expected 12000000000"});
-    test::expect_contains(message("NumberOfPoints=\"5\"", "NumberOfPoints=\"-5\""),
-                          {"NumberOfPoints is \"-5\""});
-    test::expect_contains(message("Name=\"offsets\"", "Name=\"ends\""), {"no array offsets"});
-    test::expect_contains(message("<Points>", "<!DOCTYPE a><Points>"), {"no XML that can be read"});
-    test::expect_contains(message("0 0 0 ", "0 nan 0 "),
-                          {"array \"Points\"", "point 0 is not finite"});
-    test::expect_contains(message("NumberOfPoints=\"5\"", ""), {"NumberOfPoints is \"\""});
-    test::expect_contains(message("</Piece>", "</Piece><Piece/>"), {"a second piece", "merge"});
-}
+using test::parts_of;
+using test::rich_parts;
+using test::write_pvd;
 
 TEST(ReadMovingMesh, ReadsSeriesOfLegacyFilesAndNumberedOnes) {
     const test::TempFolder folder;

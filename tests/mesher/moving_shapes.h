@@ -1,5 +1,6 @@
 #pragma once
 
+#include "shapes.h"
 #include "support/kuhn_box.h"
 
 #include <pent/base64.h>
@@ -7,10 +8,12 @@
 #include <pent/mesher/moving_mesh.h>
 
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <numeric>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 #include <zlib.h>
 
@@ -222,6 +225,39 @@ inline std::string to_legacy_vtk(const VtuParts& parts) {
         text += "10\n";
     }
     return text;
+}
+
+inline VtuParts parts_of(const SimplexMesh<3>& mesh) {
+    return {mesh.positions, mesh.cells, {}, {}, {}, {}};
+}
+
+// Two tetrahedra with a labeled triangle, regions, a temperature and a flow.
+inline VtuParts rich_parts(double t) {
+    VtuParts parts;
+    parts.points.resize(3, 5);
+    parts.points << 0, 1, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 0, 1, 1;
+    parts.points *= 1 + t / 3;
+    parts.tetrahedra.resize(4, 2);
+    parts.tetrahedra << 0, 1, 1, 2, 2, 4, 3, 3;
+    parts.triangles.resize(3, 1);
+    parts.triangles << 0, 1, 2;
+    parts.regions = {3, 4, 9};
+    parts.temperature = {t, 1 / 3.0, 2 + t, -1e-300, 5};
+    parts.cell_vectors = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    return parts;
+}
+
+inline std::string write_pvd(const std::filesystem::path& folder,
+                             const std::vector<std::pair<double, std::string>>& frames) {
+    std::string text =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
+        "<Collection>\n";
+    for (const auto& [time, file] : frames) {
+        text += formatted("<DataSet timestep=\"%.17g\" group=\"\" part=\"0\" file=\"", time) + file
+                + "\"/>\n";
+    }
+    write_file(folder / "a.pvd", text + "</Collection>\n</VTKFile>\n");
+    return (folder / "a.pvd").string();
 }
 
 }  // namespace pent::test

@@ -1,0 +1,117 @@
+#include "moving_shapes.h"
+#include "shapes.h"
+#include "support/messages.h"
+#include "support/temp_folder.h"
+
+#include <pent/mesher/moving_mesh.h>
+#include <pent/mesher/read_tetrahedra.h>
+#include <pent/mesher/shapes.h>
+
+#include <gtest/gtest.h>
+
+namespace pent::mesher {
+namespace {
+
+using test::parts_of;
+using test::rich_parts;
+using test::VtuWay;
+using test::write_pvd;
+
+TEST(ReadVtu, ReadsTheSameNumbersInEveryEncoding) {
+    const test::TempFolder folder;
+    std::vector<VtuWay> ways = {{}};
+    for (const bool compressed : {false, true}) {
+        for (const bool is_long : {false, true}) {
+            for (const bool is_big : {false, true}) {
+                ways.push_back({"binary", true, compressed, is_long, is_big});
+                ways.push_back({"appended", true, compressed, is_long, is_big});
+                ways.push_back({"appended", false, compressed, is_long, is_big, 24});
+            }
+        }
+    }
+    for (const VtuWay& way : ways) {
+        const std::string name =
+            way.format + (way.is_raw ? " raw" : " base64") + (way.is_compressed ? " zlib" : "")
+            + (way.has_long_headers ? " UInt64" : " UInt32") + (way.is_big_endian ? " big" : "");
+        for (const double t : {0.0, 0.7}) {
+            test::write_file(folder / formatted("f%d.vtu", t > 0 ? 1 : 0),
+                             test::to_vtu(rich_parts(t), way));
+        }
+        const MovingMesh mesh =
+            read_moving_mesh(write_pvd(folder.path(), {{1.5, "f0.vtu"}, {2.25, "f1.vtu"}}));
+        EXPECT_EQ(mesh.times, (std::vector<double>{1.5, 2.25})) << name;
+        ASSERT_EQ(mesh.positions.size(), 2U) << name;
+        EXPECT_EQ(mesh.positions[0], rich_parts(0).points) << name;
+        EXPECT_EQ(mesh.positions[1], rich_parts(0.7).points) << name;
+        EXPECT_EQ(mesh.base.regions, (std::vector<std::uint16_t>{3, 4})) << name;
+        EXPECT_EQ(mesh.triangle_labels, (std::vector<std::uint16_t>{9})) << name;
+        ASSERT_EQ(mesh.vertex_fields.size(), 1U) << name;
+        EXPECT_EQ(mesh.vertex_fields[0].name, "temperature");
+        const Eigen::MatrixXd temperature = mesh.vertex_fields[0].values[1];
+        for (int i = 0; i < 5; ++i) {
+            EXPECT_EQ(temperature(0, i), rich_parts(0.7).temperature[i]) << name;
+        }
+        ASSERT_EQ(mesh.cell_fields.size(), 1U) << name;
+        EXPECT_EQ(mesh.cell_fields[0].values[0].col(1), Eigen::Vector3d(4, 5, 6)) << name;
+    }
+}
+
+TEST(ReadVtu, GivesTheSameTetrahedraAsALegacyFile) {
+    const test::TempFolder folder;
+    const SimplexMesh<3> mesh = ball(2);
+    test::write_file(folder / "a.vtu", test::to_vtu(parts_of(mesh), {"appended"}));
+    test::write_file(folder / "a.vtk", test::to_legacy_vtk(parts_of(mesh)));
+    const TetrahedraFile a = read_tetrahedra(folder / "a.vtu");
+    const TetrahedraFile b = read_tetrahedra(folder / "a.vtk");
+    EXPECT_EQ(a.mesh.positions, b.mesh.positions);
+    EXPECT_EQ(a.mesh.cells, b.mesh.cells);
+    EXPECT_EQ(a.mesh.positions, mesh.positions);
+}
+
+TEST(ReadVtu, RefusesEveryCutOfAFileInOneLine) {
+    const test::TempFolder folder;
+    for (const VtuWay& way : {VtuWay{}, VtuWay{"binary", true, true}, VtuWay{"appended"},
+                              VtuWay{"appended", false, true, true}}) {
+        const std::string whole = test::to_vtu(rich_parts(0), way);
+        // Behind the last array only the tags at the end are left.
+        const std::size_t last = whole.rfind("</Piece>");
+        const std::size_t end =
+            way.format == "appended" ? whole.rfind("\n</AppendedData>") - 1 : last;
+        for (std::size_t length = 0; length < end; length += 7) {
+            test::write_file(folder / "a.vtu", whole.substr(0, length));
+            const std::string error =
+                test::error_of([&] { static_cast<void>(read_tetrahedra(folder / "a.vtu")); });
+            ASSERT_NE(error, "") << way.format << " cut at " << length;
+            ASSERT_EQ(error.find('\n'), std::string::npos) << error;
+            ASSERT_NE(error.find("a.vtu: "), std::string::npos) << error;
+        }
+    }
+}
+
+TEST(ReadVtu, SaysWhatItDoesNotRead) {
+    const test::TempFolder folder;
+    const std::string good = test::to_vtu(rich_parts(0), {});
+    const auto message = [&](const std::string& what, const std::string& with) {
+        std::string text = good;
+        text.replace(text.find(what), what.size(), with);
+        test::write_file(folder / "a.vtu", text);
+        return test::error_of([&] { static_cast<void>(read_tetrahedra(folder / "a.vtu")); });
+    };
+    test::expect_contains(message("header_type", "compressor=\"vtkLZ4DataCompressor\" header_type"),
+                          {"vtkLZ4DataCompressor", "vtkZLibDataCompressor or none"});
+    test::expect_contains(message("type=\"UnstructuredGrid\"", "type=\"PolyData\""),
+                          {"line 2", "PolyData", "expected VTKFile of type UnstructuredGrid"});
+    test::expect_contains(message("NumberOfPoints=\"5\"", "NumberOfPoints=\"4000000000\""),
+                          {"array \"Points\"", "15 numbers, expected 12000000000"});
+    test::expect_contains(message("NumberOfPoints=\"5\"", "NumberOfPoints=\"-5\""),
+                          {"NumberOfPoints is \"-5\""});
+    test::expect_contains(message("Name=\"offsets\"", "Name=\"ends\""), {"no array offsets"});
+    test::expect_contains(message("<Points>", "<!DOCTYPE a><Points>"), {"no XML that can be read"});
+    test::expect_contains(message("0 0 0 ", "0 nan 0 "),
+                          {"array \"Points\"", "point 0 is not finite"});
+    test::expect_contains(message("NumberOfPoints=\"5\"", ""), {"NumberOfPoints is \"\""});
+    test::expect_contains(message("</Piece>", "</Piece><Piece/>"), {"a second piece", "merge"});
+}
+
+}  // namespace
+}  // namespace pent::mesher

@@ -1,0 +1,95 @@
+#include "apps/run_program.h"
+#include "moving_shapes.h"
+#include "shapes.h"
+#include "support/messages.h"
+
+#include <pent/mesher/shapes.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pent {
+namespace {
+
+using test::Outcome;
+using test::run_program;
+
+// A ball that swells from radius 1 to 2, in three frames.
+std::string write_swelling_ball(const std::filesystem::path& folder) {
+    std::string pvd = "<VTKFile type=\"Collection\"><Collection>\n";
+    SimplexMesh<3> ball = mesher::ball(2);
+    for (int i = 0; i < 3; ++i) {
+        const std::string name = "ball_" + std::to_string(i) + ".vtu";
+        const test::VtuParts parts{ball.positions * (1 + 0.5 * i), ball.cells, {}, {}, {}, {}};
+        test::write_file(folder / name, test::to_vtu(parts, {"binary", true, true}));
+        pvd += "<DataSet timestep=\"" + std::to_string(i) + "\" file=\"" + name + "\"/>\n";
+    }
+    test::write_file(folder / "ball.pvd", pvd + "</Collection></VTKFile>\n");
+    return (folder / "ball.pvd").string();
+}
+
+TEST(PentMesh, MakesSpaceTimeMeshesWithTheSameBytesAtAnyNumberOfThreads) {
+    const test::TempFolder folder;
+    const std::string pvd = write_swelling_ball(folder.path());
+    std::string first;
+    for (const char* threads : {"1", "2", "3"}) {
+        const std::string out = (folder / threads).string() + ".pent";
+        const Outcome outcome =
+            run_program("pent-mesh " + pvd + " --space-time --time-scale 0.5 --bisection -o " + out
+                        + " --threads " + threads + " --json " + (folder / "r.json").string());
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        test::expect_contains(outcome.out, {"time       w = 0.5 m/s * t; 2 layers of 0.5 m",
+                                            "bisection  ready after a barycentric cut",
+                                            "w 0 to 1 m", "integral   of the moving volume"});
+        const std::string bytes = test::text_of(out);
+        first = first.empty() ? bytes : first;
+        EXPECT_TRUE(bytes == first) << threads << " threads";
+    }
+    test::expect_contains(run_program("pent-check " + (folder / "1.pent").string()).out,
+                          {"is sound", "labels     1: ", "tags       "});
+    test::expect_contains(test::text_of(folder / "r.json"), {"\"frames\": 3", "\"integral\""});
+}
+
+TEST(PentMesh, WritesASpaceTimeMeshAsSlabs) {
+    const test::TempFolder folder;
+    const std::string pvd = write_swelling_ball(folder.path());
+    const Outcome outcome = run_program("pent-mesh " + pvd + " --space-time --slabs -o "
+                                        + (folder / "out" / "b.pent").string());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    for (const char* name : {"b_000000.pent", "b_000001.pent"}) {
+        EXPECT_EQ(run_program("pent-check " + (folder / "out" / name).string()).exit_code, 0);
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "out" / "b.pent"));
+}
+
+TEST(PentMesh, SaysWhatIsWrongWithAMovingMeshAndWritesNothing) {
+    const test::TempFolder folder;
+    const std::string pvd = write_swelling_ball(folder.path());
+    const std::string out = " -o " + (folder / "out.pent").string();
+    for (const auto& [options, message] : std::vector<std::pair<std::string, std::string>>{
+             {" --space-time --layers 3", "--layers: without meaning for a moving mesh"},
+             {" --space-time --dim 3", "a space-time mesh has four dimensions"},
+             {" --space-time --refine-time often", "expected auto or a whole number"},
+             {" --space-time --every 3", "every 3th frame leaves one"},
+             {" --space-time --time-step 1", "has times itself"}}) {
+        const Outcome outcome = run_program("pent-mesh " + pvd + options + out);
+        EXPECT_EQ(outcome.exit_code, 1) << options;
+        test::expect_one_error_line(outcome, "pent-mesh");
+        test::expect_contains(outcome.err, {message});
+    }
+    EXPECT_EQ(run_program("pent-mesh " + pvd + " --time-scale 2" + out).exit_code, 2);
+    EXPECT_EQ(run_program("pent-mesh " + pvd + out).exit_code, 1);
+    std::filesystem::resize_file(folder / "ball_1.vtu", 900);
+    const Outcome cut = run_program("pent-mesh " + pvd + " --space-time" + out);
+    EXPECT_EQ(cut.exit_code, 1);
+    test::expect_one_error_line(cut, "pent-mesh");
+    test::expect_contains(cut.err, {"ball_1.vtu: line "});
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.pent"));
+}
+
+}  // namespace
+}  // namespace pent
