@@ -142,7 +142,7 @@ XmlFile parse_xml(std::string_view text, const std::string& name) {
                                     ? builder.reason
                                     : XML_ErrorString(XML_GetErrorCode(parser.get()));
         throw Error(name + ": line " + std::to_string(XML_GetCurrentLineNumber(parser.get()))
-                    + ": no XML that can be read: " + why);
+                    + ": no XML that can be read: " + why + "; is the file cut?");
     }
     file.root = std::move(builder.root.children.front());
     return file;
