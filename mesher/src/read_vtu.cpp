@@ -19,7 +19,8 @@ class VtuReader {
 public:
     explicit VtuReader(const std::filesystem::path& path)
         : name_(input_name(path)),
-          text_(read_text(path, "an unstructured grid of VTK (.vtu)")),
+          text_(read_text(path.string() == kStandardInput ? "/dev/stdin" : path,
+                          "an unstructured grid of VTK (.vtu)")),
           file_(parse_xml(text_, name_)),
           encoding_(encoding_of(file_, name_, text_.size())) {}
 
