@@ -36,8 +36,8 @@ struct XmlFile {
 ///
 /// @param text  Lives as long as `appended` is used.
 /// @param name  Of the file, for messages.
-/// Throws an Error that names file and line for what is no XML, is nested more than 32 deep or has a
-/// document type definition.
+/// Throws an Error that names file and line for what is no XML, is nested more than 32 deep
+/// or has a document type definition.
 [[nodiscard]] XmlFile parse_xml(std::string_view text, const std::string& name);
 
 }  // namespace pent::mesher

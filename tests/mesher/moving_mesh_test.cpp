@@ -30,7 +30,8 @@ TEST(ReadMovingMesh, ReadsSeriesOfLegacyFilesAndNumberedOnes) {
     }
     test::write_file(folder / "ball.vtk.series",
                      R"({"file-series-version": "1.0", "files": [
-                        {"name": "ball_000.vtk", "time": 0.5}, {"name": "ball_010.vtk", "time": 2}]})");
+                        {"name": "ball_000.vtk", "time": 0.5},
+                        {"name": "ball_010.vtk", "time": 2}]})");
     const MovingMesh listed = read_moving_mesh(folder / "ball.vtk.series");
     EXPECT_EQ(listed.times, (std::vector<double>{0.5, 2}));
     EXPECT_EQ(listed.positions[1], 3 * mesh.positions);

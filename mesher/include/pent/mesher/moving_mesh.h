@@ -50,7 +50,7 @@ struct SeriesOptions {
 [[nodiscard]] bool is_series(const std::filesystem::path& path);
 
 /// Reads a moving mesh: a .pvd or .series file that lists .vtu or legacy .vtk files with their
-/// times, the first of numbered .vtu or .vtk files, or a run folder of three dimensions of pent-sim.
+/// times, the first of numbered .vtu or .vtk files, or a 3D run folder of pent-sim.
 ///
 /// Pyramids, prisms and hexahedra are cut as read_tetrahedra() does, all frames alike.
 /// Throws an Error in one line, with file and place: for what is damaged, fewer than two frames,
