@@ -88,7 +88,8 @@ void add_input(CLI::App& cli, MeshArguments& arguments) {
         ->add_option(
             "input", arguments.input,
             "A surface (.obj .off .ply .stl .gltf .glb), tetrahedra (.node/.ele .mesh "
-            ".msh .vtk .vtu .tobj) or a four-dimensional shape (.toml); - for standard input")
+            ".msh .vtk .vtu .tobj), a four-dimensional shape (.toml) or its boundary (.4off .off "
+            ".g4tf .g4b .4do .obj .pent); - for standard input")
         ->type_name("FILE");
     const std::vector<CLI::Option*> shapes = add_shapes(*input, arguments);
     input->require_option(1);

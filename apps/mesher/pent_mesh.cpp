@@ -61,6 +61,18 @@ void say_surface(const Program& program, const BodyReport& report) {
     }
 }
 
+void say_boundary(const Program& program, const pent::mesher::BoundaryReport& boundary) {
+    if (boundary.tetrahedra == 0) {
+        return;
+    }
+    program.say(formatted("boundary   %lld tetrahedra, %lld smooth part%s",
+                          static_cast<Long>(boundary.tetrahedra),
+                          static_cast<Long>(boundary.patches), boundary.patches == 1 ? "" : "s"));
+    if (boundary.is_mended()) {
+        program.say("mended     " + pent::mesher::describe(boundary));
+    }
+}
+
 void say_cells(const Program& program, const BodyReport& report) {
     if (!report.cut.empty()) {
         program.say("cut        " + report.cut);
@@ -138,6 +150,13 @@ nlohmann::ordered_json to_json(const pent::mesher::Body<Dim>& body) {
                        {"repair_distance", report.repair_distance},
                        {"merged_points", report.merged_points},
                        {"flipped_triangles", report.flipped_triangles}};
+    const pent::mesher::BoundaryReport& boundary = report.boundary;
+    json["boundary"] = {
+        {"tetrahedra", boundary.tetrahedra}, {"merged_points", boundary.merged_points},
+        {"degenerate", boundary.degenerate}, {"repeated", boundary.repeated},
+        {"turned", boundary.turned},         {"open", boundary.open},
+        {"holes", boundary.holes},           {"largest_hole", boundary.largest_hole},
+        {"inner", boundary.inner},           {"patches", boundary.patches}};
     json["cells"] = {
         {"cut", report.cut}, {"left_out", report.left_out}, {"curved", report.curved_cells}};
     json["base"] = {{"generator", report.generator}, {"failures", report.failures},
@@ -212,6 +231,7 @@ void make_and_write(Program& program, const MeshArguments& arguments) {
         write<Dim>(program, arguments, body);
     }
     say_surface(program, body.report);
+    say_boundary(program, body.report.boundary);
     say_cells(program, body.report);
     say_base(program, body.report, Dim);
     say_body<Dim>(program, body);
@@ -246,7 +266,8 @@ std::vector<NamedFile> inputs_of(const MeshArguments& arguments) {
 int main(int argc, char** argv) {
     Program program("pent-mesh",
                     "Makes a pentachoral mesh of a closed surface: fills it with tetrahedra and "
-                    "extrudes them along w; or of a four-dimensional shape described in a file. "
+                    "extrudes them along w; or of a four-dimensional shape described in a file, or "
+                    "given by its boundary. "
                     "With --dim 3 the tetrahedra are the mesh.",
                     "pent-mesh octopus.obj -o octopus.pent --thickness 0.5");
     MeshArguments arguments;

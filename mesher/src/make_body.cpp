@@ -272,16 +272,16 @@ bool is_flat(const Surface& surface) {
     return z.maxCoeff() == z.minCoeff();
 }
 
-// The path of the input if that is a shape file, else none.
-const std::filesystem::path* shape_file_of(const BodyRequest& request) {
+// The path of the input if that is a file with a solid, else none.
+const std::filesystem::path* solid_file_of(const BodyRequest& request) {
     const auto* path = std::get_if<std::filesystem::path>(&request.input);
-    return path != nullptr && request.format.empty() && is_shape_file(*path) ? path : nullptr;
+    const bool is_solid = path != nullptr && request.format.empty()
+                          && (is_shape_file(*path) || is_boundary_file(*path));
+    return is_solid ? path : nullptr;
 }
 
-Body<4> make_shape(const std::filesystem::path& path,
-                   const BodyRequest& request,
-                   StageClock& clock) {
-    constexpr double kSeconds = 6e-6;  // to stuff a cell on one core
+// Refuses what a solid has no use for.
+void check_stuffing(const std::filesystem::path& path, const BodyRequest& request) {
     refuse_extrusion(request);
     if (request.surface_triangles > 0 || request.target_cells > 0) {
         throw Error(path.string()
@@ -289,19 +289,44 @@ Body<4> make_shape(const std::filesystem::path& path,
                       " number of pentachora");
     }
     if (request.edge_length <= 0) {
-        throw Error(path.string()
-                    + ": a shape needs the length of the edges; expected --edge-length");
+        throw Error(
+            path.string() + ": a shape needs the length of the edges; expected --edge-length"
+            + (is_shape_file(path) ? "" : ", or pent-convert for one that a point sees all of"));
     }
-    const Solid solid = clock.time("read", [&] {
-        return place(read_solid(path), request.scale, Eigen::Matrix4d::Identity(),
-                     Eigen::Vector4d::Zero());
-    });
+    if (request.repair.repair == Repair::Wrap) {
+        throw Error(path.string()
+                    + ": a wrap is for surfaces of triangles; expected --repair light or none");
+    }
+}
+
+Solid solid_in(const std::filesystem::path& path,
+               const BodyRequest& request,
+               BoundaryReport& report) {
+    if (is_shape_file(path)) {
+        return read_solid(path);
+    }
+    BoundarySolid found =
+        boundary_solid(read_boundary(path), path.string(), request.repair.repair != Repair::None);
+    report = found.report;
+    return std::move(found.solid);
+}
+
+Body<4> make_stuffed(const std::filesystem::path& path,
+                     const BodyRequest& request,
+                     StageClock& clock) {
+    // To stuff a cell on one core; of boundaries of 10^5 tetrahedra where most cells are at it.
+    const double seconds = is_shape_file(path) ? 6e-6 : 150e-6;
+    check_stuffing(path, request);
     BodyReport report;
+    const Solid solid = clock.time("read", [&] {
+        return place(solid_in(path, request, report.boundary), request.scale,
+                     Eigen::Matrix4d::Identity(), Eigen::Vector4d::Zero());
+    });
     StuffedSolid stuffed;
     try {
         ExpectedSize size =
             expected_size<4>(estimate_cells(solid, request.edge_length), 1, 0, request);
-        size.seconds += kSeconds * size.cells;
+        size.seconds += seconds * size.cells;
         announce(request, size);
         stuffed = clock.time("stuff", [&] { return stuff(solid, request.edge_length); });
     } catch (const Error& error) {
@@ -334,8 +359,8 @@ Body<4> make_body(const BodyRequest& request) {
     if (const auto* shape = std::get_if<BoxShape>(&request.input)) {
         return make_box<4>(*shape, request, clock);
     }
-    if (const auto* path = shape_file_of(request)) {
-        return make_shape(*path, request, clock);
+    if (const auto* path = solid_file_of(request)) {
+        return make_stuffed(*path, request, clock);
     }
     BodyReport report;
     ExtrusionRequest extrusion = request.extrusion;
@@ -356,7 +381,7 @@ Body<3> make_solid(const BodyRequest& request) {
     if (const auto* shape = std::get_if<BoxShape>(&request.input)) {
         return make_box<3>(*shape, request, clock);
     }
-    if (const auto* path = shape_file_of(request)) {
+    if (const auto* path = solid_file_of(request)) {
         throw Error(path->string() + ": is a shape of four dimensions; leave out --dim 3");
     }
     BodyReport report;

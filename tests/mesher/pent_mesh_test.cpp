@@ -56,6 +56,53 @@ TEST(PentMesh, MakesShapesWithTheSameBytesAtAnyNumberOfThreads) {
     EXPECT_EQ(run_program("pent-check " + (folder / "1.pent").string()).exit_code, 0);
 }
 
+TEST(PentMesh, MakesBodiesOfBoundariesWithTheSameBytesAtAnyNumberOfThreads) {
+    const test::TempFolder folder;
+    const std::string boundary = (folder / "16-cell.obj").string();
+    std::string text;
+    for (int i = 0; i < 8; ++i) {
+        const char* sign = i < 4 ? "1" : "-1";
+        std::string line = "v";
+        for (int axis = 0; axis < 4; ++axis) {
+            line += std::string(" ") + (i % 4 == axis ? sign : "0");
+        }
+        text += line + "\n";
+    }
+    std::string open;
+    for (int signs = 0; signs < 16; ++signs) {
+        std::string line = "t";
+        for (int axis = 0; axis < 4; ++axis) {
+            line += " " + std::to_string(axis + 1 + (signs >> axis & 1) * 4);
+        }
+        open = signs == 5 ? text : open + (open.empty() ? "" : line + "\n");
+        text += line + "\n";
+    }
+    test::write_file(boundary, text);
+    std::string first;
+    for (const char* threads : {"1", "2", "3"}) {
+        const std::string out = (folder / threads).string() + ".pent";
+        const Outcome outcome = run_program("pent-mesh " + boundary + " -o " + out
+                                            + " --edge-length 0.3 --threads " + threads);
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        test::expect_contains(outcome.out, {"boundary   16 tetrahedra, 16 smooth parts"});
+        const std::string bytes = test::text_of(out);
+        first = first.empty() ? bytes : first;
+        EXPECT_TRUE(bytes == first) << threads << " threads";
+    }
+    EXPECT_EQ(run_program("pent-check " + (folder / "1.pent").string()).exit_code, 0);
+    test::write_file(boundary, open);  // without one of its tetrahedra
+    const std::string command =
+        "pent-mesh " + boundary + " -o " + (folder / "open.pent").string() + " --edge-length 0.3";
+    const Outcome refused = run_program(command + " --repair none");
+    EXPECT_EQ(refused.exit_code, 1);
+    test::expect_contains(refused.err, {"16-cell.obj", "4 open triangles around 1 hole"});
+    const Outcome mended = run_program(command);
+    EXPECT_EQ(mended.exit_code, 0) << mended.err;
+    test::expect_contains(mended.out, {"mended     ", "4 open triangles around 1 hole closed"});
+    const Outcome wrapped = run_program(command + " --repair wrap");
+    test::expect_contains(wrapped.err, {"--repair light"});
+}
+
 TEST(PentMesh, SaysWhatIsWrongWithAShape) {
     const test::TempFolder folder;
     const std::string shape = (folder / "shape.toml").string();

@@ -105,6 +105,7 @@ public:
     [[noreturn]] void fail(std::string_view key, const std::string& message) const;
 
     [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] const std::string& file() const { return file_; }
 
 private:
     const toml::node* find(std::string_view key);

@@ -1,5 +1,7 @@
 #include "fields.h"
 
+#include "tet_boundary.h"
+
 #include <pent/error.h>
 
 #include <algorithm>
@@ -48,6 +50,10 @@ double value_of(const DitorusField& field, const Eigen::Vector4d& p) {
 
 double value_of(const ExpressionField& field, const Eigen::Vector4d& p) {
     return field.value(p);
+}
+
+double value_of(const BoundaryField& field, const Eigen::Vector4d& p) {
+    return field.boundary->value(p);
 }
 
 // A parser with its own place for the point: it reads the variables where they are.
@@ -133,15 +139,37 @@ double field_value(const Field& field, const Eigen::Vector4d& p) {
 }
 
 int piece_count(const Field& field) {
-    const auto* half_spaces = std::get_if<HalfSpacesField>(&field);
-    return half_spaces != nullptr ? static_cast<int>(half_spaces->offsets.size()) : 1;
+    if (const auto* half_spaces = std::get_if<HalfSpacesField>(&field)) {
+        return static_cast<int>(half_spaces->offsets.size());
+    }
+    const auto* surface = std::get_if<BoundaryField>(&field);
+    return surface != nullptr ? surface->boundary->patch_count() : 1;
 }
 
 double piece_value(const Field& field, int piece, const Eigen::Vector4d& p) {
-    const auto* half_spaces = std::get_if<HalfSpacesField>(&field);
-    return half_spaces != nullptr
-               ? half_spaces->normals.row(piece).dot(p) - half_spaces->offsets[piece]
-               : field_value(field, p);
+    if (const auto* half_spaces = std::get_if<HalfSpacesField>(&field)) {
+        return half_spaces->normals.row(piece).dot(p) - half_spaces->offsets[piece];
+    }
+    const auto* surface = std::get_if<BoundaryField>(&field);
+    return surface != nullptr ? surface->boundary->patch_value(piece, p) : field_value(field, p);
+}
+
+std::vector<int> pieces_near(const Field& field, const Eigen::Vector4d& p, double margin) {
+    const int count = piece_count(field);
+    if (count == 1) {
+        return {0};
+    }
+    const double value = field_value(field, p);
+    if (const auto* surface = std::get_if<BoundaryField>(&field)) {
+        return surface->boundary->patches_within(p, std::abs(value) + margin);
+    }
+    std::vector<int> pieces;
+    for (int i = 0; i < count; ++i) {
+        if (value - piece_value(field, i, p) <= margin) {
+            pieces.push_back(i);
+        }
+    }
+    return pieces;
 }
 
 bool is_distance_bound(const Field& field) {

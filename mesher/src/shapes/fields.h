@@ -5,8 +5,11 @@
 #include <memory>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace pent::mesher {
+
+class TetBoundary;
 
 /// Functions of a point of space in meters, negative inside. But for the expression, all change
 /// by no more than the distance that the point moves, and are smooth where they are zero, or the
@@ -63,13 +66,19 @@ private:
     std::shared_ptr<Parsers> parsers_;
 };
 
+/// Within a closed hypersurface of tetrahedra; a piece is a smooth patch of it.
+struct BoundaryField {
+    std::shared_ptr<const TetBoundary> boundary;
+};
+
 using Field = std::variant<RoundField,
                            CapsuleField,
                            HalfSpacesField,
                            RingField,
                            TigerField,
                            DitorusField,
-                           ExpressionField>;
+                           ExpressionField,
+                           BoundaryField>;
 
 [[nodiscard]] double field_value(const Field& field, const Eigen::Vector4d& p);
 
@@ -77,6 +86,12 @@ using Field = std::variant<RoundField,
 
 /// The function of one piece, also where another one is larger.
 [[nodiscard]] double piece_value(const Field& field, int piece, const Eigen::Vector4d& p);
+
+/// The pieces that decide the function at a point, or would if values changed by up to `margin`
+/// (m): ascending.
+[[nodiscard]] std::vector<int> pieces_near(const Field& field,
+                                           const Eigen::Vector4d& p,
+                                           double margin);
 
 /// Whether it changes by no more than the distance that the point moves.
 [[nodiscard]] bool is_distance_bound(const Field& field);

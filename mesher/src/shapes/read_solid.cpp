@@ -1,4 +1,5 @@
 #include <pent/error.h>
+#include <pent/mesher/boundary_solid.h>
 #include <pent/mesher/primitives.h>
 #include <pent/mesher/read_solid.h>
 #include <pent/toml_table.h>
@@ -25,6 +26,12 @@ constexpr std::int64_t kMaxCells = 600;  // of a regular polytope
 // Reads the keys of a primitive and gives what makes it.
 using Maker = std::function<Solid()>;
 using Reader = std::function<Maker(TableReader&)>;
+
+// A file that a shape file names: seen from its folder.
+std::filesystem::path file_named_in(TableReader& table) {
+    const std::filesystem::path here = table.file();
+    return here.parent_path() / table.text("file");
+}
 
 // The primitives by their keys.
 const std::vector<std::pair<std::string, Reader>>& primitives() {
@@ -109,6 +116,12 @@ const std::vector<std::pair<std::string, Reader>>& primitives() {
              return [formula = t.text("formula"), low = t.vector("low", 4),
                      high = t.vector("high", 4)] {
                  return expression_solid(formula, {low, high});
+             };
+         }},
+        {"boundary",
+         [](Table& t) -> Maker {
+             return [file = file_named_in(t), mend = t.flag("mend", false)] {
+                 return boundary_solid(read_boundary(file), file.string(), mend).solid;
              };
          }},
     };

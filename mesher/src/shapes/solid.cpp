@@ -61,15 +61,10 @@ double collect_pieces(
     if (node < 0) {
         const Data::Leaf& leaf = data.leaves[~node];
         const Eigen::Vector4d local = leaf.local(p);
-        const double value = field_value(leaf.field, local);
-        const int count = piece_count(leaf.field);
-        for (int i = 0; i < count; ++i) {
-            const double own = count > 1 ? piece_value(leaf.field, i, local) : value;
-            if (std::abs(leaf.factor) * (value - own) <= margin) {
-                pieces.push_back(leaf.first_piece + i);
-            }
+        for (const int piece : pieces_near(leaf.field, local, margin / std::abs(leaf.factor))) {
+            pieces.push_back(leaf.first_piece + piece);
         }
-        return leaf.factor * value;
+        return leaf.factor * field_value(leaf.field, local);
     }
     const Data::Node& inner = data.nodes[node];
     std::vector<int> of_left;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/mesher/boundary_solid.h>
 #include <pent/mesher/edge_order.h>
 #include <pent/mesher/extrude.h>
 #include <pent/mesher/prove.h>
@@ -70,8 +71,9 @@ struct ExpectedSize {
 
 /// What pent-mesh is asked for.
 struct BodyRequest {
-    /// A file with a surface, a tet mesh or a shape (see read_surface, read_tetrahedra,
-    /// read_solid), or a shape that needs no file. The path "-" is standard input.
+    /// A file with a surface, a tet mesh, a shape or the boundary of a body (see read_surface,
+    /// read_tetrahedra, read_solid, read_boundary), or a shape that needs no file. The path "-" is
+    /// standard input.
     std::variant<std::filesystem::path, SphereShape, BallShape, BoxShape> input;
     std::string format;           ///< Of the file, as in "obj"; empty: by the ending of its name.
     double scale = 1;             ///< Coordinates in the file times this are m; above 0.
@@ -131,6 +133,7 @@ struct BodyReport {
     double lowest_layer = 0;    ///< From middle to middle of two, m.
     double highest_layer = 0;   ///< The same.
     std::int64_t beveled = 0;   ///< Of a shape's boundary: see StuffedSolid.
+    BoundaryReport boundary;    ///< Of a boundary of tetrahedra that was read.
 
     Proof proof;
     QualityReport quality;
@@ -144,7 +147,8 @@ struct Body {
 };
 
 /// Makes a pentachoral body from a surface (read, mend, resample, fill, extrude, prove), from a tet
-/// mesh (read, extrude, prove) or from a shape file (read, stuff with edges of edge_length, prove).
+/// mesh (read, extrude, prove) or from a shape file or a boundary (read, stuff with edges of
+/// edge_length, prove).
 ///
 /// If a surface that was clean or lightly mended cannot be filled, and a wrap is allowed, its wrap
 /// is. An edge length beyond that of the surface coarsens it. Throws an Error if the surface cannot

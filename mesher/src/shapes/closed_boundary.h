@@ -1,0 +1,21 @@
+#pragma once
+
+#include <pent/mesher/boundary_solid.h>
+
+namespace pent::mesher {
+
+/// Brings a hypersurface to a cycle: with every triangle on as many tetrahedra that see it from one
+/// side as from the other. Then the number of times that it winds around a point is whole.
+///
+/// Points at the same place become one. Of tetrahedra on the same corners those that face each
+/// other cancel. If that is a cycle it stays as it is, whatever crosses or touches. Else
+/// tetrahedra turn over to agree with their neighbors, and each hole, a connected part of the
+/// triangles that are still out of balance, gets a cone from its middle.
+///
+/// Throws an Error that begins with `name` if nothing is left, or for a hole that takes more than a
+/// quarter of what is there to close.
+[[nodiscard]] exchange::TetSurface closed_boundary(const exchange::TetSurface& surface,
+                                                   const std::string& name,
+                                                   BoundaryReport& report);
+
+}  // namespace pent::mesher
