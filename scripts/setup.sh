@@ -49,7 +49,7 @@ packages=(
     libcgal-dev libgmp-dev libmpfr-dev libboost-graph-dev  # mesher
     libassimp-dev libtet1.5-dev   # mesher: surface files, TetGen
     libmuparser-dev               # mesher: expressions of shapes
-    libexpat1-dev zlib1g-dev      # mesher: files of VTK
+    libexpat1-dev zlib1g-dev      # mesher: files of VTK, images that are compressed
     libembree-dev libpng-dev      # viewer: ray tracer, pictures
     libfreetype-dev fonts-dejavu-core  # viewer: captions
     libgtest-dev libbenchmark-dev # tests and benchmarks

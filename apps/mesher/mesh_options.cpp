@@ -105,6 +105,24 @@ void add_input(CLI::App& cli, MeshArguments& arguments) {
                     {{"paths", CubeCut::Paths}, {"corners", CubeCut::Corners}});
 }
 
+void add_image(CLI::App& cli, MeshArguments& arguments) {
+    const auto group = "Image";
+    CLI::Option* level = cli.add_option("--level", arguments.level,
+                                        "The body is where the image is above this value")
+                             ->group(group);
+    cli.add_flag("--labels", arguments.request.image.is_labels,
+                 "The image has whole numbers: 0 outside, others name regions of the body")
+        ->excludes(level)
+        ->group(group);
+    cli.add_option("--spacing", arguments.spacing,
+                   "Between samples along x,y,z,w (m); default: as in the file")
+        ->delimiter(',')
+        ->expected(4)
+        ->check(CLI::PositiveNumber)
+        ->type_name("X,Y,Z,W")
+        ->group(group);
+}
+
 void add_surface(CLI::App& cli, mesher::BodyRequest& request) {
     choose<Repair>(
         cli.add_option(
@@ -289,6 +307,7 @@ void add_options(CLI::App& cli, MeshArguments& arguments) {
         ->check(CLI::PositiveNumber);
     cli.add_flag("--yes", arguments.yes,
                  "Go ahead without asking where millions of cells, or minutes, are to be expected");
+    add_image(cli, arguments);
     add_surface(cli, arguments.request);
     add_resolution(cli, arguments);
     add_extrusion(cli, arguments);
@@ -302,6 +321,12 @@ void complete(const CLI::App& cli, MeshArguments& arguments) {
     request.scale = arguments.scale * arguments.unit;
     request.translation = Eigen::Map<const Eigen::VectorXd>(
         arguments.translation.data(), static_cast<Eigen::Index>(arguments.translation.size()));
+    if (cli.count("--level") > 0) {
+        request.image.level = arguments.level;
+    }
+    if (!arguments.spacing.empty()) {
+        request.image.spacing = Eigen::Vector4d(arguments.spacing.data());
+    }
     request.tetrahedra.keep_surface = !arguments.subdivide_surface;
     if (cli.count("--thickness") > 0) {
         request.extrusion.thickness = arguments.thickness;

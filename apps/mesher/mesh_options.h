@@ -36,7 +36,9 @@ struct MeshArguments {
     bool yes = false;  ///< Not to be asked about large bodies.
 
     std::filesystem::path input;
-    double unit = 1;  ///< m.
+    double level = 0;
+    std::vector<double> spacing;  ///< m.
+    double unit = 1;              ///< m.
     double scale = 1;
     std::vector<double> translation;  ///< m.
     int sphere = 0;

@@ -1,11 +1,11 @@
 #include "base_mesh.h"
 #include "fill_target.h"
 #include "requested_layers.h"
+#include "solid_input.h"
 #include "stage_clock.h"
 
 #include <pent/error.h>
 #include <pent/mesher/make_body.h>
-#include <pent/mesher/read_solid.h>
 #include <pent/mesher/stuff.h>
 #include <pent/mesher/subdivide.h>
 
@@ -272,66 +272,27 @@ bool is_flat(const Surface& surface) {
     return z.maxCoeff() == z.minCoeff();
 }
 
-// The path of the input if that is a file with a solid, else none.
-const std::filesystem::path* solid_file_of(const BodyRequest& request) {
-    const auto* path = std::get_if<std::filesystem::path>(&request.input);
-    const bool is_solid = path != nullptr && request.format.empty()
-                          && (is_shape_file(*path) || is_boundary_file(*path));
-    return is_solid ? path : nullptr;
-}
-
-// Refuses what a solid has no use for.
-void check_stuffing(const std::filesystem::path& path, const BodyRequest& request) {
-    refuse_extrusion(request);
-    if (request.surface_triangles > 0 || request.target_cells > 0) {
-        throw Error(path.string()
-                    + ": a shape is stuffed with edges of one length; leave out triangles and"
-                      " number of pentachora");
-    }
-    if (request.edge_length <= 0) {
-        throw Error(
-            path.string() + ": a shape needs the length of the edges; expected --edge-length"
-            + (is_shape_file(path) ? "" : ", or pent-convert for one that a point sees all of"));
-    }
-    if (request.repair.repair == Repair::Wrap) {
-        throw Error(path.string()
-                    + ": a wrap is for surfaces of triangles; expected --repair light or none");
-    }
-}
-
-Solid solid_in(const std::filesystem::path& path,
-               const BodyRequest& request,
-               BoundaryReport& report) {
-    if (is_shape_file(path)) {
-        return read_solid(path);
-    }
-    BoundarySolid found =
-        boundary_solid(read_boundary(path), path.string(), request.repair.repair != Repair::None);
-    report = found.report;
-    return std::move(found.solid);
-}
-
 Body<4> make_stuffed(const std::filesystem::path& path,
                      const BodyRequest& request,
                      StageClock& clock) {
-    // To stuff a cell on one core; of boundaries of 10^5 tetrahedra where most cells are at it.
-    const double seconds = is_shape_file(path) ? 6e-6 : 150e-6;
-    check_stuffing(path, request);
-    BodyReport report;
-    const Solid solid = clock.time("read", [&] {
-        return place(solid_in(path, request, report.boundary), request.scale,
-                     Eigen::Matrix4d::Identity(), Eigen::Vector4d::Zero());
-    });
+    refuse_extrusion(request);
+    check_solid_request(path, request);
+    const SolidInput input = clock.time("read", [&] { return read_solid_input(path, request); });
     StuffedSolid stuffed;
     try {
         ExpectedSize size =
-            expected_size<4>(estimate_cells(solid, request.edge_length), 1, 0, request);
-        size.seconds += seconds * size.cells;
+            expected_size<4>(estimate_cells(input.solid, request.edge_length), 1, 0, request);
+        size.seconds += input.seconds_per_cell * size.cells;
         announce(request, size);
-        stuffed = clock.time("stuff", [&] { return stuff(solid, request.edge_length); });
+        stuffed = clock.time("stuff", [&] { return stuff(input.solid, request.edge_length); });
     } catch (const Error& error) {
         throw Error(path.string() + ": " + error.what());
     }
+    if (input.labels) {
+        stuffed.mesh.regions = label_regions(stuffed.mesh, *input.labels, request.scale);
+    }
+    BodyReport report;
+    report.boundary = input.boundary;
     report.generator = "lattice stuffing";
     report.beveled = stuffed.beveled;
     return finish<4>(std::move(stuffed.mesh), 0, request, std::move(report), clock);
@@ -362,6 +323,7 @@ Body<4> make_body(const BodyRequest& request) {
     if (const auto* path = solid_file_of(request)) {
         return make_stuffed(*path, request, clock);
     }
+    refuse_image_options(request);
     BodyReport report;
     ExtrusionRequest extrusion = request.extrusion;
     if (has_tetrahedra(request)) {
@@ -384,6 +346,7 @@ Body<3> make_solid(const BodyRequest& request) {
     if (const auto* path = solid_file_of(request)) {
         throw Error(path->string() + ": is a shape of four dimensions; leave out --dim 3");
     }
+    refuse_image_options(request);
     BodyReport report;
     if (has_tetrahedra(request)) {
         refuse_extrusion(request);

@@ -18,7 +18,9 @@
 #include <pent/pent_file.h>
 #include <pent/runs/scene_file.h>
 #ifdef PENT_FUZZ_MESHER
+#include <pent/mesher/boundary_solid.h>
 #include <pent/mesher/edge_order.h>
+#include <pent/mesher/image.h>
 #include <pent/mesher/moving_mesh.h>
 #include <pent/mesher/profile.h>
 #include <pent/mesher/read_solid.h>
@@ -26,6 +28,7 @@
 #include <pent/mesher/surface.h>
 #endif
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -287,6 +290,20 @@ void try_series(const fs::path& path) {
     check_moving(mesher::read_moving_mesh(path));
 }
 
+void try_boundary(const fs::path& path) {
+    const mesher::BoundarySolid body =
+        mesher::boundary_solid(mesher::read_boundary(path), path.string());
+    require(body.report.patches > 0 && std::isfinite(body.solid.value({0.1, 0.2, 0.3, 0.4})),
+            "a boundary that is accepted encloses something");
+}
+
+void try_image(const fs::path& path) {
+    const mesher::Image image = mesher::read_image(path);
+    require(image.size.minCoeff() >= 2 && image.spacing.minCoeff() > 0
+                && image.values.size() == image.index(image.size.array() - 1) + 1,
+            "an image has a sample at every place");
+}
+
 void try_profile(const fs::path& path) {
     require(mesher::read_profile(path).size() >= 2, "a profile has two layers or more");
 }
@@ -345,6 +362,9 @@ const std::vector<Reader>& readers() {
         {"edges", ".edges", try_edges},
         {"profile", ".profile", try_profile},
         {"shape", ".toml", try_shape},
+        {"boundary", ".4off", try_boundary},
+        {"nifti", ".nii", try_image},
+        {"nrrd", ".nrrd", try_image},
 #endif
     };
     return all;

@@ -1,11 +1,13 @@
 #include "fields.h"
 
+#include "image_level.h"
 #include "tet_boundary.h"
 
 #include <pent/error.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <muParser.h>
 #include <mutex>
@@ -54,6 +56,10 @@ double value_of(const ExpressionField& field, const Eigen::Vector4d& p) {
 
 double value_of(const BoundaryField& field, const Eigen::Vector4d& p) {
     return field.boundary->value(p);
+}
+
+double value_of(const ImageField& field, const Eigen::Vector4d& p) {
+    return field.image->value(p);
 }
 
 // A parser with its own place for the point: it reads the variables where they are.
@@ -172,8 +178,16 @@ std::vector<int> pieces_near(const Field& field, const Eigen::Vector4d& p, doubl
     return pieces;
 }
 
-bool is_distance_bound(const Field& field) {
-    return !std::holds_alternative<ExpressionField>(field);
+ValueRange field_range(const Field& field, const Eigen::Vector4d& center, double radius) {
+    if (std::holds_alternative<ExpressionField>(field)) {
+        constexpr double kInfinity = std::numeric_limits<double>::infinity();
+        return {-kInfinity, kInfinity};
+    }
+    if (const auto* image = std::get_if<ImageField>(&field)) {
+        return image->image->range(center, radius);
+    }
+    const double value = field_value(field, center);
+    return {value - radius, value + radius};
 }
 
 }  // namespace pent::mesher

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <pent/mesher/solid.h>
+
 #include <Eigen/Core>
 
 #include <memory>
@@ -9,10 +11,11 @@
 
 namespace pent::mesher {
 
+class ImageLevel;
 class TetBoundary;
 
-/// Functions of a point of space in meters, negative inside. But for the expression, all change
-/// by no more than the distance that the point moves, and are smooth where they are zero, or the
+/// Functions of a point of space in meters, negative inside. But for expression and image, all
+/// change by no more than the distance that the point moves, and are smooth where they are zero, or the
 /// largest of a few that are: their pieces.
 
 /// Distance from the origin in some of the axes, less a radius: a ball, or a cylinder over one.
@@ -71,6 +74,11 @@ struct BoundaryField {
     std::shared_ptr<const TetBoundary> boundary;
 };
 
+/// Where an image is above a level.
+struct ImageField {
+    std::shared_ptr<const ImageLevel> image;
+};
+
 using Field = std::variant<RoundField,
                            CapsuleField,
                            HalfSpacesField,
@@ -78,7 +86,8 @@ using Field = std::variant<RoundField,
                            TigerField,
                            DitorusField,
                            ExpressionField,
-                           BoundaryField>;
+                           BoundaryField,
+                           ImageField>;
 
 [[nodiscard]] double field_value(const Field& field, const Eigen::Vector4d& p);
 
@@ -93,7 +102,9 @@ using Field = std::variant<RoundField,
                                            const Eigen::Vector4d& p,
                                            double margin);
 
-/// Whether it changes by no more than the distance that the point moves.
-[[nodiscard]] bool is_distance_bound(const Field& field);
+/// Bounds of the function within a ball; infinite for an expression.
+[[nodiscard]] ValueRange field_range(const Field& field,
+                                     const Eigen::Vector4d& center,
+                                     double radius);
 
 }  // namespace pent::mesher

@@ -1,5 +1,6 @@
 #include <pent/error.h>
 #include <pent/mesher/boundary_solid.h>
+#include <pent/mesher/image_solid.h>
 #include <pent/mesher/primitives.h>
 #include <pent/mesher/read_solid.h>
 #include <pent/toml_table.h>
@@ -11,6 +12,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <system_error>
@@ -122,6 +124,12 @@ const std::vector<std::pair<std::string, Reader>>& primitives() {
          [](Table& t) -> Maker {
              return [file = file_named_in(t), mend = t.flag("mend", false)] {
                  return boundary_solid(read_boundary(file), file.string(), mend).solid;
+             };
+         }},
+        {"image",
+         [](Table& t) -> Maker {
+             return [file = file_named_in(t), level = t.number("level")] {
+                 return image_solid(std::make_shared<const Image>(read_image(file)), level);
              };
          }},
     };

@@ -40,11 +40,12 @@ double node_value(const Data& data, int node, const Eigen::Vector4d& p) {
 ValueRange range_of(const Data& data, int node, const Eigen::Vector4d& center, double radius) {
     if (node < 0) {
         const Data::Leaf& leaf = data.leaves[~node];
-        if (!is_distance_bound(leaf.field)) {
-            return {-kInfinity, kInfinity};
-        }
-        const double value = leaf_value(leaf, center);
-        return {value - radius, value + radius};
+        // Of the leaf's own space, where lengths are the factor smaller.
+        const ValueRange own =
+            field_range(leaf.field, leaf.local(center), radius / std::abs(leaf.factor));
+        const double a = leaf.factor * own.low;
+        const double b = leaf.factor * own.high;
+        return {std::min(a, b), std::max(a, b)};
     }
     const Data::Node& inner = data.nodes[node];
     const ValueRange a = range_of(data, inner.left, center, radius);

@@ -61,6 +61,13 @@ struct ExtrusionRequest {
     std::filesystem::path edge_directions;  ///< File of directed edges, instead of an order.
 };
 
+/// How an image becomes a body: by one of level and labels.
+struct ImageRequest {
+    std::optional<double> level;  ///< The body is where samples are above it.
+    bool is_labels = false;       ///< Samples are numbers of regions, 0 is outside; cells get them.
+    std::optional<Eigen::Vector4d> spacing;  ///< Of samples, m, instead of the file's.
+};
+
 /// How large a body will be, before the work that depends on it.
 struct ExpectedSize {
     double cells = 0;
@@ -71,8 +78,8 @@ struct ExpectedSize {
 
 /// What pent-mesh is asked for.
 struct BodyRequest {
-    /// A file with a surface, a tet mesh, a shape or the boundary of a body (see read_surface,
-    /// read_tetrahedra, read_solid, read_boundary), or a shape that needs no file. The path "-" is
+    /// A file with a surface, a tet mesh, a shape, the boundary of a body or an image (see
+    /// read_surface, read_tetrahedra, read_solid, read_boundary, read_image), or a shape that needs no file. The path "-" is
     /// standard input.
     std::variant<std::filesystem::path, SphereShape, BallShape, BoxShape> input;
     std::string format;           ///< Of the file, as in "obj"; empty: by the ending of its name.
@@ -84,6 +91,7 @@ struct BodyRequest {
     std::int64_t target_cells = 0;  ///< To aim at in the body, within 2%; 0: as it comes.
     TetrahedraOptions tetrahedra;   ///< Its edge_length is for the inside alone.
     ExtrusionRequest extrusion;
+    ImageRequest image;
     /// Called when a stage of the work begins, as in "fill".
     std::function<void(const std::string& stage)> on_stage;
     /// Called with an estimate before a surface is filled or a shape stuffed, and with the number
@@ -147,7 +155,7 @@ struct Body {
 };
 
 /// Makes a pentachoral body from a surface (read, mend, resample, fill, extrude, prove), from a tet
-/// mesh (read, extrude, prove) or from a shape file or a boundary (read, stuff with edges of
+/// mesh (read, extrude, prove) or from a shape file, boundary or image (read, stuff with edges of
 /// edge_length, prove).
 ///
 /// If a surface that was clean or lightly mended cannot be filled, and a wrap is allowed, its wrap
