@@ -118,8 +118,8 @@ TEST(TetBoundary, WindsAroundWhatSomePentachoronHolds) {
     }
 }
 
-// A body's boundary is within the sagitta of its surface: where the function of the shape is further
-// from zero, both agree.
+// A body's boundary is within the sagitta of its surface: where the function of the shape is
+// further from zero, both agree.
 TEST(TetBoundary, AgreesWithTheShapeItWasMadeFrom) {
     std::mt19937 random(4);
     const Solid tiger = tiger_solid({0.8, 0.7}, 0.35);
