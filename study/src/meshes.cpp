@@ -4,7 +4,6 @@
 #include "child_process.h"
 
 #include <pent/error.h>
-#include <pent/output_folder.h>
 #include <pent/pent_file.h>
 
 #include <algorithm>
@@ -65,6 +64,7 @@ void make_mesh(const simulator::Body& body,
 simulator::Scene with_meshes(const simulator::Scene& scene,
                              const Settings& settings,
                              const StudyOptions& options,
+                             OutputFolder& folder,
                              const std::function<bool()>& should_stop) {
     const Settings level = mesh_settings(settings);
     simulator::Scene result = scene;
@@ -77,8 +77,7 @@ simulator::Scene with_meshes(const simulator::Scene& scene,
         if (!body.recipe.empty() && !(is_there && level.empty())) {
             is_known = true;
             const fs::path path =
-                OutputFolder(options.folder, kStudyFolder)
-                    .claim("meshes/" + body.name + "." + file_name(level) + ".pent");
+                folder.claim("meshes/" + body.name + "." + file_name(level) + ".pent");
             if (!fs::exists(path)) {
                 make_mesh(body, level, fs::absolute(path), options, should_stop);
             }

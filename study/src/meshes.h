@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/output_folder.h>
 #include <pent/simulator/scene.h>
 #include <pent/study/study.h>
 
@@ -23,9 +24,12 @@ inline constexpr const char* kStudyFolder = "study";
 ///
 /// Throws an Error if a mesh is missing and there is no recipe, if the settings have an axis of the
 /// mesh and no body has a recipe, and if pent-mesh fails.
+///
+/// @param folder  That of the study.
 [[nodiscard]] simulator::Scene with_meshes(const simulator::Scene& scene,
                                            const Settings& settings,
                                            const StudyOptions& options,
+                                           OutputFolder& folder,
                                            const std::function<bool()>& should_stop);
 
 /// A checksum over the checksums of the mesh files of all bodies.

@@ -211,7 +211,7 @@ void Study::run_level(const Scene& scene, const std::string& name) {
 }
 
 void Study::run_reference() {
-    Scene base = with_meshes(scene_, finest_mesh(axes_), options_, callbacks_.should_stop);
+    Scene base = with_meshes(scene_, finest_mesh(axes_), options_, folder_, callbacks_.should_stop);
     if (base.solver.integrator != simulator::Integrator::Quasistatic) {
         base = with_settings(base, {{"integrator", options_.reference_integrator}});
     }
@@ -319,7 +319,7 @@ void Study::run_once(std::size_t combination) {
 // fall on one of them alone.
 void Study::run_combinations() {
     for (const Settings& settings : combinations_) {
-        scenes_.push_back(with_meshes(scene_, settings, options_, callbacks_.should_stop));
+        scenes_.push_back(with_meshes(scene_, settings, options_, folder_, callbacks_.should_stop));
         Record fresh;
         try {
             scenes_.back() = with_settings(scenes_.back(), settings);
@@ -396,9 +396,10 @@ StudyReport run_study(const StudyOptions& options, const StudyCallbacks& callbac
 
 std::string scene_with(const StudyOptions& options, const Result& result, const fs::path& where) {
     // Of a mesh that was made for the study the text names the file in its folder.
-    const Scene scene =
-        with_settings(with_meshes(runs::read_scene(options.scene), result.settings, options, {}),
-                      result.settings);
+    OutputFolder folder(options.folder, kStudyFolder);
+    const Scene base =
+        with_meshes(runs::read_scene(options.scene), result.settings, options, folder, {});
+    const Scene scene = with_settings(base, result.settings);
     Scene moved = scene;
     for (simulator::Body& body : moved.bodies) {
         body.mesh = fs::proximate(body.mesh, fs::absolute(where)).string();

@@ -22,7 +22,8 @@ TEST(WithMeshes, KeepsMeshesThatAreThere) {
     const pent::test::TempFolder folder;
     const simulator::Scene scene = runs::read_scene(test::write_bar(folder));
     const StudyOptions options{.scene = folder / "bar.toml", .folder = folder / "study"};
-    EXPECT_EQ(with_meshes(scene, {}, options, {}).bodies[0].mesh,
+    OutputFolder output(options.folder, kStudyFolder);
+    EXPECT_EQ(with_meshes(scene, {}, options, output, {}).bodies[0].mesh,
               std::filesystem::absolute(folder / "bar.pent"));
 }
 
@@ -30,9 +31,10 @@ TEST(WithMeshes, NeedsARecipeForLevelsAndForAMeshThatIsMissing) {
     const pent::test::TempFolder folder;
     simulator::Scene scene = runs::read_scene(test::write_bar(folder));
     const StudyOptions options{.scene = folder / "bar.toml", .folder = folder / "study"};
+    OutputFolder output(options.folder, kStudyFolder);
     const auto message = [&](const Settings& settings) {
         return pent::test::error_of(
-            [&] { static_cast<void>(with_meshes(scene, settings, options, {})); });
+            [&] { static_cast<void>(with_meshes(scene, settings, options, output, {})); });
     };
     pent::test::expect_contains(message({{"layers", "2"}}), {"layers", "recipe"});
     scene.bodies[0].mesh = (folder / "none.pent").string();
