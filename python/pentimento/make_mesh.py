@@ -31,6 +31,9 @@ def make_mesh(
     unit: str | None = None,
     scale: float | None = None,
     translate: Sequence[float] | None = None,
+    level: float | None = None,
+    labels: bool = False,
+    spacing: Sequence[float] | None = None,
     output: _Path | None = None,
     dim: int | None = None,
     ascii: bool = False,
@@ -52,12 +55,22 @@ def make_mesh(
     thickness: float | None = None,
     extrude: Sequence[float] | None = None,
     layers: int | None = None,
+    grade: float | None = None,
+    layer_heights: Sequence[float] | None = None,
     round: bool = False,
     profile: _Path | None = None,
     one_sided: bool = False,
     order: str | None = None,
     edge_directions: _Path | None = None,
     lean: bool = False,
+    space_time: bool = False,
+    time_scale: float | None = None,
+    refine_time: int | str | None = None,
+    every: int | None = None,
+    time_step: float | None = None,
+    body: str | None = None,
+    region_array: str | None = None,
+    bisection: bool = False,
     threads: int | None = None,
     **more: Any,
 ) -> Mesh:
@@ -67,8 +80,9 @@ def make_mesh(
     keyword here, with the unit and range that `pent-mesh --help` and docs/mesher.md tell. Those of
     a later pent-mesh are taken as they come (`more`).
 
-    input   A file with a surface, tetrahedra or a four-dimensional shape; or arrays: (points,
-            triangles) of a closed surface, (points, tetrahedra) of a solid, points (n, 3) in m.
+    input   A file with a surface, tetrahedra, a four-dimensional shape or its boundary, an image of
+            four axes, or (with `space_time`) a moving mesh; or arrays: (points, triangles) of a
+            closed surface, (points, tetrahedra) of a solid, points (n, 3) in m.
             None with `sphere`, `ball` or `box`.
     output  Where the `.pent` file goes, if it is to stay.
 
@@ -77,9 +91,12 @@ def make_mesh(
     """
     others = ("input", "output", "more")
     given = {name: value for name, value in locals().items() if name not in (*others, "others")}
-    unknown = {"quiet", "json", "quality", "help", "version"} & more.keys()
+    unknown = {"quiet", "json", "quality", "slabs", "help", "version"} & more.keys()
     if unknown:
-        raise TypeError(f"{unknown.pop()}: is no keyword of make_mesh(); mesh.report has it all")
+        raise TypeError(
+            f"{unknown.pop()}: is no keyword of make_mesh(), which gives one mesh with all that is"
+            " told of it in mesh.report; pent-mesh itself takes it"
+        )
     words = _programs.options(**given, **more)
     with tempfile.TemporaryDirectory(prefix="pentimento-") as folder, _file_of(input) as file:
         path = Path(folder, "mesh.pent") if output is None else Path(output)

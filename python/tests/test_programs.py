@@ -26,8 +26,8 @@ def keywords_of(function) -> set[str]:
 @pytest.mark.parametrize(
     ("program", "functions", "without"),
     [
-        # What it prints is in Mesh.report.
-        ("pent-mesh", [make_mesh], {"quality"}),
+        # What it prints is in Mesh.report; slabs are several meshes.
+        ("pent-mesh", [make_mesh], {"quality", "slabs"}),
         ("pent-render", [render, pentimento.movie], set()),
         # Its files are read; the boundary of a mesh is Mesh.boundary().
         ("pent-slice", [pentimento.slice], {"format", "boundary", "output"}),
