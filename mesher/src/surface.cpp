@@ -64,7 +64,8 @@ TriangleSoup read_soup(const std::filesystem::path& path, const std::string& giv
         format.empty() ? "a name without an ending" : "a name that ends in \"" + format + "\"";
     throw Error(input_name(path) + ": " + ending
                 + "; surfaces end in .obj, .off, .ply, .stl, .gltf or .glb, tetrahedra in .node,"
-                  " .ele, .mesh, .msh, .vtk or .tobj; for others, and standard input, give the format");
+                  " .ele, .mesh, .msh, .vtk, .vtu or .tobj; for others, and standard input, give"
+                  " the format");
 }
 
 }  // namespace

@@ -61,8 +61,8 @@ typedef struct pent_hyperplane {
 /** A .pent file with a mesh, read and validated. */
 PENT_PLUGIN_API pent_stored_mesh* pent_read_mesh(const char* path);
 
-/** A mesh of arrays, copied, and validated as files are: indices in range, cells positively oriented
- * and not degenerate, numbers finite. */
+/** A mesh of arrays, copied, and validated as files are: indices in range, cells positively
+ * oriented and not degenerate, numbers finite. */
 PENT_PLUGIN_API pent_stored_mesh* pent_store_mesh(int dimension, const pent_mesh* mesh);
 
 /** Writes a .pent file. `created_by` is one line; `is_ascii` 0 for binary. */
@@ -93,8 +93,8 @@ PENT_PLUGIN_API int pent_slice_turned(const pent_stored_mesh* mesh,
                                       pent_surface* surface,
                                       const double** normals);
 
-/** How much the cells around each vertex are strained, with the vertices at `positions`: the mean of
- * |E|, the Frobenius norm of the Green strain, over the cells by their volume. One number a vertex,
+/** How much the cells around each vertex are strained, with the vertices at `positions`: the mean
+ * of |E|, the Frobenius norm of the Green strain, over the cells by their volume. One number a vertex,
  * which hold until this thread asks again. */
 PENT_PLUGIN_API const double* pent_mesh_strain(const pent_stored_mesh* mesh,
                                                const double* positions);

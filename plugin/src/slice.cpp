@@ -59,6 +59,10 @@ pent_surface show(viewer::Surface made, const viewer::Hyperplane& plane, SeenSur
     return surface;
 }
 
+[[noreturn]] void refuse_sheet(const std::string& name) {
+    throw Error(name + ": a mesh of 2 dimensions; slices and strains are of bodies of 3 or 4");
+}
+
 // Calls work(mesh, stored) with a mesh of 3 or 4 dimensions.
 template <typename Value, typename Work>
 Value with_solid(const pent_stored_mesh* handle, Value failure, const Work& work) {
@@ -68,8 +72,7 @@ Value with_solid(const pent_stored_mesh* handle, Value failure, const Work& work
                        return std::visit(
                            [&]<int Dim>(const SimplexMesh<Dim>& held) -> Value {
                                if constexpr (Dim == 2) {
-                                   throw Error(stored->name
-                                + ": a mesh of 2 dimensions; slices and strains are of bodies of 3 or 4");
+                                   refuse_sheet(stored->name);
                                } else {
                                    return work(held, *stored);
                                }

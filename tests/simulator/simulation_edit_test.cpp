@@ -56,8 +56,8 @@ Simulation<Dim> start(const Scene& scene, int threads = 1) {
                            {.threads = threads});
 }
 
-// Through steps of every integrator, states that are set and restored: one address, and what it shows
-// is the state of the time.
+// Through steps of every integrator, states that are set and restored: one address, and what it
+// shows is the state of the time.
 TYPED_TEST(Edit, ViewsShowTheStateWhereverAStepTakesIt) {
     constexpr int kDim = TypeParam::value;
     for (const Integrator integrator : kWithInertia) {

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPlayground = "playground.js";  // beside the page, where it was built
 
-// What the page needs: its own scripts and style, workers that it makes itself, the simulator in one
-// of them, files of the run.
+// What the page needs: its own scripts and style, workers that it makes itself, the simulator in
+// one of them, files of the run.
 constexpr const char* kPolicy =
     "Content-Security-Policy: default-src 'none'; "
     "script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval' blob:; "

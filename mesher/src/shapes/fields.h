@@ -15,8 +15,8 @@ class ImageLevel;
 class TetBoundary;
 
 /// Functions of a point of space in meters, negative inside. But for expression and image, all
-/// change by no more than the distance that the point moves, and are smooth where they are zero, or the
-/// largest of a few that are: their pieces.
+/// change by no more than the distance that the point moves, and are smooth where they are zero, or
+/// the largest of a few that are: their pieces.
 
 /// Distance from the origin in some of the axes, less a radius: a ball, or a cylinder over one.
 struct RoundField {

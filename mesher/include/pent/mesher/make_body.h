@@ -79,8 +79,8 @@ struct ExpectedSize {
 /// What pent-mesh is asked for.
 struct BodyRequest {
     /// A file with a surface, a tet mesh, a shape, the boundary of a body or an image (see
-    /// read_surface, read_tetrahedra, read_solid, read_boundary, read_image), or a shape that needs no file. The path "-" is
-    /// standard input.
+    /// read_surface, read_tetrahedra, read_solid, read_boundary, read_image), or a shape that needs
+    /// no file. The path "-" is standard input.
     std::variant<std::filesystem::path, SphereShape, BallShape, BoxShape> input;
     std::string format;           ///< Of the file, as in "obj"; empty: by the ending of its name.
     double scale = 1;             ///< Coordinates in the file times this are m; above 0.
