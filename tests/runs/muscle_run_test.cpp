@@ -144,6 +144,8 @@ TEST(RunOfMuscles, ResumesToTheSameBytesAndReportsRegionsAndWork) {
     const Scene scene = parse_scene(text, "s.toml", folder.path());
     const RunReport whole = run(scene, {.folder = folder / "whole", .threads = 2});
     ASSERT_EQ(whole.verdict, RunVerdict::Finished) << whole.message;
+    EXPECT_EQ(read_report(folder / "whole/report.json").bodies.at(0).regions,
+              (std::vector<std::string>{"bone", "skin"}));
     double work = 0;
     for (const StepReport& step : whole.steps) {
         ASSERT_EQ(step.regions.size(), 2);

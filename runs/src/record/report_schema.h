@@ -90,7 +90,7 @@ void fields(Part& step, const Visit& visit) {
           step.angular_momentum);
     visit(key("constraints", "", "one for each").may_be_missing(), step.constraints);
     visit(key("attachments", "", "one for each").may_be_missing(), step.attachments);
-    visit(key("regions", "", "one for each, body after body").may_be_missing(), step.regions);
+    visit(key("regions", "", "one for each of `bodies`, body after body").may_be_missing(), step.regions);
     visit(key("activation_work", "J", "done by activations on the bodies in the step")
               .may_be_missing(),
           step.activation_work);
@@ -125,6 +125,8 @@ template <PartOf<BodyReport> Part, typename Visit>
 void fields(Part& body, const Visit& visit) {
     visit(key("name"), body.name);
     visit(key("non_rigid_max", "", "largest `non_rigid` of all frames"), body.non_rigid_max);
+    visit(key("regions", "", "names of its regions, in the order of the scene").may_be_missing(),
+          body.regions);
 }
 
 template <PartOf<simulator::SimulationSize> Part, typename Visit>

@@ -67,7 +67,11 @@ public:
             report_.warnings.insert(report_.warnings.end(), lines.begin(), lines.end());
         }
         for (const Body& body : scene.bodies) {
-            report_.bodies.push_back({.name = body.name});
+            std::vector<std::string> regions;
+            for (const Region& region : body.regions) {
+                regions.push_back(region.name);
+            }
+            report_.bodies.push_back({.name = body.name, .regions = std::move(regions)});
         }
     }
 

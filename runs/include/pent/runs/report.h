@@ -42,6 +42,8 @@ struct RunPart {
 struct BodyReport {
     std::string name;
     double non_rigid_max = 0;  ///< The largest of all frames.
+    /// Names of its regions, in the order of the scene; steps list them, body after body.
+    std::vector<std::string> regions;
 };
 
 /// What report.json says of a run.
