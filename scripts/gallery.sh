@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# The scenes beyond the paper, bodies that are tied, driven and alive, and shapes of four dimensions: makes their meshes, runs them, and makes
-# slices, contact sheets and movies, by the recipes in the comments of their files. Each takes about a
-# minute on two cores. What is up to date is not made again.
+# The scenes beyond the paper, bodies that are tied, driven and alive, and shapes of four dimensions:
+# makes their meshes, runs them, and makes slices, contact sheets and movies, by the recipes in the
+# comments of their files. Each takes about a minute on two cores. What is up to date is not made again.
 #
-#   scripts/gallery.sh                       all of octopus_crawl octopus_rope puppet walker duocylinders twentyfour_cell
+#   scripts/gallery.sh                       all of octopus_crawl octopus_rope puppet walker bones
+#                                            duocylinders twentyfour_cell
 #   scripts/gallery.sh puppet walker         these
 #
 # The results are in out/gallery; docs/gallery.md shows them.
@@ -11,7 +12,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 . scripts/scene_steps.sh
 
-all=(octopus_crawl octopus_rope puppet walker duocylinders twentyfour_cell)
+all=(octopus_crawl octopus_rope puppet walker bones duocylinders twentyfour_cell)
 names=("$@")
 [ $# -gt 0 ] || names=("${all[@]}")
 for name in "${names[@]}"; do

@@ -132,30 +132,37 @@ TYPED_TEST(RegionTest, OfTheSameMaterialChangeNothing) {
     }
 }
 
-// Two springs in a row, of which one is four times as stiff: without lateral contraction a bar
-// pulled along its axis is stretched by 4/5 in its soft half. The pull is so small that elasticity
-// is linear.
+// A cube of young 1e5 Pa, with four times as much beyond the middle of an axis, held at one end of
+// the first axis and pulled by 1e-5 m at the other: so little that elasticity is linear. It does not
+// contract sideways.
+template <int Dim>
+Scene pulled_cube(ElementKind kind, int stiff_along) {
+    Scene scene = test::box_scene<Dim>();
+    scene.solver.elements = kind;
+    scene.solver.integrator = Integrator::Quasistatic;
+    scene.solver.precision = Precision::Double;
+    scene.solver.tolerance = 1e-10;
+    scene.solver.newton_tolerance = 1e-9;
+    scene.bodies[0].material.lame = lame_from_young(Dim, 1e5, 0);
+    Region stiff;
+    stiff.name = "stiff";
+    stiff.select = {HalfSpaceSelection{-Eigen::VectorXd::Unit(Dim, stiff_along), -0.25}};
+    stiff.material.lame = lame_from_young(Dim, 4e5, 0);
+    scene.bodies[0].regions = {stiff};
+    scene.constraints = {
+        test::hold(HalfSpaceSelection{Eigen::VectorXd::Unit(Dim, 0), 1e-9}, test::still(Dim))};
+    Motion pull = test::still(Dim);
+    pull.translate[0] = 1e-5 * scene.frames_per_second;
+    scene.constraints.push_back(
+        test::hold(HalfSpaceSelection{-Eigen::VectorXd::Unit(Dim, 0), -0.5 + 1e-9}, pull));
+    return scene;
+}
+
+// Two springs in a row, of which one is four times as stiff: the soft half is stretched by 4/5.
 TYPED_TEST(RegionTest, InARowStretchLikeSpringsInARow) {
     constexpr int kDim = TypeParam::value;
     for (const ElementKind kind : kKinds) {
-        Scene scene = test::box_scene<kDim>();
-        scene.solver.elements = kind;
-        scene.solver.integrator = Integrator::Quasistatic;
-        scene.solver.precision = Precision::Double;
-        scene.solver.tolerance = 1e-10;
-        scene.solver.newton_tolerance = 1e-9;
-        scene.bodies[0].material.lame = lame_from_young(kDim, 1e5, 0);
-        Region stiff;
-        stiff.name = "stiff";
-        stiff.select = {HalfSpaceSelection{-Eigen::VectorXd::Unit(kDim, 0), -0.25}};
-        stiff.material.lame = lame_from_young(kDim, 4e5, 0);
-        scene.bodies[0].regions = {stiff};
-        scene.constraints = {test::hold(HalfSpaceSelection{Eigen::VectorXd::Unit(kDim, 0), 1e-9},
-                                        test::still(kDim))};
-        Motion pull = test::still(kDim);
-        pull.translate[0] = 1e-5 * scene.frames_per_second;
-        scene.constraints.push_back(
-            test::hold(HalfSpaceSelection{-Eigen::VectorXd::Unit(kDim, 0), -0.5 + 1e-9}, pull));
+        const Scene scene = pulled_cube<kDim>(kind, 0);
         Simulation<kDim> simulation(scene, {cube_for<kDim>(scene, cells_of(kind))});
         const StepReport report = simulation.step();
         ASSERT_TRUE(report.is_accepted) << report.failure;
@@ -167,6 +174,22 @@ TYPED_TEST(RegionTest, InARowStretchLikeSpringsInARow) {
         }
         ASSERT_EQ(report.regions.size(), 1);
         EXPECT_NEAR(report.regions[0].energy, 0.2 * report.energies.of("elastic"),
+                    1e-3 * report.energies.of("elastic"));
+    }
+}
+
+// Two springs side by side, as flesh around a bone: both are stretched alike, and their forces add
+// up: strain 2e-5 times half the end of 0.5^(n - 1) m^(n - 1) times each Young's modulus.
+TYPED_TEST(RegionTest, SideBySideAddUpTheirForces) {
+    constexpr int kDim = TypeParam::value;
+    for (const ElementKind kind : kKinds) {
+        const Scene scene = pulled_cube<kDim>(kind, 1);
+        Simulation<kDim> simulation(scene, {cube_for<kDim>(scene, cells_of(kind))});
+        const StepReport report = simulation.step();
+        ASSERT_TRUE(report.is_accepted) << report.failure;
+        const double force = 2e-5 * std::pow(0.5, kDim - 1) * (1e5 + 4e5) / 2;
+        EXPECT_NEAR(report.constraints.at(1).force[0], force, 1e-3 * force);
+        EXPECT_NEAR(report.regions.at(0).energy, 0.8 * report.energies.of("elastic"),
                     1e-3 * report.energies.of("elastic"));
     }
 }
