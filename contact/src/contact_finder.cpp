@@ -220,7 +220,7 @@ template <int Dim>
 ContactFinder<Dim>::ContactFinder(ContactScene<Dim> scene) {
     check(scene.options, "contact");
     for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
-        pent::check<Dim>(scene.obstacles[i].shape, Dim, "obstacle " + std::to_string(i));
+        pent::check<Dim>(scene.obstacles[i].shape, Dim, "obstacle " + std::to_string(i + 1));
     }
     state_ = std::make_unique<State>(std::move(scene));
 }

@@ -269,7 +269,7 @@ std::vector<Crossing> find_crossings(const Colliders<Dim>& colliders,
 template <int Dim>
 std::string describe(const Crossing& crossing, const ContactScene<Dim>& scene) {
     const ContactBody<Dim>& body = scene.bodies[crossing.first.index];
-    const std::string obstacle = "obstacle " + std::to_string(crossing.second.index);
+    const std::string obstacle = "obstacle " + std::to_string(crossing.second.index + 1);
     if (crossing.first_corners.empty()) {
         return obstacle + " is inside '" + body.name + "'";
     }

@@ -142,7 +142,7 @@ TYPED_TEST(CrossingsTest, WithObstaclesAreReported) {
     const auto sunk = crossings_of<kDim>(scene, false, {HalfSpace<kDim>{up, 0.5}});
     EXPECT_EQ(sunk.size(), 1U << (kDim - 1));
     EXPECT_EQ(describe<kDim>(sunk[0], scene_of<kDim>(scene)),
-              "vertex 0 of 'a' is inside obstacle 0");
+              "vertex 0 of 'a' is inside obstacle 1");
     // A ball that cuts a side between its vertices.
     Vector<kDim> center = Vector<kDim>::Constant(0.5);
     center[0] = -0.1;
@@ -177,7 +177,7 @@ TYPED_TEST(CrossingsTest, WithAnObstacleThatABodyHasSwallowedAreReported) {
           Obstacle<kDim>(Cuboid<kDim>{middle, Vector<kDim>::Constant(0.9)})}) {
         const std::vector<Crossing> crossings = crossings_of<kDim>(scene, false, {obstacle});
         ASSERT_EQ(crossings.size(), 1U);
-        EXPECT_EQ(describe<kDim>(crossings[0], scene_of<kDim>(scene)), "obstacle 0 is inside 'a'");
+        EXPECT_EQ(describe<kDim>(crossings[0], scene_of<kDim>(scene)), "obstacle 1 is inside 'a'");
     }
 }
 

@@ -175,7 +175,7 @@ TEST(MovingObstacles, ThatGoTooFarInAStepOfABarrierAreReportedAndCutTheStep) {
     const StepReport report = simulation.step();
     EXPECT_FALSE(report.is_accepted);
     pent::test::expect_contains(report.failure, {"an obstacle moves so far in a step that vertex",
-                                                 "of 'box' is inside obstacle 0", "slowly"});
+                                                 "of 'box' is inside obstacle 1", "slowly"});
     scene.solver.max_halvings = 6;
     Simulation<3> cut(scene, {cube<3>(1)});
     const StepReport accepted = cut.step();

@@ -378,7 +378,8 @@ RunReport run_in(const Scene& scene, const RunOptions& options, const RunCallbac
         const std::string created_by = options.created_by + ", cells that cross";
         const std::string path = crossings_path(options.folder, created_by).string();
         write_mesh<Dim>(path, error.offenders(), {.created_by = created_by});
-        throw Error(std::string(error.what()) + "; " + path + " has the cells");
+        throw Error(std::string(error.what()) + "; " + path + " has the cells; place them apart,"
+                      " or let contact have model = \"penalty\"");
     }
 }
 
