@@ -78,22 +78,32 @@ std::string Simulation<Dim>::Stepper::failure_reason(const Energies& before) con
         return "the elastic energy grew a hundred times; take smaller steps, or newton_euler, which"
                " comes back from far";
     }
-    return may_have_tunneled()
-               ? "in contact something moved by more than the extent of the thinnest body:"
-                 " bodies could pass through each other unseen; take smaller steps"
-               : "";
+    return tunneling();
 }
 
-// Whether penalties, which see only what is near or inside at the end of a step, can have missed
-// something.
+// Why something may have got through in one step; empty if nothing has moved so far. Penalties see
+// only what is near or inside at the end of a step. With a barrier Newton's method crosses nothing
+// on its way, but that may lead around what is in the way.
 template <int Dim>
-bool Simulation<Dim>::Stepper::may_have_tunneled() const {
-    if (!scene_.contact || scene_.contact->model != ContactModel::Penalty) {
-        return false;
+std::string Simulation<Dim>::Stepper::tunneling() const {
+    if (!scene_.contact) {
+        return "";
     }
     const Positions<Dim> moves = next_.positions - current_.positions;
     const Eigen::Matrix<double, Dim, 1> mean = moves.rowwise().mean();
-    return (moves.colwise() - mean).colwise().norm().maxCoeff() > thinnest_;
+    if (!((moves.colwise() - mean).colwise().norm().maxCoeff() > thinnest_)) {
+        return "";
+    }
+    if (scene_.contact->model == ContactModel::Penalty) {
+        return "in contact something moved by more than the extent of the thinnest body:"
+               " bodies could pass through each other unseen; take smaller steps";
+    }
+    return energy_.contact->max_step(current_.positions, next_.positions) < 1
+               ? "something got around what is in its way in one step, by more than the extent of"
+                 " the thinnest body: "
+                     + energy_.contact->describe(energy_.contact->limit().limiting)
+                     + "; take smaller steps"
+               : "";
 }
 
 // Newton's method without a barrier: Dirichlet vertices are at their places from the beginning, and

@@ -75,7 +75,7 @@ private:
     [[nodiscard]] StepProblem<Dim> make_problem(double time, double h) const;
     void set_velocities(const StepProblem<Dim>& problem, double time);
     [[nodiscard]] std::string failure_reason(const Energies& before) const;
-    [[nodiscard]] bool may_have_tunneled() const;
+    [[nodiscard]] std::string tunneling() const;
     [[nodiscard]] bool wake_for(const Positions<Dim>& prescribed);
     bool restore_host(const HostState<Dim>& host);
     void break_springs();
