@@ -1,5 +1,6 @@
 #include "pent/contact/obstacles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -116,6 +117,35 @@ SignedDistance<Dim> signed_distance(const Obstacle<Dim>& obstacle, const Vector<
     return std::visit([&](const auto& shape) { return distance_to(shape, point); }, obstacle);
 }
 
+// Distances have slope one: from where one is d, nothing nearer than d along the way is in the solid.
+template <int Dim>
+bool passes_through(const Obstacle<Dim>& obstacle,
+                    const Vector<Dim>& from,
+                    const Vector<Dim>& to,
+                    double depth) {
+    const auto above = [&](const Vector<Dim>& point) {
+        return signed_distance(obstacle, point).value + depth;
+    };
+    const double length = (to - from).norm();
+    if (!(length > 2 * depth)) {
+        return false;  // in and out again is farther
+    }
+    const double at_end = above(to);
+    double height = above(from);
+    if (height <= 0 || at_end <= 0) {
+        return false;
+    }
+    double way = 0;
+    while (height > 0) {
+        way += std::max(height, depth / 8);
+        if (way >= length - at_end) {
+            return false;
+        }
+        height = above(from + way / length * (to - from));
+    }
+    return true;
+}
+
 template <int Dim>
 ObstacleCore<Dim> core_of(const Obstacle<Dim>& obstacle) {
     return std::visit(
@@ -131,6 +161,8 @@ ObstacleCore<Dim> core_of(const Obstacle<Dim>& obstacle) {
 
 #define PENT_INSTANTIATE(Dim)                                                                    \
     template SignedDistance<Dim> signed_distance<Dim>(const Obstacle<Dim>&, const Vector<Dim>&); \
+    template bool passes_through<Dim>(const Obstacle<Dim>&, const Vector<Dim>&,                  \
+                                      const Vector<Dim>&, double);                               \
     template ObstacleCore<Dim> core_of<Dim>(const Obstacle<Dim>&);
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)

@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -91,6 +93,45 @@ TYPED_TEST(ObstaclesTest, DistanceIsContinuousAndHasSlopeOne) {
                                             * signed_distance<kDim>(obstacle, a).gradient;
             EXPECT_NEAR(signed_distance<kDim>(obstacle, foot).value, 0, 1e-7);
         }
+    }
+}
+
+// Beside sampling the way densely; ways that are deeper than asked by less than an eighth may be
+// overlooked, and are not judged.
+TYPED_TEST(ObstaclesTest, ArePassedThroughByWaysThatGoDeepAndComeOutAgain) {
+    constexpr int kDim = TypeParam::value;
+    constexpr double kDepth = 0.05;
+    constexpr int kSamples = 4000;
+    std::array<int, 2> found{};
+    for (const auto& obstacle : this->obstacles()) {
+        for (int trial = 0; trial < 300; ++trial) {
+            const Vector<kDim> from = this->random_point(2);
+            const Vector<kDim> to = this->random_point(2);
+            const auto height = [&](double t) {
+                return signed_distance<kDim>(obstacle, from + t * (to - from)).value;
+            };
+            double lowest = std::numeric_limits<double>::infinity();
+            for (int i = 0; i <= kSamples; ++i) {
+                lowest = std::min(lowest, height(static_cast<double>(i) / kSamples));
+            }
+            if (lowest < -kDepth && lowest > -1.13 * kDepth) {
+                continue;
+            }
+            const bool is_passed =
+                std::min(height(0), height(1)) > -kDepth && lowest <= -1.13 * kDepth;
+            EXPECT_EQ(passes_through<kDim>(obstacle, from, to, kDepth), is_passed) << lowest;
+            ++found[is_passed ? 1 : 0];
+        }
+    }
+    EXPECT_GT(found[0], 300);
+    EXPECT_GT(found[1], 30);
+    // Half-spaces and hollow balls have no far side.
+    const auto all = this->obstacles();
+    for (int trial = 0; trial < 300; ++trial) {
+        const Vector<kDim> from = this->random_point(5);
+        const Vector<kDim> to = this->random_point(5);
+        EXPECT_FALSE(passes_through<kDim>(all[0], from, to, kDepth));
+        EXPECT_FALSE(passes_through<kDim>(all[2], from, to, kDepth));
     }
 }
 

@@ -84,14 +84,22 @@ std::vector<pent::Obstacle<Dim>> ObstacleMotions<Dim>::at(double time) const {
 }
 
 template <int Dim>
+typename ObstacleMotions<Dim>::Placement ObstacleMotions<Dim>::carried(std::size_t obstacle,
+                                                                       double from,
+                                                                       double to) const {
+    const Placement before = placement(obstacle, from);
+    const Placement now = placement(obstacle, to);
+    const Matrix<Dim> rotation = now.rotation * before.rotation.transpose();
+    return {rotation, now.shift - rotation * before.shift};
+}
+
+template <int Dim>
 Vector<Dim> ObstacleMotions<Dim>::travel(std::size_t obstacle,
                                          const Vector<Dim>& point,
                                          double from,
                                          double to) const {
-    const Placement before = placement(obstacle, from);
-    const Placement now = placement(obstacle, to);
-    const Vector<Dim> at_start = now.rotation.transpose() * (point - now.shift);
-    return point - (before.rotation * at_start + before.shift);
+    const Placement before = carried(obstacle, to, from);
+    return point - (before.rotation * point + before.shift);
 }
 
 template <int Dim>

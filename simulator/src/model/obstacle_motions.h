@@ -13,6 +13,12 @@ namespace pent::simulator {
 template <int Dim>
 class ObstacleMotions {
 public:
+    /// X goes to rotation X + shift.
+    struct Placement {
+        Matrix<Dim> rotation;
+        Vector<Dim> shift;
+    };
+
     explicit ObstacleMotions(const Scene& scene);
 
     /// Whether any has a motion.
@@ -20,6 +26,9 @@ public:
 
     /// All of them at a time, s; those without a motion as the scene has them, to the bit.
     [[nodiscard]] std::vector<pent::Obstacle<Dim>> at(double time) const;
+
+    /// Where what goes with an obstacle is at one time, of where it is at another.
+    [[nodiscard]] Placement carried(std::size_t obstacle, double from, double to) const;
 
     /// How far the point of an obstacle that is at `point` at one time has come since another, m.
     [[nodiscard]] Vector<Dim> travel(std::size_t obstacle,
@@ -31,11 +40,6 @@ public:
     [[nodiscard]] bool is_moving(std::size_t obstacle, double from, double to) const;
 
 private:
-    // X goes to rotation X + shift.
-    struct Placement {
-        Matrix<Dim> rotation;
-        Vector<Dim> shift;
-    };
     struct Moved {
         pent::Obstacle<Dim> start;
         std::vector<CenteredMotion<Dim>> motions;

@@ -62,6 +62,15 @@ contact::ContactScene<Dim> contact_scene(const Scene& scene,
     return result;
 }
 
+template <int Dim>
+contact::Collider body_of(std::uint32_t vertex, const contact::ContactScene<Dim>& scene) {
+    const auto behind = std::upper_bound(
+        scene.bodies.begin(), scene.bodies.end(), vertex,
+        [](std::uint32_t v, const auto& body) { return v < body.surface.first_vertex; });
+    return {contact::Collider::Kind::Body,
+            static_cast<std::uint32_t>(behind - scene.bodies.begin() - 1)};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -148,6 +157,32 @@ std::string ContactPotential<Dim>::obstacle_in_the_way(const Positions<Dim>& x) 
                ? "an obstacle moves so far in a step that " + describe(limit_.limiting)
                      + "; take smaller steps, or move it more slowly"
                : "";
+}
+
+template <int Dim>
+std::string ContactPotential<Dim>::obstacle_passed(const Positions<Dim>& from,
+                                                   const Positions<Dim>& to) const {
+    if (!has_obstacles_ || is_barrier_) {
+        return "";
+    }
+    const contact::ContactScene<Dim>& scene = finder_->scene();
+    for (std::uint32_t o = 0; o < obstacles_.size(); ++o) {
+        const auto carried = motions_.carried(o, step_.begin, step_.end);
+        for (std::uint32_t vertex = 0; vertex < scene.is_fixed.size(); ++vertex) {
+            // As the obstacle sees it, which stands where it is in the end.
+            const Vector<Dim> start = carried.rotation * from.col(vertex) + carried.shift;
+            if (!scene.is_fixed[vertex]
+                && contact::passes_through<Dim>(obstacles_[o], start, to.col(vertex),
+                                                scene.obstacles[o].distance)) {
+                return describe({.kind = contact::CrossingKind::Through,
+                                 .first = body_of(vertex, scene),
+                                 .second = {contact::Collider::Kind::Obstacle, o},
+                                 .first_corners = {vertex},
+                                 .second_corners = {}});
+            }
+        }
+    }
+    return "";
 }
 
 template <int Dim>

@@ -86,24 +86,33 @@ std::string Simulation<Dim>::Stepper::failure_reason(const Energies& before) con
 // on its way, but that may lead around what is in the way.
 template <int Dim>
 std::string Simulation<Dim>::Stepper::tunneling() const {
-    if (!scene_.contact) {
+    if (energy_.contact->is_empty()) {
         return "";
     }
+    constexpr const char* kAdvice = "; take smaller steps";
     const Positions<Dim> moves = next_.positions - current_.positions;
     const Eigen::Matrix<double, Dim, 1> mean = moves.rowwise().mean();
-    if (!((moves.colwise() - mean).colwise().norm().maxCoeff() > thinnest_)) {
-        return "";
+    const double largest = moves.colwise().norm().maxCoeff();
+    const double largest_apart = (moves.colwise() - mean).colwise().norm().maxCoeff();
+    if (energy_.contact->is_bounded()) {
+        // Against obstacles what all do together counts.
+        const double most = scene_.obstacles.empty() ? largest_apart : largest;
+        return most > thinnest_
+                       && energy_.contact->max_step(current_.positions, next_.positions) < 1
+                   ? "something got around what is in its way in one step, by more than the extent"
+                     " of the thinnest body: "
+                         + energy_.contact->describe(energy_.contact->limit().limiting) + kAdvice
+                   : "";
     }
-    if (scene_.contact->model == ContactModel::Penalty) {
-        return "in contact something moved by more than the extent of the thinnest body:"
-               " bodies could pass through each other unseen; take smaller steps";
+    if (scene_.contact && largest_apart > thinnest_) {
+        return std::string(
+                   "in contact something moved by more than the extent of the thinnest"
+                   " body: bodies could pass through each other unseen")
+               + kAdvice;
     }
-    return energy_.contact->max_step(current_.positions, next_.positions) < 1
-               ? "something got around what is in its way in one step, by more than the extent of"
-                 " the thinnest body: "
-                     + energy_.contact->describe(energy_.contact->limit().limiting)
-                     + "; take smaller steps"
-               : "";
+    const std::string passed =
+        energy_.contact->obstacle_passed(current_.positions, next_.positions);
+    return passed.empty() ? "" : passed + " in one step, unseen by penalties" + kAdvice;
 }
 
 // Newton's method without a barrier: Dirichlet vertices are at their places from the beginning, and

@@ -51,6 +51,16 @@ template <int Dim>
 [[nodiscard]] SignedDistance<Dim> signed_distance(const Obstacle<Dim>& obstacle,
                                                   const Vector<Dim>& point);
 
+/// Whether the straight way between two points that are not so deep in an obstacle goes deeper into
+/// it than `depth`; ways that are deeper by less than an eighth of it may be overlooked.
+///
+/// @param depth  m, > 0.
+template <int Dim>
+[[nodiscard]] bool passes_through(const Obstacle<Dim>& obstacle,
+                                  const Vector<Dim>& from,
+                                  const Vector<Dim>& to,
+                                  double depth);
+
 [[nodiscard]] inline Repels repels(const auto& obstacle) {
     return std::visit([](const auto& shape) { return shape.kRepels; }, obstacle);
 }
