@@ -8,6 +8,7 @@
 #   scripts/setup.sh --web      also what web.sh and test.sh --web need: node, npm, emscripten, Chromium
 #   scripts/setup.sh --python   also what test.sh --python needs: pytest, mypy, tqdm, Jupyter's nbconvert
 #   scripts/setup.sh --hosts    also what test.sh --hosts needs: Blender, ParaView, a display in memory (1.2 GB)
+#   scripts/setup.sh --distributed also what test.sh --distributed needs: PETSc, MPI, Slurm, GNU parallel
 #   scripts/setup.sh --site     also what site.sh needs: Sphinx, MyST, Furo, Doxygen
 #   scripts/setup.sh --package  also what package.sh needs: dpkg-dev, lintian
 #   scripts/setup.sh --check    only say what is missing; exit code 1 if anything is
@@ -21,6 +22,7 @@ with_page=false
 with_web=false
 with_python=false
 with_hosts=false
+with_distributed=false
 with_site=false
 with_package=false
 only_check=false
@@ -32,10 +34,11 @@ for argument in "$@"; do
         --web) with_page=true; with_web=true ;;
         --python) with_python=true ;;
         --hosts) with_hosts=true ;;
+        --distributed) with_distributed=true ;;
         --site) with_site=true ;;
         --package) with_package=true ;;
         --check) only_check=true ;;
-        *) echo "setup: unknown argument $argument; expected --tools, --portable, --page, --web, --python, --hosts, --site, --package or --check" >&2; exit 2 ;;
+        *) echo "setup: unknown argument $argument; expected --tools, --portable, --page, --web, --python, --hosts, --distributed, --site, --package or --check" >&2; exit 2 ;;
     esac
 done
 
@@ -85,6 +88,12 @@ if $with_hosts; then
         blender
         paraview python3-paraview
         xvfb xauth libgl1-mesa-dri        # Debian's ParaView draws with X alone
+    )
+fi
+if $with_distributed; then
+    packages+=(
+        libpetsc-real-dev libopenmpi-dev openmpi-bin  # one simulation on many machines
+        slurm-wlm munge parallel                      # studies on many machines
     )
 fi
 if $with_site; then

@@ -14,9 +14,11 @@
 #   scripts/test.sh --python                  only the Python package: its tests, its types, 10,000 calls at random,
 #                                             its wheel in a fresh environment, its notebooks
 #   scripts/test.sh --hosts                   only the add-on for Blender and the reader for ParaView, in both
+#   scripts/test.sh --distributed             only what runs on many machines: studies on a Slurm of one node that the test
+#                                             starts and stops (as root), and with GNU parallel
 #   scripts/test.sh --all                     every test, every test under the address and undefined-behavior
 #                                             sanitizers, a minute of scripts/scene_fuzz.sh from a fixed
-#                                             seed, --threads, --portable, --web, --python and --hosts (long: each builds anew)
+#                                             seed, --threads, --portable, --web, --python, --hosts and --distributed (long: each builds anew)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -69,6 +71,14 @@ run_hosts() {
     ctest --preset dev --verbose -L hosts_test
 }
 
+# What is skipped, and why, stands in lines that begin with SKIPPED.
+run_distributed() {
+    scripts/setup.sh --distributed
+    cmake --preset dev
+    cmake --build --preset dev --target pent-study pent-sim pent-mesh
+    ctest --preset dev --verbose -L distributed_test
+}
+
 launcher=()
 scripts/setup.sh
 case ${1:-} in
@@ -98,6 +108,9 @@ case ${1:-} in
     --hosts)
         run_hosts
         ;;
+    --distributed)
+        run_distributed
+        ;;
     --all)
         run_preset dev
         run_preset asan
@@ -107,6 +120,7 @@ case ${1:-} in
         run_web
         run_python
         run_hosts
+        run_distributed
         ;;
     "")
         run_preset dev
