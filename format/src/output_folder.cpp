@@ -1,11 +1,11 @@
 #include "pent/output_folder.h"
 
-#include "folder_lock.h"
-
 #include <pent/error.h>
+#include <pent/file_lock.h>
 #include <pent/output_file.h>
 
 #include <algorithm>
+#include <cassert>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -205,7 +205,10 @@ void OutputFolder::lock() {
         return;
     }
     make_folder(path_);
-    lock_ = std::make_unique<FolderLock>(path_);
+    lock_ = std::make_unique<FileLock>(path_,
+                                       "another program is writing to this folder; wait until it"
+                                       " is done, or use another folder",
+                                       FileLockOptions{.is_shared = is_shared_});
     const std::optional<List> list = read_list(path_);
     if ((list ? list->names : std::set<std::string>()) != names_) {
         throw Error(path_.string()
@@ -249,9 +252,14 @@ fs::path OutputFolder::claim(const std::string& name) {
 
 void OutputFolder::adopt(const std::string& name) {
     lock();
-    if (!names_.insert(name).second) {
+    if (names_.count(name) != 0) {
         return;
     }
+    if (is_shared_) {
+        throw Error((path_ / kList).string() + ": does not list " + name
+                    + ", which other programs that write to this folder must know of");
+    }
+    names_.insert(name);
     if (has_list_) {
         append_text(path_ / kList, name + "\n");
     } else {
@@ -267,7 +275,14 @@ void OutputFolder::remove(const std::string& name) {
     }
 }
 
+void OutputFolder::share() {
+    lock_.reset();
+    is_shared_ = true;
+    lock();
+}
+
 void OutputFolder::clear(const std::vector<fs::path>& inputs) {
+    assert(!is_shared_);
     refuse_inputs(path_, names_, inputs);
     lock();
     remove_temporaries();

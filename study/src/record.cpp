@@ -72,6 +72,22 @@ Json to_json(const Settings& settings) {
     return json;
 }
 
+Json to_json(const std::vector<Machine>& machines) {
+    Json json = Json::array();
+    for (const Machine& machine : machines) {
+        json.push_back({{"node", machine.node}, {"processor", machine.processor}});
+    }
+    return json;
+}
+
+std::vector<Machine> machines_from(const Json& json) {
+    std::vector<Machine> machines;
+    for (const Json& machine : json) {
+        machines.push_back({.node = machine.at("node"), .processor = machine.at("processor")});
+    }
+    return machines;
+}
+
 Json to_json(const ReferenceReport& reference) {
     return {{"dt", reference.dt},
             {"difference", reference.difference},
@@ -116,6 +132,7 @@ void write_record(const std::filesystem::path& path, const Record& record) {
                        {"wall_seconds", record.wall_seconds},
                        {"cpu_seconds", record.cpu_seconds},
                        {"peak_bytes", record.peak_bytes},
+                       {"machines", to_json(record.machines)},
                        {"errors", to_json(record.errors)},
                        {"meshes", record.meshes},
                        {"scene", record.scene},
@@ -136,6 +153,7 @@ std::optional<Record> read_record(const std::filesystem::path& path) {
         json.at("wall_seconds").get_to(record.wall_seconds);
         json.at("cpu_seconds").get_to(record.cpu_seconds);
         json.at("peak_bytes").get_to(record.peak_bytes);
+        record.machines = machines_from(json.at("machines"));
         record.meshes = static_cast<std::uint32_t>(count_of(json.at("meshes")));
         json.at("scene").get_to(record.scene);
         json.at("reference").get_to(record.reference);
@@ -166,6 +184,7 @@ std::string study_json(const StudyReport& report, const std::string& created_by)
     }
     json["frontier"] = report.frontier;
     json["sentences"] = report.sentences;
+    json["warnings"] = report.warnings;
     return text_of(json);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "machine.h"
+
 #include <pent/study/study.h>
 
 #include <filesystem>
@@ -9,16 +11,18 @@
 
 namespace pent::study {
 
-/// What is kept of one combination between two calls of a study: OUT/runs/NAME.json.
+/// What is kept of a unit of a study: NAME.json.
 struct Record {
     std::string scene = {};      ///< Text of the scene that was run.
-    std::string reference = {};  ///< Text of the reference's scene it was compared with.
+    std::string reference = {};  ///< What it was compared with: the text of the reference's scene
+                                 ///< and the checksum of its meshes; empty before.
     std::uint32_t meshes = 0;    ///< Checksum of the checksums of the mesh files.
-    std::string verdict = {};
+    std::string verdict = {};    ///< Empty while no run of it has ended.
     std::string message = {};
     std::vector<double> wall_seconds = {};  ///< One a repetition.
     std::vector<double> cpu_seconds = {};
     std::vector<double> peak_bytes = {};
+    std::vector<Machine> machines = {};
     Errors errors = {};
 };
 

@@ -120,6 +120,28 @@ TEST_F(OutputFolders, AreWrittenToByOneProgramAtATime) {
     expect_contains(text_of("out/written.txt"), {"\na\n", "\nb\n"});
 }
 
+TEST_F(OutputFolders, AreSharedByProgramsThatWriteToFilesThatAreListed) {
+    static_cast<void>(OutputFolder(out_, "run").claim("a"));
+    auto first = std::make_unique<OutputFolder>(out_, "run");
+    auto second = std::make_unique<OutputFolder>(out_, "run");
+    first->share();
+    second->share();
+    put("out/a", "ours");
+    EXPECT_EQ(second->claim("a"), out_ / "a");
+    expect_contains(error_of([&] { static_cast<void>(second->claim("b")); }),
+                    {"written.txt: does not list b"});
+    first->remove("a");
+    EXPECT_FALSE(has("out/a"));
+    OutputFolder third(out_, "run");
+    expect_contains(error_of([&] { static_cast<void>(third.claim("a")); }),
+                    {"another program is writing to this folder"});
+    first.reset();
+    second.reset();
+    EXPECT_NO_THROW(static_cast<void>(third.claim("b")));
+    OutputFolder fourth(out_, "run");
+    expect_contains(error_of([&] { fourth.share(); }), {"another program is writing"});
+}
+
 // What another has written between a look and the first change would be lost from the list.
 TEST_F(OutputFolders, AreNotWrittenToAfterALookThatIsTooOld) {
     OutputFolder output(out_, "run");

@@ -15,6 +15,7 @@ TEST(Record, IsReadBackAsItWasWritten) {
     const pent::test::TempFolder folder;
     Record record{.scene = "a\n\"b\"", .reference = "r", .meshes = 7, .verdict = "finished"};
     record.wall_seconds = {0.1, 1.0 / 3, 2};
+    record.machines = {{"n1", "A"}, {"n2", "B"}, {"n1", "A"}};
     record.errors.position = 0.01 / 3;
     record.errors.angular_momentum = {1, 2, 3, 4, 5, 6};
     record.errors.iterations = 1'000'000'000'000;
@@ -24,6 +25,7 @@ TEST(Record, IsReadBackAsItWasWritten) {
     EXPECT_EQ(back->scene, record.scene);
     EXPECT_EQ(back->meshes, record.meshes);
     EXPECT_EQ(back->wall_seconds, record.wall_seconds);
+    EXPECT_EQ(back->machines, record.machines);
     EXPECT_EQ(back->errors.position, record.errors.position);
     EXPECT_EQ(back->errors.angular_momentum, record.errors.angular_momentum);
     EXPECT_EQ(back->errors.iterations, record.errors.iterations);

@@ -153,7 +153,7 @@ TEST(RunStudy, AskedToStopAtOnceRunsNothing) {
                                           .on_run = [&](int, int, const std::string&) { ++told; }});
     EXPECT_TRUE(report.is_stopped);
     EXPECT_EQ(told, 0);
-    EXPECT_FALSE(std::filesystem::exists(folder / "study/references"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "study/references/steps-1"));
 }
 
 // A folder of one's own that has the names that those of a study have.
@@ -298,7 +298,7 @@ preset = "accurate"
     EXPECT_LT(error(3), error(7));  // 2 layers or 1, both subdivided
     // The chosen scene names the mesh that was made for it.
     const simulator::Scene chosen = runs::parse_scene(
-        scene_with(options, report.results[3], folder / "study"), "chosen", folder / "study");
+        scene_with(options.folder, report.results[3], folder / "study"), "chosen", folder / "study");
     EXPECT_TRUE(std::filesystem::exists(chosen.bodies[0].mesh)) << chosen.bodies[0].mesh;
 }
 

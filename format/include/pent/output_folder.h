@@ -8,7 +8,7 @@
 
 namespace pent {
 
-class FolderLock;
+class FileLock;
 
 /// A folder of which a program knows what it wrote there. The names of its files stand in
 /// FOLDER/written.txt, each from before it is written, so that they do after a kill at any moment
@@ -60,6 +60,11 @@ public:
     /// listed.
     void remove(const std::string& name);
 
+    /// Lets other programs that share it, too, write to the folder from now on, each to files of
+    /// its own that are listed already: none can be listed any more. Throws an Error if a program
+    /// has the folder for itself.
+    void share();
+
     /// Removes everything listed, and folders that are empty then. Throws an Error before it
     /// removes anything if one of `inputs` is among it.
     void clear(const std::vector<std::filesystem::path>& inputs);
@@ -76,7 +81,8 @@ private:
     std::set<std::string> names_;
     bool has_list_ = false;
     bool is_foreign_ = false;
-    std::unique_ptr<FolderLock> lock_;  // from the first change on
+    std::unique_ptr<FileLock> lock_;  // from the first change on
+    bool is_shared_ = false;
 };
 
 }  // namespace pent

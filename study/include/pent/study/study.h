@@ -110,6 +110,7 @@ struct StudyReport {
     std::vector<Result> results;        ///< In the order of the combinations.
     std::vector<std::size_t> frontier;  ///< Results no other beats in both time and error, by time.
     std::vector<std::string> sentences;  ///< One for each error level.
+    std::vector<std::string> warnings;   ///< Of times that do not compare.
     bool is_stopped = false;             ///< Asked to stop; run again to go on.
 };
 
@@ -119,7 +120,8 @@ struct StudyCallbacks {
     std::function<void(int done, int total, const std::string& next)> on_run = {};
 };
 
-/// Runs what has not been run yet, compares, and writes the files of the folder.
+/// Prepares the study, runs each unit that is not done, one after the other, and collects them
+/// (units.h).
 ///
 /// Throws an Error for a scene or an axis that is not understood, a folder of another study
 /// (without force), one that is neither empty nor of a study (with force too), a reference that
@@ -134,7 +136,9 @@ struct StudyCallbacks {
 [[nodiscard]] const Result* best_within_budget(const StudyReport& report, double seconds);
 
 /// The scene with the settings of a result, as the text of a scene file in the folder `where`.
-[[nodiscard]] std::string scene_with(const StudyOptions& options,
+///
+/// @param folder  Of the study.
+[[nodiscard]] std::string scene_with(const std::filesystem::path& folder,
                                      const Result& result,
                                      const std::filesystem::path& where);
 
