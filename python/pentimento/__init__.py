@@ -6,7 +6,7 @@
     Run, Frame                     what pent-sim wrote
     render, movie, slice           pictures, movies, surfaces
     View                           slices of a run as they are looked at
-    study, Frontier                speed against accuracy
+    study, Study, Unit, Frontier   speed against accuracy
 
 docs/python.md begins at the beginning.
 """
@@ -21,7 +21,7 @@ from .reports import BodyPoint, Energy, Grab, Hit, State, StepReport
 from .run import Frame, Run
 from .scene import Scene, SceneBuilder
 from .simulation import Simulation
-from .study import Frontier, study
+from .study import Frontier, Study, Unit, study
 from .surface import Surface
 from .view import View
 
@@ -43,7 +43,9 @@ __all__ = [
     "Slice",
     "State",
     "StepReport",
+    "Study",
     "Surface",
+    "Unit",
     "View",
     "__version__",
     "convert",

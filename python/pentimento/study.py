@@ -6,6 +6,7 @@ import html
 import json
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -77,7 +78,86 @@ def study(
         reference_integrator=reference_integrator, keep_runs=keep_runs, force=force, error=error,
         budget=budget, write_scene=write_scene, threads=threads,
     )  # fmt: skip
+    _programs.run("pent-study", scene, words + _axes(vary))
+    return Frontier(folder)
+
+
+def _axes(vary: Mapping[str, Sequence[Any]]) -> list[str]:
+    words = []
     for name, values in vary.items():
         words += ["--vary", f"{name}=" + ",".join(str(value) for value in values)]
-    _programs.run("pent-study", scene, words)
-    return Frontier(folder)
+    return words
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A part of a study that is run by itself."""
+
+    number: int  #: From 1.
+    kind: str  #: "reference" (a level of it) or "combination" (of settings).
+    name: str  #: Of its files in the folder.
+    is_done: bool  #: Nothing of it is missing in a collection.
+
+
+class Study:
+    """A study in parts, whose units run anywhere that sees its folder, in any order, many at a time
+    (docs/distributed.md). Every call raises a ProgramError with the line of pent-study."""
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        """folder  That of a study that has been prepared."""
+        self.folder = Path(folder)
+        _ = self.units  # says what is wrong with the folder
+
+    @classmethod
+    def prepare(
+        cls,
+        scene: str | os.PathLike[str],
+        folder: str | os.PathLike[str],
+        vary: Mapping[str, Sequence[Any]],
+        *,
+        repeat: int | None = None,
+        frames: int | None = None,
+        reference_halvings: int | None = None,
+        reference_integrator: str | None = None,
+        keep_runs: bool = False,
+        force: bool = False,
+        threads: int | None = None,
+    ) -> Study:
+        """Makes the meshes and numbers the units; runs nothing. Keywords are those of study()."""
+        words = _programs.options(
+            prepare=True, output=folder, repeat=repeat, frames=frames,
+            reference_halvings=reference_halvings, reference_integrator=reference_integrator,
+            keep_runs=keep_runs, force=force, threads=threads,
+        )  # fmt: skip
+        _programs.run("pent-study", scene, words + _axes(vary))
+        return cls(folder)
+
+    @property
+    def units(self) -> list[Unit]:
+        """All units, as they are now; the levels of the reference first."""
+        report = self._run(list_runs=True)
+        return [Unit(**unit) for unit in report["units"]]
+
+    def run(self, number: int) -> str:
+        """Runs a unit unless it is done: "finished", "diverged" or "refused"."""
+        return str(self._run(run=number)["outcome"])
+
+    def collect(
+        self,
+        *,
+        error: float | None = None,
+        budget: float | None = None,
+        write_scene: str | os.PathLike[str] | None = None,
+    ) -> Frontier:
+        """Compares the runs of all units. What is missing is named in the error."""
+        self._run(collect=True, error=error, budget=budget, write_scene=write_scene)
+        return Frontier(self.folder)
+
+    def _run(self, **values: Any) -> dict[str, Any]:
+        words = _programs.options(output=self.folder, **values)
+        return _programs.run("pent-study", None, words)
+
+    def __repr__(self) -> str:
+        units = self.units
+        done = sum(unit.is_done for unit in units)
+        return f"<pentimento.Study: {self.folder}, {done} of {len(units)} units>"

@@ -31,7 +31,12 @@ def keywords_of(function) -> set[str]:
         ("pent-render", [render, pentimento.movie], set()),
         # Its files are read; the boundary of a mesh is Mesh.boundary().
         ("pent-slice", [pentimento.slice], {"format", "boundary", "output"}),
-        ("pent-study", [pentimento.study], {"output"}),
+        # Methods of Study are the parts of a study.
+        (
+            "pent-study",
+            [pentimento.study, pentimento.Study.prepare],
+            {"output", "prepare", "list_runs", "run", "collect"},
+        ),
         ("pent-convert", [pentimento.convert], set()),
         ("pent-sim", [pentimento.Scene.run], {"explain", "schema", "output"}),
     ],
@@ -167,3 +172,20 @@ def test_a_frontier_shows_itself(tmp_path, tesseract):
     assert found._repr_png_()[:4] == b"\x89PNG" and "<li>" in found._repr_html_()
     with pytest.raises(Error, match="expected the folder of a finished study"):
         pentimento.Frontier(tmp_path)
+    # The same in parts, in another order.
+    parts = pentimento.Study.prepare(tmp_path / "s.toml", tmp_path / "parts", vary, repeat=1)
+    assert [unit.number for unit in parts.units] == [1, 2, 3, 4, 5]
+    assert parts.units[3] == pentimento.Unit(4, "combination", "runs/dt-1_30", False)
+    with pytest.raises(ProgramError, match="not been run to their end: 1-5"):
+        parts.collect()
+    with pytest.raises(ProgramError, match="units 1 to 5"):
+        parts.run(6)
+    for unit in reversed(parts.units):
+        assert parts.run(unit.number) == "finished"
+    assert repr(pentimento.Study(tmp_path / "parts")).endswith("5 of 5 units>")
+    collected = parts.collect(error=50)
+    assert [result["errors"] for result in collected.results] == [
+        result["errors"] for result in found.results
+    ]
+    with pytest.raises(ProgramError, match="no study has been prepared"):
+        pentimento.Study(tmp_path)
