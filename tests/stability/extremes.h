@@ -72,15 +72,17 @@ struct Outcome {
 [[nodiscard]] Outcome run(const Extreme& extreme, Motion motion, simulator::Precision precision);
 
 /// States to come back from: how a body starts that is at rest and held at one end, and whether
-/// stable neo-Hookean is known to bring it back (see collapse_scale()).
+/// stable neo-Hookean is known to bring it back by Newton's method (see collapse_scale()).
 struct Start {
     std::string name;
-    bool comes_back = true;  ///< By Newton's method.
+    bool comes_back = true;            ///< With linear elements.
+    bool quadratic_comes_back = true;  ///< With quadratic ones.
 };
 [[nodiscard]] const std::vector<Start>& starts();
 
 /// Lets go of a damped body at a start; Right with the final distance from rest as error.
 [[nodiscard]] Outcome run(const Start& start,
+                          simulator::ElementKind elements,
                           simulator::Integrator integrator,
                           simulator::Precision precision);
 

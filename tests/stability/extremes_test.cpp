@@ -1,5 +1,7 @@
 #include "extremes.h"
 
+#include <pent/simulator/scene_words.h>
+
 #include <gtest/gtest.h>
 
 #include <cctype>
@@ -19,13 +21,29 @@ struct Asked {
     Motion motion;
 };
 
-std::vector<Asked> all_asked() {
+std::ostream& operator<<(std::ostream& out, const Asked& asked) {
+    return out << simulator::word_of(asked.elements) << ", motion "
+               << static_cast<int>(asked.motion) << ", " << simulator::word_of(asked.precision)
+               << ": ";
+}
+
+// Quadratic elements are asked for less. They bend: a thin bar that is turned by 10 degrees a step
+// folds on the way, and may be reported where linear ones, which lock, follow stiffly.
+bool is_inside(const Case& one, simulator::ElementKind elements) {
+    const double aspect = one.extreme.aspect;
+    return one.is_inside
+           && (elements != simulator::ElementKind::Quadratic || (aspect >= 0.1 && aspect <= 10));
+}
+
+// A quadratic pentachoron does not deform evenly by its weight: no closed form says how.
+std::vector<Asked> all_asked(std::initializer_list<simulator::ElementKind> kinds) {
     std::vector<Asked> all;
     for (const Precision precision : kPrecisions) {
-        for (const auto elements :
-             {simulator::ElementKind::Linear, simulator::ElementKind::Smoothed}) {
+        for (const auto elements : kinds) {
             for (const Motion motion : kMotions) {
-                all.push_back({precision, elements, motion});
+                if (elements != simulator::ElementKind::Quadratic || motion != Motion::Load) {
+                    all.push_back({precision, elements, motion});
+                }
             }
         }
     }
@@ -52,13 +70,15 @@ INSTANTIATE_TEST_SUITE_P(All, Extremes, testing::ValuesIn(cases()), [](const aut
 
 // Inside the box: right. Outside: right, or refused or reported with a reason.
 TEST_P(Extremes, AreRightWithinTheBoxAndNeverSilentlyWrong) {
-    for (const Asked& asked : all_asked()) {
+    for (const Asked& asked :
+         all_asked({simulator::ElementKind::Linear, simulator::ElementKind::Smoothed,
+                    simulator::ElementKind::Quadratic})) {
         Extreme extreme = GetParam().extreme;
         extreme.elements = asked.elements;
         const Outcome outcome = run(extreme, asked.motion, asked.precision);
-        EXPECT_NE(outcome.kind, Outcome::Kind::Wrong) << text(outcome);
-        if (GetParam().is_inside) {
-            EXPECT_EQ(outcome.kind, Outcome::Kind::Right) << text(outcome);
+        EXPECT_NE(outcome.kind, Outcome::Kind::Wrong) << asked << text(outcome);
+        if (is_inside(GetParam(), asked.elements)) {
+            EXPECT_EQ(outcome.kind, Outcome::Kind::Right) << asked << text(outcome);
         } else if (outcome.kind != Outcome::Kind::Right) {
             EXPECT_FALSE(outcome.reason.empty());
         }
@@ -72,13 +92,14 @@ INSTANTIATE_TEST_SUITE_P(All, Corners, testing::ValuesIn(corners()), [](const au
 
 // Inside: right in double. Float is asked for no more than a word.
 TEST_P(Corners, OfTheBoxAreRightUntilInertiaDrownsAndNeverSilentlyWrong) {
-    for (const Asked& asked : all_asked()) {
+    for (const Asked& asked :
+         all_asked({simulator::ElementKind::Linear, simulator::ElementKind::Smoothed})) {
         Extreme extreme = GetParam().extreme;
         extreme.elements = asked.elements;
         const Outcome outcome = run(extreme, asked.motion, asked.precision);
-        EXPECT_NE(outcome.kind, Outcome::Kind::Wrong) << text(outcome);
+        EXPECT_NE(outcome.kind, Outcome::Kind::Wrong) << asked << text(outcome);
         if (GetParam().is_inside && asked.precision == Precision::Double) {
-            EXPECT_EQ(outcome.kind, Outcome::Kind::Right) << text(outcome);
+            EXPECT_EQ(outcome.kind, Outcome::Kind::Right) << asked << text(outcome);
         }
     }
 }
@@ -90,14 +111,22 @@ INSTANTIATE_TEST_SUITE_P(All, Starts, testing::ValuesIn(starts()), [](const auto
 
 // linear_euler takes one linear step however far it goes: it may fail, never silently.
 TEST_P(Starts, ComeBackToRestOrAreReported) {
-    for (const Precision precision : kPrecisions) {
-        const Outcome newton = run(GetParam(), simulator::Integrator::NewtonEuler, precision);
-        EXPECT_NE(newton.kind, Outcome::Kind::Wrong) << text(newton);
-        if (GetParam().comes_back) {
-            EXPECT_EQ(newton.kind, Outcome::Kind::Right) << text(newton);
+    for (const auto elements :
+         {simulator::ElementKind::Linear, simulator::ElementKind::Quadratic}) {
+        const bool comes_back = elements == simulator::ElementKind::Linear
+                                    ? GetParam().comes_back
+                                    : GetParam().quadratic_comes_back;
+        for (const Precision precision : kPrecisions) {
+            const Outcome newton =
+                run(GetParam(), elements, simulator::Integrator::NewtonEuler, precision);
+            EXPECT_NE(newton.kind, Outcome::Kind::Wrong) << text(newton);
+            if (comes_back) {
+                EXPECT_EQ(newton.kind, Outcome::Kind::Right) << text(newton);
+            }
+            const Outcome linear =
+                run(GetParam(), elements, simulator::Integrator::LinearEuler, precision);
+            EXPECT_NE(linear.kind, Outcome::Kind::Wrong) << text(linear);
         }
-        const Outcome linear = run(GetParam(), simulator::Integrator::LinearEuler, precision);
-        EXPECT_NE(linear.kind, Outcome::Kind::Wrong) << text(linear);
     }
 }
 

@@ -1,5 +1,6 @@
 #include "small_body.h"
 
+#include "support/cut_in_two.h"
 #include "support/kuhn_box.h"
 
 #include <algorithm>
@@ -39,7 +40,8 @@ SimplexMesh<4> mesh_of(const Extreme& extreme) {
         mesh.cells.resize(5, 1);
         mesh.cells.col(0) << 0, 1, 2, 3, 4;
     }
-    return mesh;
+    return extreme.elements == simulator::ElementKind::Quadratic ? pent::test::cut_in_two<4>(mesh)
+                                                                 : mesh;
 }
 
 simulator::Scene scene_of(const Extreme& extreme, simulator::Precision precision) {

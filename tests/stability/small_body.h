@@ -11,7 +11,7 @@
 namespace pent::stability {
 
 /// A bar along x, 4 axes: along, two across, and the layers; or a single pentachoron, whose corner
-/// 4 is the only one above w = 0.
+/// 4 is the only one above w = 0. For quadratic elements with every edge cut in two.
 [[nodiscard]] SimplexMesh<4> mesh_of(const Extreme& extreme);
 
 /// One body, and a second beside it where their stiffness differs; nothing held, no gravity.

@@ -2,6 +2,8 @@
 
 #include "extremes.h"
 
+#include <pent/simulator/scene_words.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -14,6 +16,7 @@ namespace {
 
 using namespace pent::stability;
 using pent::simulator::ContactModel;
+using pent::simulator::ElementKind;
 using pent::simulator::Integrator;
 using pent::simulator::Precision;
 
@@ -90,13 +93,20 @@ void write_corners() {
 }
 
 void write_starts() {
-    heading("Starts", "integrator", "start");
-    for (const auto& [name, integrator] : {std::pair("newton_euler", Integrator::NewtonEuler),
-                                           std::pair("linear_euler", Integrator::LinearEuler)}) {
-        for (const Start& start : starts()) {
-            const bool is_inside = start.comes_back && integrator == Integrator::NewtonEuler;
-            row(&start == starts().data() ? name : "", start.name, is_inside ? "in" : "out",
-                [&](Precision precision) { return text(run(start, integrator, precision)); });
+    heading("Starts", "elements and integrator", "start");
+    for (const ElementKind elements : {ElementKind::Linear, ElementKind::Quadratic}) {
+        for (const Integrator integrator : {Integrator::NewtonEuler, Integrator::LinearEuler}) {
+            const std::string name =
+                std::string(word_of(elements)) + ", `" + std::string(word_of(integrator)) + "`";
+            for (const Start& start : starts()) {
+                const bool comes_back =
+                    elements == ElementKind::Linear ? start.comes_back : start.quadratic_comes_back;
+                const bool is_inside = comes_back && integrator == Integrator::NewtonEuler;
+                row(&start == starts().data() ? name : "", start.name, is_inside ? "in" : "out",
+                    [&](Precision precision) {
+                        return text(run(start, elements, integrator, precision));
+                    });
+            }
         }
     }
 }
