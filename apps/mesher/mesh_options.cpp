@@ -180,6 +180,10 @@ void add_resolution(CLI::App& cli, MeshArguments& arguments) {
            "--quadratic", request.is_quadratic,
            "Cut every edge in 2, and write which cells belong together: for quadratic elements")
         ->group(group);
+    cli.add_flag("--curved", request.is_curved,
+                 "With --quadratic: middles of edges on the surface of a shape, image, sphere or"
+                 " ball (with --dim 3)")
+        ->group(group);
 }
 
 void add_extrusion(CLI::App& cli, MeshArguments& arguments) {

@@ -115,6 +115,10 @@ void say_body(const Program& program, const pent::mesher::Body<Dim>& body) {
                       "follow it",
                       static_cast<Long>(report.beveled)));
     }
+    if (report.curve.moved > 0) {
+        program.say(formatted("curved     %lld middles of edges, by up to %.4g m",
+                              static_cast<Long>(report.curve.moved), report.curve.farthest));
+    }
     program.say(formatted("body       %lld vertices, %lld %s, %.10g m^%d",
                           static_cast<Long>(body.mesh.vertex_count()),
                           static_cast<Long>(proof.cells), pent::cell_name_plural(Dim).data(),
@@ -174,6 +178,7 @@ nlohmann::ordered_json to_json(const pent::mesher::Body<Dim>& body) {
                     {"interior_facets", report.proof.interior_facets},
                     {"boundary_facets", report.proof.boundary_facets},
                     {"beveled", report.beveled},
+                    {"curved", report.curve.moved},
                     {"volume", report.proof.volume},
                     {"expected_volume", report.proof.expected_volume},
                     {"boundary_volume", report.proof.boundary_volume},

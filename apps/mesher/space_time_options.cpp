@@ -24,6 +24,7 @@ void refuse_other_options(const CLI::App& cli) {
                              "--subdivide-surface",
                              "--subdivide",
                              "--quadratic",
+                             "--curved",
                              "--thickness",
                              "--extrude",
                              "--layers",

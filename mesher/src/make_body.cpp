@@ -54,6 +54,11 @@ void check(const BodyRequest& request, int dim) {
         throw Error("a translation of " + std::to_string(axes) + " components; expected 3"
                     + (dim == 4 ? " or 4" : "") + " finite ones");
     }
+    if (request.is_curved && (!request.is_quadratic || request.subdivide > 1)) {
+        throw Error(name_of_input(request)
+                    + ": a curved boundary is for quadratic cells that are not subdivided before;"
+                      " ask for quadratic ones, and for shorter edges in place of a subdivision");
+    }
 }
 
 // What would be left unheeded without a word.
@@ -83,19 +88,41 @@ int parts_of_edge(const BodyRequest& request) {
     return request.subdivide * (request.is_quadratic ? 2 : 1);
 }
 
+// The mesh with every edge cut in two, its boundary curved if that is asked for.
+template <int Dim>
+SimplexMesh<Dim> quadratic_mesh(const SimplexMesh<Dim>& mesh,
+                                const BodyRequest& request,
+                                const OntoSurface<Dim>& onto,
+                                CurveReport& report) {
+    SimplexMesh<Dim> quadratic = make_quadratic<Dim>(mesh);
+    if (request.is_curved) {
+        report = curve_boundary<Dim>(mesh, onto, quadratic);
+    }
+    return quadratic;
+}
+
 // Moves the mesh where it is asked for, proves and measures it; subdivides it first if that is
 // asked for.
+//
+// @param onto  Where a curved boundary's middles go; empty where the surface is flat.
 template <int Dim>
 Body<Dim> finish(SimplexMesh<Dim> mesh,
                  double expected_volume,
                  const BodyRequest& request,
                  BodyReport report,
-                 StageClock& clock) {
+                 StageClock& clock,
+                 const OntoSurface<Dim>& onto = {}) {
+    if (request.is_curved && !onto) {
+        throw Error(name_of_input(request)
+                    + ": its surface is flat between its vertices; leave out the curved boundary,"
+                      " which shape files, images, spheres and balls have");
+    }
     if (request.subdivide > 1) {
         mesh = clock.time("subdivide", [&] { return subdivide<Dim>(mesh, request.subdivide); });
     }
     if (request.is_quadratic) {
-        mesh = clock.time("quadratic", [&] { return make_quadratic<Dim>(mesh); });
+        mesh = clock.time("quadratic",
+                          [&] { return quadratic_mesh<Dim>(mesh, request, onto, report.curve); });
     }
     for (Eigen::Index axis = 0; axis < request.translation.size(); ++axis) {
         mesh.positions.row(axis).array() += request.translation[axis];
@@ -264,7 +291,14 @@ Body<3> finish_solid(SimplexMesh<3> mesh,
     report.base_volume = total_volume(mesh);
     report.base_edge = mean_edge<3>(mesh);
     announce(request, expected_size<3>(static_cast<double>(report.base_cells), 1, 0, request));
-    return finish<3>(std::move(mesh), report.base_volume, request, std::move(report), clock);
+    OntoSurface<3> onto;
+    if (const auto* sphere = std::get_if<SphereShape>(&request.input)) {
+        onto = onto_sphere(sphere->radius);
+    } else if (const auto* ball = std::get_if<BallShape>(&request.input)) {
+        onto = onto_sphere(ball->radius);
+    }
+    const double expected_volume = request.is_curved ? 0 : report.base_volume;
+    return finish<3>(std::move(mesh), expected_volume, request, std::move(report), clock, onto);
 }
 
 bool is_flat(const Surface& surface) {
@@ -295,7 +329,8 @@ Body<4> make_stuffed(const std::filesystem::path& path,
     report.boundary = input.boundary;
     report.generator = "lattice stuffing";
     report.beveled = stuffed.beveled;
-    return finish<4>(std::move(stuffed.mesh), 0, request, std::move(report), clock);
+    return finish<4>(std::move(stuffed.mesh), 0, request, std::move(report), clock,
+                     onto_boundary(input.solid));
 }
 
 // The triangles of a flat surface, all counterclockwise.

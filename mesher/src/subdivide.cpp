@@ -309,10 +309,35 @@ SimplexMesh<Dim> make_quadratic(const SimplexMesh<Dim>& mesh) {
     return fine;
 }
 
+template <int Dim>
+std::vector<std::array<std::uint32_t, 2>> cut_edges(const SimplexMesh<Dim>& mesh) {
+    const Pattern<Dim> pattern = pattern_for<Dim>(2);
+    std::vector<std::uint64_t> first_places;
+    static_cast<void>(number_points<Dim>(mesh, name_points(mesh, pattern), first_places));
+    std::vector<std::array<std::uint32_t, 2>> edges;
+    for (const std::uint64_t place : first_places) {
+        bool is_odd = false;
+        const auto corners =
+            sorted_corners(mesh, static_cast<Eigen::Index>(place / pattern.weights.size()), is_odd);
+        const auto& weights = pattern.weights[place % pattern.weights.size()];
+        std::array<std::uint32_t, 2> edge{};
+        int end = 0;
+        for (int c = 0; c <= Dim; ++c) {
+            if (weights[c] > 0) {
+                edge[end++] = corners[c];
+            }
+        }
+        edges.push_back(edge);
+    }
+    return edges;
+}
+
 template SimplexMesh<2> subdivide<2>(const SimplexMesh<2>&, int);
 template SimplexMesh<3> subdivide<3>(const SimplexMesh<3>&, int);
 template SimplexMesh<4> subdivide<4>(const SimplexMesh<4>&, int);
 template SimplexMesh<3> make_quadratic<3>(const SimplexMesh<3>&);
 template SimplexMesh<4> make_quadratic<4>(const SimplexMesh<4>&);
+template std::vector<std::array<std::uint32_t, 2>> cut_edges<3>(const SimplexMesh<3>&);
+template std::vector<std::array<std::uint32_t, 2>> cut_edges<4>(const SimplexMesh<4>&);
 
 }  // namespace pent::mesher

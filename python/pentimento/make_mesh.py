@@ -52,6 +52,7 @@ def make_mesh(
     subdivide_surface: bool = False,
     subdivide: int | None = None,
     quadratic: bool = False,
+    curved: bool = False,
     thickness: float | None = None,
     extrude: Sequence[float] | None = None,
     layers: int | None = None,

@@ -128,6 +128,37 @@ double least_jacobian(const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>& pl
     return least;
 }
 
+template <int Dim>
+void check_whole(const Positions<Dim>& positions,
+                 const QuadraticSimplices<Dim>& simplices,
+                 const std::vector<Eigen::Index>& cells,
+                 const std::string& name) {
+    std::int64_t folded = 0;
+    Eigen::Index worst = 0;
+    double least = 0;
+    for (Eigen::Index simplex = 0; simplex < simplices.cols(); ++simplex) {
+        const double jacobian =
+            least_jacobian<Dim>(places_of_nodes<Dim>(positions, simplices, simplex));
+        if (!(jacobian > 0)) {
+            worst = folded == 0 || jacobian < least ? simplex : worst;
+            least = folded == 0 ? jacobian : std::min(least, jacobian);
+            ++folded;
+        }
+    }
+    if (folded == 0) {
+        return;
+    }
+    std::string place;
+    for (int axis = 0; axis < Dim; ++axis) {
+        place += (axis == 0 ? "" : ", ") + formatted("%.4g", positions(axis, simplices(0, worst)));
+    }
+    throw Error(name + ": " + std::to_string(folded) + " of " + std::to_string(simplices.cols())
+                + " quadratic cells are folded at rest, the worst (a Jacobian of "
+                + formatted("%.3g", least) + " of that of straight edges) that of cell "
+                + std::to_string(cells[static_cast<std::size_t>(worst * kChildren<Dim>)]) + " at ("
+                + place + ") m, expected none; move the middles of their edges less");
+}
+
 }  // namespace
 
 template <int Dim>
@@ -221,15 +252,8 @@ QuadraticSimplices<Dim> quadratic_simplices(const SimplexMesh<Dim>& mesh,
                              + " more that do not make up one simplex with its edges cut in two");
         }
         simplices.col(simplex) = nodes;
-        const double least =
-            least_jacobian<Dim>(places_of_nodes<Dim>(mesh.positions, simplices, simplex));
-        if (!(least > 0)) {
-            throw Error(name + ": the quadratic cell of cell " + std::to_string(children[0])
-                        + " is folded at rest (a Jacobian of " + formatted("%.3g", least)
-                        + " of that of straight edges), expected it positive; move the middles of"
-                          " its edges less");
-        }
     }
+    check_whole<Dim>(mesh.positions, simplices, cells, name);
     return simplices;
 }
 

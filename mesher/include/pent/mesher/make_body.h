@@ -1,6 +1,7 @@
 #pragma once
 
 #include <pent/mesher/boundary_solid.h>
+#include <pent/mesher/curve_boundary.h>
 #include <pent/mesher/edge_order.h>
 #include <pent/mesher/extrude.h>
 #include <pent/mesher/prove.h>
@@ -99,6 +100,9 @@ struct BodyRequest {
     std::function<void(const ExpectedSize&)> on_size;
     int subdivide = 1;  ///< Every edge of the body is cut in this many parts, see subdivide().
     bool is_quadratic = false;  ///< Then made ready for quadratic elements, see make_quadratic().
+    bool is_curved = false;     ///< Their middles on the boundary's surface, see curve_boundary():
+                                ///< of quadratic ones alone, not subdivided; of 4D what is stuffed,
+                                ///< of 3D spheres and balls.
 
     /// Sets what every step that may crash or run away is allowed.
     void limit_steps(const StepLimits& limits) {
@@ -142,6 +146,7 @@ struct BodyReport {
     double highest_layer = 0;   ///< The same.
     std::int64_t beveled = 0;   ///< Of a shape's boundary: see StuffedSolid.
     BoundaryReport boundary;    ///< Of a boundary of tetrahedra that was read.
+    CurveReport curve;          ///< Where the boundary is curved.
 
     Proof proof;
     QualityReport quality;

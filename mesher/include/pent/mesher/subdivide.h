@@ -2,6 +2,10 @@
 
 #include <pent/simplex_mesh.h>
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 namespace pent::mesher {
 
 /// Edgewise subdivision [edelsbrunner2000]: every edge is cut in k parts, every cell in k^Dim cells
@@ -21,5 +25,10 @@ template <int Dim>
 /// each of the 2^Dim cells of a cell has that one's number as its parent.
 template <int Dim>
 [[nodiscard]] SimplexMesh<Dim> make_quadratic(const SimplexMesh<Dim>& mesh);
+
+/// The edges of a mesh in the order of the vertices that make_quadratic() puts into their middles,
+/// the first of which comes behind the last of the mesh.
+template <int Dim>
+[[nodiscard]] std::vector<std::array<std::uint32_t, 2>> cut_edges(const SimplexMesh<Dim>& mesh);
 
 }  // namespace pent::mesher

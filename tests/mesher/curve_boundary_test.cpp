@@ -1,0 +1,148 @@
+#include "support/messages.h"
+
+#include <pent/error.h>
+#include <pent/mesher/curve_boundary.h>
+#include <pent/mesher/make_body.h>
+#include <pent/mesher/primitives.h>
+#include <pent/mesher/prove.h>
+#include <pent/mesher/shapes.h>
+#include <pent/mesher/stuff.h>
+#include <pent/mesher/subdivide.h>
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace pent::mesher {
+namespace {
+
+using Eigen::Vector4d;
+using pent::test::error_of;
+using pent::test::expect_contains;
+
+constexpr double kPi = std::numbers::pi;
+
+TEST(CutEdges, HaveTheirMiddlesAtTheVerticesBehindThoseOfTheMesh) {
+    const SimplexMesh<4> mesh = box<4>({2, 1, 1, 1}, {2, 1, 1, 1}, CubeCut::Paths);
+    const SimplexMesh<4> fine = make_quadratic<4>(mesh);
+    const auto edges = cut_edges<4>(mesh);
+    ASSERT_EQ(static_cast<Eigen::Index>(edges.size()), fine.vertex_count() - mesh.vertex_count());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const Vector4d middle =
+            (mesh.positions.col(edges[i][0]) + mesh.positions.col(edges[i][1])) / 2;
+        EXPECT_EQ(fine.positions.col(mesh.vertex_count() + static_cast<Eigen::Index>(i)), middle);
+    }
+}
+
+// Of tetrahedra with ten nodes: their Jacobian is of degree 3, for which Keast's rule is exact, -4/5
+// at the center and 9/20 at points halfway between it and the corners.
+double curved_volume(const SimplexMesh<3>& straight, const SimplexMesh<3>& quadratic) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    auto next = static_cast<std::uint32_t>(straight.vertex_count());
+    for (const auto& [a, b] : cut_edges<3>(straight)) {
+        middles[std::minmax(a, b)] = next++;
+    }
+    double volume = 0;
+    for (Eigen::Index cell = 0; cell < straight.cell_count(); ++cell) {
+        const auto jacobian = [&](const Eigen::Vector4d& l) {
+            Eigen::Matrix<double, 3, 4> corners;
+            for (int a = 0; a < 4; ++a) {
+                const std::uint32_t own = straight.cells(a, cell);
+                corners.col(a) = (4 * l[a] - 1) * quadratic.positions.col(own);
+                for (int b = 0; b < 4; ++b) {
+                    if (a != b) {
+                        corners.col(a) += 4 * l[b]
+                                          * quadratic.positions.col(middles.at(
+                                              std::minmax(own, straight.cells(b, cell))));
+                    }
+                }
+            }
+            return simplex_volume<3>(corners);
+        };
+        volume -= 0.8 * jacobian(Vector4d::Constant(0.25));
+        for (int a = 0; a < 4; ++a) {
+            Vector4d l = Vector4d::Constant(1.0 / 6);
+            l[a] = 0.5;
+            volume += 0.45 * jacobian(l);
+        }
+    }
+    return volume;
+}
+
+TEST(CurvedBall, HasItsMiddlesOnTheSphereAndNearlyItsVolume) {
+    SimplexMesh<3> straight = ball(4);
+    straight.positions *= 2;
+    SimplexMesh<3> quadratic = make_quadratic<3>(straight);
+    const CurveReport report = curve_boundary<3>(straight, onto_sphere(2), quadratic);
+    EXPECT_EQ(report.moved, 480);  // 320 triangles have so many edges
+    std::int64_t on_sphere = 0;
+    for (Eigen::Index v = straight.vertex_count(); v < quadratic.vertex_count(); ++v) {
+        on_sphere += std::abs(quadratic.positions.col(v).norm() - 2) < 1e-12 ? 1 : 0;
+    }
+    EXPECT_EQ(on_sphere, 480);
+    const double volume = 4.0 / 3 * kPi * 8;
+    // Of fourth order in place of second: edges are 0.3 radii long.
+    EXPECT_GT(volume - total_volume(straight), 0.02 * volume);
+    EXPECT_NEAR(curved_volume(straight, quadratic), volume, 2e-4 * volume);
+}
+
+TEST(CurvedSolid, HasTheMiddlesOfItsBoundaryOnItAndIsProven) {
+    for (const Solid& solid : {ball_solid(1), duocylinder_solid({1, 0.8})}) {
+        const SimplexMesh<4> straight = stuff(solid, 0.4).mesh;
+        SimplexMesh<4> quadratic = make_quadratic<4>(straight);
+        const SimplexMesh<4> before = quadratic;
+        const CurveReport report = curve_boundary<4>(straight, onto_boundary(solid), quadratic);
+        EXPECT_GT(report.moved, 0);
+        EXPECT_LT(report.farthest, 0.1);  // a circle of 0.8 is 0.03 above the chord of an edge
+        std::int64_t moved = 0;
+        for (Eigen::Index v = 0; v < quadratic.vertex_count(); ++v) {
+            if (quadratic.positions.col(v) != before.positions.col(v)) {
+                EXPECT_GE(v, straight.vertex_count());
+                EXPECT_LT(std::abs(solid.value(quadratic.positions.col(v))), 1e-5);
+                ++moved;
+            }
+        }
+        EXPECT_EQ(moved, report.moved);
+        EXPECT_TRUE(prove<4>(quadratic, 0).holds());
+    }
+}
+
+TEST(CurvedBoundary, IsRefusedWhereItWouldFoldCellsWithHowManyAndWhere) {
+    const SimplexMesh<3> straight = box<3>({1, 1, 1}, {1, 1, 1}, CubeCut::Paths);
+    SimplexMesh<3> quadratic = make_quadratic<3>(straight);
+    const SimplexMesh<3> before = quadratic;
+    const auto message = error_of([&] {
+        static_cast<void>(curve_boundary<3>(
+            straight,
+            [](const Eigen::Vector3d& from, const Eigen::Vector3d&) -> Eigen::Vector3d {
+                return from;
+            },
+            quadratic));
+    });
+    expect_contains(message,
+                    {"6 of 6 quadratic cells would be folded", "the first at (0, 0, 0) m"});
+    EXPECT_EQ(quadratic.positions, before.positions);
+}
+
+TEST(CurvedBody, IsForQuadraticCellsOfSurfacesThatAreNotFlat) {
+    BodyRequest request;
+    request.input = BallShape{};
+    request.is_curved = true;
+    expect_contains(error_of([&] { static_cast<void>(make_solid(request)); }),
+                    {"a curved boundary is for quadratic cells"});
+    request.is_quadratic = true;
+    EXPECT_EQ(make_solid(request).report.curve.moved, 480);
+    request.subdivide = 2;
+    expect_contains(error_of([&] { static_cast<void>(make_solid(request)); }),
+                    {"not subdivided before"});
+    request.subdivide = 1;
+    request.input = BoxShape{};
+    expect_contains(error_of([&] { static_cast<void>(make_body(request)); }),
+                    {"its surface is flat between its vertices"});
+}
+
+}  // namespace
+}  // namespace pent::mesher
