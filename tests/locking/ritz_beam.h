@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace pent::simulator::test {
+namespace pent::locking {
 
 /// Integrals over [0, length] of products of x^clamp P_k(2 x / length - 1), P_k being Legendre
 /// polynomials, and of their derivatives.
@@ -18,12 +18,14 @@ struct Products {
     Eigen::MatrixXd once;   ///< f' g
     Eigen::MatrixXd twice;  ///< f' g'
     Eigen::VectorXd mean;   ///< f
+    Eigen::VectorXd arm;    ///< (x - length / 2) f
 
     Products(int count, double length, bool is_clamped) {
         constexpr int kPoints = 40;  // Gauss-Legendre by the eigenvalues of Jacobi's matrix
         plain.setZero(count, count);
         once = twice = plain;
         mean.setZero(count);
+        arm.setZero(count);
         for (const auto& [at, weight] : gauss(kPoints)) {
             Eigen::VectorXd value(count);
             Eigen::VectorXd slope(count);
@@ -39,6 +41,7 @@ struct Products {
             once += w * slope * value.transpose();
             twice += w * slope * slope.transpose();
             mean += w * value;
+            arm += w * at * length / 2 * value;
         }
     }
 
@@ -69,14 +72,24 @@ struct Products {
     }
 };
 
+/// A force per volume, steady + turning (x - middle of the cross section).
+template <int Dim>
+struct BodyForce {
+    Eigen::Matrix<double, Dim, 1> steady = Eigen::Matrix<double, Dim, 1>::Zero();
+    /// Its first row and column are 0.
+    Eigen::Matrix<double, Dim, Dim> turning = Eigen::Matrix<double, Dim, Dim>::Zero();
+
+    [[nodiscard]] Eigen::Matrix<double, Dim, 1> at(const Eigen::Matrix<double, Dim, 1>& x) const {
+        return steady + turning * (x.array() - 0.5).matrix();
+    }
+};
+
 /// Work of the load on the displacements it makes, for a beam [0, 4] x [0, 1]^(Dim - 1) of linear
 /// elasticity with Young's modulus 1 that is held where x = 0: Ritz's method with products of
 /// polynomials of degree 10 along the beam and `across` across. Nothing of finite elements.
-///
-/// @param load  Per volume, constant; its first entry 0.
 template <int Dim>
-[[nodiscard]] double ritz_work(double poisson, const Eigen::VectorXd& load, int across = 4) {
-    const Lame lame = lame_from_young(Dim, 1, poisson);
+[[nodiscard]] double ritz_work(double poisson, const BodyForce<Dim>& load, int across = 4) {
+    const simulator::Lame lame = simulator::lame_from_young(Dim, 1, poisson);
     const Products along(11, 4, true);
     const Products over(across + 1, 1, false);
     // Total degree across is bounded, too: what is above it adds nothing.
@@ -125,9 +138,16 @@ template <int Dim>
         for (int axis = 0; axis < Dim; ++axis) {
             mean *= (axis == 0 ? along : over).mean[functions[f][axis]];
         }
-        for (int i = 0; i < Dim; ++i) {
-            right[Dim * f + i] = load[i] * mean;
+        Eigen::Matrix<double, Dim, 1> arms = Eigen::Matrix<double, Dim, 1>::Zero();
+        for (int axis = 1; axis < Dim; ++axis) {
+            arms[axis] = 1;
+            for (int other = 0; other < Dim; ++other) {
+                const Products& p = other == 0 ? along : over;
+                const int degree_there = functions[f][other];
+                arms[axis] *= other == axis ? p.arm[degree_there] : p.mean[degree_there];
+            }
         }
+        right.segment<Dim>(Dim * f) = mean * load.steady + load.turning * arms;
         for (Eigen::Index g = 0; g <= f; ++g) {
             Eigen::Matrix<double, Dim, Dim> D;
             for (int i = 0; i < Dim; ++i) {
@@ -145,4 +165,4 @@ template <int Dim>
     return right.dot(u);
 }
 
-}  // namespace pent::simulator::test
+}  // namespace pent::locking
