@@ -11,4 +11,6 @@ cd "$(dirname "$0")/.."
 scripts/setup.sh
 cmake --preset release >/dev/null
 cmake --build --preset release --target pent-study pent-sim pent-mesh
-PATH=/usr/bin:$PATH python3 scripts/accuracy.py build/release/bin "$out" docs/accuracy.md  # Debian's own, with numpy
+cmake --preset dev >/dev/null
+cmake --build --preset dev --target write_locking
+PATH=/usr/bin:$PATH python3 scripts/accuracy.py build/release/bin build/dev/tests/locking/write_locking "$out" docs/accuracy.md  # Debian's own, with numpy

@@ -35,9 +35,9 @@ std::map<Edge, std::uint32_t> middles_of(const SimplexMesh<Dim>& straight) {
     return middles;
 }
 
-// The least Jacobian of a quadratic cell, over Dim!, of its straight simplex, at its nodes and at the
-// points where it is evaluated. With barycentric coordinates l it is that of the simplex with the
-// corners (4 l_a - 1) x_a + 4 sum over b != a of l_b x_ab.
+// The least Jacobian of a quadratic cell, over Dim!: of its straight simplex, at its nodes and at
+// the points where it is evaluated. With barycentric coordinates l it is that of the simplex with
+// the corners (4 l_a - 1) x_a + 4 sum over b != a of l_b x_ab.
 template <int Dim>
 double least_jacobian(const Positions<Dim>& positions,
                       const Eigen::Matrix<std::uint32_t, Dim + 1, Dim + 1>& nodes) {
