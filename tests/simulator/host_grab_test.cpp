@@ -86,24 +86,6 @@ TYPED_TEST(HostGrab, SwingsABodyAtTheFrequencyOfItsGrab) {
     EXPECT_NEAR(crossing, std::acos(0.0) / omega, 2e-3);
 }
 
-// Without a bound, by an anchor 100 m away: steps fail, and go on to fail when the grab is gone.
-TEST(HostGrabWithoutABound, PullsABodyIntoAStateThatItDoesNotComeBackFrom) {
-    Scene scene = test::box_scene<4>();
-    scene.frames_per_second = 100;
-    scene.constraints = {test::hold(
-        HalfSpaceSelection{.normal = Eigen::Vector4d::UnitY(), .offset = 1e-6}, test::still(4))};
-    Simulation<4> simulation(scene, {cube<4>()});
-    Grab<4> grab = corner(simulation, 0, 20000);
-    grab.anchor[3] += 100;
-    grab.max_force = 1e30;
-    const auto id = simulation.add_grab(grab);
-    for (int i = 0; i < 10; ++i) {
-        static_cast<void>(simulation.step());
-    }
-    simulation.remove_grab(id);
-    EXPECT_FALSE(simulation.step().is_accepted);
-}
-
 // Pulled as far, but no harder than its cells bear, no step fails, and let go the body is what it
 // was.
 TYPED_TEST(HostGrab, RecoversFromAHardPull) {

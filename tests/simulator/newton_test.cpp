@@ -364,5 +364,23 @@ TEST(Newton, EndsWhereTheWayLeadsFartherThanItsBoundAndAcceptsNothingBeyond) {
     EXPECT_GT(run(kInfinity).second, 1000);
 }
 
+// What a damped step asks for: as many iterations as it allows, each below the one before.
+TEST(Newton, MayStopShortOfItsTolerance) {
+    PlainFunction valley(rosenbrock());
+    double value = valley.value(Eigen::Vector3d(-1.2, 1, 1));
+    for (const int iterations : {1, 2, 4, 8}) {
+        Positions<3> x = point(-1.2, 1, 1);
+        EXPECT_FALSE(newton<3>(valley, {.max_iterations = iterations}, x).has_converged);
+        x = point(-1.2, 1, 1);
+        const NewtonReport report =
+            newton<3>(valley, {.max_iterations = iterations, .may_stop_short = true}, x);
+        EXPECT_TRUE(report.has_converged) << report.failure_reason;
+        EXPECT_EQ(report.iterations, iterations);
+        EXPECT_GT(report.residual, 1e-4);
+        EXPECT_LT(valley.value(x.reshaped()), value);
+        value = valley.value(x.reshaped());
+    }
+}
+
 }  // namespace
 }  // namespace pent::simulator

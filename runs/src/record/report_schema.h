@@ -64,6 +64,10 @@ void fields(Part& step, const Visit& visit) {
     visit(key("substeps", "", "1, or more where the step had to be cut"), step.substeps);
     visit(key("refused", "", "attempts that were thrown away"), step.refused);
     visit(key("failure", "", "why the last of them was"), step.failure);
+    visit(
+        key("damped", "",
+            "substeps of `linear_euler` that Newton's method took, as the linear one went astray"),
+        step.damped);
     visit(key("newton_iterations", "", "behind the first, linear step"), step.newton_iterations);
     visit(key("iterations", "", "of the linear solver, in all"), step.iterations);
     visit(key("asleep", "", "bodies that sleep at the end"), step.asleep);

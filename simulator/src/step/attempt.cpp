@@ -30,6 +30,9 @@ constexpr double kArrived = 1e-14;
 constexpr int kMaxIterations = 50;
 constexpr int kMaxBoundedIterations = 150;
 
+// Of a damped step: it brings a body back as surely as twice as many, which cost more in all.
+constexpr int kDampedIterations = 4;
+
 }  // namespace
 
 template <int Dim>
@@ -63,9 +66,11 @@ void Simulation<Dim>::Stepper::set_velocities(const StepProblem<Dim>& problem, d
     still(next_.velocities);
 }
 
-// Why the new state is none; empty unless it is beyond bounds that only a failed step leaves.
+// Why the new state is beyond bounds that only a failed step leaves; empty if it is not. What moves
+// at its end may become elastic energy, of Newton's method; a linear step gone astray makes both. A
+// damped step gains no energy but what held vertices that move put into it.
 template <int Dim>
-std::string Simulation<Dim>::Stepper::failure_reason(const Energies& before) const {
+std::string Simulation<Dim>::Stepper::excess(const Energies& before, Method method) const {
     constexpr double kMaxGrowth = 1e2;
     if (!next_.positions.allFinite() || !next_.velocities.allFinite()
         || !energy_.sum.gradient().allFinite()
@@ -73,12 +78,12 @@ std::string Simulation<Dim>::Stepper::failure_reason(const Energies& before) con
         return "the motion grew beyond all bounds";
     }
     const double budget = bodies_.large_energy + before.of("elastic") + before.kinetic
-                          + kinetic_energy(next_.velocities);
-    if (!(energy_.elasticity->energy() < kMaxGrowth * budget)) {
-        return "the elastic energy grew a hundred times; take smaller steps, or newton_euler, which"
-               " comes back from far";
-    }
-    return tunneling();
+                          + (method == Method::Newton ? kinetic_energy(next_.velocities) : 0);
+    const bool has_grown = !(energy_.elasticity->energy() < kMaxGrowth * budget);
+    return has_grown && method != Method::Damped
+               ? "the elastic energy grew a hundred times; take smaller steps, or newton_euler,"
+                 " which comes back from far"
+               : "";
 }
 
 // Why something may have got through in one step; empty if nothing has moved so far. Penalties see
@@ -117,15 +122,21 @@ std::string Simulation<Dim>::Stepper::tunneling() const {
 
 // Newton's method without a barrier: Dirichlet vertices are at their places from the beginning, and
 // the first iteration spreads their motion over all. If the value is larger there than with every
-// free vertex where it was, the method begins here.
+// free vertex where it was, the method begins here. A damped step is a few iterations of the same:
+// its energy is bounded, as they only ever lower what is minimized.
 template <int Dim>
-NewtonReport Simulation<Dim>::Stepper::minimize() {
+NewtonReport Simulation<Dim>::Stepper::minimize(Method method) {
     Positions<Dim> begin = current_.positions + potential_.prescribed_shift(current_.positions);
     const Evaluation<Dim> start = potential_.evaluate(begin);
-    next_.positions = current_.positions;
-    NewtonReport first = newton_step(potential_, next_.positions);
-    if (!first.has_converged) {
-        return first;
+    const bool is_damped = method == Method::Damped;
+    if (is_damped) {  // the linear step was taken, and thrown away
+        next_.positions += potential_.prescribed_shift(next_.positions);
+    } else {
+        next_.positions = current_.positions;
+        NewtonReport first = newton_step(potential_, next_.positions);
+        if (!first.has_converged) {
+            return first;
+        }
     }
     if (!(potential_.evaluate(next_.positions).value <= start.value)) {
         next_.positions = std::move(begin);
@@ -134,7 +145,8 @@ NewtonReport Simulation<Dim>::Stepper::minimize() {
                   {.tolerance = scene_.solver.newton_tolerance,
                    .min_correction = kNegligible * extent_,
                    .bound = kMaxExtents * extent_,
-                   .max_iterations = kMaxIterations,
+                   .max_iterations = is_damped ? kDampedIterations : kMaxIterations,
+                   .may_stop_short = is_damped,
                    .start_value = start.value,
                    .start_norm = start.gradient.norm()},
                   next_.positions);
@@ -172,32 +184,27 @@ NewtonReport Simulation<Dim>::Stepper::minimize_bounded(const StepProblem<Dim>& 
 }
 
 template <int Dim>
-NewtonReport Simulation<Dim>::Stepper::solve(const StepProblem<Dim>& problem, bool is_linear) {
-    if (is_linear) {
+NewtonReport Simulation<Dim>::Stepper::solve(const StepProblem<Dim>& problem, Method method) {
+    if (method == Method::Linear) {
         next_.positions = current_.positions;
         NewtonReport report = newton_step(potential_, next_.positions);
         report.iterations = 0;
         return report;
     }
-    return energy_.sum.is_bounded() ? minimize_bounded(problem) : minimize();
+    return energy_.sum.is_bounded() ? minimize_bounded(problem) : minimize(method);
 }
 
 template <int Dim>
-bool Simulation<Dim>::Stepper::attempt(double time, double h, StepReport& report) {
-    const StepProblem<Dim> problem = make_problem(time, h);
-    energy_.sum.set_time({time, time + h});
-    if (std::string reason = energy_.contact->obstacle_in_the_way(current_.positions);
-        !reason.empty()) {
-        report.failure = std::move(reason);
-        return false;
-    }
-    energy_.sum.update(current_.positions);
-    static_cast<void>(wake_for(problem.prescribed));
-    energy_.sum.update(current_.positions);
-    const Energies before{kinetic_energy(current_.velocities), energy_.sum.energies()};
+typename Simulation<Dim>::Stepper::Method Simulation<Dim>::Stepper::choose_method() const {
     const bool is_linear = scene_.solver.integrator == Integrator::LinearEuler
                            || (potential_.dofs().count() == 0 && islands_.asleep_count() == 0
                                && !energy_.contact->is_bounded());
+    return is_linear ? Method::Linear : Method::Newton;
+}
+
+// Tells the terms of the step that begins.
+template <int Dim>
+void Simulation<Dim>::Stepper::begin(const StepProblem<Dim>& problem, double h, Method method) {
     Positions<Dim> travel = Positions<Dim>::Zero(Dim, current_.positions.cols());
     for (std::uint32_t vertex = 0; vertex < bodies_.is_dirichlet.size(); ++vertex) {
         if (bodies_.is_dirichlet[vertex]) {
@@ -205,38 +212,74 @@ bool Simulation<Dim>::Stepper::attempt(double time, double h, StepReport& report
         }
     }
     potential_.begin_step(problem, {current_.positions, current_.velocities, problem.origin, travel,
-                                    h, problem.rate, is_linear});
-    const NewtonReport solved = solve(problem, is_linear);
+                                    h, problem.rate, method == Method::Linear});
+    potential_.accept_rough_directions(method == Method::Damped);
+}
+
+template <int Dim>
+typename Simulation<Dim>::Stepper::Outcome Simulation<Dim>::Stepper::attempt(double time,
+                                                                             double h,
+                                                                             bool is_damped,
+                                                                             StepReport& report) {
+    const auto refuse = [&](std::string reason, Outcome outcome) {
+        report.failure = std::move(reason);
+        ++report.refused;
+        return outcome;
+    };
+    const StepProblem<Dim> problem = make_problem(time, h);
+    energy_.sum.set_time({time, time + h});
+    if (std::string reason = energy_.contact->obstacle_in_the_way(current_.positions);
+        !reason.empty()) {
+        return refuse(std::move(reason), Outcome::Refused);
+    }
+    energy_.sum.update(current_.positions);
+    static_cast<void>(wake_for(problem.prescribed));
+    energy_.sum.update(current_.positions);
+    const Energies before{kinetic_energy(current_.velocities), energy_.sum.energies()};
+    const Method method = is_damped ? Method::Damped : choose_method();
+    begin(problem, h, method);
+    const NewtonReport solved = solve(problem, method);
     report.newton_iterations += solved.iterations;
     report.unbalanced = std::max(report.unbalanced, solved.residual);
     if (!solved.has_converged) {
-        report.failure = solved.failure_reason;
-        return false;
+        // Of a body that is strained by more than one matrices may have no solution.
+        const bool is_astray =
+            method == Method::Linear && before.of("elastic") > bodies_.large_energy;
+        return refuse(solved.failure_reason, is_astray ? Outcome::Astray : Outcome::Refused);
     }
     set_velocities(problem, time + h);
     energy_.sum.update(next_.positions);
-    if (std::string reason = failure_reason(before); !reason.empty()) {
-        report.failure = std::move(reason);
-        return false;
+    if (std::string reason = excess(before, method); !reason.empty()) {
+        return refuse(std::move(reason),
+                      method == Method::Linear ? Outcome::Astray : Outcome::Refused);
+    }
+    if (std::string reason = tunneling(); !reason.empty()) {
+        return refuse(std::move(reason), Outcome::Refused);
     }
     // Newton's method has forces at the end of the step: what was run into there has to give way.
-    if (!is_linear && wake_for(problem.prescribed)) {
-        return attempt(time, h, report);
+    if (method != Method::Linear && wake_for(problem.prescribed)) {
+        return attempt(time, h, is_damped, report);
     }
     if (scene_.solver.integrator == Integrator::Bdf2) {
         history_ = h == scene_.dt() ? current_ : State<Dim>();
     }
     current_ = next_;  // copied: hosts see the arrays where they lie
-    return true;
+    ++report.substeps;
+    report.damped += is_damped ? 1 : 0;
+    return Outcome::Taken;
 }
 
 template <int Dim>
 bool Simulation<Dim>::Stepper::advance(double time, double h, int depth, StepReport& report) {
-    if (attempt(time, h, report)) {
-        ++report.substeps;
+    Outcome outcome = attempt(time, h, false, report);
+    if (outcome == Outcome::Astray) {
+        const std::string reason = report.failure;  // what to change, whatever becomes of it
+        outcome = attempt(time, h, true, report);
+        report.failure = reason;
+    }
+    if (outcome == Outcome::Taken) {
         return true;
     }
-    ++report.refused;
     return depth < scene_.solver.max_halvings && advance(time, h / 2, depth + 1, report)
            && advance(time + h / 2, h / 2, depth + 1, report);
 }

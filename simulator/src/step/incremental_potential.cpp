@@ -168,7 +168,7 @@ bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
     }
     work_.hessians += elasticity_->element_count();
     work_.assembly_seconds += watch.seconds() - others;
-    if (system.has_lost_inertia()) {
+    if (system.has_lost_inertia() && !(may_be_rough_ && &system == double_system_.get())) {
         return false;
     }
     work_.unknowns += std::int64_t{Dim} * dofs_.count();
@@ -233,7 +233,9 @@ NewtonDirection<Dim> IncrementalPotential<Dim>::solve(const Positions<Dim>& shif
             break;
         }
     }
-    if (!solution.report.has_converged) {
+    const bool is_usable =
+        solution.report.has_converged || (may_be_rough_ && !solution.report.has_broken_down);
+    if (!is_usable) {
         direction.failure_reason = solution.report.has_broken_down
                                        ? "the matrix was not positive definite"
                                        : "the linear solver did not reach its tolerance";

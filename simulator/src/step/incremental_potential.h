@@ -54,6 +54,10 @@ public:
     /// @param problem, start  Must last while the step is solved.
     void begin_step(const StepProblem<Dim>& problem, const StepStart<Dim>& start);
 
+    /// Whether solve() may give directions that are not exact in the step that has begun: what
+    /// conjugate gradients leave at max_iterations, or what rounding leaves of inertia.
+    void accept_rough_directions(bool may_be_rough) { may_be_rough_ = may_be_rough; }
+
     /// Lets terms choose their stiffness, see Potential::balance(); the energy as for begin_step().
     void balance(const Positions<Dim>& x);
 
@@ -102,6 +106,7 @@ private:
     std::unique_ptr<NewtonSystem<Dim>> float_system_;
     std::unique_ptr<NewtonSystem<Dim>> double_system_;
     const StepProblem<Dim>* problem_ = nullptr;
+    bool may_be_rough_ = false;
     Positions<Dim> x_;         // last evaluated
     Positions<Dim> gradient_;  // there, of all vertices
     Observer observer_;

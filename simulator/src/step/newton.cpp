@@ -67,7 +67,9 @@ public:
                 return report_;
             }
         }
-        if (!is_at_kink()) {
+        if (options_.may_stop_short) {
+            static_cast<void>(finish(at_.gradient.norm()));
+        } else if (!is_at_kink()) {
             fail("Newton's method did not reach its tolerance");
         }
         return report_;
@@ -106,6 +108,9 @@ private:
             is_cut && value_before - at_.value <= kKinkGain * (start_value_ - at_.value);
         if ((has_stalled || best_age_ >= kKinkIterations) && is_at_kink()) {
             return false;
+        }
+        if (!factor && options_.may_stop_short && report_.iterations > 1) {
+            return finish(at_.gradient.norm());
         }
         if (!factor) {
             return fail("the line search found no decrease");

@@ -18,8 +18,10 @@ struct NewtonOptions {
                                                   ///< that from the start is a failure.
     double arrival = 0;  ///< How near to its place a prescribed point has arrived.
     int max_iterations = 150;
-    bool extends_steps = false;  ///< Whether a whole step may go on along its line.
-    double start_value = 0;      ///< Value and |gradient| that count as those at the start, where
+    bool may_stop_short = false;  ///< Whether to have taken that many, or to find no decrease
+                                  ///< behind the first, is as good an end as any.
+    bool extends_steps = false;   ///< Whether a whole step may go on along its line.
+    double start_value = 0;       ///< Value and |gradient| that count as those at the start, where
     std::optional<double> start_norm = {};  ///< these are given; else those of the first point.
 };
 

@@ -67,14 +67,18 @@ public:
     [[nodiscard]] Isa isa() const { return isa_; }
 
 private:
+    enum class Method { Linear, Newton, Damped };   // the last for linear steps gone astray
+    enum class Outcome { Taken, Astray, Refused };  // astray: a damped step may save it
     bool advance(double time, double h, int depth, StepReport& report);
-    bool attempt(double time, double h, StepReport& report);
-    [[nodiscard]] NewtonReport solve(const StepProblem<Dim>& problem, bool is_linear);
-    [[nodiscard]] NewtonReport minimize();
+    [[nodiscard]] Outcome attempt(double time, double h, bool is_damped, StepReport& report);
+    [[nodiscard]] Method choose_method() const;
+    void begin(const StepProblem<Dim>& problem, double h, Method method);
+    [[nodiscard]] NewtonReport solve(const StepProblem<Dim>& problem, Method method);
+    [[nodiscard]] NewtonReport minimize(Method method);
     [[nodiscard]] NewtonReport minimize_bounded(const StepProblem<Dim>& problem);
     [[nodiscard]] StepProblem<Dim> make_problem(double time, double h) const;
     void set_velocities(const StepProblem<Dim>& problem, double time);
-    [[nodiscard]] std::string failure_reason(const Energies& before) const;
+    [[nodiscard]] std::string excess(const Energies& before, Method method) const;
     [[nodiscard]] std::string tunneling() const;
     [[nodiscard]] bool wake_for(const Positions<Dim>& prescribed);
     bool restore_host(const HostState<Dim>& host);

@@ -70,13 +70,15 @@ struct RegionSummary {
 
 /// What one step did.
 struct StepReport {
-    std::uint64_t step = 0;     ///< Steps taken so far, this one included.
-    double time = 0;            ///< At its end, s.
-    bool is_accepted = false;   ///< If not, the state is that before the step.
-    std::string failure;        ///< Why the last attempt was thrown away; empty if none was.
-    int substeps = 0;           ///< 1, or more where the step had to be cut.
-    int refused = 0;            ///< Attempts that were thrown away.
-    int newton_iterations = 0;  ///< After the first, linear step; 0 for LinearEuler.
+    std::uint64_t step = 0;    ///< Steps taken so far, this one included.
+    double time = 0;           ///< At its end, s.
+    bool is_accepted = false;  ///< If not, the state is that before the step.
+    std::string failure;       ///< Why the last attempt was thrown away; empty if none was.
+    int substeps = 0;          ///< 1, or more where the step had to be cut.
+    int refused = 0;           ///< Attempts that were thrown away.
+    int damped = 0;  ///< Substeps of LinearEuler whose linear step had gone astray, and a few
+                     ///< iterations of Newton's method took its place.
+    int newton_iterations = 0;  ///< After the first, linear step; of LinearEuler in damped ones.
     int iterations = 0;         ///< Of the linear solver, in all.
     int asleep = 0;             ///< Bodies that sleep at the end.
     std::int64_t unknowns = 0;  ///< Scalars solved for, in all linear solves.
