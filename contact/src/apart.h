@@ -2,6 +2,9 @@
 
 #include <pent/contact/stencil.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace pent::contact {
 
 /// Whether the boxes of two sets of points are at least a distance apart: a cheap no to whether the
@@ -31,6 +34,58 @@ template <int Dim, int M, int N>
         (first.rowwise().minCoeff() - second.rowwise().maxCoeff())
             .cwiseMin(first_end.rowwise().minCoeff() - second_end.rowwise().maxCoeff());
     return above.cwiseMax(below).cwiseMax(0).squaredNorm() >= distance_squared;
+}
+
+/// How far sets of points are apart along a line: from the first to the second, times the length of
+/// `line`.
+template <int Dim, int M, int N>
+[[nodiscard]] double gap_along(const Vector<Dim>& line,
+                               const Corners<Dim, M>& first,
+                               const Corners<Dim, N>& second) {
+    return (line.transpose() * second).minCoeff() - (line.transpose() * first).maxCoeff();
+}
+
+/// Whether two sets of points are at least a distance apart along the line through their middles.
+template <int Dim, int M, int N>
+[[nodiscard]] bool are_apart_along_middles(const Corners<Dim, M>& first,
+                                           const Corners<Dim, N>& second,
+                                           double distance) {
+    const Vector<Dim> line = second.rowwise().mean() - first.rowwise().mean();
+    return gap_along<Dim, M, N>(line, first, second) >= distance * line.norm();
+}
+
+/// The same at all times for points that move evenly, along the line through their middles where
+/// they start or that where they end: how far sets are apart along any line is concave in time,
+/// too.
+template <int Dim, int M, int N>
+[[nodiscard]] bool are_paths_apart_along_middles(const Corners<Dim, M>& first,
+                                                 const Corners<Dim, M>& first_end,
+                                                 const Corners<Dim, N>& second,
+                                                 const Corners<Dim, N>& second_end,
+                                                 double distance) {
+    const auto are_apart = [&](const Vector<Dim>& line) {
+        const double least = distance * line.norm();
+        return gap_along<Dim, M, N>(line, first, second) >= least
+               && gap_along<Dim, M, N>(line, first_end, second_end) >= least;
+    };
+    return are_apart(second.rowwise().mean() - first.rowwise().mean())
+           || are_apart(second_end.rowwise().mean() - first_end.rowwise().mean());
+}
+
+/// How much nearer the hulls of two sets of points that move evenly can come on their way, at most:
+/// the longest way of a point of one against a point of the other.
+template <int Dim, int M, int N>
+[[nodiscard]] double relative_path_length(const Corners<Dim, M>& first,
+                                          const Corners<Dim, M>& first_end,
+                                          const Corners<Dim, N>& second,
+                                          const Corners<Dim, N>& second_end) {
+    const Corners<Dim, M> a = first_end - first;
+    const Corners<Dim, N> b = second_end - second;
+    double squared = 0;
+    for (int i = 0; i < M; ++i) {
+        squared = std::max(squared, (b.colwise() - a.col(i)).colwise().squaredNorm().maxCoeff());
+    }
+    return std::sqrt(squared);
 }
 
 }  // namespace pent::contact

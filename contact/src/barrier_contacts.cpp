@@ -187,14 +187,14 @@ BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
     if (candidates.pairs().empty()) {
         return contacts;
     }
-    const Displacement displacement = candidates.displacement(positions, positions);
+    const Displacements displacements = candidates.displacements(positions, positions);
     std::vector<Found<Dim>> all;
     std::uint32_t lists = 0;
     candidates.for_each_list([&]<int K, int L>(const CandidateList& list, int first, int second) {
         const double reach = candidates.reach(first, second);
         const DistanceCull<K, L> cull(list, colliders.surface(first).template simplices<K>(),
                                       colliders.surface(second).template simplices<L>(),
-                                      displacement, reach);
+                                      displacements.of(first, second), reach);
         const std::vector<Found<Dim>> found = collect<Found<Dim>>(
             cull.size(), kChunk, [&](std::size_t k, std::vector<Found<Dim>>& here) {
                 if (!cull.passes(k)) {

@@ -54,7 +54,8 @@ struct CandidatePairs {
     }
 };
 
-/// How far each vertex gets, at most, from where distances were measured, in m.
+/// How far each vertex gets, at most, from where distances were measured, but for a common shift,
+/// in m.
 struct Displacement {
     Eigen::VectorXf of_vertex;
     float max = 0;
@@ -66,6 +67,16 @@ struct Displacement {
             of_corner = std::max(of_corner, of_vertex[simplices(corner, i)]);
         }
         return of_corner;
+    }
+};
+
+/// The same for pairs of two colliders and for those within one.
+struct Displacements {
+    Displacement between;
+    Displacement within;
+
+    [[nodiscard]] const Displacement& of(int first, int second) const {
+        return first == second ? within : between;
     }
 };
 

@@ -1,14 +1,12 @@
 #include "candidates.h"
 
 #include "apart.h"
-#include "near_pairs.h"
-#include "pairs_within.h"
 
 #include <pent/stopwatch.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <utility>
 
 namespace pent::contact {
 
@@ -27,6 +25,9 @@ constexpr double kTooCoarse = 3;
 // iteration to the next, so candidates of the first hold for some that follow.
 constexpr double kInflationOfPath = 0.25;
 
+// Instead of how far a search went where there was none.
+constexpr double kNever = -1;
+
 // Distances are measured up to this many times the activation distance: while no vertex has gone
 // farther than 0.3 times that from there, no other pair can be within it.
 constexpr double kMeasured = 1.6;
@@ -44,22 +45,6 @@ double max_of(const Eigen::VectorXd& values, const Simplices<Count>& simplices, 
         max = std::max(max, values[simplices(a, i)]);
     }
     return max;
-}
-
-float rounded_up(double value) {
-    return static_cast<float>(value * (1 + 1e-7));
-}
-
-// Of pairs found in two ways, each once; both are ascending.
-CandidateList united(const CandidateList& a, const CandidateList& b) {
-    CandidateList all;
-    all.overlaps = static_cast<std::int64_t>(a.pairs.size()) + b.overlaps;
-    std::set_union(a.pairs.begin(), a.pairs.end(), b.pairs.begin(), b.pairs.end(),
-                   std::back_inserter(all.pairs), is_before);
-    for (Candidate& pair : all.pairs) {
-        pair.distance = 0;  // those that were near at rest have not been measured
-    }
-    return all;
 }
 
 // What the search along paths finds: candidates whose distance at the end is known, and others.
@@ -94,65 +79,75 @@ Candidates<Dim>::Candidates(const Colliders<Dim>& colliders)
     : colliders_(colliders),
       activation_distance_(colliders.scene().options.distance),
       min_inflation_(colliders.scene().options.margin),
+      longest_(static_cast<std::size_t>(colliders.count()), kNever),
       trees_(static_cast<std::size_t>(colliders.count())),
-      near_at_rest_(static_cast<std::size_t>(colliders.count())) {
+      trees_within_(static_cast<std::size_t>(colliders.count())),
+      proximity_(static_cast<std::size_t>(colliders.count())) {
     if (!is_penalty()) {
         const ContactOptions& options = colliders.scene().options;
         activation_distance_ = options.distance + options.separation;
         min_inflation_ = kInflation * options.distance;
     }
-}
-
-// The time at which the paths are next to the positions in the sense of least squares is as good as
-// any.
-template <int Dim>
-bool Candidates<Dim>::is_covered(const PositionsView<Dim>& positions) const {
-    if (positions.cols() != start_.cols() || work_.searches == 0) {
-        return false;
+    Eigen::Index count = 0;
+    for (int i = 0; i < colliders.count(); ++i) {
+        const Simplices<1>& vertices = colliders.surface(i).vertices;
+        vertices_.conservativeResize(1, count + vertices.cols());
+        vertices_.rightCols(vertices.cols()) = vertices;
+        count += vertices.cols();
     }
-    const double squared = (end_ - start_).squaredNorm();
-    const double along = (positions - start_).cwiseProduct(end_ - start_).sum();
-    const double t = squared > 0 ? std::clamp(along / squared, 0.0, 1.0) : 0;
-    for (Eigen::Index v = 0; v < positions.cols(); ++v) {
-        const Vector<Dim> aside = positions.col(v) - ((1 - t) * start_.col(v) + t * end_.col(v));
-        if (!(aside.squaredNorm() <= inflation_[v] * inflation_[v])) {
-            return false;
-        }
-    }
-    return true;
 }
 
 // Whether a motion needs few of the candidates, and distances measured elsewhere do not tell which.
 template <int Dim>
-bool Candidates<Dim>::is_too_coarse(const PositionsView<Dim>& from, double path_length) const {
+bool Candidates<Dim>::is_too_coarse(double searched, double measured_from, double asked) const {
     const double unmeasured = 0.5 * (kMeasured - 1) * activation_distance_;
-    return kTooCoarse * std::max(path_length, min_inflation_) < longest_
-           && (from - end_).colwise().squaredNorm().maxCoeff() > unmeasured * unmeasured;
+    return kTooCoarse * std::max(asked, min_inflation_) < searched && measured_from > unmeasured;
 }
 
 template <int Dim>
 void Candidates<Dim>::cover(const PositionsView<Dim>& from, const PositionsView<Dim>& to) {
-    const double path_length =
-        from.cols() == 0 ? 0 : std::sqrt((to - from).colwise().squaredNorm().maxCoeff());
-    if (!is_covered(from) || !is_covered(to) || is_too_coarse(from, path_length)) {
-        search(from, to);
-        longest_ = std::max(path_length, min_inflation_);
+    const double path_length = longest_path<Dim>(vertices_, from, to);
+    if (!between_.covers(vertices_, from) || !between_.covers(vertices_, to)
+        || is_too_coarse(longest_between_, longest_path<Dim>(vertices_, between_.end(), from),
+                         path_length)) {
+        longest_between_ = std::max(path_length, min_inflation_);
+        search_between({from, to, mean_shift<Dim>(vertices_, from, to)});
+    }
+    for (int body = 0; body < colliders_.count(); ++body) {
+        if (colliders_.can_meet(body, body) && !does_cover(body, {from, to})) {
+            search_within(body, {from, to});
+        }
     }
 }
 
 template <int Dim>
-void Candidates<Dim>::cover(const PositionsView<Dim>& positions) {
-    if (!is_covered(positions)) {
-        search(positions, positions);
-        longest_ = min_inflation_;
-    } else if (has_fresh_pairs_within()) {
-        fit_trees({positions, positions});
-    }
-    if (has_fresh_pairs_within()) {
-        find_pairs_within(positions);
-    }
+bool Candidates<Dim>::does_cover(int body, const Paths& paths) const {
+    const Simplices<1>& vertices = colliders_.surface(body).vertices;
+    const double searched = longest_[static_cast<std::size_t>(body)];
+    return searched >= 0 && within_.covers(vertices, paths.from)
+           && within_.covers(vertices, paths.to)
+           && !is_too_coarse(searched, longest_path<Dim>(vertices, within_.end(), paths.from),
+                             longest_path<Dim>(vertices, paths.from, paths.to));
 }
 
+template <int Dim>
+void Candidates<Dim>::cover(const PositionsView<Dim>& positions) {
+    if (!between_.covers(vertices_, positions)) {
+        longest_between_ = min_inflation_;
+        search_between({positions, positions});
+    }
+    for (int body = 0; body < colliders_.count(); ++body) {
+        if (!colliders_.can_meet(body, body)) {
+            continue;
+        }
+        if (is_penalty()) {
+            find_pairs_within(body, positions);
+        } else if (longest_[static_cast<std::size_t>(body)] < 0
+                   || !within_.covers(colliders_.surface(body).vertices, positions)) {
+            search_within(body, {positions, positions});
+        }
+    }
+}
 template <int Dim>
 void Candidates<Dim>::drop_what_is_not_kept() {
     std::size_t count = 0;
@@ -160,53 +155,88 @@ void Candidates<Dim>::drop_what_is_not_kept() {
         count += pairs.is_self() ? 0 : pairs.size();
     }
     if (is_penalty() && (min_inflation_ == 0 || count > kMaxKept)) {
-        start_.resize(Dim, 0);
-        end_.resize(Dim, 0);
+        between_.clear();
         std::vector<CandidatePairs>().swap(pairs_);
     }
 }
 
 template <int Dim>
-Displacement Candidates<Dim>::displacement(const PositionsView<Dim>& from,
-                                           const PositionsView<Dim>& to) const {
-    Displacement displacement{Eigen::VectorXf(from.cols())};
-    for (Eigen::Index v = 0; v < from.cols(); ++v) {
-        const double squared = std::max((from.col(v) - end_.col(v)).squaredNorm(),
-                                        (to.col(v) - end_.col(v)).squaredNorm());
-        displacement.of_vertex[v] = rounded_up(std::sqrt(squared));
-        displacement.max = std::max(displacement.max, displacement.of_vertex[v]);
+Displacements Candidates<Dim>::displacements(const PositionsView<Dim>& from,
+                                             const PositionsView<Dim>& to) const {
+    Displacements all;
+    all.between.of_vertex.resize(from.cols());
+    all.between.max = between_.displacement(vertices_, from, to, all.between.of_vertex);
+    for (int body = 0; body < colliders_.count(); ++body) {
+        if (longest_[static_cast<std::size_t>(body)] >= 0) {
+            all.within.of_vertex.resize(from.cols());
+            all.within.max =
+                std::max(all.within.max, within_.displacement(colliders_.surface(body).vertices,
+                                                              from, to, all.within.of_vertex));
+        }
     }
-    return displacement;
+    return all;
 }
 
 template <int Dim>
-void Candidates<Dim>::search(const PositionsView<Dim>& from, const PositionsView<Dim>& to) {
-    start_ = from;
-    end_ = to;
-    path_length_ = (to - from).colwise().norm();
-    inflation_ = (kInflationOfPath * path_length_).cwiseMax(min_inflation_);
-    fit_trees({from, to});
-    find_pairs();
+void Candidates<Dim>::search_between(const Paths& paths) {
+    between_.set(vertices_, paths.from, paths.to, min_inflation_, kInflationOfPath);
+    fit_trees(paths);
+    std::erase_if(pairs_, [](const CandidatePairs& pairs) { return !pairs.is_self(); });
+    find_pairs_between();
     ++work_.searches;
 }
 
 template <int Dim>
-void Candidates<Dim>::fit_boxes(const Paths& paths) {
-    constexpr std::size_t kChunk = 4096;
+void Candidates<Dim>::search_within(int body, const Paths& paths) {
+    const Stopwatch watch;
+    const Surface<Dim>& surface = colliders_.surface(body);
+    const auto place = static_cast<std::size_t>(body);
+    const Vector<Dim> drift = mean_shift<Dim>(surface.vertices, paths.from, paths.to);
+    longest_[place] =
+        std::max(longest_path<Dim>(surface.vertices, paths.from, paths.to), min_inflation_);
+    within_.set(surface.vertices, paths.from, paths.to, min_inflation_, kInflationOfPath);
     boxes_.resize(static_cast<std::size_t>(paths.from.cols()));
-    for (int i = 0; i < colliders_.count(); ++i) {
-        const Simplices<1>& vertices = colliders_.surface(i).vertices;
-        const double reach = 0.5 * activation_distance_ + colliders_.radius(i);
-        for_each_chunk(static_cast<std::size_t>(vertices.cols()), kChunk,
-                       [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
-                           for (std::size_t k = begin; k < end; ++k) {
-                               const std::uint32_t v = vertices(0, static_cast<Eigen::Index>(k));
-                               Eigen::Matrix<double, Dim, 2> path;
-                               path << paths.from.col(v), paths.to.col(v);
-                               boxes_[v] = box_around<Dim, 2>(path, inflation_[v] + reach);
-                           }
-                       });
+    fit_boxes(body, {paths.from, paths.to, drift}, within_);
+    trees_within_[place].update_vertices(surface, boxes_);
+    trees_within_[place].update_faces(surface, boxes_);
+    work_.tree_seconds += watch.seconds();
+    CandidatePairs pairs{.first = body, .second = body};
+    pairs.points_first = search<1, Dim>(body, body);
+    pairs.mixed_first = search<2, Dim - 1>(body, body);
+    work_.overlaps += pairs.overlaps();
+    ++work_.searches;
+    insert(std::move(pairs));
+}
+
+// In the place of what is there of the same colliders; lists are by these.
+template <int Dim>
+void Candidates<Dim>::insert(CandidatePairs pairs) {
+    const auto key = [](const CandidatePairs& p) { return std::pair(p.first, p.second); };
+    const auto place = std::lower_bound(
+        pairs_.begin(), pairs_.end(), pairs,
+        [&](const CandidatePairs& a, const CandidatePairs& b) { return key(a) < key(b); });
+    if (place != pairs_.end() && key(*place) == key(pairs)) {
+        *place = std::move(pairs);
+    } else {
+        pairs_.insert(place, std::move(pairs));
     }
+}
+
+// Less what all shift.
+template <int Dim>
+void Candidates<Dim>::fit_boxes(int collider, const Paths& paths, const PathCover<Dim>& cover) {
+    constexpr std::size_t kChunk = 4096;
+    const Simplices<1>& vertices = colliders_.surface(collider).vertices;
+    const double reach = 0.5 * activation_distance_ + colliders_.radius(collider);
+    for_each_chunk(static_cast<std::size_t>(vertices.cols()), kChunk,
+                   [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
+                       for (std::size_t k = begin; k < end; ++k) {
+                           const std::uint32_t v = vertices(0, static_cast<Eigen::Index>(k));
+                           Eigen::Matrix<double, Dim, 2> path;
+                           path << paths.from.col(v), paths.to.col(v) - paths.drift;
+                           boxes_[v] = box_around<Dim, 2>(path, cover.inflation()[v] + reach);
+                       }
+                   });
 }
 
 template <int Dim>
@@ -222,13 +252,14 @@ void Candidates<Dim>::fit_trees(const Paths& paths) {
     const Stopwatch watch;
     const int count = colliders_.count();
     std::vector<bool> is_alone(static_cast<std::size_t>(count), true);
-    if (count > 1 || colliders_.scene().options.self) {
-        fit_boxes(paths);
+    if (count > 1) {
+        boxes_.resize(static_cast<std::size_t>(paths.from.cols()));
         for (int a = 0; a < count; ++a) {
+            fit_boxes(a, paths, between_);
             trees_[static_cast<std::size_t>(a)].update_vertices(colliders_.surface(a), boxes_);
         }
         for (int a = 0; a < count; ++a) {
-            for (int b = a; b < count; ++b) {
+            for (int b = a + 1; b < count; ++b) {
                 if (colliders_.can_meet(a, b) && do_overlap(a, b)) {
                     is_alone[static_cast<std::size_t>(a)] = false;
                     is_alone[static_cast<std::size_t>(b)] = false;
@@ -245,26 +276,21 @@ void Candidates<Dim>::fit_trees(const Paths& paths) {
 }
 
 template <int Dim>
-void Candidates<Dim>::find_pairs() {
-    pairs_.clear();
+void Candidates<Dim>::find_pairs_between() {
     for (int a = 0; a < colliders_.count(); ++a) {
-        for (int b = a; b < colliders_.count(); ++b) {
+        for (int b = a + 1; b < colliders_.count(); ++b) {
             if (!colliders_.can_meet(a, b) || !do_overlap(a, b)) {
                 continue;
             }
             CandidatePairs pairs{.first = a, .second = b};
-            if (a != b || !has_fresh_pairs_within()) {
-                pairs.points_first = search<1, Dim>(a, b);
-                pairs.mixed_first = search<2, Dim - 1>(a, b);
-            }
-            if (a != b) {
-                pairs.points_second = search<1, Dim>(b, a);
-                if constexpr (Dim > 3) {
-                    pairs.mixed_second = search<2, Dim - 1>(b, a);
-                }
+            pairs.points_first = search<1, Dim>(a, b);
+            pairs.mixed_first = search<2, Dim - 1>(a, b);
+            pairs.points_second = search<1, Dim>(b, a);
+            if constexpr (Dim > 3) {
+                pairs.mixed_second = search<2, Dim - 1>(b, a);
             }
             work_.overlaps += pairs.overlaps();
-            pairs_.push_back(std::move(pairs));
+            insert(std::move(pairs));
         }
     }
 }
@@ -274,19 +300,23 @@ template <int K, int L>
 CandidateList Candidates<Dim>::search(int first, int second) const {
     const Simplices<K>& a = colliders_.surface(first).template simplices<K>();
     const Simplices<L>& b = colliders_.surface(second).template simplices<L>();
-    const BoxTree& first_tree = trees(first).template tree<K>();
-    const BoxTree& second_tree = trees(second).template tree<L>();
+    const bool is_within = first == second;
+    const auto& all_trees = is_within ? trees_within_ : trees_;
+    const BoxTree& first_tree = all_trees[static_cast<std::size_t>(first)].template tree<K>();
+    const BoxTree& second_tree = all_trees[static_cast<std::size_t>(second)].template tree<L>();
     const bool is_same_list = &first_tree == &second_tree;
     const double reach = this->reach(first, second);
-    const PositionsView<Dim> end = end_;
-    if (path_length_.isZero(0)) {
+    const PathCover<Dim>& cover = is_within ? within_ : between_;
+    const Eigen::VectorXd& inflation = cover.inflation();
+    const PositionsView<Dim> end = cover.end();
+    if (is_penalty()) {
         const double limit = (reach + 2 * min_inflation_) * (is_exact() ? 1 : kRoundUp);
         return joined(walk_overlaps<CandidateList>(
             first_tree, second_tree,
             NearTest<Dim, K, L>{a, b, is_same_list, end, limit * limit,
                                 is_exact() && K == 2 ? Closest::Interior : Closest::Anywhere}));
     }
-    const PositionsView<Dim> start = start_;
+    const PositionsView<Dim> start = cover.start();
     const double measured = reach + (kMeasured - 1) * activation_distance_;
     const auto add = [&](std::uint32_t i, std::uint32_t j, Found& list) {
         ++list.overlaps;
@@ -298,18 +328,20 @@ CandidateList Candidates<Dim>::search(int first, int second) const {
         }
         // Boxes around whole paths are crude: what counts is how near the two come at any one time.
         const double near =
-            (reach + max_of<K>(inflation_, a, i) + max_of<L>(inflation_, b, j)) * kRoundUp;
+            (reach + max_of<K>(inflation, a, i) + max_of<L>(inflation, b, j)) * kRoundUp;
+        const Corners<Dim, K> p_start = gather<Dim, K>(a, i, start);
+        const Corners<Dim, L> q_start = gather<Dim, L>(b, j, start);
         const Corners<Dim, K> p = gather<Dim, K>(a, i, end);
         const Corners<Dim, L> q = gather<Dim, L>(b, j, end);
-        if (are_paths_apart<Dim, K, L>(gather<Dim, K>(a, i, start), p, gather<Dim, L>(b, j, start),
-                                       q, near * near)) {
+        if (are_paths_apart<Dim, K, L>(p_start, p, q_start, q, near * near)
+            || are_paths_apart_along_middles<Dim, K, L>(p_start, p, q_start, q, near)) {
             return;
         }
         ClosestPointSearch<Dim, K, L> closest(p, q, measured * measured);
         const bool is_known =
             !are_boxes_apart<Dim, K, L>(p, q, measured * measured) && closest.run();
         const double distance = is_known ? std::sqrt(closest.best().distance_squared) : measured;
-        if (distance < near + max_of<K>(path_length_, a, i) + max_of<L>(path_length_, b, j)) {
+        if (distance < near + relative_path_length<Dim, K, L>(p_start, p, q_start, q) * kRoundUp) {
             (is_known ? list.known : list.others).push_back({i, j, rounded_down(distance)});
         }
     };
@@ -317,53 +349,28 @@ CandidateList Candidates<Dim>::search(int first, int second) const {
 }
 
 template <int Dim>
-void Candidates<Dim>::find_pairs_within(const PositionsView<Dim>& positions) {
-    for (CandidatePairs& pairs : pairs_) {
-        if (pairs.is_self()) {
-            find_pairs_within(positions, pairs);
-            work_.overlaps += pairs.overlaps();
-        }
+void Candidates<Dim>::find_pairs_within(int body, const PositionsView<Dim>& positions) {
+    std::optional<SelfProximity<Dim>>& proximity = proximity_[static_cast<std::size_t>(body)];
+    if (!proximity) {
+        proximity.emplace(colliders_.surface(body), colliders_.rest(), activation_distance_);
     }
-}
-
-template <int Dim>
-void Candidates<Dim>::find_pairs_within(const PositionsView<Dim>& positions,
-                                        CandidatePairs& pairs) {
-    const auto body = static_cast<std::size_t>(pairs.first);
-    const Surface<Dim>& surface = colliders_.surface(pairs.first);
-    const double distance = activation_distance_;
-    std::optional<RestProximityPairs>& near = near_at_rest_[body];
-    if (!near) {
-        near = find_rest_proximity_pairs<Dim>(surface, colliders_.rest(), distance);
-    }
-    SurfaceTrees<Dim>& trees = trees_[body];
-    if (near->rest_distance == 0) {
-        pairs.points_first = near_pairs<Dim, 1, Dim>({surface.vertices, trees.template tree<1>()},
-                                                     {surface.facets, trees.template tree<Dim>()},
-                                                     positions, distance);
-        pairs.mixed_first =
-            near_pairs<Dim, 2, Dim - 1>({surface.edges, trees.template tree<2>()},
-                                        {surface.ridges, trees.template tree<Dim - 1>()}, positions,
-                                        distance, Closest::Interior);
-        return;
-    }
-    trees.update_patches(surface, colliders_.rest(), positions);
-    pairs.points_first = united(
-        near->points, pairs_within<Dim, 1, Dim>(trees.template patched<1>(surface),
-                                                trees.template patched<Dim>(surface), positions,
-                                                distance, near->rest_distance, Closest::Anywhere));
-    pairs.mixed_first = united(near->mixed, pairs_within<Dim, 2, Dim - 1>(
-                                                trees.template patched<2>(surface),
-                                                trees.template patched<Dim - 1>(surface), positions,
-                                                distance, near->rest_distance, Closest::Interior));
+    CandidatePairs pairs{.first = body, .second = body};
+    proximity->find(positions, pairs);
+    work_.overlaps += pairs.overlaps();
+    insert(std::move(pairs));
 }
 
 template <int Dim>
 SearchWork Candidates<Dim>::work() const {
     SearchWork work = work_;
-    for (const SurfaceTrees<Dim>& trees : trees_) {
-        work.trees_built += trees.built();
-        work.trees_refit += trees.refit();
+    for (const auto* all : {&trees_, &trees_within_}) {
+        for (const SurfaceTrees<Dim>& trees : *all) {
+            work.trees_built += trees.built();
+            work.trees_refit += trees.refit();
+        }
+    }
+    for (const std::optional<SelfProximity<Dim>>& proximity : proximity_) {
+        work.trees_refit += proximity ? proximity->refit() : 0;
     }
     return work;
 }
@@ -374,15 +381,15 @@ std::int64_t Candidates<Dim>::bytes() const {
     for (const CandidatePairs& pairs : pairs_) {
         sum += static_cast<std::int64_t>(pairs.size() * sizeof(Candidate));
     }
-    for (const SurfaceTrees<Dim>& trees : trees_) {
-        sum += trees.bytes();
+    for (const auto* all : {&trees_, &trees_within_}) {
+        for (const SurfaceTrees<Dim>& trees : *all) {
+            sum += trees.bytes();
+        }
     }
-    for (const std::optional<RestProximityPairs>& near : near_at_rest_) {
-        sum += near ? near->bytes() : 0;
+    for (const std::optional<SelfProximity<Dim>>& proximity : proximity_) {
+        sum += proximity ? proximity->bytes() : 0;
     }
-    return sum
-           + static_cast<std::int64_t>(sizeof(double))
-                 * (start_.size() + end_.size() + path_length_.size() + inflation_.size())
+    return sum + between_.bytes() + within_.bytes()
            + static_cast<std::int64_t>(boxes_.size() * sizeof(Box));
 }
 

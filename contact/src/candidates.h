@@ -3,7 +3,8 @@
 #include "candidate.h"
 #include "colliders.h"
 #include "overlaps.h"
-#include "rest_proximity_pairs.h"
+#include "path_cover.h"
+#include "self_proximity.h"
 #include "surface_trees.h"
 
 #include <cstdint>
@@ -26,15 +27,17 @@ struct SearchWork {
 /// of no length. Pairs that share a vertex are left out.
 ///
 /// Vertices may leave their paths by an inflation: candidates hold for all positions that have
-/// every vertex that near to where its path is at one and the same time. Only for others are they
-/// searched again, or when much shorter motions are asked for elsewhere.
+/// every vertex that near to where its path is at one and the same time, but for a shift of all.
+/// Only for others are they searched again, or when much shorter motions are asked for elsewhere.
+/// Pairs within a body under a barrier have a cover of their own: only how its vertices move
+/// against each other matters to them.
 ///
 /// Each candidate knows how far apart it was where the paths end, which is where Newton's method
 /// goes on: a DistanceCull holds most of them back there.
 ///
 /// Of a penalty, mixed pairs are those whose closest points are inside both, unless they are kept
-/// for other positions (a margin). Within bodies its candidates are found anew each time, from what
-/// was near at rest and by patches: those alone that can be in contact.
+/// for other positions (a margin). Within bodies its candidates are found anew each time, by a
+/// SelfProximity: those alone that can be in contact.
 template <int Dim>
 class Candidates {
 public:
@@ -75,12 +78,12 @@ public:
     [[nodiscard]] bool is_exact() const { return is_penalty() && min_inflation_ == 0; }
 
     /// Of the vertices on the way between two positions, from where distances were measured.
-    [[nodiscard]] Displacement displacement(const PositionsView<Dim>& from,
-                                            const PositionsView<Dim>& to) const;
+    [[nodiscard]] Displacements displacements(const PositionsView<Dim>& from,
+                                              const PositionsView<Dim>& to) const;
 
     [[nodiscard]] const Colliders<Dim>& colliders() const { return colliders_; }
 
-    /// Over boxes that hold what was covered.
+    /// Over boxes that hold what was covered between bodies.
     [[nodiscard]] const SurfaceTrees<Dim>& trees(int collider) const {
         return trees_[static_cast<std::size_t>(collider)];
     }
@@ -89,39 +92,39 @@ public:
     [[nodiscard]] std::int64_t bytes() const;
 
 private:
-    // A scene's positions at the start and at the end of the paths.
+    // A scene's positions at the start and at the end of the paths, and how they shift as a whole.
     struct Paths {
         const PositionsView<Dim>& from;
         const PositionsView<Dim>& to;
+        Vector<Dim> drift = Vector<Dim>::Zero();
     };
 
     [[nodiscard]] bool is_penalty() const { return !colliders_.is_barrier(); }
-    [[nodiscard]] bool has_fresh_pairs_within() const {
-        return is_penalty() && colliders_.scene().options.self;
-    }
-    [[nodiscard]] bool is_covered(const PositionsView<Dim>& positions) const;
-    [[nodiscard]] bool is_too_coarse(const PositionsView<Dim>& from, double path_length) const;
-    void search(const PositionsView<Dim>& from, const PositionsView<Dim>& to);
+    [[nodiscard]] bool does_cover(int body, const Paths& paths) const;
+    [[nodiscard]] bool is_too_coarse(double searched, double measured_from, double asked) const;
+    void search_between(const Paths& paths);
+    void search_within(int body, const Paths& paths);
     void fit_trees(const Paths& paths);
-    void fit_boxes(const Paths& paths);
+    void fit_boxes(int collider, const Paths& paths, const PathCover<Dim>& cover);
     [[nodiscard]] bool do_overlap(int a, int b) const;
-    void find_pairs();
-    void find_pairs_within(const PositionsView<Dim>& positions);
-    void find_pairs_within(const PositionsView<Dim>& positions, CandidatePairs& pairs);
+    void find_pairs_between();
+    void insert(CandidatePairs pairs);
+    void find_pairs_within(int body, const PositionsView<Dim>& positions);
     template <int K, int L>
     [[nodiscard]] CandidateList search(int first, int second) const;
 
     const Colliders<Dim>& colliders_;
     double activation_distance_;   // m, with the separation
     double min_inflation_;         // m
-    Positions<Dim> start_;         // where the covered paths begin
-    Positions<Dim> end_;           // and end: where distances are measured
-    Eigen::VectorXd path_length_;  // of each vertex, m
-    Eigen::VectorXd inflation_;    // how far each vertex may leave its path, m
-    double longest_ = 0;           // motion that candidates were searched for, m
+    Simplices<1> vertices_;        // of all surfaces
+    PathCover<Dim> between_;       // what pairs of two colliders hold for
+    PathCover<Dim> within_;        // the same of pairs within a body, under a barrier
+    double longest_between_ = 0;   // motion that candidates were searched for, m
+    std::vector<double> longest_;  // the same within each collider; below 0 where not searched
     std::vector<Box> boxes_;  // around the path of each vertex, its inflation and half a distance
     std::vector<SurfaceTrees<Dim>> trees_;
-    std::vector<std::optional<RestProximityPairs>> near_at_rest_;  // of bodies searched within
+    std::vector<SurfaceTrees<Dim>> trees_within_;  // over boxes around paths within a body
+    std::vector<std::optional<SelfProximity<Dim>>> proximity_;  // of bodies, under a penalty
     std::vector<CandidatePairs> pairs_;
     SearchWork work_;
 };

@@ -26,6 +26,12 @@ constexpr double kSlender = 1e-6;
 // What rounding may add to lengths, over the size of coordinates.
 constexpr double kRounding = 1e-12;
 
+// Patches that one thread fits at a time.
+constexpr std::size_t kChunk = 64;
+
+// Maps that are nearer than this to a rotation need no eigenvalues.
+constexpr double kNearRotation = 0.1;
+
 template <int Dim>
 using Map = Eigen::Matrix<double, Dim, Dim>;
 
@@ -35,6 +41,19 @@ Vector<Dim> across(const Map<Dim>& axes) {
     Corners<Dim, Dim> corners;
     corners << Vector<Dim>::Zero(), axes.template rightCols<Dim - 1>();
     return facet_normal<Dim>(corners).stableNormalized();
+}
+
+// The smallest singular value of a map, or a bound from below: no eigenvalue of A^T A is farther
+// from 1 than A^T A, as a whole, from the identity.
+template <int Dim>
+double least_stretch(const Map<Dim>& map) {
+    const Map<Dim> metric = map.transpose() * map;
+    const double off = (metric - Map<Dim>::Identity()).norm();
+    if (off < kNearRotation) {
+        return std::sqrt(1 - off);
+    }
+    const Eigen::SelfAdjointEigenSolver<Map<Dim>> solver(metric, Eigen::EigenvaluesOnly);
+    return std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
 }
 
 // Vertices of the simplices in a range, ascending, once each.
@@ -76,18 +95,22 @@ std::vector<BoxTree::Range> patch_ranges(const BoxTree& tree) {
 }
 
 template <int Dim>
-bool stay_apart(const PatchMotion<Dim>& first,
-                const PatchMotion<Dim>& second,
-                double rest_distance,
-                double distance) {
+PatchBound bound_of(const PatchMotion<Dim>& first, const PatchMotion<Dim>& second) {
     const Map<Dim> mean = 0.5 * (first.map + second.map);
     const double turn = 0.5 * (first.map - second.map).norm();
     const Vector<Dim> shift =
         first.center - second.center - mean * (first.rest_center - second.rest_center);
-    const double stretch = std::max(first.least_stretch, second.least_stretch) - turn;
-    const double lack =
-        shift.norm() + turn * (first.radius + second.radius) + first.deviation + second.deviation;
-    return stretch > 0 && stretch * rest_distance - lack > distance;
+    return {
+        std::max(first.least_stretch, second.least_stretch) - turn,
+        shift.norm() + turn * (first.radius + second.radius) + first.deviation + second.deviation};
+}
+
+template <int Dim>
+bool stay_apart(const PatchMotion<Dim>& first,
+                const PatchMotion<Dim>& second,
+                double rest_distance,
+                double distance) {
+    return bound_of<Dim>(first, second).is_apart(rest_distance, distance);
 }
 
 template <int Dim>
@@ -95,48 +118,63 @@ template <int Count>
 Patches<Dim>::Patches(const Simplices<Count>& simplices,
                       const BoxTree& tree,
                       const PositionsView<Dim>& rest) {
+    Vertices all;
     for (const BoxTree::Range& range : patch_ranges(tree)) {
-        add(vertices_of<Count>(simplices, tree, range), rest);
+        const std::vector<std::uint32_t> vertices = vertices_of<Count>(simplices, tree, range);
+        all.begin.push_back(all.of_patch.size());
+        all.of_patch.insert(all.of_patch.end(), vertices.begin(), vertices.end());
     }
-    patches_.emplace_back().begin = vertices_.size();
+    all.begin.push_back(all.of_patch.size());
+    vertices_ = std::make_shared<const Vertices>(std::move(all));
+    set_rest(rest);
 }
 
 template <int Dim>
-void Patches<Dim>::add(const std::vector<std::uint32_t>& vertices, const PositionsView<Dim>& rest) {
-    Rest& patch = patches_.emplace_back();
-    patch.begin = vertices_.size();
-    PatchMotion<Dim>& motion = motions_.emplace_back();
+Patches<Dim>::Patches(const Patches& others, const PositionsView<Dim>& rest)
+    : vertices_(others.vertices_) {
+    set_rest(rest);
+}
+
+template <int Dim>
+void Patches<Dim>::set_rest(const PositionsView<Dim>& rest) {
+    rest_positions_ = rest;
+    patches_.resize(vertices_->begin.size() - 1);
+    motions_.resize(patches_.size());
+    parallel_for(motions_.size(), kChunk,
+                 [&](std::size_t patch) { patches_[patch] = rest_of(patch, motions_[patch]); });
+}
+
+template <int Dim>
+typename Patches<Dim>::Rest Patches<Dim>::rest_of(std::size_t patch,
+                                                  PatchMotion<Dim>& motion) const {
+    const std::span<const std::uint32_t> vertices = vertices_->of(patch);
     for (const std::uint32_t vertex : vertices) {
-        motion.rest_center += rest.col(vertex) / static_cast<double>(vertices.size());
+        motion.rest_center += rest_positions_.col(vertex) / static_cast<double>(vertices.size());
     }
     Map<Dim> spread = Map<Dim>::Zero();
     for (const std::uint32_t vertex : vertices) {
-        vertices_.push_back(vertex);
-        offsets_.emplace_back(rest.col(vertex) - motion.rest_center);
-        spread += offsets_.back() * offsets_.back().transpose();
-        motion.radius = std::max(motion.radius, offsets_.back().norm());
+        const Vector<Dim> offset = rest_positions_.col(vertex) - motion.rest_center;
+        spread += offset * offset.transpose();
+        motion.radius = std::max(motion.radius, offset.norm());
     }
     const Eigen::SelfAdjointEigenSolver<Map<Dim>> solver(spread);
     const Vector<Dim>& along = solver.eigenvalues();  // ascending
-    patch.axes = solver.eigenvectors();
-    patch.is_flat = !(along[0] > kFlat * along[1]);
-    if (patch.is_flat) {
-        patch.axes.col(0) = across<Dim>(patch.axes);
+    Rest rest;
+    rest.axes = solver.eigenvectors();
+    rest.is_flat = !(along[0] > kFlat * along[1]);
+    if (rest.is_flat) {
+        rest.axes.col(0) = across<Dim>(rest.axes);
     }
-    Map<Dim> inverse = Map<Dim>::Zero();  // zero where no map can be told
-    if (along[1] > kSlender * along[Dim - 1]) {
-        for (int axis = patch.is_flat ? 1 : 0; axis < Dim; ++axis) {
-            inverse += patch.axes.col(axis) * patch.axes.col(axis).transpose() / along[axis];
+    if (along[1] > kSlender * along[Dim - 1]) {  // else no map can be told
+        for (int axis = rest.is_flat ? 1 : 0; axis < Dim; ++axis) {
+            rest.inverse += rest.axes.col(axis) * rest.axes.col(axis).transpose() / along[axis];
         }
     }
-    for (std::size_t i = patch.begin; i < vertices_.size(); ++i) {
-        weights_.emplace_back(inverse * offsets_[i]);
-    }
+    return rest;
 }
 
 template <int Dim>
 void Patches<Dim>::fit(const PositionsView<Dim>& positions) {
-    constexpr int kChunk = 64;
     parallel_for(motions_.size(), kChunk,
                  [&](std::size_t patch) { motions_[patch] = fit(patch, positions); });
 }
@@ -144,29 +182,30 @@ void Patches<Dim>::fit(const PositionsView<Dim>& positions) {
 template <int Dim>
 PatchMotion<Dim> Patches<Dim>::fit(std::size_t patch, const PositionsView<Dim>& positions) const {
     const Rest& rest = patches_[patch];
-    const std::size_t end = patches_[patch + 1].begin;
+    const std::span<const std::uint32_t> vertices = vertices_->of(patch);
     PatchMotion<Dim> motion;
     motion.rest_center = motions_[patch].rest_center;
     motion.radius = motions_[patch].radius;
-    for (std::size_t i = rest.begin; i < end; ++i) {
-        motion.center += positions.col(vertices_[i]);
+    for (const std::uint32_t vertex : vertices) {
+        motion.center += positions.col(vertex);
     }
-    motion.center /= static_cast<double>(end - rest.begin);
-    for (std::size_t i = rest.begin; i < end; ++i) {
-        motion.map += (positions.col(vertices_[i]) - motion.center) * weights_[i].transpose();
+    motion.center /= static_cast<double>(vertices.size());
+    for (const std::uint32_t vertex : vertices) {
+        motion.map += (positions.col(vertex) - motion.center)
+                      * (rest_positions_.col(vertex) - motion.rest_center).transpose();
     }
+    motion.map *= rest.inverse;
     if (rest.is_flat) {
         motion.map += across<Dim>(motion.map * rest.axes) * rest.axes.col(0).transpose();
     }
     double deviation_squared = 0;
-    for (std::size_t i = rest.begin; i < end; ++i) {
-        deviation_squared = std::max(
-            deviation_squared,
-            (positions.col(vertices_[i]) - motion.center - motion.map * offsets_[i]).squaredNorm());
+    for (const std::uint32_t vertex : vertices) {
+        const Vector<Dim> offset = rest_positions_.col(vertex) - motion.rest_center;
+        deviation_squared =
+            std::max(deviation_squared,
+                     (positions.col(vertex) - motion.center - motion.map * offset).squaredNorm());
     }
-    const Map<Dim> metric = motion.map.transpose() * motion.map;
-    const Eigen::SelfAdjointEigenSolver<Map<Dim>> solver(metric, Eigen::EigenvaluesOnly);
-    motion.least_stretch = std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
+    motion.least_stretch = least_stretch<Dim>(motion.map);
     motion.deviation =
         std::sqrt(deviation_squared)
         + kRounding * (motion.center.norm() + motion.rest_center.norm() + motion.radius);
@@ -177,9 +216,12 @@ template <int Dim>
 std::int64_t Patches<Dim>::bytes() const {
     return static_cast<std::int64_t>(
         patches_.size() * sizeof(Rest) + motions_.size() * sizeof(PatchMotion<Dim>)
-        + vertices_.size() * sizeof(std::uint32_t) + 2 * offsets_.size() * sizeof(Vector<Dim>));
+        + static_cast<std::size_t>(rest_positions_.size()) * sizeof(double)
+        + (vertices_ ? vertices_->of_patch.size() * sizeof(std::uint32_t) : 0));
 }
 
+template PatchBound bound_of(const PatchMotion<3>&, const PatchMotion<3>&);
+template PatchBound bound_of(const PatchMotion<4>&, const PatchMotion<4>&);
 template bool stay_apart(const PatchMotion<3>&, const PatchMotion<3>&, double, double);
 template bool stay_apart(const PatchMotion<4>&, const PatchMotion<4>&, double, double);
 template class Patches<3>;

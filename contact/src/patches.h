@@ -4,6 +4,8 @@
 #include <pent/contact/surface.h>
 
 #include <limits>
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace pent::contact {
@@ -21,11 +23,26 @@ struct PatchMotion {
     double deviation = std::numeric_limits<double>::infinity();  ///< m; infinite where not known.
 };
 
-/// Whether a point of one and a point of the other patch that are `rest_distance` apart at rest, or
-/// more, are certainly more than `distance` apart now. Never true where something is not finite.
+/// How near a point of one and a point of another patch can be, from how far they are apart at
+/// rest.
 ///
 /// With G the mean of both maps, x - y is G (X - Y), which is no shorter than the rest distance
 /// times the least stretch of G, and what the maps and centers lack to agree with G.
+struct PatchBound {
+    double stretch = 0;
+    double lack = std::numeric_limits<double>::infinity();  ///< m.
+
+    /// Whether points so far apart at rest (m), or farther, are certainly more than `distance`
+    /// apart now. Never true where something is not finite.
+    [[nodiscard]] bool is_apart(double rest_distance, double distance) const {
+        return stretch > 0 && stretch * rest_distance - lack > distance;
+    }
+};
+
+template <int Dim>
+[[nodiscard]] PatchBound bound_of(const PatchMotion<Dim>& first, const PatchMotion<Dim>& second);
+
+/// The same of all points of both.
 template <int Dim>
 [[nodiscard]] bool stay_apart(const PatchMotion<Dim>& first,
                               const PatchMotion<Dim>& second,
@@ -51,6 +68,9 @@ public:
     template <int Count>
     Patches(const Simplices<Count>& simplices, const BoxTree& tree, const PositionsView<Dim>& rest);
 
+    /// The patches of the others, from other positions that count as at rest.
+    Patches(const Patches& others, const PositionsView<Dim>& rest);
+
     /// Finds the motion of each patch: the affine map that fits its vertices best. Parallel.
     void fit(const PositionsView<Dim>& positions);
 
@@ -60,22 +80,33 @@ public:
     [[nodiscard]] std::int64_t bytes() const;
 
 private:
-    // What a patch is at rest.
-    struct Rest {
-        std::size_t begin = 0;  // its vertices: [begin, begin of the next)
-        bool is_flat = false;   // across axes.col(0) there is nothing to fit to
-        Eigen::Matrix<double, Dim, Dim> axes = Eigen::Matrix<double, Dim, Dim>::Zero();
+    // Which vertices each patch has.
+    struct Vertices {
+        std::vector<std::size_t> begin;  // of each patch, and one more
+        std::vector<std::uint32_t> of_patch;
+
+        [[nodiscard]] std::span<const std::uint32_t> of(std::size_t patch) const {
+            return std::span(of_patch).subspan(begin[patch], begin[patch + 1] - begin[patch]);
+        }
     };
 
-    void add(const std::vector<std::uint32_t>& vertices, const PositionsView<Dim>& rest);
+    // What a patch is at rest.
+    struct Rest {
+        bool is_flat = false;  // across axes.col(0) there is nothing to fit to
+        Eigen::Matrix<double, Dim, Dim> axes = Eigen::Matrix<double, Dim, Dim>::Zero();
+        // map = (sum of (position - center) (rest - rest_center)^T over the vertices) inverse
+        Eigen::Matrix<double, Dim, Dim> inverse = Eigen::Matrix<double, Dim, Dim>::Zero();
+    };
+
+    void set_rest(const PositionsView<Dim>& rest);
+    [[nodiscard]] Rest rest_of(std::size_t patch, PatchMotion<Dim>& motion) const;
     [[nodiscard]] PatchMotion<Dim> fit(std::size_t patch,
                                        const PositionsView<Dim>& positions) const;
 
-    std::vector<Rest> patches_;  // and one more, for its begin
+    std::shared_ptr<const Vertices> vertices_;
+    Positions<Dim> rest_positions_;
+    std::vector<Rest> patches_;
     std::vector<PatchMotion<Dim>> motions_;
-    std::vector<std::uint32_t> vertices_;
-    std::vector<Vector<Dim>> offsets_;  // of each vertex from the center at rest
-    std::vector<Vector<Dim>> weights_;  // map = sum of position weight^T over the vertices
 };
 
 }  // namespace pent::contact

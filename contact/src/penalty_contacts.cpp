@@ -35,7 +35,7 @@ struct Setting {
     const Colliders<Dim>& colliders;
     const Candidates<Dim>& candidates;
     const PositionsView<Dim>& positions;
-    const Displacement displacement;
+    const Displacements displacements;
     Positions<Dim> normals;  // of vertices of bodies that are judged by them
 
     [[nodiscard]] double distance() const { return colliders.scene().options.distance; }
@@ -52,7 +52,7 @@ std::vector<NearPoint> near_points(const Setting<Dim>& setting,
                                    const Simplices<1>& vertices,
                                    const Simplices<Dim>& facets) {
     const double limit = setting.distance() * setting.distance();
-    const DistanceCull<1, Dim> cull(list, vertices, facets, setting.displacement,
+    const DistanceCull<1, Dim> cull(list, vertices, facets, setting.displacements.between,
                                     setting.distance());
     std::vector<NearPoint> near =
         collect<NearPoint>(cull.size(), kChunk, [&](std::size_t k, std::vector<NearPoint>& found) {
@@ -83,7 +83,7 @@ std::vector<Candidate> near_mixed(const Setting<Dim>& setting,
         return sorted(list).pairs;
     }
     const double limit = setting.distance() * setting.distance();
-    const DistanceCull<2, Dim - 1> cull(list, edges, ridges, setting.displacement,
+    const DistanceCull<2, Dim - 1> cull(list, edges, ridges, setting.displacements.between,
                                         setting.distance());
     std::vector<Candidate> near =
         collect<Candidate>(cull.size(), kChunk, [&](std::size_t k, std::vector<Candidate>& found) {
@@ -246,7 +246,7 @@ std::vector<Contact<Dim>> find_penalty_contacts(const Colliders<Dim>& colliders,
         return {};
     }
     Setting<Dim> setting{colliders, candidates, positions,
-                         candidates.displacement(positions, positions), Positions<Dim>()};
+                         candidates.displacements(positions, positions), Positions<Dim>()};
     std::vector<NearNow> all;
     for (const CandidatePairs& pairs : candidates.pairs()) {
         all.push_back(near_now<Dim>(setting, pairs));

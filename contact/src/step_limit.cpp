@@ -155,10 +155,11 @@ StepLimit find_step_limit(const Candidates<Dim>& candidates,
     const Step<Dim> step{from, to - from};
     StepLimit limit;
     if (!candidates.pairs().empty()) {
-        const Displacement displacement = candidates.displacement(from, to);
+        const Displacements displacements = candidates.displacements(from, to);
         candidates.for_each_list(
             [&]<int K, int L>(const CandidateList& list, int first, int second) {
-                shorten<Dim, K, L>(candidates, list, {first, second}, step, displacement, limit);
+                shorten<Dim, K, L>(candidates, list, {first, second}, step,
+                                   displacements.of(first, second), limit);
             });
     }
     for (std::uint32_t o = 0; o < colliders.scene().obstacles.size(); ++o) {

@@ -34,11 +34,7 @@ void SurfaceTrees<Dim>::update(const Surface<Dim>& surface, const std::vector<Bo
     if (simplices.cols() == 0) {
         return;
     }
-    Tree& tree = trees_[Count - 1];
-    const bool is_new = tree.fitted.update(hulls<Count>(simplices, boxes));
-    if (is_new) {
-        tree.patches = Patches<Dim>();
-    }
+    const bool is_new = trees_[Count - 1].update(hulls<Count>(simplices, boxes));
     built_ += is_new ? 1 : 0;
     refit_ += is_new ? 0 : 1;
 }
@@ -59,34 +55,10 @@ void SurfaceTrees<Dim>::update_faces(const Surface<Dim>& surface, const std::vec
 }
 
 template <int Dim>
-template <int Count>
-void SurfaceTrees<Dim>::update_patches_of(const Surface<Dim>& surface,
-                                          const PositionsView<Dim>& rest,
-                                          const PositionsView<Dim>& positions) {
-    Tree& tree = trees_[Count - 1];
-    if (tree.patches.motions().empty()) {
-        tree.patches = Patches<Dim>(surface.template simplices<Count>(), tree.fitted.tree(), rest);
-    }
-    tree.patches.fit(positions);
-}
-
-template <int Dim>
-void SurfaceTrees<Dim>::update_patches(const Surface<Dim>& surface,
-                                       const PositionsView<Dim>& rest,
-                                       const PositionsView<Dim>& positions) {
-    update_patches_of<1>(surface, rest, positions);
-    update_patches_of<2>(surface, rest, positions);
-    update_patches_of<3>(surface, rest, positions);
-    if constexpr (Dim > 3) {
-        update_patches_of<4>(surface, rest, positions);
-    }
-}
-
-template <int Dim>
 std::int64_t SurfaceTrees<Dim>::bytes() const {
     std::int64_t sum = 0;
-    for (const Tree& tree : trees_) {
-        sum += tree.fitted.tree().bytes() + tree.patches.bytes();
+    for (const RefitTree& tree : trees_) {
+        sum += tree.tree().bytes();
     }
     return sum;
 }

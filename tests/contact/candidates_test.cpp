@@ -128,8 +128,9 @@ TYPED_TEST(CandidatesTest, HoldAllThatComesNearOnTheWay) {
             const Positions<kDim> x = from + 0.1 * k * (to - from);
             candidates.cover(x);
             EXPECT_EQ(candidates.work().searches, 1);  // the way is covered
-            this->expect_complete(candidates, candidates.displacement(x, x), x, this->kReach);
-            this->expect_complete(candidates, candidates.displacement(from, to), x,
+            this->expect_complete(candidates, candidates.displacements(x, x).between, x,
+                                  this->kReach);
+            this->expect_complete(candidates, candidates.displacements(from, to).between, x,
                                   0.1 * this->kReach);
         }
     }
@@ -149,14 +150,15 @@ TYPED_TEST(CandidatesTest, HoldWhileVerticesStayNearTheirPaths) {
         test::shake<kDim>(x, 0.9 * this->kInflation / std::sqrt(kDim), seed);
         candidates.cover(x);
         EXPECT_EQ(candidates.work().searches, 1);
-        this->expect_complete(candidates, candidates.displacement(x, x), x, this->kReach);
+        this->expect_complete(candidates, candidates.displacements(x, x).between, x, this->kReach);
     }
     EXPECT_GT(this->held_back_, 100U);  // the cull is of use
     Positions<kDim> away = to;
     away(1, 0) += 1;
     candidates.cover(away);
     EXPECT_EQ(candidates.work().searches, 2);
-    this->expect_complete(candidates, candidates.displacement(away, away), away, this->kReach);
+    this->expect_complete(candidates, candidates.displacements(away, away).between, away,
+                          this->kReach);
 }
 
 TYPED_TEST(CandidatesTest, AreSearchedAnewForMotionsThatAreMuchShorterElsewhere) {
@@ -192,7 +194,7 @@ TYPED_TEST(CandidatesTest, OfAMarginHoldWhileNoVertexMovesFarther) {
         candidates.cover(x);
         candidates.drop_what_is_not_kept();
         EXPECT_EQ(candidates.work().searches, 1);
-        this->expect_complete(candidates, candidates.displacement(x, x), x, this->kReach);
+        this->expect_complete(candidates, candidates.displacements(x, x).between, x, this->kReach);
     }
     EXPECT_GT(this->near_, 100U);
     Positions<kDim> away = this->scene_.positions;

