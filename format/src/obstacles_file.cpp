@@ -136,15 +136,20 @@ std::uint64_t count_of(const Json& json, const char* key) {
 }  // namespace
 
 template <int Dim>
-void write_obstacles(const std::filesystem::path& path,
-                     const std::vector<Obstacle<Dim>>& obstacles) {
+std::string obstacles_text(const std::vector<Obstacle<Dim>>& obstacles) {
     std::string text = "{\n\"pent_obstacles\": " + std::to_string(kVersion)
                        + ",\n\"dimension\": " + std::to_string(Dim) + ",\n\"obstacles\": [";
     for (const Obstacle<Dim>& obstacle : obstacles) {
         text += &obstacle == &obstacles.front() ? "\n" : ",\n";
         text += to_json<Dim>(obstacle).dump();
     }
-    write_text(path, text + "\n]\n}\n");
+    return text + "\n]\n}\n";
+}
+
+template <int Dim>
+void write_obstacles(const std::filesystem::path& path,
+                     const std::vector<Obstacle<Dim>>& obstacles) {
+    write_text(path, obstacles_text<Dim>(obstacles));
 }
 
 template <int Dim>
@@ -169,6 +174,8 @@ std::vector<Obstacle<Dim>> read_obstacles(const std::filesystem::path& path) {
     return obstacles;
 }
 
+template std::string obstacles_text<3>(const std::vector<Obstacle<3>>&);
+template std::string obstacles_text<4>(const std::vector<Obstacle<4>>&);
 template void write_obstacles<3>(const std::filesystem::path&, const std::vector<Obstacle<3>>&);
 template void write_obstacles<4>(const std::filesystem::path&, const std::vector<Obstacle<4>>&);
 template std::vector<Obstacle<3>> read_obstacles<3>(const std::filesystem::path&);

@@ -1,6 +1,7 @@
 #include "runs.h"
 #include "web_pages.h"
 
+#include <pent/obstacles_file.h>
 #include <pent/viewer/attributes.h>
 #include <pent/viewer/export_page.h>
 
@@ -116,6 +117,33 @@ TEST_F(AnExportedPage, OfAMeshHasOneFrameWithoutSpeed) {
     EXPECT_TRUE(report.is_complete);
     expect_contains(element(text_of(folder_ / "out.html"), "pent-run"),
                     {"\"speed\":null,\"strain\":null", "\"frames\":[{\"frame\":0,\"time\":0}]"});
+}
+
+TEST_F(AnExportedPage, HoldsObstaclesOfEveryFrameAndOnceWhereNoneMoves) {
+    const fs::path run = folder_ / "twist";
+    const auto obstacles = [&] {
+        (void)make(run, {});
+        const std::string text = element(text_of(folder_ / "out.html"), "pent-run");
+        const std::size_t at = text.find("\"obstacles\":[");
+        return text.substr(at == std::string::npos ? text.size() : at);
+    };
+    const auto ball = [](double x) {
+        return std::vector<Obstacle<4>>{Ball<4>{Eigen::Vector4d(x, 0, 0, 0), 0.5}};
+    };
+    EXPECT_EQ(obstacles(), "\"obstacles\":[]}");
+    write_obstacles<4>(run / "obstacles.json", ball(0));
+    EXPECT_EQ(obstacles(), "\"obstacles\":[" + obstacles_text<4>(ball(0)) + "]}");
+    fs::remove(run / "obstacles.json");
+    make_folder(run / "obstacles");
+    std::string expected;
+    for (const int frame : {0, 1, 2}) {
+        write_obstacles<4>(run / "obstacles" / ("00000" + std::to_string(frame) + ".json"),
+                           ball(frame));
+        expected += (frame == 0 ? "" : ",") + obstacles_text<4>(ball(frame));
+    }
+    EXPECT_EQ(obstacles(), "\"obstacles\":[" + expected + "]}");
+    write_text(run / "obstacles" / "000001.json", "{}");
+    expect_contains(error_of([&] { (void)make(run, {}); }), {"000001.json", "is not the list"});
 }
 
 TEST_F(AnExportedPage, ThatWouldBeTooLargeIsRefusedWithWhatWouldFit) {

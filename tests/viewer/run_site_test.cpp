@@ -3,6 +3,8 @@
 #include "runs.h"
 #include "web_pages.h"
 
+#include <pent/obstacles_file.h>
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -14,6 +16,7 @@ namespace pent::viewer {
 namespace {
 
 namespace fs = std::filesystem;
+using pent::test::expect_contains;
 using pent::test::TempFolder;
 
 constexpr int kPort = 8080;
@@ -42,7 +45,8 @@ TEST_F(RunSiteOf, ARunGivesThePageItsFilesAndAList) {
     EXPECT_NE(get("/").body.find("viewer"), std::string::npos);
     EXPECT_NE(get("/").headers.find("default-src 'none'"), std::string::npos);
     EXPECT_EQ(get("/my run/run.json").body,
-              "{\"meshes\":[\"a\"],\"frames\":{\"a\":[[0,2],[5,5]]},\"follow\":true}");
+              "{\"meshes\":[\"a\"],\"frames\":{\"a\":[[0,2],[5,5]]},\"obstacles\":\"none\","
+              "\"follow\":true}");
     EXPECT_EQ(get("/my run/frames/a_000001.pent").body.substr(0, 4), "ply\n");
     EXPECT_EQ(get("/my run/meshes/a.pent").type, "application/octet-stream");
     EXPECT_EQ(get("/my run/frames/a_000007.pent").status, 404);
@@ -54,6 +58,35 @@ TEST_F(RunSiteOf, APageGivesItsPlaygroundIfThereIsOne) {
     EXPECT_EQ(get("/playground.js").body, "simulator");
     EXPECT_EQ(get("/playground.js").type, "text/javascript; charset=utf-8");
     EXPECT_NE(get("/").headers.find("'wasm-unsafe-eval'"), std::string::npos);
+}
+
+TEST_F(RunSiteOf, ARunGivesItsObstacles) {
+    const fs::path run = folder_ / "my run";
+    EXPECT_EQ(get("/my run/obstacles.json").status, 404);
+    write_obstacles<4>(run / "obstacles.json", {});
+    EXPECT_EQ(get("/my run/obstacles.json").type, "application/json");
+    EXPECT_NE(get("/my run/run.json").body.find("\"obstacles\":\"still\""), std::string::npos);
+    fs::remove(run / "obstacles.json");
+    make_folder(run / "obstacles");
+    for (const char* name : {"000000.json", "000001.json", ".000002.json.7.tmp", "notes.txt"}) {
+        write_text(run / "obstacles" / name, "{}");
+    }
+    EXPECT_EQ(get("/my run/obstacles/000001.json").body, "{}");
+    for (const char* name : {"000007.json", ".000002.json.7.tmp", "notes.txt", "../report.json"}) {
+        EXPECT_EQ(get(std::string("/my run/obstacles/") + name).status, 404) << name;
+    }
+}
+
+// pent-sim writes the obstacles of a frame behind its bodies.
+TEST_F(RunSiteOf, ARunListsAFrameThatIsBeingWrittenOnlyWithItsObstacles) {
+    const fs::path run = folder_ / "my run";
+    make_folder(run / "obstacles");
+    write_text(run / "obstacles" / "000000.json", "{}");
+    write_text(run / "obstacles" / "000001.json", "{}");
+    expect_contains(get("/my run/run.json").body,
+                    {"[[0,1]]", "\"obstacles\":\"moving\"", "\"follow\":true"});
+    write_text(run / "report.json", "{\n \"verdict\": \"finished\"\n}");
+    expect_contains(get("/my run/run.json").body, {"[[0,2],[5,5]]", "\"follow\":false"});
 }
 
 TEST_F(RunSiteOf, ARunFollowsItWhileItIsWritten) {
@@ -110,7 +143,6 @@ TEST_F(RunSiteOf, AMeshGivesThatFile) {
 
 TEST_F(RunSiteOf, WhatIsNoPageIsRefused) {
     using pent::test::error_of;
-    using pent::test::expect_contains;
     const fs::path run = folder_ / "my run";
     expect_contains(error_of([&] { RunSite(folder_ / "none.html", run); }),
                     {"none.html: cannot be read; build the page with scripts/web.sh"});

@@ -6,6 +6,7 @@
 #include <pent/base64.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
+#include <pent/obstacles_file.h>
 #include <pent/output_file.h>
 #include <pent/viewer/attributes.h>
 #include <pent/viewer/coloring.h>
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -88,7 +90,10 @@ public:
     }
 
     void check_size(const std::filesystem::path& output, std::int64_t page_bytes) const {
-        std::int64_t a_frame = 100;  // of text around it
+        constexpr std::int64_t kObstacle = 250;  // as text
+        const auto obstacles = load_obstacles<Dim>(run_, options_.frames.front()).size();
+        // Of text around it.
+        std::int64_t a_frame = 100 + kObstacle * static_cast<std::int64_t>(obstacles);
         std::int64_t once = page_bytes + 1000;
         for (const Shell& shell : shells_) {
             const auto vertices = static_cast<std::int64_t>(shell.vertices.size());
@@ -125,6 +130,7 @@ public:
                                       vertex_values<Dim>(body, moment, quantities_[i]).maxCoeff());
             }
         }
+        obstacles_.push_back(load_obstacles<Dim>(run_, frame));
         ++frames_seen_;
     }
 
@@ -146,7 +152,7 @@ public:
             text += formatted("%s{\"frame\":%d,\"time\":%.17g}", i == 0 ? "" : ",",
                               options_.frames[i], times_[i]);
         }
-        return text + "]}</script>\n";
+        return text + "],\"obstacles\":[" + obstacles() + "]}</script>\n";
     }
 
     [[nodiscard]] std::string facets() const {
@@ -201,6 +207,22 @@ private:
         }
     }
 
+    // Files of obstacles, one for each frame, one where none of them moves, none where there are none.
+    [[nodiscard]] std::string obstacles() const {
+        std::vector<std::string> texts;
+        for (const std::vector<Obstacle<Dim>>& list : obstacles_) {
+            texts.push_back(obstacles_text<Dim>(list));
+        }
+        if (std::adjacent_find(texts.begin(), texts.end(), std::not_equal_to<>()) == texts.end()) {
+            texts.resize(obstacles_.front().empty() ? 0 : 1);
+        }
+        std::string text;
+        for (const std::string& one : texts) {
+            text += (text.empty() ? "" : ",") + one;
+        }
+        return text;
+    }
+
     const RunFolder& run_;
     const ExportOptions& options_;
     std::vector<Body<Dim>> bodies_;
@@ -208,6 +230,7 @@ private:
     std::vector<ColorBy> quantities_;
     std::vector<double> maxima_;
     std::vector<double> times_;
+    std::vector<std::vector<Obstacle<Dim>>> obstacles_;  // of each frame
     std::size_t frames_seen_ = 0;
     Eigen::AlignedBox<double, Dim> box_;
 };

@@ -3,11 +3,15 @@
 #include "web_page.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/viewer/run_folder.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -66,16 +70,27 @@ bool is_growing(const fs::path& run) {
 
 // A file name of a run, with no way out of its folder: "meshes/a.pent", "report.json".
 bool is_served(const std::string& name) {
-    if (name == "scene.toml" || name == "report.json") {
+    if (name == "scene.toml" || name == "report.json" || name == "obstacles.json") {
         return true;
     }
-    for (const std::string folder : {"meshes/", "frames/"}) {
-        if (name.starts_with(folder) && name.ends_with(".pent")) {
-            const std::string file = name.substr(folder.size());
-            return file.front() != '.' && file.find('/') == std::string::npos;
+    constexpr std::array<std::array<std::string_view, 2>, 3> kFolders = {
+        {{"meshes/", ".pent"}, {"frames/", ".pent"}, {"obstacles/", ".json"}}};
+    return std::any_of(kFolders.begin(), kFolders.end(), [&](const auto& folder) {
+        return name.starts_with(folder[0]) && name.ends_with(folder[1])
+               && name[folder[0].size()] != '.'
+               && name.find('/', folder[0].size()) == std::string::npos;
+    });
+}
+
+// Frames whose obstacles are there, too: pent-sim writes them last.
+std::vector<int> whole_frames(const RunFolder& run) {
+    std::vector<int> frames;
+    for (const int frame : run.frames) {
+        if (fs::exists(run.path / formatted("obstacles/%06d.json", frame))) {
+            frames.push_back(frame);
         }
     }
-    return false;
+    return frames;
 }
 
 HttpResponse binary(std::optional<std::string> bytes, const std::string& type) {
@@ -142,15 +157,22 @@ HttpResponse RunSite::file_of_run(const std::string& name) const {
         return refusal(404, "no such file");
     }
     const bool is_text = name == "scene.toml";
-    return binary(read_file(path), name == "report.json" ? "application/json"
-                                   : is_text             ? "text/plain; charset=utf-8"
-                                                         : "application/octet-stream");
+    return binary(read_file(path), name.ends_with(".json") ? "application/json"
+                                   : is_text               ? "text/plain; charset=utf-8"
+                                                           : "application/octet-stream");
 }
 
 HttpResponse RunSite::listing() const {
     try {
         const bool may_grow = is_growing(run_);  // before the frames, or the last might be missed
-        const RunFolder run = open_run(run_);
+        RunFolder run = open_run(run_);
+        const bool do_move = fs::is_directory(run_ / "obstacles");
+        if (do_move && may_grow) {
+            run.frames = whole_frames(run);
+        }
+        const std::string obstacles = do_move                               ? "moving"
+                                      : fs::exists(run_ / "obstacles.json") ? "still"
+                                                                            : "none";
         std::string meshes;
         std::string frames;
         for (const std::string& body : run.bodies) {
@@ -158,8 +180,8 @@ HttpResponse RunSite::listing() const {
             meshes += comma + json_string(body);
             frames += comma + json_string(body) + ":" + ranges(run.frames);
         }
-        return binary("{\"meshes\":[" + meshes + "],\"frames\":{" + frames
-                          + "},\"follow\":" + (may_grow ? "true" : "false") + "}",
+        return binary("{\"meshes\":[" + meshes + "],\"frames\":{" + frames + "},\"obstacles\":\""
+                          + obstacles + "\",\"follow\":" + (may_grow ? "true" : "false") + "}",
                       "application/json");
     } catch (const Error& error) {  // the run was removed meanwhile
         return refusal(404, error.what());

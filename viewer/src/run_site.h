@@ -12,8 +12,10 @@ namespace pent::viewer {
 ///
 ///     /                          the page
 ///     /playground.js             what it loads when its playground is opened, if it is built
-///     /NAME/run.json             bodies and frames there are now, and whether more may come
-///     /NAME/meshes/BODY.pent     files of the run NAME; also frames/, scene.toml, report.json
+///     /NAME/run.json             bodies and frames there are now, whether more may come, and
+///                                whether obstacles are "none", "still" or "moving"
+///     /NAME/meshes/BODY.pent     files of the run NAME; also frames/, scene.toml, report.json,
+///                                obstacles.json, obstacles/
 ///     /NAME.pent                 in place of a run: a mesh
 class RunSite {
 public:

@@ -3,15 +3,20 @@
 #include <pent/obstacle.h>
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace pent {
 
 /// The obstacles of a run, in RUN/obstacles.json: specified in docs/pent-format.md.
 
-/// Writes the file through an OutputFile; throws an Error as that does.
+/// What the file holds.
 ///
 /// @param obstacles  In the order of the scene; numbers are finite, not checked.
+template <int Dim>
+[[nodiscard]] std::string obstacles_text(const std::vector<Obstacle<Dim>>& obstacles);
+
+/// Writes the file through an OutputFile; throws an Error as that does.
 template <int Dim>
 void write_obstacles(const std::filesystem::path& path,
                      const std::vector<Obstacle<Dim>>& obstacles);

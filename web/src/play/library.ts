@@ -1,4 +1,6 @@
 import { PentError } from "../format/error.ts";
+import { readObstacles } from "../format/obstacles.ts";
+import type { Obstacle } from "../format/obstacles.ts";
 import type { Module } from "playground-module";
 
 /** What a person may change of a scene while it runs. */
@@ -12,7 +14,6 @@ export interface Facts {
     timeStep: number; // s
     damping: number; // of stiffness, s
     gravity: number[]; // four numbers, m/s^2
-    floor: number | null; // its height y, m
 }
 
 export interface StepReport {
@@ -122,6 +123,7 @@ export class Library {
 const kGivesAddress = new Set([
     "play_open",
     "play_contact_forces",
+    "play_obstacles",
     "pent_cells",
     "pent_rest_positions",
     "pent_positions",
@@ -155,13 +157,18 @@ export class Simulation {
     get facts(): Facts {
         const at = this.library.at(0);
         this.library.call("play_get_facts", this.handle, at);
-        const values = [...this.library.doubles(at, 7)];
+        const values = [...this.library.doubles(at, 6)];
         return {
             timeStep: values[0]!,
             damping: values[1]!,
-            gravity: values.slice(2, 6),
-            floor: Number.isFinite(values[6]) ? values[6]! : null,
+            gravity: values.slice(2),
         };
+    }
+
+    /** Where they are now. */
+    get obstacles(): Obstacle[] {
+        const text = this.library.text(this.library.call("play_obstacles", this.handle));
+        return readObstacles(text, "obstacles", this.dimension);
     }
 
     name(body: number): string {

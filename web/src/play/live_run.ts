@@ -1,3 +1,4 @@
+import type { Obstacle } from "../format/obstacles.ts";
 import { makeRestCells, strains } from "../mesh/quantities.ts";
 import type { RestCells } from "../mesh/quantities.ts";
 import type { Body } from "../run/decode.ts";
@@ -21,7 +22,7 @@ export class LiveRun implements Run {
     ) {
         this.dimension = scene.dimension;
         this.bodies = scene.bodies;
-        const { low, high } = box ?? roomFor(scene);
+        const { low, high } = box ?? roomFor(scene.moment);
         this.stage = corners(low, high);
     }
 
@@ -45,10 +46,10 @@ export class LiveRun implements Run {
 }
 
 /** Room to move in: half as much again to all sides, and down to the floor. */
-export function roomFor({ moment, facts }: Pick<OpenedScene, "moment" | "facts">) {
+export function roomFor({ bodies, obstacles }: Pick<Moment, "bodies" | "obstacles">) {
     const low = [Infinity, Infinity, Infinity, Infinity];
     const high = [-Infinity, -Infinity, -Infinity, -Infinity];
-    for (const { positions } of moment.bodies) {
+    for (const { positions } of bodies) {
         positions.forEach((value, i) => {
             low[i % 4] = Math.min(low[i % 4]!, value);
             high[i % 4] = Math.max(high[i % 4]!, value);
@@ -60,11 +61,18 @@ export function roomFor({ moment, facts }: Pick<OpenedScene, "moment" | "facts">
         low[axis]! -= more;
         high[axis]! += more;
     }
-    const { floor } = facts;
-    if (floor !== null && floor < high[1]! && floor > low[1]! - 3 * reach) {
+    const floor = Math.max(...obstacles.map(floorOf));
+    if (floor < high[1]! && floor > low[1]! - 3 * reach) {
         low[1] = floor;
     }
     return { low, high };
+}
+
+// The height of level ground.
+function floorOf(obstacle: Obstacle): number {
+    return obstacle.kind === "half_space" && obstacle.normal[1]! > 0.999
+        ? obstacle.offset
+        : -Infinity;
 }
 
 // All corners of a box, as one body.
@@ -72,5 +80,6 @@ function corners(low: number[], high: number[]): Moment {
     const positions = Float32Array.from({ length: 64 }, (_, i) =>
         (i >> 2) & (1 << i % 4) ? high[i % 4]! : low[i % 4]!,
     );
-    return { frame: 0, time: 0, bodies: [{ positions, speed: null, force: null, strain: null }] };
+    const body = { positions, speed: null, force: null, strain: null };
+    return { frame: 0, time: 0, bodies: [body], obstacles: [] };
 }

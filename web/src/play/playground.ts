@@ -5,7 +5,7 @@ import { lengths, toFloat4 } from "../mesh/quantities.ts";
 import type { BodyFrame } from "../run/decode.ts";
 import type { Moment } from "../run/run.ts";
 import { makeEmpty, write } from "./folders.ts";
-import type { Facts, Hit, Library, Ray, Simulation, StepReport } from "./library.ts";
+import type { Hit, Library, Ray, Simulation, StepReport } from "./library.ts";
 import { Pace } from "./pace.ts";
 import type { OpenedScene, PlayFacts, PlayStats, RunFiles, SceneFiles } from "./protocol.ts";
 import { Recording } from "./recording.ts";
@@ -22,7 +22,6 @@ type Notice = (text: string, isError: boolean) => void;
 export class Playground {
     private simulation: Simulation | null = null;
     private path = "";
-    private start: Facts | null = null;
     private pace = new Pace();
     private settings = { stiffness: 1, damping: 0, stepsPerSecond: kUsualRate };
     private isAutomatic = true;
@@ -74,7 +73,7 @@ export class Playground {
 
     get facts(): PlayFacts {
         const { gravity, settings, isAutomatic } = this;
-        return { ...settings, gravity, isAutomatic, floor: this.start!.floor };
+        return { ...settings, gravity, isAutomatic };
     }
 
     get time(): number {
@@ -189,7 +188,7 @@ export class Playground {
             const speed = size(held.velocities(body));
             return { positions, speed, force: size(held.contactForces(body)), strain: null };
         });
-        return { frame: this.frame++, time: held.time, bodies };
+        return { frame: this.frame++, time: held.time, bodies, obstacles: held.obstacles };
     }
 
     /** @param speed  Of the simulation's time over that of the clock, as the caller has found it. */
@@ -244,12 +243,12 @@ export class Playground {
 
     private begin(simulation: Simulation): void {
         this.simulation = simulation;
-        this.start = simulation.facts;
-        this.gravity = this.start.gravity;
+        const start = simulation.facts;
+        this.gravity = start.gravity;
         this.settings = {
             stiffness: 1,
-            damping: this.start.damping,
-            stepsPerSecond: Math.round(1 / this.start.timeStep),
+            damping: start.damping,
+            stepsPerSecond: Math.round(1 / start.timeStep),
         };
         this.cells = this.meshes().reduce((sum, mesh) => sum + mesh.cellCount, 0);
         this.pace.reset();

@@ -22,7 +22,6 @@ export interface PlayFacts {
     gravity: number[]; // m/s^2, four numbers
     stepsPerSecond: number;
     isAutomatic: boolean; // whether steps adapt to the machine
-    floor: number | null; // m
 }
 
 /** What the page says of the steps that were taken. */

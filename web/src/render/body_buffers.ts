@@ -71,6 +71,20 @@ export class BodyBuffers {
         }
     }
 
+    /** The highest coordinate along an axis after turning. */
+    highest(rotation: ArrayLike<number>, axis: number): number {
+        const p = this.shown!.positions;
+        let highest = -Infinity;
+        for (let v = 0; v < p.length; v += 4) {
+            let place = 0;
+            for (let k = 0; k < 4; ++k) {
+                place += rotation[4 * axis + k]! * p[v + k]!;
+            }
+            highest = Math.max(highest, place);
+        }
+        return highest;
+    }
+
     /** Makes the smooth normals of the frame shown, unless they are there.
      *
      * @param unit  1 / a usual length. */

@@ -54,6 +54,17 @@ export class Program {
         return this;
     }
 
+    /** An array of two floats each. */
+    pairs(name: string, values: number[]): this {
+        this.gl.uniform2fv(this.at(name), values);
+        return this;
+    }
+
+    matrix3(name: string, columns: readonly (readonly number[])[]): this {
+        this.gl.uniformMatrix3fv(this.at(name), false, columns.flat());
+        return this;
+    }
+
     texture(
         name: string,
         unit: number,

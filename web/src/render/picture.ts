@@ -3,15 +3,31 @@ import type { Color } from "../view/colors.ts";
 import type { Vector } from "../view/matrix.ts";
 import type { Rotation } from "../view/rotation.ts";
 
+/** A surface of revolution, which the renderer makes itself: of the arc of a circle, or of a straight line across the
+ * axis. Its front is where the arc turns left or the axis points to. */
+export interface Revolved {
+    center: Vector;
+    axes: [Vector, Vector, Vector]; // right-handed, the last one that of revolution; half axes of an arc, else units
+    isArc: boolean;
+    span: [number, number]; // from and to: angles from straight below, or distances from the center
+    nearest: number; // of ground: distance of the whole of it from the center of the scene, m
+}
+
 /** One slice through all bodies, solid or as a ghost. */
 export interface SliceView {
     w: number; // m, after turning
     ghost: Color | null; // its color where it is a ghost
+    balls: Revolved[]; // drawn as bodies are
 }
 
 /** One picture of the view: several stand side by side. */
 export interface Tile {
     slices: SliceView[];
+    surfaces: Revolved[]; // ground: seen from its front alone, fading away around the scene
+    rims: Revolved[]; // the same; what they hide of bodies shows through
+    outlines: Revolved[]; // of balls, whole
+    hasFloor: boolean;
+    isAllSolid: boolean; // the solid slice lies within an obstacle
     lines: Segment[]; // box and the like, in the space that is seen
 }
 
@@ -43,6 +59,8 @@ export interface Picture {
     center: Vector; // of the scene, as it is seen
     radius: number;
     floor: number | null; // its height y
+    ground: number; // how far from the center it has faded, m
+    obstacles: Color | null; // their color; null: not shown
     outline: { eye: [number, number, number, number]; color: Color } | null; // w: 0 orthographic
     coloring: Coloring;
     isSmooth: boolean;

@@ -1,26 +1,24 @@
 import { PentError } from "../format/error.ts";
-import type { Body, BodyFrame } from "../run/decode.ts";
 import { multiply } from "../view/matrix.ts";
-import type { Matrix } from "../view/matrix.ts";
-import { BodyBuffers } from "./body_buffers.ts";
 import type { Gl, Program } from "./gl.ts";
-import { captureTriangles } from "./capture.ts";
 import { makeLight } from "./light.ts";
 import type { Light } from "./light.ts";
 import { tileRect } from "./picture.ts";
-import type { Picture, SliceView, Tile } from "./picture.ts";
+import type { Picture, Revolved, SliceView, Tile } from "./picture.ts";
 import { LineDrawer } from "./lines.ts";
 import { makePrograms } from "./programs.ts";
-import type { Lazy } from "./programs.ts";
+import { Surfaces } from "./surfaces.ts";
 import { ShadowMap, Targets } from "./targets.ts";
 
 const kMapSize = 256; // colors of a color map
 const kShadowPixels = 2048;
+const kVeil = 0.4; // of the rim of a hollow before what it hides
 
 /** Draws pictures of bodies with WebGL 2. Knows nothing of the page around the canvas. */
 export class Renderer {
+    /** What is drawn. */
+    readonly surfaces: Surfaces;
     private gl: Gl;
-    private bodies: BodyBuffers[] = [];
     private targets: Targets | null = null;
     private shadows: ShadowMap;
     private programs;
@@ -45,6 +43,7 @@ export class Renderer {
         }
         this.gl = gl;
         this.canDrawFloats = gl.getExtension("EXT_color_buffer_float") !== null;
+        this.surfaces = new Surfaces(gl, this.canDrawFloats);
         this.programs = makePrograms(gl);
         this.shadows = new ShadowMap(gl, kShadowPixels);
         this.colorMap = gl.createTexture()!;
@@ -67,36 +66,6 @@ export class Renderer {
         return this.canDrawFloats;
     }
 
-    /** The bodies to draw from now on. Throws a PentError where they do not fit on the card. */
-    setBodies(bodies: Body[]): void {
-        this.bodies.forEach((body) => body.dispose());
-        this.bodies = [];
-        while (this.gl.getError() !== this.gl.NO_ERROR) {
-            // of earlier calls
-            if (this.gl.isContextLost()) {
-                break;
-            }
-        }
-        this.bodies = bodies.map((body) => new BodyBuffers(this.gl, body, this.canDrawFloats));
-        if (this.gl.getError() === this.gl.OUT_OF_MEMORY) {
-            throw new PentError(
-                "graphics: the memory of the graphics card is not enough for this " +
-                    "mesh; open a coarser one",
-            );
-        }
-    }
-
-    /** The moment to draw, and one value a vertex of each body to color by, if asked for. */
-    setFrame(frames: BodyFrame[], scalars: (Float32Array | null)[]): void {
-        this.bodies.forEach((body, i) => {
-            body.setFrame(frames[i]!);
-            const values = scalars[i];
-            if (values) {
-                body.setScalars(values);
-            }
-        });
-    }
-
     draw(picture: Picture): void {
         const gl = this.gl;
         if (gl.isContextLost()) {
@@ -107,7 +76,7 @@ export class Renderer {
         gl.bindVertexArray(this.plainArray);
         gl.disable(gl.SCISSOR_TEST);
         if (picture.isSmooth) {
-            this.bodies.forEach((body) => body.makeNormals(this.programs, 100 / picture.radius));
+            this.surfaces.makeNormals(this.programs, 100 / picture.radius);
         }
         gl.bindFramebuffer(gl.FRAMEBUFFER, this.targets!.sampled);
         gl.clearColor(0, 0, 0, 0);
@@ -148,17 +117,14 @@ export class Renderer {
         }
     }
 
-    /** The triangles of a slice through a body, nine numbers each, in the order of the boundary, as
-     * the shader makes them: caught by transform feedback. */
     captureSlice(picture: Picture, body: number, w: number): Float32Array {
-        const buffers = this.bodies[body]!;
-        const { slice, skin } = this.programs.capture;
-        const is4 = buffers.body.dimension === 4;
-        const program = (is4 ? slice : skin)().use();
         this.gl.bindVertexArray(this.plainArray);
-        this.setBody(program, picture, buffers, w, picture.camera.viewProjection);
-        program.int("isSmooth", 0);
-        return captureTriangles(this.gl, is4 ? 6 : 3, buffers.body.boundary.facetCount);
+        return this.surfaces.captureSlice(this.programs.capture, picture, body, w);
+    }
+
+    captureRevolved(picture: Picture, surface: Revolved): Float32Array {
+        this.gl.bindVertexArray(this.plainArray);
+        return this.surfaces.captureRevolved(this.programs.capture, picture, surface);
     }
 
     private resize(width: number, height: number): void {
@@ -188,48 +154,6 @@ export class Renderer {
         this.gl.enable(this.gl.SCISSOR_TEST);
     }
 
-    private setBody(
-        program: Program,
-        picture: Picture,
-        buffers: BodyBuffers,
-        w: number,
-        m: Matrix,
-    ) {
-        const [x, y, z, ownW] = picture.shift;
-        const valueOf = { nothing: 0, w: 1, scalar: 2 }[picture.coloring.valueOf];
-        const isSmooth = picture.isSmooth && buffers.cornerNormals !== null;
-        program
-            .matrix("viewProjection", m)
-            .matrix("rotation", columnsOf(picture))
-            .float("shift", x, y, z, ownW - w)
-            .int("valueOf", valueOf)
-            .int("isSmooth", isSmooth ? 1 : 0)
-            .texture("positions", 0, buffers.positions)
-            .texture("facets", 1, buffers.facets)
-            .texture("scalars", 2, buffers.scalars)
-            .texture("cornerNormals", 3, buffers.cornerNormals ?? buffers.positions);
-    }
-
-    private drawBody(
-        program: { slice: Lazy; skin: Lazy },
-        picture: Picture,
-        buffers: BodyBuffers,
-        w: number,
-        viewProjection: Matrix,
-        prepare: (p: Program) => void,
-    ): void {
-        const is4 = buffers.body.dimension === 4;
-        const chosen = (is4 ? program.slice : program.skin)().use();
-        this.setBody(chosen, picture, buffers, w, viewProjection);
-        prepare(chosen);
-        this.gl.drawArraysInstanced(
-            this.gl.TRIANGLES,
-            0,
-            is4 ? 6 : 3,
-            buffers.body.boundary.facetCount,
-        );
-    }
-
     private drawShadows(picture: Picture, slice: SliceView, light: Light): void {
         const gl = this.gl;
         gl.disable(gl.SCISSOR_TEST);
@@ -237,47 +161,42 @@ export class Renderer {
         gl.viewport(0, 0, kShadowPixels, kShadowPixels);
         gl.enable(gl.DEPTH_TEST);
         gl.clear(gl.DEPTH_BUFFER_BIT);
-        for (const buffers of this.bodies) {
-            this.drawBody(
-                this.programs.shadow,
-                picture,
-                buffers,
-                slice.w,
-                light.viewProjection,
-                () => {},
-            );
-        }
+        const nothing = () => {};
+        const { shadow } = this.programs;
+        this.surfaces.drawBodies(shadow, picture, slice.w, light.viewProjection, nothing);
+        this.surfaces.drawObstacles(shadow, picture, slice, light.viewProjection, nothing);
     }
 
     private drawSolid(picture: Picture, tile: Tile, rect: readonly number[], light: Light): void {
         const gl = this.gl;
         const { camera, coloring } = picture;
-        const solid = tile.slices.find((slice) => slice.ghost === null);
+        const slice = solidOf(tile);
         gl.enable(gl.DEPTH_TEST);
         gl.depthMask(true);
         gl.disable(gl.BLEND);
         gl.disable(gl.CULL_FACE);
         this.enter(rect);
-        if (solid) {
-            this.bodies.forEach((buffers, i) => {
-                this.drawBody(
-                    this.programs.solid,
-                    picture,
-                    buffers,
-                    solid.w,
-                    camera.viewProjection,
-                    (program) =>
-                        program
-                            .texture("colorMap", 4, this.colorMap)
-                            .float("bodyColor", ...coloring.bodies[i % coloring.bodies.length]!)
-                            .float("range", ...coloring.range)
-                            .float("cameraEye", ...camera.eye)
-                            .float("toKey", ...light.toKey)
-                            .float("toFill", ...light.toFill),
-                );
-            });
+        const prepare = (program: Program, body: number) =>
+            lit(program, picture, light)
+                .texture("colorMap", 4, this.colorMap)
+                .float(
+                    "bodyColor",
+                    ...(body < 0
+                        ? picture.obstacles!
+                        : coloring.bodies[body % coloring.bodies.length]!),
+                )
+                .float("range", ...coloring.range);
+        const { solid } = this.programs;
+        const drawBodies = () =>
+            this.surfaces.drawBodies(solid, picture, slice.w, camera.viewProjection, prepare);
+        if (tile.rims.length > 0) {
+            this.drawGround(picture, tile.rims, light);
+            this.showThrough(drawBodies);
         }
-        if (picture.floor !== null && camera.eye[1] > picture.floor) {
+        drawBodies();
+        this.surfaces.drawObstacles(solid, picture, slice, camera.viewProjection, prepare);
+        this.drawGround(picture, tile.surfaces, light);
+        if (picture.floor !== null && tile.hasFloor && camera.eye[1] > picture.floor) {
             this.programs
                 .floor()
                 .use()
@@ -287,11 +206,44 @@ export class Renderer {
                     picture.center[0],
                     picture.floor,
                     picture.center[2],
-                    2.6 * picture.radius,
+                    picture.ground,
                 )
                 .float("floorGlow", ...picture.background.glow);
             gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
         }
+    }
+
+    // Where it faces the eye, so that one looks into hollows and through walls from behind.
+    private drawGround(picture: Picture, surfaces: Revolved[], light: Light): void {
+        const gl = this.gl;
+        gl.enable(gl.CULL_FACE);
+        gl.enable(gl.BLEND);
+        gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+        for (const surface of surfaces) {
+            const program = lit(this.programs.ground().use(), picture, light)
+                .float("bodyColor", ...picture.obstacles!)
+                .float("scene", ...picture.center, picture.ground)
+                .float("nearest", surface.nearest);
+            this.surfaces.drawRevolved(program, surface, picture.camera.viewProjection);
+        }
+        gl.disable(gl.BLEND);
+        gl.disable(gl.CULL_FACE);
+    }
+
+    // Draws what is behind something, through it.
+    private showThrough(draw: () => void): void {
+        const gl = this.gl;
+        gl.depthFunc(gl.GREATER);
+        gl.depthMask(false);
+        gl.enable(gl.CULL_FACE);
+        gl.enable(gl.BLEND);
+        gl.blendColor(0, 0, 0, 1 - kVeil);
+        gl.blendFunc(gl.CONSTANT_ALPHA, gl.ONE_MINUS_CONSTANT_ALPHA);
+        draw();
+        gl.disable(gl.BLEND);
+        gl.disable(gl.CULL_FACE);
+        gl.depthMask(true);
+        gl.depthFunc(gl.LESS);
     }
 
     private drawGhosts(picture: Picture, tile: Tile, rect: readonly number[]): void {
@@ -302,24 +254,18 @@ export class Renderer {
         gl.depthMask(false);
         gl.enable(gl.BLEND);
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+        const { ghost } = this.programs;
         for (const slice of tile.slices.filter((one) => one.ghost !== null)) {
-            for (const buffers of this.bodies) {
-                this.drawBody(
-                    this.programs.ghost,
-                    picture,
-                    buffers,
-                    slice.w,
-                    camera.viewProjection,
-                    (program) =>
-                        program
-                            .float("ghostColor", ...slice.ghost!)
-                            .float("opacity", 0.1, 0.5)
-                            .float("cameraEye", ...camera.eye),
-                );
-            }
+            const prepare = (program: Program) =>
+                program
+                    .float("ghostColor", ...slice.ghost!)
+                    .float("opacity", 0.1, 0.5)
+                    .float("cameraEye", ...camera.eye);
+            this.surfaces.drawBodies(ghost, picture, slice.w, camera.viewProjection, prepare);
+            this.surfaces.drawObstacles(ghost, picture, slice, camera.viewProjection, prepare);
         }
         if (outline) {
-            this.drawOutline(picture, tile);
+            this.drawOutlines(picture, tile);
         }
         if (tile.lines.length > 0) {
             this.lines.draw(this.programs.line(), picture, tile.lines, rect);
@@ -330,27 +276,17 @@ export class Renderer {
     }
 
     // The film is the solid slice, so points of the slice keep their place.
-    private drawOutline(picture: Picture, tile: Tile): void {
-        const gl = this.gl;
-        const { camera, outline, shift } = picture;
-        const film = tile.slices.find((slice) => slice.ghost === null)?.w ?? 0;
-        for (const buffers of this.bodies) {
-            if (!buffers.folds) {
-                continue;
-            }
-            this.programs
-                .fold()
-                .use()
-                .matrix("viewProjection", camera.viewProjection)
-                .matrix("rotation", columnsOf(picture))
-                .float("shift", shift[0], shift[1], shift[2], shift[3] - film)
-                .float("eye", ...outline!.eye)
+    private drawOutlines(picture: Picture, tile: Tile): void {
+        const { camera, outline } = picture;
+        const prepare = (program: Program) =>
+            program
                 .float("ghostColor", ...outline!.color)
                 .float("opacity", 0.05, 0.16)
-                .float("cameraEye", ...camera.eye)
-                .texture("positions", 0, buffers.positions)
-                .texture("folds", 1, buffers.folds);
-            gl.drawArraysInstanced(gl.TRIANGLES, 0, 3, buffers.foldCount);
+                .float("cameraEye", ...camera.eye);
+        this.surfaces.drawFolds(this.programs.fold(), picture, solidOf(tile).w, prepare);
+        for (const ball of tile.outlines) {
+            const program = prepare(this.programs.ghost.revolved().use());
+            this.surfaces.drawRevolved(program, ball, camera.viewProjection);
         }
     }
 
@@ -367,7 +303,7 @@ export class Renderer {
     private occlude(picture: Picture, tile: Tile, rect: readonly number[], light: Light): void {
         const gl = this.gl;
         const { camera } = picture;
-        this.drawShadows(picture, tile.slices.find((slice) => slice.ghost === null)!, light);
+        this.drawShadows(picture, solidOf(tile), light);
         gl.disable(gl.DEPTH_TEST);
         gl.bindFramebuffer(gl.FRAMEBUFFER, this.targets!.occlusion);
         this.enter(rect);
@@ -409,7 +345,14 @@ export class Renderer {
     }
 }
 
-// A rotation by rows, as WebGL takes it: by columns.
-function columnsOf({ rotation }: Picture): Float32Array {
-    return Float32Array.from(rotation, (_, i) => rotation[4 * (i % 4) + (i >> 2)]!);
+// Every tile has one.
+function solidOf(tile: Tile): SliceView {
+    return tile.slices.find((slice) => slice.ghost === null)!;
+}
+
+function lit(program: Program, { camera }: Picture, light: Light): Program {
+    return program
+        .float("cameraEye", ...camera.eye)
+        .float("toKey", ...light.toKey)
+        .float("toFill", ...light.toFill);
 }

@@ -33,6 +33,10 @@ float keyVisibility(vec3 point, vec3 n, float turn) {
     const float kLamp = 0.14;
     const float kSearch = 0.06;
     vec3 p = (lightMatrix * vec4(point + 2.0 * lightSize.x * n, 1)).xyz;
+    if (any(lessThan(p.xy, vec2(0))) || any(greaterThan(p.xy, vec2(1)))) {
+        return 1.0;  // beyond the map, whose edge says nothing of it
+    }
+    p.z = min(p.z, 1.0);  // ground may lie deeper
     float bias = 1.5 * lightSize.x / lightSize.y;
     float sum = 0.0;
     float blockers = 0.0;

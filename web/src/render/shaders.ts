@@ -1,6 +1,10 @@
 // Shaders in GLSL ES 3.00. What has an index lies in textures of kTextureWidth texels a row.
 
 export const kTextureWidth = 2048;
+/** Corners around a surface of revolution. */
+export const kCircle = 64;
+/** Pieces of an arc that is turned about an axis. */
+export const kArcSteps = 32;
 
 /** What every shader begins with. */
 export const kHead = `#version 300 es
@@ -222,13 +226,39 @@ void main() {
     gl_Position = viewProjection * vec4(world, 1);
 }`;
 
-/** Solid surfaces: one soft lamp and the sky, as in the pictures of pent-render. What the sky gives
- * and what the lamp gives stay apart: occlusion is of the one, shadows are of the other. */
-export const kSolid = `${kHead}
-uniform sampler2D colorMap;
-uniform vec3 bodyColor;
-uniform int valueOf;
-uniform vec2 range;
+const kAround = Array.from({ length: kCircle }, (_, i) => (2 * Math.PI * i) / kCircle)
+    .map((angle) => `vec2(${Math.cos(angle).toFixed(9)},${Math.sin(angle).toFixed(9)})`)
+    .join();
+
+/** A surface of revolution. Circles come in numbers: a card's own sine may be wrong by a thousandth. */
+export const kRevolved = `${kHead}
+uniform mat4 viewProjection;
+uniform vec3 center;
+uniform mat3 axes;
+uniform bool isArc;
+uniform float side;  // of an arc: 1 where its front is outside, -1 inside
+uniform vec2 profile[${kArcSteps + 1}];  // distance from the axis, and along it
+out vec3 world;
+out vec3 normal;
+out float value;
+out float isDrawn;
+const ivec2 kCorners[6] = ivec2[](ivec2(0, 0), ivec2(1, 0), ivec2(1, 1), ivec2(0, 0), ivec2(1, 1),
+                                  ivec2(0, 1));
+const vec2 kAround[${kCircle}] = vec2[](${kAround});
+void main() {
+    ivec2 place = ivec2(gl_VertexID / 6 / ${kCircle}, gl_VertexID / 6 % ${kCircle})
+        + kCorners[gl_VertexID % 6];
+    vec2 p = profile[place.x];
+    vec3 ring = vec3(p.x * kAround[place.y % ${kCircle}], p.y);
+    world = center + axes * ring;
+    vec3 squares = vec3(dot(axes[0], axes[0]), dot(axes[1], axes[1]), dot(axes[2], axes[2]));
+    normal = isArc ? side * normalize(axes * (ring / squares)) : axes[2];
+    value = 0.0;
+    isDrawn = 1.0;
+    gl_Position = viewProjection * vec4(world, 1);
+}`;
+
+const kShade = `
 uniform vec3 cameraEye;
 uniform vec3 toKey;
 uniform vec3 toFill;
@@ -237,6 +267,24 @@ in vec3 normal;
 in float value;
 layout(location = 0) out vec4 sky;
 layout(location = 1) out vec4 lamp;
+void shade(vec3 albedo, vec3 n) {
+    vec3 toEye = normalize(cameraEye - world);
+    vec3 ambient = mix(vec3(0.24, 0.22, 0.20), vec3(0.36, 0.38, 0.42), 0.5 + 0.5 * n.y);
+    float fill = 0.10 * max(dot(n, toFill), 0.0);
+    float key = 0.85 * max(dot(n, toKey), 0.0);
+    float gloss = 0.05 * pow(max(dot(n, normalize(toEye + toKey)), 0.0), 30.0);
+    sky = vec4(albedo * (ambient + fill), 1);
+    lamp = vec4(albedo * key + gloss, 0);
+}
+`;
+
+/** Solid surfaces: one soft lamp and the sky, as in the pictures of pent-render. What the sky gives
+ * and what the lamp gives stay apart: occlusion is of the one, shadows are of the other. */
+export const kSolid = `${kHead}${kShade}
+uniform sampler2D colorMap;
+uniform vec3 bodyColor;
+uniform int valueOf;
+uniform vec2 range;
 void main() {
     vec3 albedo = bodyColor;
     if (valueOf != 0) {
@@ -248,13 +296,24 @@ void main() {
         albedo = vec3(1.0, 0.0, 0.5);
         n = -n;
     }
-    vec3 toEye = normalize(cameraEye - world);
-    vec3 ambient = mix(vec3(0.24, 0.22, 0.20), vec3(0.36, 0.38, 0.42), 0.5 + 0.5 * n.y);
-    float fill = 0.10 * max(dot(n, toFill), 0.0);
-    float key = 0.85 * max(dot(n, toKey), 0.0);
-    float gloss = 0.05 * pow(max(dot(n, normalize(toEye + toKey)), 0.0), 30.0);
-    sky = vec4(albedo * (ambient + fill), 1);
-    lamp = vec4(albedo * key + gloss, 0);
+    shade(albedo, n);
+}`;
+
+/** Ground: the same, and less of it the further it is from where it is nearest to the scene. */
+export const kGround = `${kHead}${kShade}
+uniform vec3 bodyColor;
+uniform vec4 scene;     // center, distance at which ground has faded
+uniform float nearest;  // of it all to the center
+void main() {
+    vec3 away = world - scene.xyz;
+    float spread = sqrt(max(dot(away, away) - nearest * nearest, 0.0)) / scene.w;
+    if (spread >= 1.0) {
+        discard;
+    }
+    shade(bodyColor, normalize(normal));
+    float presence = 1.0 - smoothstep(0.3, 1.0, spread);
+    sky *= presence;
+    lamp = presence * vec4(lamp.rgb, 1);
 }`;
 
 /** Surfaces to look through: clear where seen from the front, denser at the rim. */

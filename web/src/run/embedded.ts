@@ -1,4 +1,6 @@
 import { PentError } from "../format/error.ts";
+import { readObstacles } from "../format/obstacles.ts";
+import type { Obstacle } from "../format/obstacles.ts";
 import { indexBoundary } from "../mesh/boundary.ts";
 import type { Body, BodyFrame } from "./decode.ts";
 import type { Moment, Run } from "./run.ts";
@@ -13,6 +15,7 @@ interface Description {
     maxima: { speed: number | null; strain: number | null; force: number | null };
     bodies: { name: string; vertices: number; cells: number; facets: number }[];
     frames: { frame: number; time: number }[];
+    obstacles?: unknown[]; // files of each frame, or one where none of them moves; none where there are none
 }
 
 const kQuantities = ["speed", "strain", "force"] as const;
@@ -37,12 +40,16 @@ export class EmbeddedRun implements Run {
     readonly bodies: Body[];
     readonly frames: number[];
     readonly isGrowing = false;
+    private obstacles: Obstacle[][];
 
     private constructor(private description: Description) {
         const { bodies, dimension, frames, title } = description;
         this.title = title;
         this.dimension = dimension;
         this.frames = frames.map((frame) => frame.frame);
+        this.obstacles = (description.obstacles ?? []).map((file) =>
+            readObstacles(file, "this page: its list of obstacles", dimension),
+        );
         const bytes = bytesOf("pent-facets");
         const corners = new Uint32Array(bytes.buffer);
         let at = 0;
@@ -105,7 +112,13 @@ export class EmbeddedRun implements Run {
             }
             return made;
         });
-        return { frame, time: this.description.frames[place]!.time, bodies };
+        const { obstacles } = this;
+        return {
+            frame,
+            time: this.description.frames[place]!.time,
+            bodies,
+            obstacles: obstacles[place] ?? obstacles[0] ?? [],
+        };
     }
 
     private checkLength(bytes: Uint8Array, frame: number): void {

@@ -181,6 +181,7 @@ export class ExampleRun implements Run {
             frame,
             time,
             bodies: [{ positions, speed, force: null, strain: null }],
+            obstacles: [],
         });
     }
 

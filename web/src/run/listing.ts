@@ -6,6 +6,7 @@ export interface FileSource {
     readonly title: string;
     /** Looks what is there; again each time. */
     list(): Promise<Listing>;
+    has(path: string): Promise<boolean>;
     /** The bytes of a file. Rejects with a PentError that names it. */
     read(path: string): Promise<Uint8Array>;
 }
@@ -20,7 +21,12 @@ export interface Listing {
     frames: Map<string, number[]>;
     /** Whether more frames may come. */
     isGrowing: boolean;
+    /** In obstacles.json, or where they move in obstacles/000123.json of each frame; "unknown": one has to look. */
+    obstacles: ObstacleFiles;
 }
+
+export const kObstacleFiles = ["none", "still", "moving", "unknown"] as const;
+export type ObstacleFiles = (typeof kObstacleFiles)[number];
 
 const kExpected = "expected a run folder of pent-sim, with meshes/ and frames/, or a .pent mesh";
 
@@ -30,6 +36,12 @@ export function meshPath(body: string): string {
 
 export function framePath(body: string, frame: number): string {
     return `frames/${body}_${String(frame).padStart(6, "0")}.pent`;
+}
+
+export const kStillObstacles = "obstacles.json";
+
+export function movedObstaclesPath(frame: number): string {
+    return `obstacles/${String(frame).padStart(6, "0")}.json`;
 }
 
 /** Sorts the paths of a dropped folder: the run is the shallowest folder that has meshes/.
@@ -43,7 +55,7 @@ export function listPaths(paths: string[]): { listing: Listing; prefix: string }
         .filter((match) => match !== null)
         .map((match) => match[1] ?? "")
         .sort((a, b) => a.split("/").length - b.split("/").length || (a < b ? -1 : 1));
-    const listing: Listing = { meshes: [], frames: new Map(), isGrowing: false };
+    const listing: Listing = { meshes: [], frames: new Map(), isGrowing: false, obstacles: "none" };
     if (roots.length === 0) {
         if (pent.length !== 1) {
             const found =
@@ -66,6 +78,11 @@ export function listPaths(paths: string[]): { listing: Listing; prefix: string }
             .map((path) => path.slice(prefix.length + folder.length, -".pent".length))
             .sort();
     listing.meshes = stems("meshes/");
+    if (paths.includes(prefix + kStillObstacles)) {
+        listing.obstacles = "still";
+    } else if (paths.some((path) => path.startsWith(`${prefix}obstacles/`))) {
+        listing.obstacles = "moving";
+    }
     for (const stem of stems("frames/")) {
         const match = /^(.+)_(\d{6,})$/.exec(stem);
         if (match) {

@@ -1,7 +1,15 @@
 import { PentError } from "../format/error.ts";
+import { readObstacles } from "../format/obstacles.ts";
+import type { Obstacle } from "../format/obstacles.ts";
 import type { Body, BodyFrame, DecodedFrame } from "./decode.ts";
 import { DecodeClient } from "./decode_client.ts";
-import { commonFrames, framePath, meshPath } from "./listing.ts";
+import {
+    commonFrames,
+    framePath,
+    kStillObstacles,
+    meshPath,
+    movedObstaclesPath,
+} from "./listing.ts";
 import type { FileSource, Listing } from "./listing.ts";
 
 /** All bodies at one moment. */
@@ -9,6 +17,7 @@ export interface Moment {
     frame: number;
     time: number; // s
     bodies: BodyFrame[];
+    obstacles: Obstacle[];
 }
 
 /** What there is to look at: bodies, and their frames in time. At least one of each. */
@@ -53,6 +62,7 @@ export class PentRun implements Run {
     private decoder = new DecodeClient();
     private start: BodyFrame[] = [];
     private isMesh = false;
+    private obstacles: Obstacle[] | null = []; // null where they move
 
     private constructor(private source: FileSource) {}
 
@@ -64,7 +74,9 @@ export class PentRun implements Run {
     static async open(source: FileSource, onProgress: (text: string) => void): Promise<PentRun> {
         const run = new PentRun(source);
         try {
-            await run.readMeshes(await source.list(), onProgress);
+            const listing = await source.list();
+            await run.readMeshes(listing, onProgress);
+            await run.lookForObstacles(listing);
             return run;
         } catch (error) {
             run.close();
@@ -74,10 +86,12 @@ export class PentRun implements Run {
 
     async load(frame: number): Promise<Moment> {
         if (this.isMesh) {
-            return { frame: 0, time: 0, bodies: this.start };
+            return { frame: 0, time: 0, bodies: this.start, obstacles: [] };
         }
+        const obstacles = this.obstacles ?? (await this.loadObstacles(movedObstaclesPath(frame)));
         const decoded = await Promise.all(this.bodies.map((body) => this.loadBody(body, frame)));
-        return { frame, time: decoded[0]!.time, bodies: decoded.map((one) => one.frame) };
+        const bodies = decoded.map((one) => one.frame);
+        return { frame, time: decoded[0]!.time, bodies, obstacles };
     }
 
     async addStrain(moment: Moment): Promise<boolean> {
@@ -126,6 +140,26 @@ export class PentRun implements Run {
             this.bodies.push(body);
             this.start.push(start);
         }
+    }
+
+    private async lookForObstacles({ obstacles }: Listing): Promise<void> {
+        const { source } = this;
+        if (
+            obstacles === "still" ||
+            (obstacles === "unknown" && (await source.has(kStillObstacles)))
+        ) {
+            this.obstacles = await this.loadObstacles(kStillObstacles);
+        } else if (
+            obstacles === "moving" ||
+            (obstacles === "unknown" && (await source.has(movedObstaclesPath(this.frames[0]!))))
+        ) {
+            this.obstacles = null;
+        }
+    }
+
+    private async loadObstacles(path: string): Promise<Obstacle[]> {
+        const text = new TextDecoder().decode(await this.source.read(path));
+        return readObstacles(text, path, this.dimension);
     }
 
     private async loadBody(body: Body, frame: number): Promise<DecodedFrame> {

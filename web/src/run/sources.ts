@@ -1,6 +1,6 @@
 import { PentError } from "../format/error.ts";
-import { listPaths } from "./listing.ts";
-import type { FileSource, Listing } from "./listing.ts";
+import { kObstacleFiles, listPaths } from "./listing.ts";
+import type { FileSource, Listing, ObstacleFiles } from "./listing.ts";
 
 /** Files that were dropped on the page or chosen in a dialog. */
 export class LocalFiles implements FileSource {
@@ -27,6 +27,10 @@ export class LocalFiles implements FileSource {
         }
     }
 
+    has(path: string): Promise<boolean> {
+        return Promise.resolve(this.files.has(this.prefix + path));
+    }
+
     async read(path: string): Promise<Uint8Array> {
         const file = this.files.get(this.prefix + path);
         if (!file) {
@@ -38,6 +42,10 @@ export class LocalFiles implements FileSource {
             throw new PentError(`${path}: cannot be read: ${(error as Error).message}`);
         }
     }
+}
+
+function listMesh(mesh: string): Listing {
+    return { mesh, meshes: [], frames: new Map(), isGrowing: false, obstacles: "none" };
 }
 
 // Ranges [first, last] of frame numbers, as pent-view lists them.
@@ -65,20 +73,29 @@ function toNumbers(ranges: unknown, where: string): number[] {
     return numbers;
 }
 
+function obstacleFiles(text: unknown): ObstacleFiles {
+    return kObstacleFiles.find((one) => one === text) ?? "unknown";
+}
+
 /** Understands run.json, what pent-view says of a run, or a report.json of pent-sim. */
 export function parseListing(text: string, where: string): Listing {
     let json;
     try {
         json = JSON.parse(text);
         if (typeof json.mesh === "string") {
-            return { mesh: json.mesh, meshes: [], frames: new Map(), isGrowing: false };
+            return listMesh(json.mesh);
         }
         if (json.meshes) {
             const frames = new Map<string, number[]>();
             for (const [body, ranges] of Object.entries(json.frames ?? {})) {
                 frames.set(body, toNumbers(ranges, where));
             }
-            return { meshes: json.meshes.map(String), frames, isGrowing: json.follow === true };
+            return {
+                meshes: json.meshes.map(String),
+                frames,
+                isGrowing: json.follow === true,
+                obstacles: obstacleFiles(json.obstacles),
+            };
         }
         const bodies: string[] = json.bodies.map((body: { name: string }) => body.name);
         const numbers: number[] = json.frames.map((frame: { frame: number }) => frame.frame);
@@ -86,6 +103,7 @@ export function parseListing(text: string, where: string): Listing {
             meshes: bodies.sort(),
             frames: new Map(bodies.map((body) => [body, numbers])),
             isGrowing: json.verdict === "running",
+            obstacles: "unknown",
         };
     } catch (error) {
         if (error instanceof PentError) {
@@ -118,8 +136,7 @@ export class WebFiles implements FileSource {
 
     async list(): Promise<Listing> {
         if (this.address.endsWith(".pent")) {
-            const mesh = this.address.split("/").at(-1)!;
-            return { mesh, meshes: [], frames: new Map(), isGrowing: false };
+            return listMesh(this.address.split("/").at(-1)!);
         }
         for (const name of ["run.json", "report.json"]) {
             const response = await this.fetch(name);
@@ -131,6 +148,10 @@ export class WebFiles implements FileSource {
             `${this.folder()}: neither run.json nor report.json is there; ` +
                 "expected a run folder of pent-sim or a .pent file",
         );
+    }
+
+    async has(path: string): Promise<boolean> {
+        return (await this.fetch(path)).ok;
     }
 
     async read(path: string): Promise<Uint8Array> {

@@ -209,8 +209,8 @@ export class App {
 
     // What stays when another run opens: how things are shown, not where.
     private kept(): ViewState {
-        const { shade, smooth, floor, axes, theme, loop } = this.viewer.state;
-        return { ...defaultState(), shade, smooth, floor, axes, theme, loop };
+        const { shade, smooth, floor, obstacles, axes, theme, loop } = this.viewer.state;
+        return { ...defaultState(), shade, smooth, floor, obstacles, axes, theme, loop };
     }
 
     private async attempt<Value>(action: () => Promise<Value>): Promise<Value | null> {

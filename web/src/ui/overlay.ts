@@ -1,5 +1,5 @@
 import { tileRect } from "../render/picture.ts";
-import type { Picture } from "../render/picture.ts";
+import type { Picture, Tile } from "../render/picture.ts";
 import { sliceLabel, slicePlaces } from "../view/compose.ts";
 import { bodyColor, kColorTitles, mapColor, toCss } from "../view/colors.ts";
 import { short } from "../view/state.ts";
@@ -17,7 +17,7 @@ export class Overlay {
     private legendShown = "";
 
     constructor(
-        root: HTMLElement,
+        private root: HTMLElement,
         private viewer: Viewer,
     ) {
         root.append(this.labels, this.gizmo, this.legend, this.badge);
@@ -31,6 +31,7 @@ export class Overlay {
 
     private show(picture: Picture): void {
         const { viewer } = this;
+        this.root.classList.toggle("tiled", picture.tiles.length > 1);
         this.gizmo.toggleAttribute("hidden", !viewer.state.axes);
         if (viewer.state.axes) {
             drawGizmo(this.gizmo, picture.rotation, picture.camera, viewer.run!.dimension);
@@ -45,18 +46,23 @@ export class Overlay {
             this.viewer.bounds,
             this.viewer.run!.dimension,
         );
-        const key = `${picture.width} ${picture.height} ${picture.tiles.length} ${places.join()}`;
+        const solid = picture.tiles.map((tile) => tile.isAllSolid).join();
+        const key = `${picture.width} ${picture.height} ${places.join()} ${solid}`;
         if (key === this.labelsShown) {
             return;
         }
         this.labelsShown = key;
         const isTiled = picture.tiles.length > 1;
         this.labels.replaceChildren(
-            ...(isTiled ? places : [])
-                .map((w, i) => {
+            ...picture.tiles
+                .map((tile, i) => {
+                    const text = tileText(tile, isTiled ? places[i]! : null);
+                    if (text === "") {
+                        return [];
+                    }
                     const [x, y, width, height] = tileRect(picture, i);
                     const part = (value: number, whole: number) => `${(100 * value) / whole}%`;
-                    const label = element("span", {}, sliceLabel(Number(w.toPrecision(6))));
+                    const label = element("span", {}, text);
                     label.style.left = part(x + width / 2, picture.width);
                     label.style.top = part(picture.height - y - height, picture.height);
                     const frame = element("i", {});
@@ -103,6 +109,12 @@ export class Overlay {
     }
 }
 
+// "w = 0.05, all solid": what there is to say of a tile.
+function tileText(tile: Tile, w: number | null): string {
+    const place = w === null ? "" : sliceLabel(Number(w.toPrecision(6)));
+    return [place, tile.isAllSolid ? "all solid" : ""].filter((text) => text !== "").join(", ");
+}
+
 /** The same texts drawn on a picture that is saved. */
 export function drawCaption(
     context: CanvasRenderingContext2D,
@@ -120,14 +132,14 @@ export function drawCaption(
     const time = run!.frames.length > 1 ? `t = ${moment!.time.toFixed(3)} s    ` : "";
     const isTiled = picture.tiles.length > 1;
     const middle = places[Math.floor(places.length / 2)]!;
-    const where = run!.dimension === 3 || isTiled ? "" : sliceLabel(Number(middle.toPrecision(6)));
+    const where = isTiled ? "" : tileText(picture.tiles[0]!, run!.dimension === 3 ? null : middle);
     context.fillText(time + where, size, height - size);
     if (isTiled) {
         context.textAlign = "center";
         places.forEach((w, i) => {
             const [x, y, tileWidth, tileHeight] = tileRect(picture, i);
             context.fillText(
-                sliceLabel(Number(w.toPrecision(6))),
+                tileText(picture.tiles[i]!, w),
                 x + tileWidth / 2,
                 height - y - tileHeight + 1.6 * size,
             );

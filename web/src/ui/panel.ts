@@ -161,7 +161,8 @@ export class Panel {
             [
                 ["box", "Tesseract box", "The box about all bodies and its slice"],
                 ["axes", "Axes", "How the axes x y z w lie"],
-                ["floor", "Floor", ""],
+                ["floor", "Floor", "A floor that takes shadows, where there is no ground"],
+                ["obstacles", "Obstacles", "What bodies touch: ground, walls, balls, boxes"],
                 ["shade", "Shadows", "Shadows and ambient occlusion"],
                 ["smooth", "Smooth", "Smooth normals, but for edges sharper than 57 degrees"],
             ] as const
@@ -170,6 +171,10 @@ export class Panel {
             this.shows.push((state) => control.show(state[key]));
             if (key === "box") {
                 this.onlyIn4.push(control.root);
+            } else if (key === "obstacles") {
+                viewer.on("moment", ({ obstacles }) => {
+                    control.root.hidden = obstacles.length === 0;
+                });
             }
             return control.root;
         });

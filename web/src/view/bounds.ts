@@ -10,6 +10,8 @@ export class Bounds {
     pivot: [number, number, number, number] = [0, 0, 0, 0];
     /** Of a ball about the pivot that the bodies stay in however they are turned, m. */
     radius = 1;
+    /** Balls and boxes of obstacles that are no larger are in the picture whole: the diagonal of the box. */
+    size = 1;
     /** The box at the start. */
     start: Bounds = this;
 
@@ -40,7 +42,8 @@ export class Bounds {
     /** Places the pivot in the middle and measures the ball about it. */
     settle(moments: Moment[]): void {
         this.start = Bounds.of(moments[0]!);
-        const extent = Math.hypot(...this.low.map((low, axis) => this.high[axis]! - low)) / 2 || 1;
+        this.size = Math.hypot(...this.low.map((low, axis) => this.high[axis]! - low)) || 1;
+        const extent = this.size / 2;
         const digit = 10 ** (Math.floor(Math.log10(extent)) - 1);
         const middle = (axis: number) => {
             const value = (this.low[axis]! + this.high[axis]!) / 2;
@@ -62,7 +65,27 @@ export class Bounds {
                 );
             }
         }
-        this.radius = Math.sqrt(square) || 1;
+        this.radius = Math.max(Math.sqrt(square) || 1, this.farthestObstacle(moments));
+    }
+
+    // Of those that the picture has whole, from the pivot.
+    private farthestObstacle(moments: Moment[]): number {
+        let farthest = 0;
+        for (const obstacle of moments.flatMap((moment) => moment.obstacles)) {
+            if (obstacle.kind !== "box" && obstacle.kind !== "ball") {
+                continue;
+            }
+            const away = obstacle.center.map((x, axis) => Math.abs(x - this.pivot[axis]!));
+            const [radius, reach] =
+                obstacle.kind === "ball"
+                    ? [obstacle.radius, Math.hypot(...away) + obstacle.radius]
+                    : [
+                          Math.hypot(...obstacle.sides) / 2,
+                          Math.hypot(...away.map((x, axis) => x + obstacle.sides[axis]! / 2)),
+                      ];
+            farthest = radius <= this.size ? Math.max(farthest, reach) : farthest;
+        }
+        return farthest;
     }
 
     /** Lowest and highest coordinate along an axis that is seen, as the box is turned. */

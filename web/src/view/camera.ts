@@ -46,7 +46,7 @@ export function makeCamera(orbit: Orbit, center: Vector, radius: number, aspect:
     const eye = add(target, scale(back, distance));
     const reach = radius * (4 + Math.hypot(orbit.panX, orbit.panY));
     const near = Math.max(distance - reach, distance * 0.02);
-    const far = distance + reach;
+    const far = distance + 3 * reach; // obstacles may be large
     const view = viewMatrix(right, up, back, eye);
     const projection = perspective(slope * aspect, slope, near, far);
     const viewProjection = multiply(projection, view);

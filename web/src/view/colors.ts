@@ -28,6 +28,11 @@ const kBodies: Stop[] = [
     [0.62, 0.16, 25],
 ];
 
+/** The gray of obstacles, in which no body is shown; on a dark page a dark one. */
+export function obstacleColor(theme: "light" | "dark"): Color {
+    return fromOklab(...toOklab([theme === "dark" ? 0.5 : 0.8, 0.012, 75]));
+}
+
 /** What a picture can be colored by. */
 export const kColorBy = ["body", "w", "speed", "strain", "force"] as const;
 export type ColorBy = (typeof kColorBy)[number];

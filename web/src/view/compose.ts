@@ -1,11 +1,13 @@
-import type { Coloring, Picture, Tile } from "../render/picture.ts";
+import type { Coloring, Picture, SliceView, Tile } from "../render/picture.ts";
 import type { Bounds } from "./bounds.ts";
 import { tesseract } from "./box.ts";
 import type { Film } from "./box.ts";
 import { makeCamera } from "./camera.ts";
-import { bodyColor, mapColor } from "./colors.ts";
+import { bodyColor, mapColor, obstacleColor } from "./colors.ts";
 import type { Color } from "./colors.ts";
 import type { Vector } from "./matrix.ts";
+import { placeObstacles } from "./place_obstacles.ts";
+import type { Obstacle } from "../format/obstacles.ts";
 import { short } from "./state.ts";
 import type { ViewState } from "./state.ts";
 
@@ -74,15 +76,28 @@ export function columnsFor(count: number, width: number, height: number): number
 function makeTiles(state: ViewState, bounds: Bounds, dimension: number): Tile[] {
     const places = slicePlaces(state, bounds, dimension);
     if (state.layout !== "onion" || places.length === 1) {
-        return places.map((w) => ({ slices: [{ w, ghost: null }], lines: [] }));
+        return places.map((w) => tileOf([{ w, ghost: null, balls: [] }]));
     }
     // All but the middle one as ghosts, from teal, the first, to orange, the last.
     const middle = Math.floor(places.length / 2);
     const slices = places.map((w, i) => ({
         w,
         ghost: i === middle ? null : mapColor("w", i / (places.length - 1)),
+        balls: [],
     }));
-    return [{ slices, lines: [] }];
+    return [tileOf(slices)];
+}
+
+function tileOf(slices: SliceView[]): Tile {
+    return {
+        slices,
+        surfaces: [],
+        rims: [],
+        outlines: [],
+        hasFloor: true,
+        isAllSolid: false,
+        lines: [],
+    };
 }
 
 /** The eye of the projection: over the film, under it the middle of the bodies, at three times
@@ -127,6 +142,7 @@ export interface Stage {
     dimension: 3 | 4;
     bounds: Bounds;
     coloring: Coloring;
+    obstacles: Obstacle[]; // at the moment shown
 }
 
 /** The picture that a state asks for. */
@@ -146,8 +162,16 @@ export function makePicture(state: ViewState, stage: Stage): Picture {
     if (state.box && dimension === 4) {
         addBox(tiles, state, bounds, background.ink);
     }
+    const ground = 2.6 * bounds.radius;
+    const shift = bounds.shift(state.rotation);
     // Under the ghosts of an outline, too, but not far below a body that is thin.
-    const [lowest] = bounds.reach(state.rotation, 1);
+    let [lowest] = bounds.reach(state.rotation, 1);
+    if (state.obstacles) {
+        const section = { rotation: state.rotation, shift, is4: dimension === 4 };
+        const view = { center, reach: ground, largest: bounds.size };
+        const eye = state.ghost === "none" ? null : eyeOf(state, bounds);
+        lowest = Math.min(lowest, placeObstacles(tiles, stage.obstacles, section, view, eye));
+    }
     return {
         width,
         height,
@@ -156,10 +180,12 @@ export function makePicture(state: ViewState, stage: Stage): Picture {
         tiles,
         camera,
         rotation: state.rotation,
-        shift: bounds.shift(state.rotation),
+        shift,
         center,
         radius: bounds.radius,
         floor: state.floor ? lowest - 0.004 * bounds.radius : null,
+        ground,
+        obstacles: state.obstacles ? obstacleColor(stage.theme) : null,
         outline:
             state.ghost === "none" || dimension === 3
                 ? null

@@ -25,6 +25,7 @@ export interface ViewState {
     smooth: boolean; // normals
     shade: boolean; // shadows and ambient occlusion
     floor: boolean;
+    obstacles: boolean;
     box: boolean;
     axes: boolean;
     theme: (typeof kThemes)[number];
@@ -47,13 +48,14 @@ export function defaultState(): ViewState {
         smooth: true,
         shade: true,
         floor: true,
+        obstacles: true,
         box: false,
         axes: true,
         theme: "auto",
     };
 }
 
-const kSwitches = ["loop", "smooth", "shade", "floor", "box", "axes"] as const;
+const kSwitches = ["loop", "smooth", "shade", "floor", "obstacles", "box", "axes"] as const;
 
 /** Shortest text of a number that is right to so many digits. */
 export function short(value: number, digits = 5): string {

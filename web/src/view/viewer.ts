@@ -5,6 +5,7 @@ import type { BodyFrame } from "../run/decode.ts";
 import type { Moment, Run } from "../run/run.ts";
 import { FrameStream } from "../run/stream.ts";
 import { Bounds } from "./bounds.ts";
+import { Boxes } from "./boxes.ts";
 import { suitableRange } from "./colors.ts";
 import type { ColorBy } from "./colors.ts";
 import { makeColoring, makePicture } from "./compose.ts";
@@ -52,6 +53,7 @@ export class Viewer {
     private size = { width: 1, height: 1, pixelRatio: 1 };
     private clock = 0; // place in time while playing, in frames
     private lastTick = 0;
+    private boxes = new Boxes();
     private pace = new Pace(() => this.requestDraw());
     private secondsPerFrame = 1 / 30;
 
@@ -87,7 +89,7 @@ export class Viewer {
         const seen = run.stage ? [...moments, run.stage] : moments;
         bounds.add(seen);
         bounds.settle(seen);
-        this.renderer.setBodies(run.bodies);
+        this.renderer.surfaces.setBodies(run.bodies);
         this.run?.close();
         this.pause();
         this.run = run;
@@ -227,6 +229,7 @@ export class Viewer {
             theme: this.theme,
             dimension: this.run?.dimension ?? 4,
             bounds: this.bounds,
+            obstacles: this.moment?.obstacles ?? [],
             coloring: makeColoring(this.state, this.range, this.run?.bodies.length ?? 1),
         });
     }
@@ -336,7 +339,9 @@ export class Viewer {
         } else if (color === "strain" && moment.bodies.some((body) => !body.strain)) {
             void this.addStrain(moment);
         }
-        this.renderer.setFrame(
+        const { surfaces } = this.renderer;
+        surfaces.setBoxes(this.boxes.of(moment.obstacles, this.run!.dimension));
+        surfaces.setFrame(
             moment.bodies,
             moment.bodies.map((body) => this.scalarOf(body)),
         );

@@ -5,8 +5,10 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { test } from "node:test";
+import type { Obstacle } from "../../src/format/obstacles.ts";
 import { gridMesh } from "../../src/run/example.ts";
 import { kPage, openPage, useBrowser } from "../support/browser.ts";
+import { obstaclesFile } from "../support/obstacles.ts";
 import { native } from "../support/native.ts";
 import { writeFrame, writeMesh } from "../support/write_pent.ts";
 
@@ -15,6 +17,13 @@ const kGrid = gridMesh([2, 2, 1, 2], (p) => p);
 
 function positionsAt(frame: number): number[] {
     return [...kGrid.positions].map((value, i) => value * (1 + 0.05 * frame) + (i % 4) * 0.01);
+}
+
+function obstaclesAt(frame: number): Obstacle[] {
+    return [
+        { kind: "half_space", normal: [0, 1, 0, 0], offset: -1.1 },
+        { kind: "ball", center: [2, 0.1 * frame, 0, 0], radius: 0.5 },
+    ];
 }
 
 /** A run of three frames in a folder that is removed in the end. */
@@ -27,11 +36,14 @@ async function withRun(action: (folder: string, view: string) => Promise<void>):
     const mesh = writeMesh(kGrid);
     mkdirSync(join(folder, "run/meshes"), { recursive: true });
     mkdirSync(join(folder, "run/frames"));
+    mkdirSync(join(folder, "run/obstacles"));
     writeFileSync(join(folder, "run/meshes/body.pent"), mesh);
     for (let frame = 0; frame < 3; ++frame) {
         const positions = positionsAt(frame);
         const bytes = writeFrame(mesh, frame, frame / 10, positions, positions);
         writeFileSync(join(folder, `run/frames/body_00000${frame}.pent`), bytes);
+        const obstacles = obstaclesFile(obstaclesAt(frame));
+        writeFileSync(join(folder, `run/obstacles/00000${frame}.json`), obstacles);
     }
     try {
         await action(folder, view);
@@ -51,6 +63,8 @@ test("pent-view shows its run, and ends by Ctrl-C", async (t) => {
         const { page, said, close } = await openPage(browser.get(), `${address}#shade=off&frame=2`);
         await page.waitForFunction(() => window.pentimento!.viewer.moment!.frame === 2);
         assert.equal(await page.title(), "run \u2013 Pentimento");
+        const obstacles = await page.evaluate(() => window.pentimento!.viewer.moment!.obstacles);
+        assert.deepEqual(obstacles, obstaclesAt(2));
         await page.locator("select[aria-label='Color by']").selectOption("strain");
         await page.waitForSelector(".legend .title");
         assert.deepEqual(said, []); // nothing that its own policy of content forbids
@@ -72,16 +86,18 @@ test("an exported page opens from a file and shows what the run has", async (t) 
             `${pathToFileURL(path)}#shade=off&frame=2&color=strain`,
         );
         await page.waitForFunction(() => window.pentimento!.viewer.moment!.frame === 2);
-        const { positions, strain, time } = await page.evaluate(() => {
+        const { positions, strain, time, obstacles } = await page.evaluate(() => {
             const { moment } = window.pentimento!.viewer;
             const [body] = moment!.bodies;
             return {
                 positions: [...body!.positions],
                 strain: [...body!.strain!],
                 time: moment!.time,
+                obstacles: moment!.obstacles,
             };
         });
         assert.ok(Math.abs(time - 0.2) < 1e-12);
+        assert.deepEqual(obstacles, obstaclesAt(2));
         // Vertices inside are left out: those left are each near one of the run, in order.
         const expected = positionsAt(2);
         let at = 0;

@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { makeBoundary } from "../../src/mesh/boundary.ts";
 import { extrude } from "../../src/mesh/extrude.ts";
+import type { Obstacle } from "../../src/format/obstacles.ts";
 import { determinant } from "../../src/format/pent_file.ts";
 import type { Mesh } from "../../src/format/pent_file.ts";
 import { roomFor } from "../../src/play/live_run.ts";
@@ -138,7 +139,8 @@ bounds.settle([roomMoment([-1, -1, -1, -1], [2, 1, 1, 1])]);
 
 function roomMoment(low: number[], high: number[]) {
     const positions = Float32Array.from([...low, ...high]);
-    return { frame: 0, time: 0, bodies: [{ positions, speed: null, force: null, strain: null }] };
+    const body = { positions, speed: null, force: null, strain: null };
+    return { frame: 0, time: 0, bodies: [body], obstacles: [] as Obstacle[] };
 }
 
 function pictureOf(layout: "single" | "side") {
@@ -158,6 +160,7 @@ function pictureOf(layout: "single" | "side") {
         theme: "light",
         dimension: 4,
         bounds,
+        obstacles: [],
         coloring: makeColoring(state, [0, 1], 1),
     });
 }
@@ -195,17 +198,15 @@ test("of slices side by side the one that is pointed at counts", () => {
 
 test("there is room about a scene of one's own, down to its floor", () => {
     const moment = roomMoment([0, 1, 0, 0], [2, 2, 1, 0]);
-    const facts = {
-        stiffness: 1,
-        damping: 0,
-        gravity: [0, 0, 0, 0],
-        stepsPerSecond: 60,
-        isAutomatic: true,
+    const above = (offset: number) => {
+        const wall: Obstacle = { kind: "half_space", normal: [0, 0, 0, 1], offset: 0.7 };
+        const floor: Obstacle = { kind: "half_space", normal: [0, 1, 0, 0], offset };
+        return roomFor({ ...moment, obstacles: [wall, floor] });
     };
-    assert.deepEqual(roomFor({ moment, facts: { ...facts, floor: -1 } }).low[1], -1);
-    const none = roomFor({ moment, facts: { ...facts, floor: null } });
+    assert.deepEqual(above(-1).low[1], -1);
+    const none = roomFor(moment);
     assert.deepEqual([none.low[3], none.high[3]], [0, 0], "none along an axis without extent");
     assert.ok(none.low[0]! < 0 && none.high[0]! > 2 && none.low[1]! < 1);
-    const far = roomFor({ moment, facts: { ...facts, floor: -1000 } });
+    const far = above(-1000);
     assert.ok(far.low[1]! > 0, "a floor far below is left out");
 });

@@ -27,6 +27,15 @@ test("a dropped run is found in whatever folder it is", () => {
     assert.equal(framePath("y_1", 1), "frames/y_1_000001.pent");
 });
 
+test("obstacles of a dropped run are found, at rest or moving", () => {
+    const of = (more: string[]) =>
+        listPaths(["r/meshes/a.pent", "r/frames/a_000000.pent", ...more]).listing.obstacles;
+    assert.equal(of([]), "none");
+    assert.equal(of(["obstacles.json", "r/checkpoint/obstacles.json"]), "none");
+    assert.equal(of(["r/obstacles.json"]), "still");
+    assert.equal(of(["r/obstacles/000000.json"]), "moving");
+});
+
 test("a dropped mesh is found, and what is neither is refused", () => {
     assert.equal(listPaths(["octopus.pent"]).listing.mesh, "octopus.pent");
     assert.throws(
@@ -172,6 +181,7 @@ class SlowRun implements Run {
         this.waiting.get(frame)!({
             frame,
             time: 0,
+            obstacles: [],
             bodies: [
                 {
                     positions: new Float32Array(40),

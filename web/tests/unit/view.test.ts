@@ -133,6 +133,7 @@ function boundsOf(points: number[][]): Bounds {
     const moment = {
         frame: 0,
         time: 0,
+        obstacles: [],
         bodies: [
             {
                 positions: Float32Array.from(points.flat()),

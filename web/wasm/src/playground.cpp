@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <limits>
 #include <utility>
 
 using namespace pent;
@@ -32,7 +31,7 @@ static_assert(offsetof(pent_point, cell) == 8 && offsetof(pent_point, weights) =
 static_assert(offsetof(pent_hit, place) == 56 && offsetof(pent_hit, distance) == 88);
 static_assert(offsetof(pent_grab, anchor) == 56 && offsetof(pent_grab, stiffness) == 88
               && sizeof(pent_grab) == 112);
-static_assert(offsetof(play_facts, gravity) == 16 && offsetof(play_facts, floor) == 48);
+static_assert(offsetof(play_facts, gravity) == 16 && sizeof(play_facts) == 48);
 
 namespace {
 
@@ -96,18 +95,6 @@ std::unique_ptr<Simulation<Dim>> open(const Scene& scene, const pent_simulation*
     return simulation;
 }
 
-template <int Dim>
-double floor_of(const Simulation<Dim>& simulation) {
-    double highest = -std::numeric_limits<double>::infinity();
-    for (const pent::Obstacle<Dim>& obstacle : simulation.obstacles()) {
-        const auto* ground = std::get_if<HalfSpace<Dim>>(&obstacle);
-        if (ground != nullptr && ground->normal[1] > 0.999) {
-            highest = std::max(highest, ground->offset);
-        }
-    }
-    return std::isfinite(highest) ? highest : std::numeric_limits<double>::quiet_NaN();
-}
-
 // The scene with the meshes that are beside it, as placed.
 Scene as_written(Scene scene) {
     for (simulator::Body& body : scene.bodies) {
@@ -140,8 +127,7 @@ int play_get_facts(const pent_simulation* simulation, play_facts* facts) {
         const Scene& scene = held.scene();
         *facts = {.time_step = scene.dt(),
                   .damping = scene.damping ? scene.damping->stiffness : 0,
-                  .gravity = {},
-                  .floor = floor_of(held)};
+                  .gravity = {}};
         const auto gravity = held.host().gravity;
         for (int axis = 0; axis < scene.dimension; ++axis) {
             facts->gravity[axis] = gravity ? (*gravity)[axis] : scene.gravity[axis];
@@ -156,6 +142,15 @@ const double* play_contact_forces(const pent_simulation* simulation, int body) {
         const auto all = held.contact_forces(body);
         forces.assign(all.data(), all.data() + all.size());
         return forces.data();
+    });
+}
+
+const char* play_obstacles(const pent_simulation* simulation) {
+    static std::string text;
+    return with<const char*>(simulation, nullptr, [&](auto& held, Opened& /*opened*/) {
+        constexpr int kDim = kDimOf<std::remove_reference_t<decltype(held)>>;
+        text = obstacles_text<kDim>(held.obstacles());
+        return text.c_str();
     });
 }
 

@@ -22,7 +22,6 @@ typedef struct play_facts {
     double time_step;  /**< s. */
     double damping;    /**< Of stiffness, s. */
     double gravity[4]; /**< m/s^2. */
-    double floor;      /**< Highest y of a half-space below bodies, m; NaN where there is none. */
 } play_facts;
 
 /** Reads a scene file and its meshes, with the words of pent-sim for what is wrong in them. It goes on from
@@ -36,6 +35,9 @@ PENT_PLUGIN_API int play_get_facts(const pent_simulation* simulation, play_facts
 /** Forces of contact on the vertices of a body, N, dimension x vertices; they hold until the next
  * call. */
 PENT_PLUGIN_API const double* play_contact_forces(const pent_simulation* simulation, int body);
+
+/** Obstacles where they are now, as a run's file has them; it holds until the next call. */
+PENT_PLUGIN_API const char* play_obstacles(const pent_simulation* simulation);
 
 /** Begins a run in an empty folder, as pent-sim writes it: scene, meshes, obstacles at rest. */
 PENT_PLUGIN_API int play_begin_run(const pent_simulation* simulation, const char* folder);

@@ -64,9 +64,14 @@ export class PlayBar {
                 : "";
         const energy = stats.energies.reduce((sum, [, value]) => sum + value, 0);
         const cost = stats.milliseconds > 0 ? `${stats.milliseconds.toFixed(1)} ms a step` : "";
-        const texts = [`${moment.time.toFixed(2)} s`, cost, joules(energy), speed];
+        const texts = [
+            ["time", `${moment.time.toFixed(2)} s`],
+            ["cost", cost],
+            ["energy", joules(energy)],
+            ["speed", speed],
+        ].filter(([, text]) => text !== "");
         this.numbers.replaceChildren(
-            ...texts.filter((text) => text !== "").map((text) => element("span", {}, text)),
+            ...texts.map(([name, text]) => element("span", { class: name! }, text!)),
         );
     }
 }

@@ -1,0 +1,38 @@
+import type { Obstacle } from "../format/obstacles.ts";
+import { makeBoundary } from "../mesh/boundary.ts";
+import { boxMesh } from "../mesh/box.ts";
+import { toFloat4 } from "../mesh/quantities.ts";
+import type { Body, BodyFrame } from "../run/decode.ts";
+
+/** Obstacles that are boxes as bodies, which the renderer slices as all others. */
+export class Boxes {
+    private body: Body | null = null; // the same for all boxes of a dimension
+
+    /** Those among obstacles, where they are. */
+    of(obstacles: Obstacle[], dimension: 3 | 4): { body: Body; frame: BodyFrame }[] {
+        if (this.body?.dimension !== dimension) {
+            this.body = null;
+        }
+        return obstacles.flatMap((obstacle) => {
+            if (obstacle.kind !== "box") {
+                return [];
+            }
+            const mesh = boxMesh(dimension);
+            this.body ??= {
+                name: "box",
+                dimension,
+                vertexCount: mesh.vertexCount,
+                cellCount: mesh.cellCount,
+                boundary: makeBoundary(mesh, "box"),
+            };
+            const placed = mesh.positions.map((place, i) => {
+                const axis = i % dimension;
+                return obstacle.center[axis]! + place * obstacle.sides[axis]!;
+            });
+            const positions = toFloat4(placed, dimension);
+            return [
+                { body: this.body, frame: { positions, speed: null, force: null, strain: null } },
+            ];
+        });
+    }
+}
