@@ -246,6 +246,10 @@ Verdict body(Program& program, Arguments& arguments) {
     arguments.study.created_by = program.name_and_version();
     arguments.study.programs = fs::read_symlink("/proc/self/exe").parent_path();
     const bool is_part = arguments.list_runs || arguments.run > 0 || arguments.collect;
+    if (is_part) {
+        program.require_apart({{"the plan of the study", arguments.study.folder / "plan.json"}},
+                              {});
+    }
     if (is_part && !arguments.study.scene.empty()) {
         pent::study::require_scene(arguments.study.folder, arguments.study.scene);
     }

@@ -297,8 +297,9 @@ preset = "accurate"
     EXPECT_LT(error(3), error(1));  // 2 layers, subdivided or not, at 1/120
     EXPECT_LT(error(3), error(7));  // 2 layers or 1, both subdivided
     // The chosen scene names the mesh that was made for it.
-    const simulator::Scene chosen = runs::parse_scene(
-        scene_with(options.folder, report.results[3], folder / "study"), "chosen", folder / "study");
+    const simulator::Scene chosen =
+        runs::parse_scene(scene_with(options.folder, report.results[3], folder / "study"), "chosen",
+                          folder / "study");
     EXPECT_TRUE(std::filesystem::exists(chosen.bodies[0].mesh)) << chosen.bodies[0].mesh;
 }
 
