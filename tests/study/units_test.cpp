@@ -278,7 +278,7 @@ TEST(Units, RunWhereverTheFolderIs) {
 TEST(PentStudy, InPartsChoosesAndWritesTheSceneOfTheStudyInOneGo) {
     const TempFolder folder;
     const std::string scene = test::write_bar(folder).string();
-    const std::string what = scene + " --vary dt=1/30,1/240 --repeat 1 --frames 3 -o ";
+    const std::string what = scene + " --vary dt=1/30,1/240 --repeat 1 --frames 3 --threads 1 -o ";
     const std::string choice = " --error 20 --write-scene ";
     const std::string whole = (folder / "whole").string();
     const std::string parts = (folder / "parts").string();
