@@ -121,6 +121,19 @@ Case small_beam_case() {
     return c;
 }
 
+// The beam once more, on the same vertices and columns, of cells that have parents.
+Case elements_case(const std::string& name, ElementKind kind) {
+    SimplexMesh<4> mesh = beam();
+    mesh.parents = pent::test::quadratic_kuhn_box<4>({25, 3, 3, 3}, {5, 0.6, 0.6, 0.6}).parents;
+    Scene scene = beam_scene();
+    scene.solver.elements = kind;
+    const auto replay = std::make_shared<Replay<4>>(scene, mesh, 1, kFrame);
+    Case c{.name = "beam, linear_euler, " + name + " elements"};
+    c.run = [replay] { return replay->step(); };
+    c.note = [replay] { return replay->note(); };
+    return c;
+}
+
 }  // namespace
 
 std::vector<Case> step_cases(int threads) {
@@ -131,6 +144,8 @@ std::vector<Case> step_cases(int threads) {
             beam_case("beam, linear_euler, layers of a tenth", beam_scene(), 0.01, threads),
             beam_case("beam, linear_euler, nu = 0.32", beam_scene(0.32), 0.1, threads),
             beam_case("beam, newton_euler to 1e-4", newton, 0.1, threads),
+            elements_case("smoothed", ElementKind::Smoothed),
+            elements_case("quadratic", ElementKind::Quadratic),
             fall_case(),
             small_beam_case()};
 }
