@@ -7,6 +7,7 @@
 #include <pent/error.h>
 #include <pent/output_file.h>
 #include <pent/runs/scene_file.h>
+#include <pent/simulator/scene_words.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -34,12 +35,15 @@ Settings finest_mesh(const std::vector<Axis>& axes) {
 
 // As accurate as the program can be at a given dt. What Newton's method leaves of the momentum of a
 // step may add up over all of them, so it is little. Of several kinds of elements it has those that
-// do not lock.
+// lock least.
 simulator::SolverOptions reference_solver(const Scene& scene, const std::vector<Axis>& axes) {
     simulator::SolverOptions exact = scene.solver;
     const auto elements = std::ranges::find(axes, "elements", &Axis::name);
-    if (elements != axes.end() && std::ranges::count(elements->values, "smoothed") > 0) {
-        exact.elements = simulator::ElementKind::Smoothed;
+    for (const auto kind : {simulator::ElementKind::Smoothed, simulator::ElementKind::Quadratic}) {
+        const auto name = simulator::word_of(kind);
+        if (elements != axes.end() && std::ranges::count(elements->values, name) > 0) {
+            exact.elements = kind;
+        }
     }
     exact.precision = simulator::Precision::Double;
     exact.tolerance = 1e-8;

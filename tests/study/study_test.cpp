@@ -303,27 +303,32 @@ preset = "accurate"
     EXPECT_TRUE(std::filesystem::exists(chosen.bodies[0].mesh)) << chosen.bodies[0].mesh;
 }
 
-// Both kinds of elements have the same limit; on a coarse mesh the smoothed ones are nearer to it.
-TEST(RunStudy, MeasuresKindsOfElementsAgainstThatWhichDoesNotLock) {
-    if (!std::filesystem::exists(PENT_BIN "/pent-mesh")) {
-        GTEST_SKIP() << "built without the mesher";
-    }
-    const TempFolder folder;
+std::filesystem::path write_beam(const TempFolder& folder, const std::string& more) {
     std::ofstream(folder / "beam.toml") << R"([scene]
 gravity = [0, -9.8, 0, 0]
 frames = 10
 [[body]]
 name = "beam"
 mesh = "beam.pent"
-recipe = "--box 4,1,1,1 --size 4,1,1,1"
+recipe = "--box 4,1,1,1 --size 4,1,1,1)" << more
+                                        << R"("
 [[constraint]]
 body = "beam"
 select = { half_space = { normal = [1, 0, 0, 0], offset = -1.99 } }
 [solver]
 preset = "accurate"
 )";
+    return folder / "beam.toml";
+}
+
+// All kinds of elements have the same limit; on a coarse mesh the smoothed ones are nearer to it.
+TEST(RunStudy, MeasuresKindsOfElementsAgainstThatWhichLocksLeast) {
+    if (!std::filesystem::exists(PENT_BIN "/pent-mesh")) {
+        GTEST_SKIP() << "built without the mesher";
+    }
+    const TempFolder folder;
     const StudyReport report =
-        run_study({.scene = folder / "beam.toml",
+        run_study({.scene = write_beam(folder, ""),
                    .folder = folder / "study",
                    .vary = {"elements=linear,smoothed", "subdivide=1,2", "dt=1/60"},
                    .repeats = 1,
@@ -335,6 +340,25 @@ preset = "accurate"
     EXPECT_LT(error(2), error(0));      // coarse: smoothed instead of linear
     EXPECT_LT(error(3), error(1) / 3);  // fine: that of the reference itself but for its steps
     expect_contains(text_of(folder / "study/references/steps-8.toml"), {"elements = \"smoothed\""});
+}
+
+// On one mesh: what is left of the error of quadratic elements is that of steps.
+TEST(RunStudy, MeasuresOthersAgainstQuadraticElementsWhereTheMeshHasThem) {
+    if (!std::filesystem::exists(PENT_BIN "/pent-mesh")) {
+        GTEST_SKIP() << "built without the mesher";
+    }
+    const TempFolder folder;
+    const StudyReport report = run_study({.scene = write_beam(folder, " --quadratic"),
+                                          .folder = folder / "study",
+                                          .vary = {"elements=quadratic,smoothed,linear", "dt=1/60"},
+                                          .repeats = 1,
+                                          .programs = PENT_BIN});
+    ASSERT_EQ(report.results.size(), 3U);
+    const auto error = [&](std::size_t i) { return report.results[i].errors.position; };
+    EXPECT_LT(error(0), error(1) / 3);
+    EXPECT_LT(error(1), error(2));
+    expect_contains(text_of(folder / "study/references/steps-8.toml"),
+                    {"elements = \"quadratic\""});
 }
 
 TEST(RunStudy, RefusesLevelsOfDifferentShape) {
