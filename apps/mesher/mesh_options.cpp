@@ -153,6 +153,7 @@ void add_resolution(CLI::App& cli, MeshArguments& arguments) {
                             ->check(CLI::PositiveNumber)
                             ->excludes(triangles)
                             ->group(group);
+    add_size_field_options(cli, arguments, edge);
     cli.add_option("--target-pentachora", request.target_cells,
                    "Aim at this many pentachora, within 2%")
         ->check(CLI::Range(std::int64_t{100}, std::int64_t{1} << 31))
@@ -346,6 +347,7 @@ void complete(const CLI::App& cli, MeshArguments& arguments) {
         limits.memory_mib = std::max<std::int64_t>(1, std::llround(arguments.memory_limit));
     }
     request.limit_steps(limits);
+    complete_size_field(arguments);
     complete_space_time(cli, arguments);
 }
 

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace pent::apps {
@@ -36,6 +37,7 @@ struct MeshArguments {
     bool yes = false;  ///< Not to be asked about large bodies.
 
     std::filesystem::path input;
+    std::string size_field;  ///< A hyperplane or a point.
     double level = 0;
     std::vector<double> spacing;  ///< m.
     double unit = 1;              ///< m.
@@ -55,6 +57,14 @@ struct MeshArguments {
 
 /// Adds every option of pent-mesh but the common ones.
 void add_options(CLI::App& cli, MeshArguments& arguments);
+
+/// Adds those of sizes that differ from place to place, which add_options() calls.
+/// @param edge  The option for the shortest edges.
+void add_size_field_options(CLI::App& cli, MeshArguments& arguments, CLI::Option* edge);
+
+/// Fills the request's size field, which complete() calls. Throws an Error for what is neither a
+/// hyperplane nor a point.
+void complete_size_field(MeshArguments& arguments);
 
 /// Adds those of moving meshes, which add_options() calls.
 void add_space_time_options(CLI::App& cli, MeshArguments& arguments);

@@ -18,6 +18,7 @@ void refuse_other_options(const CLI::App& cli) {
                              "--wrap-distance",
                              "--surface-triangles",
                              "--edge-length",
+                             "--size-field",
                              "--target-pentachora",
                              "--generator",
                              "--radius-edge-ratio",

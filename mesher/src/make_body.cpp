@@ -49,6 +49,11 @@ void check(const BodyRequest& request, int dim) {
         throw Error("an edge length of " + std::to_string(request.edge_length)
                     + " m; expected 0 or more");
     }
+    if (!request.sizes.is_uniform() && solid_file_of(request) == nullptr) {
+        throw Error(name_of_input(request)
+                    + ": a size field is for four-dimensional shapes, boundaries and images; leave"
+                      " it out");
+    }
     const Eigen::Index axes = request.translation.size();
     if ((axes != 0 && axes != 3 && axes != dim) || !request.translation.allFinite()) {
         throw Error("a translation of " + std::to_string(axes) + " components; expected 3"
@@ -306,6 +311,22 @@ bool is_flat(const Surface& surface) {
     return z.maxCoeff() == z.minCoeff();
 }
 
+// The size field where the body is before it is moved.
+SizeField before_translation(const BodyRequest& request) {
+    SizeField sizes = request.sizes;
+    if (request.translation.size() > 0) {
+        Eigen::Vector4d way = Eigen::Vector4d::Zero();
+        way.head(request.translation.size()) = request.translation;
+        if (sizes.plane) {
+            sizes.plane->offset -= sizes.plane->normal.dot(way);
+        }
+        if (sizes.point) {
+            *sizes.point -= way;
+        }
+    }
+    return sizes;
+}
+
 Body<4> make_stuffed(const std::filesystem::path& path,
                      const BodyRequest& request,
                      StageClock& clock) {
@@ -314,11 +335,13 @@ Body<4> make_stuffed(const std::filesystem::path& path,
     const SolidInput input = clock.time("read", [&] { return read_solid_input(path, request); });
     StuffedSolid stuffed;
     try {
-        ExpectedSize size =
-            expected_size<4>(estimate_cells(input.solid, request.edge_length), 1, 0, request);
+        const SizeField sizes = before_translation(request);
+        ExpectedSize size = expected_size<4>(
+            estimate_cells(input.solid, request.edge_length, sizes), 1, 0, request);
         size.seconds += input.seconds_per_cell * size.cells;
         announce(request, size);
-        stuffed = clock.time("stuff", [&] { return stuff(input.solid, request.edge_length); });
+        stuffed =
+            clock.time("stuff", [&] { return stuff(input.solid, request.edge_length, sizes); });
     } catch (const Error& error) {
         throw Error(path.string() + ": " + error.what());
     }

@@ -39,6 +39,51 @@ TEST(PentMesh, MakesShapesWithTheSameBytesAtAnyNumberOfThreads) {
     EXPECT_EQ(run_program("pent-check " + (folder / "1.pent").string()).exit_code, 0);
 }
 
+// Of the body that comes out, which was scaled and moved: its middle lies at w = 4.
+TEST(PentMesh, MakesEdgesLongerAwayFromAPlaceWithTheSameBytesAtAnyNumberOfThreads) {
+    const test::TempFolder folder;
+    const std::string shape = (folder / "shape.toml").string();
+    test::write_file(shape, "[[shape]]\nspherinder = { radius = 0.25, length = 1 }\n");
+    const std::string command = "pent-mesh " + shape + " --scale 2 --translate 0,0,0,4 --yes"
+                                + " --edge-length 0.2 --size-field ";
+    std::string first;
+    for (const char* threads : {"1", "2", "3"}) {
+        const std::string out = (folder / threads).string() + ".pent";
+        const Outcome outcome = run_program(command + "w=3 -o " + out + " --threads " + threads);
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        const std::string bytes = test::text_of(out);
+        first = first.empty() ? bytes : first;
+        EXPECT_TRUE(bytes == first) << threads << " threads";
+    }
+    const SimplexMesh<4> mesh = read_mesh<4>(folder / "1.pent").mesh;
+    const auto below = (mesh.positions.row(3).array() < 3.5).count();
+    const auto above = (mesh.positions.row(3).array() > 4.5).count();
+    EXPECT_GT(below, 3 * above);
+    EXPECT_EQ(run_program("pent-check " + (folder / "1.pent").string()).exit_code, 0);
+}
+
+TEST(PentMesh, SaysWhatASizeFieldLacks) {
+    const test::TempFolder folder;
+    const std::string shape = (folder / "shape.toml").string();
+    test::write_file(shape, "[[shape]]\nball = { radius = 1 }\n");
+    const std::string command =
+        "pent-mesh " + shape + " -o " + (folder / "a.pent").string() + " --edge-length 0.3 ";
+    for (const char* place :
+         {"v=0", "w=", "0,0,0", "0,0,0,0=1", "1,0,0,0,0", "w=0x", "nan,0,0,0"}) {
+        const Outcome outcome = run_program(command + "--size-field " + place);
+        EXPECT_EQ(outcome.exit_code, 1) << place;
+        test::expect_one_error_line(outcome, "pent-mesh");
+        test::expect_contains(outcome.err, {"--size-field: found \"", place, "expected a hyper"});
+    }
+    const Outcome shorter = run_program(command + "--size-field w=0 --longest-edge 0.1");
+    EXPECT_EQ(shorter.exit_code, 1);
+    test::expect_contains(shorter.err, {"longest edges of 0.1 m"});
+    const Outcome sphere = run_program("pent-mesh --sphere 4 --edge-length 0.3 --size-field w=0 -o "
+                                       + (folder / "a.pent").string());
+    EXPECT_EQ(sphere.exit_code, 1);
+    test::expect_contains(sphere.err, {"a size field is for four-dimensional shapes"});
+}
+
 TEST(PentMesh, MakesBodiesOfBoundariesWithTheSameBytesAtAnyNumberOfThreads) {
     const test::TempFolder folder;
     const std::string boundary = (folder / "16-cell.obj").string();

@@ -55,6 +55,6 @@ struct LatticePath {
 };
 
 /// All 24, in the order of their permutations of the axes.
-[[nodiscard]] std::array<LatticePath, 24> lattice_paths();
+[[nodiscard]] const std::array<LatticePath, 24>& lattice_paths();
 
 }  // namespace pent::mesher

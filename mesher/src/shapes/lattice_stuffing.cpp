@@ -7,20 +7,20 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace pent::mesher {
 
 namespace {
 
-constexpr std::uint32_t kNone = LatticeGrid::kNone;
-constexpr unsigned kBlock = LatticeGrid::kBlock;
-constexpr unsigned kSteps = LatticeGrid::kSteps;
-constexpr unsigned kAllSteps = 15;
+constexpr std::uint32_t kNone = LatticeTree::kNone;
+constexpr std::uint32_t kTask = 64;  // cells
 
-// A point moves if the surface cuts an edge this near to it, in parts of the edge.
+// A point moves if the surface cuts an edge this near to it, in parts of the edge, or of the
+// longest edge of the smallest cell there where that is shorter.
 constexpr double kNear = 0.35;
 
 // Cuts near points that moved back are kept this far from the ends, or cells would become flat.
@@ -36,7 +36,7 @@ int pattern_of(const std::array<Side, 5>& sides) {
     return pattern;
 }
 
-// The pieces of every pattern of sides, for paths that are not odd and for those that are.
+// The pieces of every pattern of sides, for simplices that are not odd and for those that are.
 struct PieceTable {
     std::array<std::vector<Piece>, 243> even;
     std::array<std::vector<Piece>, 243> odd;
@@ -63,287 +63,262 @@ const PieceTable& pieces() {
     return table;
 }
 
-const std::array<LatticePath, 24>& paths() {
-    static const std::array<LatticePath, 24> all = lattice_paths();
-    return all;
+std::uint32_t task_count(const LatticeTree& tree) {
+    return (tree.cell_count() + kTask - 1) / kTask;
 }
 
-template <typename Work>
-void for_blocks(const LatticeGrid& grid, const Work& work) {
-    constexpr std::uint32_t kBlocks = 8;  // to a task
-    parallel_for(grid.block_count(), kBlocks, work);
+template <typename Visit>
+void visit_simplices(const LatticeTree& tree, std::uint32_t task, const Visit& visit) {
+    const std::uint32_t end = std::min((task + 1) * kTask, tree.cell_count());
+    for (std::uint32_t cell = task * kTask; cell < end; ++cell) {
+        tree.visit_simplices(cell, visit);
+    }
 }
 
 }  // namespace
 
-LatticeStuffing::LatticeStuffing(const Solid& solid, const LatticeGrid& grid)
-    : solid_(&solid), grid_(&grid) {
-    sides_.resize(grid.point_count());
-    for (std::uint32_t point = 0; point < grid.point_count(); ++point) {
-        sides_[point] = grid.value(point) < 0 ? Side::Inside : Side::Outside;
+LatticeStuffing::LatticeStuffing(const Solid& solid, const LatticeTree& tree)
+    : solid_(&solid), tree_(&tree) {
+    sides_.resize(tree.point_count());
+    for (std::uint32_t point = 0; point < tree.point_count(); ++point) {
+        sides_[point] = tree.value(point) < 0 ? Side::Inside : Side::Outside;
     }
+    find_edges();
     find_cuts();
     move_points();
 }
 
-void LatticeStuffing::find_cuts() {
-    steps_cut_.assign(grid_->point_count(), 0);
-    first_cut_.assign(grid_->point_count(), 0);
-    cuts_.resize(grid_->block_count());
-    for_blocks(*grid_, [&](std::uint32_t block) {
-        for (std::uint32_t point = block * kBlock; point < (block + 1) * kBlock; ++point) {
-            find_cuts_of(point);
-        }
+void LatticeStuffing::find_edges() {
+    using Ends = std::pair<std::uint32_t, std::uint32_t>;
+    const auto make_unique = [](std::vector<Ends>& edges) {
+        std::sort(edges.begin(), edges.end());
+        edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    };
+    std::vector<std::vector<Ends>> found(task_count(*tree_));
+    parallel_for(task_count(*tree_), 1U, [&](std::uint32_t task) {
+        std::vector<Ends>& edges = found[task];
+        visit_simplices(*tree_, task, [&](const Simplex& simplex, bool) {
+            for (int i = 0; i < 5; ++i) {
+                for (int j = i + 1; j < 5; ++j) {
+                    if (sides_[simplex[i]] != sides_[simplex[j]]) {
+                        edges.emplace_back(simplex[i], simplex[j]);
+                    }
+                }
+            }
+        });
+        make_unique(edges);
     });
+    std::vector<Ends> all;
+    for (std::vector<Ends>& edges : found) {
+        all.insert(all.end(), edges.begin(), edges.end());
+        edges = {};
+    }
+    make_unique(all);
+    first_edge_.assign(tree_->point_count() + 1, 0);
+    for (const auto& [from, to] : all) {
+        edges_.push_back({from, to});
+        ++first_edge_[from + 1];
+    }
+    for (std::uint32_t point = 0; point < tree_->point_count(); ++point) {
+        first_edge_[point + 1] += first_edge_[point];
+    }
 }
 
-void LatticeStuffing::find_cuts_of(std::uint32_t point) {
-    std::vector<double>& cuts = cuts_[point / kBlock];
-    first_cut_[point] = static_cast<std::uint32_t>(cuts.size());
-    const Side side = sides_[point];
-    for (unsigned step = 1; step < kSteps; ++step) {
-        const std::uint32_t other = grid_->after(point, step);
-        if (other == kNone || sides_[other] == side) {
-            continue;
-        }
-        steps_cut_[point] |= static_cast<std::uint16_t>(1U << step);
-        const Eigen::Vector4d from = grid_->place(point);
-        const Eigen::Vector4d to = grid_->place(other);
-        cuts.push_back(
-            zero_between(*solid_, {from, grid_->value(point)}, {to, grid_->value(other)}));
-    }
+void LatticeStuffing::find_cuts() {
+    parallel_for(edges_.size(), std::size_t{kTask}, [&](std::size_t i) {
+        Edge& edge = edges_[i];
+        edge.cut = zero_between(*solid_, {tree_->place(edge.from), tree_->value(edge.from)},
+                                {tree_->place(edge.to), tree_->value(edge.to)});
+    });
 }
 
 void LatticeStuffing::move_points() {
     // Decided from the cuts alone, so that the order of the points does not matter.
-    std::vector<std::uint8_t> is_moving(grid_->point_count(), 0);
-    moved_.resize(grid_->block_count());
-    for_blocks(*grid_, [&](std::uint32_t block) {
-        for (std::uint32_t point = block * kBlock; point < (block + 1) * kBlock; ++point) {
-            if (const std::optional<Eigen::Vector4d> cut = cut_near(point)) {
-                is_moving[point] = 1;
-                moved_[block].emplace_back(point, moved(point, *cut));
-            }
+    const std::vector<std::uint32_t> nearest = nearest_edges();
+    for (std::uint32_t point = 0; point < tree_->point_count(); ++point) {
+        if (nearest[point] != kNone) {
+            moves_.push_back({point, {}});
         }
+    }
+    parallel_for(moves_.size(), std::size_t{kTask}, [&](std::size_t i) {
+        moves_[i].place = moved(moves_[i].point, edges_[nearest[moves_[i].point]]);
     });
-    for (std::uint32_t point = 0; point < grid_->point_count(); ++point) {
-        if (is_moving[point] != 0) {
-            sides_[point] = Side::On;
-        }
+    for (const Move& move : moves_) {
+        sides_[move.point] = Side::On;
     }
 }
 
-// The nearest cut of an edge of a point, in parts of the edge, if it is near.
-std::optional<Eigen::Vector4d> LatticeStuffing::cut_near(std::uint32_t point) const {
-    double nearest = kNear;
-    std::optional<Eigen::Vector4d> found;
-    for (unsigned step = 1; step < kSteps; ++step) {
-        const std::uint32_t owner = grid_->before(point, step);
-        if (is_cut(point, step) && cut_part(point, step) < nearest) {
-            nearest = cut_part(point, step);
-            found = cut_place(point, step);
-        }
-        if (owner != kNone && is_cut(owner, step) && 1 - cut_part(owner, step) < nearest) {
-            nearest = 1 - cut_part(owner, step);
-            found = cut_place(owner, step);
-        }
+// For each point the edge whose cut is nearest, in parts of its length, if it is near.
+std::vector<std::uint32_t> LatticeStuffing::nearest_edges() const {
+    std::vector<std::uint32_t> nearest(tree_->point_count(), kNone);
+    std::vector<double> least(tree_->point_count(), kNear);
+    for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+        const Edge& edge = edges_[i];
+        const double length = (tree_->place(edge.to) - tree_->place(edge.from)).norm();
+        const auto consider = [&](std::uint32_t point, double part) {
+            const double smallest = std::ldexp(tree_->lattice().longest_edge(), tree_->size(point));
+            const double near = part * std::max(1.0, length / smallest);
+            if (near < least[point]) {
+                least[point] = near;
+                nearest[point] = i;
+            }
+        };
+        consider(edge.from, edge.cut);
+        consider(edge.to, 1 - edge.cut);
     }
-    return found;
+    return nearest;
 }
 
 // Straight to the surface, unless the way along the slope is longer than that to the cut.
-Eigen::Vector4d LatticeStuffing::moved(std::uint32_t point,
-                                       const Eigen::Vector4d& nearest_cut) const {
-    const Eigen::Vector4d place = grid_->place(point);
-    const double reach = (nearest_cut - place).norm();
+Eigen::Vector4d LatticeStuffing::moved(std::uint32_t point, const Edge& edge) const {
+    const Eigen::Vector4d place = tree_->place(point);
+    const Eigen::Vector4d from = tree_->place(edge.from);
+    const Eigen::Vector4d cut = from + edge.cut * (tree_->place(edge.to) - from);
+    const double reach = (cut - place).norm();
     const std::optional<Eigen::Vector4d> foot =
-        nearest_zero(*solid_, place, grid_->lattice().spacing);
-    return foot && (*foot - place).norm() <= reach ? *foot : nearest_cut;
+        nearest_zero(*solid_, place, std::ldexp(tree_->lattice().spacing, tree_->size(point)));
+    return foot && (*foot - place).norm() <= reach ? *foot : cut;
 }
 
-bool LatticeStuffing::is_used(std::uint32_t point) const {
-    if (sides_[point] != Side::On) {
-        return sides_[point] == Side::Inside;
-    }
-    for (unsigned step = 1; step < kSteps; ++step) {
-        if (side_of(grid_->after(point, step)) == Side::Inside
-            || side_of(grid_->before(point, step)) == Side::Inside) {
-            return true;
-        }
-    }
-    return false;
+std::uint32_t LatticeStuffing::edge_between(std::uint32_t from, std::uint32_t to) const {
+    const auto begin = edges_.begin() + first_edge_[from];
+    const auto end = edges_.begin() + first_edge_[from + 1];
+    const auto found = std::find_if(begin, end, [&](const Edge& edge) { return edge.to == to; });
+    assert(found != end);
+    return static_cast<std::uint32_t>(found - edges_.begin());
 }
 
-// The steps along which the edge from a point is cut now: neither end has moved to the surface.
-unsigned LatticeStuffing::cuts_from(std::uint32_t point) const {
-    unsigned steps = steps_cut_[point];
-    if (steps == 0 || sides_[point] == Side::On) {
-        return 0;
-    }
-    for (unsigned step = 1; step < kSteps; ++step) {
-        if ((steps >> step & 1U) != 0 && sides_[grid_->after(point, step)] == Side::On) {
-            steps &= ~(1U << step);
-        }
-    }
-    return steps;
-}
-
-double LatticeStuffing::cut_part(std::uint32_t point, unsigned step) const {
-    const unsigned before = steps_cut_[point] & ((1U << step) - 1);
-    return cuts_[point / kBlock][first_cut_[point] + static_cast<unsigned>(std::popcount(before))];
-}
-
-Eigen::Vector4d LatticeStuffing::cut_place(std::uint32_t point,
-                                           unsigned step,
-                                           double least_part) const {
-    const double part = std::clamp(cut_part(point, step), least_part, 1 - least_part);
-    const Eigen::Vector4d from = grid_->place(point);
-    return from + part * (grid_->place(grid_->after(point, step)) - from);
-}
-
-// Calls visit(path, pieces, points of the cell by step) for every simplex at a point that has a
-// part inside.
-template <typename Visit>
-void LatticeStuffing::visit_pieces(std::uint32_t point, const Visit& visit) const {
-    std::array<std::uint32_t, kSteps> corners{};
-    std::array<Side, kSteps> sides{};
-    bool has_inside = false;
-    for (unsigned step = 0; step < kSteps; ++step) {
-        corners[step] = grid_->after(point, step);
-        sides[step] = side_of(corners[step]);
-        has_inside = has_inside || sides[step] == Side::Inside;
-    }
-    if (!has_inside) {
-        return;
-    }
-    for (const LatticePath& path : paths()) {
-        std::array<Side, 5> own{};
-        for (int i = 0; i < 5; ++i) {
-            own[i] = sides[path.steps[i]];
-        }
-        const int pattern = pattern_of(own);
-        const auto& list = path.is_odd ? pieces().odd[pattern] : pieces().even[pattern];
-        if (!list.empty()) {
-            visit(path, list, corners);
-        }
-    }
-}
-
-void LatticeStuffing::number_vertices() {
-    const std::uint32_t blocks = grid_->block_count();
-    numbering_.vertices.assign(grid_->point_count(), 0);
-    numbering_.first_vertex.assign(blocks + 1, 0);
-    numbering_.first_cell.assign(blocks + 1, 0);
-    std::vector<std::uint64_t> vertices(blocks + 1, 0);
-    for_blocks(*grid_, [&](std::uint32_t block) {
-        std::uint32_t count = 0;
-        std::uint64_t cells = 0;
-        for (std::uint32_t point = block * kBlock; point < (block + 1) * kBlock; ++point) {
-            numbering_.vertices[point] = count;
-            count += is_used(point) ? 1U : 0U;
-            count += static_cast<std::uint32_t>(std::popcount(cuts_from(point)));
-            visit_pieces(point, [&](const LatticePath&, const std::vector<Piece>& list,
-                                    const auto&) { cells += list.size(); });
-        }
-        vertices[block + 1] = count;
-        numbering_.first_cell[block + 1] = cells;
-    });
-    for (std::uint32_t block = 0; block < blocks; ++block) {
-        vertices[block + 1] += vertices[block];
-        numbering_.first_cell[block + 1] += numbering_.first_cell[block];
-    }
-    if (vertices.back() > std::numeric_limits<std::uint32_t>::max()) {
-        throw Error("a mesh of " + std::to_string(vertices.back())
-                    + " vertices; expected at most 2^32 - 1: ask for longer edges");
-    }
-    std::copy(vertices.begin(), vertices.end(), numbering_.first_vertex.begin());
-    for_blocks(*grid_, [&](std::uint32_t block) {
-        for (std::uint32_t point = block * kBlock; point < (block + 1) * kBlock; ++point) {
-            numbering_.vertices[point] += numbering_.first_vertex[block];
-        }
-    });
-}
-
-void LatticeStuffing::write_vertices(std::uint32_t block, StuffedMesh& result) const {
-    auto next_moved = moved_[block].begin();
-    for (std::uint32_t point = block * kBlock; point < (block + 1) * kBlock; ++point) {
-        Eigen::Vector4d place = grid_->place(point);
-        while (next_moved != moved_[block].end() && next_moved->first <= point) {
-            if (next_moved->first == point && sides_[point] == Side::On) {
-                place = next_moved->second;
-            }
-            ++next_moved;
-        }
-        std::uint32_t vertex = numbering_.vertices[point];
-        if (is_used(point)) {
-            result.mesh.positions.col(vertex++) = place;
-        }
-        const unsigned steps = cuts_from(point);
-        for (unsigned step = 1; step < kSteps; ++step) {
-            if ((steps >> step & 1U) != 0) {
-                result.mesh.positions.col(vertex++) = cut_place(point, step, kMinPart);
-            }
-        }
-    }
-}
-
-void LatticeStuffing::write_cells(std::uint32_t block, SimplexMesh<4>& mesh) const {
-    auto cell = static_cast<Eigen::Index>(numbering_.first_cell[block]);
-    const auto vertex_of = [&](const LatticePath& path, const CutCorner& corner,
-                               const std::array<std::uint32_t, kSteps>& corners) {
-        const unsigned low = path.steps[std::min(corner.inside, corner.outside)];
-        const std::uint32_t owner = corners[low];
-        const std::uint32_t first = numbering_.vertices[owner];
-        if (corner.inside == corner.outside) {
-            return first;
-        }
-        const unsigned step = path.steps[std::max(corner.inside, corner.outside)] & ~low;
-        const unsigned before = cuts_from(owner) & ((1U << step) - 1);
-        return first + (is_used(owner) ? 1U : 0U)
-               + static_cast<std::uint32_t>(std::popcount(before));
-    };
-    for (std::uint32_t point = block * kBlock; point < (block + 1) * kBlock; ++point) {
-        visit_pieces(point, [&](const LatticePath& path, const std::vector<Piece>& list,
-                                const std::array<std::uint32_t, kSteps>& corners) {
-            for (const Piece& piece : list) {
-                for (int i = 0; i < 5; ++i) {
-                    mesh.cells(i, cell) = vertex_of(path, piece[i], corners);
+// Points inside, and those on the surface that share a simplex with one.
+std::vector<std::uint8_t> LatticeStuffing::used_points() const {
+    std::vector<std::uint8_t> is_used(tree_->point_count(), 0);
+    for (std::uint32_t task = 0; task < task_count(*tree_); ++task) {
+        visit_simplices(*tree_, task, [&](const Simplex& simplex, bool) {
+            const bool has_inside =
+                std::any_of(simplex.begin(), simplex.end(),
+                            [&](std::uint32_t point) { return sides_[point] == Side::Inside; });
+            for (const std::uint32_t point : simplex) {
+                if (has_inside && sides_[point] != Side::Outside) {
+                    is_used[point] = 1;
                 }
-                ++cell;
             }
         });
     }
+    return is_used;
+}
+
+// Calls visit(simplex, pieces) for every simplex of a task that has a part inside.
+template <typename Visit>
+void LatticeStuffing::visit_pieces(std::uint32_t task, const Visit& visit) const {
+    visit_simplices(*tree_, task, [&](const Simplex& simplex, bool is_odd) {
+        std::array<Side, 5> sides{};
+        for (int i = 0; i < 5; ++i) {
+            sides[i] = sides_[simplex[i]];
+        }
+        const int pattern = pattern_of(sides);
+        const auto& list = is_odd ? pieces().odd[pattern] : pieces().even[pattern];
+        if (!list.empty()) {
+            visit(simplex, list);
+        }
+    });
+}
+
+void LatticeStuffing::number_vertices() {
+    is_used_ = used_points();
+    numbering_.points.assign(tree_->point_count(), 0);
+    numbering_.cuts.assign(edges_.size(), kNone);
+    std::uint64_t count = 0;
+    for (std::uint32_t point = 0; point < tree_->point_count(); ++point) {
+        numbering_.points[point] = static_cast<std::uint32_t>(count);
+        count += is_used_[point];
+        for (std::uint32_t i = first_edge_[point]; i < first_edge_[point + 1]; ++i) {
+            if (is_cut(edges_[i])) {
+                numbering_.cuts[i] = static_cast<std::uint32_t>(count++);
+            }
+        }
+    }
+    if (count > std::numeric_limits<std::uint32_t>::max()) {
+        throw Error("a mesh of " + std::to_string(count)
+                    + " vertices; expected at most 2^32 - 1: ask for longer edges");
+    }
+    numbering_.vertices = static_cast<std::uint32_t>(count);
+    const std::uint32_t tasks = task_count(*tree_);
+    numbering_.first_cell.assign(tasks + 1, 0);
+    parallel_for(tasks, 1U, [&](std::uint32_t task) {
+        std::uint64_t cells = 0;
+        visit_pieces(task,
+                     [&](const Simplex&, const std::vector<Piece>& list) { cells += list.size(); });
+        numbering_.first_cell[task + 1] = cells;
+    });
+    for (std::uint32_t task = 0; task < tasks; ++task) {
+        numbering_.first_cell[task + 1] += numbering_.first_cell[task];
+    }
+}
+
+void LatticeStuffing::write_vertices(StuffedMesh& result) const {
+    result.mesh.positions.resize(4, numbering_.vertices);
+    result.is_on_surface.assign(numbering_.vertices, true);
+    result.sizes.assign(numbering_.vertices, 0);
+    auto move = moves_.begin();
+    for (std::uint32_t point = 0; point < tree_->point_count(); ++point) {
+        const bool has_moved = move != moves_.end() && move->point == point;
+        if (is_used_[point] != 0) {
+            const std::uint32_t vertex = numbering_.points[point];
+            result.mesh.positions.col(vertex) =
+                has_moved && sides_[point] == Side::On ? move->place : tree_->place(point);
+            result.is_on_surface[vertex] = sides_[point] == Side::On;
+            result.sizes[vertex] = static_cast<std::uint8_t>(tree_->size(point));
+        }
+        move += has_moved ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+        const std::uint32_t vertex = numbering_.cuts[i];
+        if (vertex != kNone) {
+            const Edge& edge = edges_[i];
+            const Eigen::Vector4d from = tree_->place(edge.from);
+            const double part = std::clamp(edge.cut, kMinPart, 1 - kMinPart);
+            result.mesh.positions.col(vertex) = from + part * (tree_->place(edge.to) - from);
+            result.sizes[vertex] =
+                static_cast<std::uint8_t>(std::min(tree_->size(edge.from), tree_->size(edge.to)));
+        }
+    }
+}
+
+void LatticeStuffing::write_cells(std::uint32_t task, SimplexMesh<4>& mesh) const {
+    auto cell = static_cast<Eigen::Index>(numbering_.first_cell[task]);
+    visit_pieces(task, [&](const Simplex& simplex, const std::vector<Piece>& list) {
+        for (const Piece& piece : list) {
+            for (int i = 0; i < 5; ++i) {
+                const auto [low, high] = std::minmax(piece[i].inside, piece[i].outside);
+                mesh.cells(i, cell) =
+                    low == high ? numbering_.points[simplex[low]]
+                                : numbering_.cuts[edge_between(simplex[low], simplex[high])];
+            }
+            ++cell;
+        }
+    });
 }
 
 StuffedMesh LatticeStuffing::mesh() {
     number_vertices();
     StuffedMesh result;
-    result.mesh.positions.resize(4, numbering_.first_vertex.back());
+    write_vertices(result);
     result.mesh.cells.resize(5, static_cast<Eigen::Index>(numbering_.first_cell.back()));
-    for_blocks(*grid_, [&](std::uint32_t block) {
-        write_vertices(block, result);
-        write_cells(block, result.mesh);
-    });
-    result.is_on_surface.assign(result.mesh.vertex_count(), true);
-    for (std::uint32_t point = 0; point < grid_->point_count(); ++point) {
-        if (sides_[point] == Side::Inside) {
-            result.is_on_surface[numbering_.vertices[point]] = false;
-        }
-    }
+    parallel_for(task_count(*tree_), 1U,
+                 [&](std::uint32_t task) { write_cells(task, result.mesh); });
     return result;
 }
 
 std::int64_t LatticeStuffing::move_back(const std::vector<bool>& vertices) {
-    std::vector<std::uint32_t> points;
-    for (std::uint32_t point = 0; point < grid_->point_count(); ++point) {
-        if (sides_[point] == Side::On && is_used(point) && vertices[numbering_.vertices[point]]) {
-            points.push_back(point);
+    std::int64_t count = 0;
+    for (const Move& move : moves_) {
+        const std::uint32_t point = move.point;
+        if (sides_[point] == Side::On && is_used_[point] != 0
+            && vertices[numbering_.points[point]]) {
+            sides_[point] = tree_->value(point) < 0 ? Side::Inside : Side::Outside;
+            ++count;
         }
     }
-    for (const std::uint32_t point : points) {
-        sides_[point] = grid_->value(point) < 0 ? Side::Inside : Side::Outside;
-    }
-    return static_cast<std::int64_t>(points.size());
+    return count;
 }
 
 }  // namespace pent::mesher

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "lattice_grid.h"
+#include "lattice_tree.h"
 
+#include <pent/mesher/cut_simplex.h>
 #include <pent/simplex_mesh.h>
 
 #include <cstdint>
-#include <optional>
+#include <utility>
 #include <vector>
 
 namespace pent::mesher {
@@ -14,6 +15,8 @@ namespace pent::mesher {
 struct StuffedMesh {
     SimplexMesh<4> mesh;
     std::vector<bool> is_on_surface;  ///< One a vertex.
+    std::vector<std::uint8_t> sizes;  ///< One a vertex: edges there are about 2^this times as long
+                                      ///< as the shortest.
 };
 
 /// Stuffs a solid with the simplices of a lattice [labelle2007], in four dimensions.
@@ -23,7 +26,7 @@ struct StuffedMesh {
 /// neighbors agree.
 class LatticeStuffing {
 public:
-    LatticeStuffing(const Solid& solid, const LatticeGrid& grid);
+    LatticeStuffing(const Solid& solid, const LatticeTree& tree);
 
     /// The mesh as things are. Throws an Error for more than 2^32 - 1 vertices.
     [[nodiscard]] StuffedMesh mesh();
@@ -33,44 +36,48 @@ public:
     std::int64_t move_back(const std::vector<bool>& vertices);
 
 private:
+    using Simplex = std::array<std::uint32_t, 5>;
+
+    // An edge with one end inside and one outside, as the solid has them.
+    struct Edge {
+        std::uint32_t from = 0;
+        std::uint32_t to = 0;  // the larger
+        double cut = 0;        // part of the way
+    };
+    struct Move {
+        std::uint32_t point = 0;
+        Eigen::Vector4d place;
+    };
     struct Numbering {
-        std::vector<std::uint32_t> vertices;  // of points; of the first cut of those that have none
-        std::vector<std::uint32_t> first_vertex;  // of blocks
-        std::vector<std::uint64_t> first_cell;
+        std::vector<std::uint32_t> points;      // the vertex of each that is used
+        std::vector<std::uint32_t> cuts;        // of each edge that is cut
+        std::vector<std::uint64_t> first_cell;  // of tasks
+        std::uint32_t vertices = 0;
     };
 
+    void find_edges();
     void find_cuts();
-    void find_cuts_of(std::uint32_t point);
     void move_points();
-    [[nodiscard]] Eigen::Vector4d moved(std::uint32_t point,
-                                        const Eigen::Vector4d& nearest_cut) const;
-    [[nodiscard]] Side side_of(std::uint32_t point) const {
-        return point == LatticeGrid::kNone ? Side::Outside : sides_[point];
+    [[nodiscard]] std::vector<std::uint32_t> nearest_edges() const;
+    [[nodiscard]] Eigen::Vector4d moved(std::uint32_t point, const Edge& edge) const;
+    [[nodiscard]] bool is_cut(const Edge& edge) const {
+        return sides_[edge.from] != Side::On && sides_[edge.to] != Side::On;
     }
-    [[nodiscard]] bool is_used(std::uint32_t point) const;
-    [[nodiscard]] unsigned cuts_from(std::uint32_t point) const;
-    [[nodiscard]] bool is_cut(std::uint32_t point, unsigned step) const {
-        return (steps_cut_[point] >> step & 1U) != 0;
-    }
-    [[nodiscard]] double cut_part(std::uint32_t point, unsigned step) const;
-    [[nodiscard]] Eigen::Vector4d cut_place(std::uint32_t point,
-                                            unsigned step,
-                                            double least_part = 0) const;
-    [[nodiscard]] std::optional<Eigen::Vector4d> cut_near(std::uint32_t point) const;
+    [[nodiscard]] std::uint32_t edge_between(std::uint32_t from, std::uint32_t to) const;
+    [[nodiscard]] std::vector<std::uint8_t> used_points() const;
     template <typename Visit>
-    void visit_pieces(std::uint32_t point, const Visit& visit) const;
+    void visit_pieces(std::uint32_t task, const Visit& visit) const;
     void number_vertices();
-    void write_vertices(std::uint32_t block, StuffedMesh& result) const;
-    void write_cells(std::uint32_t block, SimplexMesh<4>& mesh) const;
+    void write_vertices(StuffedMesh& result) const;
+    void write_cells(std::uint32_t task, SimplexMesh<4>& mesh) const;
 
     const Solid* solid_;
-    const LatticeGrid* grid_;
+    const LatticeTree* tree_;
     std::vector<Side> sides_;                // of points
-    std::vector<std::uint16_t> steps_cut_;   // of points: bit s if the edge along step s is cut
-    std::vector<std::uint32_t> first_cut_;   // of points, in their block's list
-    std::vector<std::vector<double>> cuts_;  // of blocks: parts of edges from their lower ends
-    std::vector<std::vector<std::pair<std::uint32_t, Eigen::Vector4d>>>
-        moved_;  // of blocks, by point
+    std::vector<Edge> edges_;                // by `from`, then `to`
+    std::vector<std::uint32_t> first_edge_;  // of points
+    std::vector<Move> moves_;                // by point
+    std::vector<std::uint8_t> is_used_;      // points that are vertices of the last mesh
     Numbering numbering_;
 };
 

@@ -110,7 +110,7 @@ private:
             }
             Eigen::Vector4d place = mesh.place(vertex) + step;
             if (!surface_.pieces[vertex].empty()) {
-                const auto there = slide(surface_, surface_.pieces[vertex], place);
+                const auto there = slide(surface_, vertex, place);
                 if (!there) {
                     return false;
                 }

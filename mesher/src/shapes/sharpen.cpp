@@ -142,12 +142,22 @@ private:
         return true;
     }
 
+    // The size of the cells at one of its corners.
+    [[nodiscard]] std::uint8_t largest(const Simplex& simplex) const {
+        std::uint8_t size = 0;
+        for (const std::uint32_t vertex : simplex) {
+            size = std::max(size, surface_.sizes[vertex]);
+        }
+        return size;
+    }
+
     // Where all of some pieces meet near a place, with those that turn out to be in the way there.
     [[nodiscard]] std::optional<Ridge> find_ridge(std::vector<int> pieces,
-                                                  const Eigen::Vector4d& near) const {
+                                                  const Eigen::Vector4d& near,
+                                                  double scale) const {
         const double on = kOnPiece * surface_.scale;
         while (static_cast<int>(pieces.size()) <= kMaxPieces) {
-            const auto place = nearest_common_zero(*surface_.solid, pieces, near, surface_.scale);
+            const auto place = nearest_common_zero(*surface_.solid, pieces, near, scale);
             if (!place) {
                 return std::nullopt;
             }
@@ -192,7 +202,8 @@ private:
                 std::sort(pieces.begin(), pieces.end());
             }
         }
-        const std::optional<Ridge> ridge = find_ridge(pieces, middle);
+        const std::optional<Ridge> ridge =
+            find_ridge(pieces, middle, std::ldexp(surface_.scale, largest(simplex)));
         return ridge && is_sharp(*ridge) ? ridge : std::nullopt;
     }
 
@@ -206,7 +217,8 @@ private:
         std::optional<std::uint32_t> moving;
         Ridge target;
         for (const std::uint32_t vertex : simplex) {
-            const auto ridge = find_ridge(across->pieces, surface_.mesh.place(vertex));
+            const auto ridge =
+                find_ridge(across->pieces, surface_.mesh.place(vertex), surface_.scale_at(vertex));
             if (ridge && includes(ridge->pieces, surface_.pieces[vertex])) {
                 const double quality = surface_.mesh.quality_if_moved(vertex, ridge->place);
                 if (quality > best) {
@@ -219,6 +231,7 @@ private:
         if (surface_.mesh.quality_if_split(simplex, across->place) > best) {
             moving = surface_.mesh.split(simplex, across->place);
             surface_.pieces.push_back(across->pieces);
+            surface_.sizes.push_back(largest(simplex));
         } else if (moving) {
             surface_.mesh.move(*moving, target.place);
             surface_.pieces[*moving] = target.pieces;
@@ -232,14 +245,12 @@ private:
 
 }  // namespace
 
-SurfaceMesh on_surface(const Solid& solid,
-                       double scale,
-                       SimplexMesh<4> mesh,
-                       const std::vector<bool>& is_on_surface) {
-    SurfaceMesh surface{&solid, scale, StarMesh(std::move(mesh)), {}};
-    surface.pieces.resize(is_on_surface.size());
-    for (std::uint32_t vertex = 0; vertex < is_on_surface.size(); ++vertex) {
-        if (is_on_surface[vertex]) {
+SurfaceMesh on_surface(const Solid& solid, double scale, StuffedMesh stuffed) {
+    SurfaceMesh surface{
+        &solid, scale, StarMesh(std::move(stuffed.mesh)), {}, std::move(stuffed.sizes)};
+    surface.pieces.resize(stuffed.is_on_surface.size());
+    for (std::uint32_t vertex = 0; vertex < stuffed.is_on_surface.size(); ++vertex) {
+        if (stuffed.is_on_surface[vertex]) {
             surface.pieces[vertex] =
                 solid.pieces_near(surface.mesh.place(vertex), kOnPiece * scale);
         }
@@ -248,9 +259,10 @@ SurfaceMesh on_surface(const Solid& solid,
 }
 
 std::optional<Eigen::Vector4d> slide(const SurfaceMesh& surface,
-                                     std::span<const int> pieces,
+                                     std::uint32_t vertex,
                                      const Eigen::Vector4d& place) {
-    const auto there = nearest_common_zero(*surface.solid, pieces, place, surface.scale);
+    const auto there = nearest_common_zero(*surface.solid, surface.pieces[vertex], place,
+                                           surface.scale_at(vertex));
     return there && std::abs(surface.solid->value(*there)) <= kOnPiece * surface.scale
                ? there
                : std::nullopt;

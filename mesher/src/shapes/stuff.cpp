@@ -44,6 +44,24 @@ void check(const Solid& solid, double edge_length) {
     }
 }
 
+// A size field that leaves two edges across the thinnest primitive.
+SizeField limited(SizeField sizes, const Solid& solid, double edge_length) {
+    constexpr double kEdgesAcross = 2;
+    if (!(sizes.growth >= 0 && std::isfinite(sizes.growth))) {
+        throw Error(
+            formatted("edges that grow by %g m for each m; expected 0 or more", sizes.growth));
+    }
+    if (!(sizes.longest >= edge_length)) {
+        throw Error(
+            formatted("longest edges of %g m, shorter than the shortest of %g m; expected "
+                      "longer ones",
+                      sizes.longest, edge_length));
+    }
+    sizes.longest =
+        std::max(edge_length, std::min(sizes.longest, solid.smallest_width() / kEdgesAcross));
+    return sizes;
+}
+
 // Stuffs until the boundary is a manifold: in every round at least one point moves back.
 StuffedMesh manifold_mesh(LatticeStuffing& stuffing, std::int64_t& moved_back) {
     for (;;) {
@@ -96,10 +114,11 @@ std::vector<bool> corners_of_flat_cells(const StarMesh& mesh, std::size_t lattic
 
 }  // namespace
 
-StuffedSolid stuff(const Solid& solid, double edge_length) {
+StuffedSolid stuff(const Solid& solid, double edge_length, const SizeField& sizes) {
     check(solid, edge_length);
-    const LatticeGrid grid(solid, Lattice::with_mean_edge(edge_length));
-    LatticeStuffing stuffing(solid, grid);
+    const LatticeTree tree(solid, Lattice::with_mean_edge(edge_length),
+                           limited(sizes, solid, edge_length));
+    LatticeStuffing stuffing(solid, tree);
     StuffedSolid result;
     for (int round = 0; round < kMaxRounds; ++round) {
         StuffedMesh stuffed = manifold_mesh(stuffing, result.moved_back);
@@ -113,12 +132,11 @@ StuffedSolid stuff(const Solid& solid, double edge_length) {
             result.mesh = std::move(stuffed.mesh);
             return result;
         }
-        SurfaceMesh surface =
-            on_surface(solid, edge_length, std::move(stuffed.mesh), stuffed.is_on_surface);
+        const std::size_t lattice_vertices = stuffed.is_on_surface.size();
+        SurfaceMesh surface = on_surface(solid, edge_length, std::move(stuffed));
         result.beveled = follow_ridges(surface);
         relax(surface, kGood);
-        const std::vector<bool> flat =
-            corners_of_flat_cells(surface.mesh, stuffed.is_on_surface.size());
+        const std::vector<bool> flat = corners_of_flat_cells(surface.mesh, lattice_vertices);
         const std::int64_t count = flat.empty() ? 0 : stuffing.move_back(flat);
         result.moved_back += count;
         if (count == 0) {
@@ -132,20 +150,27 @@ StuffedSolid stuff(const Solid& solid, double edge_length) {
                   edge_length));
 }
 
-double estimate_cells(const Solid& solid, double edge_length) {
+double estimate_cells(const Solid& solid, double edge_length, const SizeField& sizes) {
     check(solid, edge_length);
+    const SizeField own = limited(sizes, solid, edge_length);
     constexpr int kPerSide = 16;
     constexpr int kPoints = kPerSide * kPerSide * kPerSide * kPerSide;
     const Box4& box = solid.bounds();
     const Eigen::Vector4d step = (box.high - box.low) / kPerSide;
-    int inside = 0;
+    double cells = 0;
     for (int i = 0; i < kPoints; ++i) {
         const Eigen::Array4d place(i % kPerSide, i / kPerSide % kPerSide,
                                    i / (kPerSide * kPerSide) % kPerSide,
                                    i / (kPerSide * kPerSide * kPerSide));
-        inside += solid.value(box.low.array() + (place + 0.5) * step.array()) < 0 ? 1 : 0;
+        const Eigen::Vector4d p = box.low.array() + (place + 0.5) * step.array();
+        if (solid.value(p) < 0) {
+            // Cells have the largest power of two that is allowed.
+            const double allowed = own.edge_within(edge_length, p, 0) / edge_length;
+            const double edge = edge_length * std::exp2(std::floor(std::log2(allowed)));
+            cells += step.prod() / Lattice::with_mean_edge(edge).cell_volume();
+        }
     }
-    return inside * step.prod() / Lattice::with_mean_edge(edge_length).cell_volume();
+    return cells;
 }
 
 }  // namespace pent::mesher

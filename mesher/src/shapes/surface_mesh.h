@@ -1,9 +1,12 @@
 #pragma once
 
+#include "lattice_stuffing.h"
 #include "star_mesh.h"
 
 #include <pent/mesher/solid.h>
 
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -12,21 +15,23 @@ namespace pent::mesher {
 /// A mesh whose boundary vertices know on which pieces of a solid's surface they lie.
 struct SurfaceMesh {
     const Solid* solid = nullptr;
-    double scale = 1;  ///< Of the cells, m.
+    double scale = 1;  ///< Of the smallest cells, m.
     StarMesh mesh;
     std::vector<std::vector<int>> pieces;  ///< One a vertex: ascending; none inside.
+    std::vector<std::uint8_t> sizes;       ///< One a vertex: cells there are 2^this times as large.
+
+    /// Of the cells at a vertex, m.
+    [[nodiscard]] double scale_at(std::uint32_t vertex) const {
+        return std::ldexp(scale, sizes[vertex]);
+    }
 };
 
-/// @param is_on_surface  One a vertex.
-[[nodiscard]] SurfaceMesh on_surface(const Solid& solid,
-                                     double scale,
-                                     SimplexMesh<4> mesh,
-                                     const std::vector<bool>& is_on_surface);
+[[nodiscard]] SurfaceMesh on_surface(const Solid& solid, double scale, StuffedMesh stuffed);
 
-/// Where a vertex may go that is to lie on some pieces: the point nearest to a place on all of
+/// Where a vertex may go along the pieces that it lies on: the point nearest to a place on all of
 /// them, if the solid's surface is there.
 [[nodiscard]] std::optional<Eigen::Vector4d> slide(const SurfaceMesh& surface,
-                                                   std::span<const int> pieces,
+                                                   std::uint32_t vertex,
                                                    const Eigen::Vector4d& place);
 
 /// Brings edges and corners of the mesh to where pieces meet at an angle. A boundary simplex

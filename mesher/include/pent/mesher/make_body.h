@@ -8,6 +8,7 @@
 #include <pent/mesher/quality.h>
 #include <pent/mesher/repair.h>
 #include <pent/mesher/shapes.h>
+#include <pent/mesher/size_field.h>
 #include <pent/mesher/step_limits.h>
 #include <pent/mesher/surface_check.h>
 #include <pent/mesher/tetrahedralize.h>
@@ -89,6 +90,7 @@ struct BodyRequest {
     RepairOptions repair;
     std::int64_t surface_triangles = 0;  ///< To refine or coarsen the surface to; 0: as it is.
     double edge_length = 0;         ///< To aim at, on the surface and inside, m; 0: as it comes.
+    SizeField sizes;                ///< Of shapes: where edges may be longer, in the body's space.
     std::int64_t target_cells = 0;  ///< To aim at in the body, within 2%; 0: as it comes.
     TetrahedraOptions tetrahedra;   ///< Its edge_length is for the inside alone.
     ExtrusionRequest extrusion;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/mesher/size_field.h>
 #include <pent/mesher/solid.h>
 #include <pent/simplex_mesh.h>
 
@@ -18,7 +19,7 @@ struct StuffedSolid {
 
 /// Fills a solid with pentachora by stuffing a lattice of congruent ones [labelle2007].
 ///
-/// Inside, all cells are those of the lattice A4*. Lattice points near the surface move onto it,
+/// Inside, all cells are those of the lattice A4* (but between sizes, see below). Lattice points near the surface move onto it,
 /// the simplices that the surface then still cuts get the pieces of cut_simplex(). Where the
 /// boundary is not a manifold, points move back; without them it always is. Then boundary
 /// simplices that cross ridges are bent or split so that they follow them, and vertices of the
@@ -26,14 +27,21 @@ struct StuffedSolid {
 /// 1e-6 edges.
 ///
 /// The same bytes at any number of threads.
-/// @param edge_length  Mean length of the edges inside, m, above 0.
+/// @param edge_length  Mean length of the edges inside, m, above 0; where they are shortest.
+/// @param sizes        How much longer they may be elsewhere: by powers of two, by one between
+///                     cells that touch, with the pieces of halved_simplices() between. Half of the
+///                     thinnest primitive is the longest, whatever is allowed.
 /// Throws an Error for a solid that is empty, without bounds, thinner than an edge, or too large
 /// for such edges.
-[[nodiscard]] StuffedSolid stuff(const Solid& solid, double edge_length);
+[[nodiscard]] StuffedSolid stuff(const Solid& solid,
+                                 double edge_length,
+                                 const SizeField& sizes = {});
 
 /// About how many cells stuff() gives, without the work: of the part of 16^4 points that is inside.
 /// Throws as stuff() does for edges that the solid's parts are too thin for, and for one without
 /// bounds.
-[[nodiscard]] double estimate_cells(const Solid& solid, double edge_length);
+[[nodiscard]] double estimate_cells(const Solid& solid,
+                                    double edge_length,
+                                    const SizeField& sizes = {});
 
 }  // namespace pent::mesher

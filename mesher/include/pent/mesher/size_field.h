@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <limits>
+#include <optional>
+
+namespace pent::mesher {
+
+/// All p with normal * p = offset.
+struct Hyperplane {
+    Eigen::Vector4d normal = Eigen::Vector4d::UnitW();  ///< Of any length but 0.
+    double offset = 0;                                  ///< m, times the length of the normal.
+};
+
+/// How long the edges of a body may be, place by place: shortest at a hyperplane or a point, longer
+/// away from it. Of one length everywhere if there is neither.
+struct SizeField {
+    std::optional<Hyperplane> plane;
+    std::optional<Eigen::Vector4d> point;  ///< Instead, m.
+    double growth = 1;                     ///< m of edge for each m of distance, 0 or more.
+    double longest = std::numeric_limits<double>::infinity();  ///< m.
+
+    [[nodiscard]] bool is_uniform() const { return !plane && !point; }
+
+    /// From the hyperplane or point, m; 0 if there is neither.
+    [[nodiscard]] double distance(const Eigen::Vector4d& p) const;
+
+    /// The longest mean edge allowed anywhere in a ball, m.
+    /// @param shortest  Where it is shortest, m.
+    [[nodiscard]] double edge_within(double shortest,
+                                     const Eigen::Vector4d& center,
+                                     double radius) const;
+};
+
+}  // namespace pent::mesher
