@@ -1,10 +1,15 @@
 #include "common/program.h"
 
+#include <pent/error.h>
 #include <pent/exchange/exchange.h>
 #include <pent/formatted.h>
+#include <pent/pent_file.h>
 
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 namespace pent::apps {
 
@@ -13,6 +18,7 @@ namespace {
 struct Arguments {
     std::string input;
     std::string output;
+    std::vector<std::filesystem::path> frames;
     exchange::WriteOptions options;
 };
 
@@ -23,15 +29,40 @@ void add_options(CLI::App& cli, Arguments& arguments) {
         ->required()
         ->type_name("IN");
     cli.add_option("-o,--output", arguments.output,
-                   "The same in the format that its ending stands for")
+                   "The same in the format that its ending stands for; or a view of the boundary "
+                   "(.vtk, .msh)")
         ->required()
         ->type_name("OUT");
+    cli.add_option("--frames", arguments.frames,
+                   "G4MF: frames of the .pent mesh, as of run/frames; each becomes a blend shape")
+        ->type_name("FRAME");
     cli.add_flag("--double", arguments.options.in_double,
                  "G4MF: coordinates in double, which not every program reads");
     cli.add_flag(
         "--mfem-attributes", arguments.options.has_mfem_attributes,
         "MFEM: number the boundary behind the labels of the cells, as MFEM's own meshes have"
         " it; default: 1 bottom, 2 lateral, 3 top");
+}
+
+// Frames of pent-sim, of the mesh that is converted.
+std::vector<exchange::FramePoints> read_frames(const Arguments& arguments) {
+    std::vector<exchange::FramePoints> frames;
+    if (arguments.frames.empty()) {
+        return frames;
+    }
+    if (std::filesystem::path(arguments.input).extension() != ".pent") {
+        throw Error(arguments.input + ": frames are of a .pent mesh, and this is none");
+    }
+    const FileInfo info = read_info(arguments.input);
+    for (const std::filesystem::path& path : arguments.frames) {
+        Frame<4> frame = read_frame<4>(path);
+        if (frame.mesh_crc != info.crc32c) {
+            throw Error(path.string() + ": is a frame of another mesh than " + arguments.input);
+        }
+        frames.push_back({path.stem().string() + formatted(" at %.9g s", frame.time),
+                          std::move(frame.positions)});
+    }
+    return frames;
 }
 
 void say_surface(Program& program, const exchange::TetSurface& surface) {
@@ -71,7 +102,13 @@ Verdict convert(Program& program, Arguments& arguments) {
     } else {
         say_body(program, std::get<SimplexMesh<4>>(content));
     }
+    arguments.options.frames = read_frames(arguments);
     exchange::write(arguments.output, content, arguments.options);
+    if (!arguments.options.frames.empty()) {
+        program.say("frames     " + std::to_string(arguments.options.frames.size())
+                    + ", a blend shape each");
+        program.report()["frames"] = arguments.options.frames.size();
+    }
     program.report()["output"] = arguments.output;
     program.say("finished: " + arguments.output);
     return Verdict::Finished;

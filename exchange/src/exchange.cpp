@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 
 namespace pent::exchange {
 
@@ -19,14 +20,55 @@ constexpr std::array<std::string_view, 1> k4do = {".4do"};
 constexpr std::array<std::string_view, 1> k4obj = {".obj"};
 constexpr std::array<std::string_view, 2> kMfem = {".mesh", ".mfem"};
 
+constexpr std::array<std::string_view, 1> kVtk = {".vtk"};
+constexpr std::array<std::string_view, 1> kGmsh = {".msh"};
+
 constexpr std::array kFormats = {
-    Format{".pent", kPent, true, read_pent, write_pent},
-    Format{"4OFF", k4off, false, read_4off, write_4off},
-    Format{"G4MF", kG4mf, false, read_g4mf, write_g4mf},
-    Format{"4DO", k4do, false, read_4do, write_4do},
-    Format{"OBJ of tesserxel", k4obj, false, read_4obj, write_4obj},
-    Format{"MFEM mesh", kMfem, true, read_mfem, write_mfem},
+    Format{".pent", kPent, true, false, read_pent, write_pent},
+    Format{"4OFF", k4off, false, false, read_4off, write_4off},
+    Format{"G4MF", kG4mf, false, true, read_g4mf, write_g4mf},
+    Format{"4DO", k4do, false, false, read_4do, write_4do},
+    Format{"OBJ of tesserxel", k4obj, false, false, read_4obj, write_4obj},
+    Format{"MFEM mesh", kMfem, true, false, read_mfem, write_mfem},
+    Format{"legacy VTK", kVtk, false, false, nullptr, write_legacy_vtk},
+    Format{"Gmsh mesh", kGmsh, false, false, nullptr, write_gmsh},
 };
+
+void check_frames(const std::filesystem::path& path,
+                  const Format& format,
+                  const Content& content,
+                  const WriteOptions& options) {
+    if (options.frames.empty()) {
+        return;
+    }
+    if (!format.has_frames) {
+        throw Error(path.string() + ": " + std::string(format.name)
+                    + " has no frames; expected .g4tf or .g4b");
+    }
+    const auto* mesh = std::get_if<SimplexMesh<4>>(&content);
+    const Eigen::Index points =
+        mesh != nullptr ? mesh->positions.cols() : std::get<TetSurface>(content).points.cols();
+    for (const FramePoints& frame : options.frames) {
+        if (frame.points.cols() != points) {
+            throw Error(path.string() + ": frame " + frame.name + " has "
+                        + std::to_string(frame.points.cols()) + " points; expected "
+                        + std::to_string(points));
+        }
+    }
+}
+
+// The boundary of a body, and of each frame what it has of the points.
+void write_boundary(const std::filesystem::path& path,
+                    const Format& format,
+                    const SimplexMesh<4>& mesh,
+                    const WriteOptions& options) {
+    BodyBoundary boundary = boundary_with_vertices(mesh);
+    WriteOptions own = options;
+    for (FramePoints& frame : own.frames) {
+        frame.points = Positions<4>(frame.points(Eigen::all, boundary.vertices));
+    }
+    format.write(path, std::move(boundary.surface), own);
+}
 
 }  // namespace
 
@@ -64,6 +106,10 @@ const Format& format_of(const std::filesystem::path& path) {
 
 Content read(const std::filesystem::path& path) {
     const Format& format = format_of(path);
+    if (format.read == nullptr) {
+        throw Error(path.string() + ": " + std::string(format.name)
+                    + " holds points of three dimensions, and is written only");
+    }
     require_file(path);
     Content content = format.read(path);
     if (auto* surface = std::get_if<TetSurface>(&content)) {
@@ -79,8 +125,9 @@ Content read(const std::filesystem::path& path) {
 void write(const std::filesystem::path& path, const Content& content, const WriteOptions& options) {
     const Format& format = format_of(path);
     const auto* mesh = std::get_if<SimplexMesh<4>>(&content);
+    check_frames(path, format, content, options);
     if (mesh != nullptr && !format.has_cells) {
-        format.write(path, boundary_of(*mesh), options);
+        write_boundary(path, format, *mesh, options);
     } else if (mesh == nullptr && format.has_cells) {
         format.write(path, cone_of(std::get<TetSurface>(content), path.string()), options);
     } else {

@@ -41,4 +41,13 @@ void write_mfem(const std::filesystem::path& path,
                 const Content& content,
                 const WriteOptions& options);
 
+/// The boundary in x, y and z, with w as a quantity of its points: a view, from which the body
+/// cannot be read again.
+void write_legacy_vtk(const std::filesystem::path& path,
+                      const Content& content,
+                      const WriteOptions& options);
+void write_gmsh(const std::filesystem::path& path,
+                const Content& content,
+                const WriteOptions& options);
+
 }  // namespace pent::exchange

@@ -5,11 +5,14 @@
 #include <pent/error.h>
 #include <pent/output_file.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace pent::exchange {
 
@@ -25,47 +28,72 @@ void append_bytes(std::string& bytes, const Number& number) {
     bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
-// The points, then the tetrahedra, turned over.
-std::string bytes_of(const TetSurface& surface, bool in_double) {
-    std::string bytes;
-    for (const double coordinate : surface.points.reshaped()) {
-        if (in_double) {
-            append_bytes(bytes, coordinate);
-        } else {
-            append_bytes(bytes, static_cast<float>(coordinate));
-        }
-    }
-    for (const auto& tetrahedron : surface.tetrahedra.colwise()) {
-        for (const int corner : {0, 1, 3, 2}) {
-            append_bytes(bytes, tetrahedron[corner]);
-        }
-    }
-    return bytes;
-}
+// Bytes of a buffer, with the views and accessors of what is in it.
+class Buffer {
+public:
+    explicit Buffer(bool in_double) : in_double_(in_double) {}
 
-Json json_of(const TetSurface& surface, const std::string& name, const WriteOptions& options) {
-    const std::size_t number = options.in_double ? sizeof(double) : sizeof(float);
-    const std::size_t points = 4 * number * static_cast<std::size_t>(surface.points.cols());
-    const std::size_t tetrahedra =
-        4 * sizeof(std::uint32_t) * static_cast<std::size_t>(surface.tetrahedra.cols());
-    return {
-        {"asset", {{"dimension", 4}, {"generator", options.created_by}}},
-        {"accessors",
-         {{{"bufferView", 0},
-           {"componentType", options.in_double ? "float64" : "float32"},
-           {"vectorSize", 4}},
-          {{"bufferView", 1}, {"componentType", "uint32"}, {"vectorSize", 4}}}},
-        {"bufferViews",
-         {{{"buffer", 0}, {"byteLength", points}},
-          {{"buffer", 0}, {"byteOffset", points}, {"byteLength", tetrahedra}}}},
-        {"buffers", {{{"byteLength", points + tetrahedra}}}},
-        {"meshes",
-         {{{"name", name + " mesh"}, {"surfaces", {{{"simplexes", 1}}}}, {"vertices", 0}}}},
-        {"nodes",
-         {{{"name", "root"}, {"children", {1}}},
-          {{"name", name}, {"meshInstance", {{"mesh", 0}}}}}},
-    };
-}
+    // Returns the number of the accessor.
+    std::size_t add_points(const Positions<4>& points) {
+        const std::size_t start = bytes_.size();
+        for (const double coordinate : points.reshaped()) {
+            if (in_double_) {
+                append_bytes(bytes_, coordinate);
+            } else {
+                append_bytes(bytes_, static_cast<float>(coordinate));
+            }
+        }
+        return add_accessor(start, in_double_ ? "float64" : "float32", 4);
+    }
+
+    // Turned over.
+    std::size_t add_tetrahedra(const Simplices<4>& tetrahedra) {
+        const std::size_t start = bytes_.size();
+        for (const auto& tetrahedron : tetrahedra.colwise()) {
+            for (const int corner : {0, 1, 3, 2}) {
+                append_bytes(bytes_, tetrahedron[corner]);
+            }
+        }
+        return add_accessor(start, "uint32", 4);
+    }
+
+    // 0, 1, 2, ...
+    std::size_t add_indices(Eigen::Index count) {
+        const std::size_t start = bytes_.size();
+        for (Eigen::Index i = 0; i < count; ++i) {
+            append_bytes(bytes_, static_cast<std::uint32_t>(i));
+        }
+        return add_accessor(start, "uint32", 1);
+    }
+
+    [[nodiscard]] const std::string& bytes() const { return bytes_; }
+    [[nodiscard]] const Json& accessors() const { return accessors_; }
+    [[nodiscard]] const Json& views() const { return views_; }
+
+private:
+    std::size_t add_accessor(std::size_t start, const char* type, int size) {
+        Json view = {{"buffer", 0}, {"byteLength", bytes_.size() - start}};
+        if (start > 0) {
+            view["byteOffset"] = start;
+        }
+        // The next one starts at a multiple of what a number takes.
+        while (bytes_.size() % sizeof(double) != 0) {
+            bytes_ += '\0';
+        }
+        Json accessor = {{"bufferView", views_.size()}, {"componentType", type}};
+        if (size > 1) {
+            accessor["vectorSize"] = size;
+        }
+        views_.push_back(std::move(view));
+        accessors_.push_back(std::move(accessor));
+        return accessors_.size() - 1;
+    }
+
+    bool in_double_;
+    std::string bytes_;
+    Json accessors_ = Json::array();
+    Json views_ = Json::array();
+};
 
 void append_chunk(std::string& file, const char* type, const std::string& data, char padding) {
     file += type;
@@ -77,18 +105,66 @@ void append_chunk(std::string& file, const char* type, const std::string& data, 
     }
 }
 
+// How far the points go to each frame, as shapes to blend by amounts of 0 to 1.
+Json blend_of(const TetSurface& surface, const std::vector<FramePoints>& frames, Buffer& buffer) {
+    const std::size_t indices = buffer.add_indices(surface.points.cols());
+    Json shapes = Json::array();
+    for (const FramePoints& frame : frames) {
+        const std::size_t offsets = buffer.add_points(frame.points - surface.points);
+        shapes.push_back(
+            {{"name", frame.name}, {"position", {{"indices", indices}, {"offsets", offsets}}}});
+    }
+    return {{"shapes", std::move(shapes)}};
+}
+
+Json mesh_of(const TetSurface& surface,
+             const std::string& name,
+             const WriteOptions& options,
+             Buffer& buffer) {
+    const std::size_t vertices = buffer.add_points(surface.points);
+    const std::size_t simplexes = buffer.add_tetrahedra(surface.tetrahedra);
+    Json mesh = {{"name", name + " mesh"},
+                 {"surfaces", {{{"simplexes", simplexes}}}},
+                 {"vertices", vertices}};
+    if (!options.frames.empty()) {
+        mesh["blend"] = blend_of(surface, options.frames, buffer);
+    }
+    return mesh;
+}
+
+void require_floats(const std::filesystem::path& path,
+                    const TetSurface& surface,
+                    const WriteOptions& options) {
+    double largest = surface.points.cwiseAbs().maxCoeff();
+    for (const FramePoints& frame : options.frames) {
+        largest = std::max(largest, (frame.points - surface.points).cwiseAbs().maxCoeff());
+    }
+    if (!options.in_double && largest > double{std::numeric_limits<float>::max()}) {
+        throw Error(path.string() + ": coordinates beyond what float holds; write doubles");
+    }
+}
+
 }  // namespace
 
 void write_g4mf(const std::filesystem::path& path,
                 const Content& content,
                 const WriteOptions& options) {
     const auto& surface = std::get<TetSurface>(content);
-    if (!options.in_double
-        && surface.points.cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()}) {
-        throw Error(path.string() + ": coordinates beyond what float holds; write doubles");
-    }
-    const std::string bytes = bytes_of(surface, options.in_double);
-    Json json = json_of(surface, path.stem().string(), options);
+    require_floats(path, surface, options);
+    const std::string name = path.stem().string();
+    Buffer buffer(options.in_double);
+    const Json mesh = mesh_of(surface, name, options, buffer);
+    const std::string& bytes = buffer.bytes();
+    Json json = {
+        {"asset", {{"dimension", 4}, {"generator", options.created_by}}},
+        {"accessors", buffer.accessors()},
+        {"bufferViews", buffer.views()},
+        {"buffers", {{{"byteLength", bytes.size()}}}},
+        {"meshes", Json::array({mesh})},
+        {"nodes",
+         {{{"name", "root"}, {"children", {1}}},
+          {{"name", name}, {"meshInstance", {{"mesh", 0}}}}}},
+    };
     if (path.extension() == ".g4b") {
         json["buffers"][0]["chunk"] = 1;
         std::string file(kMagic);

@@ -241,26 +241,27 @@ void orient(TetSurface& surface, std::string_view name) {
 }
 
 TetSurface boundary_of(const SimplexMesh<4>& mesh) {
+    return boundary_with_vertices(mesh).surface;
+}
+
+BodyBoundary boundary_with_vertices(const SimplexMesh<4>& mesh) {
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
     const FacetMatch<4> match = match_facets<4>(mesh.cells, mesh.vertex_count());
     std::vector<std::uint32_t> name(static_cast<std::size_t>(mesh.vertex_count()), kNone);
     for (const std::uint32_t corner : match.boundary.reshaped()) {
         name[corner] = 0;
     }
-    std::uint32_t used = 0;
-    for (std::uint32_t& entry : name) {
-        entry = entry == kNone ? kNone : used++;
-    }
-    TetSurface surface;
-    surface.points.resize(4, used);
+    BodyBoundary boundary;
     for (std::size_t v = 0; v < name.size(); ++v) {
         if (name[v] != kNone) {
-            surface.points.col(name[v]) = mesh.positions.col(static_cast<Eigen::Index>(v));
+            name[v] = static_cast<std::uint32_t>(boundary.vertices.size());
+            boundary.vertices.push_back(static_cast<std::uint32_t>(v));
         }
     }
-    surface.tetrahedra =
+    boundary.surface.points = mesh.positions(Eigen::all, boundary.vertices);
+    boundary.surface.tetrahedra =
         match.boundary.unaryExpr([&](std::uint32_t corner) { return name[corner]; });
-    return surface;
+    return boundary;
 }
 
 SimplexMesh<4> cone_of(const TetSurface& surface, std::string_view name) {

@@ -10,15 +10,20 @@
 
 namespace pent::exchange {
 
-/// Adds " x y z w" with the shortest digits that read back as the same numbers.
-inline void append_point(std::string& text, const Eigen::Vector4d& point) {
+/// Adds " a b c", each number with the shortest digits that read back as the same one.
+template <typename Numbers>
+void append_numbers(std::string& text, const Numbers& numbers) {
     std::array<char, 32> digits{};
-    for (const double coordinate : point) {
-        const auto end =
-            real_to_chars(digits.data(), digits.data() + digits.size(), coordinate).ptr;
+    for (const double number : numbers) {
+        const auto end = real_to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
         text += ' ';
         text.append(digits.data(), end);
     }
+}
+
+/// Adds " x y z w".
+inline void append_point(std::string& text, const Eigen::Vector4d& point) {
+    append_numbers(text, point);
 }
 
 /// Adds " a b c d".

@@ -61,6 +61,35 @@ TEST_F(PentConvert, GoesFromABodyToItsBoundaryAndBack) {
     EXPECT_NEAR(total_volume(read_mesh<4>(at("again.pent")).mesh), 2, 1e-14);
 }
 
+TEST_F(PentConvert, AddsFramesOfARunAsBlendShapes) {
+    Frame<4> frame;
+    frame.positions = 2 * read_mesh<4>(at("box.pent")).mesh.positions;
+    frame.mesh_name = "box.pent";
+    frame.mesh_crc = read_info(at("box.pent")).crc32c;
+    frame.time = 0.25;
+    write_frame<4>(at("box_000000.pent"), frame);
+    frame.time = 0.5;
+    write_frame<4>(at("box_000001.pent"), frame);
+    const std::string frames = "--frames " + at("box_000000.pent") + " " + at("box_000001.pent");
+    const Outcome outcome = convert("box.pent", "box.g4tf", frames);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    expect_contains(outcome.out, {"frames     2, a blend shape each"});
+    const auto shapes =
+        nlohmann::json::parse(text_of(at("box.g4tf"))).at("meshes").at(0).at("blend").at("shapes");
+    ASSERT_EQ(shapes.size(), 2U);
+    EXPECT_EQ(shapes[0].at("name"), "box_000000 at 0.25 s");
+    EXPECT_EQ(shapes[1].at("name"), "box_000001 at 0.5 s");
+    // Of another mesh, or in a format without any.
+    frame.mesh_crc ^= 1U;
+    write_frame<4>(at("other_000000.pent"), frame);
+    const Outcome other = convert("box.pent", "other.g4tf", "--frames " + at("other_000000.pent"));
+    EXPECT_EQ(other.exit_code, 1);
+    expect_contains(other.err, {"other_000000.pent: is a frame of another mesh"});
+    const Outcome none = convert("box.pent", "box.4do", frames);
+    EXPECT_EQ(none.exit_code, 1);
+    expect_contains(none.err, {"4DO has no frames; expected .g4tf or .g4b"});
+}
+
 TEST_F(PentConvert, RefusesInOneLineAndLeavesNothingBehind) {
     expect_refusal("box.pent", "box.fbx", {"box.fbx", "expected one of .pent"});
     expect_refusal("none.4do", "box.pent", {"none.4do: no such file"});

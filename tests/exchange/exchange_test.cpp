@@ -18,10 +18,18 @@ TEST(Exchange, KeepsTheHypervolumeFromEachFormatToEach) {
     for (const Format& from : formats()) {
         const std::filesystem::path first = folder / ("a" + std::string(from.endings[0]));
         write(first, surface, {.in_double = true});
+        if (from.read == nullptr) {
+            pent::test::expect_contains(
+                pent::test::error_of([&] { static_cast<void>(read(first)); }), {"written only"});
+            continue;
+        }
         for (const Format& to : formats()) {
             for (const std::string_view ending : to.endings) {
                 const std::filesystem::path second = folder / ("b" + std::string(ending));
                 write(second, read(first), {.in_double = true});
+                if (to.read == nullptr) {
+                    continue;
+                }
                 const Content content = read(second);
                 const auto* mesh = std::get_if<SimplexMesh<4>>(&content);
                 EXPECT_EQ(mesh != nullptr, to.has_cells);

@@ -1,6 +1,7 @@
 #include "polytopes.h"
 
 #include <pent/base64.h>
+#include <pent/error.h>
 
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -28,6 +29,65 @@ TEST(G4mf, IsReadAsItWasWritten) {
         test::expect_same_surface(read_as(name, text_as(name, with_digits(), {.in_double = true})),
                                   with_digits(), 0);
     }
+}
+
+// Offsets from the points to those of the frame, of all points by their indices; without amounts
+// all are 0, so that a reader without shapes sees the mesh as it is.
+TEST(G4mf, HasFramesAsBlendShapes) {
+    const TetSurface surface = sixteen_cell();
+    const Positions<4> turned = surface.points.colwise().reverse();
+    const Positions<4> larger = 3 * surface.points;
+    for (const bool in_double : {false, true}) {
+        const std::string text =
+            text_as("a.g4tf", surface,
+                    {.in_double = in_double, .frames = {{"turned", turned}, {"larger", larger}}});
+        const Json json = Json::parse(text);
+        const auto uri = json["buffers"][0]["uri"].get<std::string>();
+        const std::string bytes = *from_base64(uri.substr(uri.find(',') + 1));
+        const Json& shapes = json["meshes"][0]["blend"]["shapes"];
+        ASSERT_EQ(shapes.size(), 2U);
+        EXPECT_EQ(shapes[0]["name"], "turned");
+        const auto values_of = [&]<typename Number>(const Json& number, Number) {
+            const Json& accessor = json["accessors"][number.get<std::size_t>()];
+            const Json& view = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+            std::vector<Number> values(view["byteLength"].get<std::size_t>() / sizeof(Number));
+            EXPECT_EQ(view["byteOffset"].get<std::size_t>() % sizeof(Number), 0U);
+            std::memcpy(values.data(), bytes.data() + view["byteOffset"].get<std::size_t>(),
+                        values.size() * sizeof(Number));
+            return values;
+        };
+        const Json& target = shapes[1]["position"];
+        const auto indices = values_of(target["indices"], std::uint32_t{});
+        ASSERT_EQ(indices.size(), 8U);
+        std::vector<double> offsets;
+        if (in_double) {
+            offsets = values_of(target["offsets"], double{});
+        } else {
+            const auto floats = values_of(target["offsets"], float{});
+            offsets.assign(floats.begin(), floats.end());
+        }
+        ASSERT_EQ(offsets.size(), 32U);
+        for (std::size_t i = 0; i < indices.size(); ++i) {
+            const Eigen::Vector4d offset(&offsets[4 * i]);
+            EXPECT_EQ(surface.points.col(indices[i]) + offset, larger.col(indices[i]));
+        }
+        test::expect_same_surface(read_as("a.g4tf", text), surface, 0);
+    }
+}
+
+TEST(G4mf, AloneHasFrames) {
+    const TetSurface surface = five_cell();
+    const auto error_of = [&](const char* name, const Positions<4>& points) -> std::string {
+        try {
+            (void)text_as(name, surface, {.frames = {{"moved", points}}});
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    pent::test::expect_contains(error_of("a.4off", surface.points), {"4OFF has no frames", ".g4b"});
+    pent::test::expect_contains(error_of("a.g4b", surface.points.leftCols(3)),
+                                {"frame moved has 3 points; expected 5"});
 }
 
 // Its outside: perpendicular to the edges from the first corner, with perp(x, y, z) = w.

@@ -8,11 +8,18 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace pent::exchange {
 
 /// What a file of four dimensions holds: the boundary of a body, or a body.
 using Content = std::variant<TetSurface, SimplexMesh<4>>;
+
+/// Where all points are at another time.
+struct FramePoints {
+    std::string name;  ///< Of no other frame.
+    Positions<4> points;
+};
 
 struct WriteOptions {
     std::string created_by = "pentimento";
@@ -20,6 +27,9 @@ struct WriteOptions {
     /// Labels of the boundary of MFEM meshes of extruded bodies: 1 bottom, 2 lateral, 3 top; or as
     /// MFEM numbers those of its own, behind the labels of the cells.
     bool has_mfem_attributes = false;
+    /// A blend shape each, of G4MF, the one format that has any: from the points that are written to
+    /// where those of the content are in the frame.
+    std::vector<FramePoints> frames = {};
 };
 
 /// A file format. Orientation is ours whichever the file's is.
@@ -27,13 +37,14 @@ struct Format {
     std::string_view name;
     std::span<const std::string_view> endings;  ///< ".g4tf" and so on, in small letters.
     bool has_cells = false;                     ///< Holds bodies, else boundaries.
-    Content (*read)(const std::filesystem::path& path);
+    bool has_frames = false;                    ///< Holds places of the points at other times.
+    Content (*read)(const std::filesystem::path& path);  ///< Null for one that is only written.
     void (*write)(const std::filesystem::path& path,
                   const Content& content,
                   const WriteOptions& options);
 };
 
-/// All formats: .pent, 4OFF, G4MF, 4DO, tesserxel's OBJ and MFEM.
+/// All formats: .pent, 4OFF, G4MF, 4DO, tesserxel's OBJ, MFEM, and views as legacy VTK and Gmsh.
 [[nodiscard]] std::span<const Format> formats();
 
 /// The format that the ending of a name stands for. Throws an Error that lists all for others.
@@ -47,7 +58,8 @@ struct Format {
 [[nodiscard]] Content read(const std::filesystem::path& path);
 
 /// Writes a boundary or a body, whole or not at all: what the format holds of it, the boundary of a
-/// body or the cone_of() a boundary.
+/// body or the cone_of() a boundary. Throws an Error for frames of another number of points, and in
+/// formats that have none.
 void write(const std::filesystem::path& path,
            const Content& content,
            const WriteOptions& options = {});

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 namespace pent::exchange {
 
@@ -38,6 +39,13 @@ void orient(TetSurface& surface, std::string_view name);
 
 /// The boundary of a mesh, with the vertices that it uses, in their order.
 [[nodiscard]] TetSurface boundary_of(const SimplexMesh<4>& mesh);
+
+/// The same, with the vertex of the mesh that each of its points is.
+struct BodyBoundary {
+    TetSurface surface;
+    std::vector<std::uint32_t> vertices;  ///< One a point, ascending.
+};
+[[nodiscard]] BodyBoundary boundary_with_vertices(const SimplexMesh<4>& mesh);
 
 /// The body inside a closed surface that some point sees all of, as it sees that of anything
 /// convex: pentachora from that point to each tetrahedron. The boundary is the surface, exactly.
