@@ -142,3 +142,32 @@ test("mistakes in a scene are told with line and column, and the scene that was 
     assert.throws(() => play.open(cut, "scene.toml"), /^Error: scene\.toml:7:8: jelly\.pent: /);
     assert.ok(play.step(now), "the jelly is still there");
 });
+
+test("obstacles are where the scene has them, and move as they do in it", async (t) => {
+    const made = await playground(t);
+    if (!made) {
+        return;
+    }
+    const { play } = made;
+    const jelly = galleryFiles("jelly");
+    play.open(jelly, "scene.toml");
+    assert.deepEqual(play.moment().obstacles, [
+        { kind: "half_space", normal: [0, 1, 0, 0], offset: 0 },
+        { kind: "half_space", normal: [0, 0, 0, 1], offset: -1.5 },
+        { kind: "half_space", normal: [0, 0, 0, -1], offset: -1.5 },
+    ]);
+    const ball =
+        "\n[[obstacle]]\nball = { center = [3, 1, 0, 0.5], radius = 0.25 }\n" +
+        "motion = [{ translate = [0, 0.6, 0, -0.3] }]\n";
+    play.open(
+        edited(jelly, (text) => text.replace("\n[contact]", `${ball}\n[contact]`)),
+        "scene.toml",
+    );
+    play.step(now);
+    const moment = play.moment();
+    const moved = moment.obstacles.find((one) => one.kind === "ball")!;
+    const expected = [3, 1 + 0.6 * moment.time, 0, 0.5 - 0.3 * moment.time];
+    assert.ok(moment.time > 0);
+    // Sums of doubles near 1.
+    moved.center.forEach((x, axis) => assert.ok(Math.abs(x - expected[axis]!) < 1e-12));
+});
