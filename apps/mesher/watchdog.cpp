@@ -3,10 +3,10 @@
 #include "watchdog.h"
 
 #include <pent/formatted.h>
+#include <pent/machine_memory.h>
 
 #include <chrono>
 #include <sys/resource.h>
-#include <unistd.h>
 
 namespace pent::apps {
 
@@ -49,8 +49,7 @@ void Watchdog::watch(double seconds) {
 
 void limit_memory(double mebibytes) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes
-    const double all = static_cast<double>(::sysconf(_SC_PHYS_PAGES))
-                       * static_cast<double>(::sysconf(_SC_PAGESIZE));
+    const auto all = static_cast<double>(machine_memory());
     const auto bytes = static_cast<rlim_t>(mebibytes > 0 ? mebibytes * 1024 * 1024 : all);
     const rlimit limit{bytes, RLIM_INFINITY};
     ::setrlimit(RLIMIT_AS, &limit);

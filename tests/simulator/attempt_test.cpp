@@ -170,8 +170,8 @@ struct StandingCube {
     }
 };
 
-// Takes hold of the highest corner: by its vertex, or by a spring without a bound, taken so far away, m,
-// in one step.
+// Takes hold of the highest corner, by its vertex or by a spring without a bound, and takes that so
+// far away, m, in one step.
 template <int Dim>
 void pull(Simulation<Dim>& simulation, bool by_grab, double far) {
     Grab<Dim> grab = test::corner(simulation, 0, 20000);
@@ -219,8 +219,8 @@ void expect_recovery(const StandingCube<Dim>& cube, bool by_grab) {
     let_go(simulation);
     run(300);
     EXPECT_LT(report.energies.kinetic, 1e-3);
-    // e^(-5 t / 2) of 30 m is 2 cm if nothing else damps it. Turned inside out, a quadratic cell has
-    // an equilibrium of its own, in which the step reports it.
+    // e^(-5 t / 2) of 30 m is 2 cm if nothing else damps it. Turned inside out a quadratic cell has
+    // an equilibrium of its own, which the step reports.
     const bool is_back = (simulation.positions(0) - before).cwiseAbs().maxCoeff() < 2e-2;
     const bool may_fold = cube.scene.solver.elements == ElementKind::Quadratic;
     EXPECT_TRUE(is_back || (may_fold && report.inverted > 0));

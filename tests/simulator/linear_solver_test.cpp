@@ -27,7 +27,7 @@ TEST(LinearSolvers, FindTheSolutionOfTheDenseFactorization) {
         // Condition about 1e4 times the residual.
         EXPECT_LT((solution.x.reshaped() - expected).norm(), 1e-8 * expected.norm());
     }
-    const LinearSolution<kDim> direct = problem.solve(*make_direct_solver<kDim>(), 1e-12);
+    const LinearSolution<kDim> direct = problem.solve(*problem.direct(), 1e-12);
     EXPECT_TRUE(direct.report.has_converged);
     EXPECT_LT((direct.x.reshaped() - expected).norm(), 1e-11 * expected.norm());
 }
@@ -39,7 +39,7 @@ TEST(LinearSolvers, ReportAMatrixThatIsNotPositiveDefinite) {
     matrix.diagonal(3).diagonal().setConstant(-1);
     std::vector<std::unique_ptr<LinearSolver<kDim>>> solvers;
     solvers.push_back(problem.iterative(PreconditionerKind::ColumnJacobi));
-    solvers.push_back(make_direct_solver<kDim>());
+    solvers.push_back(problem.direct());
     for (const auto& solver : solvers) {
         const LinearSolution<kDim> solution = problem.solve(*solver, 1e-8);
         EXPECT_TRUE(solution.report.has_broken_down);
@@ -52,7 +52,7 @@ TEST(LinearSolvers, GiveZeroForZero) {
     problem.system.right().setZero();
     std::vector<std::unique_ptr<LinearSolver<kDim>>> solvers;
     solvers.push_back(problem.iterative(PreconditionerKind::RigidModes));
-    solvers.push_back(make_direct_solver<kDim>());
+    solvers.push_back(problem.direct());
     for (const auto& solver : solvers) {
         const LinearSolution<kDim> solution = problem.solve(*solver, 1e-8);
         EXPECT_TRUE(solution.report.has_converged);

@@ -69,6 +69,9 @@ struct SpringyBox {
             {.column_start = box.dofs.column_start(),
              .rest = at_dofs<kBoxDim>(box.dofs, box.mesh.positions)});
     }
+    [[nodiscard]] std::unique_ptr<LinearSolver<kBoxDim>> direct() const {
+        return make_direct_solver<kBoxDim>(at_dofs<kBoxDim>(box.dofs, box.mesh.positions));
+    }
     [[nodiscard]] LinearSolution<kBoxDim> solve(LinearSolver<kBoxDim>& solver,
                                                 double tolerance) const {
         return solver.solve(system, at_dofs<kBoxDim>(box.dofs, box.positions),

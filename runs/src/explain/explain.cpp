@@ -308,17 +308,20 @@ private:
 
     void solver() {
         const SolverOptions& options = scene_.solver;
-        const std::string method = options.linear == LinearSolverKind::Direct
-                                       ? "direct"
+        const bool is_direct = options.linear == LinearSolverKind::Direct;
+        const std::string method = is_direct
+                                       ? "direct, L L^T of a"
                                        : std::string(simulator::word_of(options.preconditioner));
         add({.name = "linear solver",
              .is_on = size_.free_vertices > 0,
-             .why =
-                 method + ", " + std::string(simulator::word_of(options.precision))
-                 + formatted(" matrix, to %.1g: %d iterations", options.tolerance, step_.iterations)
-                 + (step_.newton_iterations > 0
-                        ? formatted(", %d of Newton's method", step_.newton_iterations)
-                        : ""),
+             .why = method + (is_direct ? " " : ", ")
+                    + std::string(simulator::word_of(options.precision)) + " matrix"
+                    + (is_direct ? ""
+                                 : formatted(", to %.1g: %d iterations", options.tolerance,
+                                             step_.iterations))
+                    + (step_.newton_iterations > 0
+                           ? formatted(", %d of Newton's method", step_.newton_iterations)
+                           : ""),
              .unknowns = result_.unknowns,
              .bytes = size_.matrix_bytes,
              .seconds = step_.solve_seconds});

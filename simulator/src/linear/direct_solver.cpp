@@ -1,8 +1,8 @@
+#include "linear/factorization.h"
 #include "linear/linear_solver.h"
 
-#include <Eigen/SparseCholesky>
-
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -10,82 +10,96 @@ namespace pent::simulator {
 
 namespace {
 
-using Sparse = Eigen::SparseMatrix<double>;
-
-using Entries = std::vector<Eigen::Triplet<double>>;
-
-// The stored triangle, entry by entry: rows of blocks below the diagonal of A^T = A.
+// |b - A x|, both parts of the matrix taken in double.
 template <int Dim, typename Scalar>
-void add_lower_triangle(const BlockMatrix<Dim, Scalar>& A, Entries& entries) {
+void subtract_product(const BlockMatrix<Dim, Scalar>& A,
+                      const BlockVector<Dim>& x,
+                      BlockVector<Dim>& residual) {
     const BlockPattern& pattern = A.pattern();
     for (std::int64_t row = 0; row < A.rows(); ++row) {
         const auto r = static_cast<std::size_t>(row);
         for (std::int64_t k = pattern.row_start[r]; k < pattern.row_start[r + 1]; ++k) {
-            const auto column =
-                static_cast<std::int64_t>(pattern.columns[static_cast<std::size_t>(k)]);
-            for (int i = 0; i < Dim; ++i) {
-                for (int j = 0; j < Dim; ++j) {
-                    entries.emplace_back(static_cast<int>(Dim * column + j),
-                                         static_cast<int>(Dim * row + i),
-                                         static_cast<double>(A.block(k)(i, j)));
-                }
+            const auto column = pattern.columns[static_cast<std::size_t>(k)];
+            const Eigen::Matrix<double, Dim, Dim> block = A.block(k).template cast<double>();
+            residual.col(row) -= block * x.col(column);
+            if (column != row) {
+                residual.col(column) -= block.transpose() * x.col(row);
             }
         }
     }
 }
 
-// Both parts of the matrix.
-template <int Dim, typename Scalar>
-Sparse lower_triangle(const BlockMatrix<Dim, Scalar>& A) {
-    Entries entries;
-    add_lower_triangle(A, entries);
-    if (A.coupling() != nullptr) {
-        add_lower_triangle(*A.coupling(), entries);
-    }
-    const auto size = static_cast<Eigen::Index>(Dim * A.rows());
-    Sparse lower(size, size);
-    lower.setFromTriplets(entries.begin(), entries.end());
-    return lower;
-}
-
 template <int Dim>
 class DirectSolver final : public LinearSolver<Dim> {
 public:
+    explicit DirectSolver(BlockVector<Dim> rest) : rest_(std::move(rest)) {}
+
     LinearSolution<Dim> solve(const NewtonSystem<Dim>& system,
                               const BlockVector<Dim>& /*positions*/,
                               const LinearSolveOptions& /*options*/,
                               BlockVector<Dim> guess) override {
-        const BlockVector<Dim>& b = system.right();
+        return std::visit(
+            [&](const auto& matrix) {
+                return solve_matrix(matrix, system.right(), std::move(guess));
+            },
+            system.matrix());
+    }
+
+private:
+    template <typename Scalar>
+    [[nodiscard]] LinearSolution<Dim> solve_matrix(const BlockMatrix<Dim, Scalar>& A,
+                                                   const BlockVector<Dim>& b,
+                                                   BlockVector<Dim> guess) {
         LinearSolution<Dim> solution{std::move(guess), {}};
         LinearSolveReport& report = solution.report;
+        std::optional<Elimination> coupled;
+        if (A.coupling() != nullptr) {  // what touches is another in each solve
+            coupled =
+                eliminate(join(link_dofs(A.pattern()), link_dofs(A.coupling()->pattern())), rest_);
+        } else if (!plain_) {
+            plain_ = eliminate(link_dofs(A.pattern()), rest_);
+        }
+        const auto factors = Factorization<Dim>::make(A, coupled ? *coupled : *plain_);
+        report.has_broken_down = !factors;
         const double b_norm = b.norm();
-        const Sparse lower = std::visit(
-            [](const auto& matrix) { return lower_triangle<Dim>(matrix); }, system.matrix());
-        const Eigen::SimplicialLDLT<Sparse, Eigen::Lower> factors(lower);
-        report.has_broken_down =
-            factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > 0);
-        if (report.has_broken_down || b_norm == 0) {
+        if (!factors || b_norm == 0) {
             solution.x.setZero();
             report.has_converged = !report.has_broken_down;
             return solution;
         }
-        solution.x.reshaped() = factors.solve(b.reshaped());
-        const Eigen::VectorXd left =
-            b.reshaped() - lower.selfadjointView<Eigen::Lower>() * solution.x.reshaped();
+        solution.x = factors->solve(b);
+        BlockVector<Dim> left = b;
+        subtract_product(A, solution.x, left);
+        if (A.coupling() != nullptr) {
+            subtract_product(*A.coupling(), solution.x, left);
+        }
         report.residual = left.norm() / b_norm;
         report.has_converged = std::isfinite(report.residual);
         return solution;
     }
+
+    BlockVector<Dim> rest_;
+    std::optional<Elimination> plain_;  // without what touches, from the first such solve on
 };
 
 }  // namespace
 
 template <int Dim>
-std::unique_ptr<LinearSolver<Dim>> make_direct_solver() {
-    return std::make_unique<DirectSolver<Dim>>();
+std::unique_ptr<LinearSolver<Dim>> make_direct_solver(BlockVector<Dim> rest) {
+    return std::make_unique<DirectSolver<Dim>>(std::move(rest));
 }
 
-template std::unique_ptr<LinearSolver<3>> make_direct_solver();
-template std::unique_ptr<LinearSolver<4>> make_direct_solver();
+template <int Dim>
+std::int64_t direct_bytes(const BlockPattern& pattern, const BlockVector<Dim>& rest) {
+    return eliminate(link_dofs(pattern), rest).peak_blocks * Dim * Dim
+           * static_cast<std::int64_t>(sizeof(double));
+}
+
+#define PENT_INSTANTIATE(Dim)                                                         \
+    template std::unique_ptr<LinearSolver<Dim>> make_direct_solver(BlockVector<Dim>); \
+    template std::int64_t direct_bytes(const BlockPattern&, const BlockVector<Dim>&);
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

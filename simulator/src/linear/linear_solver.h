@@ -44,13 +44,15 @@ template <int Dim>
     PreconditionerKind preconditioner,
     DofGeometry<Dim> geometry);
 
-/// Most free vertices a direct solve takes: in 4D that many take ten seconds a solve, and the time
-/// grows with their number to the power 2.9.
-inline constexpr std::int64_t kMaxDirectVertices = 2500;
-
-/// Sparse L D L^T in double: the reference that iterations are compared with. The residual is that
-/// of rounding; a pivot that is not positive counts as breakdown.
+/// Sparse L L^T in double, see Factorization. The residual is that of rounding; a pivot that is not
+/// positive counts as breakdown.
+///
+/// @param rest  Dim x dofs, m.
 template <int Dim>
-[[nodiscard]] std::unique_ptr<LinearSolver<Dim>> make_direct_solver();
+[[nodiscard]] std::unique_ptr<LinearSolver<Dim>> make_direct_solver(BlockVector<Dim> rest);
+
+/// Memory that a direct solve takes, where nothing touches.
+template <int Dim>
+[[nodiscard]] std::int64_t direct_bytes(const BlockPattern& pattern, const BlockVector<Dim>& rest);
 
 }  // namespace pent::simulator

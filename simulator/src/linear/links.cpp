@@ -46,6 +46,16 @@ Links link_dofs(const BlockPattern& pattern) {
     });
 }
 
+Links join(const Links& a, const Links& b) {
+    return link(a.size(), [&](const auto& visit) {
+        for (const Links* links : {&a, &b}) {
+            for (std::uint32_t node = 0; node < links->size(); ++node) {
+                links->for_each(node, [&](std::uint32_t other) { visit(node, other); });
+            }
+        }
+    });
+}
+
 Links link_parts(const Links& nodes, const std::vector<std::uint32_t>& part_of, std::size_t parts) {
     return link(parts, [&](const auto& visit) {
         for (std::uint32_t node = 0; node < nodes.size(); ++node) {

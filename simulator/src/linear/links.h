@@ -26,6 +26,9 @@ struct Links {
 /// Of the dofs: those that share a block.
 [[nodiscard]] Links link_dofs(const BlockPattern& pattern);
 
+/// Those of either of two graphs of the same nodes.
+[[nodiscard]] Links join(const Links& a, const Links& b);
+
 /// Of parts 0 .. parts - 1 of a graph: those of which a node of one is linked to a node of the
 /// other.
 ///

@@ -1,5 +1,8 @@
 #include "step/incremental_potential.h"
 
+#include <pent/error.h>
+#include <pent/formatted.h>
+#include <pent/machine_memory.h>
 #include <pent/stopwatch.h>
 
 #include <algorithm>
@@ -29,6 +32,19 @@ IncrementalPotential<Dim>::IncrementalPotential(const Workers& workers,
 }
 
 template <int Dim>
+void IncrementalPotential<Dim>::refuse_too_large() const {
+    constexpr double kMegabyte = 1e6;
+    const auto wanted = static_cast<double>(factor_bytes());
+    const auto memory = static_cast<double>(machine_memory());
+    if (wanted > memory) {
+        throw Error("solver.linear = \"direct\" needs "
+                    + formatted("%.0f MB for %u free vertices, of %.0f MB", wanted / kMegabyte,
+                                dofs_.count(), memory / kMegabyte)
+                    + " that this machine has: use \"cg\"");
+    }
+}
+
+template <int Dim>
 void IncrementalPotential<Dim>::renumber(const std::vector<bool>& asleep,
                                          const Positions<Dim>& positions) {
     std::vector<bool> awake = asleep;
@@ -43,7 +59,7 @@ void IncrementalPotential<Dim>::renumber(const std::vector<bool>& asleep,
 template <int Dim>
 void IncrementalPotential<Dim>::set_up_solver() {
     if (options_.linear == LinearSolverKind::Direct) {
-        solver_ = make_direct_solver<Dim>();
+        solver_ = make_direct_solver<Dim>(at_dofs(dofs_, bodies_->rest));
     } else {
         solver_ = make_iterative_solver<Dim>(
             *workers_, kernels_->blocks, options_.preconditioner,
@@ -259,6 +275,13 @@ template <int Dim>
 std::int64_t IncrementalPotential<Dim>::tangent_bytes() const {
     constexpr std::int64_t kEntries = std::int64_t{Dim} * Dim;
     return stiffness_drag_.tangent_blocks() * kEntries * static_cast<std::int64_t>(sizeof(double));
+}
+
+template <int Dim>
+std::int64_t IncrementalPotential<Dim>::factor_bytes() const {
+    return options_.linear == LinearSolverKind::Direct
+               ? direct_bytes<Dim>(elasticity_->pattern(), at_dofs(dofs_, bodies_->rest))
+               : 0;
 }
 
 template class IncrementalPotential<3>;

@@ -43,6 +43,9 @@ public:
                          PotentialEnergy<Dim>& energy,
                          Elasticity<Dim>& elasticity);
 
+    /// Throws an Error where a direct solve would take more memory than the machine has.
+    void refuse_too_large() const;
+
     /// Solves for some bodies alone from now on, and for what of them is not held now.
     ///
     /// @param asleep     One entry a body: those that are not solved for.
@@ -80,6 +83,9 @@ public:
     /// Bytes of a block of the matrix, with those of a tangent that damping keeps.
     [[nodiscard]] std::int64_t bytes_per_block() const;
     [[nodiscard]] std::int64_t tangent_bytes() const;
+
+    /// Bytes that a direct solve takes, 0 if there is none.
+    [[nodiscard]] std::int64_t factor_bytes() const;
 
 private:
     void set_up_solver();

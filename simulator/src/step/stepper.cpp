@@ -65,11 +65,7 @@ Simulation<Dim>::Stepper::Stepper(const Scene& scene,
       asleep_(islands_.asleep()),
       extent_((bodies_.rest.rowwise().maxCoeff() - bodies_.rest.rowwise().minCoeff()).norm()),
       thinnest_(thinnest(bodies_)) {
-    const std::uint32_t dofs = potential_.dofs().count();
-    if (scene.solver.linear == LinearSolverKind::Direct && dofs > kMaxDirectVertices) {
-        throw Error("solver.linear = \"direct\" takes at most " + std::to_string(kMaxDirectVertices)
-                    + " free vertices; this scene has " + std::to_string(dofs) + ": use \"cg\"");
-    }
+    potential_.refuse_too_large();
     potential_.set_observer(options.on_iterate);
     current_.positions = bodies_.rest;
     current_.velocities = start_velocities(scene, bodies_);
@@ -387,7 +383,8 @@ SimulationSize Simulation<Dim>::Stepper::size() const {
     constexpr std::int64_t kVertexVectors = 8;
     constexpr std::int64_t kUnknownVectors = 6;
     size.element_bytes = energy_.elasticity->bytes();
-    size.matrix_bytes = size.matrix_blocks * potential_.bytes_per_block();
+    size.matrix_bytes =
+        size.matrix_blocks * potential_.bytes_per_block() + potential_.factor_bytes();
     size.contact_bytes = energy_.contact->bytes();
     size.bytes = size.element_bytes + size.contact_bytes + size.matrix_bytes
                  + potential_.tangent_bytes()

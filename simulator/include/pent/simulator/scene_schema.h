@@ -43,8 +43,7 @@ void fields(Part& solver, const Visit& visit) {
     visit(key("elements", "", "see above"), solver.elements);
     visit(key("filter", "", "of the Hessian of an element"), solver.filter);
     visit(key("linear", "",
-              "conjugate gradients, or sparse L D L^T, the reference for scenes of at most 2500 "
-              "free vertices (10 s a solve)"),
+              "conjugate gradients, or sparse L L^T, the reference, where memory allows it"),
           solver.linear);
     visit(key("preconditioner", "", "see above"), solver.preconditioner);
     visit(key("precision", "", "of matrix blocks"), solver.precision);

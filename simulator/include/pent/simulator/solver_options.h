@@ -22,8 +22,7 @@ enum class ElementKind {
 /// What becomes of the negative eigenvalues of Hessians, of elements as of contacts.
 using contact::Filter;
 
-/// Conjugate gradients; sparse L D L^T, the reference for small scenes (2500 free vertices at
-/// most).
+/// Conjugate gradients; sparse L L^T, the reference, for scenes that the memory allows.
 enum class LinearSolverKind { Iterative, Direct };
 
 /// Block Jacobi; Jacobi by whole extrusion columns; the latter with a coarse space of rigid modes.

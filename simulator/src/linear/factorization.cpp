@@ -1,0 +1,211 @@
+#include "linear/factorization.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <utility>
+
+namespace pent::simulator {
+
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+
+// A stored block in its place in the lower triangle of the matrix as it is eliminated.
+struct Entry {
+    std::uint32_t row;
+    std::int64_t block;
+    bool is_transposed;
+};
+
+// Those of one part of the matrix, column by column.
+template <int Dim, typename Scalar>
+class Entries {
+public:
+    Entries(const BlockMatrix<Dim, Scalar>& A, const Elimination& elimination)
+        : A_(&A), start_(elimination.order.size() + 1, 0) {
+        const BlockPattern& pattern = A.pattern();
+        entries_.resize(pattern.columns.size());
+        const auto visit = [&](const auto& act) {
+            for (std::size_t row = 0; row < elimination.order.size(); ++row) {
+                for (auto k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k) {
+                    const std::uint32_t r = elimination.place[row];
+                    const std::uint32_t c =
+                        elimination.place[pattern.columns[static_cast<std::size_t>(k)]];
+                    act(std::min(r, c), Entry{std::max(r, c), k, r < c});
+                }
+            }
+        };
+        visit([&](std::uint32_t column, const Entry&) { ++start_[column + 1]; });
+        for (std::size_t i = 0; i + 1 < start_.size(); ++i) {
+            start_[i + 1] += start_[i];
+        }
+        std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+        visit([&](std::uint32_t column, const Entry& entry) { entries_[next[column]++] = entry; });
+    }
+
+    // panel += the columns of a supernode; local has the places of rows in it.
+    void add_to(Matrix& panel,
+                const Supernode& node,
+                const std::vector<std::uint32_t>& local) const {
+        for (std::uint32_t j = 0; j < node.width; ++j) {
+            for (std::size_t e = start_[node.begin + j]; e < start_[node.begin + j + 1]; ++e) {
+                const Entry& entry = entries_[e];
+                const Eigen::Matrix<double, Dim, Dim> block =
+                    A_->block(entry.block).template cast<double>();
+                auto target = panel.block<Dim, Dim>(Dim * local[entry.row], Dim * j);
+                if (entry.is_transposed) {
+                    target += block.transpose();
+                } else {
+                    target += block;
+                }
+            }
+        }
+    }
+
+private:
+    const BlockMatrix<Dim, Scalar>* A_;
+    std::vector<std::size_t> start_;
+    std::vector<Entry> entries_;
+};
+
+// Adds the update of a child to the panel of its parent and to the parent's own update.
+template <int Dim>
+void add_update(const Matrix& update,
+                const std::vector<std::uint32_t>& rows,
+                const std::vector<std::uint32_t>& local,
+                std::uint32_t width,
+                Matrix& panel,
+                Matrix& own) {
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+        const std::uint32_t column = local[rows[j]];
+        for (std::size_t i = j; i < rows.size(); ++i) {
+            const std::uint32_t row = local[rows[i]];
+            const auto block = update.block<Dim, Dim>(Dim * static_cast<Eigen::Index>(i),
+                                                      Dim * static_cast<Eigen::Index>(j));
+            if (column < width) {
+                panel.block<Dim, Dim>(Dim * row, Dim * column) += block;
+            } else {
+                own.block<Dim, Dim>(Dim * (row - width), Dim * (column - width)) += block;
+            }
+        }
+    }
+}
+
+// Eliminates the columns of a panel. Returns whether all pivots were positive.
+bool eliminate_columns(Matrix& panel, Matrix& update) {
+    const Eigen::Index width = panel.cols();
+    const Eigen::Index below = panel.rows() - width;
+    Eigen::Ref<Matrix> pivots = panel.topRows(width);
+    if (Eigen::LLT<Eigen::Ref<Matrix>>(pivots).info() != Eigen::Success) {
+        return false;
+    }
+    if (below > 0) {
+        auto rows = panel.bottomRows(below);
+        panel.topRows(width)
+            .triangularView<Eigen::Lower>()
+            .transpose()
+            .solveInPlace<Eigen::OnTheRight>(rows);
+        update.selfadjointView<Eigen::Lower>().rankUpdate(rows, -1);
+    }
+    return true;
+}
+
+}  // namespace
+
+template <int Dim>
+template <typename Scalar>
+std::optional<Factorization<Dim>> Factorization<Dim>::make(const BlockMatrix<Dim, Scalar>& A,
+                                                           const Elimination& elimination) {
+    std::vector<Entries<Dim, Scalar>> parts = {{A, elimination}};
+    if (A.coupling() != nullptr) {
+        parts.emplace_back(*A.coupling(), elimination);
+    }
+    const std::vector<Supernode>& nodes = elimination.supernodes;
+    std::vector<std::vector<std::size_t>> children(nodes.size());
+    std::vector<Matrix> updates(nodes.size());
+    std::vector<std::uint32_t> local(elimination.order.size());
+    Factorization factors(elimination);
+    factors.panels_.reserve(nodes.size());
+    for (std::size_t s = 0; s < nodes.size(); ++s) {
+        const Supernode& node = nodes[s];
+        for (std::uint32_t j = 0; j < node.width; ++j) {
+            local[node.begin + j] = j;
+        }
+        for (std::uint32_t i = 0; i < node.rows.size(); ++i) {
+            local[node.rows[i]] = node.width + i;
+        }
+        const auto width = static_cast<Eigen::Index>(Dim * node.width);
+        const auto below = static_cast<Eigen::Index>(Dim * node.rows.size());
+        Matrix& panel = factors.panels_.emplace_back(Matrix::Zero(width + below, width));
+        updates[s].setZero(below, below);
+        for (const auto& part : parts) {
+            part.add_to(panel, node, local);
+        }
+        for (const std::size_t child : children[s]) {
+            add_update<Dim>(updates[child], nodes[child].rows, local, node.width, panel,
+                            updates[s]);
+            updates[child].resize(0, 0);
+        }
+        if (!eliminate_columns(panel, updates[s])) {
+            return std::nullopt;
+        }
+        if (node.parent >= 0) {
+            children[static_cast<std::size_t>(node.parent)].push_back(s);
+        }
+    }
+    return factors;
+}
+
+template <int Dim>
+BlockVector<Dim> Factorization<Dim>::solve(const BlockVector<Dim>& b) const {
+    const std::vector<Supernode>& nodes = elimination_->supernodes;
+    BlockVector<Dim> x(Dim, b.cols());
+    for (std::size_t k = 0; k < elimination_->order.size(); ++k) {
+        x.col(static_cast<Eigen::Index>(k)) = b.col(elimination_->order[k]);
+    }
+    BlockVector<Dim> below;
+    for (std::size_t s = 0; s < nodes.size(); ++s) {
+        const auto width = panels_[s].cols();
+        auto own = x.middleCols(nodes[s].begin, nodes[s].width).reshaped();
+        Eigen::VectorXd solved = own;
+        panels_[s].topRows(width).template triangularView<Eigen::Lower>().solveInPlace(solved);
+        own = solved;
+        below.resize(Dim, static_cast<Eigen::Index>(nodes[s].rows.size()));
+        below.reshaped() = panels_[s].bottomRows(panels_[s].rows() - width) * solved;
+        for (std::size_t i = 0; i < nodes[s].rows.size(); ++i) {
+            x.col(nodes[s].rows[i]) -= below.col(static_cast<Eigen::Index>(i));
+        }
+    }
+    for (std::size_t s = nodes.size(); s-- > 0;) {
+        const auto width = panels_[s].cols();
+        below.resize(Dim, static_cast<Eigen::Index>(nodes[s].rows.size()));
+        for (std::size_t i = 0; i < nodes[s].rows.size(); ++i) {
+            below.col(static_cast<Eigen::Index>(i)) = x.col(nodes[s].rows[i]);
+        }
+        auto own = x.middleCols(nodes[s].begin, nodes[s].width).reshaped();
+        Eigen::VectorXd solved = own;
+        solved -= panels_[s].bottomRows(panels_[s].rows() - width).transpose() * below.reshaped();
+        panels_[s].topRows(width).template triangularView<Eigen::Lower>().transpose().solveInPlace(
+            solved);
+        own = solved;
+    }
+    BlockVector<Dim> result(Dim, b.cols());
+    for (std::size_t k = 0; k < elimination_->order.size(); ++k) {
+        result.col(elimination_->order[k]) = x.col(static_cast<Eigen::Index>(k));
+    }
+    return result;
+}
+
+#define PENT_INSTANTIATE(Dim, Scalar)                                    \
+    template std::optional<Factorization<Dim>> Factorization<Dim>::make( \
+        const BlockMatrix<Dim, Scalar>&, const Elimination&);
+template class Factorization<3>;
+template class Factorization<4>;
+PENT_INSTANTIATE(3, float)
+PENT_INSTANTIATE(3, double)
+PENT_INSTANTIATE(4, float)
+PENT_INSTANTIATE(4, double)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent::simulator

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "linear/block_matrix.h"
+#include "linear/elimination.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+namespace pent::simulator {
+
+/// L of A = L L^T, for a symmetric positive definite matrix, by the multifrontal method [liu1992]:
+/// each supernode gathers its part of A and the updates of its children in a dense matrix, of which
+/// it eliminates its columns.
+template <int Dim>
+class Factorization {
+public:
+    /// @param elimination  Of the links of both parts of the matrix; must outlive this.
+    /// @return             Nothing where a pivot is not positive.
+    template <typename Scalar>
+    [[nodiscard]] static std::optional<Factorization> make(const BlockMatrix<Dim, Scalar>& A,
+                                                           const Elimination& elimination);
+
+    /// A^-1 b.
+    [[nodiscard]] BlockVector<Dim> solve(const BlockVector<Dim>& b) const;
+
+private:
+    explicit Factorization(const Elimination& elimination) : elimination_(&elimination) {}
+
+    const Elimination* elimination_;
+    std::vector<Eigen::MatrixXd>
+        panels_;  // of each supernode: its columns, its rows and those below
+};
+
+}  // namespace pent::simulator
