@@ -78,7 +78,7 @@ struct Case {
 
 std::vector<Case> cases() {
     return {
-        {"ball, point", ball_solid(1), kPi * kPi / 2, 0.12, at_point({0.1, 0, 0, 0}, 1), 0.2, 0.1},
+        {"ball, point", ball_solid(1), kPi * kPi / 2, 0.12, at_point({0.1, 0, 0, 0}, 1), 0.2, 0.13},
         {"spherinder, slice", spherinder_solid(0.5, 4), 4 * kPi / 3 * 0.125 * 4, 0.16,
          at_plane(Vector4d::UnitW(), 0.1, 1), 0.1, 0.6},
         {"tiger, leaning slice", tiger_solid({0.8, 0.7}, 0.35), 4 * kPi * kPi * kPi * 0.56 * 0.1225,
