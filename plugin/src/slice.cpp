@@ -66,19 +66,18 @@ pent_surface show(viewer::Surface made, const viewer::Hyperplane& plane, SeenSur
 // Calls work(mesh, stored) with a mesh of 3 or 4 dimensions.
 template <typename Value, typename Work>
 Value with_solid(const pent_stored_mesh* handle, Value failure, const Work& work) {
-    return guarded(failure,
-                   [&]() -> Value {
-                       const std::shared_ptr<StoredMesh> stored = meshes().find(handle, "mesh");
-                       return std::visit(
-                           [&]<int Dim>(const SimplexMesh<Dim>& held) -> Value {
-                               if constexpr (Dim == 2) {
-                                   refuse_sheet(stored->name);
-                               } else {
-                                   return work(held, *stored);
-                               }
-                           },
-                           stored->mesh);
-                   });
+    return guarded(failure, [&]() -> Value {
+        const std::shared_ptr<StoredMesh> stored = meshes().find(handle, "mesh");
+        return std::visit(
+            [&]<int Dim>(const SimplexMesh<Dim>& held) -> Value {
+                if constexpr (Dim == 2) {
+                    refuse_sheet(stored->name);
+                } else {
+                    return work(held, *stored);
+                }
+            },
+            stored->mesh);
+    });
 }
 
 // The boundary of a stored mesh as slices need it.

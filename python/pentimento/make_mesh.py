@@ -112,12 +112,22 @@ def make_mesh(
 
 
 def convert(
-    input: _Path | Mesh, output: _Path, *, double: bool = False, mfem_attributes: bool = False
+    input: _Path | Mesh,
+    output: _Path,
+    *,
+    frames: Sequence[_Path] = (),
+    double: bool = False,
+    mfem_attributes: bool = False,
 ) -> dict[str, Any]:
     """From and to the files of other programs of four dimensions: 4OFF, G4MF, 4DO, OBJ, MFEM and
-    `.pent`, by their endings. Gives what pent-convert reports; raises a ProgramError with its line.
+    `.pent`, by their endings; Gmsh and legacy VTK as views. Gives what pent-convert reports; raises
+    a ProgramError with its line.
+
+    frames  Of a run of the mesh, as in run/frames: each becomes a blend shape of a G4MF file.
     """
     words = _programs.options(output=output, double=double, mfem_attributes=mfem_attributes)
+    if frames:
+        words += ["--frames", *map(os.fspath, frames)]
     with _programs.as_input(input) as path:
         return _programs.run("pent-convert", path, words)
 

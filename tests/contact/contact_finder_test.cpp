@@ -372,7 +372,7 @@ TYPED_TEST(ContactFinderTest, WithOptionsOutOfRangeAreRefused) {
             test::Scene<kDim>(), kOptions,
             {HalfSpace<kDim>{Vector<kDim>::UnitX(), 0}, Ball<kDim>{Vector<kDim>::Zero(), -1}}));
     });
-    pent::test::expect_contains(obstacle, {"obstacle 1", "radius"});
+    pent::test::expect_contains(obstacle, {"obstacle 2", "radius"});
 }
 
 TYPED_TEST(ContactFinderTest, OfASceneWithoutBodiesAreNone) {

@@ -91,7 +91,7 @@ TEST(CurvedBall, HasItsMiddlesOnTheSphereAndNearlyItsVolume) {
 
 TEST(CurvedSolid, HasTheMiddlesOfItsBoundaryOnItAndIsProven) {
     for (const Solid& solid : {ball_solid(1), duocylinder_solid({1, 0.8})}) {
-        const SimplexMesh<4> straight = stuff(solid, 0.4).mesh;
+        const SimplexMesh<4> straight = stuff(solid, 0.3).mesh;
         SimplexMesh<4> quadratic = make_quadratic<4>(straight);
         const SimplexMesh<4> before = quadratic;
         const CurveReport report = curve_boundary<4>(straight, onto_boundary(solid), quadratic);

@@ -125,8 +125,7 @@ TEST(StuffWithSizes, KnowsHowManyCellsItWillMake) {
         const auto cells =
             static_cast<double>(stuff(c.solid, c.edge_length, c.sizes).mesh.cell_count());
         const double estimate = estimate_cells(c.solid, c.edge_length, c.sizes);
-        // A size is kept where all of a cell may have it, and steps by two: up to 2^4 times less
-        // in a place, and what the boundary adds.
+        // What the boundary and the smaller neighbors of larger cells add.
         EXPECT_GT(cells, estimate) << c.name;
         EXPECT_LT(cells, 8 * estimate) << c.name;
     }

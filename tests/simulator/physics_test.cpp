@@ -305,13 +305,6 @@ TEST(Simulation, WantsAMeshForEveryBody) {
         {"the scene has 2 bodies", "got 1"});
 }
 
-TEST(DirectSolver, IsRefusedWhereItWouldTakeMinutes) {
-    Scene scene = soft_bar(Integrator::LinearEuler, 1);
-    scene.solver.linear = LinearSolverKind::Direct;
-    EXPECT_THROW(Simulation<4>(scene, {pent::test::kuhn_box<4>({8, 6, 6, 6}, {1, 1, 1, 1})}),
-                 Error);
-}
-
 TEST(NewtonEuler, EqualsLinearEulerForTheLinearEnergy) {
     Scene scene = soft_bar(Integrator::NewtonEuler, 1);
     scene.gravity[1] = -9.8;

@@ -153,6 +153,7 @@ StuffedSolid stuff(const Solid& solid, double edge_length, const SizeField& size
 double estimate_cells(const Solid& solid, double edge_length, const SizeField& sizes) {
     check(solid, edge_length);
     const SizeField own = limited(sizes, solid, edge_length);
+    constexpr double kReach = 1.2;  // of a cell of the lattice around its center, in edges
     constexpr int kPerSide = 16;
     constexpr int kPoints = kPerSide * kPerSide * kPerSide * kPerSide;
     const Box4& box = solid.bounds();
@@ -164,9 +165,11 @@ double estimate_cells(const Solid& solid, double edge_length, const SizeField& s
                                    i / (kPerSide * kPerSide * kPerSide));
         const Eigen::Vector4d p = box.low.array() + (place + 0.5) * step.array();
         if (solid.value(p) < 0) {
-            // Cells have the largest power of two that is allowed.
-            const double allowed = own.edge_within(edge_length, p, 0) / edge_length;
-            const double edge = edge_length * std::exp2(std::floor(std::log2(allowed)));
+            // Cells of the lattice have the largest power of two that all of them may have.
+            double edge = edge_length;
+            while (own.edge_within(edge_length, p, kReach * 2 * edge) >= 2 * edge) {
+                edge *= 2;
+            }
             cells += step.prod() / Lattice::with_mean_edge(edge).cell_volume();
         }
     }

@@ -64,10 +64,10 @@ void fields(Part& step, const Visit& visit) {
     visit(key("substeps", "", "1, or more where the step had to be cut"), step.substeps);
     visit(key("refused", "", "attempts that were thrown away"), step.refused);
     visit(key("failure", "", "why the last of them was"), step.failure);
-    visit(
-        key("damped", "",
-            "substeps of `linear_euler` that Newton's method took, as the linear one went astray"),
-        step.damped);
+    visit(key("damped", "",
+              "substeps of `linear_euler` that Newton's method took, as the linear one went astray")
+              .may_be_missing(),
+          step.damped);
     visit(key("newton_iterations", "", "behind the first, linear step"), step.newton_iterations);
     visit(key("iterations", "", "of the linear solver, in all"), step.iterations);
     visit(key("asleep", "", "bodies that sleep at the end"), step.asleep);
@@ -94,7 +94,8 @@ void fields(Part& step, const Visit& visit) {
           step.angular_momentum);
     visit(key("constraints", "", "one for each").may_be_missing(), step.constraints);
     visit(key("attachments", "", "one for each").may_be_missing(), step.attachments);
-    visit(key("regions", "", "one for each of `bodies`, body after body").may_be_missing(), step.regions);
+    visit(key("regions", "", "one for each of `bodies`, body after body").may_be_missing(),
+          step.regions);
     visit(key("activation_work", "J", "done by activations on the bodies in the step")
               .may_be_missing(),
           step.activation_work);
