@@ -76,7 +76,7 @@ run_distributed() {
     scripts/setup.sh --distributed
     cmake --preset dev
     cmake --build --preset dev --target pent-study pent-sim pent-mesh
-    ctest --preset dev --verbose -L distributed_test
+    ctest --preset dev --verbose -C Distributed -L distributed_test
 }
 
 launcher=()
