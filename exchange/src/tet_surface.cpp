@@ -1,3 +1,4 @@
+#include <pent/equal_runs.h>
 #include <pent/error.h>
 #include <pent/exchange/tet_surface.h>
 #include <pent/facets.h>
@@ -60,14 +61,8 @@ std::vector<Side> sides_of(const Simplices<4>& tetrahedra) {
 // Calls back with the first side of each triangle and how many there are.
 template <typename Visit>
 void for_each_triangle(const std::vector<Side>& sides, const Visit& visit) {
-    for (std::size_t begin = 0; begin < sides.size();) {
-        std::size_t end = begin + 1;
-        while (end < sides.size() && sides[end].corners == sides[begin].corners) {
-            ++end;
-        }
-        visit(begin, end - begin);
-        begin = end;
-    }
+    for_each_equal_run(
+        sides, [](const Side& a, const Side& b) { return a.corners == b.corners; }, visit);
 }
 
 double hypervolume_below(const TetSurface& surface, Eigen::Index tetrahedron) {

@@ -299,31 +299,5 @@ TYPED_TEST(QuadraticBodyTest, ReportsEveryCellThatIsInsideOut) {
     EXPECT_EQ(report.inverted, inverted);
 }
 
-// A body that falls asleep is laid out anew, and so are those that stay awake.
-TYPED_TEST(QuadraticBodyTest, KeepsItsMomentumWhereItMeetsAnotherAndSleepsAtRest) {
-    constexpr int kDim = TypeParam::value;
-    Scene scene = test::two_cubes<kDim>(0.1);
-    scene.solver.elements = ElementKind::Quadratic;
-    scene.bodies[0].velocity =
-        Eigen::VectorXd::Unit(kDim, 1) + 0.1 * Eigen::VectorXd::Unit(kDim, 2);
-    scene.solver.precision = Precision::Double;
-    scene.solver.tolerance = 1e-11;
-    scene.sleep = Sleep{.speed = 0.01, .time = 0.02};
-    const SimplexMesh<kDim> cube = test::cube_for<kDim>(scene, 2);
-    Simulation<kDim> simulation(scene, {cube, cube});
-    const Eigen::Matrix<double, kDim, 1> before = test::momentum(simulation);
-    std::int64_t pairs = 0;
-    bool has_slept = false;
-    for (int step = 0; step < 30; ++step) {
-        const StepReport report = simulation.step();
-        ASSERT_TRUE(report.is_accepted);
-        pairs = std::max(pairs, report.contact.point_facet + report.contact.mixed);
-        has_slept = has_slept || report.asleep > 0;
-    }
-    EXPECT_TRUE(has_slept);  // the upper one, until it is hit
-    EXPECT_GT(pairs, 0);
-    EXPECT_LT((test::momentum(simulation) - before).norm(), 1e-8 * before.norm());
-}
-
 }  // namespace
 }  // namespace pent::simulator

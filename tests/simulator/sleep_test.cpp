@@ -1,4 +1,5 @@
 #include "contact_scenes.h"
+#include "potential_laws.h"
 #include "support/messages.h"
 
 #include <gtest/gtest.h>
@@ -298,6 +299,41 @@ TEST(Sleep, IsRefusedWhereNothingMoves) {
     scene.solver.integrator = Integrator::Quasistatic;
     pent::test::expect_contains(pent::test::error_of([&] { check(scene); }),
                                 {"quasistatic", "[sleep]"});
+}
+
+// A body that falls asleep is laid out anew, and so are those that stay awake.
+template <int Dim>
+void expect_momentum_of_bodies_that_meet_and_sleep(ElementKind elements) {
+    Scene scene = two_cubes<Dim>(0.1);
+    scene.solver.elements = elements;
+    scene.bodies[0].velocity =
+        Eigen::VectorXd::Unit(Dim, 1) + 0.1 * Eigen::VectorXd::Unit(Dim, 2);
+    scene.solver.precision = Precision::Double;
+    scene.solver.tolerance = 1e-11;
+    scene.sleep = Sleep{.speed = 0.01, .time = 0.02};
+    const SimplexMesh<Dim> mesh = test::cube_for<Dim>(scene, 2);
+    Simulation<Dim> simulation(scene, {mesh, mesh});
+    const Eigen::Matrix<double, Dim, 1> before = test::momentum(simulation);
+    std::int64_t pairs = 0;
+    bool has_slept = false;
+    for (int step = 0; step < 30; ++step) {
+        const StepReport report = simulation.step();
+        ASSERT_TRUE(report.is_accepted);
+        pairs = std::max(pairs, report.contact.point_facet + report.contact.mixed);
+        has_slept = has_slept || report.asleep > 0;
+    }
+    EXPECT_TRUE(has_slept);  // the upper one, until it is hit
+    EXPECT_GT(pairs, 0);
+    EXPECT_LT((test::momentum(simulation) - before).norm(), 1e-8 * before.norm());
+}
+
+TEST(SleepingBody, OfAnyElementsKeepsItsMomentumWhereItIsHit) {
+    for (const ElementKind elements :
+         {ElementKind::Linear, ElementKind::Smoothed, ElementKind::Quadratic}) {
+        SCOPED_TRACE(static_cast<int>(elements));
+        expect_momentum_of_bodies_that_meet_and_sleep<3>(elements);
+        expect_momentum_of_bodies_that_meet_and_sleep<4>(elements);
+    }
 }
 
 }  // namespace

@@ -277,28 +277,5 @@ TEST(SmoothedBody, ReportsEveryCellThatIsInsideOut) {
     EXPECT_EQ(report.inverted, inverted);
 }
 
-// A body that falls asleep is laid out anew, and so are those that stay awake.
-TEST(SmoothedBodies, ThatMeetKeepTheirMomentumAndSleepWhenAtRest) {
-    Scene scene = test::two_cubes<4>(0.1);
-    scene.solver.elements = ElementKind::Smoothed;
-    scene.bodies[0].velocity = Eigen::Vector4d(0, 1, 0.1, 0);
-    scene.solver.precision = Precision::Double;
-    scene.solver.tolerance = 1e-11;
-    scene.sleep = Sleep{.speed = 0.01, .time = 0.02};
-    Simulation<4> simulation(scene, {test::cube<4>(), test::cube<4>()});
-    const Eigen::Vector4d before = test::momentum(simulation);
-    std::int64_t pairs = 0;
-    bool has_slept = false;
-    for (int step = 0; step < 30; ++step) {
-        const StepReport report = simulation.step();
-        ASSERT_TRUE(report.is_accepted);
-        pairs = std::max(pairs, report.contact.point_facet + report.contact.mixed);
-        has_slept = has_slept || report.asleep > 0;
-    }
-    EXPECT_TRUE(has_slept);  // the upper one, until it is hit
-    EXPECT_GT(pairs, 0);
-    EXPECT_LT((test::momentum(simulation) - before).norm(), 1e-8 * before.norm());
-}
-
 }  // namespace
 }  // namespace pent::simulator

@@ -2,6 +2,7 @@
 
 #include "../union_find.h"
 
+#include <pent/equal_runs.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/geometry.h>
@@ -70,14 +71,8 @@ std::vector<Side> sides_of(const std::vector<Tetrahedron>& tetrahedra) {
 // Calls visit(first, count) for all sides on each triangle.
 template <typename Visit>
 void for_each_triangle(const std::vector<Side>& sides, const Visit& visit) {
-    for (std::size_t begin = 0; begin < sides.size();) {
-        std::size_t end = begin + 1;
-        while (end < sides.size() && sides[end].corners == sides[begin].corners) {
-            ++end;
-        }
-        visit(begin, end - begin);
-        begin = end;
-    }
+    for_each_equal_run(
+        sides, [](const Side& a, const Side& b) { return a.corners == b.corners; }, visit);
 }
 
 // The triangles out of balance, each as often and so turned as the tetrahedra have it.

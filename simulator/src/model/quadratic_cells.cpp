@@ -1,5 +1,6 @@
 #include "model/quadratic_cells.h"
 
+#include <pent/equal_runs.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 
@@ -39,18 +40,15 @@ CornerChildren<Dim> corner_children(const SimplexMesh<Dim>& mesh, const Eigen::I
     }
     std::sort(owned.begin(), owned.end());
     CornerChildren<Dim> found;
-    for (std::size_t first = 0; first < owned.size();) {
-        std::size_t last = first;
-        while (last < owned.size() && owned[last].first == owned[first].first) {
-            ++last;
-        }
-        ++found.vertices;
-        if (last - first == 1) {
-            found.corners.push_back(owned[first].first);
-            found.cells.push_back(owned[first].second);
-        }
-        first = last;
-    }
+    for_each_equal_run(
+        owned, [](const auto& a, const auto& b) { return a.first == b.first; },
+        [&](std::size_t first, std::size_t count) {
+            ++found.vertices;
+            if (count == 1) {
+                found.corners.push_back(owned[first].first);
+                found.cells.push_back(owned[first].second);
+            }
+        });
     return found;
 }
 
@@ -224,17 +222,14 @@ std::vector<Eigen::Index> child_cells(const SimplexMesh<Dim>& mesh, const std::s
     };
     std::stable_sort(cells.begin(), cells.end(),
                      [&](Eigen::Index a, Eigen::Index b) { return parent(a) < parent(b); });
-    for (std::size_t first = 0; first < cells.size();) {
-        std::size_t last = first;
-        while (last < cells.size() && parent(cells[last]) == parent(cells[first])) {
-            ++last;
-        }
-        if (last - first != static_cast<std::size_t>(kChildren<Dim>)) {
-            refuse(name, "parent " + std::to_string(parent(cells[first])) + " with "
-                             + std::to_string(last - first) + " cells");
-        }
-        first = last;
-    }
+    for_each_equal_run(
+        cells, [&](Eigen::Index a, Eigen::Index b) { return parent(a) == parent(b); },
+        [&](std::size_t first, std::size_t count) {
+            if (count != static_cast<std::size_t>(kChildren<Dim>)) {
+                refuse(name, "parent " + std::to_string(parent(cells[first])) + " with "
+                                 + std::to_string(count) + " cells");
+            }
+        });
     return cells;
 }
 

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+
+namespace pent {
+
+/// Calls visit(first, count) for every longest run of neighbors that are the same, in their order.
+///
+/// @param sorted  Random access by [] and size(); what is the same stands together.
+/// @param same    bool same(a, b) of two elements.
+template <typename Sorted, typename Same, typename Visit>
+void for_each_equal_run(const Sorted& sorted, const Same& same, const Visit& visit) {
+    for (std::size_t first = 0; first < sorted.size();) {
+        std::size_t last = first + 1;
+        while (last < sorted.size() && same(sorted[first], sorted[last])) {
+            ++last;
+        }
+        visit(first, last - first);
+        first = last;
+    }
+}
+
+}  // namespace pent

@@ -1,0 +1,63 @@
+#include "check_request.h"
+
+#include "base_mesh.h"
+#include "solid_input.h"
+
+#include <pent/error.h>
+
+#include <cmath>
+
+namespace pent::mesher {
+
+void check_request(const BodyRequest& request, int dim) {
+    if (!(request.extrusion.grade >= 1) || !std::isfinite(request.extrusion.grade)) {
+        throw Error("a grade of " + std::to_string(request.extrusion.grade)
+                    + "; expected a finite number of 1 or more");
+    }
+    if (!(request.scale > 0) || !std::isfinite(request.scale)) {
+        throw Error("a scale of " + std::to_string(request.scale)
+                    + "; expected a finite number above 0");
+    }
+    if (!(request.edge_length >= 0) || !std::isfinite(request.edge_length)) {
+        throw Error("an edge length of " + std::to_string(request.edge_length)
+                    + " m; expected 0 or more");
+    }
+    if (!request.sizes.is_uniform() && solid_file_of(request) == nullptr) {
+        throw Error(name_of_input(request)
+                    + ": a size field is for four-dimensional shapes, boundaries and images; leave"
+                      " it out");
+    }
+    const Eigen::Index axes = request.translation.size();
+    if ((axes != 0 && axes != 3 && axes != dim) || !request.translation.allFinite()) {
+        throw Error("a translation of " + std::to_string(axes) + " components; expected 3"
+                    + (dim == 4 ? " or 4" : "") + " finite ones");
+    }
+    if (request.is_curved && (!request.is_quadratic || request.subdivide > 1)) {
+        throw Error(name_of_input(request)
+                    + ": a curved boundary is for quadratic cells that are not subdivided before;"
+                      " ask for quadratic ones, and for shorter edges in place of a subdivision");
+    }
+}
+
+void refuse_extrusion(const BodyRequest& request) {
+    const ExtrusionRequest& extrusion = request.extrusion;
+    if (extrusion.thickness || extrusion.direction || extrusion.layers > 0
+        || !extrusion.profile.empty() || extrusion.round || !extrusion.alternate
+        || extrusion.anchor != Anchor::Middle || extrusion.order != VertexOrder::Index
+        || !extrusion.edge_directions.empty() || extrusion.grade != 1
+        || !extrusion.layer_heights.empty()) {
+        throw Error(name_of_input(request)
+                    + ": it is the body already, and not extruded; leave out thickness, direction,"
+                      " layers, profile, order and the like");
+    }
+}
+
+void refuse_filling(const BodyRequest& request) {
+    if (request.edge_length > 0 || request.surface_triangles > 0 || request.target_cells > 0) {
+        throw Error(name_of_input(request)
+                    + ": it is cells already, and no surface to be filled; leave out edge length,"
+                      " triangles and number of pentachora");
+    }
+}
+
+}  // namespace pent::mesher

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <pent/mesher/body_request.h>
+
+namespace pent::mesher {
+
+/// Throws an Error for numbers that no body can have, and for options that go with no other.
+///
+/// @param dim  Of the body: 3 or 4.
+void check_request(const BodyRequest& request, int dim);
+
+// What would be left unheeded without a word: each throws an Error if it is asked for.
+
+/// For inputs that are the body already.
+void refuse_extrusion(const BodyRequest& request);
+
+/// For inputs that are cells already.
+void refuse_filling(const BodyRequest& request);
+
+}  // namespace pent::mesher
