@@ -77,19 +77,20 @@ SignedDistance<Dim> distance_to(const Bowl<Dim>& bowl, const Vector<Dim>& point)
 
 template <int Dim>
 SignedDistance<Dim> distance_to(const Cuboid<Dim>& box, const Vector<Dim>& point) {
-    const Vector<Dim> from_center = point - box.center;
+    const Vector<Dim> from_center = box.axes.transpose() * (point - box.center);
     const Vector<Dim> beyond = from_center.cwiseAbs() - 0.5 * box.sides;  // the sides, axis by axis
     const Vector<Dim> outside = beyond.cwiseMax(0).cwiseProduct(from_center.cwiseSign());
     const double distance = outside.norm();
     if (distance > 0) {
+        const Vector<Dim> bends = (beyond.array() > 0).template cast<double>();
         return {.value = distance,
-                .gradient = outside / distance,
+                .gradient = box.axes * outside / distance,
                 .sideways = 1 / distance,
-                .axes = (beyond.array() > 0).template cast<double>()};
+                .axes = box.axes * bends.asDiagonal() * box.axes.transpose()};
     }
     int axis = 0;
     const double depth = beyond.maxCoeff(&axis);
-    return {.value = depth, .gradient = (from_center[axis] < 0 ? -1 : 1) * Vector<Dim>::Unit(axis)};
+    return {.value = depth, .gradient = (from_center[axis] < 0 ? -1 : 1) * box.axes.col(axis)};
 }
 
 template <int Dim>

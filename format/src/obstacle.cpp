@@ -2,6 +2,8 @@
 
 #include <pent/error.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,9 +30,16 @@ struct FieldCheck {
         require(std::isfinite(value), what, name, "be finite");
         require(kind != ShapeField::Length || value > 0, what, name, "be above 0");
     }
-    template <typename Vector>
+    template <int Size>
     void operator()(const char* name,
-                    const Eigen::MatrixBase<Vector>& value,
+                    const Eigen::Matrix<double, Size, Size>& axes,
+                    ShapeField /*kind*/) const {
+        require(axes.size() == 0 || (axes.rows() == dimension && is_rotation(axes)), what, name,
+                "be " + std::to_string(dimension) + " unit vectors across one another");
+    }
+    template <int Size>
+    void operator()(const char* name,
+                    const Eigen::Matrix<double, Size, 1>& value,
                     ShapeField kind) const {
         require(value.size() == dimension && value.allFinite(), what, name,
                 "be " + std::to_string(dimension) + " finite numbers");
@@ -49,17 +58,18 @@ To copied(const From& from) {
         if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) {
             values.push_back(Eigen::VectorXd::Constant(1, value));
         } else {
-            values.emplace_back(value);
+            values.emplace_back(value.reshaped());
         }
     });
     To to;
     auto next = values.begin();
-    To::fields(to, [&](const char* /*name*/, auto& value, ShapeField /*kind*/) {
+    To::fields(to, [&](const char* /*name*/, auto& value, ShapeField kind) {
         if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) {
-            value = (*next++)[0];
-        } else {
-            value = *next++;
+            value = (*next)[0];
+        } else if (kind != ShapeField::Axes || next->size() > 0) {
+            value = next->reshaped(value.rows(), value.cols());
         }
+        ++next;
     });
     return to;
 }
@@ -90,7 +100,10 @@ std::vector<Obstacle<Eigen::Dynamic>> all_shapes(int dimension) {
         std::visit(
             [&](auto& one) {
                 one.fields(one, [&](const char* /*name*/, auto& value, ShapeField kind) {
-                    if constexpr (!std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) {
+                    using Value = std::remove_cvref_t<decltype(value)>;
+                    if constexpr (std::is_same_v<Value, Eigen::MatrixXd>) {
+                        value.setIdentity(dimension, dimension);
+                    } else if constexpr (std::is_same_v<Value, Eigen::VectorXd>) {
                         value.setZero(dimension);
                         if (kind == ShapeField::UpDirection) {
                             value[1] = 1;
@@ -101,6 +114,17 @@ std::vector<Obstacle<Eigen::Dynamic>> all_shapes(int dimension) {
             shape);
     }
     return shapes;
+}
+
+bool is_rotation(const Eigen::Ref<const Eigen::MatrixXd>& axes) {
+    constexpr double kRounding = 1e-9;
+    const Eigen::Index size = axes.rows();
+    return axes.cols() == size && axes.allFinite()
+           && (axes.transpose() * axes - Eigen::MatrixXd::Identity(size, size))
+                      .cwiseAbs()
+                      .maxCoeff()
+                  <= kRounding
+           && axes.determinant() > 0;
 }
 
 template <int Dim>
@@ -125,10 +149,11 @@ SimplexMesh<Dim> to_mesh(const Cuboid<Dim>& box) {
     SimplexMesh<Dim> mesh;
     mesh.positions.resize(Dim, kCorners);
     for (int corner = 0; corner < kCorners; ++corner) {
+        Eigen::Matrix<double, Dim, 1> from_center;
         for (int axis = 0; axis < Dim; ++axis) {
-            const double side = (corner >> axis & 1) != 0 ? 0.5 : -0.5;
-            mesh.positions(axis, corner) = box.center[axis] + side * box.sides[axis];
+            from_center[axis] = ((corner >> axis & 1) != 0 ? 0.5 : -0.5) * box.sides[axis];
         }
+        mesh.positions.col(corner) = box.center + box.axes * from_center;
     }
     std::array<int, Dim> order{};
     std::iota(order.begin(), order.end(), 0);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 
 namespace pent {
@@ -23,13 +24,39 @@ struct FieldWriter {
     Json& json;
 
     void operator()(const char* key, double value, ShapeField /*kind*/) const { json[key] = value; }
-    template <typename Vector>
+    template <int Size>
     void operator()(const char* key,
-                    const Eigen::MatrixBase<Vector>& value,
+                    const Eigen::Matrix<double, Size, 1>& value,
                     ShapeField /*kind*/) const {
-        json[key] = std::vector<double>(value.derived().begin(), value.derived().end());
+        json[key] = std::vector<double>(value.begin(), value.end());
+    }
+    // Left out where they are those of space, as they are of most.
+    template <int Size>
+    void operator()(const char* key,
+                    const Eigen::Matrix<double, Size, Size>& axes,
+                    ShapeField /*kind*/) const {
+        if (!axes.isIdentity(0)) {
+            for (const auto& axis : axes.colwise()) {
+                json[key].push_back(std::vector<double>(axis.begin(), axis.end()));
+            }
+        }
     }
 };
+
+// Fills a vector; false if the list is of another length or has anything but finite numbers.
+bool read_numbers(const Json& list, Eigen::Ref<Eigen::VectorXd> values) {
+    if (!list.is_array() || list.size() != static_cast<std::size_t>(values.size())) {
+        return false;
+    }
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+        const Json& entry = list[static_cast<std::size_t>(i)];
+        if (!entry.is_number() || !std::isfinite(entry.get<double>())) {
+            return false;
+        }
+        values[i] = entry.get<double>();
+    }
+    return true;
+}
 
 // Reads them.
 struct FieldReader {
@@ -52,16 +79,8 @@ struct FieldReader {
     void operator()(const char* key, Eigen::VectorXd& value, ShapeField kind) const {
         const std::string count = std::to_string(value.size());
         const auto found = json.find(key);
-        if (found == json.end() || !found->is_array()
-            || found->size() != static_cast<std::size_t>(value.size())) {
+        if (found == json.end() || !read_numbers(*found, value)) {
             fail(key, count + " finite numbers");
-        }
-        for (Eigen::Index i = 0; i < value.size(); ++i) {
-            const Json& entry = (*found)[static_cast<std::size_t>(i)];
-            if (!entry.is_number() || !std::isfinite(entry.get<double>())) {
-                fail(key, count + " finite numbers");
-            }
-            value[i] = entry.get<double>();
         }
         const bool is_direction = kind == ShapeField::Direction || kind == ShapeField::UpDirection;
         if (is_direction && !(std::abs(value.stableNorm() - 1) <= 1e-9)) {
@@ -69,6 +88,19 @@ struct FieldReader {
         }
         if (kind == ShapeField::Length && !(value.array() > 0).all()) {
             fail(key, count + " numbers above 0");
+        }
+    }
+    void operator()(const char* key, Eigen::MatrixXd& axes, ShapeField /*kind*/) const {
+        const auto found = json.find(key);
+        if (found == json.end()) {
+            return;
+        }
+        bool is_right = found->is_array() && found->size() == static_cast<std::size_t>(axes.cols());
+        for (Eigen::Index i = 0; is_right && i < axes.cols(); ++i) {
+            is_right = read_numbers((*found)[static_cast<std::size_t>(i)], axes.col(i));
+        }
+        if (!is_right || !is_rotation(axes)) {
+            fail(key, std::to_string(axes.cols()) + " vectors of length 1 across one another");
         }
     }
 };
@@ -117,7 +149,14 @@ Obstacle<Dim> from_json(const Json& json, const std::string& where) {
     auto obstacle = shape_of_kind(kind->get<std::string>(), Dim, where);
     std::visit([&](auto& shape) { shape.fields(shape, FieldReader{json, where}); }, obstacle);
     // A key more may say that it moves: drawn at rest it would be in the wrong place.
-    const Json known = to_json<Eigen::Dynamic>(obstacle);
+    std::set<std::string> known = {"kind"};
+    std::visit(
+        [&](auto& shape) {
+            shape.fields(shape, [&](const char* name, const auto& /*value*/, ShapeField /*kind*/) {
+                known.insert(name);
+            });
+        },
+        obstacle);
     for (const auto& [key, value] : json.items()) {
         if (!known.contains(key)) {
             throw Error(where + ": found the key " + quoted(key)

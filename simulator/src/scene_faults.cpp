@@ -1,6 +1,5 @@
-#include <pent/simulator/scene_checks.h>
-
 #include <pent/range.h>
+#include <pent/simulator/scene_checks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -111,18 +110,6 @@ std::optional<Fault> fault_of(const Constraint& constraint) {
         }
     }
     return std::nullopt;
-}
-
-template <>
-std::optional<Fault> fault_of(const Obstacle& obstacle) {
-    const bool turns = std::any_of(obstacle.motion.begin(), obstacle.motion.end(),
-                                   [](const Motion& motion) { return !planes_of(motion).empty(); });
-    if (!turns || !std::holds_alternative<BoxObstacle>(obstacle.shape)) {
-        return std::nullopt;
-    }
-    return Fault{"motion",
-                 "a box lies along the axes and cannot turn; expected a motion without \"rotate\","
-                 " or another shape"};
 }
 
 template <>

@@ -4,6 +4,8 @@
 #include <pent/contact/obstacles.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,9 +29,22 @@ protected:
     std::vector<Obstacle<T::value>> obstacles() {
         const Vector<T::value> center = random_point(0.3);
         const Vector<T::value> up = random_point(1).normalized();
-        return {HalfSpace<T::value>{up, 0.2}, Ball<T::value>{center, 0.8},
-                Cavity<T::value>{center, 0.9}, Bowl<T::value>{center, 0.9, up},
-                Cuboid<T::value>{center, Vector<T::value>::LinSpaced(0.7, 1.3)}};
+        return {HalfSpace<T::value>{up, 0.2},
+                Ball<T::value>{center, 0.8},
+                Cavity<T::value>{center, 0.9},
+                Bowl<T::value>{center, 0.9, up},
+                Cuboid<T::value>{center, Vector<T::value>::LinSpaced(0.7, 1.3)},
+                Cuboid<T::value>{center, Vector<T::value>::LinSpaced(0.7, 1.3), random_axes()}};
+    }
+
+    Block<T::value> random_axes() {
+        Block<T::value> columns;
+        for (int axis = 0; axis < T::value; ++axis) {
+            columns.col(axis) = random_point(1);
+        }
+        Block<T::value> axes = columns.householderQr().householderQ();
+        axes.col(0) *= axes.determinant() < 0 ? -1 : 1;
+        return axes;
     }
 
     std::mt19937 random_{3};
@@ -135,6 +150,28 @@ TYPED_TEST(ObstaclesTest, ArePassedThroughByWaysThatGoDeepAndComeOutAgain) {
     }
 }
 
+TYPED_TEST(ObstaclesTest, ThatAreTurnedBoxesAreAsFarAsTheBoxFromThePointTurnedBack) {
+    constexpr int kDim = TypeParam::value;
+    const Vector<kDim> sides = Vector<kDim>::LinSpaced(0.7, 1.3);
+    const Vector<kDim> center = this->random_point(1);
+    const Block<kDim> axes = this->random_axes();
+    const Cuboid<kDim> straight{Vector<kDim>::Zero(), sides};
+    const Cuboid<kDim> turned{center, sides, axes};
+    for (int trial = 0; trial < 500; ++trial) {
+        const Vector<kDim> x = this->random_point(1.2);
+        const auto before = signed_distance<kDim>(straight, x);
+        const auto after = signed_distance<kDim>(turned, center + axes * x);
+        EXPECT_NEAR(after.value, before.value, 1e-14);
+        EXPECT_LT((after.gradient - axes * before.gradient).norm(), 1e-13);
+    }
+    const ObstacleCore<kDim> core = core_of<kDim>(turned);
+    EXPECT_LT(
+        ((axes.transpose() * (core.points.colwise() - center)).cwiseAbs().colwise() - 0.5 * sides)
+            .cwiseAbs()
+            .maxCoeff(),
+        1e-14);
+}
+
 TYPED_TEST(ObstaclesTest, AreFiniteAtTheirCenters) {
     constexpr int kDim = TypeParam::value;
     const Vector<kDim> center = this->random_point(1);
@@ -155,13 +192,18 @@ TYPED_TEST(ObstaclesTest, ThatMakeNoSenseAreRefused) {
     constexpr int kDim = TypeParam::value;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const Vector<kDim> zero = Vector<kDim>::Zero();
+    const Vector<kDim> one = Vector<kDim>::Ones();
+    Block<kDim> mirror = Block<kDim>::Identity();
+    mirror(0, 0) = kDim == 3 ? 1 : -1;  // an odd number of axes against their directions
     const std::vector<std::pair<Obstacle<kDim>, std::vector<std::string>>> wrong{
         {HalfSpace<kDim>{zero, 0}, {"normal", "length 1"}},
         {HalfSpace<kDim>{Vector<kDim>::UnitX(), nan}, {"offset", "finite"}},
         {Ball<kDim>{zero, 0}, {"radius", "above 0"}},
         {Cavity<kDim>{Vector<kDim>::Constant(nan), 1}, {"center", "finite numbers"}},
         {Bowl<kDim>{zero, 1, zero}, {"up", "length 1"}},
-        {Cuboid<kDim>{zero, zero}, {"sides", "above 0"}}};
+        {Cuboid<kDim>{zero, zero}, {"sides", "above 0"}},
+        {Cuboid<kDim>{zero, one, 1.01 * Block<kDim>::Identity()}, {"axes", "unit vectors"}},
+        {Cuboid<kDim>{zero, one, -mirror}, {"axes", "across one another"}}};
     for (const auto& [obstacle, parts] : wrong) {
         const std::string message = pent::test::error_of(
             [&, &shape = obstacle] { pent::check<kDim>(shape, kDim, "obstacle 3"); });
@@ -182,6 +224,8 @@ TYPED_TEST(ObstaclesTest, OfAnyDimensionBecomeThoseOfOne) {
                 one.fields(one, [&](const char* /*name*/, auto& value, ShapeField kind) {
                     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>) {
                         value = number;
+                    } else if (kind == ShapeField::Axes) {
+                        EXPECT_TRUE(value.isIdentity(0));
                     } else if (kind == ShapeField::Direction) {
                         value[2] = 1;
                     } else if (kind != ShapeField::UpDirection) {

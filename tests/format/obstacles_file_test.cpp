@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <support/messages.h>
 #include <support/temp_folder.h>
 #include <type_traits>
@@ -26,7 +27,8 @@ std::vector<double> numbers_of(const Obstacle<Dim>& obstacle) {
                 if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) {
                     numbers.push_back(value);
                 } else {
-                    numbers.insert(numbers.end(), value.begin(), value.end());
+                    const Eigen::VectorXd all = value.reshaped();
+                    numbers.insert(numbers.end(), all.begin(), all.end());
                 }
             });
         },
@@ -38,9 +40,16 @@ template <int Dim>
 std::vector<Obstacle<Dim>> one_of_each() {
     using Vector = Eigen::Matrix<double, Dim, 1>;
     const Vector odd = Vector::LinSpaced(0.1, 1.0 / 3.0);
-    return {HalfSpace<Dim>{odd.normalized(), -0.7}, Ball<Dim>{odd, 1e-300},
-            Cavity<Dim>{-odd, 1e300}, Bowl<Dim>{3 * odd, 6, Vector::Unit(1)},
-            Cuboid<Dim>{odd, 2 * odd}};
+    Eigen::Matrix<double, Dim, Dim> turned = Eigen::Matrix<double, Dim, Dim>::Identity();
+    turned(0, 0) = turned(Dim - 1, Dim - 1) = std::cos(0.3);
+    turned(Dim - 1, 0) = std::sin(0.3);
+    turned(0, Dim - 1) = -turned(Dim - 1, 0);
+    return {HalfSpace<Dim>{odd.normalized(), -0.7},
+            Ball<Dim>{odd, 1e-300},
+            Cavity<Dim>{-odd, 1e300},
+            Bowl<Dim>{3 * odd, 6, Vector::Unit(1)},
+            Cuboid<Dim>{odd, 2 * odd},
+            Cuboid<Dim>{odd, 2 * odd, turned}};
 }
 
 template <int Dim>
@@ -94,6 +103,16 @@ TEST(ObstaclesFile, IsRefusedWithTheObstacleThatIsWrong) {
     expect_contains(second(R"({"kind": "half_space", "normal": [0, 2, 0], "offset": 0})"),
                     {"\"normal\"", "of length 1"});
     expect_contains(second(R"({"kind": "half_space", "normal": [0, 1, 0]})"), {"\"offset\""});
+    const auto box = [&](const std::string& axes) {
+        return second(R"({"kind": "box", "center": [0, 0, 0], "sides": [1, 2, 3], "axes": )" + axes
+                      + "}");
+    };
+    for (const std::string axes :
+         {"[]", "3", "[[1, 0, 0], [0, 1, 0]]", "[1, 0, 0]", "[[1, 0, 0], [0, 1, 0], [0, 0, \"1\"]]",
+          "[[1, 0, 0], [0, 1, 0], [0, 0, -1]]", "[[1, 0, 0], [0, 1, 0], [0, 0.1, 1]]"}) {
+        expect_contains(box(axes), {"obstacle 2", "\"axes\"", "3 vectors of length 1"});
+    }
+    EXPECT_EQ(box("[[0, 1, 0], [-1, 0, 0], [0, 0, 1]]"), "");
     expect_contains(second(R"({"kind": "ball", "center": [0, 0, 0], "radius": 1, "poses": []})"),
                     {"obstacle 2", "\"poses\"", "newer"});
 }

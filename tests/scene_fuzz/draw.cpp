@@ -39,10 +39,15 @@ Json draw_obstacle(Random& random, const Plan& plan) {
                               {"radius", Random::short_of(reach + gap)}};
     } else if (which < 0.9) {
         const double side = Random::short_of(plan.size * random.number(0.5, 4));
+        const bool is_turned = random.chance(0.5);
+        const double below = is_turned ? side : 0.5 * side;  // a corner is no farther than a side
         Json sides = as_json({side, side, side, side}, plan.dimension);
         obstacle["box"] = {
-            {"center", as_json({0, plan.lowest() - 0.5 * side - gap, 0, 0}, plan.dimension)},
+            {"center", as_json({0, plan.lowest() - below - gap, 0, 0}, plan.dimension)},
             {"sides", sides}};
+        if (is_turned) {
+            obstacle["rotate"] = draw_turns(random, plan);
+        }
     } else {
         obstacle["bowl"] = {{"center", as_json({0, 0.2 * plan.size, 0, 0}, plan.dimension)},
                             {"radius", Random::short_of(1.2 * reach + gap)}};
@@ -51,8 +56,7 @@ Json draw_obstacle(Random& random, const Plan& plan) {
         }
     }
     if (random.chance(0.25)) {
-        const bool turns = !obstacle.contains("box");
-        obstacle["motion"] = draw_motion(turns ? kMotion : kSlide, random, plan);
+        obstacle["motion"] = draw_motion(random, plan);
     }
     obstacle.update(draw_table({{"distance", 0.9, contact_distance},
                                 {"stiffness", 0.9, contact_stiffness},

@@ -34,13 +34,11 @@ namespace {
 
 // ------------------------------------------------------------------------------------------ bodies
 
-const Keys kTurn = {{"plane", 1, plane}, {"degrees", 1, number(-180, 180)}};
-
 const Keys kPlace = {
     {"scale", 1, [](Random&, const Plan& plan) -> Json { return plan.now().scale; }},
     {"rotate", 1,
      [](Random& random, const Plan& plan) -> Json {
-         return plan.now().is_turned ? tables(kTurn)(random, plan) : Json::array();
+         return plan.now().is_turned ? draw_turns(random, plan) : Json::array();
      }},
     {"translate", 1,
      [](Random&, const Plan& plan) { return as_json(plan.now().center, plan.dimension); }},
@@ -226,7 +224,7 @@ const Keys kAttachment = {
      }},
     {"point", 0.3,
      [](Random& random, const Plan& plan) { return random_vector(random, plan, plan.size); }},
-    {"motion", 0.4, any_motion},
+    {"motion", 0.4, draw_motion},
     {"offset", 0.5, one_of({"keep", "zero"})},
     {"max_distance", 1, [](Random&, const Plan& plan) -> Json { return 100 * plan.reach(); }},
     {"stiffness", 0.9, contact_stiffness},

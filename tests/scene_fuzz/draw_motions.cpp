@@ -112,15 +112,13 @@ const Keys kMotion = {
     {"to", 0.3, late},
 };
 
-// Of what does not turn.
-const Keys kSlide = {{"translate", 1, motion_velocity}, {"from", 0.3, early}, {"to", 0.3, late}};
-
 namespace {
 
+const Keys kTurn = {{"plane", 1, plane}, {"degrees", 1, number(-180, 180)}};
 const Keys kSmallTurn = {{"plane", 1, plane}, {"degrees", 1, number(-40, 40)}};
 
 // A motion through keyframes in place of rates, all behind what early() may draw.
-Json through_keyframes(const Json& rates, bool turns, Random& random, const Plan& plan) {
+Json through_keyframes(const Json& rates, Random& random, const Plan& plan) {
     Json motion = Json::object();
     for (const char* key : {"about", "from"}) {
         if (rates.contains(key)) {
@@ -131,7 +129,7 @@ Json through_keyframes(const Json& rates, bool turns, Random& random, const Plan
     for (int i = random.pick({1, 2, 3}); i > 0; --i) {
         Json keyframe = {{"time", time},
                          {"translate", random_vector(random, plan, 0.2 * plan.size)}};
-        if (turns && random.chance(0.5)) {
+        if (random.chance(0.5)) {
             keyframe["rotate"] = tables(kSmallTurn)(random, plan);
         }
         if (random.chance(0.4)) {
@@ -146,26 +144,26 @@ Json through_keyframes(const Json& rates, bool turns, Random& random, const Plan
 }  // namespace
 
 // Motions, or the word for none.
-Json draw_motion(const Keys& keys, Random& random, const Plan& plan) {
+Json draw_motion(Random& random, const Plan& plan) {
     if (random.chance(0.3)) {
         return "fixed";
     }
-    Json motions = tables(keys)(random, plan);
+    Json motions = tables(kMotion)(random, plan);
     if (random.chance(0.25)) {
         Json& one = motions.is_array() ? motions.back() : motions;
-        one = through_keyframes(one, &keys == &kMotion, random, plan);
+        one = through_keyframes(one, random, plan);
     }
     return motions;
 }
 
-Json any_motion(Random& random, const Plan& plan) {
-    return draw_motion(kMotion, random, plan);
+Json draw_turns(Random& random, const Plan& plan) {
+    return tables(kTurn)(random, plan);
 }
 
 const Keys kConstraint = {
     {"body", 1, [](Random&, const Plan& plan) -> Json { return plan.now().name; }},
     {"select", 1, draw_selections},
-    {"motion", 0.8, any_motion},
+    {"motion", 0.8, draw_motion},
     {"from", 0.25, early},
     {"to", 0.25, late},
 };

@@ -7,13 +7,13 @@
 namespace pent::scene_fuzz {
 
 extern const Keys kSpin;
-extern const Keys kMotion;
-extern const Keys kSlide;  ///< Motions of what does not turn.
 extern const Keys kConstraint;
 
-/// Motions by some keys, or the word for none.
-[[nodiscard]] Json draw_motion(const Keys& keys, Random& random, const Plan& plan);
-[[nodiscard]] Json any_motion(Random& random, const Plan& plan);
+/// Motions, or the word for none.
+[[nodiscard]] Json draw_motion(Random& random, const Plan& plan);
+
+/// By any angles.
+[[nodiscard]] Json draw_turns(Random& random, const Plan& plan);
 
 [[nodiscard]] Json draw_selections(Random& random, const Plan& plan);
 

@@ -141,7 +141,8 @@ double signed_distance(const pent::Obstacle<Dim>& shape,
             return std::max(bowl.up.dot(x - bowl.center), inside);
         }
         double operator()(const Cuboid<Dim>& box) const {  // right inside, and outside in its sign
-            return ((x - box.center).cwiseAbs() - 0.5 * box.sides).maxCoeff();
+            return ((box.axes.transpose() * (x - box.center)).cwiseAbs() - 0.5 * box.sides)
+                .maxCoeff();
         }
     };
     return std::visit(Distance{point}, shape);

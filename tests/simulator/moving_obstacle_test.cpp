@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 // Obstacles that move, and what they push and carry.
 
@@ -130,6 +131,12 @@ TYPED_TEST(MovingObstacle, GoesOnToTheBitFromEverySavedState) {
         center[0] = -0.25;
         scene.obstacles[1].shape = BallObstacle{.center = center, .radius = 0.2};
         scene.obstacles[1].motion[0].translate[0] = 0.5;
+        scene.obstacles.push_back(scene.obstacles[0]);
+        center.setConstant(0.125);
+        center[1] = -0.35;
+        scene.obstacles[2].shape =
+            BoxObstacle{.center = center, .sides = Eigen::VectorXd::Constant(kDim, 0.5)};
+        scene.obstacles[2].rotate = {{.plane = {1, kDim - 1}, .degrees = 15}};
         Simulation<kDim> whole(scene, {cube<kDim>(1)}, {.threads = 3});
         Simulation<kDim> often(scene, {cube<kDim>(1)});
         for (int i = 0; i < 15; ++i) {
@@ -226,15 +233,37 @@ TYPED_TEST(MovingObstacle, DoesNotMeetWhatIsHeldForGoodAndIsStoppedByWhatIsHeldF
     }
 }
 
-TEST(MovingObstacles, ThatAreBoxesDoNotTurn) {
-    Scene scene = cube_on_floor<3>(ContactModel::Penalty);
-    scene.obstacles[0].shape =
-        BoxObstacle{.center = Eigen::Vector3d(0, -1, 0), .sides = Eigen::Vector3d::Ones()};
-    scene.obstacles[0].motion[0].translate[0] = 1;
-    EXPECT_NO_THROW(check(scene));
-    scene.obstacles[0].motion[0].rotate = {{.plane = {0, 1}, .degrees_per_s = 20}};
-    pent::test::expect_contains(pent::test::error_of([&] { check(scene); }),
-                                {"obstacle: a box lies along the axes and cannot turn"});
+// A board below the cube tilts and takes it along on its rising side.
+TYPED_TEST(MovingObstacle, ThatIsABoxTurnsAndLiftsWhatLiesOnIt) {
+    constexpr int kDim = TypeParam::value;
+    for (const ContactModel model : kModels) {
+        Scene scene = cube_on_floor<kDim>(model);
+        Eigen::VectorXd center = Eigen::VectorXd::Zero(kDim);
+        center[1] = -0.21;
+        Eigen::VectorXd sides = Eigen::VectorXd::Constant(kDim, 2);
+        sides[1] = 0.4;
+        scene.obstacles[0].shape = BoxObstacle{.center = center, .sides = sides};
+        scene.obstacles[0].motion[0].rotate = {{.plane = {0, 1}, .degrees_per_s = 40}};
+        Simulation<kDim> simulation(scene, {cube<kDim>(1)}, {.threads = 2});
+        const auto height = [&] { return simulation.positions(0).row(1).mean(); };
+        const double before = height();
+        for (int i = 0; i < 50; ++i) {
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.is_accepted) << report.failure;
+            EXPECT_GT(gap<kDim>(simulation, 0), model == ContactModel::Barrier ? 0 : -0.02) << i;
+        }
+        EXPECT_GT(height(), before + 0.01);
+        // The same board, put there.
+        Scene standing = scene;
+        standing.obstacles[0].motion = {};
+        standing.obstacles[0].rotate = {{.plane = {0, 1}, .degrees = 20}};
+        const Simulation<kDim> other(standing, {cube<kDim>(1)});
+        const auto turned = std::get<Cuboid<kDim>>(simulation.obstacles()[0]);
+        const auto put = std::get<Cuboid<kDim>>(other.obstacles()[0]);
+        EXPECT_LT((turned.axes - put.axes).norm(), 1e-13);
+        EXPECT_LT((turned.center - put.center).norm(), 1e-13);
+        EXPECT_NEAR(turned.axes(1, 0), std::sin(std::numbers::pi / 9), 1e-13);
+    }
 }
 
 }  // namespace

@@ -114,17 +114,5 @@ TEST(SceneFaults, OfConstraintsAreMovementsBeforeAnythingIsHeld) {
     expect_faults<Constraint>(constraint, {{"motion", [](auto& c) { c.from = 2; }}});
 }
 
-TEST(SceneFaults, OfObstaclesAreBoxesThatTurn) {
-    Motion turn = still(3);
-    turn.rotate = {{{0, 1}, 90}};
-    Obstacle obstacle;
-    obstacle.shape = BoxObstacle{};
-    obstacle.motion = {still(3)};
-    expect_faults<Obstacle>(obstacle, {{"motion", [&](auto& o) { o.motion = {turn}; }}});
-    obstacle.shape = BallObstacle{};
-    obstacle.motion = {turn};
-    EXPECT_FALSE(fault_of(obstacle).has_value());
-}
-
 }  // namespace
 }  // namespace pent::simulator

@@ -5,6 +5,8 @@
 #include <pent/viewer/obstacle_slice.h>
 #include <pent/viewer/obstacle_surface.h>
 
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -61,9 +63,22 @@ public:
     template <int Dim>
     std::vector<Obstacle<Dim>> one_of_each() {
         return {HalfSpace<Dim>{point<Dim>().normalized(), number(-0.5, 0.5)},
-                Ball<Dim>{point<Dim>(), number(0.2, 1)}, Cavity<Dim>{point<Dim>(), number(0.2, 1)},
+                Ball<Dim>{point<Dim>(), number(0.2, 1)},
+                Cavity<Dim>{point<Dim>(), number(0.2, 1)},
                 Bowl<Dim>{point<Dim>(), number(0.2, 1), point<Dim>().normalized()},
-                Cuboid<Dim>{0.5 * point<Dim>(), 2.2 * point<Dim>().cwiseAbs().array() + 0.2}};
+                Cuboid<Dim>{0.5 * point<Dim>(), 2.2 * point<Dim>().cwiseAbs().array() + 0.2},
+                Cuboid<Dim>{0.5 * point<Dim>(), 2.2 * point<Dim>().cwiseAbs().array() + 0.2,
+                            axes<Dim>()}};
+    }
+    template <int Dim>
+    Eigen::Matrix<double, Dim, Dim> axes() {
+        Eigen::Matrix<double, Dim, Dim> columns;
+        for (int axis = 0; axis < Dim; ++axis) {
+            columns.col(axis) = point<Dim>();
+        }
+        Eigen::Matrix<double, Dim, Dim> turned = columns.householderQr().householderQ();
+        turned.col(0) *= turned.determinant() < 0 ? -1 : 1;
+        return turned;
     }
 
 private:
@@ -258,7 +273,8 @@ TEST(ObstacleOutline, ReachesAsFarAsTheImagesOfTheBallsPoints) {
 
 TEST(ObstacleOutline, OfABoxReachesAsFarAsTheImagesOfItsCorners) {
     Random random;
-    const Cuboid<4> box{Eigen::Vector4d(0.3, -0.2, 0.5, 0.4), Eigen::Vector4d(0.6, 0.8, 0.3, 0.7)};
+    const Cuboid<4> box{Eigen::Vector4d(0.3, -0.2, 0.5, 0.4), Eigen::Vector4d(0.6, 0.8, 0.3, 0.7),
+                        random.axes<4>()};
     for (const bool is_perspective : {false, true}) {
         const Projection projection{
             .film = hyperplane_across({0.2, 0.1, -0.3, 1}, 0.1),

@@ -24,7 +24,8 @@ enum class ShapeField : std::uint8_t {
     Direction,    ///< A vector of unit length, which has to be given.
     UpDirection,  ///< The same; along the second axis if it is not given.
     Number,       ///< Any finite number, m; 0 if it is not given.
-    Length,       ///< A number above 0, m.
+    Length,       ///< A number above 0, m; or a vector of them.
+    Axes,         ///< A rotation matrix, one axis a column; that of no turn if it is not given.
 };
 
 // A shape has a name, as scenes know it, and fields() calls visit(name, value, ShapeField) for each
@@ -100,7 +101,7 @@ struct Bowl {
     }
 };
 
-/// A solid box along the axes, around its center; bodies stay outside.
+/// A solid box around its center; bodies stay outside.
 template <int Dim>
 struct Cuboid {
     static constexpr const char* kName = "box";
@@ -108,15 +109,22 @@ struct Cuboid {
     static constexpr bool kIsFreeSideConvex = false;
     Eigen::Matrix<double, Dim, 1> center;  ///< m.
     Eigen::Matrix<double, Dim, 1> sides;   ///< Lengths, m, > 0.
+    /// Which way the sides go, one a column; of a dimension that is not known when it is compiled
+    /// it may have no numbers: along the axes.
+    Eigen::Matrix<double, Dim, Dim> axes = Eigen::Matrix<double, Dim, Dim>::Identity(kSize, kSize);
 
     template <typename Shape, typename Visit>
     static void fields(Shape& shape, const Visit& visit) {
         visit("center", shape.center, ShapeField::Point);
         visit("sides", shape.sides, ShapeField::Length);
+        visit("axes", shape.axes, ShapeField::Axes);
     }
+
+private:
+    static constexpr int kSize = Dim == Eigen::Dynamic ? 0 : Dim;
 };
 
-/// Something that does not move.
+/// Something that stands still.
 template <int Dim>
 using Obstacle = std::variant<HalfSpace<Dim>, Ball<Dim>, Cavity<Dim>, Bowl<Dim>, Cuboid<Dim>>;
 
@@ -135,8 +143,11 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] SimplexMesh<Dim> to_mesh(const Cuboid<Dim>& box);
 
+/// Whether the columns are unit vectors across one another, to 1e-9, and none mirrors the others.
+[[nodiscard]] bool is_rotation(const Eigen::Ref<const Eigen::MatrixXd>& axes);
+
 /// Throws an Error, beginning with `what`, unless numbers are finite, lengths > 0, directions of
-/// unit length (to 1e-9), and vectors of the dimension.
+/// unit length (to 1e-9), axes a rotation, and vectors of the dimension.
 template <int Dim>
 void check(const Obstacle<Dim>& obstacle, int dimension, const std::string& what);
 

@@ -1,11 +1,51 @@
 #include "model/obstacle_motions.h"
 
-#include <type_traits>
+#include "model/rotation.h"
+
+#include <utility>
 #include <variant>
 
 namespace pent::simulator {
 
 namespace {
+
+template <int Dim>
+using Placed = typename ObstacleMotions<Dim>::Placement;
+
+// Keeps the point among the fields of a shape.
+template <int Dim>
+struct MiddleFinder {
+    Vector<Dim>& middle;
+    void operator()(const char* /*name*/, const Vector<Dim>& value, ShapeField kind) const {
+        if (kind == ShapeField::Point) {
+            middle = value;
+        }
+    }
+    void operator()(const char* /*name*/, const auto& /*value*/, ShapeField /*kind*/) const {}
+};
+
+// Moves the fields of a shape.
+template <int Dim>
+struct FieldMover {
+    const Placed<Dim>& placement;
+    void operator()(const char* /*name*/, Vector<Dim>& value, ShapeField kind) const {
+        if (kind == ShapeField::Point) {
+            value = (placement.rotation * value + placement.shift).eval();
+        } else if (kind != ShapeField::Length) {  // a direction
+            value = (placement.rotation * value).normalized().eval();
+        }
+    }
+    void operator()(const char* /*name*/, Matrix<Dim>& axes, ShapeField /*kind*/) const {
+        axes = (placement.rotation * axes).eval();
+        for (int axis = 0; axis < Dim; ++axis) {  // far from the origin the placement is rounded
+            for (int before = 0; before < axis; ++before) {
+                axes.col(axis) -= axes.col(before).dot(axes.col(axis)) * axes.col(before);
+            }
+            axes.col(axis).normalize();
+        }
+    }
+    void operator()(const char* /*name*/, double& /*value*/, ShapeField /*kind*/) const {}
+};
 
 // What a motion turns an obstacle about that does not say it: its center, or of a half-space the
 // point next to the origin.
@@ -15,18 +55,19 @@ Vector<Dim> middle_of(const pent::Obstacle<Dim>& obstacle) {
         return half_space->offset * half_space->normal;
     }
     Vector<Dim> middle = Vector<Dim>::Zero();
-    std::visit(
-        [&](const auto& shape) {
-            shape.fields(shape, [&](const char* /*name*/, const auto& value, ShapeField kind) {
-                if constexpr (!std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) {
-                    if (kind == ShapeField::Point) {
-                        middle = value;
-                    }
-                }
-            });
-        },
-        obstacle);
+    std::visit([&](const auto& shape) { shape.fields(shape, MiddleFinder<Dim>{middle}); },
+               obstacle);
     return middle;
+}
+
+// The same obstacle elsewhere.
+template <int Dim>
+pent::Obstacle<Dim> moved_to(pent::Obstacle<Dim> obstacle, const Placed<Dim>& placement) {
+    std::visit([&](auto& shape) { shape.fields(shape, FieldMover<Dim>{placement}); }, obstacle);
+    if (auto* half_space = std::get_if<HalfSpace<Dim>>(&obstacle)) {
+        half_space->offset += half_space->normal.dot(placement.shift);
+    }
+    return obstacle;
 }
 
 }  // namespace
@@ -34,8 +75,15 @@ Vector<Dim> middle_of(const pent::Obstacle<Dim>& obstacle) {
 template <int Dim>
 ObstacleMotions<Dim>::ObstacleMotions(const Scene& scene) {
     for (const auto& obstacle : scene.obstacles) {
-        const pent::Obstacle<Dim> start = fixed_size<Dim>(obstacle.shape);
-        obstacles_.push_back({start, center<Dim>(obstacle.motion, middle_of<Dim>(start))});
+        pent::Obstacle<Dim> start = fixed_size<Dim>(obstacle.shape);
+        if (!obstacle.rotate.empty()) {
+            const Vector<Dim> middle = middle_of<Dim>(start);
+            const Matrix<Dim> turn = rotation_of<Dim>(obstacle.rotate);
+            start = moved_to<Dim>(start, {turn, middle - turn * middle});
+        }
+        std::vector<CenteredMotion<Dim>> motions =
+            center<Dim>(obstacle.motion, middle_of<Dim>(start));
+        obstacles_.push_back({std::move(start), std::move(motions)});
         is_any_ = is_any_ || !obstacle.motion.empty();
     }
 }
@@ -58,27 +106,9 @@ template <int Dim>
 std::vector<pent::Obstacle<Dim>> ObstacleMotions<Dim>::at(double time) const {
     std::vector<pent::Obstacle<Dim>> all;
     for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-        pent::Obstacle<Dim>& now = all.emplace_back(obstacles_[i].start);
-        if (obstacles_[i].motions.empty()) {
-            continue;
-        }
-        const Placement placed = placement(i, time);
-        std::visit(
-            [&](auto& shape) {
-                shape.fields(shape, [&](const char* /*name*/, auto& value, ShapeField kind) {
-                    if constexpr (!std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) {
-                        if (kind == ShapeField::Point) {
-                            value = (placed.rotation * value + placed.shift).eval();
-                        } else if (kind != ShapeField::Length) {  // a direction
-                            value = (placed.rotation * value).normalized().eval();
-                        }
-                    }
-                });
-            },
-            now);
-        if (auto* half_space = std::get_if<HalfSpace<Dim>>(&now)) {
-            half_space->offset += half_space->normal.dot(placed.shift);
-        }
+        const Moved& moving = obstacles_[i];
+        all.push_back(moving.motions.empty() ? moving.start
+                                             : moved_to<Dim>(moving.start, placement(i, time)));
     }
     return all;
 }

@@ -28,16 +28,22 @@ Matrix<Dim> plane_rotation(const Plane& plane, double angle) {
 }
 
 template <int Dim>
+Matrix<Dim> rotation_of(const std::vector<Turn>& turns) {
+    Matrix<Dim> rotation = Matrix<Dim>::Identity();
+    for (const Turn& turn : turns) {
+        rotation = plane_rotation<Dim>(turn.plane, kRadiansPerDegree * turn.degrees) * rotation;
+    }
+    return rotation;
+}
+
+template <int Dim>
 SimplexMesh<Dim> place(SimplexMesh<Dim> mesh, const Body& body) {
     const Placement& placement = body.place;
     if (placement.scale != 1) {
         mesh.positions *= placement.scale;
     }
-    Matrix<Dim> rotation = Matrix<Dim>::Identity();
-    for (const Turn& turn : placement.rotate) {
-        rotation = plane_rotation<Dim>(turn.plane, kRadiansPerDegree * turn.degrees) * rotation;
-    }
     if (!placement.rotate.empty()) {
+        const Matrix<Dim> rotation = rotation_of<Dim>(placement.rotate);
         mesh.positions = (rotation * mesh.positions).eval();
         mesh.fibers = (rotation * mesh.fibers).eval();
     }
@@ -107,6 +113,24 @@ CurvePoint angle_in(const MotionKeyframe& keyframe, const Plane& plane) {
     return point;
 }
 
+// Those that it turns in, each once, in the order in which it names them.
+std::vector<Plane> planes_of(const Motion& motion) {
+    std::vector<Plane> planes;
+    const auto add = [&](const auto& turns) {
+        for (const auto& turn : turns) {
+            if (std::find(planes.begin(), planes.end(), turn.plane) == planes.end()) {
+                planes.push_back(turn.plane);
+            }
+        }
+    };
+    add(motion.rotate);
+    for (const MotionKeyframe& keyframe : motion.keyframes) {
+        add(keyframe.rotate);
+        add(keyframe.spin);
+    }
+    return planes;
+}
+
 template <int Dim>
 Course<Dim> course_through_keyframes(const Motion& motion, double time) {
     Course<Dim> course;
@@ -131,23 +155,6 @@ Course<Dim> course_through_keyframes(const Motion& motion, double time) {
 }
 
 }  // namespace
-
-std::vector<Plane> planes_of(const Motion& motion) {
-    std::vector<Plane> planes;
-    const auto add = [&](const auto& turns) {
-        for (const auto& turn : turns) {
-            if (std::find(planes.begin(), planes.end(), turn.plane) == planes.end()) {
-                planes.push_back(turn.plane);
-            }
-        }
-    };
-    add(motion.rotate);
-    for (const MotionKeyframe& keyframe : motion.keyframes) {
-        add(keyframe.rotate);
-        add(keyframe.spin);
-    }
-    return planes;
-}
 
 double largest_turn_rate(const Motion& motion) {
     double largest = 0;
@@ -189,6 +196,8 @@ Pose<Dim> pose_at(const Motion& motion, double time) {
 template Matrix<2> plane_rotation<2>(const Plane&, double);
 template Matrix<3> plane_rotation<3>(const Plane&, double);
 template Matrix<4> plane_rotation<4>(const Plane&, double);
+template Matrix<3> rotation_of<3>(const std::vector<Turn>&);
+template Matrix<4> rotation_of<4>(const std::vector<Turn>&);
 template SimplexMesh<3> place<3>(SimplexMesh<3>, const Body&);
 template SimplexMesh<4> place<4>(SimplexMesh<4>, const Body&);
 template Pose<3> pose_at<3>(const Motion&, double);

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 namespace pent::simulator {
 
 template <int Dim>
@@ -14,6 +16,10 @@ using Matrix = Eigen::Matrix<double, Dim, Dim>;
 /// Rotation in a plane by an angle in radians: takes axis `from` towards axis `to`.
 template <int Dim>
 [[nodiscard]] Matrix<Dim> plane_rotation(const Plane& plane, double angle);
+
+/// All of them, one after the other.
+template <int Dim>
+[[nodiscard]] Matrix<Dim> rotation_of(const std::vector<Turn>& turns);
 
 /// Where a motion takes the points it moves at one moment: X goes to
 /// `rotation` (X - about) + about + `shift`, with velocity `rate` (X - about) + `velocity`.

@@ -6,16 +6,16 @@ export type Obstacle =
     | { kind: "ball"; center: number[]; radius: number }
     | { kind: "cavity"; center: number[]; radius: number } // hollow, in a solid
     | { kind: "bowl"; center: number[]; radius: number; up: number[] } // dug into the ground below its rim
-    | { kind: "box"; center: number[]; sides: number[] }; // along the axes
+    | { kind: "box"; center: number[]; sides: number[]; axes?: number[][] }; // along those of space without `axes`
 
-type Field = "point" | "direction" | "number" | "length" | "lengths";
+type Field = "point" | "direction" | "number" | "length" | "lengths" | "axes";
 
 const kFields: Record<Obstacle["kind"], Record<string, Field>> = {
     half_space: { normal: "direction", offset: "number" },
     ball: { center: "point", radius: "length" },
     cavity: { center: "point", radius: "length" },
     bowl: { center: "point", radius: "length", up: "direction" },
-    box: { center: "point", sides: "lengths" },
+    box: { center: "point", sides: "lengths", axes: "axes" },
 };
 
 const kKinds = Object.keys(kFields);
@@ -25,8 +25,42 @@ function isFinite(value: unknown): value is number {
     return typeof value === "number" && Number.isFinite(value);
 }
 
+function determinant(rows: number[][]): number {
+    return rows.length === 0
+        ? 1
+        : rows[0]!.reduce((sum, entry, k) => {
+              const minor = rows.slice(1).map((row) => row.filter((_, i) => i !== k));
+              return sum + (k % 2 === 0 ? entry : -entry) * determinant(minor);
+          }, 0);
+}
+
+// Whether vectors have length 1, are across one another, and none mirrors the others.
+function isRotation(axes: unknown, dimension: number): boolean {
+    if (!Array.isArray(axes) || axes.length !== dimension) {
+        return false;
+    }
+    const areVectors = axes.every(
+        (axis) => Array.isArray(axis) && axis.length === dimension && axis.every(isFinite),
+    );
+    return (
+        areVectors &&
+        (axes as number[][]).every((a, i) =>
+            (axes as number[][]).every((b, j) => {
+                const product = a.reduce((sum, x, k) => sum + x * b[k]!, 0);
+                return Math.abs(product - (i === j ? 1 : 0)) <= 1e-9;
+            }),
+        ) &&
+        determinant(axes as number[][]) > 0
+    );
+}
+
 // What a field must be where it is not; else null.
 function faultOf(value: unknown, field: Field, dimension: number): string | null {
+    if (field === "axes") {
+        return value === undefined || isRotation(value, dimension)
+            ? null
+            : `${dimension} vectors of length 1 across one another`;
+    }
     if (field === "number" || field === "length") {
         const isRight = isFinite(value) && (field === "number" || value > 0);
         return isRight ? null : field === "number" ? "a finite number" : "a number above 0";
@@ -75,6 +109,11 @@ function readObstacle(entry: unknown, dimension: number, where: string): Obstacl
         );
     }
     return json as Obstacle;
+}
+
+/** Along which a box's sides go, of the dimension of its center. */
+export function axesOf(box: { center: number[]; axes?: number[][] }): number[][] {
+    return box.axes ?? box.center.map((_, i) => box.center.map((_, k) => (i === k ? 1 : 0)));
 }
 
 /** The obstacles of a run or of one of its frames: specified in docs/pent-format.md. Throws a PentError in the words

@@ -1,6 +1,12 @@
+import { axesOf } from "../format/obstacles.ts";
 import type { Moment } from "../run/run.ts";
 import { apply } from "./rotation.ts";
 import type { Rotation } from "./rotation.ts";
+
+// Of a box from its center along an axis of space, m.
+function halfExtent(box: { center: number[]; sides: number[]; axes?: number[][] }, row: number): number {
+    return axesOf(box).reduce((sum, axis, k) => sum + Math.abs(axis[row]! * box.sides[k]!) / 2, 0);
+}
 
 /** Where the bodies are, over the frames looked at so far. */
 export class Bounds {
@@ -81,7 +87,7 @@ export class Bounds {
                     ? [obstacle.radius, Math.hypot(...away) + obstacle.radius]
                     : [
                           Math.hypot(...obstacle.sides) / 2,
-                          Math.hypot(...away.map((x, axis) => x + obstacle.sides[axis]! / 2)),
+                          Math.hypot(...away.map((x, axis) => x + halfExtent(obstacle, axis))),
                       ];
             farthest = radius <= this.size ? Math.max(farthest, reach) : farthest;
         }

@@ -1,3 +1,4 @@
+import { axesOf } from "../format/obstacles.ts";
 import type { Obstacle } from "../format/obstacles.ts";
 import { makeBoundary } from "../mesh/boundary.ts";
 import { boxMesh } from "../mesh/box.ts";
@@ -25,9 +26,14 @@ export class Boxes {
                 cellCount: mesh.cellCount,
                 boundary: makeBoundary(mesh, "box"),
             };
-            const placed = mesh.positions.map((place, i) => {
-                const axis = i % dimension;
-                return obstacle.center[axis]! + place * obstacle.sides[axis]!;
+            const axes = axesOf(obstacle);
+            const placed = mesh.positions.map((_, i) => {
+                const row = i % dimension;
+                return axes.reduce(
+                    (sum, axis, k) =>
+                        sum + axis[row]! * mesh.positions[i - row + k]! * obstacle.sides[k]!,
+                    obstacle.center[row]!,
+                );
             });
             const positions = toFloat4(placed, dimension);
             return [

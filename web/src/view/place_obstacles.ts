@@ -1,3 +1,4 @@
+import { axesOf } from "../format/obstacles.ts";
 import type { Obstacle } from "../format/obstacles.ts";
 import type { Tile } from "../render/picture.ts";
 import {
@@ -25,9 +26,12 @@ export function placeObstacles(
     eye: [number, number, number, number] | null,
 ): number {
     let lowest = Infinity;
-    for (const { center, sides } of obstacles.filter((one): one is Box => one.kind === "box")) {
-        const middle = apply(rotation, [...center, 0])[1] + shift[1]!;
-        const half = sides.reduce((sum, side, k) => sum + Math.abs(rotation[4 + k]! * side) / 2, 0);
+    for (const box of obstacles.filter((one): one is Box => one.kind === "box")) {
+        const middle = apply(rotation, [...box.center, 0])[1] + shift[1]!;
+        const half = axesOf(box).reduce((sum, axis, k) => {
+            const rise = apply(rotation, [...axis, 0])[1] * box.sides[k]!;
+            return sum + Math.abs(rise) / 2;
+        }, 0);
         lowest = Math.min(lowest, middle - half);
     }
     const rounds = obstacles.filter((one): one is Round => one.kind !== "box");

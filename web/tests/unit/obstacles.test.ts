@@ -11,6 +11,7 @@ import { boxMesh } from "../../src/mesh/box.ts";
 import { gridMesh } from "../../src/run/example.ts";
 import { add, cross, dot, scale } from "../../src/view/matrix.ts";
 import type { Vector } from "../../src/view/matrix.ts";
+import { Boxes } from "../../src/view/boxes.ts";
 import {
     ballOutline,
     ballSurface,
@@ -205,6 +206,27 @@ test("a box is a closed body of the box's volume", () => {
     }
 });
 
+test("a box that is turned has its corners where its axes take them", () => {
+    const center = [0.1, 0.2, 0.3, 0.4];
+    const sides = [1, 0.2, 0.6, 0.8];
+    const axes = [
+        [0.6, 0, 0, 0.8],
+        [0, 1, 0, 0],
+        [0, 0, 1, 0],
+        [-0.8, 0, 0, 0.6],
+    ];
+    const boxes = new Boxes().of([{ kind: "box", center, sides, axes }], 4);
+    const { positions } = boxes[0]!.frame;
+    assert.equal(positions.length, 4 * 16);
+    for (let v = 0; v < 16; ++v) {
+        const away = center.map((x, i) => positions[4 * v + i]! - x);
+        axes.forEach((axis, k) => {
+            const along = axis.reduce((sum, x, i) => sum + x * away[i]!, 0);
+            assert.ok(Math.abs(Math.abs(along) - sides[k]! / 2) < 1e-6);
+        });
+    }
+});
+
 test("obstacles that are wrong are refused in the words of the other programs", () => {
     const ball = { kind: "ball", center: [0, 0, 0], radius: 1 };
     const refusal = (entry: unknown) => {
@@ -243,6 +265,27 @@ test("obstacles that are wrong are refused in the words of the other programs", 
         refusal({ kind: "box", center: [0, 0, 0], sides: [1, 0, 1] }),
         wrong("sides", "3 numbers above 0"),
     );
+    const box = { kind: "box", center: [0, 0, 0], sides: [1, 2, 3] };
+    for (const axes of [
+        [],
+        3,
+        [1, 0, 0],
+        [
+            [1, 0, 0],
+            [0, 1, 0],
+            [0, 0, -1],
+        ],
+        [
+            [1, 0, 0],
+            [0, 1, 0],
+            [0, 0.1, 1],
+        ],
+    ]) {
+        assert.equal(
+            refusal({ ...box, axes }),
+            wrong("axes", "3 vectors of length 1 across one another"),
+        );
+    }
     assert.match(
         refusal({ ...ball, poses: [] }),
         /found the key "poses", which is not known; a newer/,

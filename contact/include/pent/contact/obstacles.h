@@ -30,13 +30,13 @@ struct SignedDistance {
     Vector<Dim> tangent = Vector<Dim>::Zero();  ///< Unit length; zero where all are alike.
     double along_tangent = 0;                   ///< Curvature, 1/m.
     double sideways = 0;                        ///< Curvature, 1/m.
-    Vector<Dim> axes = Vector<Dim>::Ones();     ///< 1 for those along which it may bend, else 0.
+    Block<Dim> axes = Block<Dim>::Identity();   ///< Projects on those along which it may bend.
 
     /// n g g^T + t on the tangent + s sideways.
     [[nodiscard]] Block<Dim> combine(double n, double t, double s) const {
         Block<Dim> sum = (n - s) * gradient * gradient.transpose();
         sum += (t - s) * tangent * tangent.transpose();
-        sum.diagonal() += s * axes;
+        sum += s * axes;
         return sum;
     }
 

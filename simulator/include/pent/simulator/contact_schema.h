@@ -16,11 +16,14 @@ requires requires {
 }
 void fields(Shape& shape, const Visit& visit) {
     shape.fields(shape, [&](const char* name, auto& value, ShapeField kind) {
-        const bool is_up = kind == ShapeField::UpDirection;
-        Field field = key(name, "m", "", kind == ShapeField::Length ? kPositive : kAnyNumber);
-        field.is_direction = kind == ShapeField::Direction || is_up;
-        field.is_required = kind != ShapeField::Number && !is_up;
-        visit(field, value);
+        // Axes are given by angles, as `rotate`.
+        if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(value)>, Eigen::MatrixXd>) {
+            const bool is_up = kind == ShapeField::UpDirection;
+            Field field = key(name, "m", "", kind == ShapeField::Length ? kPositive : kAnyNumber);
+            field.is_direction = kind == ShapeField::Direction || is_up;
+            field.is_required = kind != ShapeField::Number && !is_up;
+            visit(field, value);
+        }
     });
 }
 
@@ -30,8 +33,9 @@ void fields(Part& obstacle, const Visit& visit) {
           obstacle.shape);  // its name is the key
     visit(key("distance", "m", "", kPositive), obstacle.distance);
     visit(key("stiffness", "N/m for each vertex", "", kPositive), obstacle.stiffness);
-    visit(key("motion", "", "as of a constraint, about its center; a `box` does not turn"),
-          obstacle.motion);
+    visit(key("rotate", "", "how it stands at the start: in the order written, about its center"),
+          obstacle.rotate);
+    visit(key("motion", "", "as of a constraint, about its center"), obstacle.motion);
     visit(key("friction", "", "as of a body", kNotNegative)
               .may_be_missing()
               .default_is("that of `[contact]`"),

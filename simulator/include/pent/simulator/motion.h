@@ -63,9 +63,6 @@ struct Keyframe {
     double factor = 1;
 };
 
-/// The planes in which a motion turns, in the order in which it does.
-[[nodiscard]] std::vector<Plane> planes_of(const Motion& motion);
-
 /// The fastest turn in one of its planes, degrees/s, >= 0; through keyframes that between two of
 /// them.
 [[nodiscard]] double largest_turn_rate(const Motion& motion);

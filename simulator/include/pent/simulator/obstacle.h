@@ -26,8 +26,11 @@ struct Obstacle {
     ObstacleShape shape;
     double distance = 0.02;   ///< m, > 0.
     double stiffness = 1000;  ///< N/m for each vertex, > 0.
-    /// One after the other, as of a Constraint; each turns it about its center (a half-space about
-    /// its point next to the origin) unless it says otherwise. A box does not turn.
+    /// How it stands at the start, in the order given: about its center, a half-space about its
+    /// point next to the origin.
+    std::vector<Turn> rotate = {};
+    /// One after the other, as of a Constraint; each turns it about the same point unless it says
+    /// otherwise.
     std::vector<Motion> motion = {};
     /// Coulomb's coefficient, >= 0, as of a Body; infinite: that of Contact.
     double friction = std::numeric_limits<double>::infinity();
