@@ -311,7 +311,8 @@ int main(int argc, char** argv) {
         .add_option(
             "--vary", arguments.study.vary,
             "NAME=VALUE,VALUE,...: dt (s), preset, contact (its model), layers or subdivide (of the"
-            " mesh, where the scene has its recipe), or a key of [solver]")
+            " mesh, where the scene has its recipe), a key of [solver], or BLOCK.KEY of every other"
+            " block, as in attachment.stiffness=100,1e4")
         ->allow_extra_args(false);
     options
         .add_option("--repeat", arguments.study.repeats, "Timed runs of each; the median counts")
