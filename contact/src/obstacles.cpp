@@ -118,7 +118,8 @@ SignedDistance<Dim> signed_distance(const Obstacle<Dim>& obstacle, const Vector<
     return std::visit([&](const auto& shape) { return distance_to(shape, point); }, obstacle);
 }
 
-// Distances have slope one: from where one is d, nothing nearer than d along the way is in the solid.
+// Distances have slope one: from where one is d, nothing nearer than d along the way is in the
+// solid.
 template <int Dim>
 bool passes_through(const Obstacle<Dim>& obstacle,
                     const Vector<Dim>& from,

@@ -94,15 +94,15 @@ PENT_PLUGIN_API int pent_slice_turned(const pent_stored_mesh* mesh,
                                       const double** normals);
 
 /** How much the cells around each vertex are strained, with the vertices at `positions`: the mean
- * of |E|, the Frobenius norm of the Green strain, over the cells by their volume. One number a vertex,
- * which hold until this thread asks again. */
+ * of |E|, the Frobenius norm of the Green strain, over the cells by their volume. One number a
+ * vertex, which hold until this thread asks again. */
 PENT_PLUGIN_API const double* pent_mesh_strain(const pent_stored_mesh* mesh,
                                                const double* positions);
 
 /** The colors in which pent-render shows a quantity ("body", "w", "speed", "strain", "force",
  * "reaction", "energy_density"): red, green, blue a value, 0..1, linear light. `low` and `high` get
- * the first and the last color; of "body" values are numbers of bodies, from 0. They hold until this
- * thread asks again. */
+ * the first and the last color; of "body" values are numbers of bodies, from 0. They hold until
+ * this thread asks again. */
 PENT_PLUGIN_API const float* pent_colors(
     const char* quantity, const double* values, int64_t count, double low, double high);
 PENT_PLUGIN_API int pent_free_mesh(pent_stored_mesh* mesh);

@@ -37,8 +37,8 @@ TEST(CutEdges, HaveTheirMiddlesAtTheVerticesBehindThoseOfTheMesh) {
     }
 }
 
-// Of tetrahedra with ten nodes: their Jacobian is of degree 3, for which Keast's rule is exact, -4/5
-// at the center and 9/20 at points halfway between it and the corners.
+// Of tetrahedra with ten nodes: their Jacobian is of degree 3, for which Keast's rule is exact,
+// -4/5 at the center and 9/20 at points halfway between it and the corners.
 double curved_volume(const SimplexMesh<3>& straight, const SimplexMesh<3>& quadratic) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
     auto next = static_cast<std::uint32_t>(straight.vertex_count());

@@ -97,8 +97,8 @@ TYPED_TEST(AppendBodies, PutsCellsOfOneMaterialBehindOneAnother) {
     }
 }
 
-// Linear elements need no quadratic cells; of quadratic ones each has 2^d cells as children, and the
-// one that it names lies within it, of the same material.
+// Linear elements need no quadratic cells; of quadratic ones each has 2^d cells as children, and
+// the one that it names lies within it, of the same material.
 TYPED_TEST(AppendBodies, NamesAChildOfEveryQuadraticCell) {
     constexpr int kDim = TypeParam::value;
     EXPECT_EQ(half_heavy_bodies<kDim>(ElementKind::Linear).quadratic.nodes.cols(), 0);

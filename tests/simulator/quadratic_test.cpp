@@ -180,8 +180,8 @@ TYPED_TEST(QuadraticBodyTest, KnowsTheVolumeOfCurvedCells) {
     EXPECT_NEAR(energy, 0.7 * kDim, 1e-12);  // mu |e|^2 with e = 1
 }
 
-// Pressed flat and turned inside out: the Hessian is the slope of the forces, and filtered it has no
-// negative eigenvalue. arap, which has no mean dilatation, is not asked: it has kinks there.
+// Pressed flat and turned inside out: the Hessian is the slope of the forces, and filtered it has
+// no negative eigenvalue. arap, which has no mean dilatation, is not asked: it has kinks there.
 TYPED_TEST(QuadraticBodyTest, HasTheHessianOfItsForcesThroughInversion) {
     constexpr int kDim = TypeParam::value;
     for (const Model law :

@@ -133,8 +133,8 @@ TYPED_TEST(RegionTest, OfTheSameMaterialChangeNothing) {
 }
 
 // A cube of young 1e5 Pa, with four times as much beyond the middle of an axis, held at one end of
-// the first axis and pulled by 1e-5 m at the other: so little that elasticity is linear. It does not
-// contract sideways.
+// the first axis and pulled by 1e-5 m at the other: so little that elasticity is linear. It does
+// not contract sideways.
 template <int Dim>
 Scene pulled_cube(ElementKind kind, int stiff_along) {
     Scene scene = test::box_scene<Dim>();

@@ -102,8 +102,8 @@ TYPED_TEST(Tunneling, IsNotSeenBesideObstaclesNorOnTheWayToAFloor) {
     }
 }
 
-// Newton's method may get behind a wall around its corner, without a crossing on its way: to where a
-// body would be if there were no wall. In a step of two meters that is no motion.
+// Newton's method may get behind a wall around its corner, without a crossing on its way: to where
+// a body would be if there were no wall. In a step of two meters that is no motion.
 TYPED_TEST(Tunneling, AroundAWallIsSeenWithABarrier) {
     constexpr int kDim = TypeParam::value;
     test::BarrierScene<kDim> scene;

@@ -207,7 +207,8 @@ private:
         }
     }
 
-    // Files of obstacles, one for each frame, one where none of them moves, none where there are none.
+    // Files of obstacles, one for each frame, one where none of them moves, none where there are
+    // none.
     [[nodiscard]] std::string obstacles() const {
         std::vector<std::string> texts;
         for (const std::vector<Obstacle<Dim>>& list : obstacles_) {

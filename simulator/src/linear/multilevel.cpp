@@ -154,9 +154,9 @@ private:
     }
 
     // z near A^-1 r. Sweeps forth and back make no error grow, so that with a correction enlarged
-    // by alpha < 2 the spectrum of what this does to A is in (0, alpha], if that of the solver below
-    // is in (0, 1]; then two cycles, one on the residual of the other, are in (0, 1] again: all
-    // stays symmetric positive definite, and no worse the more levels there are.
+    // by alpha < 2 the spectrum of what this does to A is in (0, alpha], if that of the solver
+    // below is in (0, 1]; then two cycles, one on the residual of the other, are in (0, 1] again:
+    // all stays symmetric positive definite, and no worse the more levels there are.
     void cycle(const Workers& workers, std::size_t l, const Vector& r, Vector& z) const {
         const Level& level = levels_[l];
         const Level& next = levels_[l + 1];

@@ -66,9 +66,9 @@ public:
     /// could. Always so without a barrier.
     [[nodiscard]] std::string obstacle_in_the_way(const Positions<Dim>& x);
 
-    /// A vertex that got through an obstacle between two states, deeper than the distance of contact
-    /// and out again, and the obstacle; empty if there is none. Penalties see nothing of that: they
-    /// look at where vertices are in the end.
+    /// A vertex that got through an obstacle between two states, deeper than the distance of
+    /// contact and out again, and the obstacle; empty if there is none. Penalties see nothing of
+    /// that: they look at where vertices are in the end.
     [[nodiscard]] std::string obstacle_passed(const Positions<Dim>& from,
                                               const Positions<Dim>& to) const;
 

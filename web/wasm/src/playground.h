@@ -3,8 +3,8 @@
 
 #include <pent_plugin.h>
 
-/** What the playground of the page needs beside the C interface of plugin/. Failures are told as there: NULL or
- * -1, and pent_last_error() says why. */
+/** What the playground of the page needs beside the C interface of plugin/. Failures are told as
+ * there: NULL or -1, and pent_last_error() says why. */
 
 #ifdef __cplusplus
 extern "C" {
@@ -24,8 +24,8 @@ typedef struct play_facts {
     double gravity[4]; /**< m/s^2. */
 } play_facts;
 
-/** Reads a scene file and its meshes, with the words of pent-sim for what is wrong in them. It goes on from
- * the state of `before`, a simulation of the same file, if that is not NULL. */
+/** Reads a scene file and its meshes, with the words of pent-sim for what is wrong in them. It goes
+ * on from the state of `before`, a simulation of the same file, if that is not NULL. */
 PENT_PLUGIN_API pent_simulation* play_open(const char* scene_path,
                                            const play_settings* settings,
                                            const pent_simulation* before);

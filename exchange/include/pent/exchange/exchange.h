@@ -27,8 +27,8 @@ struct WriteOptions {
     /// Labels of the boundary of MFEM meshes of extruded bodies: 1 bottom, 2 lateral, 3 top; or as
     /// MFEM numbers those of its own, behind the labels of the cells.
     bool has_mfem_attributes = false;
-    /// A blend shape each, of G4MF, the one format that has any: from the points that are written to
-    /// where those of the content are in the frame.
+    /// A blend shape each, of G4MF, the one format that has any: from the points that are written
+    /// to where those of the content are in the frame.
     std::vector<FramePoints> frames = {};
 };
 

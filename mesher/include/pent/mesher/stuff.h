@@ -19,12 +19,12 @@ struct StuffedSolid {
 
 /// Fills a solid with pentachora by stuffing a lattice of congruent ones [labelle2007].
 ///
-/// Inside, all cells are those of the lattice A4* (but between sizes, see below). Lattice points near the surface move onto it,
-/// the simplices that the surface then still cuts get the pieces of cut_simplex(). Where the
-/// boundary is not a manifold, points move back; without them it always is. Then boundary
-/// simplices that cross ridges are bent or split so that they follow them, and vertices of the
-/// worst cells move, those on the surface along it. All boundary vertices lie on the surface to
-/// 1e-6 edges.
+/// Inside, all cells are those of the lattice A4* (but between sizes, see below). Lattice points
+/// near the surface move onto it, the simplices that the surface then still cuts get the pieces of
+/// cut_simplex(). Where the boundary is not a manifold, points move back; without them it always
+/// is. Then boundary simplices that cross ridges are bent or split so that they follow them, and
+/// vertices of the worst cells move, those on the surface along it. All boundary vertices lie on
+/// the surface to 1e-6 edges.
 ///
 /// The same bytes at any number of threads.
 /// @param edge_length  Mean length of the edges inside, m, above 0; where they are shortest.
