@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks form: clang-format (version 14) over all our sources, that every public header compiles alone,
+# Checks form: clang-format (version 14) and at most 100 columns over all our sources, that every public header compiles alone,
 # and, with --tidy, clang-tidy (version 14; minutes) over the files that changed since a revision.
 #
 #   scripts/lint.sh [--tidy [REVISION]]      default revision: HEAD~1
@@ -8,6 +8,11 @@ cd "$(dirname "$0")/.."
 
 scripts/setup.sh --tools
 git ls-files '*.h' '*.cpp' '*.c' | xargs clang-format --dry-run --Werror
+# clang-format leaves comments and texts as they are.
+if git ls-files '*.h' '*.cpp' '*.c' | xargs grep -nE '^.{101,}$'; then
+    echo "lint: these lines have more than 100 columns" >&2
+    exit 1
+fi
 cmake --preset dev >/dev/null
 cmake --build --preset dev --target all_verify_interface_header_sets
 if [ "${1:-}" = --tidy ]; then

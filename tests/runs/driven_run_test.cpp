@@ -39,7 +39,8 @@ select = { half_space = { normal = [1, 0, 0, 0], offset = 1e-6 } }
 to = 0.08
 motion = { keyframes = [
   { time = 0.04, translate = [0, 0, 0, 0.02], rotate = [{ plane = "yz", degrees = 5 }] },
-  { time = 0.08, translate = [0, 0.01, 0, 0], velocity = [0, 0.5, 0, 0.5], spin = [{ plane = "yz", degrees_per_s = 90 }] }] }
+  { time = 0.08, translate = [0, 0.01, 0, 0], velocity = [0, 0.5, 0, 0.5], spin = [
+    { plane = "yz", degrees_per_s = 90 }] }] }
 
 [[obstacle]]
 half_space = { normal = [0, 1, 0, 0], offset = -0.01 }

@@ -44,7 +44,9 @@ select = [{ ball = { center = [0, 0, 0, 0.2], radius = 0.3 } },
           { half_space = { normal = [0, 2, 0, 0], offset = 0.1 } },
           { layers = { first = 0, last = 2 } },
           { region = 3 }]
-motion = [{ rotate = [{ plane = "yz", degrees_per_s = 90 }, { plane = "wx", degrees_per_s = 60 }], translate = [0.1, 0, 0, 0], about = [0, 1, 0, 0], from = 0.5, to = 2 },
+motion = [{ rotate = [{ plane = "yz", degrees_per_s = 90 },
+                      { plane = "wx", degrees_per_s = 60 }], translate = [
+            0.1, 0, 0, 0], about = [0, 1, 0, 0], from = 0.5, to = 2 },
           { translate = [0, -1, 0, 0], from = 2 }]
 
 [[constraint]]
