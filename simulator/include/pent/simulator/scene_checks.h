@@ -35,8 +35,6 @@ template <>
 [[nodiscard]] std::optional<Fault> fault_of(const Motion& motion);
 template <>
 [[nodiscard]] std::optional<Fault> fault_of(const Constraint& constraint);
-template <>
-[[nodiscard]] std::optional<Fault> fault_of(const Obstacle& obstacle);
 
 /// Whether every region of a body has a name, and each another.
 void check_regions(const Body& body);
