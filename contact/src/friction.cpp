@@ -104,11 +104,10 @@ void LaggedFriction<Dim>::begin_step(
 
 template <int Dim>
 FrictionResponse<Dim> LaggedFriction<Dim>::respond(const Lagged& lagged,
-                                                   const Positions<Dim>& positions) const {
-    const Vector<Dim> slip = weighted_sum(lagged, positions) - lagged.start;
+                                                   const Vector<Dim>& slip,
+                                                   FrictionLaw law) const {
     if (!is_linear_) {
-        return friction_response<Dim>(lagged.normal, lagged.force, slip, slip_,
-                                      FrictionLaw::Energy);
+        return friction_response<Dim>(lagged.normal, lagged.force, slip, slip_, law);
     }
     FrictionResponse<Dim> response;
     response.hessian = lagged.resistance;
@@ -126,7 +125,8 @@ double LaggedFriction<Dim>::add_gradient(const Positions<Dim>& positions,
     };
     const std::vector<Part> parts =
         collect<Part>(lagged_.size(), kChunk, [&](std::size_t i, std::vector<Part>& list) {
-            const FrictionResponse<Dim> response = respond(lagged_[i], positions);
+            const Vector<Dim> slip = weighted_sum(lagged_[i], positions) - lagged_[i].start;
+            const FrictionResponse<Dim> response = respond(lagged_[i], slip, FrictionLaw::Energy);
             list.push_back({response.energy, response.gradient});
         });
     double energy = 0;
@@ -141,17 +141,24 @@ double LaggedFriction<Dim>::add_gradient(const Positions<Dim>& positions,
 }
 
 template <int Dim>
-StencilHessians<Dim> LaggedFriction<Dim>::hessians(const Positions<Dim>& positions) const {
+StencilHessians<Dim> LaggedFriction<Dim>::hessians(const Positions<Dim>& positions) {
     StencilHessians<Dim> hessians;
     hessians.weighted.resize(lagged_.size());
-    for_each_chunk(lagged_.size(), kChunk,
-                   [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
-                       for (std::size_t i = begin; i < end; ++i) {
-                           const Lagged& lagged = lagged_[i];
-                           hessians.weighted[i] = {lagged.vertices, lagged.count, lagged.weights,
-                                                   respond(lagged, positions).hessian};
-                       }
-                   });
+    for_each_chunk(
+        lagged_.size(), kChunk, [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                Lagged& lagged = lagged_[i];
+                Vector<Dim> slip = weighted_sum(lagged, positions) - lagged.start;
+                slip -= lagged.normal.dot(slip) * lagged.normal;
+                lagged.has_turned = lagged.has_turned || slip.dot(lagged.slip) < 0;
+                lagged.slip = slip;
+                const bool is_on_cone = slip.norm() > 0.5 * slip_;
+                const FrictionLaw law =
+                    lagged.has_turned && is_on_cone ? FrictionLaw::Secant : FrictionLaw::Energy;
+                hessians.weighted[i] = {lagged.vertices, lagged.count, lagged.weights,
+                                        respond(lagged, slip, law).hessian};
+            }
+        });
     return hessians;
 }
 

@@ -97,6 +97,21 @@ TYPED_TEST(FrictionTest, SecantIsTheResistanceThatGivesTheSameForce) {
     }
 }
 
+// As f1 is concave: so a step with it in place of the Hessian never leads up.
+TYPED_TEST(FrictionTest, SecantIsNowhereBelowTheHessian) {
+    constexpr int kDim = TypeParam::value;
+    const Vector<kDim> normal = this->vector().normalized();
+    for (const double size : {1e-5, 3e-4, 0.9e-3, 2e-3, 0.1}) {
+        const Vector<kDim> slip = this->vector(size);
+        const FrictionResponse<kDim> secant =
+            friction_response<kDim>(normal, 3, slip, this->kE, FrictionLaw::Secant);
+        const Block<kDim> more = secant.hessian - this->at(normal, slip).hessian;
+        const Eigen::SelfAdjointEigenSolver<Block<kDim>> solver(more);
+        EXPECT_GE(solver.eigenvalues().minCoeff(), -1e-12 * secant.hessian.norm());
+        EXPECT_GT(solver.eigenvalues().maxCoeff(), 0);
+    }
+}
+
 template <typename T>
 class LaggedFrictionTest : public FrictionTest<T> {
 protected:
@@ -135,7 +150,7 @@ protected:
         friction.add_gradient(x, gradient);
         return gradient;
     }
-    static Positions<kSpace> product(const LaggedFriction<kSpace>& friction,
+    static Positions<kSpace> product(LaggedFriction<kSpace>& friction,
                                      const Positions<kSpace>& x,
                                      const Positions<kSpace>& way) {
         Positions<kSpace> product = Positions<kSpace>::Zero(kSpace, x.cols());
@@ -159,9 +174,9 @@ TYPED_TEST_SUITE(LaggedFrictionTest, Dimensions);
 TYPED_TEST(LaggedFrictionTest, HasDerivativesThatAreCentralDifferences) {
     constexpr int kDim = TypeParam::value;
     LaggedFriction<kDim> friction(this->kFriction);
-    friction.begin_step(this->contacts_, this->positions_, nullptr, this->kStep);
-    EXPECT_EQ(friction.size(), 5U);          // one has no force
     for (const double size : {2e-4, 0.1}) {  // sticks, slips
+        friction.begin_step(this->contacts_, this->positions_, nullptr, this->kStep);
+        EXPECT_EQ(friction.size(), 5U);  // one has no force
         const Positions<kDim> x = this->near(size);
         const Positions<kDim> way = this->near(1) - this->positions_;
         const double h = 1e-4 * size;
@@ -178,6 +193,30 @@ TYPED_TEST(LaggedFrictionTest, HasDerivativesThatAreCentralDifferences) {
                       .norm(),
                   1e-5 * product.norm());
     }
+}
+
+// Where the slip has turned around, from then on, until the next step.
+TYPED_TEST(LaggedFrictionTest, HasTheSecantForItsHessianOnceTheSlipHasTurned) {
+    constexpr int kDim = TypeParam::value;
+    LaggedFriction<kDim> friction(this->kFriction);
+    const Positions<kDim> way = this->near(1) - this->positions_;
+    const auto at = [&](double t) { return Positions<kDim>(this->positions_ + t * way); };
+    const auto start = [&] {
+        friction.begin_step(this->contacts_, this->positions_, nullptr, this->kStep);
+    };
+    // Along the slip the Hessian is 0 beyond e, and the secant gives the force.
+    const auto of_slip = [&](double t) {
+        return Positions<kDim>(t * this->product(friction, at(t), way));
+    };
+    start();
+    const double scale = this->gradient(friction, at(1)).norm();
+    EXPECT_LT(of_slip(1).norm(), 1e-12 * scale);
+    EXPECT_LT(of_slip(0.5).norm(), 1e-12 * scale);
+    for (const double t : {-1.0, -2.0, 3.0}) {
+        EXPECT_LT((of_slip(t) - this->gradient(friction, at(t))).norm(), 1e-12 * scale) << t;
+    }
+    start();
+    EXPECT_LT(of_slip(1).norm(), 1e-12 * scale);
 }
 
 TYPED_TEST(LaggedFrictionTest, OfBodiesWithTheirOwnIsThatOfTheGeometricMean) {

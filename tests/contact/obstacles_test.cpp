@@ -222,9 +222,10 @@ TYPED_TEST(ObstaclesTest, OfAnyDimensionBecomeThoseOfOne) {
         std::visit(
             [&](auto& one) {
                 one.fields(one, [&](const char* /*name*/, auto& value, ShapeField kind) {
-                    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>) {
+                    using Value = std::remove_cvref_t<decltype(value)>;
+                    if constexpr (std::is_same_v<Value, double>) {
                         value = number;
-                    } else if (kind == ShapeField::Axes) {
+                    } else if constexpr (std::is_same_v<Value, Eigen::MatrixXd>) {
                         EXPECT_TRUE(value.isIdentity(0));
                     } else if (kind == ShapeField::Direction) {
                         value[2] = 1;

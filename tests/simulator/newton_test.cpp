@@ -1,5 +1,7 @@
 #include "step/newton.h"
 
+#include <pent/contact/friction.h>
+
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
@@ -131,6 +133,43 @@ TEST(Newton, GainsDigitsQuadratically) {
         return report.iterations;
     };
     EXPECT_LE(iterations(1e-12), iterations(1e-3) + 2);
+}
+
+// m/2 (x - c)^2 + friction: a mass that is to come to rest where it started, m |c| being half of
+// what friction can hold. With the Hessian alone it goes to and fro across the place. With the
+// secant each iteration at least halves the slip: x_next = m c / (m + F / |x|), so that ten of them
+// lead from 1 to e, and a few where it sticks to the end.
+TEST(Newton, StopsAMassThatFrictionHolds) {
+    static constexpr double kMass = 10;
+    static constexpr double kForce = 4;
+    const Eigen::Vector3d center(-0.2, 0, 0);
+    contact::LaggedFriction<3> friction({.coefficient = 1, .slip_speed = 1e-3});
+    contact::Contact<3> touch;
+    touch.count = 1;
+    touch.weights.setZero();
+    touch.weights[0] = 1;
+    touch.direction = Eigen::Vector3d::UnitY();
+    touch.slope = -kForce;
+    friction.begin_step({touch}, point(0, 0, 0), nullptr, 1);
+    Positions<3> force = point(0, 0, 0);
+    PlainFunction f;
+    f.value = [&](const Eigen::VectorXd& x) {
+        return 0.5 * kMass * (x - center).squaredNorm() + friction.add_gradient(x, force);
+    };
+    f.gradient = [&](const Eigen::VectorXd& x) {
+        force.setZero();
+        friction.add_gradient(x, force);
+        return Eigen::VectorXd(kMass * (x - center) + force.col(0));
+    };
+    f.hessian = [&](const Eigen::VectorXd& x) {
+        return Eigen::MatrixXd(kMass * Eigen::Matrix3d::Identity()
+                               + friction.hessians(x).weighted[0].block);
+    };
+    Positions<3> x = point(1, 0, 0.1);
+    const NewtonReport report = newton<3>(f, {.tolerance = 1e-10}, x);
+    EXPECT_TRUE(report.has_converged) << report.failure_reason;
+    EXPECT_LT(x.norm(), 1e-3);
+    EXPECT_LE(report.iterations, 18);
 }
 
 // sum of x_i - m log x_i: the lowest point is m, and there is no value below 0.

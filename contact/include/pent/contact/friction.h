@@ -24,7 +24,9 @@ struct Friction {
 /// What friction does to the slip in one step.
 enum class FrictionLaw : std::uint8_t {
     Energy,  ///< Gradient and Hessian of the energy at the slip: for Newton's method.
-    Secant,  ///< The resistance that gives this force at this slip, held: for one linear solve.
+    /// The resistance that gives this force at this slip: for one linear solve, which holds it, and
+    /// in place of a Hessian that it is never below, as f1 is concave.
+    Secant,
 };
 
 /// Energy of the slip at one contact, and its derivatives by it.
@@ -73,8 +75,11 @@ public:
     /// alone, since it starts anew with each.
     double add_gradient(const Positions<Dim>& positions, Positions<Dim>& gradient) const;
 
-    /// One for each contact that has a force.
-    [[nodiscard]] StencilHessians<Dim> hessians(const Positions<Dim>& positions) const;
+    /// One for each contact that has a force. Of contacts whose slip has turned around since this
+    /// was asked before in the step, and from then on, the secant where the slip is above e / 2:
+    /// there the energy is a cone with little or no curvature along the slip, over whose tip
+    /// Newton's method would go to and fro.
+    [[nodiscard]] StencilHessians<Dim> hessians(const Positions<Dim>& positions);
 
     /// Forgets what was held.
     void end_step() { lagged_.clear(); }
@@ -91,12 +96,15 @@ private:
         double force = 0;       // mu times the normal force, N
         Vector<Dim> start;      // sum w_i x_i that is no slip at the end of the step, m
         Block<Dim> resistance;  // held, for a single linear solve; N/m
+        Vector<Dim> slip = Vector<Dim>::Zero();  // when the Hessian was last asked for, m
+        bool has_turned = false;                 // it has turned around since it was asked before
     };
 
     [[nodiscard]] static Vector<Dim> weighted_sum(const Lagged& lagged,
                                                   const Positions<Dim>& vectors);
     [[nodiscard]] FrictionResponse<Dim> respond(const Lagged& lagged,
-                                                const Positions<Dim>& positions) const;
+                                                const Vector<Dim>& slip,
+                                                FrictionLaw law) const;
 
     Friction friction_;
     double slip_ = 0;  // slip_speed times the length of the step, m
