@@ -152,7 +152,7 @@ StencilHessians<Dim> LaggedFriction<Dim>::hessians(const Positions<Dim>& positio
                 slip -= lagged.normal.dot(slip) * lagged.normal;
                 lagged.has_turned = lagged.has_turned || slip.dot(lagged.slip) < 0;
                 lagged.slip = slip;
-                const bool is_on_cone = slip.norm() > 0.5 * slip_;
+                const bool is_on_cone = slip.norm() > slip_;
                 const FrictionLaw law =
                     lagged.has_turned && is_on_cone ? FrictionLaw::Secant : FrictionLaw::Energy;
                 hessians.weighted[i] = {lagged.vertices, lagged.count, lagged.weights,

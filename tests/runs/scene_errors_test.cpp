@@ -137,8 +137,10 @@ INSTANTIATE_TEST_SUITE_P(
             "scene.toml:6:8: contact: no body is called \"x\""},
         Bad{with("[contact]\nonly = [{ first = \"a\" }]\n"), "needs \"second\""},
         Bad{with("[[obstacle]]\nbox = { center = [0,0,0,0], sides = [1,1,1,1] }\n"
-                 "motion = { rotate = { plane = \"xw\", degrees_per_s = 9 } }\n"),
-            "scene.toml:7:10: a box lies along the axes and cannot turn"},
+                 "rotate = { plane = \"xv\", degrees = 9 }\n"),
+            "scene.toml:7:20:"},
+        Bad{with("[[obstacle]]\nbox = { center = [0,0,0,0], sides = [1,1,1,1], axes = [1] }\n"),
+            "\"axes\""},
         Bad{with("friction = -1\n"), "at least 0"},
         Bad{with("[[obstacle]]\ndistance = 1\n"), "has 0 of half_space, ball, cavity, bowl"},
         Bad{with("[[obstacle]]\ndistance = 0\n"), "above 0"},

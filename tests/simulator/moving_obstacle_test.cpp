@@ -256,6 +256,7 @@ TYPED_TEST(MovingObstacle, ThatIsABoxTurnsAndLiftsWhatLiesOnIt) {
         // The same board, put there.
         Scene standing = scene;
         standing.obstacles[0].motion = {};
+        standing.contact->model = ContactModel::Penalty;  // it is in the cube
         standing.obstacles[0].rotate = {{.plane = {0, 1}, .degrees = 20}};
         const Simulation<kDim> other(standing, {cube<kDim>(1)});
         const auto turned = std::get<Cuboid<kDim>>(simulation.obstacles()[0]);

@@ -76,9 +76,9 @@ public:
     double add_gradient(const Positions<Dim>& positions, Positions<Dim>& gradient) const;
 
     /// One for each contact that has a force. Of contacts whose slip has turned around since this
-    /// was asked before in the step, and from then on, the secant where the slip is above e / 2:
-    /// there the energy is a cone with little or no curvature along the slip, over whose tip
-    /// Newton's method would go to and fro.
+    /// was asked before in the step, and from then on, the secant where the slip is above e: there
+    /// the energy is a cone without curvature along the slip, over whose tip Newton's method would
+    /// go to and fro.
     [[nodiscard]] StencilHessians<Dim> hessians(const Positions<Dim>& positions);
 
     /// Forgets what was held.
