@@ -2,6 +2,7 @@
 
 #include "chunks.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pent::contact {
@@ -9,6 +10,10 @@ namespace pent::contact {
 namespace {
 
 constexpr std::size_t kChunk = 1024;
+
+// A contact whose slip has turned around has the secant so many times, twice as often with every
+// further turn: enough to come to rest, and few where it slides on after all.
+constexpr int kPatience = 4;
 
 // f1(y) / y, which is 2 / e at y = 0.
 double force_over_slip(double y, double e) {
@@ -150,11 +155,14 @@ StencilHessians<Dim> LaggedFriction<Dim>::hessians(const Positions<Dim>& positio
                 Lagged& lagged = lagged_[i];
                 Vector<Dim> slip = weighted_sum(lagged, positions) - lagged.start;
                 slip -= lagged.normal.dot(slip) * lagged.normal;
-                lagged.has_turned = lagged.has_turned || slip.dot(lagged.slip) < 0;
+                if (slip.dot(lagged.slip) < 0) {
+                    lagged.patience = std::max(kPatience, 2 * lagged.patience);
+                    lagged.secants = lagged.patience;
+                }
                 lagged.slip = slip;
-                const bool is_on_cone = slip.norm() > slip_;
-                const FrictionLaw law =
-                    lagged.has_turned && is_on_cone ? FrictionLaw::Secant : FrictionLaw::Energy;
+                const bool is_secant = lagged.secants > 0 && slip.norm() > 0.5 * slip_;
+                lagged.secants = std::max(lagged.secants - 1, 0);
+                const FrictionLaw law = is_secant ? FrictionLaw::Secant : FrictionLaw::Energy;
                 hessians.weighted[i] = {lagged.vertices, lagged.count, lagged.weights,
                                         respond(lagged, slip, law).hessian};
             }

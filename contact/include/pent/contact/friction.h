@@ -76,9 +76,9 @@ public:
     double add_gradient(const Positions<Dim>& positions, Positions<Dim>& gradient) const;
 
     /// One for each contact that has a force. Of contacts whose slip has turned around since this
-    /// was asked before in the step, and from then on, the secant where the slip is above e: there
-    /// the energy is a cone without curvature along the slip, over whose tip Newton's method would
-    /// go to and fro.
+    /// was asked before in the step, the secant for some times, where the slip is above e / 2:
+    /// there the energy is a cone with little or no curvature along the slip, over whose tip
+    /// Newton's method would go to and fro.
     [[nodiscard]] StencilHessians<Dim> hessians(const Positions<Dim>& positions);
 
     /// Forgets what was held.
@@ -97,7 +97,8 @@ private:
         Vector<Dim> start;      // sum w_i x_i that is no slip at the end of the step, m
         Block<Dim> resistance;  // held, for a single linear solve; N/m
         Vector<Dim> slip = Vector<Dim>::Zero();  // when the Hessian was last asked for, m
-        bool has_turned = false;                 // it has turned around since it was asked before
+        int patience = 0;                        // how many secants the last turn around gave it
+        int secants = 0;                         // of these, how many are left
     };
 
     [[nodiscard]] static Vector<Dim> weighted_sum(const Lagged& lagged,
