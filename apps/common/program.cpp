@@ -144,8 +144,12 @@ void Program::say(const std::string& line) const {
 }
 
 int Program::fail(const std::string& message) {
+    error_ = one_line(message);
     std::fflush(stdout);
-    std::fprintf(stderr, "%s: %s\n", name_.c_str(), printable(one_line(message)).c_str());
+    if (is_silent_) {
+        return exit_code(Verdict::Refused);
+    }
+    std::fprintf(stderr, "%s: %s\n", name_.c_str(), printable(error_).c_str());
     return exit_code(Verdict::Refused);
 }
 
@@ -159,7 +163,7 @@ int Program::end(int code) {
 }
 
 void Program::write_report(Verdict verdict, const std::string& error) {
-    if (common_.json.empty()) {
+    if (common_.json.empty() || is_silent_) {
         return;
     }
     nlohmann::ordered_json json;
@@ -203,7 +207,7 @@ int Program::run(int argc, const char* const* argv, const std::function<Verdict(
     try {
         cli_.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help and --version
-        return end(cli_.exit(success));
+        return is_silent_ ? 0 : end(cli_.exit(success));
     } catch (const CLI::ParseError& error) {
         std::string reason = unknown_option(cli_);
         if (const auto* misread = dynamic_cast<const CLI::ConversionError*>(&error);

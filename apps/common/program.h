@@ -36,11 +36,23 @@ public:
 
     [[nodiscard]] const CommonOptions& common() const { return common_; }
 
+    [[nodiscard]] const std::string& name() const { return name_; }
+
+    /// What run() ended with, or would have said; empty if nothing went wrong.
+    [[nodiscard]] const std::string& error() const { return error_; }
+
     /// "pent-slice 0.1.0", for created_by.
     [[nodiscard]] std::string name_and_version() const;
 
     /// What goes into the --json report beside program, version, verdict and seconds.
     [[nodiscard]] nlohmann::ordered_json& report() { return report_; }
+
+    /// Says and writes nothing from here on, whatever comes: for a process beside one that does.
+    void silence() {
+        is_silent_ = true;
+        common_.quiet = true;
+    }
+    [[nodiscard]] bool is_silent() const { return is_silent_; }
 
     /// One line for the user on stdout, unless --quiet.
     void say(const std::string& line) const;
@@ -68,6 +80,8 @@ private:
     std::string name_;
     CLI::App cli_;
     CommonOptions common_;
+    bool is_silent_ = false;
+    std::string error_;
     std::chrono::steady_clock::time_point start_;
     nlohmann::ordered_json report_ = nlohmann::ordered_json::object();
 };

@@ -21,7 +21,7 @@ TYPED_TEST(RayleighDampingTest, IsAQuadraticOfTheTangentThatPullsBack) {
     const Setting<kDim> setting(scene, 2);
     Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, scene);
     RayleighDamping<kDim> damping(setting.workers, setting.isa.blocks, elasticity, setting.dofs,
-                                  Filter::Clamp);
+                                  setting.bodies.sharing, Filter::Clamp);
     const Positions<kDim> start = shaken<kDim>(setting.bodies.rest, 0.05, 10);
     const Positions<kDim> still = Positions<kDim>::Zero(kDim, start.cols());
     static_cast<void>(value_of<kDim>(elasticity, start));

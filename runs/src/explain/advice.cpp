@@ -260,10 +260,10 @@ private:
 }  // namespace
 
 template <int Dim>
-Trial<Dim>::Trial(const Scene& of, int threads)
+Trial<Dim>::Trial(const Scene& of, int threads, std::shared_ptr<const simulator::Ranks> ranks)
     : scene(of),
       meshes(read_meshes<Dim>(of)),
-      simulation(of, std::move(meshes.meshes), {.threads = threads}),
+      simulation(of, std::move(meshes.meshes), {.threads = threads, .ranks = ranks}),
       overlaps(overlaps_at_start(of, simulation)) {
     for (std::size_t body = 0; body < of.bodies.size(); ++body) {
         const auto i = static_cast<int>(body);
@@ -279,7 +279,11 @@ Trial<Dim>::Trial(const Scene& of, int threads)
             }
         }
     }
+    if (ranks != nullptr) {
+        static_cast<void>(ranks->take_traffic());  // of setting up
+    }
     step = simulation.step();
+    traffic = ranks != nullptr ? ranks->take_traffic() : simulator::RankTraffic();
     size = simulation.size();
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ struct Trial {
     using Box = Eigen::AlignedBox<double, Dim>;
 
     /// @param threads  At least 1.
-    Trial(const Scene& of, int threads);
+    /// @param ranks    Null for none.
+    Trial(const Scene& of, int threads, std::shared_ptr<const simulator::Ranks> ranks);
 
     const Scene& scene;
     SceneMeshes<Dim> meshes;  ///< Its warnings; the simulation has the meshes.
@@ -25,6 +27,7 @@ struct Trial {
     std::vector<std::int64_t> free_vertices;  ///< One a body: those that are not held.
     std::vector<Box> start;                   ///< One a body, around it at the start.
     StepReport step;
+    simulator::RankTraffic traffic;  ///< Of the step.
     SimulationSize size;
 
     /// Held everywhere: nothing of it is solved for.

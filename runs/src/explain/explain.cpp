@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <sys/resource.h>
+#include <utility>
 
 namespace pent::runs {
 
@@ -27,8 +30,12 @@ std::string bytes_text(std::int64_t bytes) {
 template <int Dim>
 class Explainer {
 public:
-    Explainer(const Scene& scene, int threads)
-        : trial_(scene, threads), scene_(scene), step_(trial_.step), size_(trial_.size) {}
+    Explainer(const Scene& scene, int threads, std::shared_ptr<const simulator::Ranks> ranks)
+        : ranks_(std::move(ranks)),
+          trial_(scene, threads, ranks_),
+          scene_(scene),
+          step_(trial_.step),
+          size_(trial_.size) {}
 
     Explanation operator()() {
         result_.unknowns = Dim * size_.free_vertices;
@@ -50,6 +57,7 @@ public:
         sleeping();
         solver();
         output();
+        processes();
         result_.advice = advice(trial_);
         return std::move(result_);
     }
@@ -341,6 +349,37 @@ private:
                     + " of steps, in the run folder"});
     }
 
+    // What every rank has, and what they tell one another in a step.
+    void processes() {
+        if (ranks_ == nullptr) {
+            return;
+        }
+        rusage used = {};
+        getrusage(RUSAGE_SELF, &used);
+        const std::vector<double> own = {static_cast<double>(size_.own_vertices),
+                                         static_cast<double>(size_.ghosts),
+                                         1e-3 * static_cast<double>(used.ru_maxrss)};
+        const auto count = static_cast<std::size_t>(ranks_->count());
+        const std::vector<double> all =
+            ranks_->gather(own, std::vector<std::int64_t>(count, std::ssize(own)));
+        std::vector<double> most = own;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            most[i % own.size()] = std::max(most[i % own.size()], all[i]);
+        }
+        constexpr double kMega = 1e6;
+        add({.name = "ranks",
+             .is_on = true,
+             .why = std::to_string(count)
+                    + formatted(
+                        "; one has at most %.0f vertices of its own, %.0f ghosts and %.0f MB"
+                        " in memory; a step takes %.0f messages and %.3g MB in all, and"
+                        " %.0f times all wait for all",
+                        most[0], most[1], most[2], static_cast<double>(trial_.traffic.messages),
+                        static_cast<double>(trial_.traffic.bytes) / kMega,
+                        static_cast<double>(trial_.traffic.reductions))});
+    }
+
+    std::shared_ptr<const simulator::Ranks> ranks_;
     Trial<Dim> trial_;
     const Scene& scene_;
     const StepReport& step_;
@@ -350,9 +389,12 @@ private:
 
 }  // namespace
 
-Explanation explain(const Scene& scene, int threads) {
+Explanation explain(const Scene& scene,
+                    int threads,
+                    const std::shared_ptr<const simulator::Ranks>& ranks) {
     check(scene);
-    return scene.dimension == 3 ? Explainer<3>(scene, threads)() : Explainer<4>(scene, threads)();
+    return scene.dimension == 3 ? Explainer<3>(scene, threads, ranks)()
+                                : Explainer<4>(scene, threads, ranks)();
 }
 
 std::string explanation_text(const Explanation& explanation) {

@@ -118,7 +118,10 @@ void fields(Part& frame, const Visit& visit) {
 template <PartOf<RunPart> Part, typename Visit>
 void fields(Part& part, const Visit& visit) {
     visit(key("created_by", "", "program and version"), part.created_by);
-    visit(key("threads", "", ""), part.threads);
+    visit(key("threads", "", "of each process"), part.threads);
+    visit(
+        key("ranks", "", "processes of pent-sim-mpi; 0: of a program on its own").may_be_missing(),
+        part.ranks);
     visit(key("isa", "", "instruction set"), part.isa);
     visit(key("first_frame", "", "the frame it went on from"), part.first_frame);
     visit(key("last_frame", "", "the last that it wrote"), part.last_frame);

@@ -5,9 +5,11 @@
 #include "run/balance_table.h"
 #include "run/contact_table.h"
 #include "run/earlier_run.h"
+#include "run/relocated.h"
 #include "run/resume.h"
 #include "run/resumption.h"
 #include "run/run_files.h"
+#include "run/run_ranks.h"
 #include "scene/scene_meshes.h"
 
 #include <pent/error.h>
@@ -34,15 +36,6 @@ using Clock = std::chrono::steady_clock;
 // Between two writings of report.json while a run goes on.
 constexpr double kReportSeconds = 10;
 
-// The scene as written in the run folder: mesh paths relative to that folder.
-Scene relocated(const Scene& scene, const fs::path& folder) {
-    Scene moved = scene;
-    for (Body& body : moved.bodies) {
-        body.mesh = fs::proximate(fs::absolute(body.mesh), fs::absolute(folder)).string();
-    }
-    return moved;
-}
-
 template <int Dim>
 class Run {
 public:
@@ -55,10 +48,12 @@ public:
           options_(options),
           callbacks_(callbacks),
           before_(std::move(before)),
+          ranks_(options.ranks.get()),
           folder_(options.folder, kRunFolder),
-          meshes_(read_meshes<Dim>(scene)),
-          simulation_(
-              scene, std::move(meshes_.meshes), {.threads = options.threads, .isa = options.isa}) {
+          meshes_(read_meshes_alike()),
+          simulation_(scene,
+                      std::move(meshes_.meshes),
+                      {.threads = options.threads, .isa = options.isa, .ranks = options.ranks}) {
         report_.size = simulation_.size();
         report_.thinnest = thinnest_side(simulation_);
         report_.warnings = std::move(meshes_.warnings);
@@ -85,12 +80,14 @@ private:
     [[nodiscard]] const std::string& name_of(int body) const {
         return scene_.bodies[static_cast<std::size_t>(body)].name;
     }
+    [[nodiscard]] SceneMeshes<Dim> read_meshes_alike() const;
     void start_folder();
     [[nodiscard]] bool do_obstacles_move() const;
     void write_scene();
     void begin_part(int frame);
     void write_meshes();
     [[nodiscard]] int resume_folder();
+    void take_over(Resumption<Dim> found);
     void tell_resume(const Resumption<Dim>& found) const;
     void write_frame_files(int frame);
     [[nodiscard]] Frame<Dim> frame_header(int body, int frame) const;
@@ -102,6 +99,7 @@ private:
     const RunOptions& options_;
     const RunCallbacks& callbacks_;
     Journal before_;  // until it is resumed
+    RunRanks ranks_;
     OutputFolder folder_;
     SceneMeshes<Dim> meshes_;  // empty once the simulation has them
     Simulation<Dim> simulation_;
@@ -111,6 +109,13 @@ private:
     Clock::time_point start_ = Clock::now();
     Clock::time_point last_report_ = start_;
 };
+
+template <int Dim>
+SceneMeshes<Dim> Run<Dim>::read_meshes_alike() const {
+    SceneMeshes<Dim> meshes;
+    ranks_.agree([&] { meshes = read_meshes<Dim>(scene_); });
+    return meshes;
+}
 
 template <int Dim>
 void Run<Dim>::start_folder() {
@@ -156,6 +161,7 @@ template <int Dim>
 void Run<Dim>::begin_part(int frame) {
     report_.parts.push_back({.created_by = options_.created_by,
                              .threads = options_.threads,
+                             .ranks = ranks_.count(),
                              .isa = simulation_.isa(),
                              .first_frame = frame,
                              .last_frame = frame});
@@ -183,16 +189,29 @@ void Run<Dim>::tell_resume(const Resumption<Dim>& found) const {
                                    + "; it goes on from there"
                              : "the run had " + std::string(verdict_name(last.verdict))
                                    + "; it goes on from " + where);
+    if (last.ranks != ranks_.count()) {
+        callbacks_.on_resume(ranks_.change_text(last.ranks));
+    }
 }
 
 // Puts the simulation at the last whole frame of the folder, and gives its number.
 template <int Dim>
 int Run<Dim>::resume_folder() {
-    Resumption<Dim> found = find_resumption<Dim>(
-        {.scene = scene_, .folder = options_.folder, .has_list = folder_.has_list()}, simulation_,
-        std::move(before_));
+    Resumption<Dim> found;
+    ranks_.agree([&] {
+        found = find_resumption<Dim>(
+            {.scene = scene_, .folder = options_.folder, .has_list = folder_.has_list()},
+            simulation_, std::move(before_));
+    });
     const int frame = found.frame;
     simulation_.restore(found.snapshot);
+    ranks_.write([&] { take_over(std::move(found)); });
+    return frame;
+}
+
+template <int Dim>
+void Run<Dim>::take_over(Resumption<Dim> found) {
+    const int frame = found.frame;
     mesh_crcs_ = std::move(found.mesh_crcs);
     tell_resume(found);
     if (!folder_.has_list()) {
@@ -212,7 +231,6 @@ int Run<Dim>::resume_folder() {
     report_.parts = std::move(found.history.parts);
     report_.frames = std::move(found.history.frames);
     report_.steps = std::move(found.history.steps);
-    return frame;
 }
 
 template <int Dim>
@@ -288,7 +306,7 @@ void Run<Dim>::write_frame_files(int frame) {
 template <int Dim>
 bool Run<Dim>::step_to_frame(int frame) {
     while (simulation_.step_count() < step_of(scene_, frame)) {
-        if (callbacks_.should_stop && callbacks_.should_stop()) {
+        if (ranks_.any(callbacks_.should_stop && callbacks_.should_stop())) {
             report_.verdict = RunVerdict::Stopped;
             return false;
         }
@@ -329,45 +347,53 @@ void Run<Dim>::write_report() {
 
 template <int Dim>
 RunReport Run<Dim>::operator()() {
-    if (callbacks_.on_warning) {
+    if (callbacks_.on_warning && ranks_.is_writer()) {
         std::for_each(report_.warnings.begin(), report_.warnings.end(), callbacks_.on_warning);
     }
-    int frame = 0;
-    if (options_.resume) {
-        frame = resume_folder();
-        begin_part(frame);
-        write_scene();
-    } else {
-        start_folder();
-        begin_part(0);
-        write_scene();
-        write_meshes();
-        write_frame_files(0);
-    }
-    write_report();
-    while (frame < scene_.frames && step_to_frame(frame + 1)) {
-        write_frame_files(++frame);
-        if (std::chrono::duration<double>(Clock::now() - last_report_).count() > kReportSeconds) {
-            write_report();  // GCOVR_EXCL_LINE: of runs longer than a test may be
+    int frame = options_.resume ? resume_folder() : 0;
+    ranks_.write([&] {
+        if (options_.resume) {
+            begin_part(frame);
+            write_scene();
+        } else {
+            start_folder();
+            begin_part(0);
+            write_scene();
+            write_meshes();
+            write_frame_files(0);
         }
+        write_report();
+    });
+    while (frame < scene_.frames && step_to_frame(frame + 1)) {
+        ++frame;
+        ranks_.write([&] {
+            write_frame_files(frame);
+            if (std::chrono::duration<double>(Clock::now() - last_report_).count()
+                > kReportSeconds) {
+                write_report();  // GCOVR_EXCL_LINE: of runs longer than a test may be
+            }
+        });
     }
     if (report_.verdict == RunVerdict::Running) {
         report_.verdict = RunVerdict::Finished;
     }
-    report_.parts.back().verdict = report_.verdict;
-    report_.penetration = deep_penetration(scene_, report_);
-    write_report();
-    append_text(path(kJournalFile), end_line(report_.parts.back()));
+    ranks_.write([&] {
+        report_.parts.back().verdict = report_.verdict;
+        report_.penetration = deep_penetration(scene_, report_);
+        write_report();
+        append_text(path(kJournalFile), end_line(report_.parts.back()));
+    });
     return std::move(report_);
 }
 
 // A scene that its barrier refuses leaves the cells that are in each other's way beside the folder.
 template <int Dim>
 RunReport run_in(const Scene& scene, const RunOptions& options, const RunCallbacks& callbacks) {
+    const RunRanks ranks(options.ranks.get());
     RunOptions chosen = options;
     Journal before;
     if (options.resume) {
-        before = read_earlier_parts(scene, options.folder);
+        ranks.agree([&] { before = read_earlier_parts(scene, options.folder); });
     }
     if (options.isa.empty() && !before.parts.empty()) {
         chosen.isa = before.parts.back().isa;  // frames agree to the bit on one only
@@ -377,7 +403,7 @@ RunReport run_in(const Scene& scene, const RunOptions& options, const RunCallbac
     } catch (const CrossingError<Dim>& error) {
         const std::string created_by = options.created_by + ", cells that cross";
         const std::string path = crossings_path(options.folder, created_by).string();
-        write_mesh<Dim>(path, error.offenders(), {.created_by = created_by});
+        ranks.write([&] { write_mesh<Dim>(path, error.offenders(), {.created_by = created_by}); });
         throw Error(std::string(error.what()) + "; " + path + " has the cells; place them apart,"
                       " or let contact have model = \"penalty\"");
     }

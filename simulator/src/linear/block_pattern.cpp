@@ -1,6 +1,7 @@
 #include "linear/block_pattern.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 namespace pent::simulator {
@@ -11,20 +12,33 @@ std::int64_t BlockPattern::find(std::uint32_t row, std::uint32_t column) const {
     return std::lower_bound(first, last, column) - columns.begin();
 }
 
-void color_rows(BlockPattern& pattern) {
+void color_rows(BlockPattern& pattern, std::int64_t columns) {
     pattern.chunks = static_cast<int>((pattern.rows() + BlockPattern::kChunkRows - 1)
                                       / BlockPattern::kChunkRows);
-    pattern.coloring =
-        color_chunks(pattern.chunks, pattern.rows(), [&](int chunk, const auto& touch) {
-            const std::int64_t begin = chunk * BlockPattern::kChunkRows;
-            const std::int64_t end = std::min(begin + BlockPattern::kChunkRows, pattern.rows());
-            const auto row_start = [&](std::int64_t row) {
-                return pattern.row_start[static_cast<std::size_t>(row)];
-            };
-            for (std::int64_t k = row_start(begin); k < row_start(end); ++k) {
-                touch(pattern.columns[static_cast<std::size_t>(k)]);
-            }
-        });
+    pattern.coloring = color_chunks(pattern.chunks, columns, [&](int chunk, const auto& touch) {
+        const std::int64_t begin = chunk * BlockPattern::kChunkRows;
+        const std::int64_t end = std::min(begin + BlockPattern::kChunkRows, pattern.rows());
+        const auto row_start = [&](std::int64_t row) {
+            return pattern.row_start[static_cast<std::size_t>(row)];
+        };
+        for (std::int64_t k = row_start(begin); k < row_start(end); ++k) {
+            touch(pattern.columns[static_cast<std::size_t>(k)]);
+        }
+    });
+}
+
+std::vector<std::uint32_t> ghost_columns(const BlockPattern& pattern,
+                                         const BlockPattern* coupling) {
+    std::vector<std::uint32_t> ghosts;
+    for (const BlockPattern* part : {&pattern, coupling}) {
+        if (part != nullptr) {
+            std::copy_if(part->columns.begin(), part->columns.end(), std::back_inserter(ghosts),
+                         [&](std::uint32_t column) { return column >= pattern.rows(); });
+        }
+    }
+    std::sort(ghosts.begin(), ghosts.end());
+    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+    return ghosts;
 }
 
 namespace {
@@ -34,17 +48,17 @@ namespace {
 //                       round, as often as it likes.
 template <typename ForEachPair>
 BlockPattern make_pattern_of(const DofMap& dofs, const ForEachPair& for_each_pair) {
-    const std::uint32_t count = dofs.count();
+    const std::uint32_t rows = dofs.row_count();
     const auto for_each_block = [&](const auto& visit) {
         for_each_pair([&](std::uint32_t a, std::uint32_t b) {
             const std::uint32_t row = dofs.rank_of(a);
             const std::uint32_t column = dofs.rank_of(b);
-            if (row < column && column < count) {
+            if (row < column && row < rows && column < dofs.count()) {
                 visit(row, column);
             }
         });
     };
-    std::vector<std::int64_t> start(count + 1, 0);
+    std::vector<std::int64_t> start(rows + std::size_t{1}, 0);
     for_each_block([&](std::uint32_t row, std::uint32_t /*column*/) { ++start[row + 1]; });
     std::partial_sum(start.begin(), start.end(), start.begin());
     std::vector<std::uint32_t> found(static_cast<std::size_t>(start.back()));
@@ -54,7 +68,7 @@ BlockPattern make_pattern_of(const DofMap& dofs, const ForEachPair& for_each_pai
     });
     BlockPattern pattern;
     pattern.row_start.push_back(0);
-    for (std::uint32_t row = 0; row < count; ++row) {
+    for (std::uint32_t row = 0; row < rows; ++row) {
         const auto first = found.begin() + start[row];
         const auto last = found.begin() + start[row + 1];
         std::sort(first, last);
@@ -63,7 +77,7 @@ BlockPattern make_pattern_of(const DofMap& dofs, const ForEachPair& for_each_pai
         pattern.row_start.push_back(static_cast<std::int64_t>(pattern.columns.size()));
     }
     pattern.columns.shrink_to_fit();
-    color_rows(pattern);
+    color_rows(pattern, dofs.count());
     return pattern;
 }
 

@@ -12,7 +12,8 @@ namespace pent::simulator {
 
 /// Which blocks of a symmetric block matrix are stored: the upper triangle, row by row.
 ///
-/// The diagonal block comes first in its row, the others by increasing column.
+/// The diagonal block comes first in its row, the others by increasing column. There may be more
+/// columns than rows: those of other ranks.
 struct BlockPattern {
     std::vector<std::int64_t> row_start;  ///< rows + 1 entries.
     std::vector<std::uint32_t> columns;
@@ -31,7 +32,13 @@ struct BlockPattern {
 };
 
 /// Cuts the rows of a pattern into chunks and colors these, for products in parallel.
-void color_rows(BlockPattern& pattern);
+///
+/// @param columns  Above all columns there are.
+void color_rows(BlockPattern& pattern, std::int64_t columns);
+
+/// Columns that have no row, increasing: those of other ranks.
+[[nodiscard]] std::vector<std::uint32_t> ghost_columns(const BlockPattern& pattern,
+                                                       const BlockPattern* coupling = nullptr);
 
 /// Vertices of elements that have different numbers of them: those of element e are
 /// corners[start[e]] .. corners[start[e + 1] - 1].
@@ -40,11 +47,11 @@ struct CornerLists {
     std::vector<std::uint32_t> corners;
 };
 
-/// Blocks of all pairs of dofs that share a cell.
+/// Blocks of all pairs of dofs that share a cell, one of them at least with a row.
 template <int Dim>
 [[nodiscard]] BlockPattern make_pattern(const Simplices<Dim + 1>& cells, const DofMap& dofs);
 
-/// Blocks of all pairs of dofs that share an element of one of the lists.
+/// The same for elements of some lists.
 [[nodiscard]] BlockPattern make_pattern(const std::vector<const CornerLists*>& lists,
                                         const DofMap& dofs);
 

@@ -1,6 +1,7 @@
 #include "linear/conjugate_gradients.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -24,17 +25,24 @@ double sum_chunks(const Workers& workers, Eigen::Index columns, const Work& work
     });
 }
 
+// Of the first `rows` columns.
 template <int Dim>
-double dot(const Workers& workers, const BlockVector<Dim>& a, const BlockVector<Dim>& b) {
-    return sum_chunks(workers, a.cols(), [&](Eigen::Index begin, Eigen::Index count) {
+double dot(const Workers& workers,
+           Eigen::Index rows,
+           const BlockVector<Dim>& a,
+           const BlockVector<Dim>& b) {
+    return sum_chunks(workers, rows, [&](Eigen::Index begin, Eigen::Index count) {
         return a.middleCols(begin, count).cwiseProduct(b.middleCols(begin, count)).sum();
     });
 }
 
 // r = b - r, where r holds A x; returns |r|^2.
 template <int Dim>
-double residual(const Workers& workers, const BlockVector<Dim>& b, BlockVector<Dim>& r) {
-    return sum_chunks(workers, b.cols(), [&](Eigen::Index begin, Eigen::Index count) {
+double residual(const Workers& workers,
+                Eigen::Index rows,
+                const BlockVector<Dim>& b,
+                BlockVector<Dim>& r) {
+    return sum_chunks(workers, rows, [&](Eigen::Index begin, Eigen::Index count) {
         auto part = r.middleCols(begin, count);
         part = b.middleCols(begin, count) - part;
         return part.squaredNorm();
@@ -44,25 +52,30 @@ double residual(const Workers& workers, const BlockVector<Dim>& b, BlockVector<D
 // x += alpha p, r -= alpha q; returns |r|^2.
 template <int Dim>
 double advance(const Workers& workers,
+               Eigen::Index rows,
                double alpha,
-               const BlockVector<Dim>& p,
-               const BlockVector<Dim>& q,
+               const std::array<const BlockVector<Dim>*, 2>& pq,
                BlockVector<Dim>& r,
                BlockVector<Dim>& x) {
-    return sum_chunks(workers, x.cols(), [&](Eigen::Index begin, Eigen::Index count) {
-        x.middleCols(begin, count) += alpha * p.middleCols(begin, count);
+    const auto& [p, q] = pq;
+    return sum_chunks(workers, rows, [&](Eigen::Index begin, Eigen::Index count) {
+        x.middleCols(begin, count) += alpha * p->middleCols(begin, count);
         auto part = r.middleCols(begin, count);
-        part -= alpha * q.middleCols(begin, count);
+        part -= alpha * q->middleCols(begin, count);
         return part.squaredNorm();
     });
 }
 
 // p = z + beta p.
 template <int Dim>
-void redirect(const Workers& workers, double beta, const BlockVector<Dim>& z, BlockVector<Dim>& p) {
-    workers.for_each(chunk_count(p.cols()), [&](int chunk) {
+void redirect(const Workers& workers,
+              Eigen::Index rows,
+              double beta,
+              const BlockVector<Dim>& z,
+              BlockVector<Dim>& p) {
+    workers.for_each(chunk_count(rows), [&](int chunk) {
         const Eigen::Index begin = chunk * kChunkColumns;
-        const Eigen::Index count = std::min(kChunkColumns, p.cols() - begin);
+        const Eigen::Index count = std::min(kChunkColumns, rows - begin);
         auto part = p.middleCols(begin, count);
         part = z.middleCols(begin, count) + beta * part;
     });
@@ -76,10 +89,12 @@ LinearSolution<Dim> ConjugateGradients<Dim>::solve(const BlockMatrix<Dim, Scalar
                                                    const Preconditioner<Dim>& preconditioner,
                                                    const BlockVector<Dim>& b,
                                                    const LinearSolveOptions& options,
-                                                   BlockVector<Dim> guess) {
+                                                   BlockVector<Dim> guess,
+                                                   const Halo& halo) {
+    halo_ = halo;
     LinearSolution<Dim> solution{std::move(guess), {}};
     LinearSolveReport& report = solution.report;
-    const double b_norm = std::sqrt(dot(*workers_, b, b));
+    const double b_norm = std::sqrt(halo_.sum(dot(*workers_, A.rows(), b, b)));
     if (b_norm == 0) {
         solution.x.setZero();
         report.has_converged = true;
@@ -110,9 +125,10 @@ template <int Dim>
 template <typename Scalar>
 double ConjugateGradients<Dim>::find_residual(const BlockMatrix<Dim, Scalar>& A,
                                               const BlockVector<Dim>& b,
-                                              const BlockVector<Dim>& x) {
+                                              BlockVector<Dim>& x) {
+    halo_.update(x);
     A.multiply(*workers_, *kernels_, x, r_);
-    return std::sqrt(residual(*workers_, b, r_));
+    return std::sqrt(halo_.sum(residual(*workers_, A.rows(), b, r_)));
 }
 
 template <int Dim>
@@ -123,20 +139,23 @@ void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
                                       double enough,
                                       LinearSolution<Dim>& solution) {
     LinearSolveReport& report = solution.report;
+    const Eigen::Index rows = A.rows();
     p_.setZero();
     double r_norm = std::numeric_limits<double>::infinity();
     double rz_before = 1;
     while (r_norm > enough && report.iterations < options.max_iterations) {
         preconditioner.apply(*workers_, r_, z_);
-        const double rz = dot(*workers_, r_, z_);
-        redirect(*workers_, rz / rz_before, z_, p_);
+        const double rz = halo_.sum(dot(*workers_, rows, r_, z_));
+        redirect(*workers_, rows, rz / rz_before, z_, p_);
+        halo_.update(p_);
         A.multiply(*workers_, *kernels_, p_, q_);
-        const double curvature = dot(*workers_, p_, q_);
+        const double curvature = halo_.sum(dot(*workers_, rows, p_, q_));
         if (!(curvature > 0) || !std::isfinite(curvature) || !(rz > 0)) {
             report.has_broken_down = true;
             return;
         }
-        r_norm = std::sqrt(advance(*workers_, rz / curvature, p_, q_, r_, solution.x));
+        r_norm = std::sqrt(
+            halo_.sum(advance(*workers_, rows, rz / curvature, {&p_, &q_}, r_, solution.x)));
         rz_before = rz;
         ++report.iterations;
     }
@@ -145,7 +164,7 @@ void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
 #define PENT_INSTANTIATE(Dim, Scalar)                                                         \
     template LinearSolution<Dim> ConjugateGradients<Dim>::solve(                              \
         const BlockMatrix<Dim, Scalar>&, const Preconditioner<Dim>&, const BlockVector<Dim>&, \
-        const LinearSolveOptions&, BlockVector<Dim>);
+        const LinearSolveOptions&, BlockVector<Dim>, const Halo&);
 PENT_INSTANTIATE(3, float)
 PENT_INSTANTIATE(3, double)
 PENT_INSTANTIATE(4, float)

@@ -3,8 +3,25 @@
 #include "linear/block_matrix.h"
 #include "linear/linear_solve.h"
 #include "linear/preconditioner.h"
+#include "linear/sharing.h"
 
 namespace pent::simulator {
+
+/// What other ranks have to do with vectors over the dofs; nothing, where there are none.
+struct Halo {
+    const Sharing* sharing = nullptr;
+    GhostExchange* ghosts = nullptr;  ///< Of the columns of others that the matrix has.
+
+    [[nodiscard]] double sum(double value) const {
+        return sharing != nullptr ? sharing->sum(value) : value;
+    }
+    template <int Dim>
+    void update(BlockVector<Dim>& x) const {
+        if (ghosts != nullptr) {
+            ghosts->update(x.data(), Dim);
+        }
+    }
+};
 
 /// Preconditioned conjugate gradients for A x = b, A symmetric positive definite.
 ///
@@ -22,14 +39,15 @@ public:
                                             const Preconditioner<Dim>& preconditioner,
                                             const BlockVector<Dim>& b,
                                             const LinearSolveOptions& options,
-                                            BlockVector<Dim> guess);
+                                            BlockVector<Dim> guess,
+                                            const Halo& halo = {});
 
 private:
     // r_ = b - A x; returns |r_|.
     template <typename Scalar>
     double find_residual(const BlockMatrix<Dim, Scalar>& A,
                          const BlockVector<Dim>& b,
-                         const BlockVector<Dim>& x);
+                         BlockVector<Dim>& x);
     // From x, whose residual is r_, until the one that is carried along is small enough, iterations
     // are spent, or a direction shows that A is not positive definite.
     template <typename Scalar>
@@ -41,6 +59,8 @@ private:
 
     const Workers* workers_;
     const BlockKernels* kernels_;
+    Halo halo_;
+    // Columns of other ranks count in x and p alone, and there as ghosts.
     BlockVector<Dim> r_;  // kept between solves
     BlockVector<Dim> z_;
     BlockVector<Dim> p_;

@@ -14,19 +14,30 @@ namespace pent::simulator {
 /// A dof is a vertex with Dim unknowns. Vertices of one extrusion column come one after the other,
 /// from layer to layer; columns (single vertices, where a mesh knows no columns) in reverse
 /// Cuthill-McKee order, which keeps neighbors close in memory [cuthill1969].
+///
+/// Where vertices are shared by ranks, those of this rank come first: they alone have rows in its
+/// matrix. All others come behind them, as columns alone.
 class DofMap {
 public:
     DofMap() = default;
 
     /// @param vertex_of_dof  Distinct vertices, in the order of their dofs.
-    /// @param column_start   Dofs of column c: [start[c], start[c + 1]).
+    /// @param column_start   Dofs of column c: [start[c], start[c + 1]); the last of them is the
+    ///                       last that has a row.
+    /// @param is_own         One entry a vertex, with a dof or not: whether it is of this rank;
+    ///                       empty if all are.
     DofMap(std::size_t vertices,
            std::vector<std::uint32_t> vertex_of_dof,
-           std::vector<std::uint32_t> column_start);
+           std::vector<std::uint32_t> column_start,
+           std::vector<bool> is_own = {});
 
     [[nodiscard]] std::uint32_t count() const {
         return static_cast<std::uint32_t>(vertex_of_dof_.size());
     }
+
+    /// How many have rows here: all but those of other ranks.
+    [[nodiscard]] std::uint32_t row_count() const { return column_start_.back(); }
+
     [[nodiscard]] bool has_dof(std::uint32_t vertex) const { return rank_[vertex] < count(); }
 
     /// Only for a vertex that has one.
@@ -43,15 +54,21 @@ public:
     /// which those come last.
     [[nodiscard]] std::uint32_t rank_of(std::uint32_t vertex) const { return rank_[vertex]; }
 
-    /// Dofs of column c: [start[c], start[c + 1]).
+    /// Dofs of column c: [start[c], start[c + 1]); those that have rows.
     [[nodiscard]] const std::vector<std::uint32_t>& column_start() const { return column_start_; }
 
     [[nodiscard]] std::size_t vertex_count() const { return rank_.size(); }
 
+    /// Whether a vertex is of this rank.
+    [[nodiscard]] bool is_own(std::uint32_t vertex) const {
+        return is_own_.empty() || is_own_[vertex];
+    }
+
 private:
     std::vector<std::uint32_t> rank_;
     std::vector<std::uint32_t> vertex_of_dof_;
-    std::vector<std::uint32_t> column_start_;
+    std::vector<std::uint32_t> column_start_ = {0};
+    std::vector<bool> is_own_;
 };
 
 /// Extrusion columns of all bodies, numbered through, and places within them. One entry a vertex.

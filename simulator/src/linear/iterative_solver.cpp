@@ -1,6 +1,7 @@
 #include "linear/conjugate_gradients.h"
 #include "linear/linear_solver.h"
 #include "linear/preconditioner.h"
+#include "linear/spread_modes.h"
 
 #include <numeric>
 #include <optional>
@@ -21,12 +22,11 @@ public:
         : workers_(&workers),
           kernels_(&kernels),
           kind_(preconditioner),
-          column_start_(std::move(geometry.column_start)),
-          rest_(std::move(geometry.rest)),
+          dofs_(std::move(geometry)),
           iteration_(workers, kernels) {
         if (kind_ == PreconditionerKind::BlockJacobi) {
-            column_start_.resize(static_cast<std::size_t>(rest_.cols()) + 1);
-            std::iota(column_start_.begin(), column_start_.end(), 0U);
+            dofs_.column_start.resize(dofs_.column_start.back() + std::size_t{1});
+            std::iota(dofs_.column_start.begin(), dofs_.column_start.end(), 0U);
         }
     }
 
@@ -36,10 +36,13 @@ public:
                               BlockVector<Dim> guess) override {
         return std::visit(
             [&](const auto& matrix) {
+                if (dofs_.owners.sharing != nullptr) {
+                    find_ghosts(matrix);
+                }
                 const std::unique_ptr<Preconditioner<Dim>> preconditioner =
                     precondition(matrix, positions);
                 return iteration_.solve(matrix, *preconditioner, system.right(), options,
-                                        std::move(guess));
+                                        std::move(guess), {dofs_.owners.sharing, exchange_.get()});
             },
             system.matrix());
     }
@@ -49,24 +52,60 @@ private:
     [[nodiscard]] std::unique_ptr<Preconditioner<Dim>> precondition(
         const BlockMatrix<Dim, Scalar>& matrix, const BlockVector<Dim>& positions) {
         std::unique_ptr<Preconditioner<Dim>> smoother =
-            column_jacobi(*workers_, matrix, column_start_);
-        if (kind_ != PreconditionerKind::RigidModes || matrix.rows() == 0) {
+            column_jacobi(*workers_, matrix, dofs_.column_start);
+        if (kind_ != PreconditionerKind::RigidModes) {
+            return smoother;
+        }
+        const BlockPattern& pattern = matrix.pattern();
+        if (dofs_.owners.sharing != nullptr) {
+            if (!spread_modes_) {
+                spread_modes_.emplace(pattern, dofs_);
+            }
+            return spread_modes_->precondition(*workers_, matrix, positions, ghosts_, *exchange_,
+                                               std::move(smoother));
+        }
+        if (matrix.rows() == 0) {
             return smoother;
         }
         if (!hierarchy_) {
-            const BlockPattern& pattern = matrix.pattern();
-            hierarchy_.emplace(make_hierarchy<Dim>(pattern, column_start_, rest_), pattern);
+            hierarchy_.emplace(make_hierarchy<Dim>(pattern, dofs_.column_start, dofs_.rest),
+                               pattern);
         }
         return multilevel(*workers_, *kernels_, matrix, *hierarchy_, positions,
                           std::move(smoother));
     }
 
+    // Those of elements are always the same; what stencils couple changes.
+    template <typename Scalar>
+    void find_ghosts(const BlockMatrix<Dim, Scalar>& matrix) {
+        const bool has_coupling = dofs_.owners.sharing->any(matrix.coupling() != nullptr);
+        if (exchange_ && !has_coupling && !had_coupling_) {
+            return;
+        }
+        had_coupling_ = has_coupling;
+        ghosts_ =
+            ghost_columns(matrix.pattern(),
+                          matrix.coupling() != nullptr ? &matrix.coupling()->pattern() : nullptr);
+        Ghosts ghosts;
+        ghosts.own_columns = static_cast<std::uint32_t>(matrix.rows());
+        ghosts.columns = ghosts_;
+        for (const std::uint32_t ghost : ghosts_) {
+            ghosts.owners.push_back(dofs_.owners.ranks[ghost]);
+            ghosts.places.push_back(dofs_.owners.places[ghost]);
+        }
+        exchange_ = dofs_.owners.sharing->ranks().make_exchange(ghosts);
+    }
+
     const Workers* workers_;
     const BlockKernels* kernels_;
     PreconditionerKind kind_;
-    std::vector<std::uint32_t> column_start_;  // columns that are solved together
-    BlockVector<Dim> rest_;
-    std::optional<Hierarchy> hierarchy_;  // of the dofs, from the first solve on
+    DofGeometry<Dim> dofs_;  // with columns that are solved together
+    // From the first solve on:
+    std::optional<Hierarchy> hierarchy_;            // of the dofs
+    std::optional<SpreadModes<Dim>> spread_modes_;  // the same, where dofs are shared
+    std::vector<std::uint32_t> ghosts_;
+    std::unique_ptr<GhostExchange> exchange_;
+    bool had_coupling_ = false;
     ConjugateGradients<Dim> iteration_;
 };
 

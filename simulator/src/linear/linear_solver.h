@@ -2,6 +2,7 @@
 
 #include "linear/linear_solve.h"
 #include "linear/newton_system.h"
+#include "linear/sharing.h"
 
 #include <memory>
 #include <vector>
@@ -27,14 +28,23 @@ public:
                                                     BlockVector<Dim> guess) = 0;
 };
 
+/// Where dofs are at home; empty where nothing is shared.
+struct DofOwners {
+    const Sharing* sharing = nullptr;
+    std::vector<std::uint32_t> ranks;   ///< Of each dof.
+    std::vector<std::uint32_t> places;  ///< Its number there.
+};
+
 /// What an iterative solver knows of the dofs.
 template <int Dim>
 struct DofGeometry {
     std::vector<std::uint32_t> column_start;  ///< As DofMap::column_start().
     BlockVector<Dim> rest;                    ///< Dim x dofs, m.
+    DofOwners owners = {};
 };
 
-/// Preconditioned conjugate gradients.
+/// Preconditioned conjugate gradients. Where dofs are shared all ranks solve together, and the
+/// solution has the rows of this rank.
 ///
 /// @param workers, kernels  Must outlive the solver.
 template <int Dim>

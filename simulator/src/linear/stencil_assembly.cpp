@@ -26,12 +26,12 @@ struct Incidences {
 };
 
 Incidences list_by_rows(const DofMap& dofs, const std::vector<HessianStencil>& stencils) {
-    std::vector<std::uint32_t> next(dofs.count() + std::size_t{1}, 0);
+    std::vector<std::uint32_t> next(dofs.row_count() + std::size_t{1}, 0);
     const auto for_each = [&](const auto& visit) {
         for (std::uint32_t s = 0; s < stencils.size(); ++s) {
             for (std::int32_t i = 0; i < stencils[s].count; ++i) {
                 const std::uint32_t vertex = stencils[s].vertices[i];
-                if (vertex != kNoVertex && dofs.has_dof(vertex)) {
+                if (vertex != kNoVertex && dofs.rank_of(vertex) < dofs.row_count()) {
                     visit(dofs.dof_of(vertex), Incidence{s, static_cast<std::uint32_t>(i)});
                 }
             }
@@ -39,7 +39,7 @@ Incidences list_by_rows(const DofMap& dofs, const std::vector<HessianStencil>& s
     };
     for_each([&](std::uint32_t row, const Incidence& /*at*/) { ++next[row + 1]; });
     Incidences incidences;
-    for (std::uint32_t row = 0; row < dofs.count(); ++row) {
+    for (std::uint32_t row = 0; row < dofs.row_count(); ++row) {
         if (next[row + 1] > 0) {
             incidences.rows.push_back(row);
             incidences.begin.push_back(next[row]);
@@ -173,10 +173,10 @@ private:
 
 // Puts what is left over of all rows into one matrix.
 template <int Dim, typename Scalar>
-std::unique_ptr<CouplingMatrix<Dim, Scalar>> join(std::uint32_t dofs,
+std::unique_ptr<CouplingMatrix<Dim, Scalar>> join(const DofMap& dofs,
                                                   const std::vector<std::uint32_t>& rows,
                                                   const std::vector<Leftover<Dim, Scalar>>& parts) {
-    std::vector<std::uint32_t> counts(dofs, 0);
+    std::vector<std::uint32_t> counts(dofs.row_count(), 0);
     std::size_t at = 0;
     std::size_t total = 0;
     for (const auto& part : parts) {
@@ -189,12 +189,12 @@ std::unique_ptr<CouplingMatrix<Dim, Scalar>> join(std::uint32_t dofs,
         return nullptr;
     }
     BlockPattern pattern;
-    pattern.columns.reserve(total + dofs);
-    pattern.row_start.reserve(dofs + std::size_t{1});
+    pattern.columns.reserve(total + counts.size());
+    pattern.row_start.reserve(counts.size() + 1);
     pattern.row_start.push_back(0);
     auto part = parts.begin();
     std::size_t next = 0;
-    for (std::uint32_t row = 0; row < dofs; ++row) {
+    for (std::uint32_t row = 0; row < counts.size(); ++row) {
         pattern.columns.push_back(row);  // a diagonal of zeros, as products want it
         for (std::uint32_t k = 0; k < counts[row]; ++k) {
             while (next == part->columns.size()) {
@@ -205,11 +205,11 @@ std::unique_ptr<CouplingMatrix<Dim, Scalar>> join(std::uint32_t dofs,
         }
         pattern.row_start.push_back(static_cast<std::int64_t>(pattern.columns.size()));
     }
-    color_rows(pattern);
+    color_rows(pattern, dofs.count());
     auto coupling = std::make_unique<CouplingMatrix<Dim, Scalar>>(std::move(pattern));
     part = parts.begin();
     next = 0;
-    for (std::uint32_t row = 0; row < dofs; ++row) {
+    for (std::uint32_t row = 0; row < counts.size(); ++row) {
         for (std::uint32_t k = 1; k <= counts[row]; ++k) {
             while (next == part->blocks.size()) {
                 ++part;
@@ -247,7 +247,7 @@ std::unique_ptr<CouplingMatrix<Dim, Scalar>> assemble_stencils(
                         parts[static_cast<std::size_t>(chunk)]);
         }
     });
-    return join<Dim, Scalar>(dofs.count(), incidences.rows, parts);
+    return join<Dim, Scalar>(dofs, incidences.rows, parts);
 }
 
 #define PENT_INSTANTIATE(Dim, Scalar)                                                             \

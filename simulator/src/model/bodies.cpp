@@ -316,18 +316,6 @@ void begin_host_holds(const Positions<Dim>& positions,
 }
 
 template <int Dim>
-DofMap number_dofs(const Bodies<Dim>& bodies, const std::vector<bool>& is_in) {
-    std::vector<bool> is_fixed = bodies.is_dirichlet;
-    for (std::size_t body = 0; body < is_in.size(); ++body) {
-        if (!is_in[body]) {
-            std::fill(is_fixed.begin() + bodies.first_vertex[body],
-                      is_fixed.begin() + bodies.first_vertex[body + 1], true);
-        }
-    }
-    return number_dofs<Dim>(bodies.cells, is_fixed, bodies.columns);
-}
-
-template <int Dim>
 Positions<Dim> start_velocities(const Scene& scene, const Bodies<Dim>& bodies) {
     Positions<Dim> velocities = Positions<Dim>::Zero(Dim, bodies.vertex_count());
     for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
@@ -381,7 +369,6 @@ void place_dirichlet(const Bodies<Dim>& bodies,
     template void set_hold_places(const Scene&, const Positions<Dim>&, Bodies<Dim>&);             \
     template bool hold_for_host(std::vector<std::uint32_t>, const Positions<Dim>&, Bodies<Dim>&); \
     template void begin_host_holds(const Positions<Dim>&, double, double, Bodies<Dim>&);          \
-    template DofMap number_dofs<Dim>(const Bodies<Dim>&, const std::vector<bool>&);               \
     template Positions<Dim> start_velocities<Dim>(const Scene&, const Bodies<Dim>&);              \
     template void place_dirichlet<Dim>(const Bodies<Dim>&, double, Positions<Dim>&,               \
                                        Positions<Dim>*);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "linear/dof_map.h"
+#include "linear/sharing.h"
 #include "model/cell_range.h"
 #include "model/motion_chain.h"
 #include "model/quadratic_cells.h"
@@ -63,6 +64,7 @@ struct Bodies {
     std::vector<bool> is_always_held;  ///< One a vertex: in every step.
     std::uint64_t step = 0;            ///< What is held is that of this step.
     Columns columns;
+    Sharing sharing;  ///< By ranks.
 
     [[nodiscard]] Eigen::Index vertex_count() const { return rest.cols(); }
     [[nodiscard]] std::size_t count() const { return meshes.size(); }
@@ -140,11 +142,15 @@ void begin_host_holds(const Positions<Dim>& positions,
                       double end,
                       Bodies<Dim>& bodies);
 
-/// Numbers the vertices of some bodies that are free to move.
+/// Numbers the vertices of some bodies that are free to move, as this rank has them in its matrix.
 ///
 /// @param is_in  One entry a body.
 template <int Dim>
 [[nodiscard]] DofMap number_dofs(const Bodies<Dim>& bodies, const std::vector<bool>& is_in);
+
+/// The same vertices in an order that is one on all ranks.
+template <int Dim>
+[[nodiscard]] DofMap number_dofs_alike(const Bodies<Dim>& bodies, const std::vector<bool>& is_in);
 
 /// The velocities that the scene gives its bodies at the start, Dim x vertices, m/s.
 template <int Dim>

@@ -23,7 +23,18 @@ Elasticity<Dim>::Elasticity(const Workers& workers,
       bodies_(&bodies),
       kind_(scene.solver.elements),
       strain_(workers, scene, bodies),
-      layout_(lay_out(number_dofs(bodies, std::vector<bool>(bodies.count(), true)))) {}
+      layout_(lay_out(number_dofs(bodies, std::vector<bool>(bodies.count(), true)))) {
+    measure_layout();
+}
+
+template <int Dim>
+void Elasticity<Dim>::measure_layout() {
+    const Sharing& sharing = bodies_->sharing;
+    size_ = {.elements = sharing.sum(layout_.elements.count()),
+             .blocks = sharing.sum(layout_.pattern.blocks()),
+             .bytes = sharing.sum(layout_.elements.bytes())};
+    ghost_count_ = static_cast<std::int64_t>(ghost_columns(layout_.pattern).size());
+}
 
 template <int Dim>
 ElementLayout<Dim> Elasticity<Dim>::lay_out(const DofMap& dofs) const {
@@ -49,11 +60,43 @@ void Elasticity<Dim>::set_dofs(const DofMap& dofs,
         frozen_ = layout_.elements.add_gradient(*workers_, *kernels_, positions, frozen_gradient_);
     }
     layout_ = lay_out(dofs);
+    measure_layout();
+}
+
+// Elements that other ranks have as well count once; gradients are those of the ranks that own the
+// vertices.
+template <int Dim>
+ElasticEnergy Elasticity<Dim>::add_shared_gradient(const Positions<Dim>& x,
+                                                   Positions<Dim>& gradient) const {
+    Positions<Dim> own = Positions<Dim>::Zero(Dim, x.cols());
+    ElasticEnergy energy = layout_.elements.add_gradient(*workers_, *kernels_, x, own);
+    energy.add(frozen_);
+    if (frozen_gradient_.cols() > 0) {
+        own += frozen_gradient_;
+    }
+    bodies_->sharing.gather(own);
+    gradient += own;
+    std::vector<double> sums = energy.of_ranges;
+    sums.push_back(energy.energy);
+    sums.push_back(static_cast<double>(energy.inverted));
+    sums.push_back(static_cast<double>(energy.collapsed));
+    bodies_->sharing.sum(sums);
+    const std::size_t ranges = energy.of_ranges.size();
+    energy.energy = sums[ranges];
+    energy.inverted = static_cast<std::int64_t>(sums[ranges + 1]);
+    energy.collapsed = static_cast<std::int64_t>(sums[ranges + 2]);
+    sums.resize(ranges);
+    energy.of_ranges = std::move(sums);
+    return energy;
 }
 
 template <int Dim>
 double Elasticity<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
     x_ = &x;
+    if (bodies_->sharing.is_shared()) {
+        energy_ = add_shared_gradient(x, gradient);
+        return energy_.energy;
+    }
     energy_ = layout_.elements.add_gradient(*workers_, *kernels_, x, gradient);
     energy_.add(frozen_);
     if (frozen_gradient_.cols() > 0) {
@@ -108,7 +151,8 @@ double Elasticity<Dim>::energy_at(const Positions<Dim>& x, double time) {
         layout_.elements.activate(*workers_, strain_);
     }
     Positions<Dim> gradient = Positions<Dim>::Zero(Dim, x.cols());
-    return layout_.elements.add_gradient(*workers_, *kernels_, x, gradient).energy;
+    return bodies_->sharing.sum(
+        layout_.elements.add_gradient(*workers_, *kernels_, x, gradient).energy);
 }
 
 template <int Dim>
@@ -149,7 +193,7 @@ std::int64_t Elasticity<Dim>::inverted_cells() const {
 
 template <int Dim>
 std::int64_t Elasticity<Dim>::take_filtered() {
-    return std::exchange(filtered_, 0);
+    return bodies_->sharing.sum(std::exchange(filtered_, 0));
 }
 
 template class Elasticity<3>;

@@ -68,14 +68,23 @@ public:
     [[nodiscard]] std::int64_t collapsed() const { return energy_.collapsed; }  ///< Elements.
     [[nodiscard]] const std::vector<double>& energy_of_ranges() const { return energy_.of_ranges; }
     [[nodiscard]] std::int64_t inverted_cells() const;
-    [[nodiscard]] std::int64_t element_count() const { return layout_.elements.count(); }
-    [[nodiscard]] std::int64_t bytes() const { return layout_.elements.bytes(); }
+
+    // Of all ranks together.
+    [[nodiscard]] std::int64_t element_count() const { return size_.elements; }
+    [[nodiscard]] std::int64_t block_count() const { return size_.blocks; }
+    [[nodiscard]] std::int64_t bytes() const { return size_.bytes; }
+
+    /// Vertices of other ranks that the matrix has columns of.
+    [[nodiscard]] std::int64_t ghost_count() const { return ghost_count_; }
 
     /// Elements whose Hessian the filter has changed, since this was last asked.
     [[nodiscard]] std::int64_t take_filtered();
 
 private:
     [[nodiscard]] ElementLayout<Dim> lay_out(const DofMap& dofs) const;
+    void measure_layout();
+    [[nodiscard]] ElasticEnergy add_shared_gradient(const Positions<Dim>& x,
+                                                    Positions<Dim>& gradient) const;
     [[nodiscard]] double energy_at(const Positions<Dim>& x, double time);
 
     const Workers* workers_;
@@ -85,6 +94,12 @@ private:
     ActiveStrain<Dim> strain_;
     TimeSpan step_;  // that shapes are those of the end of
     ElementLayout<Dim> layout_;
+    struct {
+        std::int64_t elements = 0;
+        std::int64_t blocks = 0;
+        std::int64_t bytes = 0;
+    } size_;  // of all ranks together
+    std::int64_t ghost_count_ = 0;
     // Of bodies that sleep: what does not change.
     Positions<Dim> frozen_gradient_;  // Dim x vertices, N; empty if none sleeps
     ElasticEnergy frozen_;

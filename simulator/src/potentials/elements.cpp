@@ -1,6 +1,7 @@
 #include "potentials/elements.h"
 
 #include "model/active_strain.h"
+#include "potentials/own_elements.h"
 
 #include <pent/error.h>
 #include <pent/simulator/energy.h>
@@ -27,32 +28,6 @@ constexpr int kChunkQuadratic = 4 * kGroup;
 // Domains are grouped by their number of corners within so many that are close in memory.
 constexpr std::size_t kNearElements = std::size_t{8} * kChunkElements;
 
-// Elements with a free corner by their lowest unknown, so that neighbors are close.
-//
-// @param corners_of  Calls its second argument with the corners of an element.
-template <typename CornersOf>
-std::vector<Eigen::Index> elastic_elements(Eigen::Index begin,
-                                           Eigen::Index end,
-                                           const DofMap& dofs,
-                                           const CornersOf& corners_of) {
-    std::vector<std::pair<std::uint32_t, Eigen::Index>> keyed;
-    for (Eigen::Index element = begin; element < end; ++element) {
-        std::uint32_t lowest = std::numeric_limits<std::uint32_t>::max();
-        corners_of(element,
-                   [&](std::uint32_t corner) { lowest = std::min(lowest, dofs.rank_of(corner)); });
-        if (lowest < dofs.count()) {
-            keyed.emplace_back(lowest, element);
-        }
-    }
-    std::sort(keyed.begin(), keyed.end());
-    std::vector<Eigen::Index> chosen;
-    chosen.reserve(keyed.size());
-    for (const auto& [lowest, element] : keyed) {
-        chosen.push_back(element);
-    }
-    return chosen;
-}
-
 // What of lambda acts at every point of a quadratic element by itself, the rest acting on the mean
 // over the element: alpha mu at most. Without it elements are a fifth too soft in diagonal bending
 // with one across; twice as much is too stiff by 5% along an axis. In 4D it is where unstructured
@@ -63,13 +38,6 @@ double local_lambda(const Material& material) {
     const auto [lambda, mu] = material.lame;
     // arap has no part of its energy that resists a change of volume
     return material.model == Model::Arap ? lambda : std::min(lambda, kAlpha * mu);
-}
-
-// At most `count` elements from the one at `first` on.
-std::span<const Eigen::Index> next_of(std::span<const Eigen::Index> chosen,
-                                      std::size_t first,
-                                      std::size_t count) {
-    return chosen.subspan(first, std::min(count, chosen.size() - first));
 }
 
 }  // namespace
@@ -118,16 +86,17 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
     };
     for (std::size_t place = 0; place < ranges.size(); ++place) {
         const CellRange& range = ranges[place];
-        const std::vector<Eigen::Index> chosen = elastic_elements(
+        const OwnAndShared chosen = elastic_elements(
             range.begin, range.end, dofs, [&](Eigen::Index cell, const auto& visit) {
                 std::for_each(cells.col(cell).begin(), cells.col(cell).end(), visit);
             });
-        for (std::size_t first = 0; first < chosen.size(); first += kChunkElements) {
-            append(next_of(chosen, first, kChunkElements),
-                   {.corners = Dim + 1, .material = range.material, .range = place}, make, dofs,
-                   pattern);
-            keep_passive(next_of(chosen, first, kChunkElements), strain);
-        }
+        for_each_chunk(chosen, kChunkElements, [&](const auto& next, bool counts) {
+            append(
+                next,
+                {.corners = Dim + 1, .material = range.material, .range = place, .counts = counts},
+                make, dofs, pattern);
+            keep_passive(next, strain);
+        });
     }
     color(dofs.vertex_count());
 }
@@ -163,28 +132,32 @@ Elements<Dim>::Elements(const std::vector<SmoothingDomains<Dim>>& domains,
             }
             element.volume = of_range.volumes[static_cast<std::size_t>(domain)];
         };
-        std::vector<Eigen::Index> chosen = elastic_elements(
+        OwnAndShared both = elastic_elements(
             0, of_range.count(), dofs, [&](Eigen::Index domain, const auto& visit) {
                 const auto first =
                     of_range.corners.begin() + of_range.start[static_cast<std::size_t>(domain)];
                 std::for_each(first, first + corner_count(domain), visit);
             });
-        for (std::size_t near = 0; near < chosen.size(); near += kNearElements) {
-            const std::size_t end = std::min(near + kNearElements, chosen.size());
-            std::stable_sort(
-                chosen.begin() + static_cast<std::ptrdiff_t>(near),
-                chosen.begin() + static_cast<std::ptrdiff_t>(end),
-                [&](Eigen::Index a, Eigen::Index b) { return corner_count(a) < corner_count(b); });
-            for (std::size_t first = near; first < end; first += kChunkElements) {
-                const auto next = next_of(std::span(chosen).first(end), first, kChunkElements);
-                append(next,
-                       {.kind = ElementKind::Smoothed,
-                        .corners = corner_count(next.back()),
-                        .material = ranges[place].material,
-                        .range = place},
-                       make, dofs, pattern);
+        for (std::vector<Eigen::Index>& chosen : both) {
+            for (std::size_t near = 0; near < chosen.size(); near += kNearElements) {
+                const std::size_t end = std::min(near + kNearElements, chosen.size());
+                std::stable_sort(chosen.begin() + static_cast<std::ptrdiff_t>(near),
+                                 chosen.begin() + static_cast<std::ptrdiff_t>(end),
+                                 [&](Eigen::Index a, Eigen::Index b) {
+                                     return corner_count(a) < corner_count(b);
+                                 });
             }
         }
+        static_assert(kNearElements % kChunkElements == 0);
+        for_each_chunk(both, kChunkElements, [&](const auto& next, bool counts) {
+            append(next,
+                   {.kind = ElementKind::Smoothed,
+                    .corners = corner_count(next.back()),
+                    .material = ranges[place].material,
+                    .range = place,
+                    .counts = counts},
+                   make, dofs, pattern);
+        });
     }
     color(dofs.vertex_count());
 }
@@ -206,19 +179,20 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
     };
     for (std::size_t place = 0; place < quadratic.ranges.size(); ++place) {
         const CellRange& range = quadratic.ranges[place];
-        const std::vector<Eigen::Index> chosen = elastic_elements(
+        const OwnAndShared chosen = elastic_elements(
             range.begin, range.end, dofs, [&](Eigen::Index simplex, const auto& visit) {
                 std::for_each(nodes.col(simplex).begin(), nodes.col(simplex).end(), visit);
             });
-        for (std::size_t first = 0; first < chosen.size(); first += kChunkQuadratic) {
-            append(next_of(chosen, first, kChunkQuadratic),
+        for_each_chunk(chosen, kChunkQuadratic, [&](const auto& next, bool counts) {
+            append(next,
                    {.kind = ElementKind::Quadratic,
                     .corners = kQuadraticNodes<Dim>,
                     .material = range.material,
-                    .range = place},
+                    .range = place,
+                    .counts = counts},
                    make, dofs, pattern);
-            keep_passive(next_of(chosen, first, kChunkQuadratic), strain);
-        }
+            keep_passive(next, strain);
+        });
     }
     color(dofs.vertex_count());
 }
@@ -261,7 +235,7 @@ void Elements<Dim>::append(std::span<const Eigen::Index> chosen,
         set_lane(element, chunk, lane, dofs, pattern);
     }
     chunks_.push_back(chunk);
-    count_ += chunk.elements;
+    count_ += chunk.counts ? chunk.elements : 0;
 }
 
 template <int Dim>
@@ -293,7 +267,8 @@ void Elements<Dim>::set_lane(const Element& element,
                 continue;
             }
             const std::uint32_t column = dofs.rank_of(element.corners[b]);
-            if (std::max(row, column) < dofs.count()) {
+            // Of two dofs, the lower of which has a row.
+            if (std::max(row, column) < dofs.count() && std::min(row, column) < dofs.row_count()) {
                 const auto block = static_cast<std::int32_t>(
                     pattern.find(std::min(row, column), std::max(row, column)));
                 blocks_[at(chunk.first_block, pairs, pair)] =
@@ -354,6 +329,9 @@ ElasticEnergy Elements<Dim>::add_gradient(const Workers& workers,
     ElasticEnergy total;
     total.of_ranges.assign(ranges_, 0);
     for (std::size_t chunk = 0; chunk < parts.size(); ++chunk) {
+        if (!chunks_[chunk].counts) {
+            continue;
+        }
         total.energy += parts[chunk].energy;
         total.inverted += parts[chunk].inverted;
         total.collapsed += parts[chunk].collapsed;
@@ -371,12 +349,15 @@ std::int64_t Elements<Dim>::add_hessian(const Workers& workers,
     std::int64_t filtered = 0;
     for (const std::vector<int>& color : coloring_.colors) {
         filtered += workers.sum(static_cast<int>(color.size()), [&](int i) {
-            const ElementRun elements = run(color[static_cast<std::size_t>(i)]);
+            const int chunk = color[static_cast<std::size_t>(i)];
+            const ElementRun elements = run(chunk);
+            std::int64_t changed = 0;
             if constexpr (sizeof(Scalar) == sizeof(float)) {
-                return kernels.hessian_float(elements, positions.data(), target);
+                changed = kernels.hessian_float(elements, positions.data(), target);
             } else {
-                return kernels.hessian_double(elements, positions.data(), target);
+                changed = kernels.hessian_double(elements, positions.data(), target);
             }
+            return chunks_[static_cast<std::size_t>(chunk)].counts ? changed : 0;
         });
     }
     return filtered;

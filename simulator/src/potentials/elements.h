@@ -36,7 +36,9 @@ struct ElasticEnergy : RunEnergy {
 };
 
 /// The elastic elements of all bodies, those with at least one vertex that has a dof, laid out for
-/// kernels: cells, the domains of smoothed cells, or quadratic cells.
+/// kernels: cells, the domains of smoothed cells, or quadratic cells. Where vertices are shared by
+/// ranks, those with a vertex of this rank. What is added up or counted of them over all ranks has
+/// each once; gradients and rows of the matrix are whole for the vertices of this rank.
 template <int Dim>
 class Elements {
 public:
@@ -81,7 +83,7 @@ public:
                              const Positions<Dim>& positions,
                              const HessianTarget<Scalar>& target) const;
 
-    [[nodiscard]] std::int64_t count() const { return count_; }
+    [[nodiscard]] std::int64_t count() const { return count_; }  ///< That count here.
     [[nodiscard]] std::int64_t bytes() const;
 
 private:
@@ -99,6 +101,7 @@ private:
         int corners = 0;
         Material material;
         std::size_t range = 0;  // of cells, that it is of
+        bool counts = true;     // here; if not, on another rank
         double collapse_norm = 0;
         std::size_t first_rest = 0;  // where its rows begin in the arrays
         std::size_t first_corner = 0;

@@ -31,10 +31,18 @@ double RayleighDamping<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& g
     const BlockVector<Dim> travel = at_dofs<Dim>(*dofs_, x - *origin_);
     BlockVector<Dim> resistance(Dim, travel.cols());
     tangent_->multiply(*workers_, *kernels_, travel, resistance);
-    for (std::uint32_t dof = 0; dof < dofs_->count(); ++dof) {
-        gradient.col(dofs_->vertex_of(dof)) += resistance.col(dof) + dirichlet_part_.col(dof);
+    const auto rows = static_cast<Eigen::Index>(dofs_->row_count());
+    Positions<Dim> forces = Positions<Dim>::Zero(Dim, gradient.cols());
+    for (Eigen::Index dof = 0; dof < rows; ++dof) {
+        forces.col(dofs_->vertex_of(static_cast<std::uint32_t>(dof))) =
+            resistance.col(dof) + dirichlet_part_.col(dof);
     }
-    return 0.5 * resistance.cwiseProduct(travel).sum() + dirichlet_part_.cwiseProduct(travel).sum();
+    sharing_->gather(forces);
+    gradient += forces;
+    const auto along = [&](const BlockVector<Dim>& force) {
+        return force.leftCols(rows).cwiseProduct(travel.leftCols(rows)).sum();
+    };
+    return sharing_->sum(0.5 * along(resistance) + along(dirichlet_part_));
 }
 
 template <int Dim>

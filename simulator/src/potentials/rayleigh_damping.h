@@ -21,11 +21,13 @@ public:
                     const BlockKernels& kernels,
                     const Elasticity<Dim>& elasticity,
                     const DofMap& dofs,
+                    const Sharing& sharing,
                     Filter filter)
         : workers_(&workers),
           kernels_(&kernels),
           elasticity_(&elasticity),
           dofs_(&dofs),
+          sharing_(&sharing),
           filter_(filter) {}
 
     /// After the dofs have changed.
@@ -49,6 +51,7 @@ private:
     const BlockKernels* kernels_;
     const Elasticity<Dim>* elasticity_;
     const DofMap* dofs_;
+    const Sharing* sharing_;
     Filter filter_;
     const Positions<Dim>* origin_ = nullptr;  // of the step
     bool is_on_ = false;

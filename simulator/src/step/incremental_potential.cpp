@@ -24,15 +24,23 @@ IncrementalPotential<Dim>::IncrementalPotential(const Workers& workers,
       damping_(scene.damping.value_or(Damping{})),
       energy_(&energy),
       elasticity_(&elasticity),
-      dofs_(number_dofs(bodies, std::vector<bool>(bodies.count(), true))),
+      dofs_(number_dofs_alike(bodies, std::vector<bool>(bodies.count(), true))),
+      rows_(number_dofs(bodies, std::vector<bool>(bodies.count(), true))),
       inertia_(workers, dofs_, bodies.masses),
       mass_drag_(workers, dofs_, bodies.masses),
-      stiffness_drag_(workers, kernels.blocks, elasticity, dofs_, scene.solver.filter) {
+      stiffness_drag_(
+          workers, kernels.blocks, elasticity, rows_, bodies.sharing, scene.solver.filter) {
     set_up_solver();
 }
 
 template <int Dim>
-void IncrementalPotential<Dim>::refuse_too_large() const {
+void IncrementalPotential<Dim>::refuse_unsolvable() const {
+    const bool is_direct = options_.linear == LinearSolverKind::Direct;
+    if (is_direct && bodies_->sharing.is_shared()) {
+        throw Error(
+            "solver.linear = \"direct\" is for one process: use \"cg\", or run the scene by"
+            " pent-sim");
+    }
     constexpr double kMegabyte = 1e6;
     const auto wanted = static_cast<double>(factor_bytes());
     const auto memory = static_cast<double>(machine_memory());
@@ -49,26 +57,49 @@ void IncrementalPotential<Dim>::renumber(const std::vector<bool>& asleep,
                                          const Positions<Dim>& positions) {
     std::vector<bool> awake = asleep;
     awake.flip();
-    dofs_ = number_dofs(*bodies_, awake);
-    elasticity_->set_dofs(dofs_, asleep, positions);
+    dofs_ = number_dofs_alike(*bodies_, awake);
+    rows_ = number_dofs(*bodies_, awake);
+    elasticity_->set_dofs(rows_, asleep, positions);
     energy_->invalidate();
     stiffness_drag_.forget();
     set_up_solver();
 }
 
+// Where the dofs of other ranks are at home.
+template <int Dim>
+DofOwners IncrementalPotential<Dim>::find_owners() const {
+    const Sharing& sharing = bodies_->sharing;
+    if (!sharing.is_shared()) {
+        return {};
+    }
+    Eigen::Matrix<double, 1, Eigen::Dynamic> places =
+        Eigen::RowVectorXd::Zero(bodies_->vertex_count());
+    for (std::uint32_t dof = 0; dof < rows_.row_count(); ++dof) {
+        places[rows_.vertex_of(dof)] = dof;
+    }
+    sharing.gather(places);
+    DofOwners owners;
+    owners.sharing = &sharing;
+    for (const std::uint32_t vertex : rows_.vertices()) {
+        owners.ranks.push_back(sharing.owner(vertex));
+        owners.places.push_back(static_cast<std::uint32_t>(places[vertex]));
+    }
+    return owners;
+}
+
 template <int Dim>
 void IncrementalPotential<Dim>::set_up_solver() {
     if (options_.linear == LinearSolverKind::Direct) {
-        solver_ = make_direct_solver<Dim>(at_dofs(dofs_, bodies_->rest));
+        solver_ = make_direct_solver<Dim>(at_dofs(rows_, bodies_->rest));
     } else {
         solver_ = make_iterative_solver<Dim>(
             *workers_, kernels_->blocks, options_.preconditioner,
-            DofGeometry<Dim>{dofs_.column_start(), at_dofs(dofs_, bodies_->rest)});
+            DofGeometry<Dim>{rows_.column_start(), at_dofs(rows_, bodies_->rest), find_owners()});
     }
     float_system_.reset();
     double_system_.reset();
     auto& system = options_.precision == Precision::Float ? float_system_ : double_system_;
-    system = std::make_unique<NewtonSystem<Dim>>(*workers_, dofs_, elasticity_->pattern(),
+    system = std::make_unique<NewtonSystem<Dim>>(*workers_, rows_, elasticity_->pattern(),
                                                  options_.precision);
 }
 
@@ -165,7 +196,7 @@ bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
                                          Filter filter,
                                          const Positions<Dim>& shift) {
     const Stopwatch watch;
-    system.begin(-at_dofs(dofs_, gradient_), shift);
+    system.begin(-at_dofs(rows_, gradient_), shift);
     double others = 0;  // seconds, which terms count themselves
     for (const auto& term : energy_->terms()) {
         const Stopwatch own;
@@ -184,7 +215,8 @@ bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
     }
     work_.hessians += elasticity_->element_count();
     work_.assembly_seconds += watch.seconds() - others;
-    if (system.has_lost_inertia() && !(may_be_rough_ && &system == double_system_.get())) {
+    const bool has_lost_inertia = bodies_->sharing.any(system.has_lost_inertia());
+    if (has_lost_inertia && !(may_be_rough_ && &system == double_system_.get())) {
         return false;
     }
     work_.unknowns += std::int64_t{Dim} * dofs_.count();
@@ -204,7 +236,7 @@ NewtonSystem<Dim>* IncrementalPotential<Dim>::assemble_somehow(Filter filter,
     }
     if (!double_system_) {
         double_system_ = std::make_unique<NewtonSystem<Dim>>(
-            *workers_, dofs_, elasticity_->pattern(), Precision::Double);
+            *workers_, rows_, elasticity_->pattern(), Precision::Double);
     }
     return assemble(*double_system_, filter, shift) ? double_system_.get() : nullptr;
 }
@@ -217,10 +249,10 @@ LinearSolution<Dim> IncrementalPotential<Dim>::solve_filtered(const NewtonSystem
                                      .max_iterations = options_.max_iterations};
     // Where all is to be solved for at once, most of it is the motion that inertia alone leads to.
     BlockVector<Dim> guess = tolerance == 0
-                                 ? at_dofs<Dim>(dofs_, problem_->target - x_)
-                                 : BlockVector<Dim>(BlockVector<Dim>::Zero(Dim, dofs_.count()));
+                                 ? at_dofs<Dim>(rows_, problem_->target - x_)
+                                 : BlockVector<Dim>(BlockVector<Dim>::Zero(Dim, rows_.count()));
     LinearSolution<Dim> solution =
-        solver_->solve(system, at_dofs(dofs_, x_), options, std::move(guess));
+        solver_->solve(system, at_dofs(rows_, x_), options, std::move(guess));
     work_.solve_seconds += watch.seconds();
     work_.iterations += solution.report.iterations;
     work_.residual = std::max(work_.residual, solution.report.residual);
@@ -257,9 +289,10 @@ NewtonDirection<Dim> IncrementalPotential<Dim>::solve(const Positions<Dim>& shif
                                        : "the linear solver did not reach its tolerance";
         return direction;
     }
-    for (std::uint32_t dof = 0; dof < dofs_.count(); ++dof) {
-        direction.step.col(dofs_.vertex_of(dof)) = solution.x.col(dof);
+    for (std::uint32_t dof = 0; dof < rows_.row_count(); ++dof) {
+        direction.step.col(rows_.vertex_of(dof)) = solution.x.col(dof);
     }
+    bodies_->sharing.gather(direction.step);
     return direction;
 }
 
@@ -280,7 +313,7 @@ std::int64_t IncrementalPotential<Dim>::tangent_bytes() const {
 template <int Dim>
 std::int64_t IncrementalPotential<Dim>::factor_bytes() const {
     return options_.linear == LinearSolverKind::Direct
-               ? direct_bytes<Dim>(elasticity_->pattern(), at_dofs(dofs_, bodies_->rest))
+               ? direct_bytes<Dim>(elasticity_->pattern(), at_dofs(rows_, bodies_->rest))
                : 0;
 }
 

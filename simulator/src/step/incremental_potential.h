@@ -43,8 +43,9 @@ public:
                          PotentialEnergy<Dim>& energy,
                          Elasticity<Dim>& elasticity);
 
-    /// Throws an Error where a direct solve would take more memory than the machine has.
-    void refuse_too_large() const;
+    /// Throws an Error where a direct solve would take more memory than the machine has, or is asked
+    /// of ranks.
+    void refuse_unsolvable() const;
 
     /// Solves for some bodies alone from now on, and for what of them is not held now.
     ///
@@ -88,6 +89,7 @@ public:
     [[nodiscard]] std::int64_t factor_bytes() const;
 
 private:
+    [[nodiscard]] DofOwners find_owners() const;
     void set_up_solver();
     [[nodiscard]] bool assemble(NewtonSystem<Dim>& system,
                                 Filter filter,
@@ -103,7 +105,8 @@ private:
     Damping damping_;
     PotentialEnergy<Dim>* energy_;
     Elasticity<Dim>* elasticity_;
-    DofMap dofs_;
+    DofMap dofs_;  // alike on all ranks
+    DofMap rows_;  // the same as this rank has them in its matrix
     MassDistance<Dim> inertia_;
     MassDistance<Dim> mass_drag_;
     RayleighDamping<Dim> stiffness_drag_;

@@ -3,6 +3,7 @@
 #include "potentials/vertex_chunks.h"
 #include "step/balance.h"
 #include "step/crossing_error.h"
+#include "step/rank_agreement.h"
 
 #include <pent/error.h>
 #include <pent/stopwatch.h>
@@ -15,25 +16,6 @@
 namespace pent::simulator {
 
 namespace {
-
-Isa choose_isa(const std::string& name) {
-    if (name.empty()) {
-        return best_isa();
-    }
-    for (const Isa isa : {Isa::Scalar, Isa::Baseline, Isa::Avx2, Isa::Avx512}) {
-        if (name == isa_name(isa)) {
-            if (!is_supported(isa)) {
-                // GCOVR_EXCL_START: a machine that has all of them
-                throw Error("the instruction set " + name + " is not supported by this machine; "
-                            + std::string(isa_name(best_isa())) + " is");
-                // GCOVR_EXCL_STOP
-            }
-            return isa;
-        }
-    }
-    throw Error("the instruction set \"" + name
-                + "\" is not known; expected scalar, baseline, avx2 or avx512");
-}
 
 // Shortest side of the boxes around bodies at rest, m.
 template <int Dim>
@@ -56,16 +38,16 @@ Simulation<Dim>::Stepper::Stepper(const Scene& scene,
     : options_(options),
       scene_(scene),
       workers_(options.tasks ? Workers(*options.tasks) : Workers(options.threads)),
-      isa_(choose_isa(options.isa)),
+      isa_(choose_isa(options.isa, options.ranks.get())),
       kernels_(&kernels<Dim>(isa_)),
-      bodies_(make_bodies(scene, std::move(meshes))),
+      bodies_(share(make_bodies(scene, std::move(meshes)), options.ranks)),
       energy_(workers_, *kernels_, bodies_, scene),
       potential_(workers_, *kernels_, bodies_, scene, energy_.sum, *energy_.elasticity),
       islands_(scene, bodies_),
       asleep_(islands_.asleep()),
       extent_((bodies_.rest.rowwise().maxCoeff() - bodies_.rest.rowwise().minCoeff()).norm()),
       thinnest_(thinnest(bodies_)) {
-    potential_.refuse_too_large();
+    potential_.refuse_unsolvable();
     potential_.set_observer(options.on_iterate);
     current_.positions = bodies_.rest;
     current_.velocities = start_velocities(scene, bodies_);
@@ -292,6 +274,7 @@ void Simulation<Dim>::Stepper::add_work(StepReport& report) {
 template <int Dim>
 StepReport Simulation<Dim>::Stepper::step() {
     const Stopwatch watch;
+    refuse_disagreement(bodies_.sharing, current_.positions, steps_);
     hold_and_release();
     begin_host_holds(current_.positions, time(), time() + scene_.dt(), bodies_);
     const State<Dim> before = current_;
@@ -376,9 +359,11 @@ SimulationSize Simulation<Dim>::Stepper::size() const {
     SimulationSize size;
     size.vertices = bodies_.vertex_count();
     size.cells = bodies_.cells.cols();
+    size.own_vertices = bodies_.sharing.own_count(bodies_.vertex_count());
+    size.ghosts = energy_.elasticity->ghost_count();
     size.free_vertices = potential_.dofs().count();
     size.elements = energy_.elasticity->element_count();
-    size.matrix_blocks = energy_.elasticity->pattern().blocks();
+    size.matrix_blocks = energy_.elasticity->block_count();
     // Per vertex: positions, velocities, forces and their copies; per unknown: the solver's.
     constexpr std::int64_t kVertexVectors = 8;
     constexpr std::int64_t kUnknownVectors = 6;

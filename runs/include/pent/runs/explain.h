@@ -1,9 +1,11 @@
 #pragma once
 
 #include <pent/simplex_mesh.h>
+#include <pent/simulator/ranks.h>
 #include <pent/simulator/scene.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,7 +37,10 @@ struct Explanation {
 /// Error as Simulation does.
 ///
 /// @param threads  At least 1.
-[[nodiscard]] Explanation explain(const simulator::Scene& scene, int threads);
+/// @param ranks    Processes that will run it together and explain it together; null for one alone.
+[[nodiscard]] Explanation explain(const simulator::Scene& scene,
+                                  int threads,
+                                  const std::shared_ptr<const simulator::Ranks>& ranks = nullptr);
 
 /// The explanation as a table and lines, for people.
 [[nodiscard]] std::string explanation_text(const Explanation& explanation);

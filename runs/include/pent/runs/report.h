@@ -32,6 +32,7 @@ struct FrameReport {
 struct RunPart {
     std::string created_by;
     int threads = 1;
+    int ranks = 0;  ///< Processes, of pent-sim-mpi; 0: of a program on its own.
     std::string isa;
     int first_frame = 0;  ///< The frame it went on from; 0 at the start.
     int last_frame = 0;   ///< The last that it wrote.

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <pent/runs/report.h>
+#include <pent/simulator/ranks.h>
 #include <pent/simulator/scene.h>
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,10 @@ struct RunOptions {
     int threads = 1;                      ///< At least 1.
     std::string isa = {};                 ///< As in SimulationOptions.
     std::string created_by = "pent-sim";  ///< Goes into the files.
+    /// Processes that run the scene together, each of which calls run(); null for one alone. All
+    /// read the same files, rank 0 alone writes any and is the one whose callbacks are told of
+    /// frames, warnings and so on; all are asked whether to stop.
+    std::shared_ptr<const simulator::Ranks> ranks = {};
 };
 
 struct RunCallbacks {

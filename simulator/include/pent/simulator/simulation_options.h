@@ -1,11 +1,13 @@
 #pragma once
 
 #include <pent/parallel.h>
+#include <pent/simulator/ranks.h>
 
 #include <Eigen/Core>
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -17,6 +19,9 @@ struct SimulationOptions {
         {};  ///< The host's, in place of `threads` of ours. Results do not depend on it.
     std::string isa =
         {};  ///< "scalar", "baseline", "avx2" or "avx512"; empty for the best there is.
+    /// Processes that take the steps together; null for one alone. All give the same scene, meshes
+    /// and options, and call all that follows alike.
+    std::shared_ptr<const Ranks> ranks = {};
     /// Told of the path that Newton's method takes in a step: all positions (Dim x vertices, m)
     /// where it starts, with true, and every iterate, with false. For plots of convergence, and
     /// proofs that nothing crosses on the way.
@@ -31,6 +36,8 @@ struct SimulationSize {
     std::int64_t elements = 0;       ///< Cells, edges or quadratic cells, with a free
                                      ///< vertex near; others cost nothing.
     std::int64_t matrix_blocks = 0;  ///< Dim x Dim blocks stored, upper triangle.
+    std::int64_t own_vertices = 0;   ///< Of this rank; of one alone all.
+    std::int64_t ghosts = 0;         ///< Vertices of others that this rank's matrix has.
     std::int64_t element_bytes = 0;  ///< Of elements; part of `bytes`.
     std::int64_t matrix_bytes = 0;   ///< Of the matrix; part of `bytes`.
     std::int64_t contact_bytes = 0;  ///< Of surfaces and trees for contact; part of `bytes`.

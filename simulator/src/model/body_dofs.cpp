@@ -1,0 +1,72 @@
+// Which vertices of bodies are solved for, by whom and in which order.
+
+#include "model/bodies.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pent::simulator {
+
+namespace {
+
+// One entry a vertex: whether it is held, or of a body that is not in.
+template <int Dim>
+std::vector<bool> fixed_vertices(const Bodies<Dim>& bodies, const std::vector<bool>& is_in) {
+    std::vector<bool> is_fixed = bodies.is_dirichlet;
+    for (std::size_t body = 0; body < is_in.size(); ++body) {
+        if (!is_in[body]) {
+            std::fill(is_fixed.begin() + bodies.first_vertex[body],
+                      is_fixed.begin() + bodies.first_vertex[body + 1], true);
+        }
+    }
+    return is_fixed;
+}
+
+}  // namespace
+
+template <int Dim>
+DofMap number_dofs(const Bodies<Dim>& bodies, const std::vector<bool>& is_in) {
+    const std::vector<bool> is_fixed = fixed_vertices(bodies, is_in);
+    if (!bodies.sharing.is_shared()) {
+        return number_dofs<Dim>(bodies.cells, is_fixed, bodies.columns);
+    }
+    std::vector<bool> is_own(is_fixed.size());
+    std::vector<bool> has_no_row = is_fixed;
+    std::vector<std::uint32_t> others;
+    for (std::uint32_t vertex = 0; vertex < is_fixed.size(); ++vertex) {
+        is_own[vertex] = bodies.sharing.owns(vertex);
+        has_no_row[vertex] = is_fixed[vertex] || !is_own[vertex];
+        if (!is_fixed[vertex] && !is_own[vertex]) {
+            others.push_back(vertex);
+        }
+    }
+    const DofMap own = number_dofs<Dim>(bodies.cells, has_no_row, bodies.columns);
+    std::vector<std::uint32_t> vertex_of_dof = own.vertices();
+    vertex_of_dof.insert(vertex_of_dof.end(), others.begin(), others.end());
+    return {is_fixed.size(), std::move(vertex_of_dof), own.column_start(), std::move(is_own)};
+}
+
+template <int Dim>
+DofMap number_dofs_alike(const Bodies<Dim>& bodies, const std::vector<bool>& is_in) {
+    if (!bodies.sharing.is_shared()) {
+        return number_dofs(bodies, is_in);
+    }
+    const std::vector<bool> is_fixed = fixed_vertices(bodies, is_in);
+    std::vector<std::uint32_t> free;
+    for (std::uint32_t vertex = 0; vertex < is_fixed.size(); ++vertex) {
+        if (!is_fixed[vertex]) {
+            free.push_back(vertex);
+        }
+    }
+    const auto count = static_cast<std::uint32_t>(free.size());
+    return {is_fixed.size(), std::move(free), {0, count}};
+}
+
+#define PENT_INSTANTIATE(Dim)                                                       \
+    template DofMap number_dofs<Dim>(const Bodies<Dim>&, const std::vector<bool>&); \
+    template DofMap number_dofs_alike<Dim>(const Bodies<Dim>&, const std::vector<bool>&);
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent::simulator

@@ -1,0 +1,127 @@
+#include "mpi_scenes.h"
+#include "support/messages.h"
+
+#include <cmath>
+
+namespace pent {
+namespace {
+
+using test::expect_contains;
+using test::Outcome;
+using test::text_of;
+
+class MpiRuns : public test::MpiScenes {
+protected:
+    // Positions differ by this part of how far the body has gone since frame 0, at most.
+    template <int Dim>
+    void expect_near(const std::string& run,
+                     const std::string& other,
+                     const std::string& body,
+                     int number,
+                     double tolerance) const {
+        const auto a = read_frame<Dim>(frame(run, body, number));
+        const auto b = read_frame<Dim>(frame(other, body, number));
+        const auto start = read_frame<Dim>(frame(other, body, 0));
+        EXPECT_EQ(a.mesh_crc, b.mesh_crc);
+        EXPECT_EQ(a.step, b.step);
+        EXPECT_EQ(a.time, b.time);
+        EXPECT_LT((a.positions - b.positions).norm(),
+                  tolerance * (b.positions - start.positions).norm())
+            << run << " " << body << " " << number;
+    }
+
+    void expect_same_bytes(const std::string& run,
+                           const std::string& other,
+                           const std::string& body) const {
+        for (int number = 0; number <= 4; ++number) {
+            const std::string bytes = text_of(frame(run, body, number));
+            ASSERT_FALSE(bytes.empty()) << run << " " << number;
+            EXPECT_EQ(bytes, text_of(frame(other, body, number))) << run << " " << number;
+        }
+    }
+};
+
+TEST_F(MpiRuns, GoWherePentSimGoes) {
+    ASSERT_EQ(simulate(0, "bar", "alone").exit_code, 0);
+    ASSERT_EQ(simulate(0, "boxes", "boxes_alone").exit_code, 0);
+    for (int ranks = 1; ranks <= 4; ++ranks) {
+        const std::string run = "bar" + std::to_string(ranks);
+        const Outcome bar = simulate(ranks, "bar", run);
+        ASSERT_EQ(bar.exit_code, 0) << bar.err;
+        expect_contains(bar.out, {"finished: 5 frames"});
+        expect_near<4>(run, "alone", "bar", 1, 1e-6);
+        expect_near<4>(run, "alone", "bar", 4, 1e-5);
+        const std::string both = "boxes" + std::to_string(ranks);
+        const Outcome boxes = simulate(ranks, "boxes", both);
+        ASSERT_EQ(boxes.exit_code, 0) << boxes.err;
+        for (const char* body : {"a", "b"}) {
+            expect_near<3>(both, "boxes_alone", body, 1, 1e-6);
+            expect_near<3>(both, "boxes_alone", body, 4, 1e-4);
+        }
+        const runs::RunReport own = report(both);
+        const runs::RunReport alone = report("boxes_alone");
+        ASSERT_EQ(own.steps.size(), alone.steps.size());
+        EXPECT_EQ(own.parts.back().ranks, ranks);
+        EXPECT_EQ(alone.parts.back().ranks, 0);
+        for (std::size_t i = 0; i < own.steps.size(); ++i) {
+            EXPECT_EQ(own.steps[i].contact.point_facet, alone.steps[i].contact.point_facet);
+            EXPECT_EQ(own.steps[i].contact.obstacle, alone.steps[i].contact.obstacle);
+            const double energy = alone.steps[i].energies.total();
+            EXPECT_NEAR(own.steps[i].energies.total(), energy, 1e-5 * std::abs(energy));
+        }
+        EXPECT_GT(alone.steps.back().contact.point_facet, 0);
+    }
+}
+
+TEST_F(MpiRuns, AreTheSameToTheBitForAnyThreadsRunAfterRun) {
+    for (const int ranks : {2, 3}) {
+        const std::string name = "threads" + std::to_string(ranks);
+        ASSERT_EQ(simulate(ranks, "bar", name + "a", "--threads 1").exit_code, 0);
+        ASSERT_EQ(simulate(ranks, "bar", name + "b", "--threads 2").exit_code, 0);
+        ASSERT_EQ(simulate(ranks, "bar", name + "c", "--threads 3").exit_code, 0);
+        expect_same_bytes(name + "a", name + "b", "bar");
+        expect_same_bytes(name + "a", name + "c", "bar");
+    }
+}
+
+// With the same ranks to the bit; else as near as other ranks are.
+TEST_F(MpiRuns, GoOnByAsManyRanksByOthersAndByPentSim) {
+    ASSERT_EQ(simulate(2, "bar", "whole").exit_code, 0);
+    std::string cut = kBar;
+    cut.replace(cut.find("frames = 4"), 10, "frames = 2");
+    write("cut", cut);
+    for (const int ranks : {2, 3, 0}) {
+        const std::string run = "from" + std::to_string(ranks);
+        ASSERT_EQ(simulate(2, "cut", run).exit_code, 0);
+        const Outcome resumed = simulate(ranks, "bar", run, "--resume");
+        ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+        expect_contains(resumed.out, {"it goes on from frame 2"});
+        EXPECT_EQ(resumed.out.find("run by 2 ranks") != std::string::npos, ranks != 2)
+            << resumed.out;
+        if (ranks == 2) {
+            expect_same_bytes("whole", run, "bar");
+        }
+        expect_near<4>(run, "whole", "bar", 4, 1e-5);
+        EXPECT_EQ(report(run).parts.size(), 2U);
+    }
+}
+
+TEST_F(MpiRuns, AreExplainedWithWhatRanksHaveAndSay) {
+    const Outcome told =
+        test::run_program("pent-sim-mpi --explain " + path("bar.toml"), test::mpirun(3));
+    EXPECT_EQ(told.exit_code, 0) << told.err;
+    expect_contains(told.out, {"ranks", "ghosts", "MB in memory", "messages", "all wait for all"});
+    const Outcome alone = test::run_program("pent-sim --explain " + path("bar.toml"));
+    EXPECT_EQ(alone.out.find("ghosts"), std::string::npos);
+}
+
+TEST_F(MpiRuns, SayTheirHelpOnce) {
+    const Outcome help = test::run_program("pent-sim-mpi --help", test::mpirun(3));
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_EQ(help.out.find("--resume"), help.out.rfind("--resume"));
+    const Outcome version = test::run_program("pent-sim-mpi --version");
+    expect_contains(version.out, {"pent-sim-mpi", "distributed"});
+}
+
+}  // namespace
+}  // namespace pent

@@ -1,0 +1,138 @@
+#pragma once
+
+#include "run_program.h"
+#include "support/kuhn_box.h"
+
+#include <pent/pent_file.h>
+#include <pent/runs/report.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace pent::test {
+
+/// What to put before pent-sim-mpi: several ranks on however many cores, at most two minutes. What
+/// Open MPI asks of root, and of machines that are shared.
+[[nodiscard]] inline std::string mpirun(int ranks, const std::string& options = "") {
+    return "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"
+           " OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl_vader_single_copy_mechanism=none"
+           " timeout 120 mpirun -q --oversubscribe --bind-to none "
+           + options + " -n " + std::to_string(ranks);
+}
+
+/// A folder with a bar, two boxes and scenes of them.
+class MpiScenes : public testing::Test {
+protected:
+    MpiScenes() {
+        SimplexMesh<4> bar = kuhn_box<4>({6, 2, 2, 2}, {1.5, 0.5, 0.5, 0.5});
+        const std::uint32_t base = 7 * 9;
+        for (std::uint32_t v = 0; v < bar.vertex_count(); ++v) {
+            bar.columns.push_back(v % base);
+            bar.layers.push_back(v / base);
+        }
+        static_cast<void>(write_mesh(folder_ / "bar.pent", bar));
+        static_cast<void>(
+            write_mesh(folder_ / "box.pent", kuhn_box<3>({3, 3, 3}, {0.5, 0.5, 0.5})));
+        write("bar", kBar);
+        write("boxes", kBoxes);
+    }
+
+    void write(const std::string& scene, const std::string& text) const {
+        std::ofstream(path(scene + ".toml")) << text;
+    }
+
+    [[nodiscard]] std::string path(const std::string& name) const {
+        return (folder_ / name).string();
+    }
+
+    /// A scene into the run RUN by so many ranks; 0: by pent-sim.
+    [[nodiscard]] Outcome simulate(int ranks,
+                                   const std::string& scene,
+                                   const std::string& run,
+                                   const std::string& options = "") const {
+        const std::string arguments =
+            " " + path(scene + ".toml") + " -o " + path(run)
+            + (options.find("--threads") == std::string::npos ? " --threads 1 " : " ") + options;
+        return ranks == 0 ? run_program("pent-sim" + arguments)
+                          : run_program("pent-sim-mpi" + arguments, mpirun(ranks));
+    }
+
+    [[nodiscard]] std::string frame(const std::string& run,
+                                    const std::string& body,
+                                    int number) const {
+        const std::string digits = std::to_string(number);
+        return path(run + "/frames/" + body + "_" + std::string(6 - digits.size(), '0') + digits
+                    + ".pent");
+    }
+
+    [[nodiscard]] runs::RunReport report(const std::string& run) const {
+        return runs::read_report(path(run + "/report.json"));
+    }
+
+    // A bar in R^4 that is turned by its left end, falls and is damped.
+    static constexpr const char* kBar = R"([scene]
+gravity = [0, -9.8, 0, 0]
+frames = 4
+
+[damping]
+mass = 0.1
+stiffness = 0.002
+
+[[body]]
+name = "bar"
+mesh = "bar.pent"
+material = { young = 1e5 }
+
+[[constraint]]
+body = "bar"
+select = { half_space = { normal = [1, 0, 0, 0], offset = 1e-6 } }
+motion = { rotate = [{ plane = "wx", degrees_per_s = 60 }] }
+
+[solver]
+integrator = "bdf2"
+tolerance = 1e-8
+newton_tolerance = 1e-7
+precision = "double"
+)";
+
+    // Two boxes in R^3, one of which falls on the other, which lies on a floor.
+    static constexpr const char* kBoxes = R"([scene]
+dimension = 3
+gravity = [0, -9.8, 0]
+frames = 4
+frames_per_second = 100
+
+[[body]]
+name = "a"
+mesh = "box.pent"
+material = { young = 1e5 }
+
+[[body]]
+name = "b"
+mesh = "box.pent"
+material = { young = 1e5 }
+place = { translate = [0.1, 0.53, 0.05] }
+velocity = [0.3, -2, 0]
+
+[[obstacle]]
+half_space = { normal = [0, 1, 0], offset = -0.005 }
+
+[contact]
+distance = 0.02
+stiffness = 1000
+friction = 0.3
+
+[solver]
+integrator = "newton_euler"
+tolerance = 1e-8
+newton_tolerance = 1e-7
+precision = "double"
+)";
+
+    TempFolder folder_;
+};
+
+}  // namespace pent::test

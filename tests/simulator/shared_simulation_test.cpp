@@ -1,0 +1,262 @@
+// Scenes on ranks that are threads of this process, beside the same scenes on one alone.
+
+#include "barrier_scenes.h"
+#include "contact_scenes.h"
+#include "scenes.h"
+#include "support/messages.h"
+#include "thread_ranks.h"
+
+#include <pent/simulator/simulation.h>
+
+#include <gtest/gtest.h>
+
+namespace pent::simulator {
+namespace {
+
+template <int Dim>
+struct Case {
+    Scene scene;
+    std::vector<SimplexMesh<Dim>> meshes;
+};
+
+// What a scene has come to.
+template <int Dim>
+struct State {
+    Positions<Dim> positions;
+    Positions<Dim> forces;
+    std::vector<StepReport> steps;
+    SimulationSize size;
+};
+
+template <int Dim>
+State<Dim> simulate(const Case<Dim>& of, int steps, const std::shared_ptr<const Ranks>& ranks) {
+    Simulation<Dim> simulation(of.scene, of.meshes, {.ranks = ranks});
+    State<Dim> state;
+    for (int i = 0; i < steps; ++i) {
+        state.steps.push_back(simulation.step());
+    }
+    const Snapshot<Dim> end = simulation.save();
+    state.positions = end.positions;
+    state.forces.resize(Dim, end.positions.cols());
+    for (int body = 0; body < simulation.body_count(); ++body) {
+        state.forces.middleCols(simulation.first_vertex(body),
+                                simulation.mesh(body).vertex_count()) = simulation.forces(body);
+    }
+    state.size = simulation.size();
+    return state;
+}
+
+// A bar that is turned, falls and is damped, to eight digits.
+Case<4> swing(Integrator integrator, ElementKind elements = ElementKind::Linear) {
+    Case<4> made{test::swinging_bar(), {test::bar()}};
+    made.scene.solver.integrator = integrator;
+    made.scene.solver.elements = elements;
+    made.scene.solver.precision = Precision::Double;
+    made.scene.solver.tolerance = 1e-10;
+    made.scene.solver.newton_tolerance = 1e-9;
+    return made;
+}
+
+// Every rank has what one alone has, but for rounding and for what the solver leaves; all ranks have
+// the same to the bit.
+template <int Dim>
+void expect_same_on_ranks(const Case<Dim>& of, int steps, double tolerance) {
+    const State<Dim> alone = simulate<Dim>(of, steps, nullptr);
+    ASSERT_TRUE(alone.steps.back().is_accepted) << alone.steps.back().failure;
+    double motion = 0;
+    double force = alone.forces.norm();
+    {
+        const Simulation<Dim> start(of.scene, of.meshes);
+        motion = (alone.positions - start.save().positions).norm();
+    }
+    ASSERT_GT(motion, 0);
+    for (const int count : {1, 2, 3, 4}) {
+        SCOPED_TRACE(count);
+        std::vector<State<Dim>> all(static_cast<std::size_t>(count));
+        test::on_ranks(count, [&](const std::shared_ptr<const Ranks>& ranks) {
+            all[static_cast<std::size_t>(ranks->rank())] = simulate<Dim>(of, steps, ranks);
+        });
+        for (const State<Dim>& state : all) {
+            EXPECT_EQ(state.positions, all.front().positions);
+            EXPECT_EQ(state.forces, all.front().forces);
+            EXPECT_EQ(state.steps.back().iterations, all.front().steps.back().iterations);
+        }
+        const State<Dim>& state = all.front();
+        EXPECT_LT((state.positions - alone.positions).norm(), tolerance * motion);
+        EXPECT_LT((state.forces - alone.forces).norm(), 100 * tolerance * force);
+        EXPECT_EQ(state.size.elements, alone.size.elements);
+        EXPECT_EQ(state.size.free_vertices, alone.size.free_vertices);
+        for (std::size_t i = 0; i < alone.steps.size(); ++i) {
+            const StepReport& own = state.steps[i];
+            const StepReport& other = alone.steps[i];
+            EXPECT_EQ(own.is_accepted, other.is_accepted);
+            EXPECT_EQ(own.inverted, other.inverted);
+            EXPECT_EQ(own.asleep, other.asleep);
+            EXPECT_EQ(own.contact.point_facet, other.contact.point_facet);
+            EXPECT_EQ(own.contact.obstacle, other.contact.obstacle);
+            ASSERT_EQ(own.energies.terms.size(), other.energies.terms.size());
+            const double scale = other.energies.kinetic + std::abs(other.energies.total()) + 1e-9;
+            for (std::size_t term = 0; term < other.energies.terms.size(); ++term) {
+                EXPECT_NEAR(own.energies.terms[term].energy, other.energies.terms[term].energy,
+                            100 * tolerance * scale)
+                    << other.energies.terms[term].name;
+            }
+        }
+    }
+}
+
+TEST(SharedSimulation, TakesLinearSteps) {
+    expect_same_on_ranks(swing(Integrator::LinearEuler), 3, 1e-7);
+}
+
+TEST(SharedSimulation, TakesNewtonStepsWithDamping) {
+    expect_same_on_ranks(swing(Integrator::NewtonEuler), 2, 1e-7);
+}
+
+TEST(SharedSimulation, LooksTwoStepsBack) {
+    expect_same_on_ranks(swing(Integrator::Bdf2), 3, 1e-7);
+}
+
+TEST(SharedSimulation, FindsEquilibria) {
+    expect_same_on_ranks(swing(Integrator::Quasistatic), 1, 1e-6);
+}
+
+TEST(SharedSimulation, HasSmoothedElements) {
+    expect_same_on_ranks(swing(Integrator::NewtonEuler, ElementKind::Smoothed), 1, 1e-7);
+}
+
+TEST(SharedSimulation, HasQuadraticElements) {
+    Case<3> made{test::box_scene<3>(), {pent::test::quadratic_kuhn_box<3>({3, 2, 2}, {1, 1, 1})}};
+    made.scene.gravity[1] = -9.8;
+    made.scene.constraints = {test::hold(
+        HalfSpaceSelection{.normal = Eigen::Vector3d(1, 0, 0), .offset = 1e-6}, test::still(3))};
+    made.scene.solver.elements = ElementKind::Quadratic;
+    made.scene.solver.precision = Precision::Double;
+    made.scene.solver.tolerance = 1e-10;
+    expect_same_on_ranks(made, 2, 1e-7);
+}
+
+// Rows of float blocks are summed in other orders, and Jacobi has other columns.
+TEST(SharedSimulation, HasFloatMatricesAndOtherPreconditioners) {
+    for (const PreconditionerKind kind :
+         {PreconditionerKind::BlockJacobi, PreconditionerKind::RigidModes}) {
+        Case<4> made = swing(Integrator::LinearEuler);
+        made.scene.solver.precision = Precision::Float;
+        made.scene.solver.preconditioner = kind;
+        made.scene.solver.tolerance = 1e-7;
+        expect_same_on_ranks(made, 1, 1e-5);
+    }
+}
+
+TEST(SharedSimulation, HasLoadsActivationsAndAttachments) {
+    Case<4> made = swing(Integrator::NewtonEuler);
+    Scene& scene = made.scene;
+    const HalfSpaceSelection right{.normal = Eigen::Vector4d(-1, 0, 0, 0), .offset = -1.4};
+    scene.loads = {{.body = "box", .select = {right}, .force = Eigen::Vector4d(0, 0, 3, 0)},
+                   {.body = "box", .select = {right}, .pressure = 50}};
+    scene.activations = {{.body = "box",
+                          .select = {EverythingSelection{}},
+                          .stretch = 1.1,
+                          .fibers = Fibers::Constant,
+                          .direction = Eigen::Vector4d(0, 1, 0, 0),
+                          .signal = Signal::Sine}};
+    scene.attachments = {{.body = "box", .select = {right}, .stiffness = 20, .damping = 0.1}};
+    expect_same_on_ranks(made, 2, 1e-7);
+}
+
+// What touches is on other ranks than what it touches: the bodies are cut beside one another.
+TEST(SharedSimulation, HasContactWithFrictionAcrossRanks) {
+    Case<4> made{test::two_cubes<4>(0.02), {test::cube<4>(), test::cube<4>()}};
+    made.scene.gravity[1] = -9.8;
+    made.scene.contact->friction = 0.3;
+    made.scene.bodies[1].velocity = Eigen::Vector4d(0.4, -0.5, 0, 0);
+    made.scene.bodies[0].velocity = Eigen::Vector4d(0, 9.8 / 100, 0, 0);
+    made.scene.solver.integrator = Integrator::NewtonEuler;
+    made.scene.solver.precision = Precision::Double;
+    made.scene.solver.tolerance = 1e-10;
+    made.scene.solver.newton_tolerance = 1e-9;
+    expect_same_on_ranks(made, 3, 1e-6);
+}
+
+TEST(SharedSimulation, HasABarrierThatNothingCrosses) {
+    test::BarrierScene<3> barrier;
+    const SimplexMesh<3> cube = test::cube<3>();
+    barrier.add(cube, test::vector<3>(0, 0));
+    barrier.add(cube, test::vector<3>(0.1, 0.53)).velocity = test::vector<3>(0.3, -2);
+    barrier.scene.contact->friction = 0.2;
+    barrier.scene.solver.precision = Precision::Double;
+    barrier.scene.solver.tolerance = 1e-10;
+    barrier.scene.solver.newton_tolerance = 1e-9;
+    expect_same_on_ranks<3>({barrier.scene, barrier.meshes}, 3, 1e-5);
+}
+
+TEST(SharedSimulation, FallsAsleepAndWakesAlike) {
+    Case<3> made{test::two_cubes<3>(0.2), {test::cube<3>(), test::cube<3>()}};
+    made.scene.sleep = Sleep{.speed = 1e-3, .time = 0.02};
+    made.scene.bodies[1].velocity = Eigen::Vector3d(0, -4, 0);
+    made.scene.solver.precision = Precision::Double;
+    made.scene.solver.tolerance = 1e-10;
+    const State<3> alone = simulate<3>(made, 6, nullptr);
+    ASSERT_EQ(alone.steps[3].asleep, 1);
+    ASSERT_EQ(alone.steps[5].asleep, 0);
+    expect_same_on_ranks(made, 6, 1e-5);
+}
+
+TEST(SharedSimulation, GoesOnFromASnapshotOfOneAloneAndGivesOneBack) {
+    const Case<4> made = swing(Integrator::Bdf2);
+    Simulation<4> alone(made.scene, made.meshes);
+    static_cast<void>(alone.step());
+    static_cast<void>(alone.step());
+    const Snapshot<4> middle = alone.save();
+    static_cast<void>(alone.step());
+    Snapshot<4> shared;
+    test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
+        Simulation<4> simulation(made.scene, made.meshes, {.ranks = ranks});
+        simulation.restore(middle);
+        static_cast<void>(simulation.step());
+        if (ranks->rank() == 0) {
+            shared = simulation.save();
+        }
+    });
+    const double motion = (alone.save().positions - middle.positions).norm();
+    EXPECT_LT((shared.positions - alone.save().positions).norm(), 1e-6 * motion);
+    EXPECT_EQ(shared.steps, 3U);
+}
+
+TEST(SharedSimulation, HasTheSameBitsForAnyThreads) {
+    const Case<4> made = swing(Integrator::NewtonEuler);
+    const auto end = [&](int threads) {
+        Positions<4> positions;
+        test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
+            Simulation<4> simulation(made.scene, made.meshes, {.threads = threads, .ranks = ranks});
+            static_cast<void>(simulation.step());
+            if (ranks->rank() == 0) {
+                positions = simulation.save().positions;
+            }
+        });
+        return positions;
+    };
+    EXPECT_EQ(end(1), end(3));
+}
+
+TEST(SharedSimulation, RefusesADirectSolveAndOtherMeshes) {
+    test::on_ranks(2, [&](const std::shared_ptr<const Ranks>& ranks) {
+        Case<4> direct = swing(Integrator::LinearEuler);
+        direct.scene.solver.linear = LinearSolverKind::Direct;
+        pent::test::expect_contains(
+            pent::test::error_of(
+                [&] { Simulation<4>(direct.scene, direct.meshes, {.ranks = ranks}); }),
+            {"solver.linear", "\"cg\"", "pent-sim"});
+        Case<4> other = swing(Integrator::LinearEuler);
+        if (ranks->rank() == 1) {
+            other.meshes[0].positions(0, 0) -= 1e-3;
+        }
+        pent::test::expect_contains(pent::test::error_of([&] {
+                                        Simulation<4>(other.scene, other.meshes, {.ranks = ranks});
+                                    }),
+                                    {"rank 1 has other meshes than rank 0", "same files"});
+    });
+}
+
+}  // namespace
+}  // namespace pent::simulator
