@@ -14,8 +14,8 @@
 #   scripts/test.sh --python                  only the Python package: its tests, its types, 10,000 calls at random,
 #                                             its wheel in a fresh environment, its notebooks
 #   scripts/test.sh --hosts                   only the add-on for Blender and the reader for ParaView, in both
-#   scripts/test.sh --distributed             only what runs on many machines: studies on a Slurm of one node that the test
-#                                             starts and stops (as root), and with GNU parallel
+#   scripts/test.sh --distributed             only what runs on many machines: scenes on 1 to 4 ranks, studies on a Slurm of
+#                                             one node that the test starts and stops (as root), and with GNU parallel
 #   scripts/test.sh --all                     every test, every test under the address and undefined-behavior
 #                                             sanitizers, a minute of scripts/scene_fuzz.sh from a fixed
 #                                             seed, --threads, --portable, --web, --python, --hosts and --distributed (long: each builds anew)
@@ -74,8 +74,9 @@ run_hosts() {
 # What is skipped, and why, stands in lines that begin with SKIPPED.
 run_distributed() {
     scripts/setup.sh --distributed
-    cmake --preset dev
-    cmake --build --preset dev --target pent-study pent-sim pent-mesh
+    cmake --preset dev -DPENT_BUILD_DISTRIBUTED=ON
+    cmake --build --preset dev --target pent-study pent-sim pent-sim-mpi pent-mesh mpi_test
+    ctest --preset dev -L mpi_test
     ctest --preset dev --verbose -C Distributed -L distributed_test
 }
 

@@ -16,14 +16,12 @@ namespace pent::distributed {
 
 namespace {
 
-// Options of PETSc. Products that add up as messages come in would not give the same bits twice;
-// the others need fewer iterations where layers are thin.
+// Options of PETSc. Products that add up as messages come in would not give the same bits twice; the
+// other two need fewer iterations where layers are thin.
 std::string options_text(int ranks) {
-    const std::string prefix = std::string("-") + PetscSolver::kPrefix;
-    std::string text =
-        prefix + "pc_gamg_aggressive_coarsening 0 " + prefix + "mg_levels_pc_type pbjacobi ";
-    if (ranks > 1) {
-        text += "-matptap_via allatonce ";
+    std::string text = ranks > 1 ? "-matptap_via allatonce" : "";
+    for (const char* option : {"pc_gamg_aggressive_coarsening 0", "mg_levels_pc_type pbjacobi"}) {
+        text += std::string(" -") + PetscSolver::kPrefix + option;
     }
     return text;
 }

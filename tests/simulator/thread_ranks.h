@@ -1,9 +1,9 @@
 #pragma once
 
+#include <pent/error.h>
 #include <pent/simulator/ranks.h>
 
-#include <Eigen/Cholesky>
-
+#include <algorithm>
 #include <barrier>
 #include <exception>
 #include <functional>
@@ -55,59 +55,6 @@ private:
     Ghosts ghosts_;
 };
 
-/// Solves exactly, every rank all of it.
-class TableSolver final : public SpreadSolver {
-public:
-    TableSolver(const Ranks& ranks, const SpreadMatrix& matrix)
-        : ranks_(&ranks), first_(matrix.first_row * matrix.block_size) {
-        const Eigen::Index n = matrix.block_size;
-        std::vector<std::int64_t> one(static_cast<std::size_t>(ranks.count()), 1);
-        const double own_rows = static_cast<double>(n * matrix.rows());
-        for (const double rows : ranks.gather({&own_rows, 1}, one)) {
-            sizes_.push_back(static_cast<std::int64_t>(rows));
-            total_ += static_cast<Eigen::Index>(rows);
-        }
-        Eigen::MatrixXd own = Eigen::MatrixXd::Zero(n * matrix.rows(), total_);
-        for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
-            for (auto k = static_cast<std::size_t>(matrix.row_start[static_cast<std::size_t>(row)]);
-                 k < static_cast<std::size_t>(matrix.row_start[static_cast<std::size_t>(row) + 1]);
-                 ++k) {
-                for (Eigen::Index i = 0; i < n; ++i) {
-                    for (Eigen::Index j = 0; j < n; ++j) {
-                        own(n * row + i, n * matrix.columns[k] + j) =
-                            matrix.values[k * static_cast<std::size_t>(n * n)
-                                          + static_cast<std::size_t>(i * n + j)];
-                    }
-                }
-            }
-        }
-        // Symmetric: its rows are its columns.
-        const Eigen::MatrixXd columns = own.transpose();
-        std::vector<std::int64_t> lengths;
-        for (const std::int64_t size : sizes_) {
-            lengths.push_back(size * total_);
-        }
-        const std::vector<double> all =
-            ranks.gather({columns.data(), static_cast<std::size_t>(columns.size())}, lengths);
-        factors_.compute(Eigen::Map<const Eigen::MatrixXd>(all.data(), total_, total_));
-    }
-
-    Eigen::VectorXd solve(const Eigen::VectorXd& r) override {
-        const std::vector<double> all =
-            ranks_->gather({r.data(), static_cast<std::size_t>(r.size())}, sizes_);
-        const Eigen::VectorXd z =
-            factors_.solve(Eigen::Map<const Eigen::VectorXd>(all.data(), total_));
-        return z.segment(first_, r.size());
-    }
-
-private:
-    const Ranks* ranks_;
-    Eigen::Index first_;
-    Eigen::Index total_ = 0;
-    std::vector<std::int64_t> sizes_;
-    Eigen::LLT<Eigen::MatrixXd> factors_;
-};
-
 /// One of several ranks that are threads of this process.
 class ThreadRank final : public Ranks {
 public:
@@ -131,8 +78,8 @@ public:
         return std::make_unique<TableExchange>(*table_, rank_, ghosts);
     }
     [[nodiscard]] std::unique_ptr<SpreadSolver> make_solver(
-        const SpreadMatrix& matrix) const override {
-        return std::make_unique<TableSolver>(*this, matrix);
+        const SpreadMatrix& /*matrix*/) const override {
+        throw Error("what is tested on threads is small");
     }
     [[nodiscard]] RankTraffic take_traffic() const override { return {}; }
 

@@ -2,11 +2,16 @@
 
 #include "linear/aggregate_matrix.h"
 #include "linear/aggregates.h"
+#include "linear/gathered_solver.h"
 #include "linear/rigid_modes.h"
+
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <numeric>
 #include <utility>
 
 namespace pent::simulator {
@@ -17,8 +22,8 @@ namespace {
 // dozen dofs are few enough for a matrix of another library, and as good as smaller ones.
 constexpr std::size_t kLevel = 1;
 
-// Below this part of its length what is left of a motion is rounding.
-constexpr double kDependent = 1e-8;
+// Combinations of motions that are shorter than the longest by this, squared, are rounding.
+constexpr double kDependent = 1e-10;
 
 // Rows and columns that have rows alone.
 BlockPattern own_part(const BlockPattern& pattern) {
@@ -180,22 +185,32 @@ Eigen::MatrixXd rigid_motions(const std::vector<Place<Dim>>& places, const Shari
             }
         }
     }
-    Eigen::Index kept = 0;
-    for (int mode = 0; mode < kSize; ++mode) {
-        Eigen::VectorXd motion = motions.col(mode);
-        const double length = std::sqrt(sharing.sum(motion.squaredNorm()));
-        for (int pass = 0; pass < 2; ++pass) {  // once more for what rounding has left
-            for (Eigen::Index other = 0; other < kept; ++other) {
-                motion -= sharing.sum(motions.col(other).dot(motion)) * motions.col(other);
-            }
-        }
-        const double left = std::sqrt(sharing.sum(motion.squaredNorm()));
-        if (left > kDependent * length) {
-            motions.col(kept++) = motion / left;
-        }
+    // By the eigenvectors of their products, columns in units of their lengths.
+    std::vector<double> sums(kSize * kSize);
+    Eigen::Map<Eigen::MatrixXd> products(sums.data(), kSize, kSize);
+    products = motions.transpose() * motions;
+    sharing.sum(sums);
+    const Eigen::VectorXd scales = products.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scales.asDiagonal() * products
+                                                               * scales.asDiagonal());
+    const Eigen::Index dropped =
+        (eigen.eigenvalues().array() < kDependent * eigen.eigenvalues().maxCoeff()).count();
+    const Eigen::MatrixXd independent = eigen.eigenvectors().rightCols(kSize - dropped);
+    const Eigen::VectorXd lengths = eigen.eigenvalues().tail(kSize - dropped).cwiseSqrt();
+    return motions * (scales.asDiagonal() * independent * lengths.cwiseInverse().asDiagonal());
+}
+
+template <int Dim>
+std::unique_ptr<SpreadSolver> solver_of(SpreadMatrix matrix,
+                                        const std::vector<std::int64_t>& rows,
+                                        const std::vector<Place<Dim>>& places,
+                                        const Sharing& sharing) {
+    const auto total = std::accumulate(rows.begin(), rows.end(), std::int64_t{0});
+    if (total * matrix.block_size <= std::atoi(getenv("PR"))) {
+        return std::make_unique<GatheredSolver>(sharing, matrix, rows);
     }
-    motions.conservativeResize(Eigen::NoChange, kept);
-    return motions;
+    matrix.near_kernel = rigid_motions<Dim>(places, sharing);
+    return sharing.ranks().make_solver(matrix);
 }
 
 template <int Dim>
@@ -266,13 +281,14 @@ SpreadModes<Dim>::SpreadModes(const BlockPattern& pattern, const DofGeometry<Dim
     const std::vector<Aggregates> levels =
         make_hierarchy<Dim>(own_part(pattern), geometry.column_start, rest);
     if (!levels.empty()) {
-        own_ = flatten(levels, std::min(kLevel, levels.size() - 1));
+        own_ = flatten(levels, std::min<std::size_t>(std::atoi(getenv("PL")), levels.size() - 1));
     }
     const Sharing& sharing = *geometry.owners.sharing;
-    const std::vector<double> counts = sharing.list(static_cast<double>(own_.count()));
-    for (int rank = 0; rank < sharing.ranks().rank(); ++rank) {
-        first_ += static_cast<std::int64_t>(counts[static_cast<std::size_t>(rank)]);
+    for (const double count : sharing.list(static_cast<double>(own_.count()))) {
+        counts_.push_back(static_cast<std::int64_t>(count));
     }
+    first_ =
+        std::accumulate(counts_.begin(), counts_.begin() + sharing.ranks().rank(), std::int64_t{0});
 }
 
 template <int Dim>
@@ -293,10 +309,10 @@ std::unique_ptr<Preconditioner<Dim>> SpreadModes<Dim>::precondition(
     SpreadMatrix coarse =
         spread<Dim>(galerkin_product(workers, matrix, around.aggregates, around.arms, pattern),
                     around.numbers, own_.members.size(), first_);
-    const Sharing& sharing = *geometry_->owners.sharing;
-    coarse.near_kernel = rigid_motions<Dim>(places, sharing);
     return std::make_unique<WithSpreadModes<Dim>>(
-        own_, std::move(around.arms), sharing.ranks().make_solver(coarse), std::move(smoother));
+        own_, std::move(around.arms),
+        solver_of<Dim>(std::move(coarse), counts_, places, *geometry_->owners.sharing),
+        std::move(smoother));
 }
 
 #define PENT_INSTANTIATE(Dim, Scalar)                                                            \

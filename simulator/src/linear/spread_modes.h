@@ -11,7 +11,9 @@ namespace pent::simulator {
 /// Rigid motions of aggregates beside a smoother, as multilevel() has them, for dofs that ranks
 /// share:
 ///
-///     z = S r + P C P^T r,     C near (P^T A P)^-1 by Ranks::make_solver()
+///     z = S r + P C P^T r,     C near (P^T A P)^-1
+///
+/// C is a GatheredSolver where that is small, else it comes from Ranks::make_solver().
 ///
 /// No aggregate crosses from one rank to another. One is made for each set of dofs, and for a
 /// matrix at a time.
@@ -39,7 +41,8 @@ public:
 private:
     const DofGeometry<Dim>* geometry_;
     Aggregates own_;
-    std::int64_t first_ = 0;  // aggregates of the ranks before this one
+    std::vector<std::int64_t> counts_;  // of the aggregates of each rank
+    std::int64_t first_ = 0;            // of the ranks before this one together
 };
 
 }  // namespace pent::simulator
