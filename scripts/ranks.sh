@@ -51,7 +51,7 @@ mesh = "box.pent"
 material = { young = 1e7 }
 [[constraint]]
 body = "box"
-select = { half_space = { normal = [1, 0, 0, 0], offset = 1e-6 } }
+select = { half_space = { normal = [1, 0, 0, 0], offset = $(echo "$box" | awk -F, '{ print 1e-6 - $1 / 20 }') } }
 [solver]
 tolerance = TOLERANCE
 SCENE
@@ -68,7 +68,7 @@ SCENE
         number() { echo "$line" | sed -n "s/.*$1.*/\1/p"; }
         echo "| $ranks | $(echo "$rough" | iterations) | $(echo "$fine" | iterations)" \
             "| $(number 'at most \([0-9]*\) vertices') | $(number ', \([0-9]*\) ghosts')" \
-            "| $(number 'and \([0-9]*\) MB in') MB | $(number 'takes \([0-9]*\) messages')" \
+            "| $(number 'and \([0-9]*\) MB in memory') MB | $(number 'takes \([0-9]*\) messages')" \
             "| $(number 'and \([0-9.e+]*\) MB in all') MB |"
     done
 done

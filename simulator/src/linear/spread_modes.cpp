@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <numeric>
 #include <utility>
 
@@ -206,7 +205,7 @@ std::unique_ptr<SpreadSolver> solver_of(SpreadMatrix matrix,
                                         const std::vector<Place<Dim>>& places,
                                         const Sharing& sharing) {
     const auto total = std::accumulate(rows.begin(), rows.end(), std::int64_t{0});
-    if (total * matrix.block_size <= std::atoi(getenv("PR"))) {
+    if (total * matrix.block_size <= GatheredSolver::kMaxRows) {
         return std::make_unique<GatheredSolver>(sharing, matrix, rows);
     }
     matrix.near_kernel = rigid_motions<Dim>(places, sharing);
@@ -281,7 +280,7 @@ SpreadModes<Dim>::SpreadModes(const BlockPattern& pattern, const DofGeometry<Dim
     const std::vector<Aggregates> levels =
         make_hierarchy<Dim>(own_part(pattern), geometry.column_start, rest);
     if (!levels.empty()) {
-        own_ = flatten(levels, std::min<std::size_t>(std::atoi(getenv("PL")), levels.size() - 1));
+        own_ = flatten(levels, std::min(kLevel, levels.size() - 1));
     }
     const Sharing& sharing = *geometry.owners.sharing;
     for (const double count : sharing.list(static_cast<double>(own_.count()))) {
