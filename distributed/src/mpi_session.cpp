@@ -16,8 +16,8 @@ namespace pent::distributed {
 
 namespace {
 
-// Options of PETSc. Products that add up as messages come in would not give the same bits twice; the
-// other two need fewer iterations where layers are thin.
+// Options of PETSc. Products that add up as messages come in would not give the same bits twice;
+// the other two need fewer iterations where layers are thin.
 std::string options_text(int ranks) {
     std::string text = ranks > 1 ? "-matptap_via allatonce" : "";
     for (const char* option : {"pc_gamg_aggressive_coarsening 0", "mg_levels_pc_type pbjacobi"}) {

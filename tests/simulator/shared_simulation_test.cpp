@@ -57,8 +57,8 @@ Case<4> swing(Integrator integrator, ElementKind elements = ElementKind::Linear)
     return made;
 }
 
-// Every rank has what one alone has, but for rounding and for what the solver leaves; all ranks have
-// the same to the bit.
+// Every rank has what one alone has, but for rounding and for what the solver leaves; all ranks
+// have the same to the bit.
 template <int Dim>
 void expect_same_on_ranks(const Case<Dim>& of, int steps, double tolerance) {
     const State<Dim> alone = simulate<Dim>(of, steps, nullptr);
@@ -170,7 +170,7 @@ TEST(SharedSimulation, HasLoadsActivationsAndAttachments) {
 }
 
 // What touches is on other ranks than what it touches: the bodies are cut beside one another. A
-// single linear solve, since at the kinks of penalties Newton's method ends where it comes to first.
+// single linear solve: at the kinks of penalties Newton's method ends where it comes to first.
 TEST(SharedSimulation, HasContactWithFrictionAcrossRanks) {
     Case<4> made{test::two_cubes<4>(0.02), {test::cube<4>(), test::cube<4>()}};
     made.scene.gravity[1] = -9.8;

@@ -366,7 +366,6 @@ private:
         for (std::size_t i = 0; i < all.size(); ++i) {
             most[i % own.size()] = std::max(most[i % own.size()], all[i]);
         }
-        constexpr double kMega = 1e6;
         add({.name = "ranks",
              .is_on = true,
              .why = std::to_string(count)
@@ -375,7 +374,7 @@ private:
                         " in memory; a step takes %.0f messages and %.3g MB in all, and"
                         " %.0f times all wait for all",
                         most[0], most[1], most[2], static_cast<double>(trial_.traffic.messages),
-                        static_cast<double>(trial_.traffic.bytes) / kMega,
+                        1e-6 * static_cast<double>(trial_.traffic.bytes),
                         static_cast<double>(trial_.traffic.reductions))});
     }
 

@@ -43,8 +43,8 @@ public:
                          PotentialEnergy<Dim>& energy,
                          Elasticity<Dim>& elasticity);
 
-    /// Throws an Error where a direct solve would take more memory than the machine has, or is asked
-    /// of ranks.
+    /// Throws an Error where a direct solve would take more memory than the machine has, or is
+    /// asked of ranks.
     void refuse_unsolvable() const;
 
     /// Solves for some bodies alone from now on, and for what of them is not held now.
