@@ -141,6 +141,18 @@ TEST_F(RunSiteOf, AMeshGivesThatFile) {
     EXPECT_EQ(get("/a.pent/run.json"), 404);
 }
 
+TEST_F(RunSiteOf, AModelOfOtherProgramsGivesThatFileAsItIs) {
+    for (const char* name : {"tiger.g4b", "tiger.g4tf"}) {
+        const fs::path model = folder_ / name;
+        EXPECT_THROW(RunSite(page_, model), Error);
+        write_text(model, "of this it is the page that knows");
+        const RunSite site(page_, model);
+        EXPECT_EQ(site.start(), "/?run=" + std::string(name));
+        const HttpResponse answer = site.answer({"GET", "/" + std::string(name), "localhost:80"}, 80);
+        EXPECT_EQ(answer.body, "of this it is the page that knows");
+    }
+}
+
 TEST_F(RunSiteOf, WhatIsNoPageIsRefused) {
     using pent::test::error_of;
     const fs::path run = folder_ / "my run";

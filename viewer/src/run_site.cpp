@@ -93,6 +93,13 @@ std::vector<int> whole_frames(const RunFolder& run) {
     return frames;
 }
 
+// A model of other programs, G4MF, which the page reads and this library does not know.
+bool is_model(const fs::path& path) {
+    std::error_code error;
+    return (path.extension() == ".g4b" || path.extension() == ".g4tf")
+           && fs::is_regular_file(path, error);
+}
+
 HttpResponse binary(std::optional<std::string> bytes, const std::string& type) {
     if (!bytes) {
         return refusal(404, "no such file");
@@ -107,13 +114,13 @@ HttpResponse binary(std::optional<std::string> bytes, const std::string& type) {
 
 RunSite::RunSite(const fs::path& page, const fs::path& run)
     : page_(read_web_page(page)), playground_(page.parent_path() / kPlayground) {
-    is_mesh_ = open_run(run).is_mesh;
+    is_single_file_ = is_model(run) || open_run(run).is_mesh;
     run_ = fs::canonical(run);
     name_ = run_.filename().string();
 }
 
 std::string RunSite::start() const {
-    return "/?run=" + percent_encoded(name_) + (is_mesh_ ? "" : "/");
+    return "/?run=" + percent_encoded(name_) + (is_single_file_ ? "" : "/");
 }
 
 HttpResponse RunSite::answer(const HttpRequest& request, int port) const {
@@ -134,7 +141,7 @@ HttpResponse RunSite::answer(const HttpRequest& request, int port) const {
     if (request.path == std::string("/") + kPlayground) {
         return binary(read_file(playground_), "text/javascript; charset=utf-8");
     }
-    if (is_mesh_) {
+    if (is_single_file_) {
         return binary(request.path == "/" + name_ ? read_file(run_) : std::nullopt,
                       "application/octet-stream");
     }

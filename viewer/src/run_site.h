@@ -16,11 +16,11 @@ namespace pent::viewer {
 ///                                whether obstacles are "none", "still" or "moving"
 ///     /NAME/meshes/BODY.pent     files of the run NAME; also frames/, scene.toml, report.json,
 ///                                obstacles.json, obstacles/
-///     /NAME.pent                 in place of a run: a mesh
+///     /NAME.pent                 in place of a run: a mesh, or a model (.g4b, .g4tf)
 class RunSite {
 public:
     /// @param page  index.html as scripts/web.sh builds it.
-    /// @param run   A run folder, or a .pent mesh.
+    /// @param run   A run folder, a .pent mesh, or a model of other programs.
     /// Throws an Error if one of them is not what it should be.
     RunSite(const std::filesystem::path& page, const std::filesystem::path& run);
 
@@ -37,7 +37,7 @@ private:
     [[nodiscard]] HttpResponse listing() const;
 
     std::filesystem::path run_;  // without links
-    bool is_mesh_ = false;
+    bool is_single_file_ = false;
     std::string name_;  // of the run
     std::string page_;  // its bytes
     std::filesystem::path playground_;

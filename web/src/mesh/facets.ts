@@ -4,8 +4,8 @@ export interface FacetVisitor {
     onBoundary(cell: number, apex: number): void;
     /** Two cells have it and see it from opposite sides. */
     onInterior?(cellA: number, apexA: number, cellB: number, apexB: number): void;
-    /** Two cells see it from the same side, or more than two have it. */
-    onFault(cell: number, count: number): void;
+    /** Two cells see it from the same side, or more than two have it: the first and the last of them. */
+    onFault(cell: number, count: number, last: number): void;
 }
 
 const kCells = 0; // what a table holds of each facet
@@ -136,7 +136,7 @@ class FacetTable {
                     e[at + kOtherApex]!,
                 );
             } else {
-                visitor.onFault(e[at + kCells]!, count);
+                visitor.onFault(e[at + kCells]!, count, e[at + kOther]!);
             }
         }
     }

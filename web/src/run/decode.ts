@@ -1,16 +1,20 @@
 import { PentError } from "../format/error.ts";
+import { G4mfModel } from "../format/g4mf.ts";
+import type { ModelFrame } from "../format/g4mf.ts";
+import { G4mfDocument } from "../format/g4mf_document.ts";
 import { readFrame, readMesh } from "../format/pent_file.ts";
-import { makeBoundary } from "../mesh/boundary.ts";
+import { indexBoundary, makeBoundary } from "../mesh/boundary.ts";
 import type { Boundary } from "../mesh/boundary.ts";
 import { lengths, makeRestCells, strains, toFloat4 } from "../mesh/quantities.ts";
 import type { RestCells } from "../mesh/quantities.ts";
+import { orientOutward } from "../mesh/orient.ts";
 
 /** A body, ready for the graphics card. */
 export interface Body {
     name: string;
     dimension: 3 | 4;
     vertexCount: number;
-    cellCount: number;
+    cellCount: number; // 0 where its boundary is all that is known
     boundary: Boundary;
 }
 
@@ -31,6 +35,11 @@ export interface DecodedMesh {
 export interface DecodedFrame {
     time: number; // s
     frame: BodyFrame;
+}
+
+export interface DecodedModel {
+    bodies: Body[];
+    frames: ModelFrame[];
 }
 
 interface Kept {
@@ -106,5 +115,39 @@ export class Decoder {
         const mesh = this.kept.get(name)!;
         mesh.restCells ??= makeRestCells(mesh.rest);
         return strains(mesh.restCells, positions);
+    }
+}
+
+/** Decodes a G4MF file: boundaries of bodies, and blend shapes as frames. */
+export class ModelDecoder {
+    private document: G4mfDocument | null = null;
+    private model: G4mfModel | null = null;
+
+    /** @return  The files beside it that it has buffers in. */
+    open(bytes: Uint8Array, path: string): string[] {
+        this.document = new G4mfDocument(bytes, path);
+        return this.document.uris();
+    }
+
+    bodies(beside: ReadonlyMap<string, Uint8Array>): DecodedModel {
+        beside.forEach((bytes, uri) => this.document!.put(uri, bytes));
+        this.model = new G4mfModel(this.document!);
+        const bodies = this.model.bodies.map(({ name, points, tetrahedra }): Body => {
+            orientOutward(points, tetrahedra);
+            const vertexCount = points.length / 4;
+            const boundary = indexBoundary(tetrahedra, 4, vertexCount);
+            return { name, dimension: 4, vertexCount, cellCount: 0, boundary };
+        });
+        return { bodies, frames: this.model.frames };
+    }
+
+    frame(place: number): BodyFrame[] {
+        const { model } = this;
+        return model!.points(model!.frames[place]!).map((points) => ({
+            positions: Float32Array.from(points),
+            speed: null,
+            force: null,
+            strain: null,
+        }));
     }
 }

@@ -1,11 +1,14 @@
 import { PentError } from "../format/error.ts";
-import type { DecodedFrame, DecodedMesh } from "./decode.ts";
+import type { BodyFrame, DecodedFrame, DecodedMesh, DecodedModel } from "./decode.ts";
 import DecodeWorker from "./decode_worker.ts?worker&inline";
 
 export type DecodeRequest =
     | { kind: "mesh"; bytes: Uint8Array; name: string; path: string }
     | { kind: "frame"; bytes: Uint8Array; name: string; path: string }
-    | { kind: "strain"; name: string; positions: Float32Array };
+    | { kind: "strain"; name: string; positions: Float32Array }
+    | { kind: "model"; bytes: Uint8Array; path: string }
+    | { kind: "modelBodies"; beside: Map<string, Uint8Array> }
+    | { kind: "modelFrame"; place: number };
 
 export type DecodeAnswer =
     | { id: number; result: unknown }
@@ -65,6 +68,20 @@ export class DecodeClient {
 
     strain(name: string, positions: Float32Array): Promise<Float32Array> {
         return this.ask({ kind: "strain", name, positions }, []) as Promise<Float32Array>;
+    }
+
+    /** @return  The files beside it that it needs, for modelBodies(). */
+    model(bytes: Uint8Array, path: string): Promise<string[]> {
+        return this.ask({ kind: "model", bytes, path }, [bytes.buffer]) as Promise<string[]>;
+    }
+
+    modelBodies(beside: Map<string, Uint8Array>): Promise<DecodedModel> {
+        return this.ask({ kind: "modelBodies", beside }, []) as Promise<DecodedModel>;
+    }
+
+    /** @param place  Among the frames of modelBodies(). */
+    modelFrame(place: number): Promise<BodyFrame[]> {
+        return this.ask({ kind: "modelFrame", place }, []) as Promise<BodyFrame[]>;
     }
 
     close(): void {

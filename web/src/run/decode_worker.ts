@@ -1,9 +1,10 @@
 import { PentError } from "../format/error.ts";
-import { Decoder } from "./decode.ts";
+import { Decoder, ModelDecoder } from "./decode.ts";
 import type { DecodeAnswer, DecodeRequest } from "./decode_client.ts";
 
-// The far side of DecodeClient: one decoder, one request after the other.
+// The far side of DecodeClient: one decoder of each kind, one request after the other.
 const decoder = new Decoder();
+const model = new ModelDecoder();
 
 function answer(request: DecodeRequest): unknown {
     switch (request.kind) {
@@ -13,6 +14,12 @@ function answer(request: DecodeRequest): unknown {
             return decoder.frame(request.bytes, request.name, request.path);
         case "strain":
             return decoder.strain(request.name, request.positions);
+        case "model":
+            return model.open(request.bytes, request.path);
+        case "modelBodies":
+            return model.bodies(request.beside);
+        case "modelFrame":
+            return model.frame(request.place);
     }
 }
 

@@ -13,7 +13,7 @@ export interface FileSource {
 
 /** What is in a run folder, or one mesh. */
 export interface Listing {
-    /** A single mesh file; then there is nothing else. */
+    /** A single file; then there is nothing else. */
     mesh?: string;
     /** Names of meshes/NAME.pent. */
     meshes: string[];
@@ -28,7 +28,16 @@ export interface Listing {
 export const kObstacleFiles = ["none", "still", "moving", "unknown"] as const;
 export type ObstacleFiles = (typeof kObstacleFiles)[number];
 
-const kExpected = "expected a run folder of pent-sim, with meshes/ and frames/, or a .pent mesh";
+const kExpected =
+    "expected a run folder of pent-sim, with meshes/ and frames/, or a .pent, .g4b or .g4tf file";
+
+/** A file that is all there is to see, by its name. */
+export const kSingleFile = /\.(pent|g4b|g4tf)$/i;
+
+/** Whether it is a model of other programs, G4MF. */
+export function isModel(path: string): boolean {
+    return /\.(g4b|g4tf)$/i.test(path);
+}
 
 export function meshPath(body: string): string {
     return `meshes/${body}.pent`;
@@ -49,7 +58,8 @@ export function movedObstaclesPath(frame: number): string {
  *
  * @return  The listing, and what stands in front of its paths. */
 export function listPaths(paths: string[]): { listing: Listing; prefix: string } {
-    const pent = paths.filter((path) => /(^|\/)[^./][^/]*\.pent$/.test(path));
+    const isHidden = (path: string) => /(^|\/)\.[^/]*$/.test(path);
+    const pent = paths.filter((path) => path.endsWith(".pent") && !isHidden(path));
     const roots = pent
         .map((path) => /^(.*\/)?meshes\/[^/]+$/.exec(path))
         .filter((match) => match !== null)
@@ -57,14 +67,15 @@ export function listPaths(paths: string[]): { listing: Listing; prefix: string }
         .sort((a, b) => a.split("/").length - b.split("/").length || (a < b ? -1 : 1));
     const listing: Listing = { meshes: [], frames: new Map(), isGrowing: false, obstacles: "none" };
     if (roots.length === 0) {
-        if (pent.length !== 1) {
+        const single = [...pent, ...paths.filter((path) => isModel(path) && !isHidden(path))];
+        if (single.length !== 1) {
             const found =
-                pent.length === 0
+                single.length === 0
                     ? "no .pent file"
-                    : `${pent.length} .pent files but no ` + "folder meshes/";
+                    : `${single.length} meshes but no folder meshes/`;
             throw new PentError(`${paths[0] ?? "folder"}: found ${found}; ${kExpected}`);
         }
-        listing.mesh = pent[0]!;
+        listing.mesh = single[0]!;
         return { listing, prefix: "" };
     }
     const prefix = roots[0]!;

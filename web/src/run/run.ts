@@ -71,10 +71,13 @@ export class PentRun implements Run {
     }
 
     /** Reads the meshes. Rejects with a PentError for what is not a run. */
-    static async open(source: FileSource, onProgress: (text: string) => void): Promise<PentRun> {
+    static async open(
+        source: FileSource,
+        listing: Listing,
+        onProgress: (text: string) => void,
+    ): Promise<PentRun> {
         const run = new PentRun(source);
         try {
-            const listing = await source.list();
             await run.readMeshes(listing, onProgress);
             await run.lookForObstacles(listing);
             return run;

@@ -1,5 +1,5 @@
 import { PentError } from "../format/error.ts";
-import { kObstacleFiles, listPaths } from "./listing.ts";
+import { kObstacleFiles, kSingleFile, listPaths } from "./listing.ts";
 import type { FileSource, Listing, ObstacleFiles } from "./listing.ts";
 
 /** Files that were dropped on the page or chosen in a dialog. */
@@ -14,7 +14,7 @@ export class LocalFiles implements FileSource {
         title?: string,
     ) {
         const first = title ?? [...files.keys()][0] ?? "nothing";
-        this.title = first.split("/")[0]!.replace(/\.pent$/, "");
+        this.title = first.split("/")[0]!.replace(kSingleFile, "");
     }
 
     list(): Promise<Listing> {
@@ -121,7 +121,7 @@ export function parseListing(text: string, where: string): Listing {
 export class WebFiles implements FileSource {
     readonly title: string;
 
-    /** @param address  Of a folder or of a .pent file, relative to the page or absolute. */
+    /** @param address  Of a folder or of a single file, relative to the page or absolute. */
     constructor(private address: string) {
         this.title =
             decodeURIComponent(
@@ -130,12 +130,12 @@ export class WebFiles implements FileSource {
                     .replace(/\/+$/, "")
                     .split("/")
                     .at(-1)!
-                    .replace(/\.pent$/, ""),
+                    .replace(kSingleFile, ""),
             ) || "run";
     }
 
     async list(): Promise<Listing> {
-        if (this.address.endsWith(".pent")) {
+        if (kSingleFile.test(this.address)) {
             return listMesh(this.address.split("/").at(-1)!);
         }
         for (const name of ["run.json", "report.json"]) {
@@ -146,7 +146,7 @@ export class WebFiles implements FileSource {
         }
         throw new PentError(
             `${this.folder()}: neither run.json nor report.json is there; ` +
-                "expected a run folder of pent-sim or a .pent file",
+                "expected a run folder of pent-sim, or a .pent, .g4b or .g4tf file",
         );
     }
 
@@ -166,7 +166,7 @@ export class WebFiles implements FileSource {
     }
 
     private folder(): string {
-        return this.address.endsWith(".pent")
+        return kSingleFile.test(this.address)
             ? this.address.replace(/[^/]*$/, "")
             : this.address.replace(/\/*$/, "/");
     }

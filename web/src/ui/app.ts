@@ -2,7 +2,7 @@ import { PentError } from "../format/error.ts";
 import { EmbeddedRun } from "../run/embedded.ts";
 import { ExampleRun, kExamples } from "../run/example.ts";
 import type { FileSource } from "../run/listing.ts";
-import { PentRun } from "../run/run.ts";
+import { openRun } from "../run/open.ts";
 import type { Run } from "../run/run.ts";
 import { LocalFiles, WebFiles, chosenFiles, droppedFiles } from "../run/sources.ts";
 import { kGallery } from "../play/scene_list.ts";
@@ -45,7 +45,7 @@ export class App {
     private files = element("input", {
         type: "file",
         multiple: true,
-        accept: ".pent,.toml",
+        accept: ".pent,.toml,.g4b,.g4tf,.bin",
         hidden: true,
     });
     private folder = element("input", { type: "file", webkitdirectory: true, hidden: true });
@@ -172,9 +172,7 @@ export class App {
         this.viewed = () => this.openFiles(source, this.kept());
         this.messages.clear();
         this.messages.busy(`Opening ${source.title}`);
-        const run = await this.attempt(() =>
-            PentRun.open(source, (text) => this.messages.busy(text)),
-        );
+        const run = await this.attempt(() => openRun(source, (text) => this.messages.busy(text)));
         this.messages.busy("");
         if (run && turn === this.opening) {
             await this.open(run, state);
@@ -251,7 +249,7 @@ export class App {
         const { viewer } = this;
         const openers = [
             ["A folder of pent-sim\u2026", () => this.folder.click()],
-            ["Files (.pent, .toml)\u2026", () => this.files.click()],
+            ["Files (.pent, .g4b, .toml)\u2026", () => this.files.click()],
             ...Object.entries(kExamples).map(
                 ([name, { title }]) =>
                     [

@@ -108,10 +108,15 @@ export class Panel {
                 : run.frames.length === 1
                   ? ", 1 frame"
                   : `, ${run.frames.length} frames`;
+        // Models of other programs are boundaries.
+        const name = dimension === 4 ? "pentachora" : "tetrahedra";
+        const cells =
+            run && run.bodies.some(({ cellCount }) => cellCount > 0)
+                ? `, ${count("cellCount")} ${name}`
+                : "";
         facts.textContent = run
             ? `${run.bodies.length === 1 ? "1 body" : `${run.bodies.length} bodies`}` +
-              `, ${count("vertexCount")} vertices, ${count("cellCount")} ` +
-              `${dimension === 4 ? "pentachora" : "tetrahedra"}${frames}`
+              `, ${count("vertexCount")} vertices${cells}${frames}`
             : "";
     }
 

@@ -17,12 +17,12 @@ export function showWelcome(actions: {
             "Move w below and turn xw beside: what you see is the part of the body that " +
                 "lies in the space w = 0.",
         ),
-        element("p", {}, "Drop a run folder of pent-sim or a .pent mesh here, or "),
+        element("p", {}, "Drop a run folder of pent-sim, a .pent mesh or a G4MF model here, or "),
         element(
             "div",
             { class: "actions" },
             button("Open a run folder", kIcons.open, actions.openFolder, "Open a folder"),
-            button("Open .pent files", kIcons.open, actions.openFiles, "Open files"),
+            button("Open files (.pent, .g4b, .g4tf)", kIcons.open, actions.openFiles, "Open files"),
             button("Pull at bodies in the playground", kIcons.play, actions.play, "Play"),
         ),
         button("Close", kIcons.close, () => {

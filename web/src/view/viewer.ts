@@ -330,12 +330,8 @@ export class Viewer {
                 `frame ${moment.frame} has no contact forces to color by; run the scene ` +
                     "with [output] contact_forces = true",
             );
-        } else if (
-            color === "speed" &&
-            moment.bodies.some((body) => !body.speed) &&
-            this.run!.frames.length === 1
-        ) {
-            this.refuseColor("a mesh has no speed to color by; open a run");
+        } else if (color === "speed" && moment.bodies.some((body) => !body.speed)) {
+            this.refuseColor("here is no speed to color by; open a run of pent-sim");
         } else if (color === "strain" && moment.bodies.some((body) => !body.strain)) {
             void this.addStrain(moment);
         }
@@ -361,7 +357,9 @@ export class Viewer {
     private async addStrain(moment: Moment): Promise<void> {
         try {
             if (!(await this.run!.addStrain(moment))) {
-                this.refuseColor("this run has no strain to color by");
+                this.refuseColor(
+                    "here is no strain to color by: it needs the cells, and the mesh at rest",
+                );
                 return;
             }
             this.stream?.recount(this.placeOf(moment.frame), moment);

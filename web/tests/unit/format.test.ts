@@ -5,11 +5,12 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { crc32c, hex8 } from "../../src/format/crc32c.ts";
-import { PentError } from "../../src/format/error.ts";
 import { parseHeader } from "../../src/format/header.ts";
 import { readFrame, readMesh, determinant } from "../../src/format/pent_file.ts";
 import { makeBoundary } from "../../src/mesh/boundary.ts";
 import { gridMesh } from "../../src/run/example.ts";
+import { damage } from "../support/damage.ts";
+import { messageOf } from "../support/message.ts";
 import { kRoot, native, randomFrom } from "../support/native.ts";
 import { writeFrame, writeMesh } from "../support/write_pent.ts";
 
@@ -38,16 +39,6 @@ const kTriangle = [
     "property uint v2",
     "end_header",
 ];
-
-function messageOf(action: () => unknown): string {
-    try {
-        action();
-    } catch (error) {
-        assert.ok(error instanceof PentError, `not an error of ours: ${(error as Error).stack}`);
-        return error.message;
-    }
-    return "";
-}
 
 /** Reads a file of either kind, as pent-check does, and finds the boundary of a mesh. */
 function read(bytes: Uint8Array, path: string): void {
@@ -201,30 +192,6 @@ test("determinants agree with expansion along the first row", () => {
     }
 });
 
-// One to four bytes changed, left out, put in, or the file cut: as the C++ tests damage them.
-function damage(bytes: Uint8Array, random: () => number): Uint8Array {
-    let data = [...bytes];
-    const pick = (below: number) => Math.floor(random() * below);
-    for (let i = 1 + pick(4); i > 0 && data.length > 0; --i) {
-        const at = pick(data.length);
-        const kind = pick(5);
-        if (kind === 0) {
-            data[at] = pick(256);
-        } else if (kind === 1) {
-            data.splice(at, 1 + pick(8));
-        } else if (kind === 2) {
-            const character = "0123456789-.e \n".charCodeAt(pick(15));
-            data.splice(at, 0, ...Array<number>(1 + pick(8)).fill(character));
-        } else if (kind === 3) {
-            data = data.slice(0, at);
-        } else {
-            const from = pick(data.length);
-            data.splice(at, 0, ...data.slice(from, from + pick(40)));
-        }
-    }
-    return Uint8Array.from(data);
-}
-
 function withChecksum(bytes: Uint8Array): Uint8Array {
     const text = Buffer.from(bytes).toString("latin1");
     const end = text.indexOf("end_header\n");
@@ -241,8 +208,7 @@ test("damaged samples are taken or said why not, and nothing else is thrown", ()
     for (let i = 0; i < 1000; ++i) {
         const sample = kCorpus[Math.floor(random() * kCorpus.length)]!.bytes;
         const bytes = damage(sample, random);
-        const message = messageOf(() => read(i % 2 ? withChecksum(bytes) : bytes, "a.pent"));
-        assert.ok(!message.includes("\n"), message);
+        messageOf(() => read(i % 2 ? withChecksum(bytes) : bytes, "a.pent"));
     }
 });
 

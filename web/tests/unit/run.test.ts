@@ -44,7 +44,7 @@ test("a dropped mesh is found, and what is neither is refused", () => {
     );
     assert.throws(
         () => listPaths(["a.pent", "b.pent"]),
-        /found 2 \.pent files but no folder meshes/,
+        /found 2 meshes but no folder meshes/,
     );
     assert.throws(() => listPaths([]), /expected a run folder/);
 });

@@ -15,7 +15,7 @@ public:
     /// Begins to listen.
     ///
     /// @param page  index.html as scripts/web.sh builds it.
-    /// @param run   A run folder, or a .pent mesh.
+    /// @param run   A run folder, a .pent mesh, or a model of other programs (.g4b, .g4tf).
     /// @param port  1..65535; 0 for any that is free.
     /// Throws an Error if the page or the run cannot be read, or the port is taken.
     RunServer(const std::filesystem::path& page, const std::filesystem::path& run, int port);
