@@ -49,11 +49,20 @@ export class JsonEntry {
         return new JsonEntry(value[index], `${this.where}[${index}]`);
     }
 
-    /** 0, 1, 2 and so on, as far as doubles tell them apart. */
-    whole(): number {
+    /** 0, 1, 2 and so on, as far as doubles tell them apart, or to the most there may be. */
+    whole(most = Number.MAX_SAFE_INTEGER): number {
         const { value } = this;
-        if (!Number.isSafeInteger(value) || (value as number) < 0) {
-            this.expected("a whole number from 0 on");
+        if (!Number.isSafeInteger(value) || (value as number) < 0 || (value as number) > most) {
+            const end = most === Number.MAX_SAFE_INTEGER ? "on" : `to ${most}`;
+            this.expected(`a whole number from 0 ${end}`);
+        }
+        return value as number;
+    }
+
+    real(): number {
+        const { value } = this;
+        if (!Number.isFinite(value)) {
+            this.expected("a finite number");
         }
         return value as number;
     }

@@ -27,6 +27,9 @@ export interface PlayListener {
     onDeath(text: string): void;
 }
 
+/** Why a call gets no answer: the simulator has ended. Who listens was told, if it had started. */
+export class SimulatorGone extends PentError {}
+
 const kScript = "playground.js";
 
 function load(): Promise<Parts> {
@@ -55,6 +58,7 @@ async function inflate(text: string): Promise<Uint8Array> {
 export class PlayClient {
     private waiting = new Map<number, Waiting>();
     private nextId = 0;
+    private hasStarted = false;
 
     private constructor(
         private worker: Worker,
@@ -79,6 +83,7 @@ export class PlayClient {
         const wasm = await inflate(parts.wasm);
         try {
             await client.call("boot", wasm);
+            client.hasStarted = true;
         } catch (error) {
             client.close();
             throw new PentError(
@@ -102,9 +107,7 @@ export class PlayClient {
     }
 
     close(): void {
-        this.worker.terminate();
-        this.waiting.forEach(({ reject }) => reject(new PentError("the simulator was closed")));
-        this.waiting.clear();
+        this.end("the simulator was closed");
     }
 
     private receive(message: PlayMessage): void {
@@ -119,19 +122,27 @@ export class PlayClient {
             this.waiting.delete(message.id);
             if (message.kind === "answer") {
                 waiting?.resolve(message.result);
-            } else {
+            } else if (message.isOurs) {
                 waiting?.reject(new PentError(message.text));
-                if (!message.isOurs) {
-                    this.die(message.text);
-                }
+            } else {
+                waiting?.reject(new SimulatorGone(message.text));
+                this.die(message.text);
             }
         }
     }
 
+    private end(text: string): void {
+        this.worker.terminate();
+        this.waiting.forEach(({ reject }) => reject(new SimulatorGone(text)));
+        this.waiting.clear();
+    }
+
     private die(text: string): void {
-        this.close();
-        this.listener.onDeath(
-            `The simulator has failed: ${text}. Open a scene again; if it is large, try a coarser mesh`,
-        );
+        this.end(text);
+        if (this.hasStarted) {
+            this.listener.onDeath(
+                `The simulator has failed: ${text}. Open a scene again; if it is large, try a coarser mesh`,
+            );
+        }
     }
 }

@@ -1,34 +1,83 @@
 import { PentError } from "../format/error.ts";
+import { JsonEntry } from "../format/json_entry.ts";
 import { readObstacles } from "../format/obstacles.ts";
 import type { Obstacle } from "../format/obstacles.ts";
 import { indexBoundary } from "../mesh/boundary.ts";
 import type { Body, BodyFrame } from "./decode.ts";
 import type { Moment, Run } from "./run.ts";
 
+const kQuantities = ["speed", "strain", "force"] as const;
+const kMostVertices = 1 << 24; // what a graphics card takes
+const kAgain = "export the page again";
+
 /** What pent-view --export writes into a page beside the frames. */
 interface Description {
-    version: number;
     title: string;
     dimension: 3 | 4;
     low: number[]; // of all positions, m
     high: number[];
-    maxima: { speed: number | null; strain: number | null; force: number | null };
+    maxima: Record<(typeof kQuantities)[number], number | null>;
     bodies: { name: string; vertices: number; cells: number; facets: number }[];
     frames: { frame: number; time: number }[];
-    obstacles?: unknown[]; // files of each frame, or one where none of them moves; none where there are none
+    obstacles: Obstacle[][]; // of each frame, or once where none of them moves; none where there are none
 }
 
-const kQuantities = ["speed", "strain", "force"] as const;
+function readDescription(text: string): Description {
+    const json = JsonEntry.parse(text, "this page", `run of pent-view; ${kAgain}`);
+    const version = json.at("version");
+    if (version.value !== 1) {
+        version.expected("1");
+    }
+    const dimension = json.at("dimension").whole() as 3 | 4;
+    if (dimension !== 3 && dimension !== 4) {
+        json.at("dimension").expected("3 or 4");
+    }
+    const ends = (key: string) => json.at(key).reals(dimension);
+    const most = (key: string) => {
+        const entry = json.at("maxima").at(key);
+        return entry.value === null ? null : entry.real();
+    };
+    const bodies = json
+        .at("bodies")
+        .list()
+        .map((body) => ({
+            name: body.at("name").text(),
+            vertices: body.at("vertices").whole(kMostVertices),
+            cells: body.at("cells").whole(),
+            facets: body.at("facets").whole(),
+        }));
+    const frames = json
+        .at("frames")
+        .list()
+        .map((frame) => ({ frame: frame.at("frame").whole(), time: frame.at("time").real() }));
+    const isAscending = frames.every(({ frame }, i) => i === 0 || frame > frames[i - 1]!.frame);
+    if (bodies.length === 0 || frames.length === 0 || !isAscending) {
+        throw new PentError(
+            `this page: its run has no body, no frame, or frames in disorder; ${kAgain}`,
+        );
+    }
+    const files = json.has("obstacles") ? json.at("obstacles").list() : [];
+    return {
+        title: json.at("title").text(),
+        dimension,
+        low: ends("low"),
+        high: ends("high"),
+        maxima: { speed: most("speed"), strain: most("strain"), force: most("force") },
+        bodies,
+        frames,
+        obstacles: files.map(({ value, where }) => readObstacles(value, where, dimension)),
+    };
+}
 
 function bytesOf(id: string): Uint8Array {
     const text = document.getElementById(id)?.textContent;
     if (text === undefined || text === null) {
-        throw new PentError(`this page: part ${id} of the run is missing; export the page again`);
+        throw new PentError(`this page: part ${id} of the run is missing; ${kAgain}`);
     }
     try {
         return Uint8Array.from(atob(text.trim()), (character) => character.charCodeAt(0));
     } catch {
-        throw new PentError(`this page: part ${id} of the run is damaged; export the page again`);
+        throw new PentError(`this page: part ${id} of the run is damaged; ${kAgain}`);
     }
 }
 
@@ -40,25 +89,20 @@ export class EmbeddedRun implements Run {
     readonly bodies: Body[];
     readonly frames: number[];
     readonly isGrowing = false;
-    private obstacles: Obstacle[][];
 
     private constructor(private description: Description) {
         const { bodies, dimension, frames, title } = description;
         this.title = title;
         this.dimension = dimension;
         this.frames = frames.map((frame) => frame.frame);
-        this.obstacles = (description.obstacles ?? []).map((file) =>
-            readObstacles(file, "this page: its list of obstacles", dimension),
-        );
         const bytes = bytesOf("pent-facets");
-        const corners = new Uint32Array(bytes.buffer);
+        // What is no whole number is missed below.
+        const corners = new Uint32Array(bytes.buffer, 0, bytes.length >> 2);
         let at = 0;
         this.bodies = bodies.map(({ name, vertices, cells, facets }) => {
             const part = corners.slice(at, (at += 4 * facets));
             if (part.length !== 4 * facets || part.some((vertex) => vertex >= vertices)) {
-                throw new PentError(
-                    `this page: the surface of ${name} is damaged; export it again`,
-                );
+                throw new PentError(`this page: the surface of ${name} is damaged; ${kAgain}`);
             }
             const boundary = indexBoundary(part, dimension, vertices);
             return { name, dimension, vertexCount: vertices, cellCount: cells, boundary };
@@ -71,18 +115,7 @@ export class EmbeddedRun implements Run {
         if (!text) {
             return null;
         }
-        let description: Description;
-        try {
-            description = JSON.parse(text) as Description;
-        } catch {
-            throw new PentError("this page: its run cannot be understood; export it again");
-        }
-        if (description.version !== 1) {
-            throw new PentError(
-                `this page: its run has version ${description.version}, expected 1`,
-            );
-        }
-        return new EmbeddedRun(description);
+        return new EmbeddedRun(readDescription(text));
     }
 
     async load(frame: number): Promise<Moment> {
@@ -112,7 +145,7 @@ export class EmbeddedRun implements Run {
             }
             return made;
         });
-        const { obstacles } = this;
+        const { obstacles } = this.description;
         return {
             frame,
             time: this.description.frames[place]!.time,
@@ -129,7 +162,7 @@ export class EmbeddedRun implements Run {
         if (bytes.length !== expected) {
             throw new PentError(
                 `this page: frame ${frame} has ${bytes.length} bytes, expected ` +
-                    `${expected}; export the page again`,
+                    `${expected}; ${kAgain}`,
             );
         }
     }

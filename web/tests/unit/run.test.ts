@@ -42,10 +42,7 @@ test("a dropped mesh is found, and what is neither is refused", () => {
         () => listPaths(["notes.txt"]),
         /^Error: notes.txt: found no .pent file; expected/,
     );
-    assert.throws(
-        () => listPaths(["a.pent", "b.pent"]),
-        /found 2 meshes but no folder meshes/,
-    );
+    assert.throws(() => listPaths(["a.pent", "b.pent"]), /found 2 meshes but no folder meshes/);
     assert.throws(() => listPaths([]), /expected a run folder/);
 });
 

@@ -1,9 +1,8 @@
 import type { Hit } from "../../play/library.ts";
-import type { PlayClient } from "../../play/client.ts";
 import type { Moment } from "../../run/run.ts";
 import type { Vector } from "../../view/matrix.ts";
 import { fromSeen, onPlane, project, sightAt, toSeen } from "../../view/pointing.ts";
-import type { OpenedScene } from "../../play/protocol.ts";
+import type { OpenedScene, PlayCalls } from "../../play/protocol.ts";
 import type { Viewer } from "../../view/viewer.ts";
 import { svg } from "../dom.ts";
 
@@ -18,6 +17,12 @@ interface Held {
     corners: number[]; // vertices of the cell
     anchor: number[]; // as seen: x y z w
 }
+
+/** Asks the simulation; undefined where it fails, which is said elsewhere. */
+type Ask = <Name extends keyof PlayCalls>(
+    name: Name,
+    ...values: Parameters<PlayCalls[Name]>
+) => Promise<ReturnType<PlayCalls[Name]> | undefined>;
 
 const kWPerHeight = 1; // the reach of the bodies along w for a drag over the whole height
 
@@ -42,7 +47,7 @@ export class Hand {
     constructor(
         overlay: HTMLElement,
         private viewer: Viewer,
-        private client: PlayClient,
+        private ask: Ask,
         private scene: OpenedScene,
     ) {
         overlay.append(this.drawing);
@@ -66,7 +71,7 @@ export class Hand {
             sight.w,
         ]);
         const normal = [...picture.rotation.subarray(12, 16)];
-        const hit = await this.client.call("grab", {
+        const hit = await this.ask("grab", {
             origin,
             direction: ahead.map((value, axis) => value - origin[axis]!),
             slice: is4 ? { normal, offset: sight.w - picture.shift[3] } : null,
@@ -128,7 +133,7 @@ export class Hand {
         if (this.held) {
             this.held = null;
             this.drawing.toggleAttribute("hidden", true);
-            void this.client.call("release");
+            void this.ask("release");
         }
     }
 
@@ -177,7 +182,7 @@ export class Hand {
 
     private send(): void {
         const anchor = fromSeen(this.picture(), this.held!.anchor).slice(0, this.scene.dimension);
-        void this.client.call("move", anchor);
+        void this.ask("move", anchor);
         this.show(this.viewer.moment!);
     }
 

@@ -1,5 +1,5 @@
 import { PentError } from "../../format/error.ts";
-import { PlayClient } from "../../play/client.ts";
+import { PlayClient, SimulatorGone } from "../../play/client.ts";
 import { LiveRun } from "../../play/live_run.ts";
 import type {
     OpenedScene,
@@ -42,6 +42,7 @@ export class PlayPage {
     private hand: Hand | null = null;
     private isRunning = false;
     private isRecording = false;
+    private death = ""; // what was said of the simulator's end
     private opening = 0; // counts, so that only the last of several openings counts
     private tuning = 0; // a timer
     private bar: PlayBar;
@@ -139,8 +140,8 @@ export class PlayPage {
             }
         } catch (error) {
             if (turn === this.opening) {
-                messages.error((error as Error).message);
-                if (this.run) {
+                this.sayFailure(error as Error);
+                if (this.run && this.client) {
                     this.setRunning(this.isRunning);
                 }
             }
@@ -157,7 +158,12 @@ export class PlayPage {
         const run = new LiveRun(title, scene, kGallery[name] ?? null);
         await this.host.open(run);
         this.run = run;
-        this.hand = new Hand(byId("overlay"), this.host.viewer, this.client!, scene);
+        this.hand = new Hand(
+            byId("overlay"),
+            this.host.viewer,
+            (name, ...values) => this.ask(name, ...values),
+            scene,
+        );
         this.host.pointer.hand = this.hand;
         this.showMode(true);
         this.panel.showScene(name, scene.dimension, scene.facts);
@@ -181,6 +187,7 @@ export class PlayPage {
             },
             onDeath: (text) => {
                 this.client = null;
+                this.death = text;
                 this.endHand();
                 this.isRunning = false;
                 this.bar.showRunning(false);
@@ -191,7 +198,7 @@ export class PlayPage {
 
     private onFrame(frame: PlayFrame): void {
         const { viewer } = this.host;
-        requestAnimationFrame(() => void this.client?.call("taken"));
+        requestAnimationFrame(() => this.client && void this.ask("taken"));
         if (!this.run || viewer.run !== this.run) {
             return; // of the scene before
         }
@@ -204,9 +211,9 @@ export class PlayPage {
     }
 
     private setRunning(isRunning: boolean): void {
-        this.isRunning = isRunning;
-        this.bar.showRunning(isRunning);
-        if (this.run) {
+        this.isRunning = isRunning && this.client !== null;
+        this.bar.showRunning(this.isRunning);
+        if (this.run && (this.client || isRunning)) {
             void this.ask("setRunning", isRunning);
         }
     }
@@ -245,11 +252,22 @@ export class PlayPage {
         name: Name,
         ...values: Parameters<PlayCalls[Name]>
     ): Promise<ReturnType<PlayCalls[Name]> | undefined> {
-        try {
-            return await this.client?.call(name, ...values);
-        } catch (error) {
-            this.host.messages.error((error as Error).message);
+        if (!this.client) {
+            this.host.messages.error(this.death);
             return undefined;
+        }
+        try {
+            return await this.client.call(name, ...values);
+        } catch (error) {
+            this.sayFailure(error as Error);
+            return undefined;
+        }
+    }
+
+    // The end of the simulator was said already.
+    private sayFailure(error: Error): void {
+        if (!(error instanceof SimulatorGone)) {
+            this.host.messages.error(error.message);
         }
     }
 
