@@ -5,7 +5,7 @@ import { pathToFileURL } from "node:url";
 import { test } from "node:test";
 import type { Page } from "playwright-core";
 import { gridMesh } from "../../src/run/example.ts";
-import { kPage, openPage, pixels, useBrowser, useServer } from "../support/browser.ts";
+import { dropOn, kPage, openPage, pixels, useBrowser, useServer } from "../support/browser.ts";
 import { kRoot } from "../support/native.ts";
 import { writeFrame, writeMesh } from "../support/write_pent.ts";
 
@@ -297,7 +297,7 @@ test("the page opens from a file by a double click, and takes chosen folders", a
     await page.waitForFunction(() => window.pentimento!.viewer.run!.title === "chosen");
     assert.match(await page.locator("#facts").innerText(), /72 pentachora, 3 frames/);
     await page
-        .locator("input[accept='.pent,.toml']")
+        .locator("input[multiple]")
         .setInputFiles({ name: "mesh.pent", mimeType: "", buffer: Buffer.from(kMesh) });
     await page.waitForFunction(() => window.pentimento!.viewer.run!.title === "mesh");
     assert.equal(await page.locator("input.time").isVisible(), false);
@@ -311,16 +311,7 @@ test("the page opens from a file by a double click, and takes chosen folders", a
 test("dropped files open, and a dropped text is refused without losing what is open", async () => {
     const { page, close } = await open("?run=run#shade=off");
     const drop = (name: string, bytes: number[]) =>
-        page.evaluate(
-            ([name, bytes]) => {
-                const transfer = new DataTransfer();
-                transfer.items.add(new File([Uint8Array.from(bytes as number[])], name as string));
-                document.dispatchEvent(
-                    new DragEvent("drop", { dataTransfer: transfer, bubbles: true }),
-                );
-            },
-            [name, bytes] as const,
-        );
+        dropOn(page, { [name]: Uint8Array.from(bytes) });
     await drop("notes.txt", [104, 105]);
     await page.waitForSelector(".message.error");
     assert.match(await errorText(page), /^notes\.txt: found no \.pent file; expected a run folder/);

@@ -85,6 +85,22 @@ export async function openPage(
     return { page, said, close: () => context.close() };
 }
 
+/** Drops files on the page, by their names. */
+export function dropOn(page: Page, files: Record<string, Uint8Array>): Promise<void> {
+    return page.evaluate(
+        (files) => {
+            const transfer = new DataTransfer();
+            for (const [name, bytes] of files) {
+                transfer.items.add(new File([Uint8Array.from(bytes)], name));
+            }
+            document.dispatchEvent(
+                new DragEvent("drop", { dataTransfer: transfer, bubbles: true }),
+            );
+        },
+        Object.entries(files).map(([name, bytes]) => [name, [...bytes]] as const),
+    );
+}
+
 /** A picture of the canvas alone, as rows of red green blue from the top, of a size that is small
  * and the same in every window. */
 export function pixels(page: Page, width = 160, height = 120): Promise<number[]> {

@@ -6,6 +6,7 @@ import { test } from "node:test";
 import type { TestContext } from "node:test";
 import { readFrame } from "../../src/format/pent_file.ts";
 import { galleryFiles } from "../../src/play/gallery.ts";
+import { writeMesh } from "../../src/format/write_pent.ts";
 import { Playground } from "../../src/play/playground.ts";
 import { kGallery } from "../../src/play/scene_list.ts";
 import { native } from "../support/native.ts";
@@ -141,6 +142,31 @@ test("mistakes in a scene are told with line and column, and the scene that was 
     const cut = new Map(jelly).set("jelly.pent", jelly.get("jelly.pent")!.slice(0, 5000));
     assert.throws(() => play.open(cut, "scene.toml"), /^Error: scene\.toml:7:8: jelly\.pent: /);
     assert.ok(play.step(now), "the jelly is still there");
+});
+
+test("a scene of three dimensions is refused with what shows it, and the scene that was open stays", async (t) => {
+    const made = await playground(t);
+    if (!made) {
+        return;
+    }
+    made.play.open(galleryFiles("jelly"), "scene.toml");
+    const tet = writeMesh({
+        dimension: 3,
+        positions: Float64Array.of(0, 1, 0, 1, 1, 0, 0, 2, 0, 0, 1, 1),
+        cells: Uint32Array.of(0, 1, 2, 3),
+    });
+    const text =
+        "[scene]\ndimension = 3\ngravity = [0, -9.8, 0]\n" +
+        '[[body]]\nname = "tet"\nmesh = "tet.pent"\nmaterial = { young = 1e4, density = 100 }\n';
+    const files = new Map([
+        ["flat.toml", new TextEncoder().encode(text)],
+        ["tet.pent", tet],
+    ]);
+    assert.throws(
+        () => made.play.open(files, "flat.toml"),
+        /^Error: flat\.toml: the scene has dimension 3; .* alone\. Simulate it with pent-sim, and drop the run here/,
+    );
+    assert.ok(made.play.step(now), "the jelly is still there");
 });
 
 test("obstacles are where the scene has them, and move as they do in it", async (t) => {

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <utility>
 
 using namespace pent;
@@ -114,6 +115,12 @@ pent_simulation* play_open(const char* scene_path,
         require(scene_path, "scene_path");
         require(settings, "settings");
         const Scene scene = with_settings(runs::read_scene(scene_path), *settings);
+        if (scene.dimension != 4) {  // the code for others would double what a browser has to load
+            throw Error(std::string(scene_path) + ": the scene has dimension "
+                        + std::to_string(scene.dimension)
+                        + "; the playground has bodies of four dimensions alone. Simulate it with "
+                          "pent-sim, and drop the run here or open it with pent-view");
+        }
         auto opened = std::make_shared<Opened>();
         with_dimension(scene.dimension,
                        [&](auto dim) { opened->simulation = open<dim>(scene, before); });
