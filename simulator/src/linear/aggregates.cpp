@@ -17,7 +17,9 @@ namespace {
 constexpr double kDofs = 48;     // of an aggregate
 constexpr double kChildren = 6;  // aggregates of an aggregate of aggregates
 constexpr int kRounds = 8;       // of moving borders
-constexpr double kTie = 1e-9;    // relative difference of squared distances that is none
+// A relative difference that is none: rounding, which instruction sets and compilers do each in
+// their own way, does not decide.
+constexpr double kTie = 1e-9;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 // How thick the layer of a dof is, in units of its distance from the nearest dof beside it; 1 where
@@ -84,14 +86,14 @@ Aggregates cut_columns(const std::vector<double>& ratios,
         const std::size_t first = pieces.members.size();
         const auto dofs = static_cast<std::int64_t>(end - begin);
         const auto count = static_cast<std::size_t>(std::clamp<std::int64_t>(
-            std::lround(thickness), std::min<std::int64_t>(1, dofs), dofs));
+            std::lround((1 + kTie) * thickness), std::min<std::int64_t>(1, dofs), dofs));
         pieces.members.resize(first + count);
         double below = 0;
         for (std::uint32_t dof = begin; dof < end; ++dof) {
             const double middle = (below + ratios[dof] / 2) / thickness;
             below += ratios[dof];
             const std::size_t piece =
-                first + static_cast<std::size_t>(static_cast<double>(count) * middle);
+                first + static_cast<std::size_t>((1 + kTie) * static_cast<double>(count) * middle);
             pieces.members[piece].push_back(dof);
             pieces.of_child.push_back(static_cast<std::uint32_t>(piece));
         }
@@ -153,14 +155,9 @@ private:
         Eigen::Matrix<double, Dim, 1> sum = Eigen::Matrix<double, Dim, 1>::Zero();
         std::vector<std::uint32_t> border = {seed};
         seen_[seed] = piece;
-        while (!border.empty() && weights_[piece] < size_) {
-            const auto nearest = std::min_element(
-                border.begin(), border.end(), [&](std::uint32_t a, std::uint32_t b) {
-                    return std::pair(distance(a, sum, piece), a)
-                           < std::pair(distance(b, sum, piece), b);
-                });
-            const std::uint32_t node = *nearest;
-            border.erase(nearest);
+        while (!border.empty() && weights_[piece] < (1 - kTie) * size_) {
+            const std::uint32_t node = nearest_of(border, sum, piece);
+            border.erase(std::find(border.begin(), border.end(), node));
             owner_[node] = piece;
             members_[piece].push_back(node);
             weights_[piece] += nodes_->weights[node];
@@ -173,6 +170,25 @@ private:
             });
         }
         seeds_.insert(seeds_.end(), border.begin(), border.end());
+    }
+
+    // Of those that are equally near, as in grids, the first.
+    [[nodiscard]] std::uint32_t nearest_of(const std::vector<std::uint32_t>& nodes,
+                                           const Eigen::Matrix<double, Dim, 1>& sum,
+                                           std::uint32_t piece) const {
+        std::vector<double> distances;
+        distances.reserve(nodes.size());
+        for (const std::uint32_t node : nodes) {
+            distances.push_back(distance(node, sum, piece));
+        }
+        const double least = *std::min_element(distances.begin(), distances.end());
+        std::uint32_t first = kNone;
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            if (distances[i] <= (1 + kTie) * least) {
+                first = std::min(first, nodes[i]);
+            }
+        }
+        return first;
     }
 
     [[nodiscard]] double distance(std::uint32_t node,
@@ -251,7 +267,7 @@ private:
 
     void join_small_ones() {
         for (std::uint32_t piece = 0; piece < weights_.size(); ++piece) {
-            if (3 * weights_[piece] < size_) {
+            if (3 * weights_[piece] < (1 - kTie) * size_) {
                 join_neighbor(piece);
             }
         }
