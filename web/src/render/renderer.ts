@@ -12,6 +12,8 @@ import { ShadowMap, Targets } from "./targets.ts";
 
 const kMapSize = 256; // colors of a color map
 const kShadowPixels = 2048;
+const kGhostSlope = 2; // that ghosts are drawn further away, in depth from pixel to pixel
+const kGhostSteps = 16; // and in the least that depths can differ
 const kVeil = 0.4; // of the rim of a hollow before what it hides
 
 /** Draws pictures of bodies with WebGL 2. Knows nothing of the page around the canvas. */
@@ -254,6 +256,9 @@ export class Renderer {
         gl.depthMask(false);
         gl.enable(gl.BLEND);
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+        // What lies in the surface of a solid body, as sides along w do, would be seen in speckles.
+        gl.enable(gl.POLYGON_OFFSET_FILL);
+        gl.polygonOffset(kGhostSlope, kGhostSteps);
         const { ghost } = this.programs;
         for (const slice of tile.slices.filter((one) => one.ghost !== null)) {
             const prepare = (program: Program) =>
@@ -267,6 +272,7 @@ export class Renderer {
         if (outline) {
             this.drawOutlines(picture, tile);
         }
+        gl.disable(gl.POLYGON_OFFSET_FILL);
         if (tile.lines.length > 0) {
             this.lines.draw(this.programs.line(), picture, tile.lines, rect);
             gl.bindVertexArray(this.plainArray);

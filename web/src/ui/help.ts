@@ -13,6 +13,14 @@ const kGestures = [
     ["buttons under the picture", "what one finger or the left button does"],
 ] as const;
 
+const kPlaying = [
+    ["drag a body", "pull it, along the picture"],
+    ["wheel or shift while pulling", "pull it along w"],
+    ["space", "pause, go on"],
+    ["\u2192", "one step"],
+    ["backspace", "back to the start"],
+] as const;
+
 function table(rows: readonly (readonly [string, string])[]): HTMLElement {
     return element(
         "table",
@@ -36,6 +44,8 @@ export function fillHelp(dialog: HTMLDialogElement): void {
                 "div",
                 {},
                 table(kGestures),
+                element("h3", {}, "In the playground"),
+                table(kPlaying),
                 element(
                     "p",
                     {},

@@ -4,8 +4,27 @@ import { apply } from "./rotation.ts";
 import type { Rotation } from "./rotation.ts";
 
 // Of a box from its center along an axis of space, m.
-function halfExtent(box: { center: number[]; sides: number[]; axes?: number[][] }, row: number): number {
+function halfExtent(
+    box: { center: number[]; sides: number[]; axes?: number[][] },
+    row: number,
+): number {
     return axesOf(box).reduce((sum, axis, k) => sum + Math.abs(axis[row]! * box.sides[k]!) / 2, 0);
+}
+
+// How far from its middle bodies may be, in parts of the box: on the ground they lie at its lower end, and along w it is
+// where the slider has it.
+const kRoom = [0.25, 0.5, 0.25];
+
+function meanOf(positions: Float32Array[]): number[] {
+    const sum = [0, 0, 0, 0];
+    let count = 0;
+    for (const p of positions) {
+        p.forEach((x, i) => {
+            sum[i % 4]! += x;
+        });
+        count += p.length / 4;
+    }
+    return sum.map((x) => x / count);
 }
 
 /** Where the bodies are, over the frames looked at so far. */
@@ -18,6 +37,7 @@ export class Bounds {
     radius = 1;
     /** Balls and boxes of obstacles that are no larger are in the picture whole: the diagonal of the box. */
     size = 1;
+    private home: Pick<Bounds, "low" | "high" | "pivot"> | null = null; // before follow() moved it
     /** The box at the start. */
     start: Bounds = this;
 
@@ -92,6 +112,23 @@ export class Bounds {
             farthest = radius <= this.size ? Math.max(farthest, reach) : farthest;
         }
         return farthest;
+    }
+
+    /** Moves the box along space as far as the bodies, in the mean of their vertices, have left the middle of it: what
+     * crawls away stays in the picture. Comes back with them. */
+    follow({ bodies }: Moment): void {
+        const home = (this.home ??= { low: this.low, high: this.high, pivot: this.pivot });
+        const mean = meanOf(bodies.map(({ positions }) => positions));
+        const by = [0, 1, 2].map((axis) => {
+            const middle = (home.low[axis]! + home.high[axis]!) / 2;
+            const room = (home.high[axis]! - home.low[axis]!) * kRoom[axis]!;
+            const away = mean[axis]! - middle;
+            return Math.max(away - room, 0) + Math.min(away + room, 0);
+        });
+        const moved = (p: number[]) => p.map((x, axis) => x + (by[axis] ?? 0));
+        this.low = moved(home.low);
+        this.high = moved(home.high);
+        this.pivot = moved(home.pivot) as [number, number, number, number];
     }
 
     /** Lowest and highest coordinate along an axis that is seen, as the box is turned. */

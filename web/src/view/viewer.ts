@@ -196,6 +196,7 @@ export class Viewer {
 
     /** Shows a moment that is no frame of the run: of a simulation that goes on. */
     present(moment: Moment): void {
+        this.bounds.follow(moment);
         this.show(moment);
     }
 

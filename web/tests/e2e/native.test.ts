@@ -26,6 +26,13 @@ function obstaclesAt(frame: number): Obstacle[] {
     ];
 }
 
+function writeFrameOf(run: string, mesh: Uint8Array, frame: number): void {
+    const positions = positionsAt(frame);
+    const bytes = writeFrame(mesh, frame, frame / 10, positions, positions);
+    writeFileSync(join(run, `frames/body_00000${frame}.pent`), bytes);
+    writeFileSync(join(run, `obstacles/00000${frame}.json`), obstaclesFile(obstaclesAt(frame)));
+}
+
 /** A run of three frames in a folder that is removed in the end. */
 async function withRun(action: (folder: string, view: string) => Promise<void>): Promise<boolean> {
     const view = native("pent-view");
@@ -39,11 +46,7 @@ async function withRun(action: (folder: string, view: string) => Promise<void>):
     mkdirSync(join(folder, "run/obstacles"));
     writeFileSync(join(folder, "run/meshes/body.pent"), mesh);
     for (let frame = 0; frame < 3; ++frame) {
-        const positions = positionsAt(frame);
-        const bytes = writeFrame(mesh, frame, frame / 10, positions, positions);
-        writeFileSync(join(folder, `run/frames/body_00000${frame}.pent`), bytes);
-        const obstacles = obstaclesFile(obstaclesAt(frame));
-        writeFileSync(join(folder, `run/obstacles/00000${frame}.json`), obstacles);
+        writeFrameOf(join(folder, "run"), mesh, frame);
     }
     try {
         await action(folder, view);
@@ -71,6 +74,34 @@ test("pent-view shows its run, and ends by Ctrl-C", async (t) => {
         await close();
         program.kill("SIGINT");
         assert.equal(await ended, 0);
+    });
+    if (!isThere) {
+        t.skip("pent-view is not built");
+    }
+});
+
+test("pent-view follows a run while it is written, and no longer than that", async (t) => {
+    const isThere = await withRun(async (folder, view) => {
+        const run = join(folder, "run");
+        const program = spawn(view, [run, "--no-open", "--page", kPage]);
+        const address = await new Promise<string>((resolve) =>
+            program.stdout.once("data", (text) => resolve(/http:\S+/.exec(String(text))![0])),
+        );
+        const { page, close } = await openPage(browser.get(), `${address}#shade=off`);
+        const last = (frame: string) =>
+            page.waitForFunction(
+                (frame) => (document.querySelector("input.time") as HTMLInputElement).max === frame,
+                frame,
+            );
+        await last("2");
+        writeFrameOf(run, writeMesh(kGrid), 3);
+        await last("3");
+        await page.locator("input.time").fill("3");
+        await page.waitForFunction(() => window.pentimento!.viewer.moment!.frame === 3);
+        writeFileSync(join(run, "report.json"), '{ "verdict": "finished" }');
+        await page.waitForFunction(() => !window.pentimento!.viewer.run!.isGrowing);
+        await close();
+        program.kill("SIGINT");
     });
     if (!isThere) {
         t.skip("pent-view is not built");

@@ -165,6 +165,23 @@ function pictureOf(layout: "single" | "side") {
     });
 }
 
+test("the picture goes along with bodies that leave its middle, though not along w, and comes back with them", () => {
+    const followed = new Bounds();
+    const stage = [roomMoment([-2, 0, -2, -1], [2, 2, 2, 1])];
+    followed.add(stage);
+    followed.settle(stage);
+    const pivotAt = (x: number, y: number, z: number, w: number) => {
+        followed.follow(roomMoment([x - 1, y, z, w], [x + 1, y, z, w]));
+        return followed.pivot;
+    };
+    const home = [0, 1, 0, 0];
+    assert.deepEqual(followed.pivot, home);
+    assert.deepEqual(pivotAt(1, 0, -1, 5), home); // a quarter of 4 m, half of 2 m
+    assert.deepEqual(pivotAt(3.5, -0.5, -1.5, 0), [2.5, 0.5, -0.5, 0]);
+    assert.deepEqual([followed.low[0], followed.high[0]], [0.5, 4.5]);
+    assert.deepEqual(pivotAt(0, 1, 0, 0), home);
+});
+
 test("what is seen of a point goes back to the point", () => {
     const picture = pictureOf("single");
     const p = [0.3, -0.2, 0.7, 0.1];
