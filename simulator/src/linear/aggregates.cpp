@@ -92,8 +92,9 @@ Aggregates cut_columns(const std::vector<double>& ratios,
         for (std::uint32_t dof = begin; dof < end; ++dof) {
             const double middle = (below + ratios[dof] / 2) / thickness;
             below += ratios[dof];
-            const std::size_t piece =
-                first + static_cast<std::size_t>((1 + kTie) * static_cast<double>(count) * middle);
+            const auto place =
+                static_cast<std::size_t>((1 + kTie) * static_cast<double>(count) * middle);
+            const std::size_t piece = first + std::min(place, count - 1);
             pieces.members[piece].push_back(dof);
             pieces.of_child.push_back(static_cast<std::uint32_t>(piece));
         }
