@@ -30,7 +30,9 @@ struct Arguments {
 };
 
 void add_options(CLI::App& cli, Arguments& arguments) {
-    cli.add_option("input", arguments.input, "Run folder of pent-sim, a .pent mesh, or a model of other programs (.g4b, .g4tf)")
+    cli.add_option(
+           "input", arguments.input,
+           "Run folder of pent-sim, a .pent mesh, or a model of other programs (.g4b, .g4tf)")
         ->required()
         ->type_name("RUN");
     cli.add_option("--port", arguments.port, "Port on 127.0.0.1; default: any that is free")

@@ -30,7 +30,7 @@ struct Checked {
 };
 
 struct CheckOptions {
-    std::string only;  ///< The law to check; empty for all.
+    std::string only;   ///< The law to check; empty for all.
     int seconds = 150;  ///< Of processor time, for each run of the scene.
 };
 

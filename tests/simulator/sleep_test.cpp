@@ -306,8 +306,7 @@ template <int Dim>
 void expect_momentum_of_bodies_that_meet_and_sleep(ElementKind elements) {
     Scene scene = two_cubes<Dim>(0.1);
     scene.solver.elements = elements;
-    scene.bodies[0].velocity =
-        Eigen::VectorXd::Unit(Dim, 1) + 0.1 * Eigen::VectorXd::Unit(Dim, 2);
+    scene.bodies[0].velocity = Eigen::VectorXd::Unit(Dim, 1) + 0.1 * Eigen::VectorXd::Unit(Dim, 2);
     scene.solver.precision = Precision::Double;
     scene.solver.tolerance = 1e-11;
     scene.sleep = Sleep{.speed = 0.01, .time = 0.02};

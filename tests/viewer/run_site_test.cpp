@@ -148,7 +148,8 @@ TEST_F(RunSiteOf, AModelOfOtherProgramsGivesThatFileAsItIs) {
         write_text(model, "of this it is the page that knows");
         const RunSite site(page_, model);
         EXPECT_EQ(site.start(), "/?run=" + std::string(name));
-        const HttpResponse answer = site.answer({"GET", "/" + std::string(name), "localhost:80"}, 80);
+        const HttpResponse answer =
+            site.answer({"GET", "/" + std::string(name), "localhost:80"}, 80);
         EXPECT_EQ(answer.body, "of this it is the page that knows");
     }
 }
