@@ -5,6 +5,9 @@
 
     --rotations N      beside the given one; default: 20, always the same ones
     --edge-length H    instead of the table's (m)
+    --write            puts the rows into docs/shapes.md
+    --growth           instead: cost and memory of 100,000 to 10 million pentachora, and the
+                       exponent with which the cost grows
     --bin FOLDER       where pent-mesh and pent-check are; default: build/release/bin
 
 A row has the worst and the lowest mean of the mean ratio over all rotations, the largest part of
@@ -29,6 +32,8 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PI = math.pi
 ROOT5 = math.sqrt(5)
+HEADER = ("| shape | edges, m | pentachora | worst | mean | missing | beveled | core s a million "
+          "| bytes each |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
 PLANES = ("xy", "xz", "xw", "yz", "yw", "zw")
 
 # Name: the shape, its hypervolume (m^4), edges (m), whether it has ridges.
@@ -84,12 +89,14 @@ def mesh(bin: pathlib.Path, folder: pathlib.Path, shape: str, edge: float, seed:
     # The links of the boundary, too: exit code 1 if one is no sphere.
     subprocess.run([bin / "pent-check", folder / "mesh.pent", "--quiet"], check=True)
     report = json.loads((folder / "report.json").read_text())
-    report["core_seconds"] = after.ru_utime - before.ru_utime
+    report["core_seconds"] = (after.ru_utime + after.ru_stime
+                              - before.ru_utime - before.ru_stime)
     report["bytes"] = after.ru_maxrss * 1024  # the largest child so far
     return report
 
 
-def row(bin: pathlib.Path, name: str, rotations: int, edge: float | None) -> bool:
+def row(bin: pathlib.Path, name: str, rotations: int, edge: float | None) -> tuple[str, bool]:
+    """The row of a shape, and whether it is as good as is asked."""
     shape, hypervolume, usual_edge, has_ridges = SHAPES[name]
     length = edge or usual_edge
     with tempfile.TemporaryDirectory(prefix="shape_quality-") as folder:
@@ -103,10 +110,41 @@ def row(bin: pathlib.Path, name: str, rotations: int, edge: float | None) -> boo
     largest = max(reports, key=lambda report: report["mesh"]["cells"])
     cells = largest["mesh"]["cells"]
     is_good = worst >= (0.1 if has_ridges else 0.2) and mean >= (0.7 if has_ridges else 0.8)
-    print(f"| {name} | {length} | {cells} | {worst:.2f} | {mean:.2f} | {100 * lost:.1f}% | {beveled}"
-          f" | {1e6 * largest['core_seconds'] / cells:.1f} | {largest['bytes'] / cells:.0f} |"
-          + ("" if is_good else " missed |"), flush=True)
-    return is_good
+    text = (f"| {name} | {length} | {cells} | {worst:.2f} | {mean:.2f} | {100 * lost:.1f}% "
+            f"| {beveled} | {1e6 * largest['core_seconds'] / cells:.1f} "
+            f"| {largest['bytes'] / cells:.0f} |")
+    return text + ("" if is_good else " missed |"), is_good
+
+
+def write_rows(rows: dict[str, str]) -> None:
+    """Puts rows in the place of those of the same shapes, or where they belong in the table."""
+    page = ROOT / "docs" / "shapes.md"
+    before, _, rest = page.read_text().partition(HEADER + "\n")
+    if not rest:
+        raise SystemExit(f"{page}: no table that begins with {HEADER.splitlines()[0]}")
+    lines = rest.splitlines(keepends=True)
+    count = next(i for i, line in enumerate(lines) if not line.startswith("|"))
+    old = {line.split("|")[1].strip(): line.rstrip("\n") for line in lines[:count]}
+    merged = {**old, **rows}
+    table = [merged[name] for name in SHAPES if name in merged]
+    page.write_text(before + "\n".join([HEADER, *table]) + "\n" + "".join(lines[count:]))
+
+
+def growth(bin: pathlib.Path) -> None:
+    """Balls and tigers of more and more cells: the last has 100 times as many as the first."""
+    print("| shape | edges, m | pentachora | core s | core s a million | bytes each |\n"
+          "| --- | --- | --- | --- | --- | --- |", flush=True)
+    for name, edges in (("ball", (0.23, 0.128, 0.072)), ("tiger", (0.28, 0.157, 0.0885))):
+        costs = []
+        with tempfile.TemporaryDirectory(prefix="shape_quality-") as folder:
+            for edge in edges:
+                report = mesh(bin, pathlib.Path(folder), SHAPES[name][0], edge, 0)
+                cells, seconds = report["mesh"]["cells"], report["core_seconds"]
+                costs.append((cells, seconds))
+                print(f"| {name} | {edge} | {cells} | {seconds:.2f} | {1e6 * seconds / cells:.2f} "
+                      f"| {report['bytes'] / cells:.0f} |", flush=True)
+        (few, first), (many, last) = costs[0], costs[-1]
+        print(f"{name}: exponent {math.log(last / first) / math.log(many / few):.2f}", flush=True)
 
 
 def main() -> int:
@@ -114,16 +152,25 @@ def main() -> int:
     parser.add_argument("names", nargs="*", metavar="NAME", help="of " + ", ".join(SHAPES))
     parser.add_argument("--rotations", type=int, default=20)
     parser.add_argument("--edge-length", type=float)
+    parser.add_argument("--write", action="store_true")
+    parser.add_argument("--growth", action="store_true")
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build" / "release" / "bin")
     arguments = parser.parse_args()
     for name in arguments.names:
         if name not in SHAPES:
             parser.error(f'no shape "{name}"; expected of ' + ", ".join(SHAPES))
-    print("| shape | edges, m | pentachora | worst | mean | missing | beveled | core s a million "
-          "| bytes each |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |", flush=True)
-    good = [row(arguments.bin, name, arguments.rotations, arguments.edge_length)
-            for name in arguments.names or SHAPES]
-    return 0 if all(good) else 1
+    if arguments.growth:
+        growth(arguments.bin)
+        return 0
+    print(HEADER, flush=True)
+    is_good = True
+    for name in arguments.names or SHAPES:
+        text, is_row_good = row(arguments.bin, name, arguments.rotations, arguments.edge_length)
+        print(text, flush=True)
+        is_good = is_good and is_row_good
+        if arguments.write:
+            write_rows({name: text})
+    return 0 if is_good else 1
 
 
 if __name__ == "__main__":

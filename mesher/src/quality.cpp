@@ -65,14 +65,12 @@ Matrix<Dim> edges_at_first(const Eigen::Matrix<double, Dim, Dim + 1>& corners) {
     return corners.template rightCols<Dim>().colwise() - corners.col(0);
 }
 
+// Of all edges, from those at the first corner: the sum over all pairs of points of their squared
+// distances is their number times that of the squares, less the square of the sum. At least the sum
+// of the squares is left, so nothing cancels.
 template <int Dim>
-double mean_squared_edge(const Eigen::Matrix<double, Dim, Dim + 1>& corners) {
-    double sum = 0;
-    for (int i = 0; i <= Dim; ++i) {
-        for (int j = i + 1; j <= Dim; ++j) {
-            sum += (corners.col(j) - corners.col(i)).squaredNorm();
-        }
-    }
+double mean_squared_edge(const Matrix<Dim>& Dm) {
+    const double sum = (Dim + 1) * Dm.squaredNorm() - Dm.rowwise().sum().squaredNorm();
     return sum / (Dim * (Dim + 1) / 2);
 }
 
@@ -98,7 +96,7 @@ CellQuality measure(const Eigen::Matrix<double, Dim, Dim + 1>& corners,
     const Matrix<Dim> inverse_Dm = Dm.inverse();
     CellQuality quality;
     quality.mean_ratio = squared_size<Dim>(Dm.determinant()) * reference.mean_ratio_scale
-                         / mean_squared_edge<Dim>(corners);
+                         / mean_squared_edge<Dim>(Dm);
     quality.condition =
         (Dm * reference.inverse).norm() * (reference.edges * inverse_Dm).norm() / Dim;
     measure_angles<Dim>(inverse_Dm, quality);
@@ -159,8 +157,8 @@ CellQuality measure_cell(const Eigen::Matrix<double, Dim, Dim + 1>& corners) {
 template <int Dim>
 double mean_ratio(const Eigen::Matrix<double, Dim, Dim + 1>& corners) {
     static const double scale = Reference<Dim>().mean_ratio_scale;
-    return squared_size<Dim>(edges_at_first<Dim>(corners).determinant()) * scale
-           / mean_squared_edge<Dim>(corners);
+    const Matrix<Dim> Dm = edges_at_first<Dim>(corners);
+    return squared_size<Dim>(Dm.determinant()) * scale / mean_squared_edge<Dim>(Dm);
 }
 
 template <int Dim>

@@ -166,6 +166,34 @@ TEST(TetBoundary, KnowsTheDistanceFromATesseract) {
     EXPECT_EQ(boundary.patches_within({1, 1, -1, 1}, 1e-9).size(), 4U);
 }
 
+TEST(TetBoundary, KnowsItsSlope) {
+    std::mt19937 random(6);
+    for (const TetBoundary& boundary :
+         {TetBoundary(tesseract(2)), TetBoundary(boundary_of_stuffed(ball_solid(1), 0.4))}) {
+        for (int i = 0; i < 200; ++i) {
+            const Vector4d p = random_point(random, 1.5);
+            const ValueSlope found = boundary.value_slope(p);
+            EXPECT_EQ(found.value, boundary.value(p));
+            EXPECT_NEAR(found.slope.norm(), 1, 1e-12);
+            // As far as the value says along it is the surface; no further point of a step is nearer.
+            EXPECT_NEAR(boundary.value(p - found.value * found.slope), 0, 1e-13);
+        }
+    }
+    // Over a flat patch the height grows as the way along its normal, wherever the point is.
+    const TetBoundary box(tesseract(2));
+    for (int i = 0; i < 200; ++i) {
+        const Vector4d p = random_point(random, 1.5);
+        const ValueSlope over = box.patch_slope(i % 8, p);
+        EXPECT_NEAR(over.slope.norm(), 1, 1e-14);
+        EXPECT_NEAR(box.patch_value(i % 8, p + 0.3 * over.slope), over.value + 0.3, 1e-13);
+    }
+    // On the surface the slope is the normal.
+    const Vector4d on_side(1, 0.2, 0.1, -0.3);
+    const ValueSlope there = box.value_slope(on_side);
+    EXPECT_NEAR(there.value, 0, 1e-15);
+    EXPECT_NEAR(std::abs(there.slope[0]), 1, 1e-6);
+}
+
 TEST(BoundarySolid, KeepsTheHypervolumeToSecondOrder) {
     const TetSurface boundary = boundary_of_stuffed(ball_solid(1), 0.25);
     const double exact = exchange::enclosed_hypervolume(boundary);

@@ -1,4 +1,9 @@
+#include "images.h"
+
 #include <pent/error.h>
+#include <pent/exchange/tet_surface.h>
+#include <pent/mesher/boundary_solid.h>
+#include <pent/mesher/image_solid.h>
 #include <pent/mesher/links.h>
 #include <pent/mesher/primitives.h>
 #include <pent/mesher/prove.h>
@@ -9,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 
@@ -99,6 +105,41 @@ TEST(StuffWithSizes, MakesSoundMeshesOfEveryKindOfShape) {
         EXPECT_LT(static_cast<double>(stuffed.mesh.cell_count()),
                   c.part * estimate_cells(c.solid, c.edge_length))
             << c.name;
+    }
+}
+
+// The same of a boundary and of an image, whose functions are not known but by what is in files.
+TEST(StuffWithSizes, MakesSoundMeshesOfBoundariesAndImages) {
+    const Solid ball = ball_solid(1);
+    const auto surface = exchange::boundary_of(stuff(ball, 0.25).mesh);
+    const Vector4d middle = Vector4d::Constant(1.2);
+    const auto image = std::make_shared<const Image>(
+        test::sampled(Eigen::Vector4i::Constant(13), Vector4d::Constant(0.2),
+                      [&](const Vector4d& p) { return 1 - (p - middle).norm(); }));
+    const std::vector<Case> all = {
+        {"boundary, slice", boundary_solid(surface, "surface").solid, kPi * kPi / 2, 0.16,
+         at_plane(Vector4d::UnitW(), -0.9, 1), 0.1, 0.5},
+        {"boundary, point", boundary_solid(surface, "surface").solid, kPi * kPi / 2, 0.14,
+         at_point({0, 0, 0, 1}, 1), 0.1, 0.3},
+        {"image, slice", image_solid(image, 0), kPi * kPi / 2, 0.16,
+         at_plane(Vector4d::UnitW(), 0.3, 1), 0.1, 0.5}};
+    for (const Case& c : all) {
+        const StuffedSolid stuffed = stuff(c.solid, c.edge_length, c.sizes);
+        expect_sound(stuffed.mesh, c.name);
+        EXPECT_GE(measure_quality(stuffed.mesh).mean_ratio.min, c.least_mean_ratio) << c.name;
+        EXPECT_NEAR(total_volume(stuffed.mesh) / c.hypervolume, 1, 0.15) << c.name;
+        EXPECT_LT(static_cast<double>(stuffed.mesh.cell_count()),
+                  c.part * estimate_cells(c.solid, c.edge_length))
+            << c.name;
+        // Some cells are of the shortest edges, others of at least twice as long ones.
+        double shortest = 1;
+        double longest = 0;
+        for (Eigen::Index cell = 0; cell < stuffed.mesh.cell_count(); ++cell) {
+            shortest = std::min(shortest, longest_edge(stuffed.mesh, cell));
+            longest = std::max(longest, longest_edge(stuffed.mesh, cell));
+        }
+        EXPECT_LT(shortest, 1.3 * c.edge_length) << c.name;
+        EXPECT_GT(longest, 2 * c.edge_length) << c.name;
     }
 }
 

@@ -1,9 +1,11 @@
 #include <pent/error.h>
 #include <pent/mesher/primitives.h>
 
+#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 
@@ -101,6 +103,52 @@ TEST(Solid, IsDecidedByItsPieces) {
             }
         }
     }
+}
+
+// Central differences over a millionth have an error of some 1e-9, unless a ridge is between them.
+void expect_slope(const ValueSlope& found,
+                  const std::function<double(const Vector4d&)>& value,
+                  const Vector4d& p,
+                  const char* name) {
+    constexpr double kStep = 1e-6;
+    EXPECT_NEAR(found.value, value(p), 1e-14) << name;
+    for (int axis = 0; axis < 4; ++axis) {
+        const Vector4d step = kStep * Vector4d::Unit(axis);
+        const double before = (value(p) - value(p - step)) / kStep;
+        const double after = (value(p + step) - value(p)) / kStep;
+        if (std::abs(after - before) < 1e-4) {
+            EXPECT_NEAR(found.slope[axis], (before + after) / 2, 1e-8) << name;
+        }
+    }
+}
+
+TEST(Solid, KnowsItsSlope) {
+    std::mt19937 random(7);
+    std::vector<Named> solids = all_solids();
+    solids.push_back(
+        {"formula", expression_solid("x^2 + sin(y) * z - w",
+                                     {Vector4d::Constant(-2), Vector4d::Constant(2)})});
+    const Eigen::Matrix4d turn = Eigen::HouseholderQR<Eigen::Matrix4d>(
+                                     Eigen::Matrix4d::Identity() + 0.3 * Eigen::Matrix4d::Ones())
+                                     .householderQ();
+    for (const Named& named : solids) {
+        const Solid placed = place(named.solid, 1.3, turn, {0.1, 0.2, -0.1, 0});
+        for (const Solid& solid : {named.solid, placed}) {
+            for (int i = 0; i < 30; ++i) {
+                const Vector4d p = random_point(random);
+                expect_slope(
+                    solid.value_slope(p, 1e-6), [&](const Vector4d& q) { return solid.value(q); },
+                    p, named.name);
+                const int piece = i % solid.piece_count();
+                expect_slope(
+                    solid.piece_slope(piece, p, 1e-6),
+                    [&](const Vector4d& q) { return solid.piece_value(piece, q); }, p, named.name);
+            }
+        }
+    }
+    // On an axis there is none.
+    EXPECT_EQ(tiger_solid({0.7, 0.6}, 0.3).value_slope({0, 0, 0.6, 0}, 1e-6).slope.tail<2>().norm(),
+              0);
 }
 
 TEST(Solid, IsScaledThenRotatedThenMoved) {

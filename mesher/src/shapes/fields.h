@@ -96,6 +96,15 @@ using Field = std::variant<RoundField,
 /// The function of one piece, also where another one is larger.
 [[nodiscard]] double piece_value(const Field& field, int piece, const Eigen::Vector4d& p);
 
+/// The function and its slope, zero where it has none, as on the axis of a cylinder.
+/// @param step  Differences are taken over this (m) of expressions and images, whose slope is not
+///              known.
+[[nodiscard]] ValueSlope field_slope(const Field& field, const Eigen::Vector4d& p, double step);
+[[nodiscard]] ValueSlope piece_slope(const Field& field,
+                                     int piece,
+                                     const Eigen::Vector4d& p,
+                                     double step);
+
 /// The pieces that decide the function at a point, or would if values changed by up to `margin`
 /// (m): ascending.
 [[nodiscard]] std::vector<int> pieces_near(const Field& field,

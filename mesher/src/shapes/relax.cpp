@@ -1,7 +1,5 @@
 #include "surface_mesh.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -12,27 +10,6 @@ namespace pent::mesher {
 namespace {
 
 constexpr int kMaxSweeps = 12;
-
-// Slope of the logarithm of a cell's mean ratio over the place of one of its corners, 1/m.
-Eigen::Vector4d quality_slope(const StarMesh& mesh, std::uint32_t cell, std::uint32_t vertex) {
-    const std::array<std::uint32_t, 5>& corners = mesh.cell(cell);
-    const Eigen::Vector4d& place = mesh.place(vertex);
-    Eigen::Matrix4d edges;  // from the vertex
-    double squares = 0;
-    int column = 0;
-    for (int i = 0; i < 5; ++i) {
-        if (corners[i] != vertex) {
-            edges.col(column++) = mesh.place(corners[i]) - place;
-        }
-        for (int j = 0; j < i; ++j) {
-            squares += (mesh.place(corners[i]) - mesh.place(corners[j])).squaredNorm();
-        }
-    }
-    // The volume's part: det(V)^(1/2) as the vertex moves all edges at once.
-    const Eigen::Vector4d of_volume = -0.5 * edges.transpose().inverse() * Eigen::Vector4d::Ones();
-    const Eigen::Vector4d of_edges = 2 * edges.rowwise().sum() / squares;
-    return of_volume + of_edges;
-}
 
 class Relaxation {
 public:
@@ -101,26 +78,22 @@ private:
             return false;
         }
         const auto corners = 4 * static_cast<double>(mesh.star(vertex).size());
-        const Eigen::Vector4d slope = quality_slope(mesh, worst_cell, vertex).normalized();
+        const Eigen::Vector4d slope = mesh.quality_slope(worst_cell, vertex).normalized();
         const double reach = edge / corners;
         bool has_moved = false;
         const auto attempt = [&](const Eigen::Vector4d& step) {
             if (!step.allFinite()) {
                 return false;
             }
-            Eigen::Vector4d place = mesh.place(vertex) + step;
-            if (!surface_.pieces[vertex].empty()) {
-                const auto there = slide(surface_, vertex, place);
-                if (!there) {
-                    return false;
-                }
-                place = *there;
+            const auto place = slide(surface_, vertex, mesh.place(vertex) + step);
+            if (!place) {
+                return false;
             }
-            const double quality = mesh.quality_if_moved(vertex, place);
+            const double quality = mesh.quality_if_moved(vertex, *place).least;
             if (quality <= least * (1 + 1e-3)) {
                 return false;
             }
-            surface_.mesh.move(vertex, place);
+            surface_.mesh.move(vertex, *place);
             least = quality;
             has_moved = true;
             return true;

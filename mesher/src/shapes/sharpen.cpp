@@ -179,8 +179,7 @@ private:
     [[nodiscard]] bool is_sharp(const Ridge& ridge) const {
         std::vector<Eigen::Vector4d> normals;
         for (const int piece : ridge.pieces) {
-            normals.push_back(
-                piece_gradient(*surface_.solid, piece, ridge.place, surface_.scale).normalized());
+            normals.push_back(piece_normal(*surface_.solid, piece, ridge.place, surface_.scale));
         }
         return std::any_of(normals.begin(), normals.end(), [&](const Eigen::Vector4d& normal) {
             return normal.dot(normals.front()) < kSmoothCosine;
@@ -220,7 +219,7 @@ private:
             const auto ridge =
                 find_ridge(across->pieces, surface_.mesh.place(vertex), surface_.scale_at(vertex));
             if (ridge && includes(ridge->pieces, surface_.pieces[vertex])) {
-                const double quality = surface_.mesh.quality_if_moved(vertex, ridge->place);
+                const double quality = surface_.mesh.quality_if_moved(vertex, ridge->place).least;
                 if (quality > best) {
                     best = quality;
                     moving = vertex;
@@ -261,6 +260,9 @@ SurfaceMesh on_surface(const Solid& solid, double scale, StuffedMesh stuffed) {
 std::optional<Eigen::Vector4d> slide(const SurfaceMesh& surface,
                                      std::uint32_t vertex,
                                      const Eigen::Vector4d& place) {
+    if (surface.pieces[vertex].empty()) {
+        return place;
+    }
     const auto there = nearest_common_zero(*surface.solid, surface.pieces[vertex], place,
                                            surface.scale_at(vertex));
     return there && std::abs(surface.solid->value(*there)) <= kOnPiece * surface.scale

@@ -37,6 +37,28 @@ double node_value(const Data& data, int node, const Eigen::Vector4d& p) {
     return combine(inner, node_value(data, inner.left, p), node_value(data, inner.right, p));
 }
 
+// Of a leaf's own function, turned, scaled and signed as the leaf is.
+ValueSlope placed(const Data::Leaf& leaf, const ValueSlope& own) {
+    return {leaf.factor * own.value, leaf.factor * (leaf.to_field.transpose() * own.slope)};
+}
+
+ValueSlope node_slope(const Data& data, int node, const Eigen::Vector4d& p, double step) {
+    if (node < 0) {
+        const Data::Leaf& leaf = data.leaves[~node];
+        return placed(leaf, field_slope(leaf.field, leaf.local(p), step / std::abs(leaf.factor)));
+    }
+    const Data::Node& inner = data.nodes[node];
+    const ValueSlope a = node_slope(data, inner.left, p, step);
+    const ValueSlope b = node_slope(data, inner.right, p, step);
+    const bool is_first = inner.op == Op::Min ? a.value < b.value : a.value > b.value;
+    const Eigen::Vector4d& deciding = is_first ? a.slope : b.slope;
+    const Eigen::Vector4d& other = is_first ? b.slope : a.slope;
+    // The slope of blend() over the difference of the two.
+    const double overlap = std::max(inner.smooth - std::abs(a.value - b.value), 0.0);
+    const double part = inner.smooth > 0 ? overlap / (2 * inner.smooth) : 0;
+    return {combine(inner, a.value, b.value), (1 - part) * deciding + part * other};
+}
+
 ValueRange range_of(const Data& data, int node, const Eigen::Vector4d& center, double radius) {
     if (node < 0) {
         const Data::Leaf& leaf = data.leaves[~node];
@@ -85,6 +107,21 @@ double collect_pieces(
         pieces.insert(pieces.end(), of_right.begin(), of_right.end());
     }
     return value;
+}
+
+// The node whose blend a piece is, or -1.
+int blend_of(const Data& data, int piece) {
+    const auto found = std::find_if(data.nodes.begin(), data.nodes.end(),
+                                    [&](const Data::Node& node) { return node.piece == piece; });
+    return found != data.nodes.end() ? static_cast<int>(found - data.nodes.begin()) : -1;
+}
+
+// The leaf that has a piece which is no blend.
+const Data::Leaf& leaf_of(const Data& data, int piece) {
+    const auto after = std::upper_bound(
+        data.leaves.begin(), data.leaves.end(), piece,
+        [](int number, const Data::Leaf& leaf) { return number < leaf.first_piece; });
+    return *(after - 1);
 }
 
 // All of one and of the other, with the root still to be made.
@@ -169,6 +206,10 @@ Solid solid_of(Field field, const Box4& bounds, double smallest_width) {
     return Solid(std::make_shared<const Data>(std::move(data)));
 }
 
+ValueSlope Solid::value_slope(const Eigen::Vector4d& p, double step) const {
+    return node_slope(*data_, data_->root, p, step);
+}
+
 double Solid::value(const Eigen::Vector4d& p) const {
     return node_value(*data_, data_->root, p);
 }
@@ -189,16 +230,20 @@ int Solid::piece_count() const {
 }
 
 double Solid::piece_value(int piece, const Eigen::Vector4d& p) const {
-    for (std::size_t i = 0; i < data_->nodes.size(); ++i) {
-        if (data_->nodes[i].piece == piece) {
-            return node_value(*data_, static_cast<int>(i), p);
-        }
+    if (const int node = blend_of(*data_, piece); node >= 0) {
+        return node_value(*data_, node, p);
     }
-    const auto after = std::upper_bound(
-        data_->leaves.begin(), data_->leaves.end(), piece,
-        [](int number, const Data::Leaf& leaf) { return number < leaf.first_piece; });
-    const Data::Leaf& leaf = *(after - 1);
+    const Data::Leaf& leaf = leaf_of(*data_, piece);
     return leaf.factor * mesher::piece_value(leaf.field, piece - leaf.first_piece, leaf.local(p));
+}
+
+ValueSlope Solid::piece_slope(int piece, const Eigen::Vector4d& p, double step) const {
+    if (const int node = blend_of(*data_, piece); node >= 0) {
+        return node_slope(*data_, node, p, step);
+    }
+    const Data::Leaf& leaf = leaf_of(*data_, piece);
+    return placed(leaf, mesher::piece_slope(leaf.field, piece - leaf.first_piece, leaf.local(p),
+                                            step / std::abs(leaf.factor)));
 }
 
 const Box4& Solid::bounds() const {

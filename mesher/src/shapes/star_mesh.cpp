@@ -66,16 +66,37 @@ double StarMesh::quality(std::uint32_t cell) const {
     return signed_quality(corners);
 }
 
-double StarMesh::quality_if_moved(std::uint32_t vertex, const Eigen::Vector4d& place) const {
-    double least = std::numeric_limits<double>::infinity();
+StarQuality StarMesh::quality_if_moved(std::uint32_t vertex, const Eigen::Vector4d& place) const {
+    StarQuality around;
     for (const std::uint32_t c : stars_[vertex]) {
         Corners corners;
         for (int i = 0; i < 5; ++i) {
             corners.col(i) = cells_[c][i] == vertex ? place : places_[cells_[c][i]];
         }
-        least = std::min(least, signed_quality(corners));
+        const double quality = signed_quality(corners);
+        around.least = std::min(around.least, quality);
+        around.sum += quality;
     }
-    return least;
+    return around;
+}
+
+Eigen::Vector4d StarMesh::quality_slope(std::uint32_t cell, std::uint32_t vertex) const {
+    const std::array<std::uint32_t, 5>& corners = cells_[cell];
+    Eigen::Matrix4d edges;  // from the vertex
+    double squares = 0;
+    int column = 0;
+    for (int i = 0; i < 5; ++i) {
+        if (corners[i] != vertex) {
+            edges.col(column++) = places_[corners[i]] - places_[vertex];
+        }
+        for (int j = 0; j < i; ++j) {
+            squares += (places_[corners[i]] - places_[corners[j]]).squaredNorm();
+        }
+    }
+    // The volume's part: det(V)^(1/2) as the vertex moves all edges at once.
+    const Eigen::Vector4d of_volume = -0.5 * edges.transpose().inverse() * Eigen::Vector4d::Ones();
+    const Eigen::Vector4d of_edges = 2 * edges.rowwise().sum() / squares;
+    return of_volume + of_edges;
 }
 
 double StarMesh::quality_if_split(std::span<const std::uint32_t> simplex,

@@ -3,10 +3,17 @@
 #include <pent/simplex_mesh.h>
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace pent::mesher {
+
+/// Of the mean ratios of the cells around a vertex.
+struct StarQuality {
+    double least = std::numeric_limits<double>::infinity();
+    double sum = 0;
+};
 
 /// A mesh to change in places: the cells around each vertex are at hand.
 class StarMesh {
@@ -35,8 +42,12 @@ public:
     /// Mean ratio of a cell; negative if it is turned over.
     [[nodiscard]] double quality(std::uint32_t cell) const;
 
-    /// The least of the cells around a vertex if it were elsewhere.
-    [[nodiscard]] double quality_if_moved(std::uint32_t vertex, const Eigen::Vector4d& place) const;
+    /// Of the cells around a vertex if it were elsewhere.
+    [[nodiscard]] StarQuality quality_if_moved(std::uint32_t vertex,
+                                               const Eigen::Vector4d& place) const;
+
+    /// Slope of the logarithm of a cell's mean ratio over the place of one of its corners, 1/m.
+    [[nodiscard]] Eigen::Vector4d quality_slope(std::uint32_t cell, std::uint32_t vertex) const;
 
     /// The least of the cells that splitting a simplex at a place would make.
     [[nodiscard]] double quality_if_split(std::span<const std::uint32_t> simplex,

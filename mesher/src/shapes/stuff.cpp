@@ -84,13 +84,14 @@ double least_mean_ratio(const SimplexMesh<4>& mesh) {
 // vertices move, after which more is possible.
 std::int64_t follow_ridges(SurfaceMesh& surface) {
     std::int64_t left = 0;
-    for (const double least_quality : {0.3, 0.2, 0.12, 0.06, 0.03}) {
+    for (const double least_quality : {0.3, 0.2, 0.12, 0.11, 0.1}) {
         left = sharpen(surface, least_quality);
         if (left == 0) {
             break;
         }
         if (least_quality < 0.15) {
             relax(surface, 0.2);
+            smooth(surface, kGood);
         }
     }
     return left;
@@ -135,6 +136,8 @@ StuffedSolid stuff(const Solid& solid, double edge_length, const SizeField& size
         const std::size_t lattice_vertices = stuffed.is_on_surface.size();
         SurfaceMesh surface = on_surface(solid, edge_length, std::move(stuffed));
         result.beveled = follow_ridges(surface);
+        relax(surface, kGood);
+        smooth(surface, kGood);
         relax(surface, kGood);
         const std::vector<bool> flat = corners_of_flat_cells(surface.mesh, lattice_vertices);
         const std::int64_t count = flat.empty() ? 0 : stuffing.move_back(flat);

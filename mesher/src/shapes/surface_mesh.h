@@ -28,8 +28,8 @@ struct SurfaceMesh {
 
 [[nodiscard]] SurfaceMesh on_surface(const Solid& solid, double scale, StuffedMesh stuffed);
 
-/// Where a vertex may go along the pieces that it lies on: the point nearest to a place on all of
-/// them, if the solid's surface is there.
+/// Where a vertex may go: anywhere if it is inside; along the pieces that it lies on to the point
+/// nearest to a place on all of them, if the solid's surface is there.
 [[nodiscard]] std::optional<Eigen::Vector4d> slide(const SurfaceMesh& surface,
                                                    std::uint32_t vertex,
                                                    const Eigen::Vector4d& place);
@@ -46,5 +46,10 @@ std::int64_t sharpen(SurfaceMesh& surface, double least_quality);
 /// it, those on ridges along these.
 /// @param target  Cells of this mean ratio are good enough.
 void relax(SurfaceMesh& surface, double target);
+
+/// Moves vertices of cells along ridges to where the cells around each are better on the mean, along
+/// what they lie on as relax() does. The worst cell around a vertex does not become worse, unless
+/// it stays above `least`.
+void smooth(SurfaceMesh& surface, double least);
 
 }  // namespace pent::mesher

@@ -1,6 +1,6 @@
 #include "surface_search.h"
 
-#include <Eigen/QR>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@ namespace pent::mesher {
 
 namespace {
 
-// Central differences over this part of the cells' scale are exact to about 1e-6 on surfaces that
-// the cells resolve; Newton's method corrects the rest.
+// Where slopes are differences, over this part of the cells' scale: exact to about 1e-6 on surfaces
+// that the cells resolve; Newton's method corrects the rest.
 constexpr double kDifference = 1e-3;
 
 constexpr int kMaxSteps = 12;
@@ -18,18 +18,21 @@ constexpr int kMaxSteps = 12;
 // How near to zero values are taken to, in parts of the scale.
 constexpr double kZero = 1e-10;
 
-template <typename Function>
-Eigen::Vector4d gradient(const Function& function, const Eigen::Vector4d& p, double scale) {
-    const double step = kDifference * scale;
-    Eigen::Vector4d result;
-    for (int axis = 0; axis < 4; ++axis) {
-        Eigen::Vector4d there = p;
-        there[axis] = p[axis] + step;
-        const double after = function(there);
-        there[axis] = p[axis] - step;
-        result[axis] = (after - function(there)) / (2 * step);
+// The shortest of the steps that solve the equations best.
+Eigen::Vector4d shortest_solution(const Eigen::Matrix4d& squares, const Eigen::Vector4d& sums) {
+    // Pieces whose normals nearly agree count as one: those of a part of this, squared.
+    constexpr double kAgree = 1e-8;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> axes(squares);
+    const double largest = axes.eigenvalues()[3];
+    Eigen::Vector4d step = Eigen::Vector4d::Zero();
+    for (int i = 0; i < 4; ++i) {
+        const double square = axes.eigenvalues()[i];
+        if (square > kAgree * largest) {
+            const Eigen::Vector4d axis = axes.eigenvectors().col(i);
+            step += axis.dot(sums) / square * axis;
+        }
     }
-    return result;
+    return step;
 }
 
 }  // namespace
@@ -72,11 +75,9 @@ double zero_between(const Solid& solid, const Sample& from, const Sample& to) {
 std::optional<Eigen::Vector4d> nearest_zero(const Solid& solid,
                                             const Eigen::Vector4d& start,
                                             double scale) {
-    const auto function = [&](const Eigen::Vector4d& p) { return solid.value(p); };
     Eigen::Vector4d p = start;
     for (int i = 0; i < kMaxSteps; ++i) {
-        const double value = function(p);
-        const Eigen::Vector4d slope = gradient(function, p, scale);
+        const auto [value, slope] = solid.value_slope(p, kDifference * scale);
         const Eigen::Vector4d step = slope * (value / slope.squaredNorm());
         if (!step.allFinite() || (p - step - start).norm() > scale) {
             return std::nullopt;
@@ -89,12 +90,11 @@ std::optional<Eigen::Vector4d> nearest_zero(const Solid& solid,
     return std::nullopt;
 }
 
-Eigen::Vector4d piece_gradient(const Solid& solid,
-                               int piece,
-                               const Eigen::Vector4d& p,
-                               double scale) {
-    return gradient([&](const Eigen::Vector4d& q) { return solid.piece_value(piece, q); }, p,
-                    scale);
+Eigen::Vector4d piece_normal(const Solid& solid,
+                             int piece,
+                             const Eigen::Vector4d& p,
+                             double scale) {
+    return solid.piece_slope(piece, p, kDifference * scale).slope.normalized();
 }
 
 std::optional<Eigen::Vector4d> nearest_common_zero(const Solid& solid,
@@ -103,28 +103,29 @@ std::optional<Eigen::Vector4d> nearest_common_zero(const Solid& solid,
                                                    double scale) {
     Eigen::Vector4d p = start;
     for (int i = 0; i < kMaxSteps; ++i) {
-        Eigen::Matrix<double, Eigen::Dynamic, 4> slopes(pieces.size(), 4);
-        Eigen::VectorXd values(pieces.size());
-        for (std::size_t k = 0; k < pieces.size(); ++k) {
-            const auto row = static_cast<Eigen::Index>(k);
-            const Eigen::Vector4d slope = piece_gradient(solid, pieces[k], p, scale);
+        // The normal equations: four by four, however many pieces there are.
+        Eigen::Matrix4d squares = Eigen::Matrix4d::Zero();
+        Eigen::Vector4d sums = Eigen::Vector4d::Zero();
+        double largest = 0;
+        for (const int piece : pieces) {
+            const auto [value, slope] = solid.piece_slope(piece, p, kDifference * scale);
             const double length = slope.norm();
-            values[row] = solid.piece_value(pieces[k], p) / length;
-            slopes.row(row) = slope / length;
+            const Eigen::Vector4d normal = slope / length;
+            const double distance = value / length;
+            squares += normal * normal.transpose();
+            sums += distance * normal;
+            largest = std::max(largest, std::abs(distance));
         }
-        if (!slopes.allFinite() || !values.allFinite()) {
+        if (!squares.allFinite() || !sums.allFinite()) {
             return std::nullopt;
         }
-        Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;
-        factors.setThreshold(1e-4);  // pieces that nearly agree count as one
-        factors.compute(slopes);
-        const Eigen::Vector4d step = factors.solve(values);
+        const Eigen::Vector4d step = pieces.size() == 1 ? sums : shortest_solution(squares, sums);
         p -= step;
         if ((p - start).norm() > 2 * scale) {
             return std::nullopt;
         }
         if (step.norm() <= kZero * scale) {
-            return values.cwiseAbs().maxCoeff() <= 1e-6 * scale ? std::optional(p) : std::nullopt;
+            return largest <= 1e-6 * scale ? std::optional(p) : std::nullopt;
         }
     }
     return std::nullopt;

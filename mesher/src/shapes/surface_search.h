@@ -18,7 +18,7 @@ struct Sample {
 
 /// The zero that Newton's method reaches along the slope of the function; nothing if it does not
 /// get there.
-/// @param scale  Of the cells, m: derivatives are differences over a small part of it.
+/// @param scale  Of the cells, m: differences are taken over a small part of it.
 [[nodiscard]] std::optional<Eigen::Vector4d> nearest_zero(const Solid& solid,
                                                           const Eigen::Vector4d& start,
                                                           double scale);
@@ -30,10 +30,10 @@ struct Sample {
                                                                  const Eigen::Vector4d& start,
                                                                  double scale);
 
-/// Slope of one piece's function.
-[[nodiscard]] Eigen::Vector4d piece_gradient(const Solid& solid,
-                                             int piece,
-                                             const Eigen::Vector4d& p,
-                                             double scale);
+/// Direction in which one piece's function grows.
+[[nodiscard]] Eigen::Vector4d piece_normal(const Solid& solid,
+                                           int piece,
+                                           const Eigen::Vector4d& p,
+                                           double scale);
 
 }  // namespace pent::mesher

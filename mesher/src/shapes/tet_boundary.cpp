@@ -193,10 +193,25 @@ double TetBoundary::value(const Vector4d& p) const {
     return crossings(there, kNone) != 0 ? -distance : distance;
 }
 
+ValueSlope TetBoundary::value_slope(const Vector4d& p) const {
+    const Vector4d there = rotation_ * p;
+    const NearestPoint nearest = outer_.nearest(there);
+    const double distance = std::sqrt(nearest.distance_squared);
+    const double value = crossings(there, kNone) != 0 ? -distance : distance;
+    const Vector4d slope =
+        distance > 0 ? Vector4d((there - nearest.place) / value) : normals_[nearest.tetrahedron];
+    return {value, rotation_.transpose() * slope};
+}
+
 double TetBoundary::patch_value(int patch, const Vector4d& p) const {
+    return patch_slope(patch, p).value;
+}
+
+ValueSlope TetBoundary::patch_slope(int patch, const Vector4d& p) const {
     const Vector4d there = rotation_ * p;
     const NearestPoint nearest = patches_[static_cast<std::size_t>(patch)].nearest(there);
-    return normals_[nearest.tetrahedron].dot(there - nearest.place);
+    const Vector4d& normal = normals_[nearest.tetrahedron];
+    return {normal.dot(there - nearest.place), rotation_.transpose() * normal};
 }
 
 std::vector<int> TetBoundary::patches_within(const Vector4d& p, double distance) const {

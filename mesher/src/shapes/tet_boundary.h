@@ -23,11 +23,17 @@ public:
     /// Distance from the nearest tetrahedron that has the body on one side, m; negative inside.
     [[nodiscard]] double value(const Eigen::Vector4d& p) const;
 
+    /// The same with its slope: away from the nearest point, or, there, along the normal.
+    [[nodiscard]] ValueSlope value_slope(const Eigen::Vector4d& p) const;
+
     /// Patches are parts whose tetrahedra meet at less than 40 degrees.
     [[nodiscard]] int patch_count() const { return static_cast<int>(patches_.size()); }
 
     /// Height over the nearest tetrahedron of a patch, m.
     [[nodiscard]] double patch_value(int patch, const Eigen::Vector4d& p) const;
+
+    /// The same with its slope: the normal of that tetrahedron.
+    [[nodiscard]] ValueSlope patch_slope(int patch, const Eigen::Vector4d& p) const;
 
     /// The patches within a distance (m) of a point, ascending.
     [[nodiscard]] std::vector<int> patches_within(const Eigen::Vector4d& p, double distance) const;

@@ -1,5 +1,7 @@
 #include "tet_tree.h"
 
+#include <pent/geometry.h>
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -19,6 +21,9 @@ constexpr std::uint32_t kLeaf = 4;  // tetrahedra to a leaf
 // taken for its sides alone: rounding of the square would decide what is nearest.
 constexpr double kFlat = 1e-13;
 
+// Above this one the plane through a simplex is known to some digits more than its distances are.
+constexpr double kRound = 1e-4;
+
 struct Foot {
     Vector4d place = Vector4d::Zero();
     double distance_squared = std::numeric_limits<double>::infinity();
@@ -37,21 +42,23 @@ void find_foot(const Eigen::Matrix<double, 4, Corners>& corners, const Vector4d&
         const Eigen::Matrix<double, 4, Corners - 1> edges =
             corners.template rightCols<Corners - 1>().colwise() - corners.col(0);
         const Square gram = edges.transpose() * edges;
-        const bool is_flat = gram.determinant() <= kFlat * gram.diagonal().prod();
+        const double part = gram.determinant() / gram.diagonal().prod();
         Eigen::Vector<double, Corners> weights;
         weights.setConstant(-1);
-        if (!is_flat) {
+        if (part > kFlat) {
             const Vector4d from = p - corners.col(0);
             weights.template tail<Corners - 1>() = gram.inverse() * (edges.transpose() * from);
             weights[0] = 1 - weights.template tail<Corners - 1>().sum();
-        }
-        if (weights.minCoeff() >= 0) {
             const Vector4d place = corners * weights;
             const double distance_squared = (p - place).squaredNorm();
-            if (distance_squared < best.distance_squared) {
+            const bool is_inside = weights.minCoeff() >= 0;
+            if (is_inside && distance_squared < best.distance_squared) {
                 best = {place, distance_squared};
             }
-            return;
+            // No side is nearer than the plane through all.
+            if (is_inside || (part > kRound && distance_squared >= best.distance_squared)) {
+                return;
+            }
         }
         for (int without = 0; without < Corners; ++without) {
             if (weights[without] < 0) {
@@ -91,6 +98,12 @@ TetTree::TetTree(std::vector<Matrix4d> corners, std::vector<std::uint32_t> names
         sorted_names.push_back(names_[i]);
     }
     corners_ = std::move(sorted_corners);
+    for (const Matrix4d& own : corners_) {
+        const Vector4d normal = facet_normal<4>(own);
+        const double most = (own.rightCols<3>().colwise() - own.col(0)).colwise().norm().prod();
+        const bool is_round = normal.squaredNorm() > kRound * most * most;
+        normals_.push_back(is_round ? normal.normalized() : Vector4d::Zero());
+    }
     names_ = std::move(sorted_names);
 }
 
@@ -126,7 +139,9 @@ void TetTree::search(std::uint32_t node, const Vector4d& p, NearestPoint& best) 
     const Node& here = nodes_[node];
     for (std::uint32_t k = here.first; k < here.first + here.count; ++k) {
         const Box4 box{corners_[k].rowwise().minCoeff(), corners_[k].rowwise().maxCoeff()};
-        if (distance_squared(box, p) >= best.distance_squared) {
+        const double height = normals_[k].dot(p - corners_[k].col(0));
+        if (height * height >= best.distance_squared
+            || distance_squared(box, p) >= best.distance_squared) {
             continue;
         }
         Foot foot{best.place, best.distance_squared};

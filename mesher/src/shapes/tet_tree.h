@@ -91,6 +91,7 @@ private:
 
     std::vector<Node> nodes_;
     std::vector<Eigen::Matrix4d> corners_;  // in the order of the leaves
+    std::vector<Eigen::Vector4d> normals_;  // of length 1, or 0 if not round
     std::vector<std::uint32_t> names_;
 };
 

@@ -19,6 +19,12 @@ struct ValueRange {
     double high = 0;
 };
 
+/// A function at a point, with how it changes there.
+struct ValueSlope {
+    double value = 0;
+    Eigen::Vector4d slope = Eigen::Vector4d::Zero();
+};
+
 /// A body of four dimensions as a function of the point: negative inside, positive outside, zero
 /// on the boundary; made from primitives (see primitives.h) by the operations below.
 ///
@@ -28,6 +34,11 @@ class Solid {
 public:
     /// The function at a point, m. NaN only where an expression is.
     [[nodiscard]] double value(const Eigen::Vector4d& p) const;
+
+    /// The function (m) and its slope.
+    /// @param step  Differences are taken over this (m) where no slope is known: of expressions and
+    ///              images.
+    [[nodiscard]] ValueSlope value_slope(const Eigen::Vector4d& p, double step) const;
 
     /// Bounds of the function within a ball; infinite where an expression decides.
     [[nodiscard]] ValueRange values_within(const Eigen::Vector4d& center, double radius) const;
@@ -41,6 +52,9 @@ public:
 
     /// The function of one piece at a point, m.
     [[nodiscard]] double piece_value(int piece, const Eigen::Vector4d& p) const;
+
+    /// The same with its slope, see value_slope().
+    [[nodiscard]] ValueSlope piece_slope(int piece, const Eigen::Vector4d& p, double step) const;
 
     /// Holds all that is inside.
     [[nodiscard]] const Box4& bounds() const;
