@@ -47,9 +47,9 @@ std::int64_t sharpen(SurfaceMesh& surface, double least_quality);
 /// @param target  Cells of this mean ratio are good enough.
 void relax(SurfaceMesh& surface, double target);
 
-/// Moves vertices of cells along ridges to where the cells around each are better on the mean, along
-/// what they lie on as relax() does. The worst cell around a vertex does not become worse, unless
-/// it stays above `least`.
+/// Moves vertices of cells along ridges to where the cells around each are better on the mean,
+/// along what they lie on as relax() does. The worst cell around a vertex does not become worse,
+/// unless it stays above `least`.
 void smooth(SurfaceMesh& surface, double least);
 
 }  // namespace pent::mesher

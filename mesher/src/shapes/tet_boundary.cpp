@@ -26,6 +26,8 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 // Tetrahedra that meet at less are one smooth patch: the cosine of 40 degrees.
 constexpr double kSmoothCosine = 0.766;
 
+constexpr double kRounding = 1e-11;  // of coordinates, enough for directions to 1e-5
+
 // Turns in three planes by angles without a meaning.
 Matrix4d odd_rotation() {
     Matrix4d rotation = Matrix4d::Identity();
@@ -198,8 +200,10 @@ ValueSlope TetBoundary::value_slope(const Vector4d& p) const {
     const NearestPoint nearest = outer_.nearest(there);
     const double distance = std::sqrt(nearest.distance_squared);
     const double value = crossings(there, kNone) != 0 ? -distance : distance;
-    const Vector4d slope =
-        distance > 0 ? Vector4d((there - nearest.place) / value) : normals_[nearest.tetrahedron];
+    // Nearer than that the difference of the two points is mostly rounding.
+    const double rounding = kRounding * std::max(there.norm(), nearest.place.norm());
+    const Vector4d slope = distance > rounding ? Vector4d((there - nearest.place) / value)
+                                               : normals_[nearest.tetrahedron];
     return {value, rotation_.transpose() * slope};
 }
 
