@@ -88,29 +88,54 @@ void SelfProximity<Dim>::fit_patches(const PositionsView<Dim>& positions) {
 }
 
 template <int Dim>
-typename SelfProximity<Dim>::Reference* SelfProximity<Dim>::reference(std::uint32_t serial) {
-    Reference& there = references_[serial % kReferences];
-    return serial != 0 && there.serial == serial ? &there : nullptr;
+const typename SelfProximity<Dim>::Reference* SelfProximity<Dim>::reference(
+    std::uint32_t serial) const {
+    const auto place =
+        std::find_if(references_.begin(), references_.end(),
+                     [&](const Reference& r) { return r.serial == serial && serial != 0; });
+    return place == references_.end() ? nullptr : &*place;
 }
 
-// What pairs of patches cost that no reference tells anything of adds up to what it costs to list
-// them at another.
+// How many lists are of each reference.
 template <int Dim>
-bool SelfProximity<Dim>::wants_reference(std::size_t unknown) {
+std::array<std::size_t, SelfProximity<Dim>::kReferences> SelfProximity<Dim>::count_lists() const {
+    std::array<std::size_t, kReferences> counts{};
+    for (const std::vector<Row>* rows : {&points_, &mixed_}) {
+        for (const Row& row : *rows) {
+            for (const Known& known : row.known) {
+                if (const Reference* of = reference(known.serial)) {
+                    ++counts[static_cast<std::size_t>(of - references_.data())];
+                }
+            }
+        }
+    }
+    return counts;
+}
+
+// The one to be given up, where what pairs of patches cost that no reference tells anything of has
+// added up to what it costs to list them at another, and to list anew what is lost with the old.
+template <int Dim>
+typename SelfProximity<Dim>::Reference* SelfProximity<Dim>::wanted_reference(std::size_t unknown) {
     owed_ += unknown;
-    return unknown > 0 && (newest_ == 0 || owed_ >= kListCost * unknown);
+    if (unknown == 0 || (newest_ != 0 && owed_ < kListCost * unknown)) {
+        return nullptr;
+    }
+    const std::array<std::size_t, kReferences> counts = count_lists();
+    const auto least = std::min_element(counts.begin(), counts.end());
+    return newest_ == 0 || owed_ >= kListCost * (unknown + *least)
+               ? &references_[static_cast<std::size_t>(least - counts.begin())]
+               : nullptr;
 }
 
 template <int Dim>
-void SelfProximity<Dim>::take_reference(const PositionsView<Dim>& positions) {
+void SelfProximity<Dim>::take_reference(const PositionsView<Dim>& positions, Reference& place) {
     ++newest_;
     owed_ = 0;
-    Reference& reference = references_[newest_ % kReferences];
-    reference.serial = newest_;
-    reference.positions = positions;
-    for (std::size_t i = 0; i < reference.patches.size(); ++i) {
+    place.serial = newest_;
+    place.positions = positions;
+    for (std::size_t i = 0; i < place.patches.size(); ++i) {
         if (!patches_at_rest_[i].motions().empty()) {
-            reference.patches[i] = Patches<Dim>(patches_at_rest_[i], positions);
+            place.patches[i] = Patches<Dim>(patches_at_rest_[i], positions);
         }
     }
 }
@@ -127,8 +152,8 @@ void SelfProximity<Dim>::find(const PositionsView<Dim>& positions, CandidatePair
     Search<1, Dim> points(*this, surface_.vertices, surface_.facets, points_, positions);
     Search<2, Dim - 1> mixed(*this, surface_.edges, surface_.ridges, mixed_, positions);
     const std::size_t unknown = points.look_at_lists() + mixed.look_at_lists();
-    if (wants_reference(unknown)) {
-        take_reference(positions);
+    if (Reference* place = wanted_reference(unknown)) {
+        take_reference(positions, *place);
         points.list_others();
         mixed.list_others();
     } else {

@@ -20,8 +20,8 @@ namespace pent::contact {
 /// reference. How both patches have moved since then, as affine maps and what these lack, bounds
 /// how near all others can be now, however far and strongly the body has been bent before
 /// (PatchBound). Where the bound fails pairs are looked at one by one; when that has cost what
-/// lists would, the positions of that time become a reference. There are a few at a time, the
-/// oldest goes.
+/// new lists would, the positions of that time become a reference. There are a few at a time: the
+/// one that the fewest lists are of goes.
 ///
 /// What is found is the same whatever was asked before.
 template <int Dim>
@@ -84,9 +84,10 @@ private:
     template <int Count>
     void fit_tree(const Simplices<Count>& simplices, const PositionsView<Dim>& positions);
     void fit_patches(const PositionsView<Dim>& positions);
-    [[nodiscard]] Reference* reference(std::uint32_t serial);
-    [[nodiscard]] bool wants_reference(std::size_t unknown);
-    void take_reference(const PositionsView<Dim>& positions);
+    [[nodiscard]] const Reference* reference(std::uint32_t serial) const;
+    [[nodiscard]] std::array<std::size_t, kReferences> count_lists() const;
+    [[nodiscard]] Reference* wanted_reference(std::size_t unknown);
+    void take_reference(const PositionsView<Dim>& positions, Reference& place);
 
     const Surface<Dim>& surface_;
     const Positions<Dim>& rest_;

@@ -145,5 +145,27 @@ TYPED_TEST(SelfProximityTest, LooksAtFewPairsWhereABodyHardlyChanges) {
     EXPECT_LT(pairs.overlaps(), at_first / 3);  // patches that are neighbors are counted
 }
 
+// What is listed where nothing changes stays listed, however often the end wants other lists.
+TYPED_TEST(SelfProximityTest, AnEndThatShakesCostsNothingElsewhere) {
+    constexpr int kDim = TypeParam::value;
+    const Surface<kDim>& surface = this->scene_.surfaces[0];
+    SelfProximity<kDim> proximity(surface, this->scene_.positions, 0.1);
+    CandidatePairs pairs;
+    const Positions<kDim> still = this->bent(0, 0, 1);
+    proximity.find(still, pairs);
+    const std::int64_t at_first = pairs.overlaps();
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+        const Positions<kDim> shaken = this->bent(0, 0.2, seed);
+        Positions<kDim> x = still;
+        for (Eigen::Index v = 0; v < x.cols(); ++v) {
+            if (this->scene_.positions(0, v) < 1.5) {
+                x.col(v) = shaken.col(v);
+            }
+        }
+        proximity.find(x, pairs);
+        EXPECT_LT(pairs.overlaps(), 3 * at_first / 4) << seed;
+    }
+}
+
 }  // namespace
 }  // namespace pent::contact
