@@ -1,6 +1,7 @@
 #include "candidates.h"
 
-#include "apart.h"
+#include "boxes_around.h"
+#include "near_on_paths.h"
 
 #include <pent/stopwatch.h>
 
@@ -32,45 +33,8 @@ constexpr double kNever = -1;
 // farther than 0.3 times that from there, no other pair can be within it.
 constexpr double kMeasured = 1.6;
 
-// Tests allow for rounding: candidates have to be a superset.
-constexpr double kRoundUp = 1 + 1e-9;
-
 // Pairs of a penalty kept for another evaluation, at most: 96 MB.
 constexpr std::size_t kMaxKept = 8'000'000;
-
-template <int Count>
-double max_of(const Eigen::VectorXd& values, const Simplices<Count>& simplices, Eigen::Index i) {
-    double max = 0;
-    for (int a = 0; a < Count; ++a) {
-        max = std::max(max, values[simplices(a, i)]);
-    }
-    return max;
-}
-
-// What the search along paths finds: candidates whose distance at the end is known, and others.
-struct Found {
-    std::vector<Candidate> known;
-    std::vector<Candidate> others;
-    std::int64_t overlaps = 0;
-};
-
-CandidateList joined_by_distance(const std::vector<Found>& found) {
-    CandidateList all;
-    std::size_t count = 0;
-    for (const Found& list : found) {
-        count += list.known.size() + list.others.size();
-        all.overlaps += list.overlaps;
-    }
-    all.pairs.reserve(count);
-    for (const Found& list : found) {
-        all.pairs.insert(all.pairs.end(), list.known.begin(), list.known.end());
-    }
-    all.known_count = all.pairs.size();
-    for (const Found& list : found) {
-        all.pairs.insert(all.pairs.end(), list.others.begin(), list.others.end());
-    }
-    return all;
-}
 
 }  // namespace
 
@@ -81,7 +45,6 @@ Candidates<Dim>::Candidates(const Colliders<Dim>& colliders)
       min_inflation_(colliders.scene().options.margin),
       longest_(static_cast<std::size_t>(colliders.count()), kNever),
       trees_(static_cast<std::size_t>(colliders.count())),
-      trees_within_(static_cast<std::size_t>(colliders.count())),
       proximity_(static_cast<std::size_t>(colliders.count())) {
     if (!is_penalty()) {
         const ContactOptions& options = colliders.scene().options;
@@ -105,6 +68,11 @@ bool Candidates<Dim>::is_too_coarse(double searched, double measured_from, doubl
 }
 
 template <int Dim>
+double Candidates<Dim>::measured(double reach) const {
+    return reach + (kMeasured - 1) * activation_distance_;
+}
+
+template <int Dim>
 void Candidates<Dim>::cover(const PositionsView<Dim>& from, const PositionsView<Dim>& to) {
     const double path_length = longest_path<Dim>(vertices_, from, to);
     if (!between_.covers(vertices_, from) || !between_.covers(vertices_, to)
@@ -121,7 +89,7 @@ void Candidates<Dim>::cover(const PositionsView<Dim>& from, const PositionsView<
 }
 
 template <int Dim>
-bool Candidates<Dim>::does_cover(int body, const Paths& paths) const {
+bool Candidates<Dim>::does_cover(int body, const Paths<Dim>& paths) const {
     const Simplices<1>& vertices = colliders_.surface(body).vertices;
     const double searched = longest_[static_cast<std::size_t>(body)];
     return searched >= 0 && within_.covers(vertices, paths.from)
@@ -178,7 +146,7 @@ Displacements Candidates<Dim>::displacements(const PositionsView<Dim>& from,
 }
 
 template <int Dim>
-void Candidates<Dim>::search_between(const Paths& paths) {
+void Candidates<Dim>::search_between(const Paths<Dim>& paths) {
     between_.set(vertices_, paths.from, paths.to, min_inflation_, kInflationOfPath);
     fit_trees(paths);
     std::erase_if(pairs_, [](const CandidatePairs& pairs) { return !pairs.is_self(); });
@@ -187,22 +155,14 @@ void Candidates<Dim>::search_between(const Paths& paths) {
 }
 
 template <int Dim>
-void Candidates<Dim>::search_within(int body, const Paths& paths) {
-    const Stopwatch watch;
-    const Surface<Dim>& surface = colliders_.surface(body);
-    const auto place = static_cast<std::size_t>(body);
-    const Vector<Dim> drift = mean_shift<Dim>(surface.vertices, paths.from, paths.to);
-    longest_[place] =
-        std::max(longest_path<Dim>(surface.vertices, paths.from, paths.to), min_inflation_);
-    within_.set(surface.vertices, paths.from, paths.to, min_inflation_, kInflationOfPath);
-    boxes_.resize(static_cast<std::size_t>(paths.from.cols()));
-    fit_boxes(body, {paths.from, paths.to, drift}, within_);
-    trees_within_[place].update_vertices(surface, boxes_);
-    trees_within_[place].update_faces(surface, boxes_);
-    work_.tree_seconds += watch.seconds();
+void Candidates<Dim>::search_within(int body, const Paths<Dim>& paths) {
+    const Simplices<1>& vertices = colliders_.surface(body).vertices;
+    longest_[static_cast<std::size_t>(body)] =
+        std::max(longest_path<Dim>(vertices, paths.from, paths.to), min_inflation_);
+    within_.set(vertices, paths.from, paths.to, min_inflation_, kInflationOfPath);
+    const double reach = this->reach(body, body);
     CandidatePairs pairs{.first = body, .second = body};
-    pairs.points_first = search<1, Dim>(body, body);
-    pairs.mixed_first = search<2, Dim - 1>(body, body);
+    proximity(body).find(within_, reach, measured(reach), pairs);
     work_.overlaps += pairs.overlaps();
     ++work_.searches;
     insert(std::move(pairs));
@@ -222,23 +182,6 @@ void Candidates<Dim>::insert(CandidatePairs pairs) {
     }
 }
 
-// Less what all shift.
-template <int Dim>
-void Candidates<Dim>::fit_boxes(int collider, const Paths& paths, const PathCover<Dim>& cover) {
-    constexpr std::size_t kChunk = 4096;
-    const Simplices<1>& vertices = colliders_.surface(collider).vertices;
-    const double reach = 0.5 * activation_distance_ + colliders_.radius(collider);
-    for_each_chunk(static_cast<std::size_t>(vertices.cols()), kChunk,
-                   [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
-                       for (std::size_t k = begin; k < end; ++k) {
-                           const std::uint32_t v = vertices(0, static_cast<Eigen::Index>(k));
-                           Eigen::Matrix<double, Dim, 2> path;
-                           path << paths.from.col(v), paths.to.col(v) - paths.drift;
-                           boxes_[v] = box_around<Dim, 2>(path, cover.inflation()[v] + reach);
-                       }
-                   });
-}
-
 template <int Dim>
 bool Candidates<Dim>::do_overlap(int a, int b) const {
     const BoxTree& first = trees(a).template tree<1>();
@@ -248,14 +191,15 @@ bool Candidates<Dim>::do_overlap(int a, int b) const {
 
 // Those of vertices tell which bodies may meet: the others need no more.
 template <int Dim>
-void Candidates<Dim>::fit_trees(const Paths& paths) {
+void Candidates<Dim>::fit_trees(const Paths<Dim>& paths) {
     const Stopwatch watch;
     const int count = colliders_.count();
     std::vector<bool> is_alone(static_cast<std::size_t>(count), true);
     if (count > 1) {
         boxes_.resize(static_cast<std::size_t>(paths.from.cols()));
         for (int a = 0; a < count; ++a) {
-            fit_boxes(a, paths, between_);
+            fit_boxes(colliders_.surface(a).vertices, paths, &between_.inflation(),
+                      0.5 * activation_distance_ + colliders_.radius(a), boxes_);
             trees_[static_cast<std::size_t>(a)].update_vertices(colliders_.surface(a), boxes_);
         }
         for (int a = 0; a < count; ++a) {
@@ -300,62 +244,38 @@ template <int K, int L>
 CandidateList Candidates<Dim>::search(int first, int second) const {
     const Simplices<K>& a = colliders_.surface(first).template simplices<K>();
     const Simplices<L>& b = colliders_.surface(second).template simplices<L>();
-    const bool is_within = first == second;
-    const auto& all_trees = is_within ? trees_within_ : trees_;
-    const BoxTree& first_tree = all_trees[static_cast<std::size_t>(first)].template tree<K>();
-    const BoxTree& second_tree = all_trees[static_cast<std::size_t>(second)].template tree<L>();
-    const bool is_same_list = &first_tree == &second_tree;
+    const BoxTree& first_tree = trees(first).template tree<K>();
+    const BoxTree& second_tree = trees(second).template tree<L>();
     const double reach = this->reach(first, second);
-    const PathCover<Dim>& cover = is_within ? within_ : between_;
-    const Eigen::VectorXd& inflation = cover.inflation();
-    const PositionsView<Dim> end = cover.end();
-    if (is_penalty()) {
-        const double limit = (reach + 2 * min_inflation_) * (is_exact() ? 1 : kRoundUp);
-        return joined(walk_overlaps<CandidateList>(
+    if (!is_penalty()) {
+        return joined(walk_overlaps<FoundOnPaths>(
             first_tree, second_tree,
-            NearTest<Dim, K, L>{a, b, is_same_list, end, limit * limit,
-                                is_exact() && K == 2 ? Closest::Interior : Closest::Anywhere}));
+            NearOnPaths<Dim, K, L>{a, b, false, between_, reach, measured(reach)}));
     }
-    const PositionsView<Dim> start = cover.start();
-    const double measured = reach + (kMeasured - 1) * activation_distance_;
-    const auto add = [&](std::uint32_t i, std::uint32_t j, Found& list) {
-        ++list.overlaps;
-        if (share_a_vertex<K, L>(a, i, b, j)) {
-            return;
-        }
-        if (is_same_list && j < i) {
-            std::swap(i, j);
-        }
-        // Boxes around whole paths are crude: what counts is how near the two come at any one time.
-        const double near =
-            (reach + max_of<K>(inflation, a, i) + max_of<L>(inflation, b, j)) * kRoundUp;
-        const Corners<Dim, K> p_start = gather<Dim, K>(a, i, start);
-        const Corners<Dim, L> q_start = gather<Dim, L>(b, j, start);
-        const Corners<Dim, K> p = gather<Dim, K>(a, i, end);
-        const Corners<Dim, L> q = gather<Dim, L>(b, j, end);
-        if (are_paths_apart<Dim, K, L>(p_start, p, q_start, q, near * near)
-            || are_paths_apart_along_middles<Dim, K, L>(p_start, p, q_start, q, near)) {
-            return;
-        }
-        ClosestPointSearch<Dim, K, L> closest(p, q, measured * measured);
-        const bool is_known =
-            !are_boxes_apart<Dim, K, L>(p, q, measured * measured) && closest.run();
-        const double distance = is_known ? std::sqrt(closest.best().distance_squared) : measured;
-        if (distance < near + relative_path_length<Dim, K, L>(p_start, p, q_start, q) * kRoundUp) {
-            (is_known ? list.known : list.others).push_back({i, j, rounded_down(distance)});
-        }
-    };
-    return joined_by_distance(walk_overlaps<Found>(first_tree, second_tree, add));
+    // Tests allow for rounding where candidates have to be a superset.
+    const double limit = (reach + 2 * min_inflation_) * (is_exact() ? 1 : 1 + 1e-9);
+    const PositionsView<Dim> end = between_.end();
+    return joined(walk_overlaps<CandidateList>(
+        first_tree, second_tree,
+        NearTest<Dim, K, L>{a, b, false, end, limit * limit,
+                            is_exact() && K == 2 ? Closest::Interior : Closest::Anywhere}));
+}
+
+template <int Dim>
+SelfProximity<Dim>& Candidates<Dim>::proximity(int body) {
+    std::optional<SelfProximity<Dim>>& proximity = proximity_[static_cast<std::size_t>(body)];
+    if (!proximity) {
+        proximity.emplace(colliders_.surface(body), colliders_.rest(),
+                          activation_distance_ + (is_penalty() ? 0 : 2 * min_inflation_),
+                          is_penalty());
+    }
+    return *proximity;
 }
 
 template <int Dim>
 void Candidates<Dim>::find_pairs_within(int body, const PositionsView<Dim>& positions) {
-    std::optional<SelfProximity<Dim>>& proximity = proximity_[static_cast<std::size_t>(body)];
-    if (!proximity) {
-        proximity.emplace(colliders_.surface(body), colliders_.rest(), activation_distance_);
-    }
     CandidatePairs pairs{.first = body, .second = body};
-    proximity->find(positions, pairs);
+    proximity(body).find(positions, pairs);
     work_.overlaps += pairs.overlaps();
     insert(std::move(pairs));
 }
@@ -363,11 +283,9 @@ void Candidates<Dim>::find_pairs_within(int body, const PositionsView<Dim>& posi
 template <int Dim>
 SearchWork Candidates<Dim>::work() const {
     SearchWork work = work_;
-    for (const auto* all : {&trees_, &trees_within_}) {
-        for (const SurfaceTrees<Dim>& trees : *all) {
-            work.trees_built += trees.built();
-            work.trees_refit += trees.refit();
-        }
+    for (const SurfaceTrees<Dim>& trees : trees_) {
+        work.trees_built += trees.built();
+        work.trees_refit += trees.refit();
     }
     for (const std::optional<SelfProximity<Dim>>& proximity : proximity_) {
         work.trees_refit += proximity ? proximity->refit() : 0;
@@ -381,10 +299,8 @@ std::int64_t Candidates<Dim>::bytes() const {
     for (const CandidatePairs& pairs : pairs_) {
         sum += static_cast<std::int64_t>(pairs.size() * sizeof(Candidate));
     }
-    for (const auto* all : {&trees_, &trees_within_}) {
-        for (const SurfaceTrees<Dim>& trees : *all) {
-            sum += trees.bytes();
-        }
+    for (const SurfaceTrees<Dim>& trees : trees_) {
+        sum += trees.bytes();
     }
     for (const std::optional<SelfProximity<Dim>>& proximity : proximity_) {
         sum += proximity ? proximity->bytes() : 0;

@@ -92,23 +92,19 @@ public:
     [[nodiscard]] std::int64_t bytes() const;
 
 private:
-    // A scene's positions at the start and at the end of the paths, and how they shift as a whole.
-    struct Paths {
-        const PositionsView<Dim>& from;
-        const PositionsView<Dim>& to;
-        Vector<Dim> drift = Vector<Dim>::Zero();
-    };
-
     [[nodiscard]] bool is_penalty() const { return !colliders_.is_barrier(); }
-    [[nodiscard]] bool does_cover(int body, const Paths& paths) const;
+
+    // Up to where distances are measured under a barrier, m.
+    [[nodiscard]] double measured(double reach) const;
+    [[nodiscard]] bool does_cover(int body, const Paths<Dim>& paths) const;
     [[nodiscard]] bool is_too_coarse(double searched, double measured_from, double asked) const;
-    void search_between(const Paths& paths);
-    void search_within(int body, const Paths& paths);
-    void fit_trees(const Paths& paths);
-    void fit_boxes(int collider, const Paths& paths, const PathCover<Dim>& cover);
+    void search_between(const Paths<Dim>& paths);
+    void search_within(int body, const Paths<Dim>& paths);
+    void fit_trees(const Paths<Dim>& paths);
     [[nodiscard]] bool do_overlap(int a, int b) const;
     void find_pairs_between();
     void insert(CandidatePairs pairs);
+    [[nodiscard]] SelfProximity<Dim>& proximity(int body);
     void find_pairs_within(int body, const PositionsView<Dim>& positions);
     template <int K, int L>
     [[nodiscard]] CandidateList search(int first, int second) const;
@@ -123,8 +119,8 @@ private:
     std::vector<double> longest_;  // the same within each collider; below 0 where not searched
     std::vector<Box> boxes_;  // around the path of each vertex, its inflation and half a distance
     std::vector<SurfaceTrees<Dim>> trees_;
-    std::vector<SurfaceTrees<Dim>> trees_within_;  // over boxes around paths within a body
-    std::vector<std::optional<SelfProximity<Dim>>> proximity_;  // of bodies, under a penalty
+    std::vector<std::optional<SelfProximity<Dim>>>
+        proximity_;  // of bodies that may meet themselves
     std::vector<CandidatePairs> pairs_;
     SearchWork work_;
 };

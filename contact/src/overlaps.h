@@ -16,8 +16,10 @@
 
 namespace pent::contact {
 
-/// Pieces of work of a search: enough for any number of threads, few enough to cost nothing.
+/// Pieces of work of a search: enough for any number of threads, few enough to cost nothing, and
+/// none that is not worth a thread.
 inline constexpr std::size_t kPieces = 512;
+inline constexpr std::size_t kBoxesInPiece = 64;
 
 /// Calls visit(i, j, found) for all boxes i and j of two trees that overlap, or of one tree with
 /// itself: each pair of different boxes once. Each piece of work finds into a list of its own;
@@ -26,7 +28,9 @@ template <typename Found, typename Visit>
 [[nodiscard]] std::vector<Found> walk_overlaps(const BoxTree& first,
                                                const BoxTree& second,
                                                const Visit& visit) {
-    const std::vector<BoxTree::Work> work = BoxTree::split(first, second, kPieces);
+    const std::size_t pieces =
+        std::clamp<std::size_t>((first.size() + second.size()) / kBoxesInPiece, 1, kPieces);
+    const std::vector<BoxTree::Work> work = BoxTree::split(first, second, pieces);
     std::vector<Found> found(work.size());
     parallel_for(work.size(), [&](std::size_t piece) {
         Found& here = found[piece];
@@ -60,6 +64,8 @@ enum class Closest : std::uint8_t {
 /// one list (edges in R^3, within one body) a pair has the lower place first.
 template <int Dim, int K, int L>
 struct NearTest {
+    using Found = CandidateList;
+
     const Simplices<K>& first;
     const Simplices<L>& second;
     bool is_same_list = false;

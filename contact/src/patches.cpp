@@ -29,8 +29,9 @@ constexpr double kRounding = 1e-12;
 // Patches that one thread fits at a time.
 constexpr std::size_t kChunk = 64;
 
-// Maps that are nearer than this to a rotation need no eigenvalues.
-constexpr double kNearRotation = 0.1;
+// Where the bound on the smallest eigenvalue of a map's metric is at least this part of their mean,
+// it is good enough.
+constexpr double kTight = 0.7;
 
 template <int Dim>
 using Map = Eigen::Matrix<double, Dim, Dim>;
@@ -44,16 +45,24 @@ Vector<Dim> across(const Map<Dim>& axes) {
 }
 
 // The smallest singular value of a map, or a bound from below: no eigenvalue of A^T A is farther
-// from 1 than A^T A, as a whole, from the identity.
+// below their mean than all others can make up for.
 template <int Dim>
 double least_stretch(const Map<Dim>& map) {
     const Map<Dim> metric = map.transpose() * map;
-    const double off = (metric - Map<Dim>::Identity()).norm();
-    if (off < kNearRotation) {
-        return std::sqrt(1 - off);
+    const double mean = metric.trace() / Dim;
+    const double spread =
+        (metric - mean * Map<Dim>::Identity()).norm() / std::sqrt(static_cast<double>(Dim));
+    const double least = mean - std::sqrt(Dim - 1.0) * spread;
+    if (least > kTight * mean) {
+        return std::sqrt(least);
     }
     const Eigen::SelfAdjointEigenSolver<Map<Dim>> solver(metric, Eigen::EigenvaluesOnly);
     return std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
+}
+
+// NaN if one is.
+double larger(double a, double b) {
+    return a > b || std::isnan(a) ? a : b;
 }
 
 // Vertices of the simplices in a range, ascending, once each.
@@ -96,13 +105,20 @@ std::vector<BoxTree::Range> patch_ranges(const BoxTree& tree) {
 
 template <int Dim>
 PatchBound bound_of(const PatchMotion<Dim>& first, const PatchMotion<Dim>& second) {
-    const Map<Dim> mean = 0.5 * (first.map + second.map);
-    const double turn = 0.5 * (first.map - second.map).norm();
-    const Vector<Dim> shift =
-        first.center - second.center - mean * (first.rest_center - second.rest_center);
-    return {
-        std::max(first.least_stretch, second.least_stretch) - turn,
-        shift.norm() + turn * (first.radius + second.radius) + first.deviation + second.deviation};
+    double turn = 0;
+    double shift = 0;
+    const auto add = [&](const PatchPlace<Dim>& a, const PatchPlace<Dim>& b) {
+        const Map<Dim> mean = 0.5 * (a.map + b.map);
+        turn = std::max(turn, 0.5 * (a.map - b.map).norm());
+        shift = std::max(
+            shift, (a.center - b.center - mean * (first.rest_center - second.rest_center)).norm());
+    };
+    add(first.end, second.end);
+    if (!first.is_still || !second.is_still) {
+        add(first.start, second.start);
+    }
+    return {std::max(first.least_stretch, second.least_stretch) - turn,
+            shift + turn * (first.radius + second.radius) + first.deviation + second.deviation};
 }
 
 template <int Dim>
@@ -174,42 +190,64 @@ typename Patches<Dim>::Rest Patches<Dim>::rest_of(std::size_t patch,
 }
 
 template <int Dim>
-void Patches<Dim>::fit(const PositionsView<Dim>& positions) {
+void Patches<Dim>::fit(const Paths<Dim>& paths) {
     parallel_for(motions_.size(), kChunk,
-                 [&](std::size_t patch) { motions_[patch] = fit(patch, positions); });
+                 [&](std::size_t patch) { motions_[patch] = fit(patch, paths); });
 }
 
+// With D what a map A changes by, (A + t D)^T (A + t D) is the mean of those at both ends, weighted
+// by time, less t (1 - t) D^T D.
 template <int Dim>
-PatchMotion<Dim> Patches<Dim>::fit(std::size_t patch, const PositionsView<Dim>& positions) const {
-    const Rest& rest = patches_[patch];
-    const std::span<const std::uint32_t> vertices = vertices_->of(patch);
+PatchMotion<Dim> Patches<Dim>::fit(std::size_t patch, const Paths<Dim>& paths) const {
     PatchMotion<Dim> motion;
     motion.rest_center = motions_[patch].rest_center;
     motion.radius = motions_[patch].radius;
-    for (const std::uint32_t vertex : vertices) {
-        motion.center += positions.col(vertex);
+    motion.is_still = paths.is_still();
+    motion.deviation = 0;
+    motion.end = place(patch, paths.to, motion.deviation);
+    motion.least_stretch = least_stretch<Dim>(motion.end.map);
+    if (motion.is_still) {
+        motion.start = motion.end;
+    } else {
+        motion.start = place(patch, paths.from, motion.deviation);
+        const double least = std::min(motion.least_stretch, least_stretch<Dim>(motion.start.map));
+        const double change = 0.5 * (motion.end.map - motion.start.map).norm();
+        motion.least_stretch = std::sqrt(std::max(0.0, least * least - change * change));
     }
-    motion.center /= static_cast<double>(vertices.size());
-    for (const std::uint32_t vertex : vertices) {
-        motion.map += (positions.col(vertex) - motion.center)
-                      * (rest_positions_.col(vertex) - motion.rest_center).transpose();
-    }
-    motion.map *= rest.inverse;
-    if (rest.is_flat) {
-        motion.map += across<Dim>(motion.map * rest.axes) * rest.axes.col(0).transpose();
-    }
-    double deviation_squared = 0;
-    for (const std::uint32_t vertex : vertices) {
-        const Vector<Dim> offset = rest_positions_.col(vertex) - motion.rest_center;
-        deviation_squared =
-            std::max(deviation_squared,
-                     (positions.col(vertex) - motion.center - motion.map * offset).squaredNorm());
-    }
-    motion.least_stretch = least_stretch<Dim>(motion.map);
-    motion.deviation =
-        std::sqrt(deviation_squared)
-        + kRounding * (motion.center.norm() + motion.rest_center.norm() + motion.radius);
     return motion;
+}
+
+// Where the patch is; raises the deviation to what its vertices deviate there.
+template <int Dim>
+PatchPlace<Dim> Patches<Dim>::place(std::size_t patch,
+                                    const PositionsView<Dim>& positions,
+                                    double& deviation) const {
+    const Rest& rest = patches_[patch];
+    const Vector<Dim>& rest_center = motions_[patch].rest_center;
+    const std::span<const std::uint32_t> vertices = vertices_->of(patch);
+    PatchPlace<Dim> place;
+    for (const std::uint32_t vertex : vertices) {
+        place.center += positions.col(vertex);
+    }
+    place.center /= static_cast<double>(vertices.size());
+    for (const std::uint32_t vertex : vertices) {
+        place.map += (positions.col(vertex) - place.center)
+                     * (rest_positions_.col(vertex) - rest_center).transpose();
+    }
+    place.map *= rest.inverse;
+    if (rest.is_flat) {
+        place.map += across<Dim>(place.map * rest.axes) * rest.axes.col(0).transpose();
+    }
+    double squared = 0;
+    for (const std::uint32_t vertex : vertices) {
+        const Vector<Dim> offset = rest_positions_.col(vertex) - rest_center;
+        squared = std::max(
+            squared, (positions.col(vertex) - place.center - place.map * offset).squaredNorm());
+    }
+    const double rounding =
+        kRounding * (place.center.norm() + rest_center.norm() + motions_[patch].radius);
+    deviation = larger(deviation, std::sqrt(squared) + rounding);
+    return place;
 }
 
 template <int Dim>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "paths.h"
+
 #include <pent/contact/box_tree.h>
 #include <pent/contact/surface.h>
 
@@ -10,24 +12,36 @@
 
 namespace pent::contact {
 
-/// How a patch of a surface has moved from rest. A point X of its simplices is now at
+/// Where a patch of a surface is.
+template <int Dim>
+struct PatchPlace {
+    Vector<Dim> center = Vector<Dim>::Zero();
+    Eigen::Matrix<double, Dim, Dim> map = Eigen::Matrix<double, Dim, Dim>::Zero();
+};
+
+/// How a patch of a surface has moved from rest, on straight paths from one place to another. A
+/// point X of its simplices is at
 ///
-///     center + map (X - rest_center) + d,   |d| <= deviation.
+///     center + map (X - rest_center) + d,   |d| <= deviation
+///
+/// with a center and a map that change evenly from those at the start to those at the end.
 template <int Dim>
 struct PatchMotion {
     Vector<Dim> rest_center = Vector<Dim>::Zero();
-    Vector<Dim> center = Vector<Dim>::Zero();
-    Eigen::Matrix<double, Dim, Dim> map = Eigen::Matrix<double, Dim, Dim>::Zero();
-    double least_stretch = 0;  ///< Smallest singular value of the map.
+    PatchPlace<Dim> start;
+    PatchPlace<Dim> end;
+    bool is_still = true;      ///< Then only the end counts.
+    double least_stretch = 0;  ///< No singular value of the map is less at any time.
     double radius = 0;         ///< Farthest that |X - rest_center| gets, m.
     double deviation = std::numeric_limits<double>::infinity();  ///< m; infinite where not known.
 };
 
-/// How near a point of one and a point of another patch can be, from how far they are apart at
-/// rest.
+/// How near a point of one and a point of another patch can be at any time, from how far they are
+/// apart at rest.
 ///
 /// With G the mean of both maps, x - y is G (X - Y), which is no shorter than the rest distance
-/// times the least stretch of G, and what the maps and centers lack to agree with G.
+/// times the least stretch of G, and what the maps and centers lack to agree with G. That is
+/// convex in time: most at one of its ends.
 struct PatchBound {
     double stretch = 0;
     double lack = std::numeric_limits<double>::infinity();  ///< m.
@@ -71,8 +85,8 @@ public:
     /// The patches of the others, from other positions that count as at rest.
     Patches(const Patches& others, const PositionsView<Dim>& rest);
 
-    /// Finds the motion of each patch: the affine map that fits its vertices best. Parallel.
-    void fit(const PositionsView<Dim>& positions);
+    /// Finds the motion of each patch: the affine maps that fit its vertices best. Parallel.
+    void fit(const Paths<Dim>& paths);
 
     /// In the order of their leaves; empty if there are no patches.
     [[nodiscard]] const std::vector<PatchMotion<Dim>>& motions() const { return motions_; }
@@ -100,8 +114,10 @@ private:
 
     void set_rest(const PositionsView<Dim>& rest);
     [[nodiscard]] Rest rest_of(std::size_t patch, PatchMotion<Dim>& motion) const;
-    [[nodiscard]] PatchMotion<Dim> fit(std::size_t patch,
-                                       const PositionsView<Dim>& positions) const;
+    [[nodiscard]] PatchMotion<Dim> fit(std::size_t patch, const Paths<Dim>& paths) const;
+    [[nodiscard]] PatchPlace<Dim> place(std::size_t patch,
+                                        const PositionsView<Dim>& positions,
+                                        double& deviation) const;
 
     std::shared_ptr<const Vertices> vertices_;
     Positions<Dim> rest_positions_;

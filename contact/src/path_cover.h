@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
+
 namespace pent::contact {
 
 /// Straight paths of some vertices, and how far each may leave its own: the positions that a list
@@ -45,6 +47,17 @@ public:
     [[nodiscard]] const Positions<Dim>& start() const { return start_; }
     [[nodiscard]] const Positions<Dim>& end() const { return end_; }
     [[nodiscard]] const Eigen::VectorXd& inflation() const { return inflation_; }
+
+    /// The largest of the corners of a simplex.
+    template <int Count>
+    [[nodiscard]] double inflation_of(const Simplices<Count>& simplices, Eigen::Index i) const {
+        double max = 0;
+        for (int corner = 0; corner < Count; ++corner) {
+            max = std::max(max, inflation_[simplices(corner, i)]);
+        }
+        return max;
+    }
+
     [[nodiscard]] bool is_empty() const { return start_.cols() == 0; }
     [[nodiscard]] std::int64_t bytes() const {
         return static_cast<std::int64_t>(sizeof(double))

@@ -18,15 +18,16 @@ constexpr double kMaxOfEdge = 0.6;
 constexpr double kMinListed = 1.2;
 
 // To list the pairs of two patches costs as much as to look at them so many times.
-constexpr std::size_t kListCost = 4;
+constexpr std::int64_t kListCost = 4;
 
 }  // namespace
 
 template <int Dim>
 SelfProximity<Dim>::SelfProximity(const Surface<Dim>& surface,
                                   const Positions<Dim>& rest,
-                                  double distance)
-    : surface_(surface), rest_(rest), distance_(distance) {
+                                  double distance,
+                                  bool is_rest_left_out)
+    : surface_(surface), rest_(rest), distance_(distance), is_rest_left_out_(is_rest_left_out) {
     const double of_edge = kMaxOfEdge * mean_edge_length<Dim>(surface, rest);
     listed_distance_ = std::clamp(of_edge, kMinListed * distance, kListed * distance);
     add_tree<1>(surface.vertices);
@@ -53,20 +54,28 @@ void SelfProximity<Dim>::add_tree(const Simplices<Count>& simplices) {
 
 template <int Dim>
 template <int Count>
-void SelfProximity<Dim>::fit_tree(const Simplices<Count>& simplices,
-                                  const PositionsView<Dim>& positions) {
+void SelfProximity<Dim>::fit_tree(const Simplices<Count>& simplices, const Asked& asked) {
     constexpr int kPatches = 64;
     Tree& tree = trees_[Count - 1];
-    const std::vector<Box> boxes = boxes_around<Dim, Count>(simplices, positions, 0.5 * distance_);
+    const std::vector<Box> boxes = hulls<Count>(simplices, boxes_);
     tree.simplices.refit(boxes);
     tree.patch_boxes.resize(tree.patch_ranges.size());
+    tree.patch_inflation.resize(asked.inflation ? tree.patch_ranges.size() : 0);
     parallel_for(tree.patch_ranges.size(), kPatches, [&](std::size_t patch) {
         const BoxTree::Range& range = tree.patch_ranges[patch];
         Box all = boxes[tree.simplices.leaf(range.begin)];
-        for (std::uint32_t k = 1; k < range.count; ++k) {
-            all = hull(all, boxes[tree.simplices.leaf(range.begin + k)]);
+        double inflation = 0;
+        for (std::uint32_t k = 0; k < range.count; ++k) {
+            const std::uint32_t i = tree.simplices.leaf(range.begin + k);
+            all = hull(all, boxes[i]);
+            for (int corner = 0; asked.inflation && corner < Count; ++corner) {
+                inflation = std::max(inflation, (*asked.inflation)[simplices(corner, i)]);
+            }
         }
         tree.patch_boxes[patch] = all;
+        if (asked.inflation) {
+            tree.patch_inflation[patch] = inflation;
+        }
     });
     if (tree.patches.size() == tree.patch_boxes.size()) {
         tree.patches.refit(tree.patch_boxes);
@@ -77,12 +86,21 @@ void SelfProximity<Dim>::fit_tree(const Simplices<Count>& simplices,
 }
 
 template <int Dim>
-void SelfProximity<Dim>::fit_patches(const PositionsView<Dim>& positions) {
-    for (Reference& reference : references_) {
-        for (Patches<Dim>& patches : reference.patches) {
-            if (reference.serial != 0 && !patches.motions().empty()) {
-                patches.fit(positions);
-            }
+void SelfProximity<Dim>::fit_trees(const Asked& asked) {
+    fit_boxes<Dim>(surface_.vertices, asked.paths, asked.inflation, 0.5 * asked.reach, boxes_);
+    fit_tree<1>(surface_.vertices, asked);
+    fit_tree<2>(surface_.edges, asked);
+    fit_tree<3>(surface_.template simplices<3>(), asked);
+    if constexpr (Dim > 3) {
+        fit_tree<Dim>(surface_.facets, asked);
+    }
+}
+
+template <int Dim>
+void SelfProximity<Dim>::fit_patches(Reference& reference, const Paths<Dim>& paths) {
+    for (Patches<Dim>& patches : reference.patches) {
+        if (!patches.motions().empty()) {
+            patches.fit(paths);
         }
     }
 }
@@ -116,57 +134,93 @@ std::array<std::size_t, SelfProximity<Dim>::kReferences> SelfProximity<Dim>::cou
 // added up to what it costs to list them at another, and to list anew what is lost with the old.
 template <int Dim>
 typename SelfProximity<Dim>::Reference* SelfProximity<Dim>::wanted_reference(std::size_t unknown) {
-    owed_ += unknown;
-    if (unknown == 0 || (newest_ != 0 && owed_ < kListCost * unknown)) {
+    const auto is_due = [&](std::size_t lists) {
+        return newest_ == 0 || owed_ >= kListCost * static_cast<std::int64_t>(lists);
+    };
+    owed_ += static_cast<std::int64_t>(unknown);
+    if (unknown == 0 || !is_due(unknown)) {
         return nullptr;
     }
     const std::array<std::size_t, kReferences> counts = count_lists();
     const auto least = std::min_element(counts.begin(), counts.end());
-    return newest_ == 0 || owed_ >= kListCost * (unknown + *least)
-               ? &references_[static_cast<std::size_t>(least - counts.begin())]
-               : nullptr;
+    return is_due(unknown + *least) ? &references_[static_cast<std::size_t>(least - counts.begin())]
+                                    : nullptr;
+}
+
+// Where the paths end.
+template <int Dim>
+void SelfProximity<Dim>::take_reference(const Paths<Dim>& paths, Reference& place) {
+    ++newest_;
+    place.serial = newest_;
+    place.positions = paths.to;
+    for (std::size_t i = 0; i < place.patches.size(); ++i) {
+        if (!patches_at_rest_[i].motions().empty()) {
+            place.patches[i] = Patches<Dim>(patches_at_rest_[i], paths.to);
+        }
+    }
+    fit_patches(place, paths);
 }
 
 template <int Dim>
-void SelfProximity<Dim>::take_reference(const PositionsView<Dim>& positions, Reference& place) {
-    ++newest_;
-    owed_ = 0;
-    place.serial = newest_;
-    place.positions = positions;
-    for (std::size_t i = 0; i < place.patches.size(); ++i) {
-        if (!patches_at_rest_[i].motions().empty()) {
-            place.patches[i] = Patches<Dim>(patches_at_rest_[i], positions);
-        }
+template <typename Points, typename Mixed>
+void SelfProximity<Dim>::search(const Asked& asked, Points& points, Mixed& mixed) {
+    const std::size_t unknown = points.look_at_lists() + mixed.look_at_lists();
+    if (Reference* place = wanted_reference(unknown)) {
+        take_reference(asked.paths, *place);
+        const std::size_t unlisted = points.list_others() + mixed.list_others();
+        owed_ = -kListCost * static_cast<std::int64_t>(unlisted);
+    } else {
+        points.look_at_others();
+        mixed.look_at_others();
     }
 }
 
 template <int Dim>
 void SelfProximity<Dim>::find(const PositionsView<Dim>& positions, CandidatePairs& pairs) {
-    fit_tree<1>(surface_.vertices, positions);
-    fit_tree<2>(surface_.edges, positions);
-    fit_tree<3>(surface_.template simplices<3>(), positions);
-    if constexpr (Dim > 3) {
-        fit_tree<Dim>(surface_.facets, positions);
+    const Asked asked{{positions, positions}, nullptr, distance_};
+    fit_trees(asked);
+    for (Reference& reference : references_) {
+        fit_patches(reference, asked.paths);
     }
-    fit_patches(positions);
-    Search<1, Dim> points(*this, surface_.vertices, surface_.facets, points_, positions);
-    Search<2, Dim - 1> mixed(*this, surface_.edges, surface_.ridges, mixed_, positions);
-    const std::size_t unknown = points.look_at_lists() + mixed.look_at_lists();
-    if (Reference* place = wanted_reference(unknown)) {
-        take_reference(positions, *place);
-        points.list_others();
-        mixed.list_others();
-    } else {
-        points.look_at_others();
-        mixed.look_at_others();
+    const double squared = distance_ * distance_;
+    Search<NearTest<Dim, 1, Dim>, 1, Dim> points(
+        *this, {surface_.vertices, surface_.facets, points_}, asked,
+        {surface_.vertices, surface_.facets, false, positions, squared, Closest::Anywhere});
+    Search<NearTest<Dim, 2, Dim - 1>, 2, Dim - 1> mixed(
+        *this, {surface_.edges, surface_.ridges, mixed_}, asked,
+        {surface_.edges, surface_.ridges, Dim == 3, positions, squared, Closest::Interior});
+    search(asked, points, mixed);
+    pairs.points_first = united(points.found());
+    pairs.mixed_first = united(mixed.found());
+}
+
+template <int Dim>
+void SelfProximity<Dim>::find(const PathCover<Dim>& cover,
+                              double reach,
+                              double measured,
+                              CandidatePairs& pairs) {
+    const PositionsView<Dim> start = cover.start();
+    const PositionsView<Dim> end = cover.end();
+    const Asked asked{
+        {start, end, mean_shift<Dim>(surface_.vertices, start, end)}, &cover.inflation(), reach};
+    fit_trees(asked);
+    for (Reference& reference : references_) {
+        fit_patches(reference, asked.paths);
     }
-    pairs.points_first = points.found();
-    pairs.mixed_first = mixed.found();
+    Search<NearOnPaths<Dim, 1, Dim>, 1, Dim> points(
+        *this, {surface_.vertices, surface_.facets, points_}, asked,
+        {surface_.vertices, surface_.facets, false, cover, reach, measured});
+    Search<NearOnPaths<Dim, 2, Dim - 1>, 2, Dim - 1> mixed(
+        *this, {surface_.edges, surface_.ridges, mixed_}, asked,
+        {surface_.edges, surface_.ridges, Dim == 3, cover, reach, measured});
+    search(asked, points, mixed);
+    pairs.points_first = joined(points.found());
+    pairs.mixed_first = joined(mixed.found());
 }
 
 template <int Dim>
 std::int64_t SelfProximity<Dim>::bytes() const {
-    std::int64_t sum = 0;
+    auto sum = static_cast<std::int64_t>(boxes_.size() * sizeof(Box));
     for (const Tree& tree : trees_) {
         sum += tree.simplices.bytes() + tree.patches.bytes()
                + static_cast<std::int64_t>(tree.patch_boxes.size() * sizeof(Box));

@@ -2,6 +2,7 @@
 
 #include "candidate.h"
 #include "patches.h"
+#include "path_cover.h"
 
 #include <pent/contact/box_tree.h>
 #include <pent/contact/surface.h>
@@ -12,30 +13,42 @@
 
 namespace pent::contact {
 
-/// Finds which pairs of one body are near now, in less than looking at all whose boxes overlap:
-/// most of these are neighbors, which are near each other at rest and stay as they are.
+/// Finds which pairs of one body are near now, or come near each other on their way, in less than
+/// looking at all whose boxes overlap: most of these are neighbors, which are near each other at
+/// rest and stay as they are.
 ///
 /// The surface is divided into patches. Of two patches that come near, all pairs are listed that
-/// were within a listed distance, larger than that of contact, at some earlier positions: a
+/// were within a listed distance, larger than what is asked for, at some earlier positions: a
 /// reference. How both patches have moved since then, as affine maps and what these lack, bounds
-/// how near all others can be now, however far and strongly the body has been bent before
-/// (PatchBound). Where the bound fails pairs are looked at one by one; when that has cost what
-/// new lists would, the positions of that time become a reference. There are a few at a time: the
-/// one that the fewest lists are of goes.
+/// how near all others can be, however far and strongly the body has been bent before (PatchBound).
+/// Where the bound fails pairs are looked at one by one; when that has cost what new lists would,
+/// the positions of that time become a reference. There are a few at a time: the one that the
+/// fewest lists are of goes.
 ///
-/// What is found is the same whatever was asked before.
+/// What is found is the same whatever was asked before, but for pairs that come near at no time.
 template <int Dim>
 class SelfProximity {
 public:
     /// Surface and rest positions, of all vertices of the scene, must outlive this.
     ///
-    /// @param distance  Of contact, m. Pairs nearer than it at rest are never contacts.
-    SelfProximity(const Surface<Dim>& surface, const Positions<Dim>& rest, double distance);
+    /// @param distance           That is asked for, at least, m.
+    /// @param is_rest_left_out  Whether pairs nearer than it at rest are never contacts.
+    SelfProximity(const Surface<Dim>& surface,
+                  const Positions<Dim>& rest,
+                  double distance,
+                  bool is_rest_left_out);
 
-    /// Sets both lists to the pairs nearer than the distance of contact now that are not nearer at
-    /// rest, and maybe others of these: vertices and facets, and mixed pairs whose closest points
-    /// are inside both. Ascending, of unknown distance. Parallel.
+    /// Sets both lists to the pairs nearer than the distance now that are not nearer at rest, and
+    /// maybe others of these: vertices and facets, and mixed pairs whose closest points are inside
+    /// both. Ascending, of unknown distance. Parallel.
     void find(const PositionsView<Dim>& positions, CandidatePairs& pairs);
+
+    /// Sets them to the pairs that may come within reach while their vertices are near their paths.
+    /// Parallel.
+    ///
+    /// @param reach     m.
+    /// @param measured  Up to this distances at the end are measured, m.
+    void find(const PathCover<Dim>& cover, double reach, double measured, CandidatePairs& pairs);
 
     /// Trees fit so far.
     [[nodiscard]] std::int64_t refit() const { return refit_; }
@@ -49,6 +62,7 @@ private:
         BoxTree simplices;
         std::vector<BoxTree::Range> patch_ranges;
         std::vector<Box> patch_boxes;
+        std::vector<double> patch_inflation;  // the largest of a vertex, m; none without any
         BoxTree patches;
     };
 
@@ -75,31 +89,44 @@ private:
         std::vector<std::uint32_t> unknown;  // of these, those that no bound tells anything of
     };
 
-    template <int K, int L>
+    // Where what is searched goes: paths, what vertices may leave them by (null if they do not),
+    // and how near is near, m.
+    struct Asked {
+        Paths<Dim> paths;
+        const Eigen::VectorXd* inflation = nullptr;
+        double reach = 0;
+    };
+
+    template <typename Test, int K, int L>
     class Search;
-    using Found = std::vector<CandidateList>;
 
     template <int Count>
     void add_tree(const Simplices<Count>& simplices);
     template <int Count>
-    void fit_tree(const Simplices<Count>& simplices, const PositionsView<Dim>& positions);
-    void fit_patches(const PositionsView<Dim>& positions);
+    void fit_tree(const Simplices<Count>& simplices, const Asked& asked);
+    void fit_trees(const Asked& asked);
+    static void fit_patches(Reference& reference, const Paths<Dim>& paths);
     [[nodiscard]] const Reference* reference(std::uint32_t serial) const;
     [[nodiscard]] std::array<std::size_t, kReferences> count_lists() const;
     [[nodiscard]] Reference* wanted_reference(std::size_t unknown);
-    void take_reference(const PositionsView<Dim>& positions, Reference& place);
+    void take_reference(const Paths<Dim>& paths, Reference& place);
+    template <typename Points, typename Mixed>
+    void search(const Asked& asked, Points& points, Mixed& mixed);
 
     const Surface<Dim>& surface_;
     const Positions<Dim>& rest_;
-    double distance_;         // of contact, m
+    double distance_;         // m
     double listed_distance_;  // m
+    bool is_rest_left_out_;
+    std::vector<Box> boxes_;  // of all vertices of the scene
     std::array<Tree, Dim> trees_;
     std::array<Patches<Dim>, Dim> patches_at_rest_;  // whose vertices all references share
     std::array<Reference, kReferences> references_;
     std::uint32_t newest_ = 0;  // serial
-    std::size_t owed_ = 0;      // pairs of patches looked at without a list since the newest
-    std::vector<Row> points_;   // by patches of vertices
-    std::vector<Row> mixed_;    // by patches of edges
+    // Pairs of patches looked at without a list since the newest, less what it could not list.
+    std::int64_t owed_ = 0;
+    std::vector<Row> points_;  // by patches of vertices
+    std::vector<Row> mixed_;   // by patches of edges
     std::int64_t refit_ = 0;
 };
 

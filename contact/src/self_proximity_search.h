@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apart.h"
+#include "near_on_paths.h"
 #include "overlaps.h"
 #include "self_proximity.h"
 
@@ -47,69 +48,74 @@ struct PairAt {
 
 /// What find() does for one kind of pairs.
 template <int Dim>
-template <int K, int L>
+template <typename Test, int K, int L>
 class SelfProximity<Dim>::Search {
 public:
+    using Found = typename Test::Found;
+
     // Rounding, relative, of distances.
     static constexpr double kRounding = 1e-6;
 
     // Patches that one thread looks at in one go.
     static constexpr std::size_t kChunk = 8;
 
-    Search(SelfProximity& all,
-           const Simplices<K>& first,
-           const Simplices<L>& second,
-           std::vector<Row>& rows,
-           const PositionsView<Dim>& positions)
+    // What pairs are of.
+    struct Sides {
+        const Simplices<K>& first;
+        const Simplices<L>& second;
+        std::vector<Row>& rows;
+    };
+
+    Search(SelfProximity& all, const Sides& sides, const Asked& asked, const Test& test)
         : all_(all),
-          first_(first),
-          second_(second),
-          rows_(rows),
-          positions_(positions),
-          test_{.first = first,
-                .second = second,
-                .is_same_list = is_same_list(),
-                .positions = positions,
-                .limit_squared = all.distance_ * all.distance_,
-                .closest = K == 1 ? Closest::Anywhere : Closest::Interior},
+          first_(sides.first),
+          second_(sides.second),
+          rows_(sides.rows),
+          reach_(asked.reach),
+          test_(test),
           found_(chunks()) {}
 
     // Looks where bounds hold; returns for how many pairs of patches none does.
     std::size_t look_at_lists() {
         find_near_patches();
-        for_each_row([&](std::size_t a, CandidateList& found) { look_at_lists(a, found); });
-        std::size_t unknown = 0;
-        for (const Row& row : rows_) {
-            unknown += row.unknown.size();
-        }
-        return unknown;
+        for_each_row([&](std::size_t a, Found& found) { look_at_lists(a, found); });
+        return count_unknown();
     }
 
     // Looks at all other pairs.
     void look_at_others() {
-        for_each_row([&](std::size_t a, CandidateList& found) {
+        for_each_row([&](std::size_t a, Found& found) {
             for (const std::uint32_t b : rows_[a].unknown) {
                 look_at_all(a, b, found);
             }
         });
     }
 
-    // Lists all other pairs at positions that have just become the newest reference, and looks at
-    // them.
-    void list_others() {
-        for_each_row([&](std::size_t a, CandidateList& found) {
+    // Lists all other pairs at the reference that has just become the newest, and looks at them;
+    // returns of how many pairs of patches it does not tell anything either.
+    std::size_t list_others() {
+        const Reference& newest = *all_.reference(all_.newest_);
+        for_each_row([&](std::size_t a, Found& found) {
             std::vector<Listed> listed;
+            std::vector<std::uint32_t> unlisted;
             for (const std::uint32_t b : rows_[a].unknown) {
-                listed.push_back({b, list(a, b, positions_, found)});
-                for (const Candidate& pair : listed.back().pairs) {
-                    look_at(pair, found);
+                if (is_apart(bound(newest, a, b), a, b)) {
+                    listed.push_back({b, list(a, b, newest.positions, found)});
+                    for (const Candidate& pair : listed.back().pairs) {
+                        look_at(pair, found);
+                    }
+                } else {
+                    unlisted.push_back(b);
+                    look_at_all(a, b, found);
                 }
             }
             add(rows_[a], listed);
+            rows_[a].unknown.swap(unlisted);
         });
+        return count_unknown();
     }
 
-    [[nodiscard]] CandidateList found() const { return united(found_); }
+    [[nodiscard]] const std::vector<Found>& found() const { return found_; }
 
 private:
     struct Listed {
@@ -121,6 +127,14 @@ private:
     [[nodiscard]] std::size_t chunks() const { return (rows_.size() + kChunk - 1) / kChunk; }
     [[nodiscard]] const Tree& first_tree() const { return all_.trees_[K - 1]; }
     [[nodiscard]] const Tree& second_tree() const { return all_.trees_[L - 1]; }
+
+    [[nodiscard]] std::size_t count_unknown() const {
+        std::size_t unknown = 0;
+        for (const Row& row : rows_) {
+            unknown += row.unknown.size();
+        }
+        return unknown;
+    }
 
     template <typename Work>
     void for_each_row(const Work& work) {
@@ -155,7 +169,7 @@ private:
         }
     }
 
-    void look_at_lists(std::size_t a, CandidateList& found) {
+    void look_at_lists(std::size_t a, Found& found) {
         Row& row = rows_[a];
         std::sort(row.near.begin(), row.near.end());
         row.unknown.clear();
@@ -172,7 +186,7 @@ private:
             }
             // What has come near since is listed where the newest reference had it.
             const bool is_newest = is_known && known->serial == all_.newest_;
-            if (!newest || is_newest || !is_apart(bound(*newest, a, b))) {
+            if (!newest || is_newest || !is_apart(bound(*newest, a, b), a, b)) {
                 row.unknown.push_back(b);
                 continue;
             }
@@ -185,18 +199,19 @@ private:
     }
 
     // Looks at what is listed of two patches, if that is all that can be near.
-    bool look_at_list(std::size_t a, const Known& known, CandidateList& found) {
+    bool look_at_list(std::size_t a, const Known& known, Found& found) {
         const Reference* reference = all_.reference(known.serial);
         if (!reference) {
             return false;
         }
         const PatchBound now = bound(*reference, a, known.second);
-        if (!is_apart(now)) {
+        if (!is_apart(now, a, known.second)) {
             return false;
         }
+        const double near = this->near(a, known.second);
         for (std::uint32_t k = known.begin; k < known.end; ++k) {
             const Candidate& pair = rows_[a].pairs[k];
-            if (!now.is_apart(static_cast<double>(pair.distance), all_.distance_)) {
+            if (!now.is_apart(static_cast<double>(pair.distance), near)) {
                 look_at(pair, found);
             }
         }
@@ -210,15 +225,24 @@ private:
                              reference.patches[L - 1].motions()[b]);
     }
 
-    [[nodiscard]] bool is_apart(const PatchBound& bound) const {
-        return bound.is_apart(all_.listed_distance_, all_.distance_);
+    // Whether pairs of two patches that are in no list are apart.
+    [[nodiscard]] bool is_apart(const PatchBound& bound, std::size_t a, std::uint32_t b) const {
+        return bound.is_apart(all_.listed_distance_, near(a, b));
     }
 
-    void look_at(const Candidate& pair, CandidateList& found) const {
+    // How near simplices of two patches count as near, m: what vertices may leave their paths by
+    // comes on top.
+    [[nodiscard]] double near(std::size_t a, std::uint32_t b) const {
+        const std::vector<double>& of_a = first_tree().patch_inflation;
+        const std::vector<double>& of_b = second_tree().patch_inflation;
+        return reach_ + (of_a.empty() ? 0 : of_a[a] + of_b[b]);
+    }
+
+    void look_at(const Candidate& pair, Found& found) const {
         test_(pair.first, pair.second, found);
     }
 
-    void look_at_all(std::size_t a, std::uint32_t b, CandidateList& found) const {
+    void look_at_all(std::size_t a, std::uint32_t b, Found& found) const {
         BoxTree::for_each_overlap(first_tree().simplices, second_tree().simplices,
                                   {first_tree().patch_ranges[a], second_tree().patch_ranges[b],
                                    first_tree().patch_boxes[a], second_tree().patch_boxes[b]},
@@ -230,7 +254,7 @@ private:
     [[nodiscard]] std::vector<Candidate> list(std::size_t a,
                                               std::uint32_t b,
                                               const PositionsView<Dim>& positions,
-                                              CandidateList& found) const {
+                                              Found& found) const {
         const std::vector<Box> of_a = boxes_of<K>(first_tree(), a, first_, positions);
         const std::vector<Box> of_b = boxes_of<L>(second_tree(), b, second_, positions);
         const std::uint32_t begin_a = first_tree().patch_ranges[a].begin;
@@ -281,7 +305,9 @@ private:
         const double distance =
             PairAt<Dim, K, L>(first_, second_, pair, positions).distance_below(listed_limit());
         if (distance < listed_limit()
-            && !(PairAt<Dim, K, L>(first_, second_, pair, rest).distance_below(culled) < culled)) {
+            && !(all_.is_rest_left_out_
+                 && PairAt<Dim, K, L>(first_, second_, pair, rest).distance_below(culled)
+                        < culled)) {
             pair.distance = rounded_down(distance);
             pairs.push_back(pair);
         }
@@ -329,9 +355,9 @@ private:
     const Simplices<K>& first_;
     const Simplices<L>& second_;
     std::vector<Row>& rows_;
-    const PositionsView<Dim>& positions_;
-    NearTest<Dim, K, L> test_;
-    Found found_;
+    double reach_;
+    Test test_;
+    std::vector<Found> found_;
 };
 
 }  // namespace pent::contact

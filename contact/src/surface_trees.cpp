@@ -1,31 +1,8 @@
 #include "surface_trees.h"
 
-#include "chunks.h"
+#include "boxes_around.h"
 
 namespace pent::contact {
-
-namespace {
-
-// The smallest boxes around those of the corners.
-template <int Count>
-std::vector<Box> hulls(const Simplices<Count>& simplices, const std::vector<Box>& boxes) {
-    constexpr std::size_t kChunk = 4096;
-    std::vector<Box> hulls(static_cast<std::size_t>(simplices.cols()));
-    for_each_chunk(hulls.size(), kChunk,
-                   [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
-                       for (std::size_t i = begin; i < end; ++i) {
-                           const auto corners = simplices.col(static_cast<Eigen::Index>(i));
-                           Box box = boxes[corners[0]];
-                           for (int corner = 1; corner < Count; ++corner) {
-                               box = hull(box, boxes[corners[corner]]);
-                           }
-                           hulls[i] = box;
-                       }
-                   });
-    return hulls;
-}
-
-}  // namespace
 
 template <int Dim>
 template <int Count>

@@ -5,10 +5,14 @@
 #include "gather.h"
 #include "scenes.h"
 
+#include <Eigen/SVD>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace pent::contact {
 namespace {
@@ -46,8 +50,16 @@ protected:
         }
 
         void fit(const Positions<kD>& positions) {
-            edges.fit(positions);
-            ridges.fit(positions);
+            const PositionsView<kD> here = positions;
+            edges.fit({here, here});
+            ridges.fit({here, here});
+        }
+
+        void fit(const Positions<kD>& from, const Positions<kD>& to) {
+            const PositionsView<kD> start = from;
+            const PositionsView<kD> end = to;
+            edges.fit({start, end});
+            ridges.fit({start, end});
         }
     };
 
@@ -72,6 +84,27 @@ protected:
         all.push_back(Positions<kD>::Zero(kD, rest.cols()));
         return all;
     }
+
+    // Paths among these: some that stay, and short, long and wild ones.
+    static std::vector<std::pair<Positions<kD>, Positions<kD>>> paths(const Positions<kD>& rest) {
+        const std::vector<Positions<kD>> places = deformed(rest);
+        std::vector<std::pair<Positions<kD>, Positions<kD>>> all;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            all.emplace_back(places[i], places[i]);
+            all.emplace_back(places[i], places[(i + 1) % places.size()]);
+        }
+        // Half a turn ends where it began, through a body of no size.
+        all.emplace_back(rest, -rest);
+        all.emplace_back(rolled(rest, 4), test::tilt<kD>() * rolled(rest, 4.2));
+        // One half comes out of the other: patches that do not deform at all.
+        Positions<kD> halves = rest;
+        for (auto x : halves.colwise()) {
+            x[0] -= x[0] > 6 ? 5.5 : 0;
+        }
+        all.emplace_back(halves, rest);
+        all.emplace_back(rest, halves);
+        return all;
+    }
 };
 
 using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
@@ -83,8 +116,8 @@ TYPED_TEST(PatchesTest, DeviateFromTheirMapsByNoMoreThanTheySay) {
     const Positions<kDim>& rest = bar.scene.positions;
     const auto ranges = patch_ranges(bar.ridge_tree);
     ASSERT_EQ(ranges.size(), bar.ridges.motions().size());
-    for (const Positions<kDim>& positions : TestFixture::deformed(rest)) {
-        bar.fit(positions);
+    for (const auto& [from, to] : TestFixture::paths(rest)) {
+        bar.fit(from, to);
         for (std::size_t patch = 0; patch < ranges.size(); ++patch) {
             const PatchMotion<kDim>& motion = bar.ridges.motions()[patch];
             for (std::uint32_t i = 0; i < ranges[patch].count; ++i) {
@@ -92,13 +125,37 @@ TYPED_TEST(PatchesTest, DeviateFromTheirMapsByNoMoreThanTheySay) {
                     bar.scene.surfaces[0].ridges.col(bar.ridge_tree.leaf(ranges[patch].begin + i));
                 for (const std::uint32_t v : corners) {
                     const Vector<kDim> offset = rest.col(v) - motion.rest_center;
-                    const Vector<kDim> expected = motion.center + motion.map * offset;
-                    EXPECT_LE((positions.col(v) - expected).norm(), motion.deviation);
+                    const auto at = [&](const PatchPlace<kDim>& place) -> Vector<kDim> {
+                        return place.center + place.map * offset;
+                    };
+                    EXPECT_LE((to.col(v) - at(motion.end)).norm(), motion.deviation);
+                    EXPECT_LE((from.col(v) - at(motion.start)).norm(), motion.deviation);
                     EXPECT_LE(offset.norm(), motion.radius);
                 }
             }
         }
     }
+}
+
+// Singular values on the way, by another decomposition.
+TYPED_TEST(PatchesTest, StretchNoLessThanTheySayAtAnyTime) {
+    constexpr int kDim = TypeParam::value;
+    typename TestFixture::Bar bar;
+    double tightest = 0;
+    for (const auto& [from, to] : TestFixture::paths(bar.scene.positions)) {
+        bar.fit(from, to);
+        for (const PatchMotion<kDim>& motion : bar.edges.motions()) {
+            double least = std::numeric_limits<double>::infinity();
+            for (const double t : {0.0, 0.2, 0.5, 0.7, 1.0}) {
+                const Map<kDim> map = (1 - t) * motion.start.map + t * motion.end.map;
+                const double stretch = Eigen::JacobiSVD<Map<kDim>>(map).singularValues()[kDim - 1];
+                EXPECT_GE(stretch, motion.least_stretch - 1e-9);
+                least = std::min(least, stretch);
+            }
+            tightest = std::max(tightest, motion.least_stretch / std::max(least, 1e-9));
+        }
+    }
+    EXPECT_GT(tightest, 0.99);
 }
 
 // Corners at a face of the bar, where the fit has nothing to go by across, included.
@@ -144,20 +201,24 @@ TYPED_TEST(PatchesTest, StayApartOnlyWhereAllTheirPairsDo) {
     const double distance = 0.25;
     int apart = 0;
     int others = 0;
-    const auto expect_apart = [&](std::uint32_t i, std::uint32_t j, const auto& positions) {
+    const auto expect_apart = [&](std::uint32_t i, std::uint32_t j,
+                                  const std::vector<Positions<kDim>>& way) {
         const auto far = test::closest_points<kDim, 2, kDim - 1>(
             gather<kDim, 2>(surface.edges, i, rest),
             gather<kDim, kDim - 1>(surface.ridges, j, rest));
         if (far.distance_squared < rest_distance * rest_distance) {
             return;
         }
-        const auto now = test::closest_points<kDim, 2, kDim - 1>(
-            gather<kDim, 2>(surface.edges, i, positions),
-            gather<kDim, kDim - 1>(surface.ridges, j, positions));
-        EXPECT_GT(now.distance_squared, distance * distance);
+        for (const Positions<kDim>& positions : way) {
+            const auto now = test::closest_points<kDim, 2, kDim - 1>(
+                gather<kDim, 2>(surface.edges, i, positions),
+                gather<kDim, kDim - 1>(surface.ridges, j, positions));
+            EXPECT_GT(now.distance_squared, distance * distance);
+        }
     };
-    for (const Positions<kDim>& positions : TestFixture::deformed(rest)) {
-        bar.fit(positions);
+    for (const auto& [from, to] : TestFixture::paths(rest)) {
+        bar.fit(from, to);
+        const std::vector<Positions<kDim>> way{from, 0.5 * (from + to), to};
         for (std::size_t a = 0; a < edge_ranges.size(); ++a) {
             for (std::size_t b = 0; b < ridge_ranges.size(); ++b) {
                 if (!stay_apart<kDim>(bar.edges.motions()[a], bar.ridges.motions()[b],
@@ -169,7 +230,7 @@ TYPED_TEST(PatchesTest, StayApartOnlyWhereAllTheirPairsDo) {
                 // A sample of the pairs: the first of one patch with all of the other.
                 for (std::uint32_t j = 0; j < ridge_ranges[b].count; ++j) {
                     expect_apart(bar.edge_tree.leaf(edge_ranges[a].begin),
-                                 bar.ridge_tree.leaf(ridge_ranges[b].begin + j), positions);
+                                 bar.ridge_tree.leaf(ridge_ranges[b].begin + j), way);
                 }
             }
         }
@@ -192,7 +253,8 @@ TYPED_TEST(PatchesTest, NeverStayApartWhereNothingIsKnown) {
     test::Scene<kDim> line = bar.scene;
     line.positions.bottomRows(kDim - 1).setZero();
     Patches<kDim> patches(line.surfaces[0].edges, bar.edge_tree, line.positions);
-    patches.fit(line.positions);
+    const PositionsView<kDim> there = line.positions;
+    patches.fit({there, there});
     EXPECT_FALSE(stay_apart<kDim>(patches.motions()[0], patches.motions()[0], 2, 1));
     EXPECT_FALSE(stay_apart<kDim>(PatchMotion<kDim>(), PatchMotion<kDim>(), 2, 1));
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -112,7 +113,7 @@ TYPED_TEST_SUITE(SelfProximityTest, Dimensions);
 TYPED_TEST(SelfProximityTest, FindsAllThatIsNearWhateverHappenedBefore) {
     constexpr int kDim = TypeParam::value;
     const Surface<kDim>& surface = this->scene_.surfaces[0];
-    SelfProximity<kDim> kept(surface, this->scene_.positions, kDistance);
+    SelfProximity<kDim> kept(surface, this->scene_.positions, kDistance, true);
     const double amounts[] = {0,    0.01, 0.02, 0.03, 0.05, 0.1, 0.2,  0.4, 0.6,  0.8,
                               0.95, 1,    1.01, 1.02, 1.03, 1.1, 1.03, 0.9, 1.03, 0};
     unsigned seed = 0;
@@ -124,7 +125,7 @@ TYPED_TEST(SelfProximityTest, FindsAllThatIsNearWhateverHappenedBefore) {
         this->template expect_all<1, kDim>(pairs.points_first, surface.vertices, surface.facets, x);
         this->template expect_all<2, kDim - 1>(pairs.mixed_first, surface.edges, surface.ridges, x);
         // The same as of one that was asked nothing before, but for pairs that are near at rest.
-        SelfProximity<kDim> fresh(surface, this->scene_.positions, kDistance);
+        SelfProximity<kDim> fresh(surface, this->scene_.positions, kDistance, true);
         CandidatePairs anew;
         fresh.find(x, anew);
         this->template expect_all<1, kDim>(anew.points_first, surface.vertices, surface.facets, x);
@@ -132,10 +133,76 @@ TYPED_TEST(SelfProximityTest, FindsAllThatIsNearWhateverHappenedBefore) {
     EXPECT_GT(this->near_, 100U);
 }
 
+// Of paths between these places, at times on the way: all that come within reach while vertices
+// are off their paths, those near at rest too, with distances that are no more than at the end.
+TYPED_TEST(SelfProximityTest, FindsAllThatComesNearOnPathsWhateverHappenedBefore) {
+    constexpr int kDim = TypeParam::value;
+    constexpr double kInflation = 0.02;
+    constexpr double kReach = 0.1;
+    constexpr double kMeasured = 0.16;
+    const Surface<kDim>& surface = this->scene_.surfaces[0];
+    SelfProximity<kDim> kept(surface, this->scene_.positions, kReach + 2 * kInflation, false);
+    const std::pair<double, double> steps[] = {{0, 0.005},     {0.01, 0.02}, {0.02, 0.1},
+                                               {0.5, 0.51},    {0.95, 1},    {1, 1.001},
+                                               {1.001, 1.002}, {1, 0.6},     {0, 0}};
+    std::size_t near = 0;
+    unsigned seed = 0;
+    for (const auto& [from, to] : steps) {
+        ++seed;
+        const Positions<kDim> start = this->bent(from, seed % 3 == 0 ? 0.1 : 0, seed);
+        const Positions<kDim> end = this->bent(to, 0.005, seed + 1);
+        PathCover<kDim> cover;
+        cover.set(surface.vertices, start, end, kInflation, 0.1);
+        CandidatePairs pairs;
+        kept.find(cover, kReach, kMeasured, pairs);
+        const auto expect_all = [&]<int K, int L>(const CandidateList& list,
+                                                  const Simplices<K>& first,
+                                                  const Simplices<L>& second) {
+            std::map<std::pair<std::uint32_t, std::uint32_t>, float> found;
+            for (const Candidate& pair : list.pairs) {
+                EXPECT_TRUE(found.insert({{pair.first, pair.second}, pair.distance}).second);
+            }
+            for (std::uint32_t i = 0; i < first.cols(); ++i) {
+                for (std::uint32_t j = K == L ? i + 1 : 0; j < second.cols(); ++j) {
+                    if (share_a_vertex<K, L>(first, i, second, j)) {
+                        continue;
+                    }
+                    // Whatever point is nearest may come nearer by this.
+                    const double reach = kReach + cover.inflation()(first.col(i)).minCoeff()
+                                         + cover.inflation()(second.col(j)).minCoeff();
+                    double at_end = 0;
+                    double least = reach;
+                    for (const double t : {0.0, 0.5, 1.0}) {
+                        const Positions<kDim> x = start + t * (end - start);
+                        at_end = std::sqrt(
+                            test::closest_points<kDim, K, L>(gather<kDim, K>(first, i, x),
+                                                             gather<kDim, L>(second, j, x))
+                                .distance_squared);
+                        least = std::min(least, at_end);
+                    }
+                    const auto place = found.find({i, j});
+                    if (place != found.end()) {
+                        EXPECT_LE(static_cast<double>(place->second), at_end * (1 + 1e-6));
+                    }
+                    if (least < reach) {
+                        ++near;
+                        EXPECT_TRUE(place != found.end()) << i << " " << j << " step " << seed;
+                    }
+                }
+            }
+        };
+        expect_all.template operator()<1, kDim>(pairs.points_first, surface.vertices,
+                                                surface.facets);
+        expect_all.template operator()<2, kDim - 1>(pairs.mixed_first, surface.edges,
+                                                    surface.ridges);
+    }
+    EXPECT_GT(near, 100U);
+}
+
 TYPED_TEST(SelfProximityTest, LooksAtFewPairsWhereABodyHardlyChanges) {
     constexpr int kDim = TypeParam::value;
     const Surface<kDim>& surface = this->scene_.surfaces[0];
-    SelfProximity<kDim> proximity(surface, this->scene_.positions, 0.1);
+    SelfProximity<kDim> proximity(surface, this->scene_.positions, 0.1, true);
     CandidatePairs pairs;
     proximity.find(this->bent(0.5, 0, 1), pairs);
     const std::int64_t at_first = pairs.overlaps();
@@ -149,7 +216,7 @@ TYPED_TEST(SelfProximityTest, LooksAtFewPairsWhereABodyHardlyChanges) {
 TYPED_TEST(SelfProximityTest, AnEndThatShakesCostsNothingElsewhere) {
     constexpr int kDim = TypeParam::value;
     const Surface<kDim>& surface = this->scene_.surfaces[0];
-    SelfProximity<kDim> proximity(surface, this->scene_.positions, 0.1);
+    SelfProximity<kDim> proximity(surface, this->scene_.positions, 0.1, true);
     CandidatePairs pairs;
     const Positions<kDim> still = this->bent(0, 0, 1);
     proximity.find(still, pairs);

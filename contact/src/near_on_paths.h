@@ -1,0 +1,88 @@
+#pragma once
+
+#include "apart.h"
+#include "overlaps.h"
+#include "path_cover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace pent::contact {
+
+/// What a search along paths finds: candidates whose distance at the end is known, and others.
+struct FoundOnPaths {
+    std::vector<Candidate> known;
+    std::vector<Candidate> others;
+    std::int64_t overlaps = 0;
+};
+
+/// All in one list, in the order of the pieces of work.
+[[nodiscard]] inline CandidateList joined(const std::vector<FoundOnPaths>& pieces) {
+    CandidateList all;
+    std::size_t count = 0;
+    for (const FoundOnPaths& piece : pieces) {
+        count += piece.known.size() + piece.others.size();
+        all.overlaps += piece.overlaps;
+    }
+    all.pairs.reserve(count);
+    for (const FoundOnPaths& piece : pieces) {
+        all.pairs.insert(all.pairs.end(), piece.known.begin(), piece.known.end());
+    }
+    all.known_count = all.pairs.size();
+    for (const FoundOnPaths& piece : pieces) {
+        all.pairs.insert(all.pairs.end(), piece.others.begin(), piece.others.end());
+    }
+    return all;
+}
+
+/// Adds pairs of two lists of simplices that share no vertex and may come within reach of each
+/// other while their vertices are near their paths. Within one list (edges in R^3, within one body)
+/// a pair has the lower place first.
+template <int Dim, int K, int L>
+struct NearOnPaths {
+    using Found = FoundOnPaths;
+
+    const Simplices<K>& first;
+    const Simplices<L>& second;
+    bool is_same_list = false;
+    const PathCover<Dim>& cover;
+    double reach = 0;     ///< m.
+    double measured = 0;  ///< Up to this distances are measured, m.
+
+    void operator()(std::uint32_t i, std::uint32_t j, FoundOnPaths& found) const {
+        // Tests allow for rounding: candidates have to be a superset.
+        constexpr double kRoundUp = 1 + 1e-9;
+        ++found.overlaps;
+        if (share_a_vertex<K, L>(first, i, second, j)) {
+            return;
+        }
+        if (is_same_list && j < i) {
+            std::swap(i, j);
+        }
+        const PositionsView<Dim> start = cover.start();
+        const PositionsView<Dim> end = cover.end();
+        // Boxes around whole paths are crude: what counts is how near the two come at any one time.
+        const double near = (reach + cover.template inflation_of<K>(first, i)
+                             + cover.template inflation_of<L>(second, j))
+                            * kRoundUp;
+        const Corners<Dim, K> p_start = gather<Dim, K>(first, i, start);
+        const Corners<Dim, L> q_start = gather<Dim, L>(second, j, start);
+        const Corners<Dim, K> p = gather<Dim, K>(first, i, end);
+        const Corners<Dim, L> q = gather<Dim, L>(second, j, end);
+        if (are_paths_apart<Dim, K, L>(p_start, p, q_start, q, near * near)
+            || are_paths_apart_along_middles<Dim, K, L>(p_start, p, q_start, q, near)) {
+            return;
+        }
+        ClosestPointSearch<Dim, K, L> closest(p, q, measured * measured);
+        const bool is_known =
+            !are_boxes_apart<Dim, K, L>(p, q, measured * measured) && closest.run();
+        const double distance = is_known ? std::sqrt(closest.best().distance_squared) : measured;
+        if (distance < near + relative_path_length<Dim, K, L>(p_start, p, q_start, q) * kRoundUp) {
+            (is_known ? found.known : found.others).push_back({i, j, rounded_down(distance)});
+        }
+    }
+};
+
+}  // namespace pent::contact
