@@ -44,23 +44,49 @@ struct Found {
     std::array<std::uint32_t, 3> pair;
 };
 
-// One contact for all pairs with the same nearest faces, in ascending order. Their distances differ
-// by rounding: that of the first pair counts, whatever order they were found in.
+// By their faces, then by their pairs.
 template <int Dim>
-std::vector<Contact<Dim>> merged(const std::vector<Found<Dim>>& found) {
+bool is_before(const Found<Dim>& a, const Found<Dim>& b) {
+    return is_before<Dim>(a.contact, b.contact)
+           || (!is_before<Dim>(b.contact, a.contact) && a.pair < b.pair);
+}
+
+// One contact for all pairs with the same nearest faces, in ascending order. Their distances differ
+// by rounding: that of the first pair counts, whatever order they were found in. What has been
+// merged may be merged with more.
+//
+// @param starts  Where stretches begin that are ascending already; one where nothing is known.
+template <int Dim>
+std::vector<Found<Dim>> merged(const std::vector<Found<Dim>>& found,
+                               std::vector<std::size_t> starts) {
     std::vector<std::uint32_t> order(found.size());
     std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return is_before<Dim>(found[a].contact, found[b].contact)
-               || (!is_before<Dim>(found[b].contact, found[a].contact)
-                   && found[a].pair < found[b].pair);
-    });
-    std::vector<Contact<Dim>> kept;
+    const auto is_first = [&](std::uint32_t a, std::uint32_t b) {
+        return is_before<Dim>(found[a], found[b]);
+    };
+    if (starts.size() == 1) {
+        std::sort(order.begin(), order.end(), is_first);
+    }
+    while (starts.size() > 1) {  // two by two
+        std::vector<std::size_t> left;
+        for (std::size_t i = 0; i < starts.size(); i += 2) {
+            left.push_back(starts[i]);
+            if (i + 1 < starts.size()) {
+                const std::size_t end = i + 2 < starts.size() ? starts[i + 2] : order.size();
+                const auto at = [&](std::size_t place) {
+                    return order.begin() + static_cast<std::ptrdiff_t>(place);
+                };
+                std::inplace_merge(at(starts[i]), at(starts[i + 1]), at(end), is_first);
+            }
+        }
+        starts = std::move(left);
+    }
+    std::vector<Found<Dim>> kept;
     for (const std::uint32_t i : order) {
-        if (!kept.empty() && is_same(kept.back(), found[i].contact)) {
-            ++kept.back().multiplicity;
+        if (!kept.empty() && is_same(kept.back().contact, found[i].contact)) {
+            kept.back().contact.multiplicity += found[i].contact.multiplicity;
         } else {
-            kept.push_back(found[i].contact);
+            kept.push_back(found[i]);
         }
     }
     return kept;
@@ -210,7 +236,24 @@ BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
         contacts.candidates += static_cast<std::int64_t>(cull.size());
         ++lists;
     });
-    contacts.list = merged(all);
+    all = merged(all, {0});
+    const SharedWork& shared = candidates.shared();
+    if (shared.is_shared()) {
+        std::vector<std::size_t> starts;
+        std::size_t count = 0;
+        std::vector<std::vector<Found<Dim>>> of_all = shared.lists(std::move(all));
+        for (const std::vector<Found<Dim>>& list : of_all) {
+            starts.push_back(count);
+            count += list.size();
+        }
+        all = joined(std::move(of_all));
+        all = starts.size() > 1 ? merged(all, std::move(starts)) : std::move(all);
+        contacts.candidates = shared.sum(contacts.candidates);
+    }
+    contacts.list.reserve(all.size());
+    for (const Found<Dim>& found : all) {
+        contacts.list.push_back(found.contact);
+    }
     return contacts;
 }
 

@@ -39,8 +39,9 @@ constexpr std::size_t kMaxKept = 8'000'000;
 }  // namespace
 
 template <int Dim>
-Candidates<Dim>::Candidates(const Colliders<Dim>& colliders)
+Candidates<Dim>::Candidates(const Colliders<Dim>& colliders, const SharedWork& shared)
     : colliders_(colliders),
+      shared_(shared),
       activation_distance_(colliders.scene().options.distance),
       min_inflation_(colliders.scene().options.margin),
       longest_(static_cast<std::size_t>(colliders.count()), kNever),
@@ -122,7 +123,12 @@ void Candidates<Dim>::drop_what_is_not_kept() {
     for (const CandidatePairs& pairs : pairs_) {
         count += pairs.is_self() ? 0 : pairs.size();
     }
-    if (is_penalty() && (min_inflation_ == 0 || count > kMaxKept)) {
+    if (!is_penalty()) {
+        return;
+    }
+    // All of a team drop them, or none: trees have to stay the same.
+    if (min_inflation_ == 0
+        || shared_.sum(static_cast<std::int64_t>(count)) > static_cast<std::int64_t>(kMaxKept)) {
         between_.clear();
         std::vector<CandidatePairs>().swap(pairs_);
     }
@@ -250,7 +256,7 @@ CandidateList Candidates<Dim>::search(int first, int second) const {
     if (!is_penalty()) {
         return joined(walk_overlaps<FoundOnPaths>(
             first_tree, second_tree,
-            NearOnPaths<Dim, K, L>{a, b, false, between_, reach, measured(reach)}));
+            NearOnPaths<Dim, K, L>{a, b, false, between_, reach, measured(reach)}, shared_));
     }
     // Tests allow for rounding where candidates have to be a superset.
     const double limit = (reach + 2 * min_inflation_) * (is_exact() ? 1 : 1 + 1e-9);
@@ -258,7 +264,8 @@ CandidateList Candidates<Dim>::search(int first, int second) const {
     return joined(walk_overlaps<CandidateList>(
         first_tree, second_tree,
         NearTest<Dim, K, L>{a, b, false, end, limit * limit,
-                            is_exact() && K == 2 ? Closest::Interior : Closest::Anywhere}));
+                            is_exact() && K == 2 ? Closest::Interior : Closest::Anywhere},
+        shared_));
 }
 
 template <int Dim>
@@ -267,7 +274,7 @@ SelfProximity<Dim>& Candidates<Dim>::proximity(int body) {
     if (!proximity) {
         proximity.emplace(colliders_.surface(body), colliders_.rest(),
                           activation_distance_ + (is_penalty() ? 0 : 2 * min_inflation_),
-                          is_penalty());
+                          is_penalty(), shared_);
     }
     return *proximity;
 }

@@ -5,6 +5,7 @@
 #include "overlaps.h"
 #include "path_cover.h"
 #include "self_proximity.h"
+#include "shared_work.h"
 #include "surface_trees.h"
 
 #include <cstdint>
@@ -41,8 +42,10 @@ struct SearchWork {
 template <int Dim>
 class Candidates {
 public:
-    /// The colliders must outlive this.
-    explicit Candidates(const Colliders<Dim>& colliders);
+    /// @param colliders  Must outlive this.
+    /// @param shared     Of a team each has the candidates that it finds, and all have the same
+    ///                   lists, if empty ones.
+    explicit Candidates(const Colliders<Dim>& colliders, const SharedWork& shared = {});
 
     /// Sees to it that pairs() hold for everything on the way between two positions, and are not
     /// many more than that needs.
@@ -82,6 +85,7 @@ public:
                                               const PositionsView<Dim>& to) const;
 
     [[nodiscard]] const Colliders<Dim>& colliders() const { return colliders_; }
+    [[nodiscard]] const SharedWork& shared() const { return shared_; }
 
     /// Over boxes that hold what was covered between bodies.
     [[nodiscard]] const SurfaceTrees<Dim>& trees(int collider) const {
@@ -110,6 +114,7 @@ private:
     [[nodiscard]] CandidateList search(int first, int second) const;
 
     const Colliders<Dim>& colliders_;
+    SharedWork shared_;
     double activation_distance_;   // m, with the separation
     double min_inflation_;         // m
     Simplices<1> vertices_;        // of all surfaces

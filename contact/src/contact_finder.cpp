@@ -58,10 +58,11 @@ void check(const ContactOptions& options, const char* name) {
 template <int Dim>
 class ContactFinder<Dim>::State {
 public:
-    explicit State(ContactScene<Dim> scene)
+    State(ContactScene<Dim> scene, std::shared_ptr<const Team> team)
         : scene_(std::move(scene)),
+          team_(std::move(team)),
           colliders_(scene_),
-          candidates_(colliders_),
+          candidates_(colliders_, SharedWork(team_.get())),
           obstacle_vertices_(vertices_at_obstacles(colliders_)) {
         std::copy_if(obstacle_vertices_.begin(), obstacle_vertices_.end(),
                      std::back_inserter(pushed_vertices_),
@@ -117,8 +118,8 @@ public:
         const Positions<Dim> end = place(now);
         candidates_.cover(start, end);
         StepLimit limit = find_step_limit<Dim>(candidates_, {}, start, end);
-        for (const Contact<Dim>& contact :
-             find_obstacle_contacts<Dim>(colliders_, obstacle_vertices_, positions)) {
+        for (const Contact<Dim>& contact : find_obstacle_contacts<Dim>(
+                 colliders_, obstacle_vertices_, positions, candidates_.shared())) {
             if (contact.distance <= scene_.options.separation) {
                 limit.fraction = 0;
                 limit.limiting = {
@@ -193,12 +194,12 @@ private:
             report.candidates = found.candidates;
         } else {
             contacts.list = find_penalty_contacts<Dim>(colliders_, candidates_, positions);
-            report.candidates = after.overlaps - before.overlaps;
+            report.candidates = candidates_.shared().sum(after.overlaps - before.overlaps);
             candidates_.drop_what_is_not_kept();
         }
         contacts.pair_count = contacts.list.size();
-        const std::vector<Contact<Dim>> at_obstacles =
-            find_obstacle_contacts<Dim>(colliders_, pushed_vertices_, positions);
+        const std::vector<Contact<Dim>> at_obstacles = find_obstacle_contacts<Dim>(
+            colliders_, pushed_vertices_, positions, candidates_.shared());
         contacts.list.insert(contacts.list.end(), at_obstacles.begin(), at_obstacles.end());
         report.obstacle_tests =
             static_cast<std::int64_t>(scene_.obstacles.size() * pushed_vertices_.size());
@@ -209,6 +210,7 @@ private:
     }
 
     ContactScene<Dim> scene_;
+    std::shared_ptr<const Team> team_;
     Colliders<Dim> colliders_;
     Candidates<Dim> candidates_;
     std::vector<std::uint32_t> obstacle_vertices_;  // that surfaces of obstacles keep out
@@ -217,12 +219,12 @@ private:
 };
 
 template <int Dim>
-ContactFinder<Dim>::ContactFinder(ContactScene<Dim> scene) {
+ContactFinder<Dim>::ContactFinder(ContactScene<Dim> scene, std::shared_ptr<const Team> team) {
     check(scene.options, "contact");
     for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
         pent::check<Dim>(scene.obstacles[i].shape, Dim, "obstacle " + std::to_string(i + 1));
     }
-    state_ = std::make_unique<State>(std::move(scene));
+    state_ = std::make_unique<State>(std::move(scene), std::move(team));
 }
 
 template <int Dim>

@@ -17,23 +17,29 @@ public:
                  const BoxTree& vertices,
                  const Surface<Dim>& around,
                  const BoxTree& facets,
-                 const PositionsView<Dim>& positions)
+                 const PositionsView<Dim>& positions,
+                 const SharedWork& shared)
         : surface_(surface),
           vertices_(vertices),
           around_(around),
           facets_(facets),
           positions_(positions),
+          shared_(shared),
           is_inside_(vertices.size(), 0) {}
 
     std::vector<std::uint8_t> run() {
         if (!vertices_.is_empty()) {
             visit(vertices_.root(), vertices_.root_box());
         }
+        if (shared_.is_shared()) {
+            tell_the_others();
+        }
         return std::move(is_inside_);
     }
 
 private:
     static constexpr std::uint32_t kSerial = 256;
+    static constexpr std::uint32_t kShared = 32;
 
     void visit(const BoxTree::Range& range, const Box& box) {
         if (facets_.is_empty() || !overlap(box, facets_.root_box())) {
@@ -45,15 +51,41 @@ private:
         }
         const auto [left, right] = vertices_.child_boxes(range);
         if (range.count < kSerial) {
-            visit(range.left(), left);
-            visit(range.right(), right);
+            visit_below(range, range.left(), left);
+            visit_below(range, range.right(), right);
         } else {
-            parallel_invoke([&, &half = left] { visit(range.left(), half); },
-                            [&, &half = right] { visit(range.right(), half); });
+            parallel_invoke([&, &half = left] { visit_below(range, range.left(), half); },
+                            [&, &half = right] { visit_below(range, range.right(), half); });
+        }
+    }
+
+    // All of a team go through the large groups, and one through a small one with all below it.
+    void visit_below(const BoxTree::Range& range, const BoxTree::Range& half, const Box& box) {
+        if (range.count <= kShared || half.count > kShared || is_own(half)) {
+            visit(half, box);
+        }
+    }
+
+    [[nodiscard]] bool is_own(const BoxTree::Range& range) const {
+        return shared_.is_own(range.begin / kShared);
+    }
+
+    void tell_the_others() {
+        std::vector<std::uint32_t> inside;
+        for (std::uint32_t i = 0; i < is_inside_.size(); ++i) {
+            if (is_inside_[i] != 0) {
+                inside.push_back(i);
+            }
+        }
+        for (const std::uint32_t i : shared_.all(std::move(inside))) {
+            is_inside_[i] = 1;
         }
     }
 
     void decide(const BoxTree::Range& range) {
+        if (range.count > kShared && !is_own(range)) {
+            return;
+        }
         const std::uint32_t vertex = surface_.vertices(0, vertices_.leaf(range.begin));
         const bool is_inside =
             winding_number<Dim>(around_, facets_, positions_, positions_.col(vertex)) > 0;
@@ -67,6 +99,7 @@ private:
     const Surface<Dim>& around_;
     const BoxTree& facets_;
     const PositionsView<Dim>& positions_;
+    const SharedWork& shared_;
     std::vector<std::uint8_t> is_inside_;
 };
 
@@ -92,8 +125,9 @@ std::vector<std::uint8_t> vertices_inside(const Surface<Dim>& surface,
                                           const BoxTree& vertices,
                                           const Surface<Dim>& around,
                                           const BoxTree& facets,
-                                          const PositionsView<Dim>& positions) {
-    return InsideSearch<Dim>(surface, vertices, around, facets, positions).run();
+                                          const PositionsView<Dim>& positions,
+                                          const SharedWork& shared) {
+    return InsideSearch<Dim>(surface, vertices, around, facets, positions, shared).run();
 }
 
 template <int Dim>
@@ -120,16 +154,16 @@ std::uint32_t nearest_facet(const Surface<Dim>& surface,
     return nearest;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                                    \
-    template CandidateList near_pairs<Dim, 1, Dim>(const SearchSet<1>&, const SearchSet<Dim>&,   \
-                                                   const PositionsView<Dim>&, double, Closest);  \
-    template CandidateList near_pairs<Dim, 2, Dim - 1>(                                          \
-        const SearchSet<2>&, const SearchSet<Dim - 1>&, const PositionsView<Dim>&, double,       \
-        Closest);                                                                                \
-    template std::vector<std::uint8_t> vertices_inside<Dim>(const Surface<Dim>&, const BoxTree&, \
-                                                            const Surface<Dim>&, const BoxTree&, \
-                                                            const PositionsView<Dim>&);          \
-    template std::uint32_t nearest_facet<Dim>(const Surface<Dim>&, const BoxTree&,               \
+#define PENT_INSTANTIATE(Dim)                                                                   \
+    template CandidateList near_pairs<Dim, 1, Dim>(const SearchSet<1>&, const SearchSet<Dim>&,  \
+                                                   const PositionsView<Dim>&, double, Closest); \
+    template CandidateList near_pairs<Dim, 2, Dim - 1>(                                         \
+        const SearchSet<2>&, const SearchSet<Dim - 1>&, const PositionsView<Dim>&, double,      \
+        Closest);                                                                               \
+    template std::vector<std::uint8_t> vertices_inside<Dim>(                                    \
+        const Surface<Dim>&, const BoxTree&, const Surface<Dim>&, const BoxTree&,               \
+        const PositionsView<Dim>&, const SharedWork&);                                          \
+    template std::uint32_t nearest_facet<Dim>(const Surface<Dim>&, const BoxTree&,              \
                                               const PositionsView<Dim>&, const Vector<Dim>&);
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)

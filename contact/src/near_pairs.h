@@ -32,7 +32,7 @@ template <int Dim, int K, int L>
 /// Which vertices of one surface are inside another: an entry of 1 for each of surface.vertices.
 ///
 /// A group of vertices whose box meets no facet is on one side, and is decided by one ray.
-/// Parallel.
+/// Parallel; of a team all have the same trees.
 ///
 /// @param vertices  Tree over boxes that hold the vertices of `surface`, in their order.
 /// @param facets    Tree over boxes that hold the facets of `around`, in their order.
@@ -41,7 +41,8 @@ template <int Dim>
                                                         const BoxTree& vertices,
                                                         const Surface<Dim>& around,
                                                         const BoxTree& facets,
-                                                        const PositionsView<Dim>& positions);
+                                                        const PositionsView<Dim>& positions,
+                                                        const SharedWork& shared = {});
 
 /// Place of the facet nearest to a point; of facets at one distance the first. The surface must
 /// have a facet.

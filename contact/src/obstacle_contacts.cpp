@@ -1,7 +1,5 @@
 #include "obstacle_contacts.h"
 
-#include "chunks.h"
-
 namespace pent::contact {
 
 namespace {
@@ -53,7 +51,8 @@ std::vector<std::uint32_t> vertices_at_obstacles(const Colliders<Dim>& colliders
 template <int Dim>
 std::vector<Contact<Dim>> find_obstacle_contacts(const Colliders<Dim>& colliders,
                                                  const std::vector<std::uint32_t>& vertices,
-                                                 const PositionsView<Dim>& positions) {
+                                                 const PositionsView<Dim>& positions,
+                                                 const SharedWork& shared) {
     const ContactScene<Dim>& scene = colliders.scene();
     std::vector<Contact<Dim>> contacts;
     for (std::uint32_t o = 0; o < scene.obstacles.size(); ++o) {
@@ -64,7 +63,7 @@ std::vector<Contact<Dim>> find_obstacle_contacts(const Colliders<Dim>& colliders
         const double distance = colliders.is_barrier()
                                     ? scene.options.distance + scene.options.separation
                                     : obstacle.distance;
-        const std::vector<Contact<Dim>> found = collect<Contact<Dim>>(
+        const std::vector<Contact<Dim>> found = shared.collect<Contact<Dim>>(
             vertices.size(), kChunk, [&](std::size_t i, std::vector<Contact<Dim>>& list) {
                 const SignedDistance<Dim> at =
                     signed_distance<Dim>(obstacle.shape, positions.col(vertices[i]));
@@ -78,10 +77,11 @@ std::vector<Contact<Dim>> find_obstacle_contacts(const Colliders<Dim>& colliders
     return contacts;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                         \
-    template std::vector<std::uint32_t> vertices_at_obstacles(const Colliders<Dim>&); \
-    template std::vector<Contact<Dim>> find_obstacle_contacts(                        \
-        const Colliders<Dim>&, const std::vector<std::uint32_t>&, const PositionsView<Dim>&);
+#define PENT_INSTANTIATE(Dim)                                                                \
+    template std::vector<std::uint32_t> vertices_at_obstacles(const Colliders<Dim>&);        \
+    template std::vector<Contact<Dim>> find_obstacle_contacts(                               \
+        const Colliders<Dim>&, const std::vector<std::uint32_t>&, const PositionsView<Dim>&, \
+        const SharedWork&);
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE

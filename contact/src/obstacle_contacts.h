@@ -1,6 +1,7 @@
 #pragma once
 
 #include "colliders.h"
+#include "shared_work.h"
 
 #include <pent/contact/contact.h>
 
@@ -28,6 +29,7 @@ template <int Dim>
 [[nodiscard]] std::vector<Contact<Dim>> find_obstacle_contacts(
     const Colliders<Dim>& colliders,
     const std::vector<std::uint32_t>& vertices,
-    const PositionsView<Dim>& positions);
+    const PositionsView<Dim>& positions,
+    const SharedWork& shared = {});
 
 }  // namespace pent::contact

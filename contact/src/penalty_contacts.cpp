@@ -11,7 +11,7 @@ namespace pent::contact {
 namespace {
 
 // Contacts are computed in chunks of this many pairs or vertices.
-constexpr std::size_t kChunk = 512;
+constexpr std::size_t kChunk = 128;
 
 // A vertex near a facet, by their places.
 struct NearPoint {
@@ -38,6 +38,7 @@ struct Setting {
     const Displacements displacements;
     Positions<Dim> normals;  // of vertices of bodies that are judged by them
 
+    [[nodiscard]] const SharedWork& shared() const { return candidates.shared(); }
     [[nodiscard]] double distance() const { return colliders.scene().options.distance; }
     [[nodiscard]] const Surface<Dim>& surface(int body) const { return colliders.surface(body); }
     [[nodiscard]] PairSetting<Dim> of(int first, int second) const {
@@ -67,6 +68,7 @@ std::vector<NearPoint> near_points(const Setting<Dim>& setting,
                 found.push_back({i, j, search.best().distance_squared});
             }
         });
+    near = setting.shared().all(std::move(near));
     std::sort(near.begin(), near.end(), [](const NearPoint& a, const NearPoint& b) {
         return a.vertex != b.vertex ? a.vertex < b.vertex : a.facet < b.facet;
     });
@@ -80,7 +82,9 @@ std::vector<Candidate> near_mixed(const Setting<Dim>& setting,
                                   const Simplices<Dim - 1>& ridges,
                                   bool is_exact) {
     if (is_exact) {
-        return sorted(list).pairs;
+        CandidateList all = list;
+        all.pairs = setting.shared().all(std::move(all.pairs));
+        return sorted(std::move(all)).pairs;
     }
     const double limit = setting.distance() * setting.distance();
     const DistanceCull<2, Dim - 1> cull(list, edges, ridges, setting.displacements.between,
@@ -98,6 +102,7 @@ std::vector<Candidate> near_mixed(const Setting<Dim>& setting,
                 found.push_back(list.pairs[k]);
             }
         });
+    near = setting.shared().all(std::move(near));
     std::sort(near.begin(), near.end(), is_before);
     return near;
 }
@@ -163,7 +168,7 @@ std::vector<Contact<Dim>> mixed_contacts(const Setting<Dim>& setting,
     const Simplices<2>& edges = setting.surface(first).edges;
     const Simplices<Dim - 1>& ridges = setting.surface(second).ridges;
     const PairSetting<Dim> pair_setting = setting.of(first, second);
-    return collect<Contact<Dim>>(
+    return setting.shared().template collect<Contact<Dim>>(
         near.size(), kChunk, [&](std::size_t k, std::vector<Contact<Dim>>& found) {
             if (const auto contact = local_contact<Dim, 2, Dim - 1>(
                     pair_setting, edges, near[k].first, ridges, near[k].second)) {
@@ -181,7 +186,7 @@ std::vector<Contact<Dim>> self_contacts(const Setting<Dim>& setting,
     const auto vertices = static_cast<std::size_t>(surface.vertices.cols());
     const auto begin = starts_of(near, vertices);
     const PairSetting<Dim> pair_setting = setting.of(body, body);
-    return collect<Contact<Dim>>(
+    return setting.shared().template collect<Contact<Dim>>(
         vertices, kChunk, [&](std::size_t i, std::vector<Contact<Dim>>& found) {
             std::optional<Contact<Dim>> nearest;
             for (std::size_t k = begin[i]; k < begin[i + 1]; ++k) {
@@ -209,10 +214,10 @@ std::vector<Contact<Dim>> solid_contacts(const Setting<Dim>& setting,
     const BoxTree& facets = setting.candidates.trees(second).template tree<Dim>();
     const std::vector<std::uint8_t> is_inside =
         vertices_inside<Dim>(surface, setting.candidates.trees(first).template tree<1>(), around,
-                             facets, setting.positions);
+                             facets, setting.positions, setting.shared());
     const auto begin = starts_of(near, is_inside.size());
     const PairSetting<Dim> pair_setting = setting.of(first, second);
-    return collect<Contact<Dim>>(
+    return setting.shared().template collect<Contact<Dim>>(
         is_inside.size(), kChunk, [&](std::size_t i, std::vector<Contact<Dim>>& found) {
             const std::uint32_t vertex = surface.vertices(0, static_cast<Eigen::Index>(i));
             std::uint32_t facet = 0;

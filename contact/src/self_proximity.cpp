@@ -26,8 +26,13 @@ template <int Dim>
 SelfProximity<Dim>::SelfProximity(const Surface<Dim>& surface,
                                   const Positions<Dim>& rest,
                                   double distance,
-                                  bool is_rest_left_out)
-    : surface_(surface), rest_(rest), distance_(distance), is_rest_left_out_(is_rest_left_out) {
+                                  bool is_rest_left_out,
+                                  const SharedWork& shared)
+    : surface_(surface),
+      rest_(rest),
+      distance_(distance),
+      is_rest_left_out_(is_rest_left_out),
+      shared_(shared) {
     const double of_edge = kMaxOfEdge * mean_edge_length<Dim>(surface, rest);
     listed_distance_ = std::clamp(of_edge, kMinListed * distance, kListed * distance);
     add_tree<1>(surface.vertices);

@@ -3,6 +3,7 @@
 #include "candidate.h"
 #include "patches.h"
 #include "path_cover.h"
+#include "shared_work.h"
 
 #include <pent/contact/box_tree.h>
 #include <pent/contact/surface.h>
@@ -33,10 +34,12 @@ public:
     ///
     /// @param distance           That is asked for, at least, m.
     /// @param is_rest_left_out  Whether pairs nearer than it at rest are never contacts.
+    /// @param shared            Of a team each finds the pairs of some patches.
     SelfProximity(const Surface<Dim>& surface,
                   const Positions<Dim>& rest,
                   double distance,
-                  bool is_rest_left_out);
+                  bool is_rest_left_out,
+                  const SharedWork& shared = {});
 
     /// Sets both lists to the pairs nearer than the distance now that are not nearer at rest, and
     /// maybe others of these: vertices and facets, and mixed pairs whose closest points are inside
@@ -118,6 +121,7 @@ private:
     double distance_;         // m
     double listed_distance_;  // m
     bool is_rest_left_out_;
+    SharedWork shared_;
     std::vector<Box> boxes_;  // of all vertices of the scene
     std::array<Tree, Dim> trees_;
     std::array<Patches<Dim>, Dim> patches_at_rest_;  // whose vertices all references share

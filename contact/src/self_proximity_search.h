@@ -140,7 +140,7 @@ private:
     void for_each_row(const Work& work) {
         for_each_chunk(rows_.size(), kChunk,
                        [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-                           for (std::size_t a = begin; a < end; ++a) {
+                           for (std::size_t a = begin; all_.shared_.is_own(chunk) && a < end; ++a) {
                                work(a, found_[chunk]);
                            }
                        });

@@ -62,14 +62,33 @@ std::vector<std::uint32_t> named_corners(const Colliders<Dim>& colliders,
     return {corners.data(), corners.data() + Count};
 }
 
-// Shortens a step by the candidates of one list.
+// The same of all lists: those of candidates in their order, then one for each obstacle.
+struct LeastBound {
+    Bound bound{1, 0, 0};
+    std::uint32_t list = 0;
+
+    [[nodiscard]] double fraction() const { return std::get<0>(bound); }
+
+    // Of equals the list that came first counts.
+    void take(const Bound& other, std::uint32_t of) {
+        if (std::get<0>(other) < fraction()) {
+            *this = {other, of};
+        }
+    }
+    [[nodiscard]] bool is_below(const LeastBound& other) const {
+        return std::tuple(fraction(), list, bound)
+               < std::tuple(other.fraction(), other.list, other.bound);
+    }
+};
+
+// What the candidates of one list allow, if that is less than the limit.
 template <int Dim, int K, int L>
-void shorten(const Candidates<Dim>& candidates,
-             const CandidateList& list,
-             const std::array<int, 2>& which,
-             const Step<Dim>& step,
-             const Displacement& displacement,
-             StepLimit& limit) {
+Bound bound_of(const Candidates<Dim>& candidates,
+               const CandidateList& list,
+               const std::array<int, 2>& which,
+               const Step<Dim>& step,
+               const Displacement& displacement,
+               double limit) {
     const Colliders<Dim>& colliders = candidates.colliders();
     const ContactOptions& options = colliders.scene().options;
     const Simplices<K>& first = colliders.surface(which[0]).template simplices<K>();
@@ -102,46 +121,71 @@ void shorten(const Candidates<Dim>& candidates,
                                          most),
                 i, j};
     };
-    const auto [fraction, i, j] = least_bound(cull.size(), limit.fraction, safe);
-    if (fraction < limit.fraction) {
-        limit.fraction = fraction;
-        limit.limiting = {CrossingKind::Touching,
-                          colliders.collider(which[0]),
-                          colliders.collider(which[1]),
-                          named_corners<Dim, K>(colliders, which[0], i),
-                          named_corners<Dim, L>(colliders, which[1], j),
-                          0};
-        if (colliders.is_core(which[0])) {
-            std::swap(limit.limiting.first, limit.limiting.second);
-            std::swap(limit.limiting.first_corners, limit.limiting.second_corners);
-        }
-    }
+    return least_bound(cull.size(), limit, safe);
 }
 
-// Shortens it by the surface of an obstacle.
+// The two simplices of a bound.
 template <int Dim>
-void shorten(const Colliders<Dim>& colliders,
-             std::uint32_t obstacle,
-             const std::vector<std::uint32_t>& vertices,
-             const Step<Dim>& step,
-             StepLimit& limit) {
-    const ContactScene<Dim>& scene = colliders.scene();
+Crossing touching(const Candidates<Dim>& candidates, const LeastBound& least) {
+    const Colliders<Dim>& colliders = candidates.colliders();
+    Crossing crossing;
+    std::uint32_t lists = 0;
+    candidates.for_each_list([&]<int K, int L>(const CandidateList&, int first, int second) {
+        if (lists++ != least.list) {
+            return;
+        }
+        crossing = {CrossingKind::Touching,
+                    colliders.collider(first),
+                    colliders.collider(second),
+                    named_corners<Dim, K>(colliders, first, std::get<1>(least.bound)),
+                    named_corners<Dim, L>(colliders, second, std::get<2>(least.bound)),
+                    0};
+        if (colliders.is_core(first)) {
+            std::swap(crossing.first, crossing.second);
+            std::swap(crossing.first_corners, crossing.second_corners);
+        }
+    });
+    return crossing;
+}
+
+// A vertex and the surface of an obstacle.
+template <int Dim>
+Crossing touching(const ContactScene<Dim>& scene, std::uint32_t obstacle, std::uint32_t vertex) {
+    return {CrossingKind::Touching,
+            body_of<Dim>(scene, vertex),
+            {Collider::Kind::Obstacle, obstacle},
+            {vertex},
+            {},
+            0};
+}
+
+// What the surface of an obstacle allows, if that is less than the limit; vertices by their places.
+template <int Dim>
+Bound bound_of(const Candidates<Dim>& candidates,
+               std::uint32_t obstacle,
+               const std::vector<std::uint32_t>& vertices,
+               const Step<Dim>& step,
+               double limit) {
+    const ContactScene<Dim>& scene = candidates.colliders().scene();
     const Clearance clearance{scene.options.separation, scene.options.distance};
-    const auto [fraction, at, unused] =
-        least_bound(vertices.size(), limit.fraction, [&](std::size_t k, double most) -> Bound {
-            return {safe_fraction<Dim>(scene.obstacles[obstacle].shape, step.from.col(vertices[k]),
-                                       step.motion.col(vertices[k]), clearance, most),
-                    static_cast<std::uint32_t>(k), 0};
-        });
-    if (fraction < limit.fraction) {
-        limit.fraction = fraction;
-        limit.limiting = {CrossingKind::Touching,
-                          body_of<Dim>(scene, vertices[at]),
-                          {Collider::Kind::Obstacle, obstacle},
-                          {vertices[at]},
-                          {},
-                          0};
+    return least_bound(vertices.size(), limit, [&](std::size_t k, double most) -> Bound {
+        const auto place = static_cast<std::uint32_t>(k);
+        if (!candidates.shared().is_own(k / kChunk)) {
+            return {1, place, 0};
+        }
+        return {safe_fraction<Dim>(scene.obstacles[obstacle].shape, step.from.col(vertices[k]),
+                                   step.motion.col(vertices[k]), clearance, most),
+                place, 0};
+    });
+}
+
+// That of all of a team.
+LeastBound least_of_all(const LeastBound& own, const SharedWork& shared) {
+    LeastBound least = own;
+    for (const LeastBound& bound : shared.all(std::vector<LeastBound>{own})) {
+        least = bound.is_below(least) ? bound : least;
     }
+    return least;
 }
 
 }  // namespace
@@ -152,20 +196,31 @@ StepLimit find_step_limit(const Candidates<Dim>& candidates,
                           const PositionsView<Dim>& from,
                           const PositionsView<Dim>& to) {
     const Colliders<Dim>& colliders = candidates.colliders();
+    const ContactScene<Dim>& scene = colliders.scene();
     const Step<Dim> step{from, to - from};
-    StepLimit limit;
+    LeastBound least;
+    std::uint32_t lists = 0;
     if (!candidates.pairs().empty()) {
         const Displacements displacements = candidates.displacements(from, to);
         candidates.for_each_list(
             [&]<int K, int L>(const CandidateList& list, int first, int second) {
-                shorten<Dim, K, L>(candidates, list, {first, second}, step,
-                                   displacements.of(first, second), limit);
+                least.take(bound_of<Dim, K, L>(candidates, list, {first, second}, step,
+                                               displacements.of(first, second), least.fraction()),
+                           lists++);
             });
     }
-    for (std::uint32_t o = 0; o < colliders.scene().obstacles.size(); ++o) {
+    for (std::uint32_t o = 0; o < scene.obstacles.size(); ++o) {
         if (meets_vertices(colliders, o)) {
-            shorten<Dim>(colliders, o, vertices, step, limit);
+            least.take(bound_of<Dim>(candidates, o, vertices, step, least.fraction()), lists + o);
         }
+    }
+    least = least_of_all(least, candidates.shared());
+    StepLimit limit;
+    limit.fraction = least.fraction();
+    if (limit.fraction < 1) {
+        limit.limiting = least.list < lists ? touching<Dim>(candidates, least)
+                                            : touching<Dim>(scene, least.list - lists,
+                                                            vertices[std::get<1>(least.bound)]);
     }
     return limit;
 }

@@ -1,38 +1,18 @@
 #pragma once
 
+#include "support/meeting_table.h"
+
 #include <pent/error.h>
 #include <pent/simulator/ranks.h>
 
 #include <algorithm>
-#include <barrier>
-#include <exception>
 #include <functional>
 #include <memory>
-#include <thread>
 #include <vector>
 
 namespace pent::simulator::test {
 
-/// What ranks that are threads of one process share: each puts something on the table, all look at
-/// it, and all take theirs away.
-class Table {
-public:
-    explicit Table(int count) : places_(static_cast<std::size_t>(count)), barrier_(count) {}
-
-    /// Calls look(what all have put there).
-    template <typename Look>
-    void meet(int rank, const void* own, const Look& look) {
-        places_[static_cast<std::size_t>(rank)] = own;
-        barrier_.arrive_and_wait();
-        look(places_);
-        barrier_.arrive_and_wait();
-    }
-    [[nodiscard]] int count() const { return static_cast<int>(places_.size()); }
-
-private:
-    std::vector<const void*> places_;
-    std::barrier<> barrier_;
-};
+using Table = pent::test::MeetingTable;
 
 class TableExchange final : public GhostExchange {
 public:
@@ -88,27 +68,11 @@ private:
     int rank_;
 };
 
-/// Runs work(rank) on so many ranks at the same time, and throws what rank 0 throws. An exception
-/// on others alone would let the test hang: work must fail on all.
+/// Runs work(rank) on so many ranks at the same time.
 inline void on_ranks(int count, const std::function<void(std::shared_ptr<const Ranks>)>& work) {
     const auto table = std::make_shared<Table>(count);
-    std::vector<std::exception_ptr> errors(static_cast<std::size_t>(count));
-    std::vector<std::thread> threads;
-    for (int rank = 0; rank < count; ++rank) {
-        threads.emplace_back([&, rank] {
-            try {
-                work(std::make_shared<ThreadRank>(table, rank));
-            } catch (...) {
-                errors[static_cast<std::size_t>(rank)] = std::current_exception();
-            }
-        });
-    }
-    for (std::thread& thread : threads) {
-        thread.join();
-    }
-    if (errors.front()) {
-        std::rethrow_exception(errors.front());
-    }
+    pent::test::at_a_table(count,
+                           [&](int rank) { work(std::make_shared<ThreadRank>(table, rank)); });
 }
 
 }  // namespace pent::simulator::test

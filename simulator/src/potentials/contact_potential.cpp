@@ -1,5 +1,7 @@
 #include "potentials/contact_potential.h"
 
+#include "potentials/contact_team.h"
+
 #include <pent/stopwatch.h>
 
 #include <algorithm>
@@ -104,6 +106,7 @@ ContactPotential<Dim>::ContactPotential(const Workers& workers,
                                         const Scene& scene,
                                         const Bodies<Dim>& bodies)
     : workers_(&workers),
+      sharing_(&bodies.sharing),
       options_(scene.contact.value_or(Contact{})),
       motions_(scene),
       obstacles_(motions_.at(0)) {
@@ -118,7 +121,8 @@ template <int Dim>
 void ContactPotential<Dim>::set_held(const Scene& scene, const Bodies<Dim>& bodies) {
     if (do_bodies_meet_ || has_obstacles_) {
         finder_ = std::make_unique<contact::ContactFinder<Dim>>(
-            contact_scene<Dim>(scene, bodies, do_bodies_meet_));
+            contact_scene<Dim>(scene, bodies, do_bodies_meet_),
+            sharing_->is_shared() ? std::make_shared<ContactTeam>(sharing_->ranks()) : nullptr);
         finder_->move_obstacles(obstacles_);
     }
 }
@@ -221,6 +225,22 @@ ContactSummary ContactPotential<Dim>::summary() const {
     return summary;
 }
 
+// Those in rows of this rank, in their order.
+template <int Dim>
+contact::Contacts<Dim> ContactPotential<Dim>::own_contacts() const {
+    contact::Contacts<Dim> own;
+    for (std::size_t k = 0; k < contacts_.list.size(); ++k) {
+        const contact::Contact<Dim>& contact = contacts_.list[k];
+        const auto begin = contact.vertices.begin();
+        if (std::any_of(begin, begin + contact.count,
+                        [&](std::uint32_t vertex) { return sharing_->owns(vertex); })) {
+            own.list.push_back(contact);
+            own.pair_count += k < contacts_.pair_count ? 1 : 0;
+        }
+    }
+    return own;
+}
+
 template <int Dim>
 void ContactPotential<Dim>::add_hessian(double weight,
                                         Filter /*filter*/,
@@ -229,9 +249,14 @@ void ContactPotential<Dim>::add_hessian(double weight,
         return;
     }
     const Stopwatch watch;
+    contact::Contacts<Dim> own;
+    if (sharing_->is_shared()) {
+        own = own_contacts();
+    }
+    const contact::Contacts<Dim>& contacts = sharing_->is_shared() ? own : contacts_;
     hessians_ = workers_->run(
-        [&] { return finder_->hessians(contacts_, *x_, stiffness_, options_.filter); });
-    add_stencils<Dim>(weight, hessians_, is_barrier_ ? 0 : contacts_.pair_count, system);
+        [&] { return finder_->hessians(contacts, *x_, stiffness_, options_.filter); });
+    add_stencils<Dim>(weight, hessians_, is_barrier_ ? 0 : contacts.pair_count, system);
     work_.seconds += watch.seconds();
 }
 

@@ -100,7 +100,10 @@ private:
         return contacts_.report.smallest_distance - options_.separation;
     }
 
+    [[nodiscard]] contact::Contacts<Dim> own_contacts() const;
+
     const Workers* workers_;
+    const Sharing* sharing_;
     Contact options_;
     bool is_barrier_ = false;
     bool do_bodies_meet_ = false;

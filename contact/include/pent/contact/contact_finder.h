@@ -4,6 +4,7 @@
 #include <pent/contact/contact_scene.h>
 #include <pent/contact/crossings.h>
 #include <pent/contact/filter.h>
+#include <pent/contact/team.h>
 
 #include <memory>
 #include <string>
@@ -44,7 +45,10 @@ template <int Dim>
 class ContactFinder {
 public:
     /// Throws an Error if options or obstacles are out of range.
-    explicit ContactFinder(ContactScene<Dim> scene);
+    ///
+    /// @param team  Null for one process alone. All have the same scene, call find(), limit_step()
+    ///              and limit_obstacles() at the same positions, and get the same.
+    explicit ContactFinder(ContactScene<Dim> scene, std::shared_ptr<const Team> team = nullptr);
     ~ContactFinder();
     ContactFinder(ContactFinder&&) noexcept;
     ContactFinder& operator=(ContactFinder&&) noexcept;
