@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 
@@ -262,6 +263,44 @@ TEST(StarMesh, HasTheSlopeOfQuality) {
             // Differences of second order, of slopes of about 1.
             EXPECT_NEAR(slope[axis], std::log(after / before) / 2e-5, 1e-8);
         }
+    }
+}
+
+TEST(StarMesh, CountsAChangeExactlyWhereACellAroundAVertexChanges) {
+    const Solid solid = ball_solid(1);
+    const LatticeTree tree(solid, Lattice::with_mean_edge(0.5), {});
+    LatticeStuffing stuffing(solid, tree);
+    StarMesh mesh(stuffing.mesh().mesh);
+    const auto cells_around = [&](std::uint32_t vertex) {
+        std::vector<std::array<Vector4d, 5>> cells;
+        for (const std::uint32_t cell : mesh.star(vertex)) {
+            std::array<Vector4d, 5>& corners = cells.emplace_back();
+            for (int i = 0; i < 5; ++i) {
+                corners[i] = mesh.place(mesh.cell(cell)[i]);
+            }
+        }
+        return cells;
+    };
+    const std::uint32_t vertex = mesh.cell(mesh.cell_count() / 2)[2];
+    const std::vector<std::uint32_t> edge = {mesh.cell(10)[0], mesh.cell(10)[3]};
+    const std::vector<std::function<void()>> acts = {
+        [&] { mesh.move(vertex, mesh.place(vertex) + Vector4d::Constant(1e-3)); },
+        [&] { mesh.split(edge, (mesh.place(edge[0]) + mesh.place(edge[1])) / 2); }};
+    for (const auto& act : acts) {
+        std::vector<std::vector<std::array<Vector4d, 5>>> cells;
+        std::vector<std::uint32_t> changes;
+        for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+            cells.push_back(cells_around(v));
+            changes.push_back(mesh.change(v));
+        }
+        act();
+        int changed = 0;
+        for (std::uint32_t v = 0; v < cells.size(); ++v) {
+            EXPECT_EQ(mesh.change(v) != changes[v], cells_around(v) != cells[v]) << v;
+            changed += mesh.change(v) != changes[v] ? 1 : 0;
+        }
+        EXPECT_GT(changed, 5);
+        EXPECT_LT(changed, static_cast<int>(cells.size()) / 2);
     }
 }
 

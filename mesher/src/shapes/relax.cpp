@@ -13,7 +13,8 @@ constexpr int kMaxSweeps = 12;
 
 class Relaxation {
 public:
-    Relaxation(SurfaceMesh& surface, double target) : surface_(surface), target_(target) {}
+    Relaxation(SurfaceMesh& surface, double target)
+        : surface_(surface), target_(target), settled_(surface.mesh.vertex_count(), kNever) {}
 
     void run() {
         std::vector<std::pair<double, std::uint32_t>> worst;
@@ -25,8 +26,15 @@ public:
             std::set<std::uint32_t> touched;
             for (const auto& [quality, cell] : worst) {
                 for (const std::uint32_t vertex : surface_.mesh.cell(cell)) {
+                    // What has failed would fail again where nothing around has changed.
+                    const std::uint32_t change = surface_.mesh.change(vertex);
+                    if (settled_[vertex] == change) {
+                        continue;
+                    }
                     if (improve(vertex)) {
                         touched.insert(vertex);
+                    } else {
+                        settled_[vertex] = change;
                     }
                 }
             }
@@ -111,8 +119,11 @@ private:
         return has_moved;
     }
 
+    static constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
+
     SurfaceMesh& surface_;
     double target_;
+    std::vector<std::uint32_t> settled_;  // see SurfaceMesh::settled
 };
 
 }  // namespace

@@ -1,8 +1,6 @@
 #include "surface_mesh.h"
 #include "surface_search.h"
 
-#include <pent/facets.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,10 +49,10 @@ public:
     std::int64_t run() {
         bool has_mended = true;
         std::set<Simplex> crossing;
-        const SimplexMesh<4> mesh = surface_.mesh.mesh();
-        const Simplices<4> facets = match_facets<4>(mesh.cells, mesh.vertex_count()).boundary;
-        for (const auto& facet : facets.colwise()) {
-            collect({facet[0], facet[1], facet[2], facet[3]}, crossing);
+        for (std::uint32_t cell = 0; cell < surface_.mesh.cell_count(); ++cell) {
+            for (const std::uint32_t left_out : surface_.mesh.cell(cell)) {
+                collect(cell, left_out, crossing);
+            }
         }
         for (int pass = 0; pass < kMaxPasses && has_mended; ++pass) {
             has_mended = false;
@@ -92,10 +90,18 @@ private:
         return common_pieces(simplex).empty() && !surface_.mesh.star(simplex).empty();
     }
 
-    // Adds the faces of a boundary facet that cross a ridge though their own faces do not.
-    void collect(std::array<std::uint32_t, 4> facet, std::set<Simplex>& crossing) const {
+    // Adds the faces of a facet of a cell that cross a ridge though their own faces do not, if it
+    // is one of the boundary.
+    void collect(std::uint32_t cell, std::uint32_t left_out, std::set<Simplex>& crossing) const {
+        std::array<std::uint32_t, 4> facet{};
+        const auto& corners = surface_.mesh.cell(cell);
+        std::remove_copy(corners.begin(), corners.end(), facet.begin(), left_out);
         std::sort(facet.begin(), facet.end());
-        if (!common_pieces({facet.begin(), facet.end()}).empty()) {
+        const bool is_inside = std::any_of(facet.begin(), facet.end(), [&](std::uint32_t corner) {
+            return surface_.pieces[corner].empty();
+        });
+        if (is_inside || !common_pieces({facet.begin(), facet.end()}).empty()
+            || surface_.mesh.star(facet).size() > 1) {
             return;
         }
         for (unsigned subset = 1; subset < 16; ++subset) {
@@ -114,17 +120,8 @@ private:
     void collect_around(std::uint32_t vertex, std::set<Simplex>& crossing) const {
         for (const std::uint32_t cell : surface_.mesh.star(vertex)) {
             for (const std::uint32_t left_out : surface_.mesh.cell(cell)) {
-                if (left_out == vertex) {
-                    continue;
-                }
-                std::array<std::uint32_t, 4> facet{};
-                std::remove_copy(surface_.mesh.cell(cell).begin(), surface_.mesh.cell(cell).end(),
-                                 facet.begin(), left_out);
-                const bool is_on_surface = std::none_of(
-                    facet.begin(), facet.end(),
-                    [&](std::uint32_t corner) { return surface_.pieces[corner].empty(); });
-                if (is_on_surface && surface_.mesh.star(facet).size() == 1) {
-                    collect(facet, crossing);
+                if (left_out != vertex) {
+                    collect(cell, left_out, crossing);
                 }
             }
         }

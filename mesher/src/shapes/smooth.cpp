@@ -1,6 +1,7 @@
 #include "surface_mesh.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -74,11 +75,16 @@ bool improve(SurfaceMesh& surface, std::uint32_t vertex, double least) {
 }  // namespace
 
 void smooth(SurfaceMesh& surface, double least) {
+    // What has failed would fail again where nothing around has changed.
+    constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
+    surface.settled.resize(surface.mesh.vertex_count(), kNever);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
         const std::vector<bool> along = corners_along_ridges(surface);
         for (std::uint32_t vertex = 0; vertex < surface.mesh.vertex_count(); ++vertex) {
-            if (along[vertex]) {
-                improve(surface, vertex, least);
+            const std::uint32_t change = surface.mesh.change(vertex);
+            if (along[vertex] && surface.settled[vertex] != change
+                && !improve(surface, vertex, least)) {
+                surface.settled[vertex] = change;
             }
         }
     }

@@ -39,6 +39,7 @@ StarMesh::StarMesh(SimplexMesh<4> mesh) {
     mesh.positions.resize(4, 0);
     cells_.resize(mesh.cell_count());
     stars_.resize(places_.size());
+    changes_.resize(places_.size(), last_change_);
     for (std::uint32_t c = 0; c < cell_count(); ++c) {
         for (int i = 0; i < 5; ++i) {
             cells_[c][i] = mesh.cells(i, c);
@@ -114,11 +115,26 @@ double StarMesh::quality_if_split(std::span<const std::uint32_t> simplex,
     return least;
 }
 
+void StarMesh::note_change(std::span<const std::uint32_t> cells) {
+    ++last_change_;
+    for (const std::uint32_t c : cells) {
+        for (const std::uint32_t corner : cells_[c]) {
+            changes_[corner] = last_change_;
+        }
+    }
+}
+
+void StarMesh::move(std::uint32_t vertex, const Eigen::Vector4d& place) {
+    places_[vertex] = place;
+    note_change(stars_[vertex]);
+}
+
 std::uint32_t StarMesh::split(std::span<const std::uint32_t> simplex,
                               const Eigen::Vector4d& place) {
     const std::uint32_t added = vertex_count();
     places_.push_back(place);
     stars_.emplace_back();
+    changes_.push_back(last_change_);
     for (const std::uint32_t c : star(simplex)) {
         const std::array<std::uint32_t, 5> old = cells_[c];
         for (std::size_t k = 0; k < simplex.size(); ++k) {
@@ -137,6 +153,7 @@ std::uint32_t StarMesh::split(std::span<const std::uint32_t> simplex,
         }
         std::erase(stars_[simplex[0]], c);
     }
+    note_change(stars_[added]);
     return added;
 }
 

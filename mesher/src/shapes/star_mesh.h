@@ -53,19 +53,26 @@ public:
     [[nodiscard]] double quality_if_split(std::span<const std::uint32_t> simplex,
                                           const Eigen::Vector4d& place) const;
 
-    void move(std::uint32_t vertex, const Eigen::Vector4d& place) { places_[vertex] = place; }
+    void move(std::uint32_t vertex, const Eigen::Vector4d& place);
 
     /// Puts a new vertex into an edge, triangle or tetrahedron of the mesh: each cell that has it
     /// becomes as many as it has corners. Conforming as the mesh was. Returns the vertex, which is
     /// the last.
     std::uint32_t split(std::span<const std::uint32_t> simplex, const Eigen::Vector4d& place);
 
+    /// Another number after every move or split that changed a cell around a vertex.
+    [[nodiscard]] std::uint32_t change(std::uint32_t vertex) const { return changes_[vertex]; }
+
     [[nodiscard]] SimplexMesh<4> mesh() const;
 
 private:
+    void note_change(std::span<const std::uint32_t> cells);
+
     std::vector<Eigen::Vector4d> places_;
     std::vector<std::array<std::uint32_t, 5>> cells_;
     std::vector<std::vector<std::uint32_t>> stars_;
+    std::vector<std::uint32_t> changes_;
+    std::uint32_t last_change_ = 0;
 };
 
 }  // namespace pent::mesher

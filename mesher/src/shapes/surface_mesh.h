@@ -20,6 +20,9 @@ struct SurfaceMesh {
     std::vector<std::vector<int>> pieces;  ///< One a vertex: ascending; none inside.
     std::vector<std::uint8_t> sizes;       ///< One a vertex: cells there are 2^this times as large.
 
+    /// Of vertices for which smooth() has found nothing better: StarMesh::change() then.
+    std::vector<std::uint32_t> settled = {};
+
     /// Of the cells at a vertex, m.
     [[nodiscard]] double scale_at(std::uint32_t vertex) const {
         return std::ldexp(scale, sizes[vertex]);
@@ -49,7 +52,7 @@ void relax(SurfaceMesh& surface, double target);
 
 /// Moves vertices of cells along ridges to where the cells around each are better on the mean,
 /// along what they lie on as relax() does. The worst cell around a vertex does not become worse,
-/// unless it stays above `least`.
+/// unless it stays above `least`, which is the same in all calls for a surface.
 void smooth(SurfaceMesh& surface, double least);
 
 }  // namespace pent::mesher
