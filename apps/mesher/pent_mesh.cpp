@@ -115,6 +115,15 @@ void say_body(const Program& program, const pent::mesher::Body<Dim>& body) {
                       "follow it",
                       static_cast<Long>(report.beveled)));
     }
+    if (report.thin_parts.edges > 0) {
+        const pent::mesher::ThinParts& thin = report.thin_parts;
+        program.say(
+            formatted("thin       %lld edges go right through a wall or a gap, the thinnest %.3g m "
+                      "at (%.4g, %.4g, %.4g, %.4g): walls have holes, gaps are closed; edges of "
+                      "at most %.3g m follow it",
+                      static_cast<Long>(thin.edges), thin.width, thin.place[0], thin.place[1],
+                      thin.place[2], thin.place[3], thin.width));
+    }
     if (report.curve.moved > 0) {
         program.say(formatted("curved     %lld middles of edges, by up to %.4g m",
                               static_cast<Long>(report.curve.moved), report.curve.farthest));
@@ -138,6 +147,15 @@ void say_stages(const Program& program, const BodyReport& report) {
         stages += formatted(" %s %.3f s", stage.name.c_str(), stage.seconds);
     }
     program.say(stages);
+}
+
+nlohmann::ordered_json thin_json(const pent::mesher::ThinParts& thin) {
+    if (thin.edges == 0) {
+        return nullptr;
+    }
+    return {{"edges", thin.edges},
+            {"width", thin.width},
+            {"place", std::vector<double>(thin.place.begin(), thin.place.end())}};
 }
 
 template <int Dim>
@@ -178,6 +196,7 @@ nlohmann::ordered_json to_json(const pent::mesher::Body<Dim>& body) {
                     {"interior_facets", report.proof.interior_facets},
                     {"boundary_facets", report.proof.boundary_facets},
                     {"beveled", report.beveled},
+                    {"thin", thin_json(report.thin_parts)},
                     {"curved", report.curve.moved},
                     {"volume", report.proof.volume},
                     {"expected_volume", report.proof.expected_volume},

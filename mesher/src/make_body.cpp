@@ -301,6 +301,10 @@ Body<4> make_stuffed(const std::filesystem::path& path,
     report.boundary = input.boundary;
     report.generator = "lattice stuffing";
     report.beveled = stuffed.beveled;
+    report.thin_parts = stuffed.thin_parts;
+    if (request.translation.size() > 0) {
+        report.thin_parts.place += request.translation;
+    }
     return finish<4>(std::move(stuffed.mesh), 0, request, std::move(report), clock,
                      onto_boundary(input.solid));
 }

@@ -131,6 +131,30 @@ TEST(PentMesh, MakesBodiesOfBoundariesWithTheSameBytesAtAnyNumberOfThreads) {
     test::expect_contains(wrapped.err, {"--repair light"});
 }
 
+TEST(PentMesh, SaysWhereOperationsLeaveLessThanAnEdge) {
+    const test::TempFolder folder;
+    const std::string shape = (folder / "shell.toml").string();
+    const std::string command =
+        "pent-mesh " + shape + " -o " + (folder / "a.pent").string() + " --edge-length 0.25 ";
+    test::write_file(shape,
+                     "[[shape]]\nball = { radius = 1 }\n[[shape]]\nop = \"difference\"\n"
+                     "ball = { radius = 0.9 }\n");
+    const std::string json = (folder / "a.json").string();
+    const Outcome shell = run_program(command + "--json " + json);
+    ASSERT_EQ(shell.exit_code, 0) << shell.err;
+    test::expect_contains(shell.out, {"\nthin       ", "walls have holes", "m follow it\n"});
+    test::expect_contains(test::text_of(json), {"\"thin\": {", "\"width\": 0."});
+    // Nothing of it contains a point of the lattice.
+    test::write_file(shape,
+                     "[[shape]]\nball = { radius = 1 }\n[[shape]]\nop = \"difference\"\n"
+                     "ball = { radius = 0.9999 }\n");
+    const Outcome skin = run_program(command);
+    EXPECT_EQ(skin.exit_code, 1);
+    test::expect_one_error_line(skin, "pent-mesh");
+    test::expect_contains(skin.err, {"thinner than edges of 0.25 m everywhere",
+                                     "expected an edge length of at most 0.000"});
+}
+
 TEST(PentMesh, SaysWhatIsWrongWithAShape) {
     const test::TempFolder folder;
     const std::string shape = (folder / "shape.toml").string();

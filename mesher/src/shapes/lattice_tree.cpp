@@ -89,6 +89,7 @@ LatticeTree::LatticeTree(const Solid& solid, const Lattice& smallest, const Size
     split_.clear();
     number_points(middles);
     sample(solid);
+    thin_parts_ = find_thin_parts(solid);
     leave_out_what_is_outside();
 }
 

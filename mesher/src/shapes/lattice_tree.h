@@ -4,6 +4,7 @@
 
 #include <pent/mesher/size_field.h>
 #include <pent/mesher/solid.h>
+#include <pent/mesher/stuff.h>
 
 #include <array>
 #include <bitset>
@@ -42,6 +43,9 @@ public:
     [[nodiscard]] Eigen::Vector4d place(std::uint32_t point) const;
     [[nodiscard]] double value(std::uint32_t point) const { return values_[point]; }
 
+    /// Where edges go through the surface twice.
+    [[nodiscard]] const ThinParts& thin_parts() const { return thin_parts_; }
+
     /// The smallest cell that has a point is 2^size() spacings long.
     [[nodiscard]] int size(std::uint32_t point) const { return sizes_[point]; }
 
@@ -74,6 +78,9 @@ private:
     [[nodiscard]] std::bitset<kPlaces> middles_of(const Cell& cell) const;
     void number_points(const std::vector<std::bitset<kPlaces>>& middles);
     void sample(const Solid& solid);
+    [[nodiscard]] double steepest(const std::vector<bool>& is_known) const;
+    [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_to_search() const;
+    [[nodiscard]] ThinParts find_thin_parts(const Solid& solid) const;
     void leave_out_what_is_outside();
     void visit_halved(const Places& places,
                       unsigned path,
@@ -93,6 +100,7 @@ private:
     std::vector<std::uint64_t> keys_;
     std::vector<double> values_;
     std::vector<std::uint8_t> sizes_;
+    ThinParts thin_parts_;
 };
 
 template <typename Visit>

@@ -44,6 +44,20 @@ void check(const Solid& solid, double edge_length) {
     }
 }
 
+Error nothing_inside(const ThinParts& thin, double edge_length) {
+    if (thin.edges > 0) {
+        return Error(
+            formatted("the shape is thinner than edges of %g m everywhere, as thin as %.3g m near "
+                      "(%.4g, %.4g, %.4g, %.4g); expected an edge length of at most %.3g m",
+                      edge_length, thin.width, thin.place[0], thin.place[1], thin.place[2],
+                      thin.place[3], thin.width));
+    }
+    return Error(
+        formatted("the shape is empty, or smaller than edges of %g m; expected something "
+                  "inside it, or shorter edges",
+                  edge_length));
+}
+
 // A size field that leaves two edges across the thinnest primitive.
 SizeField limited(SizeField sizes, const Solid& solid, double edge_length) {
     constexpr double kEdgesAcross = 2;
@@ -121,13 +135,11 @@ StuffedSolid stuff(const Solid& solid, double edge_length, const SizeField& size
                            limited(sizes, solid, edge_length));
     LatticeStuffing stuffing(solid, tree);
     StuffedSolid result;
+    result.thin_parts = tree.thin_parts();
     for (int round = 0; round < kMaxRounds; ++round) {
         StuffedMesh stuffed = manifold_mesh(stuffing, result.moved_back);
         if (stuffed.mesh.cell_count() == 0) {
-            throw Error(
-                formatted("the shape is empty, or thinner than edges of %g m everywhere; expected "
-                          "something inside it, or shorter edges",
-                          edge_length));
+            throw nothing_inside(result.thin_parts, edge_length);
         }
         if (solid.piece_count() == 1 && least_mean_ratio(stuffed.mesh) >= kGood) {
             result.mesh = std::move(stuffed.mesh);

@@ -5,6 +5,7 @@
 #include <pent/mesher/prove.h>
 #include <pent/mesher/quality.h>
 #include <pent/mesher/repair.h>
+#include <pent/mesher/stuff.h>
 #include <pent/mesher/surface_check.h>
 
 #include <Eigen/Core>
@@ -49,6 +50,7 @@ struct BodyReport {
     double lowest_layer = 0;    ///< From middle to middle of two, m.
     double highest_layer = 0;   ///< The same.
     std::int64_t beveled = 0;   ///< Of a shape's boundary: see StuffedSolid.
+    ThinParts thin_parts;       ///< Of a shape, boundary or image, where it was meshed.
     BoundaryReport boundary;    ///< Of a boundary of tetrahedra that was read.
     CurveReport curve;          ///< Where the boundary is curved.
 

@@ -4,9 +4,21 @@
 #include <pent/mesher/solid.h>
 #include <pent/simplex_mesh.h>
 
+#include <Eigen/Core>
+
 #include <cstdint>
+#include <limits>
 
 namespace pent::mesher {
+
+/// Walls and gaps that are thinner than the edges across them: such a wall has holes or is not
+/// there, such a gap is closed. Both sides of one are seen from the two ends of an edge, to first
+/// order; what is curved within an edge may be missed.
+struct ThinParts {
+    std::int64_t edges = 0;  ///< Of the lattice, with a whole wall or gap between their ends.
+    double width = std::numeric_limits<double>::infinity();  ///< Of the thinnest, m.
+    Eigen::Vector4d place = Eigen::Vector4d::Zero();         ///< Near the thinnest, m.
+};
 
 /// A solid as a mesh, and what it took.
 struct StuffedSolid {
@@ -15,6 +27,7 @@ struct StuffedSolid {
         0;                     ///< Lattice points that had to leave the surface again, see stuff().
     std::int64_t beveled = 0;  ///< Edges, triangles and tetrahedra of the boundary that still cross
                                ///< a ridge, since cells would have become too flat.
+    ThinParts thin_parts;
 };
 
 /// Fills a solid with pentachora by stuffing a lattice of congruent ones [labelle2007].
