@@ -25,6 +25,7 @@ endif()
 install(DIRECTORY data/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/pentimento FILES_MATCHING PATTERN "*.toml")
 install(FILES data/models/alien_4006f.obj data/models/octopus_5246f.obj
   DESTINATION ${CMAKE_INSTALL_DATADIR}/pentimento/models)
+install(PROGRAMS scripts/study_slurm.sh DESTINATION ${CMAKE_INSTALL_DATADIR}/pentimento/scripts)
 install(FILES cmake/packages/copyright LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 if(PENT_BUILD_MESHER)
   install(FILES mesher/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME LICENSE.pent-mesh)
@@ -35,7 +36,13 @@ endif()
 # with the library to load, and apart from them what is linked.
 set(CPACK_PACKAGE_NAME pentimento)
 set(CPACK_PACKAGE_VENDOR "The Pentimento authors")
-set(CPACK_PACKAGE_CONTACT "The Pentimento authors <maintainers@pentimento.invalid>")
+# Who makes a package answers for it. By default nobody: a name that can never be anybody's (RFC 2606).
+set(PENT_PACKAGE_CONTACT "Nobody in particular <nobody@pentimento.invalid>" CACHE STRING
+  "Maintainer of the Debian packages: NAME <ADDRESS>")
+if(NOT PENT_PACKAGE_CONTACT MATCHES "^[^<>]+ <[^<> ]+@[^<> ]+>$")
+  message(FATAL_ERROR "PENT_PACKAGE_CONTACT is \"${PENT_PACKAGE_CONTACT}\"; expected NAME <ADDRESS>")
+endif()
+set(CPACK_PACKAGE_CONTACT "${PENT_PACKAGE_CONTACT}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "meshes and simulates deformable bodies of four dimensions")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_GENERATOR TGZ DEB)

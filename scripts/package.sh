@@ -3,7 +3,8 @@
 # library of the C interface) and pentimento-dev (what C++ hosts link); an archive that works in any folder; the
 # wheel of the Python package; and SHA256SUMS of all. docs/install.md says what each needs.
 #
-# The page of pent-view is in them if scripts/web.sh has built it.
+# The page of pent-view is in them if scripts/web.sh has built it. DEBFULLNAME and DEBEMAIL, as Debian's own tools have
+# them, are who maintains the packages for Debian.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -14,7 +15,13 @@ if [ ! -e web/dist/index.html ]; then
 elif [ ! -e web/dist/playground.js ]; then
     echo "package: the page has no playground; scripts/web.sh builds it"
 fi
-cmake --preset release
+contact=(-UPENT_PACKAGE_CONTACT)
+if [ -n "${DEBEMAIL:-}" ]; then
+    contact=("-DPENT_PACKAGE_CONTACT=${DEBFULLNAME:-$(whoami)} <$DEBEMAIL>")
+else
+    echo "package: nobody's packages, as DEBFULLNAME and DEBEMAIL do not say whose they are: do not hand them on"
+fi
+cmake --preset release "${contact[@]}"
 cmake --build --preset release
 cmake --build --preset release --target wheel
 

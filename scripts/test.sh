@@ -13,6 +13,8 @@
 #   scripts/test.sh --page                    the same without the playground, whose module takes minutes to build
 #   scripts/test.sh --python                  only the Python package: its tests, its types, 10,000 calls at random,
 #                                             its wheel in a fresh environment, its notebooks
+#   scripts/test.sh --python-asan             only 10,000 calls at random of the Python package, into a library with the
+#                                             address and undefined-behavior sanitizers
 #   scripts/test.sh --hosts                   only the add-on for Blender and the reader for ParaView, in both
 #   scripts/test.sh --distributed             only what runs on many machines: scenes on 1 to 4 ranks, studies on a Slurm of
 #                                             one node that the test starts and stops (as root), and with GNU parallel
@@ -63,6 +65,13 @@ run_python() {
     PENTIMENTO_FUZZ_CALLS=10000 /usr/bin/python3 python/tests/run.py --all
 }
 
+run_python_asan() {
+    scripts/setup.sh --python
+    cmake --preset asan
+    cmake --build --preset asan --target pent_plugin
+    ctest --preset asan --verbose -R '^Python\.CallsAtRandom$'
+}
+
 # In Blender and ParaView themselves; what is skipped, and why, stands in lines that begin with SKIPPED.
 run_hosts() {
     scripts/setup.sh --hosts
@@ -105,6 +114,9 @@ case ${1:-} in
         ;;
     --python)
         run_python
+        ;;
+    --python-asan)
+        run_python_asan
         ;;
     --hosts)
         run_hosts
