@@ -6,7 +6,7 @@
 #   scripts/setup.sh --portable also what test.sh --portable needs: clang, libc++, the sources of GoogleTest
 #   scripts/setup.sh --page     also what web.sh --viewer and test.sh --page need: node, npm, Chromium
 #   scripts/setup.sh --web      also what web.sh and test.sh --web need: node, npm, emscripten, Chromium
-#   scripts/setup.sh --python   also what test.sh --python needs: pytest, mypy, tqdm, Jupyter's nbconvert
+#   scripts/setup.sh --python   also what test.sh --python needs: pytest, mypy, tqdm, meshio, Jupyter's nbconvert
 #   scripts/setup.sh --hosts    also what test.sh --hosts needs: Blender, ParaView, a display in memory (1.2 GB)
 #   scripts/setup.sh --distributed also what test.sh --distributed needs: PETSc, MPI, Slurm, GNU parallel
 #   scripts/setup.sh --site     also what site.sh needs: Sphinx, MyST, Furo, Doxygen
@@ -81,6 +81,7 @@ if $with_python; then
     packages+=(
         python3-pytest mypy python3-tqdm python3-pip python3-venv
         jupyter-nbconvert python3-ipykernel  # runs the notebooks
+        python3-meshio                    # takes and gives meshes
     )
 fi
 if $with_hosts; then
