@@ -15,6 +15,7 @@ namespace pent::mesher {
 namespace {
 
 constexpr std::uint32_t kTask = 256;  // cells or points
+constexpr double kRounding = 1e-9;
 
 }  // namespace
 
@@ -156,31 +157,48 @@ void LatticeTree::number_points(const std::vector<std::bitset<kPlaces>>& middles
     });
 }
 
+// How the function is where it matters: at points of cells that are not inside. Of one that changes
+// by no more than the distance, points farther from the surface than any of their edges get less
+// than it is there, with its sign: what is left of it at a point before.
 void LatticeTree::sample(const Solid& solid) {
-    values_.assign(keys_.size(), 0);
+    values_.assign(keys_.size(), -1);
     sizes_.assign(keys_.size(), kKeyBits);
-    const auto note = [&](std::uint32_t point, const Cell& cell) {
-        sizes_[point] = std::min(sizes_[point], cell.size);
-        values_[point] = cell.is_inside ? -1 : values_[point];
+    std::vector<std::uint8_t> is_asked(keys_.size(), 0);
+    const auto note = [&](std::uint32_t point, std::uint8_t size, bool is_inside) {
+        sizes_[point] = std::min(sizes_[point], size);
+        is_asked[point] |= is_inside ? 0 : 1;
     };
     for (std::uint32_t i = 0; i < cell_count(); ++i) {
         for (const std::uint32_t point : corners_[i]) {
-            note(point, cells_[i]);
+            note(point, cells_[i].size, cells_[i].is_inside);
         }
         if (halved_[i] != kNone) {
             // A middle is a corner of a cell half as large, whether or not that one is kept.
-            const Cell smaller{0, static_cast<std::uint8_t>(cells_[i].size - 1),
-                               cells_[i].is_inside};
             for (const std::uint32_t point : places_[halved_[i]]) {
                 if (point != kNone) {
-                    note(point, smaller);
+                    note(point, static_cast<std::uint8_t>(cells_[i].size - 1), cells_[i].is_inside);
                 }
             }
         }
     }
-    parallel_for(point_count(), kTask, [&](std::uint32_t point) {
-        if (values_[point] == 0) {
-            values_[point] = solid.value(place(point));
+    const double reach = (1 + kRounding) * std::ldexp(lattice_.longest_edge(), largest_);
+    const bool is_lipschitz = solid.is_lipschitz();
+    parallel_for((point_count() + kTask - 1) / kTask, 1U, [&](std::uint32_t task) {
+        Eigen::Vector4d asked_at = Eigen::Vector4d::Zero();
+        double found = 0;
+        for (std::uint32_t point = task * kTask;
+             point < std::min((task + 1) * kTask, point_count()); ++point) {
+            if (is_asked[point] == 0) {
+                continue;
+            }
+            const Eigen::Vector4d here = place(point);
+            const double left = std::abs(found) - (here - asked_at).norm();
+            if (is_lipschitz && left > reach) {
+                values_[point] = std::copysign(left, found);
+                continue;
+            }
+            asked_at = here;
+            found = values_[point] = solid.value(here);
         }
     });
     const auto not_a_number = std::find_if(values_.begin(), values_.end(),

@@ -78,8 +78,9 @@ private:
     [[nodiscard]] std::bitset<kPlaces> middles_of(const Cell& cell) const;
     void number_points(const std::vector<std::bitset<kPlaces>>& middles);
     void sample(const Solid& solid);
-    [[nodiscard]] double steepest(const std::vector<bool>& is_known) const;
-    [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_to_search() const;
+    [[nodiscard]] double steepest() const;
+    [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_to_search(
+        double steepest) const;
     [[nodiscard]] ThinParts find_thin_parts(const Solid& solid) const;
     void leave_out_what_is_outside();
     void visit_halved(const Places& places,

@@ -218,6 +218,13 @@ ValueRange Solid::values_within(const Eigen::Vector4d& center, double radius) co
     return range_of(*data_, data_->root, center, radius);
 }
 
+bool Solid::is_lipschitz() const {
+    return std::none_of(data_->leaves.begin(), data_->leaves.end(), [](const Data::Leaf& leaf) {
+        return std::holds_alternative<ExpressionField>(leaf.field)
+               || std::holds_alternative<ImageField>(leaf.field);
+    });
+}
+
 std::vector<int> Solid::pieces_near(const Eigen::Vector4d& p, double margin) const {
     std::vector<int> pieces;
     collect_pieces(*data_, data_->root, p, margin, pieces);

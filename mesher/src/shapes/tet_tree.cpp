@@ -138,10 +138,12 @@ void TetTree::build(std::vector<std::uint32_t>& order, std::uint32_t first, std:
 void TetTree::search(std::uint32_t node, const Vector4d& p, NearestPoint& best) const {
     const Node& here = nodes_[node];
     for (std::uint32_t k = here.first; k < here.first + here.count; ++k) {
-        const Box4 box{corners_[k].rowwise().minCoeff(), corners_[k].rowwise().maxCoeff()};
         const double height = normals_[k].dot(p - corners_[k].col(0));
-        if (height * height >= best.distance_squared
-            || distance_squared(box, p) >= best.distance_squared) {
+        if (height * height >= best.distance_squared) {
+            continue;
+        }
+        const Box4 box{corners_[k].rowwise().minCoeff(), corners_[k].rowwise().maxCoeff()};
+        if (distance_squared(box, p) >= best.distance_squared) {
             continue;
         }
         Foot foot{best.place, best.distance_squared};

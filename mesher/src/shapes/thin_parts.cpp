@@ -54,15 +54,14 @@ const std::vector<CellEdge>& cell_edges() {
 
 }  // namespace
 
-// How steep the function is, which need not be a distance, as it shows between points.
-double LatticeTree::steepest(const std::vector<bool>& is_known) const {
+// How steep the function is, as it shows between points, where it need not be a distance.
+double LatticeTree::steepest() const {
     double steepest = 0;
     for (std::uint32_t cell = 0; cell < cell_count(); ++cell) {
-        const auto& corners = corners_[cell];
-        if (!std::all_of(corners.begin(), corners.end(),
-                         [&](std::uint32_t corner) { return is_known[corner]; })) {
+        if (cells_[cell].is_inside) {
             continue;
         }
+        const auto& corners = corners_[cell];
         Eigen::Vector4d rises;
         for (int axis = 0; axis < 4; ++axis) {
             rises[axis] = values_[corners[1U << axis]] - values_[corners[0]];
@@ -75,29 +74,19 @@ double LatticeTree::steepest(const std::vector<bool>& is_known) const {
 }
 
 // Edges that may go through the surface twice: both ends on one side, and near enough to it.
-std::vector<Ends> LatticeTree::edges_to_search() const {
-    // Of corners of cells that are inside only the sign was asked.
-    std::vector<bool> is_known(values_.size(), true);
-    for (std::uint32_t cell = 0; cell < cell_count(); ++cell) {
-        for (const std::uint32_t corner : corners_[cell]) {
-            is_known[corner] = is_known[corner] && !cells_[cell].is_inside;
-        }
-    }
-    const double steepest = this->steepest(is_known);
-    const auto least = [&](std::uint32_t point) {
-        return is_known[point] ? std::abs(values_[point]) : 0;
-    };
+std::vector<Ends> LatticeTree::edges_to_search(double steepest) const {
     const auto add = [&](std::uint32_t a, std::uint32_t b, double reach, std::vector<Ends>& edges) {
         const bool is_same_side = (values_[a] < 0) == (values_[b] < 0);
-        if (is_same_side && least(a) + least(b) < reach) {
+        if (is_same_side && std::abs(values_[a]) + std::abs(values_[b]) < reach) {
             edges.emplace_back(a, b);
         }
     };
     const auto add_edges = [&](std::uint32_t cell, std::vector<Ends>& edges) {
         const double scale = std::ldexp(steepest, cells_[cell].size);
-        const bool is_near = std::any_of(
-            corners_[cell].begin(), corners_[cell].end(),
-            [&](std::uint32_t corner) { return least(corner) < scale * lattice_.longest_edge(); });
+        const bool is_near =
+            std::any_of(corners_[cell].begin(), corners_[cell].end(), [&](std::uint32_t corner) {
+                return std::abs(values_[corner]) < scale * lattice_.longest_edge();
+            });
         if (!is_near) {
             return;
         }
@@ -137,7 +126,7 @@ std::vector<Ends> LatticeTree::edges_to_search() const {
 
 // From each end the surface is as far away as the function says, in the direction of its slope.
 ThinParts LatticeTree::find_thin_parts(const Solid& solid) const {
-    const std::vector<Ends> edges = edges_to_search();
+    const std::vector<Ends> edges = edges_to_search(solid.is_lipschitz() ? 1 : steepest());
     std::vector<std::uint32_t> points;
     for (const auto& [a, b] : edges) {
         points.insert(points.end(), {a, b});

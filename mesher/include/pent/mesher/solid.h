@@ -43,6 +43,10 @@ public:
     /// Bounds of the function within a ball; infinite where an expression decides.
     [[nodiscard]] ValueRange values_within(const Eigen::Vector4d& center, double radius) const;
 
+    /// Whether the function changes by no more than the distance between two points; not where
+    /// there is an expression or an image.
+    [[nodiscard]] bool is_lipschitz() const;
+
     /// The pieces that decide the function at a point, or would if values changed by up to `margin`
     /// (m, 0 or more): their numbers, ascending.
     [[nodiscard]] std::vector<int> pieces_near(const Eigen::Vector4d& p, double margin) const;
