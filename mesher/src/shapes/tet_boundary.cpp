@@ -191,19 +191,25 @@ int TetBoundary::winding_number(const Vector4d& p) const {
 
 double TetBoundary::value(const Vector4d& p) const {
     const Vector4d there = rotation_ * p;
-    const double distance = std::sqrt(outer_.nearest(there).distance_squared);
+    return signed_distance(there, outer_.nearest(there));
+}
+
+// Nearer than rounding a point is on the boundary: the side it is on would say nothing, and to find
+// it would take the most exact of arithmetic.
+double TetBoundary::signed_distance(const Vector4d& there, const NearestPoint& nearest) const {
+    const double distance = std::sqrt(nearest.distance_squared);
+    if (distance <= kRounding * std::max(there.norm(), nearest.place.norm())) {
+        return 0;
+    }
     return crossings(there, kNone) != 0 ? -distance : distance;
 }
 
 ValueSlope TetBoundary::value_slope(const Vector4d& p) const {
     const Vector4d there = rotation_ * p;
     const NearestPoint nearest = outer_.nearest(there);
-    const double distance = std::sqrt(nearest.distance_squared);
-    const double value = crossings(there, kNone) != 0 ? -distance : distance;
-    // Nearer than that the difference of the two points is mostly rounding.
-    const double rounding = kRounding * std::max(there.norm(), nearest.place.norm());
-    const Vector4d slope = distance > rounding ? Vector4d((there - nearest.place) / value)
-                                               : normals_[nearest.tetrahedron];
+    const double value = signed_distance(there, nearest);
+    const Vector4d slope =
+        value != 0 ? Vector4d((there - nearest.place) / value) : normals_[nearest.tetrahedron];
     return {value, rotation_.transpose() * slope};
 }
 

@@ -20,7 +20,8 @@ public:
     /// crosses. For a body whose boundary is outward 1 inside and 0 outside.
     [[nodiscard]] int winding_number(const Eigen::Vector4d& p) const;
 
-    /// Distance from the nearest tetrahedron that has the body on one side, m; negative inside.
+    /// Distance from the nearest tetrahedron that has the body on one side, m; negative inside, 0
+    /// where it is no more than rounding.
     [[nodiscard]] double value(const Eigen::Vector4d& p) const;
 
     /// The same with its slope: away from the nearest point, or, there, along the normal.
@@ -44,6 +45,8 @@ public:
 private:
     [[nodiscard]] Eigen::Matrix4d corners_of(const exchange::TetSurface& surface,
                                              std::uint32_t tetrahedron) const;
+    [[nodiscard]] double signed_distance(const Eigen::Vector4d& there,
+                                         const NearestPoint& nearest) const;
     [[nodiscard]] int crossings(const Eigen::Vector4d& from, std::uint32_t without) const;
     [[nodiscard]] bool separates(std::uint32_t tetrahedron, const Eigen::Matrix4d& corners) const;
     void plant(const exchange::TetSurface& surface, const std::vector<bool>& is_outer);
