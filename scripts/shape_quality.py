@@ -6,8 +6,12 @@
     --rotations N      beside the given one; default: 20, always the same ones
     --edge-length H    instead of the table's (m)
     --write            puts the rows into docs/shapes.md
-    --growth           instead: cost and memory of 100,000 to 10 million pentachora, and the
-                       exponent with which the cost grows
+    --growth [KIND...] instead: cost and memory of 100,000 to 10 million pentachora, and the
+                       exponent with which the cost grows, of a ball, a tiger, a 24-cell, a
+                       difference and a boundary of tetrahedra
+    --order            instead: the part of the hypervolume that is missing with the table's edges
+                       and with some of half that length, the order between them, and how many
+                       edges across what is thinnest leave 1% of it
     --bin FOLDER       where pent-mesh and pent-check are; default: build/release/bin
 
 A row has the worst and the lowest mean of the mean ratio over all rotations, the largest part of
@@ -22,9 +26,9 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import os
 import pathlib
 import random
-import resource
 import subprocess
 import sys
 import tempfile
@@ -69,6 +73,30 @@ SHAPES = {
 }
 
 
+# Twice the radius (m) of the largest ball within.
+WIDTHS = {"ball": 2, "capsule": 1.2, "spheritorus": 0.7, "torisphere": 0.7, "tiger": 0.7,
+          "ditorus": 0.5, "clifford_torus": 0.7, "duocylinder": 1.6, "spherinder": 1.2,
+          "cubinder": 1.2, "box": 1, "5-cell": 1.5 / 4 * 2, "8-cell": 1.2, "16-cell": 1.3,
+          "24-cell": math.sqrt(2), "120-cell": 1.85, "600-cell": 1.85}
+
+# For --growth: a shape, and edges (m) that give about 100,000, 1 million and 10 million.
+GROWTH = {
+    "ball": (SHAPES["ball"][0], (0.23, 0.128, 0.072)),
+    "tiger": (SHAPES["tiger"][0], (0.28, 0.157, 0.0885)),
+    "24-cell": (SHAPES["24-cell"][0], (0.19, 0.107, 0.06)),
+    "difference": ("""ball = { radius = 1 }
+
+[[shape]]
+op = "difference"
+box = { size = [1, 1, 1, 1] }
+rotate = [{ plane = "xw", degrees = 30 }, { plane = "yz", degrees = 20 }]
+translate = [0.8, 0.3, 0, 0]
+""", (0.22, 0.125, 0.07)),
+    # A duocylinder's, of edges of 0.1 m, in a file.
+    "boundary": ('boundary = { file = "boundary.4off" }', (0.22, 0.125, 0.07)),
+}
+
+
 def shape_text(shape: str, seed: int) -> str:
     if seed == 0:
         return f"[[shape]]\n{shape}\n"
@@ -81,17 +109,18 @@ def shape_text(shape: str, seed: int) -> str:
 def mesh(bin: pathlib.Path, folder: pathlib.Path, shape: str, edge: float, seed: int) -> dict:
     """What pent-mesh reports, with the seconds of a core and the bytes that it took."""
     (folder / "shape.toml").write_text(shape_text(shape, seed))
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run([bin / "pent-mesh", folder / "shape.toml", "-o", folder / "mesh.pent", "--yes",
-                    "--quiet", "--edge-length", str(edge), "--json", folder / "report.json"],
-                   check=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    command = [bin / "pent-mesh", folder / "shape.toml", "-o", folder / "mesh.pent", "--yes",
+               "--quiet", "--edge-length", str(edge), "--json", folder / "report.json"]
+    child = subprocess.Popen(command)
+    _, status, usage = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    if child.returncode != 0:
+        raise subprocess.CalledProcessError(child.returncode, command)
     # The links of the boundary, too: exit code 1 if one is no sphere.
     subprocess.run([bin / "pent-check", folder / "mesh.pent", "--quiet"], check=True)
     report = json.loads((folder / "report.json").read_text())
-    report["core_seconds"] = (after.ru_utime + after.ru_stime
-                              - before.ru_utime - before.ru_stime)
-    report["bytes"] = after.ru_maxrss * 1024  # the largest child so far
+    report["core_seconds"] = usage.ru_utime + usage.ru_stime
+    report["bytes"] = usage.ru_maxrss * 1024
     return report
 
 
@@ -130,21 +159,46 @@ def write_rows(rows: dict[str, str]) -> None:
     page.write_text(before + "\n".join([HEADER, *table]) + "\n" + "".join(lines[count:]))
 
 
-def growth(bin: pathlib.Path) -> None:
-    """Balls and tigers of more and more cells: the last has 100 times as many as the first."""
+def write_boundary(bin: pathlib.Path, folder: pathlib.Path) -> None:
+    """The boundary of a duocylinder of edges of 0.1 m, as a file of another program."""
+    mesh(bin, folder, SHAPES["duocylinder"][0], 0.1, 0)
+    subprocess.run([bin / "pent-convert", folder / "mesh.pent", "-o", folder / "boundary.4off",
+                    "--quiet"], check=True)
+
+
+def growth(bin: pathlib.Path, names: list[str]) -> None:
+    """Bodies of more and more cells: the last has 100 times as many as the first."""
     print("| shape | edges, m | pentachora | core s | core s a million | bytes each |\n"
           "| --- | --- | --- | --- | --- | --- |", flush=True)
-    for name, edges in (("ball", (0.23, 0.128, 0.072)), ("tiger", (0.28, 0.157, 0.0885))):
+    for name in names or GROWTH:
+        shape, edges = GROWTH[name]
         costs = []
         with tempfile.TemporaryDirectory(prefix="shape_quality-") as folder:
+            if name == "boundary":
+                write_boundary(bin, pathlib.Path(folder))
             for edge in edges:
-                report = mesh(bin, pathlib.Path(folder), SHAPES[name][0], edge, 0)
+                report = mesh(bin, pathlib.Path(folder), shape, edge, 0)
                 cells, seconds = report["mesh"]["cells"], report["core_seconds"]
                 costs.append((cells, seconds))
                 print(f"| {name} | {edge} | {cells} | {seconds:.2f} | {1e6 * seconds / cells:.2f} "
                       f"| {report['bytes'] / cells:.0f} |", flush=True)
         (few, first), (many, last) = costs[0], costs[-1]
         print(f"{name}: exponent {math.log(last / first) / math.log(many / few):.2f}", flush=True)
+
+
+def order(bin: pathlib.Path, names: list[str]) -> None:
+    """How fast the hypervolume becomes right."""
+    print("| shape | edges, m | missing | edges, m | missing | order | edges across for 1% |\n"
+          "| --- | --- | --- | --- | --- | --- | --- |", flush=True)
+    for name in names or SHAPES:
+        shape, hypervolume, longer, _ = SHAPES[name]
+        edges = (longer, longer / 2)
+        with tempfile.TemporaryDirectory(prefix="shape_quality-") as folder:
+            lost = [abs(1 - mesh(bin, pathlib.Path(folder), shape, edge, 1)["mesh"]["volume"]
+                        / hypervolume) for edge in edges]
+        across = WIDTHS[name] / longer * math.sqrt(lost[0] / 0.01)
+        print(f"| {name} | {edges[0]} | {100 * lost[0]:.2f}% | {edges[1]} | {100 * lost[1]:.2f}% "
+              f"| {math.log2(lost[0] / lost[1]):.2f} | {across:.1f} |", flush=True)
 
 
 def main() -> int:
@@ -154,13 +208,18 @@ def main() -> int:
     parser.add_argument("--edge-length", type=float)
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--growth", action="store_true")
+    parser.add_argument("--order", action="store_true")
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build" / "release" / "bin")
     arguments = parser.parse_args()
+    known = GROWTH if arguments.growth else SHAPES
     for name in arguments.names:
-        if name not in SHAPES:
-            parser.error(f'no shape "{name}"; expected of ' + ", ".join(SHAPES))
+        if name not in known:
+            parser.error(f'no shape "{name}"; expected of ' + ", ".join(known))
     if arguments.growth:
-        growth(arguments.bin)
+        growth(arguments.bin, arguments.names)
+        return 0
+    if arguments.order:
+        order(arguments.bin, arguments.names)
         return 0
     print(HEADER, flush=True)
     is_good = True

@@ -16,7 +16,7 @@ SolidInput boundary_input(const std::filesystem::path& path, const BodyRequest& 
     const bool may_mend = request.repair.repair != Repair::None;
     BoundarySolid found = boundary_solid(read_boundary(path), path.string(), may_mend);
     // Of boundaries of 10^5 tetrahedra, where most cells are at it.
-    return {.solid = std::move(found.solid), .boundary = found.report, .seconds_per_cell = 150e-6};
+    return {.solid = std::move(found.solid), .boundary = found.report, .seconds_per_cell = 50e-6};
 }
 
 SolidInput image_input(const std::filesystem::path& path, const BodyRequest& request) {
