@@ -257,9 +257,11 @@ BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
     return contacts;
 }
 
+#ifndef PENT_ONLY_4D
 template BarrierContacts<3> find_barrier_contacts(const Colliders<3>&,
                                                   const Candidates<3>&,
                                                   const PositionsView<3>&);
+#endif
 template BarrierContacts<4> find_barrier_contacts(const Colliders<4>&,
                                                   const Candidates<4>&,
                                                   const PositionsView<4>&);

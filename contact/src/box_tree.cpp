@@ -227,10 +227,12 @@ std::vector<BoxTree::Work> BoxTree::split(const BoxTree& first,
         .run({first.root(), second.root(), first.root_, second.root_}, least);
 }
 
+#ifndef PENT_ONLY_4D
 template Box box_around(const Eigen::Matrix<double, 3, 1>&, double);
 template Box box_around(const Eigen::Matrix<double, 3, 2>&, double);
 template Box box_around(const Eigen::Matrix<double, 3, 3>&, double);
 template Box box_around(const Eigen::Matrix<double, 3, 4>&, double);
+#endif
 template Box box_around(const Eigen::Matrix<double, 4, 1>&, double);
 template Box box_around(const Eigen::Matrix<double, 4, 2>&, double);
 template Box box_around(const Eigen::Matrix<double, 4, 3>&, double);

@@ -316,7 +316,9 @@ std::int64_t Candidates<Dim>::bytes() const {
            + static_cast<std::int64_t>(boxes_.size() * sizeof(Box));
 }
 
+#ifndef PENT_ONLY_4D
 template class Candidates<3>;
+#endif
 template class Candidates<4>;
 
 }  // namespace pent::contact

@@ -145,13 +145,17 @@ double safe_fraction(const Obstacle<Dim>& obstacle,
     template double safe_fraction<Dim, K, L>(const Corners<Dim, K>&, const Corners<Dim, K>&, \
                                              const Corners<Dim, L>&, const Corners<Dim, L>&, \
                                              const Clearance&, double);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3, 1, 3)
 PENT_INSTANTIATE(3, 2, 2)
+#endif
 PENT_INSTANTIATE(4, 1, 4)
 PENT_INSTANTIATE(4, 2, 3)
 #undef PENT_INSTANTIATE
+#ifndef PENT_ONLY_4D
 template double safe_fraction<3>(
     const Obstacle<3>&, const Vector<3>&, const Vector<3>&, const Clearance&, double);
+#endif
 template double safe_fraction<4>(
     const Obstacle<4>&, const Vector<4>&, const Vector<4>&, const Clearance&, double);
 

@@ -75,8 +75,10 @@ template <unsigned A, unsigned B>
     visit_facets<A, B>(t, true);
 }
 
+#ifndef PENT_ONLY_4D
 template bool ClosestPointSearch<3, 1, 3>::run();
 template bool ClosestPointSearch<3, 2, 2>::run();
+#endif
 template bool ClosestPointSearch<4, 1, 4>::run();
 template bool ClosestPointSearch<4, 2, 3>::run();
 

@@ -57,7 +57,9 @@ bool Colliders<Dim>::can_meet(int a, int b) const {
     return is_of_interest && (a != b || scene_.options.self);
 }
 
+#ifndef PENT_ONLY_4D
 template class Colliders<3>;
+#endif
 template class Colliders<4>;
 
 }  // namespace pent::contact

@@ -275,7 +275,9 @@ void add_gradient(const Contacts<Dim>& contacts, Positions<Dim>& gradient) {
     template StencilHessians<Dim> hessians_of(const ContactScene<Dim>&, const Contacts<Dim>&,  \
                                               const PositionsView<Dim>&, double, Filter);      \
     template void add_gradient(const Contacts<Dim>&, Positions<Dim>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -285,7 +285,9 @@ std::int64_t ContactFinder<Dim>::bytes() const {
     return state_->bytes();
 }
 
+#ifndef PENT_ONLY_4D
 template class ContactFinder<3>;
+#endif
 template class ContactFinder<4>;
 
 }  // namespace pent::contact

@@ -291,7 +291,9 @@ std::string describe(const Crossing& crossing, const ContactScene<Dim>& scene) {
                                                   const std::vector<std::uint32_t>&,       \
                                                   const PositionsView<Dim>&, std::size_t); \
     template std::string describe(const Crossing&, const ContactScene<Dim>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

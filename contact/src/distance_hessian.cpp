@@ -164,7 +164,9 @@ StencilMatrix<Dim> distance_hessian(const Stencil<Dim>& points,
 #define PENT_INSTANTIATE(Dim)                                                                   \
     template StencilMatrix<Dim> distance_hessian<Dim>(const Stencil<Dim>&, const Contact<Dim>&, \
                                                       double, double, Filter);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

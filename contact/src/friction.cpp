@@ -174,7 +174,9 @@ StencilHessians<Dim> LaggedFriction<Dim>::hessians(const Positions<Dim>& positio
     template FrictionResponse<Dim> friction_response<Dim>(                    \
         const Vector<Dim>&, double, const Vector<Dim>&, double, FrictionLaw); \
     template class LaggedFriction<Dim>;
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -165,7 +165,9 @@ std::uint32_t nearest_facet(const Surface<Dim>& surface,
         const PositionsView<Dim>&, const SharedWork&);                                          \
     template std::uint32_t nearest_facet<Dim>(const Surface<Dim>&, const BoxTree&,              \
                                               const PositionsView<Dim>&, const Vector<Dim>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

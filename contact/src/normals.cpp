@@ -31,7 +31,9 @@ Positions<Dim> vertex_normals(const Surface<Dim>& surface, const PositionsView<D
     return normals;
 }
 
+#ifndef PENT_ONLY_4D
 template Positions<3> vertex_normals<3>(const Surface<3>&, const PositionsView<3>&);
+#endif
 template Positions<4> vertex_normals<4>(const Surface<4>&, const PositionsView<4>&);
 
 }  // namespace pent::contact

@@ -82,7 +82,9 @@ std::vector<Contact<Dim>> find_obstacle_contacts(const Colliders<Dim>& colliders
     template std::vector<Contact<Dim>> find_obstacle_contacts(                               \
         const Colliders<Dim>&, const std::vector<std::uint32_t>&, const PositionsView<Dim>&, \
         const SharedWork&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -166,7 +166,9 @@ ObstacleCore<Dim> core_of(const Obstacle<Dim>& obstacle) {
     template bool passes_through<Dim>(const Obstacle<Dim>&, const Vector<Dim>&,                  \
                                       const Vector<Dim>&, double);                               \
     template ObstacleCore<Dim> core_of<Dim>(const Obstacle<Dim>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

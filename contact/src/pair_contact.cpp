@@ -181,7 +181,9 @@ std::optional<Contact<Dim>> local_contact(const PairSetting<Dim>& setting,
     template std::optional<Contact<Dim>> local_contact<Dim, 2, Dim - 1>(                        \
         const PairSetting<Dim>&, const Simplices<2>&, std::uint32_t, const Simplices<Dim - 1>&, \
         std::uint32_t);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -258,15 +258,17 @@ std::int64_t Patches<Dim>::bytes() const {
         + (vertices_ ? vertices_->of_patch.size() * sizeof(std::uint32_t) : 0));
 }
 
+#ifndef PENT_ONLY_4D
 template PatchBound bound_of(const PatchMotion<3>&, const PatchMotion<3>&);
-template PatchBound bound_of(const PatchMotion<4>&, const PatchMotion<4>&);
 template bool stay_apart(const PatchMotion<3>&, const PatchMotion<3>&, double, double);
-template bool stay_apart(const PatchMotion<4>&, const PatchMotion<4>&, double, double);
 template class Patches<3>;
-template class Patches<4>;
 template Patches<3>::Patches(const Simplices<1>&, const BoxTree&, const PositionsView<3>&);
 template Patches<3>::Patches(const Simplices<2>&, const BoxTree&, const PositionsView<3>&);
 template Patches<3>::Patches(const Simplices<3>&, const BoxTree&, const PositionsView<3>&);
+#endif
+template PatchBound bound_of(const PatchMotion<4>&, const PatchMotion<4>&);
+template bool stay_apart(const PatchMotion<4>&, const PatchMotion<4>&, double, double);
+template class Patches<4>;
 template Patches<4>::Patches(const Simplices<1>&, const BoxTree&, const PositionsView<4>&);
 template Patches<4>::Patches(const Simplices<2>&, const BoxTree&, const PositionsView<4>&);
 template Patches<4>::Patches(const Simplices<3>&, const BoxTree&, const PositionsView<4>&);

@@ -110,7 +110,9 @@ float PathCover<Dim>::displacement(const Vertices& vertices,
     template double longest_path(const Simplices<1>&, const PositionsView<Dim>&,    \
                                  const PositionsView<Dim>&);                        \
     template class PathCover<Dim>;
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -273,9 +273,11 @@ std::vector<Contact<Dim>> find_penalty_contacts(const Colliders<Dim>& colliders,
     return contacts;
 }
 
+#ifndef PENT_ONLY_4D
 template std::vector<Contact<3>> find_penalty_contacts(const Colliders<3>&,
                                                        const Candidates<3>&,
                                                        const PositionsView<3>&);
+#endif
 template std::vector<Contact<4>> find_penalty_contacts(const Colliders<4>&,
                                                        const Candidates<4>&,
                                                        const PositionsView<4>&);

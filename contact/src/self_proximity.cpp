@@ -248,7 +248,9 @@ std::int64_t SelfProximity<Dim>::bytes() const {
     return sum;
 }
 
+#ifndef PENT_ONLY_4D
 template class SelfProximity<3>;
+#endif
 template class SelfProximity<4>;
 
 }  // namespace pent::contact

@@ -62,7 +62,9 @@ bool is_crossing(const Corners<Dim, K>& first, const Corners<Dim, L>& second) {
     return true;
 }
 
+#ifndef PENT_ONLY_4D
 template bool is_crossing<3, 2, 3>(const Corners<3, 2>&, const Corners<3, 3>&);
+#endif
 template bool is_crossing<4, 2, 4>(const Corners<4, 2>&, const Corners<4, 4>&);
 template bool is_crossing<4, 3, 3>(const Corners<4, 3>&, const Corners<4, 3>&);
 

@@ -225,10 +225,12 @@ StepLimit find_step_limit(const Candidates<Dim>& candidates,
     return limit;
 }
 
+#ifndef PENT_ONLY_4D
 template StepLimit find_step_limit(const Candidates<3>&,
                                    const std::vector<std::uint32_t>&,
                                    const PositionsView<3>&,
                                    const PositionsView<3>&);
+#endif
 template StepLimit find_step_limit(const Candidates<4>&,
                                    const std::vector<std::uint32_t>&,
                                    const PositionsView<4>&,

@@ -87,9 +87,11 @@ double mean_edge_length(const Surface<Dim>& surface, const PositionsView<Dim>& p
     return surface.edges.cols() == 0 ? 0 : sum / static_cast<double>(surface.edges.cols());
 }
 
+#ifndef PENT_ONLY_4D
 template Surface<3> make_surface<3>(const Simplices<3 + 1>&, Eigen::Index, std::uint32_t);
-template Surface<4> make_surface<4>(const Simplices<4 + 1>&, Eigen::Index, std::uint32_t);
 template double mean_edge_length<3>(const Surface<3>&, const PositionsView<3>&);
+#endif
+template Surface<4> make_surface<4>(const Simplices<4 + 1>&, Eigen::Index, std::uint32_t);
 template double mean_edge_length<4>(const Surface<4>&, const PositionsView<4>&);
 
 }  // namespace pent::contact

@@ -40,7 +40,9 @@ std::int64_t SurfaceTrees<Dim>::bytes() const {
     return sum;
 }
 
+#ifndef PENT_ONLY_4D
 template class SurfaceTrees<3>;
+#endif
 template class SurfaceTrees<4>;
 
 }  // namespace pent::contact

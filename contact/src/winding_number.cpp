@@ -137,10 +137,12 @@ int winding_number(const Surface<Dim>& surface,
     return sum;
 }
 
+#ifndef PENT_ONLY_4D
 template int winding_number<3>(const Surface<3>&,
                                const BoxTree&,
                                const PositionsView<3>&,
                                const Vector<3>&);
+#endif
 template int winding_number<4>(const Surface<4>&,
                                const BoxTree&,
                                const PositionsView<4>&,

@@ -36,7 +36,7 @@ struct Offer {
     using Simulations = std::variant<std::unique_ptr<Simulation<Dims>>...>;
     using Snapshots = std::variant<simulator::Snapshot<Dims>...>;
 };
-#ifdef PENT_PLUGIN_ONLY_4D  // half the code: for a module that a page loads
+#ifdef PENT_ONLY_4D  // half the code: for a module that a page loads
 using Offered = Offer<4>;
 #else
 using Offered = Offer<3, 4>;
@@ -45,7 +45,7 @@ using Offered = Offer<3, 4>;
 /// Calls work(constant) with the dimension of a scene; throws an Error for one that is not offered.
 template <typename Work>
 void with_dimension(int dimension, const Work& work) {
-#ifdef PENT_PLUGIN_ONLY_4D
+#ifdef PENT_ONLY_4D
     if (dimension != 4) {
         throw Error("the scene has dimension " + std::to_string(dimension)
                     + "; here it must have 4");

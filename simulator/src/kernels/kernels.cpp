@@ -49,6 +49,7 @@ Isa best_isa() {
     return is_supported(Isa::Avx2) ? Isa::Avx2 : Isa::Baseline;  // GCOVR_EXCL_LINE: no AVX-512
 }
 
+#ifndef PENT_ONLY_4D
 template <>
 const Kernels<3>& kernels<3>(Isa isa) {
     switch (isa) {
@@ -66,6 +67,7 @@ const Kernels<3>& kernels<3>(Isa isa) {
             return kernels_3_baseline();
     }
 }
+#endif
 
 template <>
 const Kernels<4>& kernels<4>(Isa isa) {

@@ -267,8 +267,10 @@ AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,
     template AggregateMatrix<Dim, Scalar> galerkin_product(                     \
         const Workers&, const AggregateMatrix<Dim, Scalar>&, const Aggregates&, \
         const std::vector<Arm<Dim>>&, const AggregatePattern&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3, float)
 PENT_INSTANTIATE(3, double)
+#endif
 PENT_INSTANTIATE(4, float)
 PENT_INSTANTIATE(4, double)
 #undef PENT_INSTANTIATE

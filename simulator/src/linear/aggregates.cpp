@@ -381,9 +381,11 @@ std::vector<Aggregates> make_hierarchy(const BlockPattern& pattern,
     return levels;
 }
 
+#ifndef PENT_ONLY_4D
 template std::vector<Aggregates> make_hierarchy<3>(const BlockPattern&,
                                                    const std::vector<std::uint32_t>&,
                                                    const Positions<3>&);
+#endif
 template std::vector<Aggregates> make_hierarchy<4>(const BlockPattern&,
                                                    const std::vector<std::uint32_t>&,
                                                    const Positions<4>&);

@@ -115,7 +115,9 @@ BlockPattern make_pattern(const std::vector<const CornerLists*>& lists, const Do
     });
 }
 
+#ifndef PENT_ONLY_4D
 template BlockPattern make_pattern<3>(const Simplices<4>&, const DofMap&);
+#endif
 template BlockPattern make_pattern<4>(const Simplices<5>&, const DofMap&);
 
 }  // namespace pent::simulator

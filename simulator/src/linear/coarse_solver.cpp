@@ -136,8 +136,10 @@ Eigen::Matrix<double, kModes<Dim>, kModes<Dim>> inverse_of_diagonal(
     template class CoarseSolver<Dim, Scalar>;                                     \
     template Eigen::Matrix<double, kModes<Dim>, kModes<Dim>> inverse_of_diagonal( \
         const AggregateMatrix<Dim, Scalar>&, std::uint32_t);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3, float)
 PENT_INSTANTIATE(3, double)
+#endif
 PENT_INSTANTIATE(4, float)
 PENT_INSTANTIATE(4, double)
 #undef PENT_INSTANTIATE

@@ -200,8 +200,10 @@ std::unique_ptr<Preconditioner<Dim>> column_jacobi(const Workers& workers,
 #define PENT_INSTANTIATE(Dim, Scalar)                            \
     template std::unique_ptr<Preconditioner<Dim>> column_jacobi( \
         const Workers&, const BlockMatrix<Dim, Scalar>&, const std::vector<std::uint32_t>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3, float)
 PENT_INSTANTIATE(3, double)
+#endif
 PENT_INSTANTIATE(4, float)
 PENT_INSTANTIATE(4, double)
 #undef PENT_INSTANTIATE

@@ -57,11 +57,12 @@ double advance(const Workers& workers,
                const std::array<const BlockVector<Dim>*, 2>& pq,
                BlockVector<Dim>& r,
                BlockVector<Dim>& x) {
-    const auto& [p, q] = pq;
+    const BlockVector<Dim>& p = *pq[0];  // no bindings: clang 14 lets no function take them along
+    const BlockVector<Dim>& q = *pq[1];
     return sum_chunks(workers, rows, [&](Eigen::Index begin, Eigen::Index count) {
-        x.middleCols(begin, count) += alpha * p->middleCols(begin, count);
+        x.middleCols(begin, count) += alpha * p.middleCols(begin, count);
         auto part = r.middleCols(begin, count);
-        part -= alpha * q->middleCols(begin, count);
+        part -= alpha * q.middleCols(begin, count);
         return part.squaredNorm();
     });
 }
@@ -165,8 +166,10 @@ void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
     template LinearSolution<Dim> ConjugateGradients<Dim>::solve(                              \
         const BlockMatrix<Dim, Scalar>&, const Preconditioner<Dim>&, const BlockVector<Dim>&, \
         const LinearSolveOptions&, BlockVector<Dim>, const Halo&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3, float)
 PENT_INSTANTIATE(3, double)
+#endif
 PENT_INSTANTIATE(4, float)
 PENT_INSTANTIATE(4, double)
 #undef PENT_INSTANTIATE

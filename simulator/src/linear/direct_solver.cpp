@@ -98,7 +98,9 @@ std::int64_t direct_bytes(const BlockPattern& pattern, const BlockVector<Dim>& r
 #define PENT_INSTANTIATE(Dim)                                                         \
     template std::unique_ptr<LinearSolver<Dim>> make_direct_solver(BlockVector<Dim>); \
     template std::int64_t direct_bytes(const BlockPattern&, const BlockVector<Dim>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -161,7 +161,9 @@ DofMap number_dofs(const Simplices<Dim + 1>& cells,
     return {vertices, std::move(vertex_of_dof), std::move(column_start)};
 }
 
+#ifndef PENT_ONLY_4D
 template DofMap number_dofs<3>(const Simplices<4>&, const std::vector<bool>&, const Columns&);
+#endif
 template DofMap number_dofs<4>(const Simplices<5>&, const std::vector<bool>&, const Columns&);
 
 }  // namespace pent::simulator

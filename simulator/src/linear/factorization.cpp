@@ -200,10 +200,12 @@ BlockVector<Dim> Factorization<Dim>::solve(const BlockVector<Dim>& b) const {
 #define PENT_INSTANTIATE(Dim, Scalar)                                    \
     template std::optional<Factorization<Dim>> Factorization<Dim>::make( \
         const BlockMatrix<Dim, Scalar>&, const Elimination&);
+#ifndef PENT_ONLY_4D
 template class Factorization<3>;
-template class Factorization<4>;
 PENT_INSTANTIATE(3, float)
 PENT_INSTANTIATE(3, double)
+#endif
+template class Factorization<4>;
 PENT_INSTANTIATE(4, float)
 PENT_INSTANTIATE(4, double)
 #undef PENT_INSTANTIATE

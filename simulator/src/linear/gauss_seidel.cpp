@@ -77,8 +77,10 @@ void GaussSeidel<Dim, Scalar>::sweep_back(const Workers& workers,
     }
 }
 
+#ifndef PENT_ONLY_4D
 template class GaussSeidel<3, float>;
 template class GaussSeidel<3, double>;
+#endif
 template class GaussSeidel<4, float>;
 template class GaussSeidel<4, double>;
 

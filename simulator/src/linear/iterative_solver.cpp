@@ -120,10 +120,12 @@ std::unique_ptr<LinearSolver<Dim>> make_iterative_solver(const Workers& workers,
                                                   std::move(geometry));
 }
 
+#ifndef PENT_ONLY_4D
 template std::unique_ptr<LinearSolver<3>> make_iterative_solver(const Workers&,
                                                                 const BlockKernels&,
                                                                 PreconditionerKind,
                                                                 DofGeometry<3>);
+#endif
 template std::unique_ptr<LinearSolver<4>> make_iterative_solver(const Workers&,
                                                                 const BlockKernels&,
                                                                 PreconditionerKind,

@@ -283,8 +283,10 @@ std::unique_ptr<Preconditioner<Dim>> multilevel(const Workers& workers,
     template std::unique_ptr<Preconditioner<Dim>> multilevel(                                   \
         const Workers&, const BlockKernels&, const BlockMatrix<Dim, Scalar>&, const Hierarchy&, \
         const BlockVector<Dim>&, std::unique_ptr<Preconditioner<Dim>>);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3, float)
 PENT_INSTANTIATE(3, double)
+#endif
 PENT_INSTANTIATE(4, float)
 PENT_INSTANTIATE(4, double)
 #undef PENT_INSTANTIATE

@@ -96,7 +96,9 @@ void NewtonSystem<Dim>::finish() {
     std::visit(add, matrix_);
 }
 
+#ifndef PENT_ONLY_4D
 template class NewtonSystem<3>;
+#endif
 template class NewtonSystem<4>;
 
 }  // namespace pent::simulator

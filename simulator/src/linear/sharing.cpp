@@ -83,8 +83,10 @@ void Sharing::gather(Eigen::Matrix<double, Rows, Eigen::Dynamic>& values) const 
     }
 }
 
-template void Sharing::gather(Eigen::Matrix<double, 1, Eigen::Dynamic>&) const;
+#ifndef PENT_ONLY_4D
 template void Sharing::gather(Eigen::Matrix<double, 3, Eigen::Dynamic>&) const;
+#endif
+template void Sharing::gather(Eigen::Matrix<double, 1, Eigen::Dynamic>&) const;
 template void Sharing::gather(Eigen::Matrix<double, 4, Eigen::Dynamic>&) const;
 
 }  // namespace pent::simulator

@@ -319,12 +319,16 @@ std::unique_ptr<Preconditioner<Dim>> SpreadModes<Dim>::precondition(
         const Workers&, const BlockMatrix<Dim, Scalar>&, const BlockVector<Dim>&,                \
         const std::vector<std::uint32_t>&, GhostExchange&, std::unique_ptr<Preconditioner<Dim>>) \
         const;
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3, float)
 PENT_INSTANTIATE(3, double)
+#endif
 PENT_INSTANTIATE(4, float)
 PENT_INSTANTIATE(4, double)
 #undef PENT_INSTANTIATE
+#ifndef PENT_ONLY_4D
 template class SpreadModes<3>;
+#endif
 template class SpreadModes<4>;
 
 }  // namespace pent::simulator

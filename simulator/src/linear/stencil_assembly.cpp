@@ -254,8 +254,10 @@ std::unique_ptr<CouplingMatrix<Dim, Scalar>> assemble_stencils(
     template std::unique_ptr<CouplingMatrix<Dim, Scalar>> assemble_stencils<Dim, Scalar>(         \
         const Workers&, const DofMap&, const std::vector<HessianStencil>&, const Positions<Dim>&, \
         BlockMatrix<Dim, Scalar>&, BlockVector<Dim>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3, float)
 PENT_INSTANTIATE(3, double)
+#endif
 PENT_INSTANTIATE(4, float)
 PENT_INSTANTIATE(4, double)
 #undef PENT_INSTANTIATE

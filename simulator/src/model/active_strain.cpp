@@ -303,7 +303,9 @@ std::vector<std::size_t> ActiveStrain<Dim>::changing_bodies(double from, double 
 #define PENT_INSTANTIATE(Dim)         \
     template class ActiveStrain<Dim>; \
     template Matrix<Dim> active_deformation<Dim>(const Activation&, double, const Vector<Dim>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

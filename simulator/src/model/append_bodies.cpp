@@ -121,7 +121,9 @@ void append_bodies(const Scene& scene, Bodies<Dim>& bodies) {
     }
 }
 
+#ifndef PENT_ONLY_4D
 template void append_bodies(const Scene&, Bodies<3>&);
+#endif
 template void append_bodies(const Scene&, Bodies<4>&);
 
 }  // namespace pent::simulator

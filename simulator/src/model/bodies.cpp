@@ -372,7 +372,9 @@ void place_dirichlet(const Bodies<Dim>& bodies,
     template Positions<Dim> start_velocities<Dim>(const Scene&, const Bodies<Dim>&);              \
     template void place_dirichlet<Dim>(const Bodies<Dim>&, double, Positions<Dim>&,               \
                                        Positions<Dim>*);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -162,7 +162,9 @@ Eigen::Matrix<double, Dim, 1> gradient_in_cell(const SimplexMesh<Dim>& mesh,
                                              const std::vector<std::uint32_t>&);                   \
     template Eigen::Matrix<double, Dim, 1> gradient_in_cell(const SimplexMesh<Dim>&, Eigen::Index, \
                                                             const Eigen::VectorXd&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

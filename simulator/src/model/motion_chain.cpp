@@ -37,9 +37,11 @@ void MotionChain<Dim>::move(Vector<Dim>& point, Vector<Dim>* velocity) const {
     }
 }
 
+#ifndef PENT_ONLY_4D
 template std::vector<CenteredMotion<3>> center<3>(const std::vector<Motion>&, const Vector<3>&);
-template std::vector<CenteredMotion<4>> center<4>(const std::vector<Motion>&, const Vector<4>&);
 template class MotionChain<3>;
+#endif
+template std::vector<CenteredMotion<4>> center<4>(const std::vector<Motion>&, const Vector<4>&);
 template class MotionChain<4>;
 
 }  // namespace pent::simulator

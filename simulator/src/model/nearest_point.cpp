@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 #include <utility>
@@ -97,19 +98,26 @@ Corners<Dim> NearestPointSearch<Dim>::corners(Eigen::Index cell) const {
 
 template <int Dim>
 MaterialPoint<Dim> NearestPointSearch<Dim>::nearest(const Vector<Dim>& point) const {
-    // A box may round to a hair beyond the cell that it holds: none that is as near is left out.
-    constexpr double kSlack = 1 + 1e-12;
-    constexpr double kFar = std::numeric_limits<double>::infinity();
+    // Cells share faces: which of them is nearer by rounding differs from build to build. Boxes
+    // round to a hair beyond the cells that they hold, which is less.
+    constexpr double kSame = 1 + 1e-9;
+    double least = std::numeric_limits<double>::infinity();
+    tree_.for_each_near<Dim>(point, least, [&](std::uint32_t cell) {
+        least = std::min(least, nearest_of_cell<Dim>(corners(cell), point).distance);
+        return least * least * kSame;
+    });
+    const double most = least * kSame;
     PointOfCell<Dim> best;
-    std::uint32_t first = 0;
-    tree_.for_each_near<Dim>(point, kFar, [&](std::uint32_t cell) {
-        const PointOfCell<Dim> of_cell = nearest_of_cell<Dim>(corners(cell), point);
-        if (of_cell.distance < best.distance
-            || (of_cell.distance == best.distance && cell < first)) {
-            best = of_cell;
-            first = cell;
+    std::uint32_t first = std::numeric_limits<std::uint32_t>::max();
+    tree_.for_each_near<Dim>(point, most * most * kSame, [&](std::uint32_t cell) {
+        if (cell < first) {
+            const PointOfCell<Dim> of_cell = nearest_of_cell<Dim>(corners(cell), point);
+            if (of_cell.distance <= most) {
+                best = of_cell;
+                first = cell;
+            }
         }
-        return best.distance * best.distance * kSlack;
+        return most * most * kSame;
     });
     MaterialPoint<Dim> nearest;
     nearest.weights = best.weights;
@@ -134,7 +142,9 @@ typename MaterialPoint<Dim>::Weights barycentric(const Eigen::Matrix<double, Dim
     template class NearestPointSearch<Dim>;                \
     template MaterialPoint<Dim>::Weights barycentric<Dim>( \
         const Eigen::Matrix<double, Dim, Dim + 1>&, const Vector<Dim>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -30,7 +30,7 @@ public:
     NearestPointSearch(const Positions<Dim>& positions, Simplices<Dim + 1> cells);
 
     /// The weights are not negative, and exactly 0 for the corners that the nearest face lacks. Of
-    /// cells that are equally near the first counts.
+    /// cells that are equally near but for rounding the first counts.
     [[nodiscard]] MaterialPoint<Dim> nearest(const Vector<Dim>& point) const;
 
 private:

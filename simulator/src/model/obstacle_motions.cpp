@@ -139,7 +139,9 @@ bool ObstacleMotions<Dim>::is_moving(std::size_t obstacle, double from, double t
     return before.rotation != now.rotation || before.shift != now.shift;
 }
 
+#ifndef PENT_ONLY_4D
 template class ObstacleMotions<3>;
+#endif
 template class ObstacleMotions<4>;
 
 }  // namespace pent::simulator

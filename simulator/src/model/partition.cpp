@@ -113,7 +113,9 @@ std::vector<std::uint32_t> partition_columns(const Positions<Dim>& rest,
     return owners;
 }
 
+#ifndef PENT_ONLY_4D
 template std::vector<std::uint32_t> partition_columns<3>(const Positions<3>&, const Columns&, int);
+#endif
 template std::vector<std::uint32_t> partition_columns<4>(const Positions<4>&, const Columns&, int);
 
 }  // namespace pent::simulator

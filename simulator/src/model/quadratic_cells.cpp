@@ -264,7 +264,9 @@ QuadraticSimplices<Dim> quadratic_simplices(const SimplexMesh<Dim>& mesh,
                                                         const std::string&);        \
     template QuadraticSimplices<Dim> quadratic_simplices<Dim>(                      \
         const SimplexMesh<Dim>&, const std::vector<Eigen::Index>&, const std::string&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -29,9 +29,11 @@ double non_rigid(const Eigen::Ref<const Positions<Dim>>& start,
     return std::sqrt(gap / spread);
 }
 
+#ifndef PENT_ONLY_4D
 template double non_rigid<3>(const Eigen::Ref<const Positions<3>>&,
                              const Eigen::Ref<const Positions<3>>&,
                              const Eigen::Ref<const Eigen::VectorXd>&);
+#endif
 template double non_rigid<4>(const Eigen::Ref<const Positions<4>>&,
                              const Eigen::Ref<const Positions<4>>&,
                              const Eigen::Ref<const Eigen::VectorXd>&);

@@ -272,7 +272,9 @@ const Material& material_of(const Body& body, std::uint16_t number) {
         const SimplexMesh<Dim>&, const std::vector<Selection>&, const std::string&);     \
     template std::vector<std::uint16_t> materials_of_cells<Dim>(const SimplexMesh<Dim>&, \
                                                                 const Body&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -269,7 +269,9 @@ std::vector<std::size_t> Attachments<Dim>::break_springs() {
     return bodies;
 }
 
+#ifndef PENT_ONLY_4D
 template class Attachments<3>;
+#endif
 template class Attachments<4>;
 
 }  // namespace pent::simulator

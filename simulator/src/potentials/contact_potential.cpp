@@ -374,7 +374,9 @@ std::int64_t ContactPotential<Dim>::bytes() const {
     template void add_stencils(double, const contact::StencilHessians<Dim>&, std::size_t, \
                                NewtonSystem<Dim>&);                                       \
     template class ContactPotential<Dim>;
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

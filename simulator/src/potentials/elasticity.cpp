@@ -196,7 +196,9 @@ std::int64_t Elasticity<Dim>::take_filtered() {
     return bodies_->sharing.sum(std::exchange(filtered_, 0));
 }
 
+#ifndef PENT_ONLY_4D
 template class Elasticity<3>;
+#endif
 template class Elasticity<4>;
 
 }  // namespace pent::simulator

@@ -67,7 +67,9 @@ void Elements<Dim>::activate(const Passive& passive, const ActiveStrain<Dim>& st
     template void Elements<Dim>::keep_passive(std::span<const Eigen::Index>, \
                                               const ActiveStrain<Dim>*);     \
     template void Elements<Dim>::activate(const Workers&, const ActiveStrain<Dim>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -55,7 +55,9 @@ ElementLayout<Dim> lay_out_elements(const Positions<Dim>& rest,
     template ElementLayout<Dim> lay_out_elements(const Positions<Dim>&,                            \
                                                  const QuadraticCells<Dim>&, const DofMap&,        \
                                                  const ActiveStrain<Dim>*);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -375,14 +375,18 @@ std::int64_t Elements<Dim>::bytes() const {
                                            * sizeof(std::uint32_t));
 }
 
+#ifndef PENT_ONLY_4D
 template class Elements<3>;
+#endif
 template class Elements<4>;
 #define PENT_INSTANTIATE(Dim, Scalar)                                                             \
     template std::int64_t Elements<Dim>::add_hessian<Scalar>(                                     \
         const Workers&, const Kernels<Dim>&, const Positions<Dim>&, const HessianTarget<Scalar>&) \
         const;
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3, float)
 PENT_INSTANTIATE(3, double)
+#endif
 PENT_INSTANTIATE(4, float)
 PENT_INSTANTIATE(4, double)
 #undef PENT_INSTANTIATE

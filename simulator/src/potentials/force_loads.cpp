@@ -70,7 +70,9 @@ double ForceLoads<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradie
     return energy_;
 }
 
+#ifndef PENT_ONLY_4D
 template class ForceLoads<3>;
+#endif
 template class ForceLoads<4>;
 
 }  // namespace pent::simulator

@@ -52,7 +52,9 @@ std::int64_t FrictionPotential<Dim>::take_count() {
     return std::exchange(count_, 0);
 }
 
+#ifndef PENT_ONLY_4D
 template class FrictionPotential<3>;
+#endif
 template class FrictionPotential<4>;
 
 }  // namespace pent::simulator

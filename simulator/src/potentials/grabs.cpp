@@ -166,7 +166,9 @@ double bearable_force(const Bodies<Dim>& bodies, const BodyPoint<Dim>& point) {
 #define PENT_INSTANTIATE(Dim)  \
     template class Grabs<Dim>; \
     template double bearable_force(const Bodies<Dim>&, const BodyPoint<Dim>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -17,7 +17,9 @@ double Gravity<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient)
     return energy_;
 }
 
+#ifndef PENT_ONLY_4D
 template class Gravity<3>;
+#endif
 template class Gravity<4>;
 
 }  // namespace pent::simulator

@@ -14,7 +14,9 @@ double MassDistance<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& grad
     });
 }
 
+#ifndef PENT_ONLY_4D
 template class MassDistance<3>;
+#endif
 template class MassDistance<4>;
 
 }  // namespace pent::simulator

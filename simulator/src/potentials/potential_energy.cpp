@@ -96,7 +96,9 @@ bool PotentialEnergy<Dim>::has_kink() const {
                        [](const auto& term) { return term->has_kink(); });
 }
 
+#ifndef PENT_ONLY_4D
 template class PotentialEnergy<3>;
+#endif
 template class PotentialEnergy<4>;
 
 }  // namespace pent::simulator

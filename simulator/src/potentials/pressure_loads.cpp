@@ -350,7 +350,9 @@ std::vector<TermEnergy> PressureLoads<Dim>::energies() const {
     return parts;
 }
 
+#ifndef PENT_ONLY_4D
 template class PressureLoads<3>;
+#endif
 template class PressureLoads<4>;
 
 }  // namespace pent::simulator

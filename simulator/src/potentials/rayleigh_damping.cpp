@@ -59,7 +59,9 @@ std::int64_t RayleighDamping<Dim>::take_hessians() {
     return std::exchange(hessians_, 0);
 }
 
+#ifndef PENT_ONLY_4D
 template class RayleighDamping<3>;
+#endif
 template class RayleighDamping<4>;
 
 }  // namespace pent::simulator

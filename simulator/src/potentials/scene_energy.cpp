@@ -60,7 +60,9 @@ SceneEnergy<Dim>::SceneEnergy(const Workers& workers,
     }
 }
 
+#ifndef PENT_ONLY_4D
 template struct SceneEnergy<3>;
+#endif
 template struct SceneEnergy<4>;
 
 }  // namespace pent::simulator

@@ -117,10 +117,12 @@ SmoothingDomains<Dim> smoothing_domains(const Positions<Dim>& rest,
     return domains;
 }
 
+#ifndef PENT_ONLY_4D
 template SmoothingDomains<3> smoothing_domains(const Positions<3>&,
                                                const Simplices<4>&,
                                                Eigen::Index,
                                                Eigen::Index);
+#endif
 template SmoothingDomains<4> smoothing_domains(const Positions<4>&,
                                                const Simplices<5>&,
                                                Eigen::Index,

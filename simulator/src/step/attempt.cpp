@@ -286,7 +286,9 @@ bool Simulation<Dim>::Stepper::advance(double time, double h, int depth, StepRep
 
 #define PENT_INSTANTIATE(Dim) \
     template bool Simulation<Dim>::Stepper::advance(double, double, int, StepReport&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -82,7 +82,9 @@ std::vector<ConstraintSummary> constraint_summaries(const Bodies<Dim>& bodies,
     template Positions<Dim> reactions<Dim>(const Bodies<Dim>&, const Positions<Dim>&);         \
     template std::vector<ConstraintSummary> constraint_summaries<Dim>(                         \
         const Bodies<Dim>&, const Positions<Dim>&, const Positions<Dim>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

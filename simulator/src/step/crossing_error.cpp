@@ -90,10 +90,12 @@ CrossingError<Dim> crossing_error(const Bodies<Dim>& bodies,
     return {message, cells_of(bodies, simplices, positions)};
 }
 
+#ifndef PENT_ONLY_4D
 template CrossingError<3> crossing_error<3>(const Bodies<3>&,
                                             const ContactPotential<3>&,
                                             const std::vector<contact::Crossing>&,
                                             const Positions<3>&);
+#endif
 template CrossingError<4> crossing_error<4>(const Bodies<4>&,
                                             const ContactPotential<4>&,
                                             const std::vector<contact::Crossing>&,

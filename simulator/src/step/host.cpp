@@ -135,7 +135,9 @@ std::vector<std::size_t> Simulation<Dim>::Stepper::neighbors_of_obstacle(
         const;                                                                                     \
     template std::vector<std::size_t> Simulation<Dim>::Stepper::neighbors_of_obstacle(std::size_t) \
         const;
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

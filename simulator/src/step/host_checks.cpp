@@ -118,7 +118,9 @@ void check_host(const HostState<Dim>& host, const Bodies<Dim>& bodies) {
     template void check_array<Dim>(const char*, const Positions<Dim>&, Eigen::Index);         \
     template void check_grab(const Grab<Dim>&, const Bodies<Dim>&);                           \
     template void check_host(const HostState<Dim>&, const Bodies<Dim>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

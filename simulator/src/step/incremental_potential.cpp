@@ -317,7 +317,9 @@ std::int64_t IncrementalPotential<Dim>::factor_bytes() const {
                : 0;
 }
 
+#ifndef PENT_ONLY_4D
 template class IncrementalPotential<3>;
+#endif
 template class IncrementalPotential<4>;
 
 }  // namespace pent::simulator

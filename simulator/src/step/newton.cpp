@@ -294,7 +294,9 @@ NewtonReport newton_step(Objective<Dim>& function, Positions<Dim>& x) {
 #define PENT_INSTANTIATE(Dim)                                                             \
     template NewtonReport newton(Objective<Dim>&, const NewtonOptions&, Positions<Dim>&); \
     template NewtonReport newton_step(Objective<Dim>&, Positions<Dim>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -158,7 +158,9 @@ Eigen::Matrix<double, Dim, 1> place_of(const Simulation<Dim>& simulation,
     template std::optional<Pick<Dim>> pick(const Simulation<Dim>&, const Hyperplane<Dim>&, \
                                            const Ray<Dim>&);                               \
     template Eigen::Matrix<double, Dim, 1> place_of(const Simulation<Dim>&, const BodyPoint<Dim>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -132,7 +132,9 @@ void agree(const Ranks* ranks, const std::function<void()>& work) {
 #define PENT_INSTANTIATE(Dim)                                                     \
     template Bodies<Dim> share(Bodies<Dim>, const std::shared_ptr<const Ranks>&); \
     template void refuse_disagreement(const Sharing&, const Positions<Dim>&, std::uint64_t);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

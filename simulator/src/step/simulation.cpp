@@ -210,7 +210,9 @@ void Simulation<Dim>::restore(const Snapshot<Dim>& snapshot) {
     stepper_->restore(snapshot);
 }
 
+#ifndef PENT_ONLY_4D
 template class Simulation<3>;
+#endif
 template class Simulation<4>;
 
 }  // namespace pent::simulator

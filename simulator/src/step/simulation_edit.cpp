@@ -214,7 +214,9 @@ void Simulation<Dim>::remove_obstacle(int obstacle) {
     template void Simulation<Dim>::remove_obstacle(int);                                \
     template void Simulation<Dim>::rebuild(const Scene&, std::vector<SimplexMesh<Dim>>, \
                                            const Snapshot<Dim>&);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

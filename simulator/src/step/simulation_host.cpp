@@ -132,7 +132,9 @@ HostState<Dim> Simulation<Dim>::host() const {
     template void Simulation<Dim>::set_forces(int, const Positions<Dim>&);             \
     template void Simulation<Dim>::set_gravity(const Vector&);                         \
     template HostState<Dim> Simulation<Dim>::host() const;
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

@@ -145,7 +145,9 @@ bool Islands<Dim>::put_to_sleep(const Couplings& couplings,
     return has_slept;
 }
 
+#ifndef PENT_ONLY_4D
 template class Islands<3>;
+#endif
 template class Islands<4>;
 
 }  // namespace pent::simulator

@@ -37,7 +37,9 @@ StepProblem<Dim> static_problem(const State<Dim>& now, double h) {
     template StepProblem<Dim> euler_problem(const State<Dim>&, double);                   \
     template StepProblem<Dim> bdf2_problem(const State<Dim>&, const State<Dim>&, double); \
     template StepProblem<Dim> static_problem(const State<Dim>&, double);
+#ifndef PENT_ONLY_4D
 PENT_INSTANTIATE(3)
+#endif
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE
 

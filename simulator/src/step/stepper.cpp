@@ -378,7 +378,9 @@ SimulationSize Simulation<Dim>::Stepper::size() const {
     return size;
 }
 
+#ifndef PENT_ONLY_4D
 template class Simulation<3>::Stepper;
+#endif
 template class Simulation<4>::Stepper;
 
 }  // namespace pent::simulator

@@ -60,7 +60,9 @@ Eigen::MatrixXd Simulation<Dim>::vertex_values(VertexQuantity quantity, int body
                             stepper_->current().positions);
 }
 
+#ifndef PENT_ONLY_4D
 template Eigen::MatrixXd Simulation<3>::vertex_values(VertexQuantity, int) const;
+#endif
 template Eigen::MatrixXd Simulation<4>::vertex_values(VertexQuantity, int) const;
 
 }  // namespace pent::simulator
