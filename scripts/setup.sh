@@ -70,7 +70,7 @@ if $with_web; then
     packages+=(emscripten)                # the simulator for browsers
 fi
 if $with_page; then
-    packages+=(chromium)                  # end-to-end tests
+    packages+=(chromium xz-utils)         # end-to-end tests; packs the simulator
     # A node from elsewhere does as well, and has npm with it.
     if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
         packages+=(nodejs npm)

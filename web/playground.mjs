@@ -3,7 +3,7 @@
 import { build } from "esbuild";
 import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { deflateRawSync } from "node:zlib";
+import { pack } from "./pack.mjs";
 import { isBuilt, options, wasm, web } from "./playground_module.mjs";
 
 const target = join(web, "dist/playground.js");
@@ -25,6 +25,10 @@ const { outputFiles } = await build({
     logLevel: "warning",
     write: false,
 });
-const module = deflateRawSync(readFileSync(wasm), { level: 9 }).toString("base64");
-const parts = { worker: outputFiles[0].text, wasm: module };
+const module = readFileSync(wasm);
+const parts = {
+    worker: outputFiles[0].text,
+    wasm: pack(module).toString("base64"),
+    size: module.length,
+};
 writeFileSync(target, `window.pentimentoPlayground = ${JSON.stringify(parts)};\n`);

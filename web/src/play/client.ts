@@ -1,10 +1,11 @@
 import { PentError } from "../format/error.ts";
 import type { PlayCalls, PlayFacts, PlayFrame, PlayMessage } from "./protocol.ts";
 
-/** What playground.js beside the page gives: the worker's code, and the module, deflated, as base64. */
+/** What playground.js beside the page gives: the worker's code, and the module, packed, as base64. */
 interface Parts {
     worker: string;
     wasm: string;
+    size: number; // of the module, bytes
 }
 
 declare global {
@@ -48,12 +49,6 @@ function load(): Promise<Parts> {
     });
 }
 
-async function inflate(text: string): Promise<Uint8Array> {
-    const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
-    return new Uint8Array(await new Response(stream).arrayBuffer());
-}
-
 /** The simulator on a thread of its own, one request after the other. */
 export class PlayClient {
     private waiting = new Map<number, Waiting>();
@@ -73,16 +68,16 @@ export class PlayClient {
 
     /** Loads the simulator. Rejects with a PentError where that cannot be. */
     static async start(listener: PlayListener): Promise<PlayClient> {
-        if (typeof WebAssembly === "undefined" || typeof DecompressionStream === "undefined") {
+        if (typeof WebAssembly === "undefined") {
             throw new PentError("this browser is too old for the playground; update it");
         }
         const parts = window.pentimentoPlayground ?? (await load());
         const address = URL.createObjectURL(new Blob([parts.worker], { type: "text/javascript" }));
         const client = new PlayClient(new Worker(address), listener);
         URL.revokeObjectURL(address);
-        const wasm = await inflate(parts.wasm);
+        const packed = Uint8Array.from(atob(parts.wasm), (letter) => letter.charCodeAt(0));
         try {
-            await client.call("boot", wasm);
+            await client.call("boot", packed, parts.size);
             client.hasStarted = true;
         } catch (error) {
             client.close();

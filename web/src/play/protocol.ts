@@ -46,7 +46,8 @@ export type RunFiles = Map<string, Uint8Array>;
 
 /** What the page asks of the worker, and what comes back. */
 export interface PlayCalls {
-    boot(wasm: Uint8Array): void;
+    /** The module of WebAssembly, packed, and its size. */
+    boot(packed: Uint8Array, size: number): void;
     openGallery(name: string): OpenedScene;
     openFiles(files: SceneFiles, scene: string): OpenedScene;
     reset(): void;

@@ -2,6 +2,7 @@ import makeModule from "playground-module";
 import { PentError } from "../format/error.ts";
 import { galleryFiles, kSceneName } from "./gallery.ts";
 import { Library } from "./library.ts";
+import { unpack } from "./lzma.ts";
 import { Playground } from "./playground.ts";
 import type { PlayCalls, PlayMessage, PlayRequest } from "./protocol.ts";
 
@@ -98,8 +99,8 @@ function show(): void {
 }
 
 const calls: { [Name in keyof PlayCalls]: PlayCalls[Name] | unknown } = {
-    async boot(wasm: Uint8Array) {
-        const library = new Library(await makeModule({ wasmBinary: wasm }));
+    async boot(packed: Uint8Array, size: number) {
+        const library = new Library(await makeModule({ wasmBinary: unpack(packed, size) }));
         playground = new Playground(library, (text, isError) =>
             post({ kind: "notice", text, isError }),
         );

@@ -28,6 +28,7 @@ export interface Tile {
     outlines: Revolved[]; // of balls, whole
     hasFloor: boolean;
     isAllSolid: boolean; // the solid slice lies within an obstacle
+    away: [number, number] | null; // from where to where bodies are along w, if no slice meets any
     lines: Segment[]; // box and the like, in the space that is seen
 }
 

@@ -111,6 +111,8 @@ uniform sampler2D cornerNormals;
 uniform mat4 viewProjection;
 uniform int valueOf;   // 0 nothing, 1 w of the body's own space, 2 the scalar
 uniform bool isSmooth;
+uniform vec3 cameraEye;
+uniform float pushed;  // how much deeper is what is seen from behind
 out vec3 world;
 out vec3 normal;
 out float value;
@@ -121,6 +123,12 @@ float valueAt(uint vertex) {
 }
 vec4 normalAt(int corner) {
     return texelFetch(cornerNormals, texel(4 * gl_InstanceID + corner), 0);
+}
+// Sides that are seen from behind lie behind others, but for rounding along the rim: there some drivers take depths
+// from beyond it.
+void place(vec3 outward) {
+    gl_Position = viewProjection * vec4(world, 1);
+    gl_Position.z += dot(outward, cameraEye - world) < 0.0 ? pushed * gl_Position.w : 0.0;
 }
 void leaveOut() {
     world = vec3(0);
@@ -167,7 +175,7 @@ void main() {
     value = valueOf == 0 ? 0.0
         : (1.0 - t) * valueAt(tet[ends.x]) + t * valueAt(tet[ends.y]);
     isDrawn = 1.0;
-    gl_Position = viewProjection * vec4(world, 1);
+    place(flatNormal.xyz);
 }`;
 
 /** The boundary of a three-dimensional body, whole: an instance a triangle. */
@@ -187,7 +195,7 @@ void main() {
     normal = size > 0.0 ? normal / size : vec3(0, 1, 0);
     value = valueAt(triangle[gl_VertexID]);
     isDrawn = 1.0;
-    gl_Position = viewProjection * vec4(world, 1);
+    place(flatNormal);
 }`;
 
 /** The outline of the projection: an instance for each triangle between two boundary tetrahedra,

@@ -20,15 +20,23 @@ export function drawGizmo(target: SVGSVGElement, rotation: Rotation, camera: Cam
         };
     });
     items.sort((a, b) => a.depth - b.depth);
+    const names: [number, number][] = [];
     target.replaceChildren(
         ...items.flatMap(({ name, out, x, y }) => {
             const far = Math.hypot(x - 50, y - 50);
             const way = (far + 9 + 6 * Math.abs(out)) / far;
-            const label = far > 6 ? [50 + (x - 50) * way, 50 + (y - 50) * way] : [50 + 13, 50 - 11];
+            const place: [number, number] =
+                far > 6 ? [50 + (x - 50) * way, 50 + (y - 50) * way] : [50 + 13, 50 - 11];
+            while (
+                names.some((other) => Math.hypot(place[0] - other[0], place[1] - other[1]) < 12)
+            ) {
+                place[1] -= 4;
+            }
+            names.push(place);
             return [
                 svg("line", { x1: 50, y1: 50, x2: x, y2: y, class: `axis ${name}` }),
                 svg("circle", { cx: x, cy: y, r: 2 + 7 * Math.abs(out), class: `ring ${name}` }),
-                svg("text", { x: label[0]!, y: label[1]! + 4, class: `name ${name}` }, name),
+                svg("text", { x: place[0], y: place[1] + 4, class: `name ${name}` }, name),
             ];
         }),
     );

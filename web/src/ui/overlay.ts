@@ -2,6 +2,7 @@ import { tileRect } from "../render/picture.ts";
 import type { Picture, Tile } from "../render/picture.ts";
 import { sliceLabel, slicePlaces } from "../view/compose.ts";
 import { bodyColor, kColorTitles, mapColor, toCss } from "../view/colors.ts";
+import type { Color } from "../view/colors.ts";
 import { short } from "../view/state.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { element, svg } from "./dom.ts";
@@ -10,17 +11,20 @@ import { drawGizmo } from "./gizmo.ts";
 /** Text over the picture: what slice each tile is, the legend of colors, the axes. */
 export class Overlay {
     private labels = element("div", { class: "labels" });
-    private legend = element("div", { class: "legend" });
+    private colors = element("div", {});
+    private skins = element("div", { class: "skins" });
     private gizmo = svg("svg", { viewBox: "0 0 100 100", class: "gizmo" }) as SVGSVGElement;
     private badge = element("div", { class: "badge", hidden: true });
     private labelsShown = "";
-    private legendShown = "";
+    private colorsShown = "";
+    private skinsShown = "";
 
     constructor(
         private root: HTMLElement,
         private viewer: Viewer,
     ) {
-        root.append(this.labels, this.gizmo, this.legend, this.badge);
+        const legend = element("div", { class: "legend" }, this.colors, this.skins);
+        root.append(this.labels, this.gizmo, legend, this.badge);
         viewer.on("picture", (picture) => this.show(picture));
     }
 
@@ -37,7 +41,8 @@ export class Overlay {
             drawGizmo(this.gizmo, picture.rotation, picture.camera, viewer.run!.dimension);
         }
         this.showLabels(picture);
-        this.showLegend();
+        this.showColors();
+        this.showSkins(picture);
     }
 
     private showLabels(picture: Picture): void {
@@ -46,17 +51,16 @@ export class Overlay {
             this.viewer.bounds,
             this.viewer.run!.dimension,
         );
-        const solid = picture.tiles.map((tile) => tile.isAllSolid).join();
-        const key = `${picture.width} ${picture.height} ${places.join()} ${solid}`;
+        const isTiled = picture.tiles.length > 1;
+        const texts = picture.tiles.map((tile, i) => tileText(tile, isTiled ? places[i]! : null));
+        const key = `${picture.width} ${picture.height} ${texts.join()}`;
         if (key === this.labelsShown) {
             return;
         }
         this.labelsShown = key;
-        const isTiled = picture.tiles.length > 1;
         this.labels.replaceChildren(
-            ...picture.tiles
-                .map((tile, i) => {
-                    const text = tileText(tile, isTiled ? places[i]! : null);
+            ...texts
+                .map((text, i) => {
                     if (text === "") {
                         return [];
                     }
@@ -76,28 +80,36 @@ export class Overlay {
         );
     }
 
-    private showLegend(): void {
-        const { state, range, run } = this.viewer;
-        const key = `${state.color} ${range.join()} ${run!.bodies.map((body) => body.name).join()}`;
-        if (key === this.legendShown) {
+    // Which slice of an onion skin has which color.
+    private showSkins({ tiles }: Picture): void {
+        const slices = tiles.length === 1 ? tiles[0]!.slices : [];
+        const key = slices.map(({ w }) => w).join();
+        if (key === this.skinsShown) {
             return;
         }
-        this.legendShown = key;
+        this.skinsShown = key;
+        const entries = slices.length > 1 ? [...slices].reverse() : [];
+        this.skins.replaceChildren(
+            ...entries.map(({ w, ghost }) => entry(ghost, sliceLabel(Number(w.toPrecision(6))))),
+        );
+    }
+
+    private showColors(): void {
+        const { state, range, run } = this.viewer;
+        const key = `${state.color} ${range.join()} ${run!.bodies.map((body) => body.name).join()}`;
+        if (key === this.colorsShown) {
+            return;
+        }
+        this.colorsShown = key;
         if (state.color === "body") {
             const bodies = run!.bodies.length > 1 ? run!.bodies.slice(0, 8) : [];
-            this.legend.replaceChildren(
-                ...bodies.map((body, i) => {
-                    const swatch = element("i", { class: "swatch" });
-                    swatch.style.background = toCss(bodyColor(i));
-                    return element("div", { class: "entry" }, swatch, body.name);
-                }),
-            );
+            this.colors.replaceChildren(...bodies.map((body, i) => entry(bodyColor(i), body.name)));
             return;
         }
         const stops = Array.from({ length: 9 }, (_, i) => toCss(mapColor(state.color, i / 8)));
         const bar = element("div", { class: "colorbar" });
         bar.style.background = `linear-gradient(to right, ${stops.join(", ")})`;
-        this.legend.replaceChildren(
+        this.colors.replaceChildren(
             element("div", { class: "title" }, kColorTitles[state.color]),
             bar,
             element(
@@ -109,10 +121,26 @@ export class Overlay {
     }
 }
 
+// A line of a legend; without a color for what is solid in a picture of ghosts.
+function entry(color: Color | null, text: string): HTMLElement {
+    const swatch = element("i", { class: color ? "swatch" : "swatch none" });
+    swatch.style.background = color ? toCss(color) : "none";
+    return element("div", { class: "entry" }, swatch, text);
+}
+
 // "w = 0.05, all solid": what there is to say of a tile.
 function tileText(tile: Tile, w: number | null): string {
     const place = w === null ? "" : sliceLabel(Number(w.toPrecision(6)));
-    return [place, tile.isAllSolid ? "all solid" : ""].filter((text) => text !== "").join(", ");
+    const solid = tile.isAllSolid ? "all solid" : "";
+    const away = tile.away ? (w === null ? whereElse(tile.away) : "empty") : "";
+    return [place, solid, away].filter((text) => text !== "").join(", ");
+}
+
+function whereElse([low, high]: [number, number]): string {
+    const [from, to] = [low, high].map((w) =>
+        short(Number(w.toFixed(2)), 4).replace("-", "\u2212"),
+    );
+    return `no body here: from w = ${from} to ${to}`;
 }
 
 /** The same texts drawn on a picture that is saved. */

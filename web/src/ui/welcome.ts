@@ -14,7 +14,7 @@ export function showWelcome(actions: {
             "p",
             {},
             element("b", {}, "Bodies of four dimensions, a slice at a time. "),
-            "Move w below and turn xw beside: what you see is the part of the body that " +
+            "Move w below, and turn the body in xw: what you see is the part of it that " +
                 "lies in the space w = 0.",
         ),
         element("p", {}, "Drop a run folder of pent-sim, a .pent mesh or a G4MF model here, or "),

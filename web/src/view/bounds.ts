@@ -153,3 +153,22 @@ export class Bounds {
         ];
     }
 }
+
+/** From where to where the bodies of a moment reach along w, as they are seen. */
+export function reachAlongW(
+    { bodies }: Moment,
+    rotation: Rotation,
+    shift: number,
+): [number, number] {
+    const [x, y, z, w] = rotation.subarray(12, 16) as unknown as [number, number, number, number];
+    let low = Infinity;
+    let high = -Infinity;
+    for (const { positions: p } of bodies) {
+        for (let v = 0; v < p.length; v += 4) {
+            const place = x * p[v]! + y * p[v + 1]! + z * p[v + 2]! + w * p[v + 3]! + shift;
+            low = Math.min(low, place);
+            high = Math.max(high, place);
+        }
+    }
+    return [low, high];
+}

@@ -26,7 +26,8 @@ export interface Camera {
 
 export const kFieldOfView = 28; // degrees upright, as pent-render has it
 
-/** The camera that sees nearly all of a ball of this center and radius, at zoom 1. */
+/** The camera that sees a ball of this center and radius at zoom 1: nearly all of it upright, as bodies touch it in few
+ * places, and all of it across, where they are long. */
 export function makeCamera(orbit: Orbit, center: Vector, radius: number, aspect: number): Camera {
     const azimuth = (orbit.azimuth * Math.PI) / 180;
     const elevation = (orbit.elevation * Math.PI) / 180;
@@ -39,9 +40,9 @@ export function makeCamera(orbit: Orbit, center: Vector, radius: number, aspect:
     const up = cross(back, right);
     const half = (kFieldOfView * Math.PI) / 360;
     const slope = Math.tan(half);
-    const narrow = Math.atan(slope * Math.min(1, aspect));
-    // Bodies touch the ball in few places: a little of it may be cut off.
-    const distance = (0.93 * radius) / Math.sin(narrow) / orbit.zoom;
+    const across = Math.atan(slope * aspect);
+    const fitting = Math.max(0.93 / Math.sin(half), 1.05 / Math.sin(across));
+    const distance = (fitting * radius) / orbit.zoom;
     const target = add(add(center, right, orbit.panX * radius), up, orbit.panY * radius);
     const eye = add(target, scale(back, distance));
     const reach = radius * (4 + Math.hypot(orbit.panX, orbit.panY));

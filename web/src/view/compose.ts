@@ -96,6 +96,7 @@ function tileOf(slices: SliceView[]): Tile {
         outlines: [],
         hasFloor: true,
         isAllSolid: false,
+        away: null,
         lines: [],
     };
 }
@@ -143,6 +144,7 @@ export interface Stage {
     bounds: Bounds;
     coloring: Coloring;
     obstacles: Obstacle[]; // at the moment shown
+    reach: [number, number] | null; // of the bodies along w at that moment
 }
 
 /** The picture that a state asks for. */
@@ -159,6 +161,13 @@ export function makePicture(state: ViewState, stage: Stage): Picture {
         bounds.radius,
         width / columns / (height / rows),
     );
+    const { reach } = stage;
+    if (reach && dimension === 4) {
+        const isAway = ({ w }: SliceView) => w < reach[0] || w > reach[1];
+        tiles.forEach((tile) => {
+            tile.away = tile.slices.every(isAway) ? reach : null;
+        });
+    }
     if (state.box && dimension === 4) {
         addBox(tiles, state, bounds, background.ink);
     }

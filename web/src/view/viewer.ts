@@ -4,7 +4,7 @@ import { Renderer } from "../render/renderer.ts";
 import type { BodyFrame } from "../run/decode.ts";
 import type { Moment, Run } from "../run/run.ts";
 import { FrameStream } from "../run/stream.ts";
-import { Bounds } from "./bounds.ts";
+import { Bounds, reachAlongW } from "./bounds.ts";
 import { Boxes } from "./boxes.ts";
 import { suitableRange } from "./colors.ts";
 import type { ColorBy } from "./colors.ts";
@@ -223,6 +223,8 @@ export class Viewer {
 
     /** The picture of the view, of any size in pixels. */
     makePicture(width: number, height: number, pixelRatio: number): Picture {
+        const { rotation } = this.state;
+        const shift = this.bounds.shift(rotation)[3];
         return makePicture(this.state, {
             width,
             height,
@@ -231,6 +233,7 @@ export class Viewer {
             dimension: this.run?.dimension ?? 4,
             bounds: this.bounds,
             obstacles: this.moment?.obstacles ?? [],
+            reach: this.moment && reachAlongW(this.moment, rotation, shift),
             coloring: makeColoring(this.state, this.range, this.run?.bodies.length ?? 1),
         });
     }

@@ -18,9 +18,12 @@ export function native(name: string): string | null {
     return found ?? null;
 }
 
+// Other numbers each time, to look longer: PENT_SEED=5 npm test.
+const kShift = 1000 * Number(process.env["PENT_SEED"] ?? 0);
+
 /** Random numbers that are the same every time: 0 up to 1. */
 export function randomFrom(seed: number): () => number {
-    let state = seed;
+    let state = seed + kShift;
     return () => {
         state = (state + 0x6d2b79f5) | 0;
         let t = Math.imul(state ^ (state >>> 15), 1 | state);

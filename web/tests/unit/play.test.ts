@@ -10,7 +10,7 @@ import { Pace, kRates } from "../../src/play/pace.ts";
 import { sceneAmong } from "../../src/play/scene_files.ts";
 import { crc32, zip } from "../../src/play/zip.ts";
 import { unzip } from "../support/unzip.ts";
-import { Bounds } from "../../src/view/bounds.ts";
+import { Bounds, reachAlongW } from "../../src/view/bounds.ts";
 import { makeColoring, makePicture } from "../../src/view/compose.ts";
 import { add } from "../../src/view/matrix.ts";
 import { fromSeen, onPlane, project, sightAt, toSeen } from "../../src/view/pointing.ts";
@@ -143,7 +143,7 @@ function roomMoment(low: number[], high: number[]) {
     return { frame: 0, time: 0, bodies: [body], obstacles: [] as Obstacle[] };
 }
 
-function pictureOf(layout: "single" | "side") {
+function pictureOf(layout: "single" | "side", reach: [number, number] | null = null) {
     const state = {
         ...defaultState(),
         layout,
@@ -161,9 +161,29 @@ function pictureOf(layout: "single" | "side") {
         dimension: 4,
         bounds,
         obstacles: [],
+        reach,
         coloring: makeColoring(state, [0, 1], 1),
     });
 }
+
+test("where no body is at the slice the picture knows where they are", () => {
+    assert.deepEqual(pictureOf("single", [0.5, 1]).tiles[0]!.away, [0.5, 1]);
+    assert.equal(pictureOf("single", [0, 1]).tiles[0]!.away, null);
+    const side = pictureOf("side", [-9, 0.25]);
+    assert.deepEqual(
+        side.tiles.map(({ away }) => away !== null),
+        [false, false, true],
+    );
+    // As it is seen of all vertices.
+    const { rotation, shift } = side;
+    const moment = roomMoment([-1, 0.5, 0.2, -0.3], [2, 1, 0.7, 0.1]);
+    const { positions } = moment.bodies[0]!;
+    const seen = [0, 4].map((v) => toSeen(side, [...positions.subarray(v, v + 4)])[3]!);
+    const found = reachAlongW(moment, rotation, shift[3]);
+    [Math.min(...seen), Math.max(...seen)].forEach((w, end) =>
+        assert.ok(Math.abs(w - found[end]!) < 1e-12),
+    );
+});
 
 test("the picture goes along with bodies that leave its middle, though not along w, and comes back with them", () => {
     const followed = new Bounds();

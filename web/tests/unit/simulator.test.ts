@@ -1,27 +1,18 @@
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
 import { test } from "node:test";
 import type { TestContext } from "node:test";
-import { readFrame } from "../../src/format/pent_file.ts";
 import { galleryFiles } from "../../src/play/gallery.ts";
 import { writeMesh } from "../../src/format/write_pent.ts";
 import { Playground } from "../../src/play/playground.ts";
 import { kGallery } from "../../src/play/scene_list.ts";
+import { expectHandOf, expectStepsOf } from "../support/agreement.ts";
+import type { HandAct } from "../support/agreement.ts";
 import { native } from "../support/native.ts";
-import { edited, library, withFiles } from "../support/play.ts";
+import { pairScenes } from "../support/pair_scenes.ts";
+import { edited, library } from "../support/play.ts";
 
 const kNothingBuilt = "the simulator for browsers is not built";
 const kSteps = 30;
-
-interface NativeStep {
-    iterations: number;
-    newton_iterations: number;
-    substeps: number;
-    inverted: number;
-    energies: Record<string, number>;
-}
 
 const now = () => performance.now();
 
@@ -34,72 +25,65 @@ async function playground(t: TestContext, said: string[] = []) {
     return { held, play: new Playground(held, (text) => said.push(text)) };
 }
 
+/** The module and pent-sim, or null. */
+async function both(t: TestContext) {
+    const sim = native("pent-sim");
+    const held = await library();
+    if (!held || !sim) {
+        t.skip("pent-sim, or the simulator for browsers, is not built");
+        return null;
+    }
+    return { held, sim };
+}
+
+// Matrices of floats are rounded by each instruction set in its own way, native ones among themselves, which
+// the octopus makes 1e-6 m of in 30 steps. Those of doubles show what else there is: nothing.
+const inDoubles = (name: string) =>
+    edited(galleryFiles(name), (text) =>
+        text.replace('preset = "fast"', 'preset = "fast"\nprecision = "double"'),
+    );
+
 for (const name of Object.keys(kGallery)) {
     test(`${name}: ${kSteps} steps are those of pent-sim`, async (t) => {
-        const sim = native("pent-sim");
-        const made = await playground(t);
-        if (!made || !sim) {
-            t.skip("pent-sim, or the simulator for browsers, is not built");
-            return;
+        const made = await both(t);
+        if (made) {
+            const { report } = expectStepsOf(made.sim, made.held, inDoubles(name), kSteps);
+            assert.ok(report.iterations > 0, "something was solved");
         }
-        // Matrices of floats are rounded by each instruction set in its own way, native ones among themselves, which
-        // the octopus makes 1e-6 m of in 30 steps. Those of doubles show what else there is: nothing.
-        const files = edited(galleryFiles(name), (text) =>
-            text
-                .replace("[scene]\n", `[scene]\nframes = ${kSteps}\n`)
-                .replace('preset = "fast"', 'preset = "fast"\nprecision = "double"'),
-        );
-        const { dimension, bodies } = made.play.open(files, "scene.toml");
-        assert.equal(dimension, 4);
-        const simulation = made.held.open("scene.toml", kAsWritten, null);
-        withFiles(files, (folder) => {
-            const run = join(folder, "run");
-            execFileSync(sim, [
-                join(folder, "scene.toml"),
-                "-o",
-                run,
-                "--quiet",
-                "--threads",
-                "1",
-                "--isa",
-                "baseline",
-            ]);
-            const { steps } = JSON.parse(readFileSync(join(run, "report.json"), "utf8")) as {
-                steps: NativeStep[];
-            };
-            let iterations = 0;
-            for (let i = 0; i < kSteps; ++i) {
-                const report = simulation.step();
-                const expected = steps[i]!;
-                iterations += report.iterations;
-                assert.equal(report.iterations, expected.iterations, `iterations of step ${i + 1}`);
-                assert.equal(report.newtonIterations, expected.newton_iterations);
-                assert.equal(report.substeps, expected.substeps);
-                assert.equal(report.inverted, expected.inverted);
-                for (const [term, energy] of simulation.energies()) {
-                    const other = expected.energies[term] ?? 0;
-                    const size = Math.max(...Object.values(expected.energies).map(Math.abs));
-                    assert.ok(
-                        Math.abs(energy - other) < 1e-6 * size,
-                        `${term}: ${energy}, ${other}`,
-                    );
-                }
-                bodies.forEach((body, index) => {
-                    const file = `frames/${body.name}_${String(i + 1).padStart(6, "0")}.pent`;
-                    const frame = readFrame(readFileSync(join(run, file)), file);
-                    // Sums in another order; the largest seen is 1e-14 m.
-                    simulation.positions(index).forEach((value, k) => {
-                        assert.ok(Math.abs(value - frame.positions[k]!) < 1e-9, `step ${i + 1}`);
-                    });
-                });
-            }
-            assert.ok(iterations > 0, "something was solved");
-        });
-        simulation.close();
     });
 }
 
-const kAsWritten = { stiffness: 1, damping: null, stepsPerSecond: null };
+for (const [name, files] of pairScenes()) {
+    test(`${name}: ${kSteps} steps are those of pent-sim`, async (t) => {
+        const made = await both(t);
+        if (made) {
+            expectStepsOf(made.sim, made.held, files, kSteps);
+        }
+    });
+}
+
+test("a hand in a heap, and gravity that turns: steps are those of the shared library", async (t) => {
+    const made = await both(t);
+    if (!made) {
+        return;
+    }
+    const acts: Record<number, HandAct[]> = {
+        2: [
+            {
+                act: "grab",
+                origin: [0, 1.8, 5, 0],
+                direction: [0.02, 0, -1, 0],
+                stiffness: 2000,
+                damping: 40,
+            },
+        ],
+        4: [{ act: "move", anchor: [0.4, 2, 0.3, 0.2] }],
+        9: [{ act: "move", anchor: [0.4, 1, 0, -0.6] }],
+        16: [{ act: "gravity", gravity: [3, -5, 0, 4] }],
+        22: [{ act: "remove" }],
+    };
+    expectHandOf(made.sim, made.held, inDoubles("heap"), acts, kSteps);
+});
 
 test("scenes of the gallery go on for two seconds without a step that is refused", async (t) => {
     const said: string[] = [];

@@ -79,6 +79,6 @@ export class PlayBar {
 /** "12.3 J", with four digits at most. */
 export function joules(value: number): string {
     const size = Math.abs(value);
-    const digits = size >= 100 ? 0 : size >= 10 ? 1 : size >= 0.01 || size === 0 ? 2 : 4;
+    const digits = size >= 100 ? 0 : size >= 10 ? 1 : size >= 0.01 || size < 5e-5 ? 2 : 4;
     return `${value.toFixed(digits)} J`.replace("-", "\u2212");
 }

@@ -204,7 +204,7 @@ export class PlayPage {
         }
         viewer.present(frame.moment);
         this.bar.show(frame, this.isRunning);
-        this.panel.showStats(frame.stats);
+        this.panel.showStats(frame.stats, this.isRunning);
         if (this.isRecording) {
             this.bar.showRecording(frame.recorded);
         }

@@ -100,9 +100,9 @@ export class PlayPanel {
         this.rate.show(facts.isAutomatic ? "auto" : String(facts.stepsPerSecond));
     }
 
-    showStats(stats: PlayStats): void {
+    showStats(stats: PlayStats, isRunning: boolean): void {
         const now = performance.now();
-        if (now - this.lastShown < kShowEvery) {
+        if (isRunning && now - this.lastShown < kShowEvery) {
             return;
         }
         this.lastShown = now;
