@@ -3,6 +3,8 @@
 #include "apart.h"
 #include "spanned_volume.h"
 
+#include <pent/dimensions.h>
+
 #include <Eigen/LU>
 
 #include <array>
@@ -257,13 +259,10 @@ BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
     return contacts;
 }
 
-#ifndef PENT_ONLY_4D
-template BarrierContacts<3> find_barrier_contacts(const Colliders<3>&,
-                                                  const Candidates<3>&,
-                                                  const PositionsView<3>&);
-#endif
-template BarrierContacts<4> find_barrier_contacts(const Colliders<4>&,
-                                                  const Candidates<4>&,
-                                                  const PositionsView<4>&);
+#define PENT_INSTANTIATE(Dim)                            \
+    template BarrierContacts<Dim> find_barrier_contacts( \
+        const Colliders<Dim>&, const Candidates<Dim>&, const PositionsView<Dim>&);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

@@ -3,6 +3,7 @@
 #include "boxes_around.h"
 #include "near_on_paths.h"
 
+#include <pent/dimensions.h>
 #include <pent/stopwatch.h>
 
 #include <algorithm>
@@ -316,9 +317,8 @@ std::int64_t Candidates<Dim>::bytes() const {
            + static_cast<std::int64_t>(boxes_.size() * sizeof(Box));
 }
 
-#ifndef PENT_ONLY_4D
-template class Candidates<3>;
-#endif
-template class Candidates<4>;
+#define PENT_INSTANTIATE(Dim) template class Candidates<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

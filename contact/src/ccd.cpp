@@ -3,6 +3,8 @@
 #include "apart.h"
 #include "closest_point_search.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -152,11 +154,10 @@ PENT_INSTANTIATE(3, 2, 2)
 PENT_INSTANTIATE(4, 1, 4)
 PENT_INSTANTIATE(4, 2, 3)
 #undef PENT_INSTANTIATE
-#ifndef PENT_ONLY_4D
-template double safe_fraction<3>(
-    const Obstacle<3>&, const Vector<3>&, const Vector<3>&, const Clearance&, double);
-#endif
-template double safe_fraction<4>(
-    const Obstacle<4>&, const Vector<4>&, const Vector<4>&, const Clearance&, double);
+#define PENT_INSTANTIATE(Dim)                                                    \
+    template double safe_fraction<Dim>(const Obstacle<Dim>&, const Vector<Dim>&, \
+                                       const Vector<Dim>&, const Clearance&, double);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

@@ -1,5 +1,7 @@
 #include "colliders.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 
 namespace pent::contact {
@@ -57,9 +59,8 @@ bool Colliders<Dim>::can_meet(int a, int b) const {
     return is_of_interest && (a != b || scene_.options.self);
 }
 
-#ifndef PENT_ONLY_4D
-template class Colliders<3>;
-#endif
-template class Colliders<4>;
+#define PENT_INSTANTIATE(Dim) template class Colliders<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

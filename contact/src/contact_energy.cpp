@@ -6,6 +6,7 @@
 #include "spanned_volume.h"
 
 #include <pent/contact/contact_finder.h>
+#include <pent/dimensions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -275,10 +276,7 @@ void add_gradient(const Contacts<Dim>& contacts, Positions<Dim>& gradient) {
     template StencilHessians<Dim> hessians_of(const ContactScene<Dim>&, const Contacts<Dim>&,  \
                                               const PositionsView<Dim>&, double, Filter);      \
     template void add_gradient(const Contacts<Dim>&, Positions<Dim>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

@@ -8,6 +8,7 @@
 #include "penalty_contacts.h"
 #include "step_limit.h"
 
+#include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/stopwatch.h>
 
@@ -285,9 +286,8 @@ std::int64_t ContactFinder<Dim>::bytes() const {
     return state_->bytes();
 }
 
-#ifndef PENT_ONLY_4D
-template class ContactFinder<3>;
-#endif
-template class ContactFinder<4>;
+#define PENT_INSTANTIATE(Dim) template class ContactFinder<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

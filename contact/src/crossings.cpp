@@ -5,6 +5,8 @@
 #include "simplex_crossing.h"
 #include "surface_trees.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -291,10 +293,7 @@ std::string describe(const Crossing& crossing, const ContactScene<Dim>& scene) {
                                                   const std::vector<std::uint32_t>&,       \
                                                   const PositionsView<Dim>&, std::size_t); \
     template std::string describe(const Crossing&, const ContactScene<Dim>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

@@ -2,6 +2,8 @@
 
 #include "filter.h"
 
+#include <pent/dimensions.h>
+
 #include <array>
 #include <utility>
 
@@ -164,10 +166,7 @@ StencilMatrix<Dim> distance_hessian(const Stencil<Dim>& points,
 #define PENT_INSTANTIATE(Dim)                                                                   \
     template StencilMatrix<Dim> distance_hessian<Dim>(const Stencil<Dim>&, const Contact<Dim>&, \
                                                       double, double, Filter);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

@@ -2,6 +2,8 @@
 
 #include "chunks.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -174,10 +176,7 @@ StencilHessians<Dim> LaggedFriction<Dim>::hessians(const Positions<Dim>& positio
     template FrictionResponse<Dim> friction_response<Dim>(                    \
         const Vector<Dim>&, double, const Vector<Dim>&, double, FrictionLaw); \
     template class LaggedFriction<Dim>;
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

@@ -2,6 +2,7 @@
 
 #include "winding_number.h"
 
+#include <pent/dimensions.h>
 #include <pent/parallel.h>
 
 #include <limits>
@@ -165,10 +166,7 @@ std::uint32_t nearest_facet(const Surface<Dim>& surface,
         const PositionsView<Dim>&, const SharedWork&);                                          \
     template std::uint32_t nearest_facet<Dim>(const Surface<Dim>&, const BoxTree&,              \
                                               const PositionsView<Dim>&, const Vector<Dim>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

@@ -2,6 +2,7 @@
 
 #include "gather.h"
 
+#include <pent/dimensions.h>
 #include <pent/geometry.h>
 #include <pent/parallel.h>
 
@@ -31,9 +32,9 @@ Positions<Dim> vertex_normals(const Surface<Dim>& surface, const PositionsView<D
     return normals;
 }
 
-#ifndef PENT_ONLY_4D
-template Positions<3> vertex_normals<3>(const Surface<3>&, const PositionsView<3>&);
-#endif
-template Positions<4> vertex_normals<4>(const Surface<4>&, const PositionsView<4>&);
+#define PENT_INSTANTIATE(Dim) \
+    template Positions<Dim> vertex_normals<Dim>(const Surface<Dim>&, const PositionsView<Dim>&);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

@@ -1,5 +1,7 @@
 #include "obstacle_contacts.h"
 
+#include <pent/dimensions.h>
+
 namespace pent::contact {
 
 namespace {
@@ -82,10 +84,7 @@ std::vector<Contact<Dim>> find_obstacle_contacts(const Colliders<Dim>& colliders
     template std::vector<Contact<Dim>> find_obstacle_contacts(                               \
         const Colliders<Dim>&, const std::vector<std::uint32_t>&, const PositionsView<Dim>&, \
         const SharedWork&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

@@ -1,5 +1,7 @@
 #include "pent/contact/obstacles.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
@@ -166,10 +168,7 @@ ObstacleCore<Dim> core_of(const Obstacle<Dim>& obstacle) {
     template bool passes_through<Dim>(const Obstacle<Dim>&, const Vector<Dim>&,                  \
                                       const Vector<Dim>&, double);                               \
     template ObstacleCore<Dim> core_of<Dim>(const Obstacle<Dim>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

@@ -4,6 +4,8 @@
 #include "gather.h"
 #include "normals.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -181,10 +183,7 @@ std::optional<Contact<Dim>> local_contact(const PairSetting<Dim>& setting,
     template std::optional<Contact<Dim>> local_contact<Dim, 2, Dim - 1>(                        \
         const PairSetting<Dim>&, const Simplices<2>&, std::uint32_t, const Simplices<Dim - 1>&, \
         std::uint32_t);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

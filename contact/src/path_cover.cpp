@@ -1,5 +1,7 @@
 #include "path_cover.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -110,10 +112,7 @@ float PathCover<Dim>::displacement(const Vertices& vertices,
     template double longest_path(const Simplices<1>&, const PositionsView<Dim>&,    \
                                  const PositionsView<Dim>&);                        \
     template class PathCover<Dim>;
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

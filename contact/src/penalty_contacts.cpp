@@ -4,6 +4,8 @@
 #include "normals.h"
 #include "pair_contact.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 
 namespace pent::contact {
@@ -273,13 +275,10 @@ std::vector<Contact<Dim>> find_penalty_contacts(const Colliders<Dim>& colliders,
     return contacts;
 }
 
-#ifndef PENT_ONLY_4D
-template std::vector<Contact<3>> find_penalty_contacts(const Colliders<3>&,
-                                                       const Candidates<3>&,
-                                                       const PositionsView<3>&);
-#endif
-template std::vector<Contact<4>> find_penalty_contacts(const Colliders<4>&,
-                                                       const Candidates<4>&,
-                                                       const PositionsView<4>&);
+#define PENT_INSTANTIATE(Dim)                                 \
+    template std::vector<Contact<Dim>> find_penalty_contacts( \
+        const Colliders<Dim>&, const Candidates<Dim>&, const PositionsView<Dim>&);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

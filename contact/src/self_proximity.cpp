@@ -3,6 +3,8 @@
 #include "boxes_around.h"
 #include "self_proximity_search.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 
 namespace pent::contact {
@@ -248,9 +250,8 @@ std::int64_t SelfProximity<Dim>::bytes() const {
     return sum;
 }
 
-#ifndef PENT_ONLY_4D
-template class SelfProximity<3>;
-#endif
-template class SelfProximity<4>;
+#define PENT_INSTANTIATE(Dim) template class SelfProximity<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

@@ -1,5 +1,7 @@
 #include "simplex_crossing.h"
 
+#include <pent/dimensions.h>
+
 #include <Eigen/LU>
 
 #include <cmath>
@@ -62,10 +64,10 @@ bool is_crossing(const Corners<Dim, K>& first, const Corners<Dim, L>& second) {
     return true;
 }
 
-#ifndef PENT_ONLY_4D
-template bool is_crossing<3, 2, 3>(const Corners<3, 2>&, const Corners<3, 3>&);
-#endif
-template bool is_crossing<4, 2, 4>(const Corners<4, 2>&, const Corners<4, 4>&);
+#define PENT_INSTANTIATE(Dim) \
+    template bool is_crossing<Dim, 2, Dim>(const Corners<Dim, 2>&, const Corners<Dim, Dim>&);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 template bool is_crossing<4, 3, 3>(const Corners<4, 3>&, const Corners<4, 3>&);
 
 }  // namespace pent::contact

@@ -2,6 +2,8 @@
 
 #include "normals.h"
 
+#include <pent/dimensions.h>
+
 #include <array>
 
 namespace pent::contact {
@@ -117,10 +119,7 @@ StencilMatrix<Dim> spanned_volume_squared_hessian(const Stencil<Dim>& points, in
     template double spanned_volume_squared<Dim>(const Stencil<Dim>&, int);                      \
     template StencilVector<Dim> spanned_volume_squared_gradient<Dim>(const Stencil<Dim>&, int); \
     template StencilMatrix<Dim> spanned_volume_squared_hessian<Dim>(const Stencil<Dim>&, int);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

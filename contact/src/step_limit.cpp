@@ -3,6 +3,8 @@
 #include "ccd.h"
 #include "obstacle_contacts.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -225,15 +227,10 @@ StepLimit find_step_limit(const Candidates<Dim>& candidates,
     return limit;
 }
 
-#ifndef PENT_ONLY_4D
-template StepLimit find_step_limit(const Candidates<3>&,
-                                   const std::vector<std::uint32_t>&,
-                                   const PositionsView<3>&,
-                                   const PositionsView<3>&);
-#endif
-template StepLimit find_step_limit(const Candidates<4>&,
-                                   const std::vector<std::uint32_t>&,
-                                   const PositionsView<4>&,
-                                   const PositionsView<4>&);
+#define PENT_INSTANTIATE(Dim)                                                                     \
+    template StepLimit find_step_limit(const Candidates<Dim>&, const std::vector<std::uint32_t>&, \
+                                       const PositionsView<Dim>&, const PositionsView<Dim>&);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

@@ -1,5 +1,6 @@
 #include "pent/contact/surface.h"
 
+#include <pent/dimensions.h>
 #include <pent/facets.h>
 
 #include <algorithm>
@@ -87,11 +88,11 @@ double mean_edge_length(const Surface<Dim>& surface, const PositionsView<Dim>& p
     return surface.edges.cols() == 0 ? 0 : sum / static_cast<double>(surface.edges.cols());
 }
 
-#ifndef PENT_ONLY_4D
-template Surface<3> make_surface<3>(const Simplices<3 + 1>&, Eigen::Index, std::uint32_t);
-template double mean_edge_length<3>(const Surface<3>&, const PositionsView<3>&);
-#endif
-template Surface<4> make_surface<4>(const Simplices<4 + 1>&, Eigen::Index, std::uint32_t);
-template double mean_edge_length<4>(const Surface<4>&, const PositionsView<4>&);
+#define PENT_INSTANTIATE(Dim)                                                        \
+    template Surface<Dim> make_surface<Dim>(const Simplices<Dim + 1>&, Eigen::Index, \
+                                            std::uint32_t);                          \
+    template double mean_edge_length<Dim>(const Surface<Dim>&, const PositionsView<Dim>&);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

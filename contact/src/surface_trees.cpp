@@ -2,6 +2,8 @@
 
 #include "boxes_around.h"
 
+#include <pent/dimensions.h>
+
 namespace pent::contact {
 
 template <int Dim>
@@ -40,9 +42,8 @@ std::int64_t SurfaceTrees<Dim>::bytes() const {
     return sum;
 }
 
-#ifndef PENT_ONLY_4D
-template class SurfaceTrees<3>;
-#endif
-template class SurfaceTrees<4>;
+#define PENT_INSTANTIATE(Dim) template class SurfaceTrees<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

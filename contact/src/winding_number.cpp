@@ -2,6 +2,8 @@
 
 #include "normals.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -137,15 +139,10 @@ int winding_number(const Surface<Dim>& surface,
     return sum;
 }
 
-#ifndef PENT_ONLY_4D
-template int winding_number<3>(const Surface<3>&,
-                               const BoxTree&,
-                               const PositionsView<3>&,
-                               const Vector<3>&);
-#endif
-template int winding_number<4>(const Surface<4>&,
-                               const BoxTree&,
-                               const PositionsView<4>&,
-                               const Vector<4>&);
+#define PENT_INSTANTIATE(Dim)                                             \
+    template int winding_number<Dim>(const Surface<Dim>&, const BoxTree&, \
+                                     const PositionsView<Dim>&, const Vector<Dim>&);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

@@ -2,6 +2,8 @@
 
 #include "linear/links.h"
 
+#include <pent/dimensions.h>
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -381,13 +383,10 @@ std::vector<Aggregates> make_hierarchy(const BlockPattern& pattern,
     return levels;
 }
 
-#ifndef PENT_ONLY_4D
-template std::vector<Aggregates> make_hierarchy<3>(const BlockPattern&,
-                                                   const std::vector<std::uint32_t>&,
-                                                   const Positions<3>&);
-#endif
-template std::vector<Aggregates> make_hierarchy<4>(const BlockPattern&,
-                                                   const std::vector<std::uint32_t>&,
-                                                   const Positions<4>&);
+#define PENT_INSTANTIATE(Dim)                             \
+    template std::vector<Aggregates> make_hierarchy<Dim>( \
+        const BlockPattern&, const std::vector<std::uint32_t>&, const Positions<Dim>&);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

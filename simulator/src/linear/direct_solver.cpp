@@ -1,6 +1,8 @@
 #include "linear/factorization.h"
 #include "linear/linear_solver.h"
 
+#include <pent/dimensions.h>
+
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -98,10 +100,7 @@ std::int64_t direct_bytes(const BlockPattern& pattern, const BlockVector<Dim>& r
 #define PENT_INSTANTIATE(Dim)                                                         \
     template std::unique_ptr<LinearSolver<Dim>> make_direct_solver(BlockVector<Dim>); \
     template std::int64_t direct_bytes(const BlockPattern&, const BlockVector<Dim>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

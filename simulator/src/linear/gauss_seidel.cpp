@@ -2,6 +2,8 @@
 
 #include "linear/coarse_solver.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 
 namespace pent::simulator {
@@ -77,11 +79,10 @@ void GaussSeidel<Dim, Scalar>::sweep_back(const Workers& workers,
     }
 }
 
-#ifndef PENT_ONLY_4D
-template class GaussSeidel<3, float>;
-template class GaussSeidel<3, double>;
-#endif
-template class GaussSeidel<4, float>;
-template class GaussSeidel<4, double>;
+#define PENT_INSTANTIATE(Dim)               \
+    template class GaussSeidel<Dim, float>; \
+    template class GaussSeidel<Dim, double>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

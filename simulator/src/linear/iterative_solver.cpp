@@ -3,6 +3,8 @@
 #include "linear/preconditioner.h"
 #include "linear/spread_modes.h"
 
+#include <pent/dimensions.h>
+
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -120,15 +122,10 @@ std::unique_ptr<LinearSolver<Dim>> make_iterative_solver(const Workers& workers,
                                                   std::move(geometry));
 }
 
-#ifndef PENT_ONLY_4D
-template std::unique_ptr<LinearSolver<3>> make_iterative_solver(const Workers&,
-                                                                const BlockKernels&,
-                                                                PreconditionerKind,
-                                                                DofGeometry<3>);
-#endif
-template std::unique_ptr<LinearSolver<4>> make_iterative_solver(const Workers&,
-                                                                const BlockKernels&,
-                                                                PreconditionerKind,
-                                                                DofGeometry<4>);
+#define PENT_INSTANTIATE(Dim)                                          \
+    template std::unique_ptr<LinearSolver<Dim>> make_iterative_solver( \
+        const Workers&, const BlockKernels&, PreconditionerKind, DofGeometry<Dim>);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,5 +1,7 @@
 #include "linear/newton_system.h"
 
+#include <pent/dimensions.h>
+
 #include <limits>
 #include <utility>
 
@@ -96,9 +98,8 @@ void NewtonSystem<Dim>::finish() {
     std::visit(add, matrix_);
 }
 
-#ifndef PENT_ONLY_4D
-template class NewtonSystem<3>;
-#endif
-template class NewtonSystem<4>;
+#define PENT_INSTANTIATE(Dim) template class NewtonSystem<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -5,6 +5,8 @@
 #include "linear/gathered_solver.h"
 #include "linear/rigid_modes.h"
 
+#include <pent/dimensions.h>
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -326,9 +328,8 @@ PENT_INSTANTIATE(3, double)
 PENT_INSTANTIATE(4, float)
 PENT_INSTANTIATE(4, double)
 #undef PENT_INSTANTIATE
-#ifndef PENT_ONLY_4D
-template class SpreadModes<3>;
-#endif
-template class SpreadModes<4>;
+#define PENT_INSTANTIATE(Dim) template class SpreadModes<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

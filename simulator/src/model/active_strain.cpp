@@ -3,6 +3,7 @@
 #include "model/distance_field.h"
 #include "model/keyframes.h"
 
+#include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/simulator/placed_mesh.h>
 
@@ -303,10 +304,7 @@ std::vector<std::size_t> ActiveStrain<Dim>::changing_bodies(double from, double 
 #define PENT_INSTANTIATE(Dim)         \
     template class ActiveStrain<Dim>; \
     template Matrix<Dim> active_deformation<Dim>(const Activation&, double, const Vector<Dim>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,5 +1,6 @@
 #include "model/append_bodies.h"
 
+#include <pent/dimensions.h>
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
@@ -121,9 +122,8 @@ void append_bodies(const Scene& scene, Bodies<Dim>& bodies) {
     }
 }
 
-#ifndef PENT_ONLY_4D
-template void append_bodies(const Scene&, Bodies<3>&);
-#endif
-template void append_bodies(const Scene&, Bodies<4>&);
+#define PENT_INSTANTIATE(Dim) template void append_bodies(const Scene&, Bodies<Dim>&);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

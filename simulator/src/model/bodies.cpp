@@ -3,6 +3,7 @@
 #include "model/append_bodies.h"
 #include "model/rotation.h"
 
+#include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/simulator/placed_mesh.h>
 
@@ -372,10 +373,7 @@ void place_dirichlet(const Bodies<Dim>& bodies,
     template Positions<Dim> start_velocities<Dim>(const Scene&, const Bodies<Dim>&);              \
     template void place_dirichlet<Dim>(const Bodies<Dim>&, double, Positions<Dim>&,               \
                                        Positions<Dim>*);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

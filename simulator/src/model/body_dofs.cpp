@@ -2,6 +2,8 @@
 
 #include "model/bodies.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -65,10 +67,7 @@ DofMap number_dofs_alike(const Bodies<Dim>& bodies, const std::vector<bool>& is_
 #define PENT_INSTANTIATE(Dim)                                                       \
     template DofMap number_dofs<Dim>(const Bodies<Dim>&, const std::vector<bool>&); \
     template DofMap number_dofs_alike<Dim>(const Bodies<Dim>&, const std::vector<bool>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,5 +1,6 @@
 #include "model/distance_field.h"
 
+#include <pent/dimensions.h>
 #include <pent/geometry.h>
 
 #include <Eigen/LU>
@@ -162,10 +163,7 @@ Eigen::Matrix<double, Dim, 1> gradient_in_cell(const SimplexMesh<Dim>& mesh,
                                              const std::vector<std::uint32_t>&);                   \
     template Eigen::Matrix<double, Dim, 1> gradient_in_cell(const SimplexMesh<Dim>&, Eigen::Index, \
                                                             const Eigen::VectorXd&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,5 +1,7 @@
 #include "model/motion_chain.h"
 
+#include <pent/dimensions.h>
+
 namespace pent::simulator {
 
 template <int Dim>
@@ -37,11 +39,11 @@ void MotionChain<Dim>::move(Vector<Dim>& point, Vector<Dim>* velocity) const {
     }
 }
 
-#ifndef PENT_ONLY_4D
-template std::vector<CenteredMotion<3>> center<3>(const std::vector<Motion>&, const Vector<3>&);
-template class MotionChain<3>;
-#endif
-template std::vector<CenteredMotion<4>> center<4>(const std::vector<Motion>&, const Vector<4>&);
-template class MotionChain<4>;
+#define PENT_INSTANTIATE(Dim)                                                         \
+    template std::vector<CenteredMotion<Dim>> center<Dim>(const std::vector<Motion>&, \
+                                                          const Vector<Dim>&);        \
+    template class MotionChain<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

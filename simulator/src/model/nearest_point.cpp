@@ -1,5 +1,7 @@
 #include "model/nearest_point.h"
 
+#include <pent/dimensions.h>
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -142,10 +144,7 @@ typename MaterialPoint<Dim>::Weights barycentric(const Eigen::Matrix<double, Dim
     template class NearestPointSearch<Dim>;                \
     template MaterialPoint<Dim>::Weights barycentric<Dim>( \
         const Eigen::Matrix<double, Dim, Dim + 1>&, const Vector<Dim>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

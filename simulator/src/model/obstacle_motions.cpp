@@ -2,6 +2,8 @@
 
 #include "model/rotation.h"
 
+#include <pent/dimensions.h>
+
 #include <utility>
 #include <variant>
 
@@ -139,9 +141,8 @@ bool ObstacleMotions<Dim>::is_moving(std::size_t obstacle, double from, double t
     return before.rotation != now.rotation || before.shift != now.shift;
 }
 
-#ifndef PENT_ONLY_4D
-template class ObstacleMotions<3>;
-#endif
-template class ObstacleMotions<4>;
+#define PENT_INSTANTIATE(Dim) template class ObstacleMotions<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

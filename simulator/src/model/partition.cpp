@@ -1,5 +1,6 @@
 #include "model/partition.h"
 
+#include <pent/dimensions.h>
 #include <pent/error.h>
 
 #include <algorithm>
@@ -113,9 +114,10 @@ std::vector<std::uint32_t> partition_columns(const Positions<Dim>& rest,
     return owners;
 }
 
-#ifndef PENT_ONLY_4D
-template std::vector<std::uint32_t> partition_columns<3>(const Positions<3>&, const Columns&, int);
-#endif
-template std::vector<std::uint32_t> partition_columns<4>(const Positions<4>&, const Columns&, int);
+#define PENT_INSTANTIATE(Dim)                                                         \
+    template std::vector<std::uint32_t> partition_columns<Dim>(const Positions<Dim>&, \
+                                                               const Columns&, int);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,5 +1,6 @@
 #include "model/quadratic_cells.h"
 
+#include <pent/dimensions.h>
 #include <pent/equal_runs.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
@@ -264,10 +265,7 @@ QuadraticSimplices<Dim> quadratic_simplices(const SimplexMesh<Dim>& mesh,
                                                         const std::string&);        \
     template QuadraticSimplices<Dim> quadratic_simplices<Dim>(                      \
         const SimplexMesh<Dim>&, const std::vector<Eigen::Index>&, const std::string&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

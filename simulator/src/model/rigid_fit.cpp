@@ -1,3 +1,4 @@
+#include <pent/dimensions.h>
 #include <pent/simulator/rigid_fit.h>
 
 #include <Eigen/LU>
@@ -29,13 +30,11 @@ double non_rigid(const Eigen::Ref<const Positions<Dim>>& start,
     return std::sqrt(gap / spread);
 }
 
-#ifndef PENT_ONLY_4D
-template double non_rigid<3>(const Eigen::Ref<const Positions<3>>&,
-                             const Eigen::Ref<const Positions<3>>&,
-                             const Eigen::Ref<const Eigen::VectorXd>&);
-#endif
-template double non_rigid<4>(const Eigen::Ref<const Positions<4>>&,
-                             const Eigen::Ref<const Positions<4>>&,
-                             const Eigen::Ref<const Eigen::VectorXd>&);
+#define PENT_INSTANTIATE(Dim)                                               \
+    template double non_rigid<Dim>(const Eigen::Ref<const Positions<Dim>>&, \
+                                   const Eigen::Ref<const Positions<Dim>>&, \
+                                   const Eigen::Ref<const Eigen::VectorXd>&);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

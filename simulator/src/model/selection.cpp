@@ -1,5 +1,6 @@
 #include "model/rotation.h"
 
+#include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/simulator/placed_mesh.h>
@@ -272,10 +273,7 @@ const Material& material_of(const Body& body, std::uint16_t number) {
         const SimplexMesh<Dim>&, const std::vector<Selection>&, const std::string&);     \
     template std::vector<std::uint16_t> materials_of_cells<Dim>(const SimplexMesh<Dim>&, \
                                                                 const Body&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,5 +1,6 @@
 #include "potentials/attachments.h"
 
+#include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/simulator/placed_mesh.h>
@@ -269,9 +270,8 @@ std::vector<std::size_t> Attachments<Dim>::break_springs() {
     return bodies;
 }
 
-#ifndef PENT_ONLY_4D
-template class Attachments<3>;
-#endif
-template class Attachments<4>;
+#define PENT_INSTANTIATE(Dim) template class Attachments<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -2,6 +2,7 @@
 
 #include "potentials/contact_team.h"
 
+#include <pent/dimensions.h>
 #include <pent/stopwatch.h>
 
 #include <algorithm>
@@ -374,10 +375,7 @@ std::int64_t ContactPotential<Dim>::bytes() const {
     template void add_stencils(double, const contact::StencilHessians<Dim>&, std::size_t, \
                                NewtonSystem<Dim>&);                                       \
     template class ContactPotential<Dim>;
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,5 +1,7 @@
 #include "potentials/elasticity.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -196,9 +198,8 @@ std::int64_t Elasticity<Dim>::take_filtered() {
     return bodies_->sharing.sum(std::exchange(filtered_, 0));
 }
 
-#ifndef PENT_ONLY_4D
-template class Elasticity<3>;
-#endif
-template class Elasticity<4>;
+#define PENT_INSTANTIATE(Dim) template class Elasticity<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -3,6 +3,8 @@
 #include "model/active_strain.h"
 #include "potentials/elements.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 
 namespace pent::simulator {
@@ -67,10 +69,7 @@ void Elements<Dim>::activate(const Passive& passive, const ActiveStrain<Dim>& st
     template void Elements<Dim>::keep_passive(std::span<const Eigen::Index>, \
                                               const ActiveStrain<Dim>*);     \
     template void Elements<Dim>::activate(const Workers&, const ActiveStrain<Dim>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -2,6 +2,8 @@
 
 #include "potentials/smoothing.h"
 
+#include <pent/dimensions.h>
+
 #include <cassert>
 #include <utility>
 
@@ -55,10 +57,7 @@ ElementLayout<Dim> lay_out_elements(const Positions<Dim>& rest,
     template ElementLayout<Dim> lay_out_elements(const Positions<Dim>&,                            \
                                                  const QuadraticCells<Dim>&, const DofMap&,        \
                                                  const ActiveStrain<Dim>*);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -3,6 +3,7 @@
 #include "model/active_strain.h"
 #include "potentials/own_elements.h"
 
+#include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/simulator/energy.h>
 
@@ -375,10 +376,9 @@ std::int64_t Elements<Dim>::bytes() const {
                                            * sizeof(std::uint32_t));
 }
 
-#ifndef PENT_ONLY_4D
-template class Elements<3>;
-#endif
-template class Elements<4>;
+#define PENT_INSTANTIATE(Dim) template class Elements<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 #define PENT_INSTANTIATE(Dim, Scalar)                                                             \
     template std::int64_t Elements<Dim>::add_hessian<Scalar>(                                     \
         const Workers&, const Kernels<Dim>&, const Positions<Dim>&, const HessianTarget<Scalar>&) \

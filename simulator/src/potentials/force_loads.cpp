@@ -2,6 +2,7 @@
 
 #include "model/keyframes.h"
 
+#include <pent/dimensions.h>
 #include <pent/simulator/placed_mesh.h>
 
 #include <utility>
@@ -70,9 +71,8 @@ double ForceLoads<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradie
     return energy_;
 }
 
-#ifndef PENT_ONLY_4D
-template class ForceLoads<3>;
-#endif
-template class ForceLoads<4>;
+#define PENT_INSTANTIATE(Dim) template class ForceLoads<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,5 +1,7 @@
 #include "potentials/friction_potential.h"
 
+#include <pent/dimensions.h>
+
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -52,9 +54,8 @@ std::int64_t FrictionPotential<Dim>::take_count() {
     return std::exchange(count_, 0);
 }
 
-#ifndef PENT_ONLY_4D
-template class FrictionPotential<3>;
-#endif
-template class FrictionPotential<4>;
+#define PENT_INSTANTIATE(Dim) template class FrictionPotential<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,5 +1,7 @@
 #include "potentials/grabs.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -166,10 +168,7 @@ double bearable_force(const Bodies<Dim>& bodies, const BodyPoint<Dim>& point) {
 #define PENT_INSTANTIATE(Dim)  \
     template class Grabs<Dim>; \
     template double bearable_force(const Bodies<Dim>&, const BodyPoint<Dim>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -2,6 +2,8 @@
 
 #include "potentials/vertex_chunks.h"
 
+#include <pent/dimensions.h>
+
 namespace pent::simulator {
 
 template <int Dim>
@@ -17,9 +19,8 @@ double Gravity<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient)
     return energy_;
 }
 
-#ifndef PENT_ONLY_4D
-template class Gravity<3>;
-#endif
-template class Gravity<4>;
+#define PENT_INSTANTIATE(Dim) template class Gravity<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

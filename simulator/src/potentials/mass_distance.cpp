@@ -2,6 +2,8 @@
 
 #include "potentials/vertex_chunks.h"
 
+#include <pent/dimensions.h>
+
 namespace pent::simulator {
 
 template <int Dim>
@@ -14,9 +16,8 @@ double MassDistance<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& grad
     });
 }
 
-#ifndef PENT_ONLY_4D
-template class MassDistance<3>;
-#endif
-template class MassDistance<4>;
+#define PENT_INSTANTIATE(Dim) template class MassDistance<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,5 +1,7 @@
 #include "potentials/potential_energy.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 
 namespace pent::simulator {
@@ -96,9 +98,8 @@ bool PotentialEnergy<Dim>::has_kink() const {
                        [](const auto& term) { return term->has_kink(); });
 }
 
-#ifndef PENT_ONLY_4D
-template class PotentialEnergy<3>;
-#endif
-template class PotentialEnergy<4>;
+#define PENT_INSTANTIATE(Dim) template class PotentialEnergy<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -2,6 +2,7 @@
 
 #include "model/keyframes.h"
 
+#include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/facets.h>
 #include <pent/simulator/placed_mesh.h>
@@ -350,9 +351,8 @@ std::vector<TermEnergy> PressureLoads<Dim>::energies() const {
     return parts;
 }
 
-#ifndef PENT_ONLY_4D
-template class PressureLoads<3>;
-#endif
-template class PressureLoads<4>;
+#define PENT_INSTANTIATE(Dim) template class PressureLoads<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,5 +1,7 @@
 #include "potentials/rayleigh_damping.h"
 
+#include <pent/dimensions.h>
+
 #include <utility>
 
 namespace pent::simulator {
@@ -59,9 +61,8 @@ std::int64_t RayleighDamping<Dim>::take_hessians() {
     return std::exchange(hessians_, 0);
 }
 
-#ifndef PENT_ONLY_4D
-template class RayleighDamping<3>;
-#endif
-template class RayleighDamping<4>;
+#define PENT_INSTANTIATE(Dim) template class RayleighDamping<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -2,6 +2,8 @@
 
 #include "potentials/pressure_loads.h"
 
+#include <pent/dimensions.h>
+
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -60,9 +62,8 @@ SceneEnergy<Dim>::SceneEnergy(const Workers& workers,
     }
 }
 
-#ifndef PENT_ONLY_4D
-template struct SceneEnergy<3>;
-#endif
-template struct SceneEnergy<4>;
+#define PENT_INSTANTIATE(Dim) template struct SceneEnergy<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -4,6 +4,8 @@
 #include "step/newton.h"
 #include "step/stepper.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <sstream>
 #include <utility>
@@ -286,10 +288,7 @@ bool Simulation<Dim>::Stepper::advance(double time, double h, int depth, StepRep
 
 #define PENT_INSTANTIATE(Dim) \
     template bool Simulation<Dim>::Stepper::advance(double, double, int, StepReport&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,5 +1,7 @@
 #include "step/balance.h"
 
+#include <pent/dimensions.h>
+
 namespace pent::simulator {
 
 namespace {
@@ -82,10 +84,7 @@ std::vector<ConstraintSummary> constraint_summaries(const Bodies<Dim>& bodies,
     template Positions<Dim> reactions<Dim>(const Bodies<Dim>&, const Positions<Dim>&);         \
     template std::vector<ConstraintSummary> constraint_summaries<Dim>(                         \
         const Bodies<Dim>&, const Positions<Dim>&, const Positions<Dim>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

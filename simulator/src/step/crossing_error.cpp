@@ -1,5 +1,7 @@
 #include "step/crossing_error.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <string>
 
@@ -90,15 +92,11 @@ CrossingError<Dim> crossing_error(const Bodies<Dim>& bodies,
     return {message, cells_of(bodies, simplices, positions)};
 }
 
-#ifndef PENT_ONLY_4D
-template CrossingError<3> crossing_error<3>(const Bodies<3>&,
-                                            const ContactPotential<3>&,
-                                            const std::vector<contact::Crossing>&,
-                                            const Positions<3>&);
-#endif
-template CrossingError<4> crossing_error<4>(const Bodies<4>&,
-                                            const ContactPotential<4>&,
-                                            const std::vector<contact::Crossing>&,
-                                            const Positions<4>&);
+#define PENT_INSTANTIATE(Dim)                                                                    \
+    template CrossingError<Dim> crossing_error<Dim>(                                             \
+        const Bodies<Dim>&, const ContactPotential<Dim>&, const std::vector<contact::Crossing>&, \
+        const Positions<Dim>&);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

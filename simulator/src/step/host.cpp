@@ -2,6 +2,8 @@
 
 #include "step/stepper.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -135,10 +137,7 @@ std::vector<std::size_t> Simulation<Dim>::Stepper::neighbors_of_obstacle(
         const;                                                                                     \
     template std::vector<std::size_t> Simulation<Dim>::Stepper::neighbors_of_obstacle(std::size_t) \
         const;
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,5 +1,6 @@
 #include "step/host_checks.h"
 
+#include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 
@@ -118,10 +119,7 @@ void check_host(const HostState<Dim>& host, const Bodies<Dim>& bodies) {
     template void check_array<Dim>(const char*, const Positions<Dim>&, Eigen::Index);         \
     template void check_grab(const Grab<Dim>&, const Bodies<Dim>&);                           \
     template void check_host(const HostState<Dim>&, const Bodies<Dim>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

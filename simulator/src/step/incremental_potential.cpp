@@ -1,5 +1,6 @@
 #include "step/incremental_potential.h"
 
+#include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/machine_memory.h>
@@ -317,9 +318,8 @@ std::int64_t IncrementalPotential<Dim>::factor_bytes() const {
                : 0;
 }
 
-#ifndef PENT_ONLY_4D
-template class IncrementalPotential<3>;
-#endif
-template class IncrementalPotential<4>;
+#define PENT_INSTANTIATE(Dim) template class IncrementalPotential<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

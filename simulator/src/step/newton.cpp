@@ -1,5 +1,7 @@
 #include "step/newton.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -294,10 +296,7 @@ NewtonReport newton_step(Objective<Dim>& function, Positions<Dim>& x) {
 #define PENT_INSTANTIATE(Dim)                                                             \
     template NewtonReport newton(Objective<Dim>&, const NewtonOptions&, Positions<Dim>&); \
     template NewtonReport newton_step(Objective<Dim>&, Positions<Dim>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

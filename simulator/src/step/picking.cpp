@@ -1,5 +1,6 @@
 #include "model/rotation.h"
 
+#include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/simulator/picking.h>
 
@@ -158,10 +159,7 @@ Eigen::Matrix<double, Dim, 1> place_of(const Simulation<Dim>& simulation,
     template std::optional<Pick<Dim>> pick(const Simulation<Dim>&, const Hyperplane<Dim>&, \
                                            const Ray<Dim>&);                               \
     template Eigen::Matrix<double, Dim, 1> place_of(const Simulation<Dim>&, const BodyPoint<Dim>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

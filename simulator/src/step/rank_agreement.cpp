@@ -3,6 +3,7 @@
 #include "model/partition.h"
 
 #include <pent/crc32c.h>
+#include <pent/dimensions.h>
 #include <pent/error.h>
 
 #include <algorithm>
@@ -132,10 +133,7 @@ void agree(const Ranks* ranks, const std::function<void()>& work) {
 #define PENT_INSTANTIATE(Dim)                                                     \
     template Bodies<Dim> share(Bodies<Dim>, const std::shared_ptr<const Ranks>&); \
     template void refuse_disagreement(const Sharing&, const Positions<Dim>&, std::uint64_t);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

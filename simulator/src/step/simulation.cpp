@@ -1,6 +1,7 @@
 #include "step/host_checks.h"
 #include "step/stepper.h"
 
+#include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/simulator/simulation.h>
 
@@ -210,9 +211,8 @@ void Simulation<Dim>::restore(const Snapshot<Dim>& snapshot) {
     stepper_->restore(snapshot);
 }
 
-#ifndef PENT_ONLY_4D
-template class Simulation<3>;
-#endif
-template class Simulation<4>;
+#define PENT_INSTANTIATE(Dim) template class Simulation<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -4,6 +4,7 @@
 #include "step/host_checks.h"
 #include "step/stepper.h"
 
+#include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/simulator/placed_mesh.h>
 
@@ -214,10 +215,7 @@ void Simulation<Dim>::remove_obstacle(int obstacle) {
     template void Simulation<Dim>::remove_obstacle(int);                                \
     template void Simulation<Dim>::rebuild(const Scene&, std::vector<SimplexMesh<Dim>>, \
                                            const Snapshot<Dim>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -3,6 +3,7 @@
 #include "step/host_checks.h"
 #include "step/stepper.h"
 
+#include <pent/dimensions.h>
 #include <pent/error.h>
 
 #include <algorithm>
@@ -132,10 +133,7 @@ HostState<Dim> Simulation<Dim>::host() const {
     template void Simulation<Dim>::set_forces(int, const Positions<Dim>&);             \
     template void Simulation<Dim>::set_gravity(const Vector&);                         \
     template HostState<Dim> Simulation<Dim>::host() const;
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,5 +1,7 @@
 #include "step/sleep.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -145,9 +147,8 @@ bool Islands<Dim>::put_to_sleep(const Couplings& couplings,
     return has_slept;
 }
 
-#ifndef PENT_ONLY_4D
-template class Islands<3>;
-#endif
-template class Islands<4>;
+#define PENT_INSTANTIATE(Dim) template class Islands<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

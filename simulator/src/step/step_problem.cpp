@@ -1,5 +1,7 @@
 #include "step/step_problem.h"
 
+#include <pent/dimensions.h>
+
 namespace pent::simulator {
 
 template <int Dim>
@@ -37,10 +39,7 @@ StepProblem<Dim> static_problem(const State<Dim>& now, double h) {
     template StepProblem<Dim> euler_problem(const State<Dim>&, double);                   \
     template StepProblem<Dim> bdf2_problem(const State<Dim>&, const State<Dim>&, double); \
     template StepProblem<Dim> static_problem(const State<Dim>&, double);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3)
-#endif
-PENT_INSTANTIATE(4)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -5,6 +5,7 @@
 #include "step/crossing_error.h"
 #include "step/rank_agreement.h"
 
+#include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/stopwatch.h>
 
@@ -378,9 +379,8 @@ SimulationSize Simulation<Dim>::Stepper::size() const {
     return size;
 }
 
-#ifndef PENT_ONLY_4D
-template class Simulation<3>::Stepper;
-#endif
-template class Simulation<4>::Stepper;
+#define PENT_INSTANTIATE(Dim) template class Simulation<Dim>::Stepper;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

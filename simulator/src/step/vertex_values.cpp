@@ -1,6 +1,7 @@
 #include "step/balance.h"
 #include "step/stepper.h"
 
+#include <pent/dimensions.h>
 #include <pent/geometry.h>
 #include <pent/simulator/energy.h>
 
@@ -60,9 +61,9 @@ Eigen::MatrixXd Simulation<Dim>::vertex_values(VertexQuantity quantity, int body
                             stepper_->current().positions);
 }
 
-#ifndef PENT_ONLY_4D
-template Eigen::MatrixXd Simulation<3>::vertex_values(VertexQuantity, int) const;
-#endif
-template Eigen::MatrixXd Simulation<4>::vertex_values(VertexQuantity, int) const;
+#define PENT_INSTANTIATE(Dim) \
+    template Eigen::MatrixXd Simulation<Dim>::vertex_values(VertexQuantity, int) const;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator
