@@ -14,7 +14,7 @@ const kMapSize = 256; // colors of a color map
 const kShadowPixels = 2048;
 const kGhostSlope = 2; // that ghosts are drawn further away, in depth from pixel to pixel
 const kGhostSteps = 16; // and in the least that depths can differ
-const kPushed = 1e-3; // that sides seen from behind are drawn deeper, in normalized depth
+const kPushed = 0.02; // that sides seen from behind are drawn deeper, in normalized depth
 const kVeil = 0.4; // of the rim of a hollow before what it hides
 
 /** Draws pictures of bodies with WebGL 2. Knows nothing of the page around the canvas. */

@@ -1,4 +1,5 @@
 import { kColorBy } from "../view/colors.ts";
+import { reachAlongW } from "../view/bounds.ts";
 import { slicePlaces } from "../view/compose.ts";
 import { axesOf, identity, kPlanes } from "../view/rotation.ts";
 import { defaultState, kGhosts, kLayouts } from "../view/state.ts";
@@ -134,7 +135,11 @@ export function describe(viewer: Viewer): string {
     const places = slicePlaces(state, viewer.bounds, run.dimension).map((w) =>
         Number(w.toPrecision(3)),
     );
-    const what = run.dimension === 3 ? "Whole bodies" : `Slice at w = ${places.join(", ")} m`;
+    const shift = viewer.bounds.shift(state.rotation)[3];
+    const [low, high] = reachAlongW(moment, state.rotation, shift);
+    const isEmpty = run.dimension === 4 && places.every((w) => w < low || w > high);
+    const slice = `Slice at w = ${places.join(", ")} m${isEmpty ? ", where no body is," : ""}`;
+    const what = run.dimension === 3 ? "Whole bodies" : slice;
     const time =
         run.frames.length > 1 ? `, frame ${moment.frame}, ${moment.time.toFixed(2)} s` : "";
     const color = state.color === "body" ? "" : `, colored by ${state.color}`;
