@@ -40,7 +40,7 @@ struct Difference {
     double last = 0;                // of positions after the last step, over the motion
     double energy = 0;              // of any energy after a step, over all of them
     double momentum = 0;            // of momentum and angular momentum after a step, over both
-    bool has_same_contacts = true;  // in the first step that has any
+    bool has_same_contacts = true;  // in the first step in which they hold energy
     std::int64_t contacts = 0;      // of pent-sim there
     int crossings = 0;              // of surfaces at any step of either
 
@@ -121,12 +121,26 @@ std::int64_t contacts_of(const StepReport& step) {
     return step.contact.point_facet + step.contact.mixed + step.contact.obstacle;
 }
 
+double size_of_energies(const StepReport& step) {
+    double sum = step.energies.kinetic;
+    for (const simulator::TermEnergy& term : step.energies.terms) {
+        sum += std::abs(term.energy);
+    }
+    return sum;
+}
+
+// Bodies placed at just the distance of contact touch or not as rounding has it, without energy.
+bool do_contacts_count(const StepReport& step) {
+    constexpr double kRounding = 1e-12;
+    return step.energies.of("contact") + step.energies.of("obstacle")
+           > kRounding * size_of_energies(step);
+}
+
 double energy_difference(const StepReport& own, const StepReport& other) {
-    double scale = other.energies.kinetic;
+    const double scale = size_of_energies(other);
     double most = std::abs(own.energies.kinetic - other.energies.kinetic);
     for (std::size_t i = 0; i < other.energies.terms.size(); ++i) {
         const double energy = other.energies.terms[i].energy;
-        scale += std::abs(energy);
         most = std::max(most, std::abs(own.energies.terms.at(i).energy - energy));
     }
     return scale > 0 ? most / scale : most;
@@ -165,16 +179,14 @@ Difference difference(const QuickScene& scene, const fs::path& own, const fs::pa
     result.momentum = momentum_difference(first, first_alone);
     // Behind the first contacts a penalty's kinks make of rounding what they like.
     std::size_t i = 0;
-    while (i + 1 < other.steps.size() && contacts_of(other.steps[i]) == 0) {
-        result.has_same_contacts = result.has_same_contacts && contacts_of(report.steps.at(i)) == 0;
+    while (i + 1 < other.steps.size() && !do_contacts_count(other.steps[i])) {
         ++i;
     }
     const simulator::ContactSummary& own_contacts = report.steps.at(i).contact;
     const simulator::ContactSummary& contacts = other.steps[i].contact;
     result.has_same_contacts =
-        result.has_same_contacts && own_contacts.point_facet == contacts.point_facet
-        && own_contacts.mixed == contacts.mixed && own_contacts.self == contacts.self
-        && own_contacts.obstacle == contacts.obstacle;
+        own_contacts.point_facet == contacts.point_facet && own_contacts.mixed == contacts.mixed
+        && own_contacts.self == contacts.self && own_contacts.obstacle == contacts.obstacle;
     result.contacts = contacts_of(other.steps[i]);
     return result;
 }
