@@ -138,7 +138,7 @@ TEST(PentMesh, SaysWhereOperationsLeaveLessThanAnEdge) {
         "pent-mesh " + shape + " -o " + (folder / "a.pent").string() + " --edge-length 0.25 ";
     test::write_file(shape,
                      "[[shape]]\nball = { radius = 1 }\n[[shape]]\nop = \"difference\"\n"
-                     "ball = { radius = 0.9 }\n");
+                     "ball = { radius = 0.8 }\n");
     const std::string json = (folder / "a.json").string();
     const Outcome shell = run_program(command + "--json " + json);
     ASSERT_EQ(shell.exit_code, 0) << shell.err;
@@ -147,12 +147,12 @@ TEST(PentMesh, SaysWhereOperationsLeaveLessThanAnEdge) {
     // Nothing of it contains a point of the lattice.
     test::write_file(shape,
                      "[[shape]]\nball = { radius = 1 }\n[[shape]]\nop = \"difference\"\n"
-                     "ball = { radius = 0.9999 }\n");
+                     "ball = { radius = 0.9 }\n");
     const Outcome skin = run_program(command);
     EXPECT_EQ(skin.exit_code, 1);
     test::expect_one_error_line(skin, "pent-mesh");
-    test::expect_contains(skin.err, {"thinner than edges of 0.25 m everywhere",
-                                     "expected an edge length of at most 0.000"});
+    test::expect_contains(skin.err, {"thinner than edges of 0.25 m everywhere, as thin as 0.09",
+                                     "expected an edge length of at most 0.09"});
 }
 
 TEST(PentMesh, SaysWhatIsWrongWithAShape) {
