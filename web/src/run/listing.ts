@@ -73,7 +73,8 @@ export function listPaths(paths: string[]): { listing: Listing; prefix: string }
                 single.length === 0
                     ? "no .pent file"
                     : `${single.length} meshes but no folder meshes/`;
-            throw new PentError(`${paths[0] ?? "folder"}: found ${found}; ${kExpected}`);
+            const name = (paths[0] ?? "folder").replace(/[\r\n]/g, "?"); // a line, whatever it is
+            throw new PentError(`${name}: found ${found}; ${kExpected}`);
         }
         listing.mesh = single[0]!;
         return { listing, prefix: "" };
