@@ -1,7 +1,7 @@
 #pragma once
 
-/// The dimensions that what is written for all is built for: calls macro(3) and macro(4), of which a
-/// program for one dimension alone (PENT_ONLY_4D, as the playground is) leaves out the first.
+/// What is written for any dimension is built for these: macro(3) macro(4). With PENT_ONLY_4D, as
+/// the playground of the page is, for the last alone.
 #ifdef PENT_ONLY_4D
 #define PENT_FOR_EACH_DIMENSION(macro) macro(4)
 #else
