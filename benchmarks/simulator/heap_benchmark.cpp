@@ -1,9 +1,6 @@
 // Small bodies that fall upon one another in a cavity, under a barrier: what a step costs where
 // next to nothing but contact is to be solved.
 //
-//     bench_heap [--bodies N] [--steps N] [--threads N] [--self 0|1] [--friction MU] [--rate N]
-//                [--penalty 0|1]
-//
 // With an option of the scene that heap alone, else twelve: 4 to 64 bodies, at 30 and at 120 steps
 // a second, with and without friction and self-contact. Rows are means of a step.
 
@@ -26,6 +23,10 @@
 
 namespace pent::simulator::bench {
 namespace {
+
+constexpr const char* kUsage =
+    "bench_heap [--bodies N] [--steps N] [--threads N] [--self 0|1] [--friction MU] [--rate N]"
+    " [--penalty 0|1]\n";
 
 struct Heap {
     int bodies = 12;
@@ -146,20 +147,31 @@ int main(int argc, char** argv) {
     int steps = 60;
     int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     bool is_one = false;
-    for (int i = 1; i + 1 < argc; i += 2) {
+    for (int i = 1; i < argc; i += 2) {
         const std::string_view option = argv[i];
-        const double value = std::atof(argv[i + 1]);
+        const double value = i + 1 < argc ? std::atof(argv[i + 1]) : 0;
+        is_one |= option != "--steps" && option != "--threads";
+        if (i + 1 == argc) {
+            std::fprintf(stderr, "%s", kUsage);
+            return option == "--help" ? 0 : 2;
+        }
         if (option == "--steps") {
             steps = static_cast<int>(value);
         } else if (option == "--threads") {
             threads = static_cast<int>(value);
+        } else if (option == "--bodies") {
+            heap.bodies = static_cast<int>(value);
+        } else if (option == "--self") {
+            heap.self = value != 0;
+        } else if (option == "--friction") {
+            heap.friction = value;
+        } else if (option == "--rate") {
+            heap.rate = value;
+        } else if (option == "--penalty") {
+            heap.penalty = value != 0;
         } else {
-            is_one = true;
-            heap.bodies = option == "--bodies" ? static_cast<int>(value) : heap.bodies;
-            heap.self = option == "--self" ? value != 0 : heap.self;
-            heap.friction = option == "--friction" ? value : heap.friction;
-            heap.rate = option == "--rate" ? value : heap.rate;
-            heap.penalty = option == "--penalty" ? value != 0 : heap.penalty;
+            std::fprintf(stderr, "bench_heap: no option is called \"%s\"\n%s", argv[i], kUsage);
+            return 2;
         }
     }
     try {
