@@ -1,4 +1,5 @@
 #include <pent/contact/box_tree.h>
+#include <pent/dimensions.h>
 #include <pent/parallel.h>
 
 #include <array>
@@ -227,16 +228,13 @@ std::vector<BoxTree::Work> BoxTree::split(const BoxTree& first,
         .run({first.root(), second.root(), first.root_, second.root_}, least);
 }
 
-#ifndef PENT_ONLY_4D
-template Box box_around(const Eigen::Matrix<double, 3, 1>&, double);
-template Box box_around(const Eigen::Matrix<double, 3, 2>&, double);
-template Box box_around(const Eigen::Matrix<double, 3, 3>&, double);
-template Box box_around(const Eigen::Matrix<double, 3, 4>&, double);
-#endif
-template Box box_around(const Eigen::Matrix<double, 4, 1>&, double);
-template Box box_around(const Eigen::Matrix<double, 4, 2>&, double);
-template Box box_around(const Eigen::Matrix<double, 4, 3>&, double);
-template Box box_around(const Eigen::Matrix<double, 4, 4>&, double);
-template Box box_around(const Eigen::Matrix<double, 4, 5>&, double);
+#define PENT_INSTANTIATE(Dim, Count) \
+    template Box box_around(const Eigen::Matrix<double, Dim, Count>&, double);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, 1)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, 2)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, 3)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, 4)
+PENT_INSTANTIATE(4, 5)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

@@ -143,21 +143,17 @@ double safe_fraction(const Obstacle<Dim>& obstacle,
     return t;
 }
 
-#define PENT_INSTANTIATE(Dim, K, L)                                                          \
+#define PENT_INSTANTIATE_PAIR(Dim, K, L)                                                     \
     template double safe_fraction<Dim, K, L>(const Corners<Dim, K>&, const Corners<Dim, K>&, \
                                              const Corners<Dim, L>&, const Corners<Dim, L>&, \
                                              const Clearance&, double);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3, 1, 3)
-PENT_INSTANTIATE(3, 2, 2)
-#endif
-PENT_INSTANTIATE(4, 1, 4)
-PENT_INSTANTIATE(4, 2, 3)
-#undef PENT_INSTANTIATE
 #define PENT_INSTANTIATE(Dim)                                                    \
+    PENT_INSTANTIATE_PAIR(Dim, 1, Dim)                                           \
+    PENT_INSTANTIATE_PAIR(Dim, 2, Dim - 1)                                       \
     template double safe_fraction<Dim>(const Obstacle<Dim>&, const Vector<Dim>&, \
                                        const Vector<Dim>&, const Clearance&, double);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
+#undef PENT_INSTANTIATE_PAIR
 
 }  // namespace pent::contact

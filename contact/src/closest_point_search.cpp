@@ -1,5 +1,7 @@
 #include "closest_point_search.h"
 
+#include <pent/dimensions.h>
+
 namespace pent::contact {
 
 template <int Dim, int K, int L>
@@ -75,11 +77,10 @@ template <unsigned A, unsigned B>
     visit_facets<A, B>(t, true);
 }
 
-#ifndef PENT_ONLY_4D
-template bool ClosestPointSearch<3, 1, 3>::run();
-template bool ClosestPointSearch<3, 2, 2>::run();
-#endif
-template bool ClosestPointSearch<4, 1, 4>::run();
-template bool ClosestPointSearch<4, 2, 3>::run();
+#define PENT_INSTANTIATE(Dim)                             \
+    template bool ClosestPointSearch<Dim, 1, Dim>::run(); \
+    template bool ClosestPointSearch<Dim, 2, Dim - 1>::run();
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::contact

@@ -2,6 +2,7 @@
 
 #include "normals.h"
 
+#include <pent/dimensions.h>
 #include <pent/parallel.h>
 
 #include <Eigen/Eigenvalues>
@@ -119,14 +120,6 @@ PatchBound bound_of(const PatchMotion<Dim>& first, const PatchMotion<Dim>& secon
     }
     return {std::max(first.least_stretch, second.least_stretch) - turn,
             shift + turn * (first.radius + second.radius) + first.deviation + second.deviation};
-}
-
-template <int Dim>
-bool stay_apart(const PatchMotion<Dim>& first,
-                const PatchMotion<Dim>& second,
-                double rest_distance,
-                double distance) {
-    return bound_of<Dim>(first, second).is_apart(rest_distance, distance);
 }
 
 template <int Dim>
@@ -258,20 +251,18 @@ std::int64_t Patches<Dim>::bytes() const {
         + (vertices_ ? vertices_->of_patch.size() * sizeof(std::uint32_t) : 0));
 }
 
-#ifndef PENT_ONLY_4D
-template PatchBound bound_of(const PatchMotion<3>&, const PatchMotion<3>&);
-template bool stay_apart(const PatchMotion<3>&, const PatchMotion<3>&, double, double);
-template class Patches<3>;
-template Patches<3>::Patches(const Simplices<1>&, const BoxTree&, const PositionsView<3>&);
-template Patches<3>::Patches(const Simplices<2>&, const BoxTree&, const PositionsView<3>&);
-template Patches<3>::Patches(const Simplices<3>&, const BoxTree&, const PositionsView<3>&);
-#endif
-template PatchBound bound_of(const PatchMotion<4>&, const PatchMotion<4>&);
-template bool stay_apart(const PatchMotion<4>&, const PatchMotion<4>&, double, double);
-template class Patches<4>;
-template Patches<4>::Patches(const Simplices<1>&, const BoxTree&, const PositionsView<4>&);
-template Patches<4>::Patches(const Simplices<2>&, const BoxTree&, const PositionsView<4>&);
-template Patches<4>::Patches(const Simplices<3>&, const BoxTree&, const PositionsView<4>&);
-template Patches<4>::Patches(const Simplices<4>&, const BoxTree&, const PositionsView<4>&);
+#define PENT_INSTANTIATE_OF(Dim, Count)                                     \
+    template Patches<Dim>::Patches(const Simplices<Count>&, const BoxTree&, \
+                                   const PositionsView<Dim>&);
+#define PENT_INSTANTIATE(Dim)                                                       \
+    template PatchBound bound_of(const PatchMotion<Dim>&, const PatchMotion<Dim>&); \
+    template class Patches<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE_OF, 1)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE_OF, 2)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE_OF, 3)
+PENT_INSTANTIATE_OF(4, 4)
+#undef PENT_INSTANTIATE
+#undef PENT_INSTANTIATE_OF
 
 }  // namespace pent::contact

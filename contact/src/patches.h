@@ -56,13 +56,6 @@ struct PatchBound {
 template <int Dim>
 [[nodiscard]] PatchBound bound_of(const PatchMotion<Dim>& first, const PatchMotion<Dim>& second);
 
-/// The same of all points of both.
-template <int Dim>
-[[nodiscard]] bool stay_apart(const PatchMotion<Dim>& first,
-                              const PatchMotion<Dim>& second,
-                              double rest_distance,
-                              double distance);
-
 /// How many times a tree over so many simplices is halved to get patches.
 [[nodiscard]] int patch_depth(std::size_t simplices);
 

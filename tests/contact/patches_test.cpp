@@ -107,6 +107,15 @@ protected:
     }
 };
 
+// Whether pairs so far apart at rest are certainly farther apart now than a distance.
+template <int Dim>
+bool stay_apart(const PatchMotion<Dim>& first,
+                const PatchMotion<Dim>& second,
+                double rest_distance,
+                double distance) {
+    return bound_of<Dim>(first, second).is_apart(rest_distance, distance);
+}
+
 using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
 TYPED_TEST_SUITE(PatchesTest, Dimensions);
 

@@ -1,5 +1,7 @@
 #include "linear/aggregate_matrix.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 
 namespace pent::simulator {
@@ -267,12 +269,8 @@ AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,
     template AggregateMatrix<Dim, Scalar> galerkin_product(                     \
         const Workers&, const AggregateMatrix<Dim, Scalar>&, const Aggregates&, \
         const std::vector<Arm<Dim>>&, const AggregatePattern&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3, float)
-PENT_INSTANTIATE(3, double)
-#endif
-PENT_INSTANTIATE(4, float)
-PENT_INSTANTIATE(4, double)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, float)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, double)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

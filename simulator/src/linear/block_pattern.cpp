@@ -1,5 +1,7 @@
 #include "linear/block_pattern.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <iterator>
 #include <numeric>
@@ -115,9 +117,9 @@ BlockPattern make_pattern(const std::vector<const CornerLists*>& lists, const Do
     });
 }
 
-#ifndef PENT_ONLY_4D
-template BlockPattern make_pattern<3>(const Simplices<4>&, const DofMap&);
-#endif
-template BlockPattern make_pattern<4>(const Simplices<5>&, const DofMap&);
+#define PENT_INSTANTIATE(Dim) \
+    template BlockPattern make_pattern<Dim>(const Simplices<Dim + 1>&, const DofMap&);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

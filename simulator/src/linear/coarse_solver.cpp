@@ -1,5 +1,7 @@
 #include "linear/coarse_solver.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -136,12 +138,8 @@ Eigen::Matrix<double, kModes<Dim>, kModes<Dim>> inverse_of_diagonal(
     template class CoarseSolver<Dim, Scalar>;                                     \
     template Eigen::Matrix<double, kModes<Dim>, kModes<Dim>> inverse_of_diagonal( \
         const AggregateMatrix<Dim, Scalar>&, std::uint32_t);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3, float)
-PENT_INSTANTIATE(3, double)
-#endif
-PENT_INSTANTIATE(4, float)
-PENT_INSTANTIATE(4, double)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, float)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, double)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

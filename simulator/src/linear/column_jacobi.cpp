@@ -1,5 +1,7 @@
 #include "linear/preconditioner.h"
 
+#include <pent/dimensions.h>
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -200,12 +202,8 @@ std::unique_ptr<Preconditioner<Dim>> column_jacobi(const Workers& workers,
 #define PENT_INSTANTIATE(Dim, Scalar)                            \
     template std::unique_ptr<Preconditioner<Dim>> column_jacobi( \
         const Workers&, const BlockMatrix<Dim, Scalar>&, const std::vector<std::uint32_t>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3, float)
-PENT_INSTANTIATE(3, double)
-#endif
-PENT_INSTANTIATE(4, float)
-PENT_INSTANTIATE(4, double)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, float)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, double)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

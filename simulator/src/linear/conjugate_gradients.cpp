@@ -1,5 +1,7 @@
 #include "linear/conjugate_gradients.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -166,12 +168,8 @@ void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
     template LinearSolution<Dim> ConjugateGradients<Dim>::solve(                              \
         const BlockMatrix<Dim, Scalar>&, const Preconditioner<Dim>&, const BlockVector<Dim>&, \
         const LinearSolveOptions&, BlockVector<Dim>, const Halo&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3, float)
-PENT_INSTANTIATE(3, double)
-#endif
-PENT_INSTANTIATE(4, float)
-PENT_INSTANTIATE(4, double)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, float)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, double)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,5 +1,7 @@
 #include "linear/dof_map.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -161,9 +163,10 @@ DofMap number_dofs(const Simplices<Dim + 1>& cells,
     return {vertices, std::move(vertex_of_dof), std::move(column_start)};
 }
 
-#ifndef PENT_ONLY_4D
-template DofMap number_dofs<3>(const Simplices<4>&, const std::vector<bool>&, const Columns&);
-#endif
-template DofMap number_dofs<4>(const Simplices<5>&, const std::vector<bool>&, const Columns&);
+#define PENT_INSTANTIATE(Dim)                                                             \
+    template DofMap number_dofs<Dim>(const Simplices<Dim + 1>&, const std::vector<bool>&, \
+                                     const Columns&);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

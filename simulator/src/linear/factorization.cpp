@@ -1,5 +1,7 @@
 #include "linear/factorization.h"
 
+#include <pent/dimensions.h>
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -200,14 +202,11 @@ BlockVector<Dim> Factorization<Dim>::solve(const BlockVector<Dim>& b) const {
 #define PENT_INSTANTIATE(Dim, Scalar)                                    \
     template std::optional<Factorization<Dim>> Factorization<Dim>::make( \
         const BlockMatrix<Dim, Scalar>&, const Elimination&);
-#ifndef PENT_ONLY_4D
-template class Factorization<3>;
-PENT_INSTANTIATE(3, float)
-PENT_INSTANTIATE(3, double)
-#endif
-template class Factorization<4>;
-PENT_INSTANTIATE(4, float)
-PENT_INSTANTIATE(4, double)
+#define PENT_INSTANTIATE_CLASS(Dim) template class Factorization<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE_CLASS)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, float)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, double)
 #undef PENT_INSTANTIATE
+#undef PENT_INSTANTIATE_CLASS
 
 }  // namespace pent::simulator

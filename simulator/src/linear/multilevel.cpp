@@ -2,6 +2,8 @@
 #include "linear/gauss_seidel.h"
 #include "linear/preconditioner.h"
 
+#include <pent/dimensions.h>
+
 #include <cmath>
 #include <utility>
 
@@ -283,12 +285,8 @@ std::unique_ptr<Preconditioner<Dim>> multilevel(const Workers& workers,
     template std::unique_ptr<Preconditioner<Dim>> multilevel(                                   \
         const Workers&, const BlockKernels&, const BlockMatrix<Dim, Scalar>&, const Hierarchy&, \
         const BlockVector<Dim>&, std::unique_ptr<Preconditioner<Dim>>);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3, float)
-PENT_INSTANTIATE(3, double)
-#endif
-PENT_INSTANTIATE(4, float)
-PENT_INSTANTIATE(4, double)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, float)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, double)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

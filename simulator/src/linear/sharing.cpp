@@ -1,5 +1,7 @@
 #include "linear/sharing.h"
 
+#include <pent/dimensions.h>
+
 #include <utility>
 
 namespace pent::simulator {
@@ -83,10 +85,10 @@ void Sharing::gather(Eigen::Matrix<double, Rows, Eigen::Dynamic>& values) const 
     }
 }
 
-#ifndef PENT_ONLY_4D
-template void Sharing::gather(Eigen::Matrix<double, 3, Eigen::Dynamic>&) const;
-#endif
-template void Sharing::gather(Eigen::Matrix<double, 1, Eigen::Dynamic>&) const;
-template void Sharing::gather(Eigen::Matrix<double, 4, Eigen::Dynamic>&) const;
+#define PENT_INSTANTIATE(Rows) \
+    template void Sharing::gather(Eigen::Matrix<double, Rows, Eigen::Dynamic>&) const;
+PENT_INSTANTIATE(1)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

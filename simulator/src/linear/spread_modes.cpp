@@ -321,12 +321,8 @@ std::unique_ptr<Preconditioner<Dim>> SpreadModes<Dim>::precondition(
         const Workers&, const BlockMatrix<Dim, Scalar>&, const BlockVector<Dim>&,                \
         const std::vector<std::uint32_t>&, GhostExchange&, std::unique_ptr<Preconditioner<Dim>>) \
         const;
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3, float)
-PENT_INSTANTIATE(3, double)
-#endif
-PENT_INSTANTIATE(4, float)
-PENT_INSTANTIATE(4, double)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, float)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, double)
 #undef PENT_INSTANTIATE
 #define PENT_INSTANTIATE(Dim) template class SpreadModes<Dim>;
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)

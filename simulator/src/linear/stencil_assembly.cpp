@@ -1,5 +1,7 @@
 #include "linear/stencil_assembly.h"
 
+#include <pent/dimensions.h>
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -254,12 +256,8 @@ std::unique_ptr<CouplingMatrix<Dim, Scalar>> assemble_stencils(
     template std::unique_ptr<CouplingMatrix<Dim, Scalar>> assemble_stencils<Dim, Scalar>(         \
         const Workers&, const DofMap&, const std::vector<HessianStencil>&, const Positions<Dim>&, \
         BlockMatrix<Dim, Scalar>&, BlockVector<Dim>&);
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3, float)
-PENT_INSTANTIATE(3, double)
-#endif
-PENT_INSTANTIATE(4, float)
-PENT_INSTANTIATE(4, double)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, float)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, double)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

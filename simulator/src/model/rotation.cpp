@@ -2,6 +2,7 @@
 
 #include "model/keyframes.h"
 
+#include <pent/dimensions.h>
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
@@ -193,16 +194,13 @@ Pose<Dim> pose_at(const Motion& motion, double time) {
     return pose;
 }
 
-#ifndef PENT_ONLY_4D
-template Matrix<3> plane_rotation<3>(const Plane&, double);
-template Matrix<3> rotation_of<3>(const std::vector<Turn>&);
-template SimplexMesh<3> place<3>(SimplexMesh<3>, const Body&);
-template Pose<3> pose_at<3>(const Motion&, double);
-#endif
 template Matrix<2> plane_rotation<2>(const Plane&, double);
-template Matrix<4> plane_rotation<4>(const Plane&, double);
-template Matrix<4> rotation_of<4>(const std::vector<Turn>&);
-template SimplexMesh<4> place<4>(SimplexMesh<4>, const Body&);
-template Pose<4> pose_at<4>(const Motion&, double);
+#define PENT_INSTANTIATE(Dim)                                            \
+    template Matrix<Dim> plane_rotation<Dim>(const Plane&, double);      \
+    template Matrix<Dim> rotation_of<Dim>(const std::vector<Turn>&);     \
+    template SimplexMesh<Dim> place<Dim>(SimplexMesh<Dim>, const Body&); \
+    template Pose<Dim> pose_at<Dim>(const Motion&, double);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -383,12 +383,8 @@ PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
     template std::int64_t Elements<Dim>::add_hessian<Scalar>(                                     \
         const Workers&, const Kernels<Dim>&, const Positions<Dim>&, const HessianTarget<Scalar>&) \
         const;
-#ifndef PENT_ONLY_4D
-PENT_INSTANTIATE(3, float)
-PENT_INSTANTIATE(3, double)
-#endif
-PENT_INSTANTIATE(4, float)
-PENT_INSTANTIATE(4, double)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, float)
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, double)
 #undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

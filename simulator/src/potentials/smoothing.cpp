@@ -1,5 +1,6 @@
 #include "potentials/smoothing.h"
 
+#include <pent/dimensions.h>
 #include <pent/geometry.h>
 
 #include <Eigen/LU>
@@ -117,15 +118,10 @@ SmoothingDomains<Dim> smoothing_domains(const Positions<Dim>& rest,
     return domains;
 }
 
-#ifndef PENT_ONLY_4D
-template SmoothingDomains<3> smoothing_domains(const Positions<3>&,
-                                               const Simplices<4>&,
-                                               Eigen::Index,
-                                               Eigen::Index);
-#endif
-template SmoothingDomains<4> smoothing_domains(const Positions<4>&,
-                                               const Simplices<5>&,
-                                               Eigen::Index,
-                                               Eigen::Index);
+#define PENT_INSTANTIATE(Dim)                         \
+    template SmoothingDomains<Dim> smoothing_domains( \
+        const Positions<Dim>&, const Simplices<Dim + 1>&, Eigen::Index, Eigen::Index);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::simulator

@@ -1,6 +1,7 @@
 import { PentError } from "./error.ts";
 import type { G4mfDocument } from "./g4mf_document.ts";
 import type { JsonEntry } from "./json_entry.ts";
+import { determinant } from "./pent_file.ts";
 
 /** A mesh where a node has it. */
 export interface ModelBody {
@@ -42,19 +43,6 @@ function after(above: Placement, below: Placement): Placement {
         ),
         shift: above.shift.map((value, i) => value + row(i, (k) => below.shift[k]!)),
     };
-}
-
-function determinant({ linear: m }: Placement): number {
-    const minor = (r: number, i: number, j: number) =>
-        m[4 * r + i]! * m[4 * r + 4 + j]! - m[4 * r + j]! * m[4 * r + 4 + i]!;
-    return (
-        minor(0, 0, 1) * minor(2, 2, 3) -
-        minor(0, 0, 2) * minor(2, 1, 3) +
-        minor(0, 0, 3) * minor(2, 1, 2) +
-        minor(0, 1, 2) * minor(2, 0, 3) -
-        minor(0, 1, 3) * minor(2, 0, 2) +
-        minor(0, 2, 3) * minor(2, 0, 1)
-    );
 }
 
 interface Instance {
@@ -152,7 +140,7 @@ export class G4mfModel {
         const tetrahedra = new Uint32Array(parts.reduce((sum, part) => sum + part.length, 0));
         parts.reduce((at, part) => (tetrahedra.set(part, at), at + part.length), 0);
         // Its outside is our inside; a mirrored node turns it once more.
-        if (determinant(place) > 0) {
+        if (determinant(place.linear, 4) > 0) {
             turnOver(tetrahedra);
         }
         return { name, points, tetrahedra };
