@@ -127,7 +127,7 @@ def convert(
     """
     words = _programs.options(output=output, double=double, mfem_attributes=mfem_attributes)
     if frames:
-        words += ["--frames", *map(os.fspath, frames)]
+        words += ["--frames", *[os.fspath(frame) for frame in frames]]
     with _programs.as_input(input) as path:
         return _programs.run("pent-convert", path, words)
 
