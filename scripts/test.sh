@@ -20,7 +20,8 @@
 #                                             one node that the test starts and stops (as root), and with GNU parallel
 #   scripts/test.sh --all                     every test, every test under the address and undefined-behavior
 #                                             sanitizers, a minute of scripts/scene_fuzz.sh from a fixed
-#                                             seed, --threads, --portable, --web, --python, --hosts and --distributed (long: each builds anew)
+#                                             seed, --threads, --portable, --web, --python, --hosts, --distributed and scripts/site.sh
+#                                             (long: each builds anew)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -134,6 +135,7 @@ case ${1:-} in
         run_python
         run_hosts
         run_distributed
+        scripts/site.sh
         ;;
     "")
         run_preset dev

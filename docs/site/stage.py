@@ -26,7 +26,7 @@ BESIDE = {
     "CHANGELOG.md": "changelog.md",
 }
 LANGUAGES = {".h": "cpp", ".cpp": "cpp", ".c": "c", ".py": "python", ".sh": "bash", ".toml": "toml"}
-IMAGES = {".png", ".gif", ".webp", ".svg"}
+IMAGES = {".gif", ".jpg", ".png", ".svg", ".webp"}
 
 
 class Site:

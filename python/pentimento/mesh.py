@@ -228,8 +228,8 @@ class Mesh:
 
     def strain(self, points: ArrayLike) -> Floats:
         """(vertices,): how much the cells around each vertex are strained with the vertices at
-        `points`, (vertices, dimension), m: the mean of |E|, the Frobenius norm of the Green strain,
-        by their volume. Raises an Error for a mesh in two dimensions."""
+        `points`, (vertices, dimension), m: the mean of the Frobenius norm of the Green strain, by
+        their volume. Raises an Error for a mesh in two dimensions."""
         places = floats(points, (self.vertex_count, self.dimension), "points")
         address = library().pent_mesh_strain(self._handle.number, address_of(places))
         found: Floats = copy(address, (self.vertex_count,), np.float64)

@@ -110,9 +110,9 @@ class View:
     ) -> Surface:
         """The slice of a body at one of its frames, as Mesh.slice(), with attributes:
 
-        body    Its number, from 0.
-        w, speed, strain, force and others that frames have, as `pent-slice --color` has them:
-        force is there where frames have contact forces, vectors are there by their length.
+        body  Its number, from 0.
+        w, speed, strain, force  As `pent-slice --color` has them; force where frames have contact
+            forces, and what else frames have, vectors by their length.
 
         Raises an Error if the frame is not there, or damaged.
         """
