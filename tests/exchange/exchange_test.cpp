@@ -3,6 +3,10 @@
 
 #include <pent/pent_file.h>
 
+#include <sstream>
+#include <utility>
+#include <vector>
+
 namespace pent::exchange {
 namespace {
 
@@ -48,6 +52,75 @@ TEST(Exchange, WritesTheBoundaryOfABodyWithThePointsThatItHas) {
     EXPECT_EQ(surface.points.cols(), 81 - 1);  // all but the one in the middle
     EXPECT_TRUE(check(surface).is_oriented());
     EXPECT_NEAR(enclosed_hypervolume(surface), 1, 1e-14);
+}
+
+// The determinants of the corners of each tetrahedron, as the lines of a text have them.
+std::vector<double> determinants_in(const std::string& text, std::size_t first_index) {
+    std::istringstream lines(text);
+    std::vector<Eigen::Vector4d> points;
+    std::vector<double> found;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string word;
+        words >> word;
+        if (word == "v") {
+            Eigen::Vector4d& point = points.emplace_back(Eigen::Vector4d::Zero());
+            words >> point[0] >> point[1] >> point[2] >> point[3];
+        } else if (word == "t") {
+            Eigen::Matrix4d corners;
+            for (int i = 0; i < 4; ++i) {
+                std::size_t corner = 0;
+                words >> corner;
+                corners.col(i) = points.at(corner - first_index);
+            }
+            found.push_back(corners.determinant());
+        }
+    }
+    return found;
+}
+
+// Seen from the middle of the body, every tetrahedron in a text turns the same way: that of the
+// first three axes and then the fourth. So the sum of what they span is the body.
+TEST(Exchange, WritesTetrahedraThatFaceOutward) {
+    for (const auto& [name, first_index] : {std::pair("a.4do", 0), std::pair("a.obj", 1)}) {
+        const std::vector<double> parts =
+            determinants_in(text_as(name, sixteen_cell()), static_cast<std::size_t>(first_index));
+        ASSERT_EQ(parts.size(), 16U) << name;
+        double sum = 0;
+        for (const double part : parts) {
+            EXPECT_EQ(part, 1) << name;
+            sum += part / 24;
+        }
+        EXPECT_NEAR(sum, 2.0 / 3, 1e-15) << name;
+    }
+}
+
+// Whichever way a program turns its tetrahedra, and if it turns some of them.
+TEST(Exchange, ReadsTetrahedraThatFaceAnyWay) {
+    const std::string points =
+        "v 1 0 0 0\nv 0 1 0 0\nv 0 0 1 0\nv 0 0 0 1\nv -1 -1 -1 -1\n";  // around 0: 5/24
+    for (unsigned turned = 0; turned < 32; ++turned) {
+        std::string text = points;
+        for (unsigned without = 0; without < 5; ++without) {
+            std::vector<unsigned> corners;
+            for (unsigned i = 0; i < 5; ++i) {
+                if (i != without) {
+                    corners.push_back(i + 1);
+                }
+            }
+            if ((turned >> without & 1U) != 0) {
+                std::swap(corners[0], corners[1]);
+            }
+            text += "t";
+            for (const unsigned corner : corners) {
+                text += " " + std::to_string(corner);
+            }
+            text += "\n";
+        }
+        const auto surface = std::get<TetSurface>(read_as("a.obj", text));
+        EXPECT_TRUE(check(surface).is_oriented());
+        EXPECT_NEAR(enclosed_hypervolume(surface), 5.0 / 24, 1e-15);
+    }
 }
 
 TEST(Exchange, ListsTheEndingsForOneThatItDoesNotKnow) {

@@ -33,6 +33,43 @@ TEST(Mfem, IsReadAsItWasWritten) {
     EXPECT_EQ(again.regions, mesh.regions);
 }
 
+// MFEM wants det[v1 - v0, ..., v4 - v0] > 0, or it swaps corners and with them their order.
+TEST(Mfem, HasPositivePentatopesOfTheHypervolumeOfTheBody) {
+    std::istringstream text(text_as("a.mesh", layered()));
+    std::string word;
+    while (text >> word && word != "elements") {
+    }
+    int count = 0;
+    text >> count;
+    std::vector<std::array<int, 7>> elements(static_cast<std::size_t>(count));
+    for (auto& element : elements) {
+        for (int& number : element) {
+            text >> number;
+        }
+        EXPECT_EQ(element[1], 8);
+    }
+    while (text >> word && word != "vertices") {
+    }
+    int dimension = 0;
+    text >> count >> dimension;
+    std::vector<Eigen::Vector4d> points(static_cast<std::size_t>(count));
+    for (Eigen::Vector4d& point : points) {
+        text >> point[0] >> point[1] >> point[2] >> point[3];
+    }
+    double sum = 0;
+    for (const auto& element : elements) {
+        Eigen::Matrix4d edges;
+        for (std::size_t i = 0; i < 4; ++i) {
+            edges.col(static_cast<Eigen::Index>(i)) =
+                points.at(static_cast<std::size_t>(element.at(3 + i)))
+                - points.at(static_cast<std::size_t>(element[2]));
+        }
+        EXPECT_GT(edges.determinant(), 0);
+        sum += edges.determinant() / 24;
+    }
+    EXPECT_NEAR(sum, 2, 1e-14);
+}
+
 // How many tetrahedra of the boundary have each label.
 std::map<int, int> labels_of(const std::string& text) {
     std::istringstream lines(text.substr(text.find("boundary\n")));
