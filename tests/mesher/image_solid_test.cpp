@@ -82,6 +82,28 @@ TEST(ImageSolid, IsTheLevelOfWhatIsMultilinearExactly) {
     EXPECT_GT(solid.value({1.1, 0.5, 1, 1}), 0) << "beyond the image is outside";
 }
 
+TEST(ImageSolid, KnowsItsSlope) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> uniform(-0.2, 1);
+    const auto image = std::make_shared<const Image>(
+        test::sampled({4, 3, 5, 3}, {0.3, 0.4, 0.2, 0.45}, [&](auto&) { return uniform(random); }));
+    const ImageLevel level(image, 0.4);
+    for (int i = 0; i < 500; ++i) {
+        const Vector4d p(uniform(random), uniform(random), uniform(random), uniform(random));
+        const ValueSlope found = level.value_slope(p);
+        EXPECT_NEAR(found.value, level.value(p), 1e-14);
+        for (int axis = 0; axis < 4; ++axis) {
+            const Vector4d step = 1e-6 * Vector4d::Unit(axis);
+            const double before = (level.value(p) - level.value(p - step)) / 1e-6;
+            const double after = (level.value(p + step) - level.value(p)) / 1e-6;
+            // Along each axis it is linear, but where cells meet.
+            if (std::abs(after - before) < 1e-6) {
+                EXPECT_NEAR(found.slope[axis], after, 1e-7);
+            }
+        }
+    }
+}
+
 TEST(ImageSolid, CutsOffWhatReachesTheSides) {
     const auto image = std::make_shared<const Image>(test::sampled(
         {6, 6, 6, 6}, Vector4d::Constant(0.2), [](const Vector4d& p) { return p[0]; }));

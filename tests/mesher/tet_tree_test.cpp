@@ -2,11 +2,12 @@
 
 #include "shapes/exact_signs.h"
 
+#include <pent/geometry.h>
+
 #include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 #include <random>
 #include <set>
 #include <vector>
@@ -62,39 +63,88 @@ TEST(NearestPoint, HasNoCornerOnThePointsSideOfIt) {
     }
 }
 
+// Tetrahedra with corners of their own, each named by its place in the tree.
+TetTree tree_of(const std::vector<Matrix4d>& all) {
+    std::vector<Vector4d> points;
+    std::vector<TetTree::Tetrahedron> tetrahedra;
+    for (const Matrix4d& corners : all) {
+        const auto first = static_cast<std::uint32_t>(points.size());
+        for (int i = 0; i < 4; ++i) {
+            points.emplace_back(corners.col(i));
+        }
+        tetrahedra.push_back({first, first + 1, first + 2, first + 3});
+    }
+    return {points, tetrahedra};
+}
+
+std::vector<Matrix4d> scattered(int count, std::mt19937& random) {
+    std::vector<Matrix4d> all;
+    for (int i = 0; i < count; ++i) {
+        const Vector4d middle = random_point(random, 2);
+        all.push_back((0.3 * random_simplex(i % 20 == 0 ? 1 : 0, random)).colwise() + middle);
+    }
+    return all;
+}
+
+TEST(TetTree, KeepsEveryTetrahedron) {
+    std::mt19937 random(5);
+    const std::vector<Matrix4d> all = scattered(100, random);
+    const TetTree tree = tree_of(all);
+    ASSERT_EQ(tree.count(), 100U);
+    for (std::uint32_t t = 0; t < tree.count(); ++t) {
+        EXPECT_EQ(std::count(all.begin(), all.end(), tree.corners(t)), 1);
+        const Matrix4d own = tree.corners(t);
+        const bool is_flat = facet_normal<4>(own).norm() < 1e-9;
+        for (int i = 1; i < 4 && !is_flat; ++i) {
+            EXPECT_NEAR(tree.normal(t).dot(own.col(i) - own.col(0)), 0, 1e-14);
+        }
+    }
+}
+
 TEST(TetTree, FindsWhatALookAtEveryTetrahedronFinds) {
     std::mt19937 random(2);
-    std::vector<Matrix4d> corners;
-    for (int i = 0; i < 300; ++i) {
-        const Vector4d middle = random_point(random, 2);
-        corners.push_back((0.3 * random_corners(random)).colwise() + middle);
+    TetTree tree = tree_of(scattered(300, random));
+    std::vector<int> patches;
+    for (std::uint32_t t = 0; t < tree.count(); ++t) {
+        // By place, as patches are, but for some in no patch.
+        const double x = tree.corners(t)(0, 0);
+        patches.push_back(t % 7 == 0 ? TetTree::kNoPatch : x < -0.5 ? 2 : x < 0.5 ? 0 : 1);
     }
-    std::vector<std::uint32_t> names(corners.size());
-    std::iota(names.begin(), names.end(), 1000U);
-    const TetTree tree(corners, names);
+    tree.set_patches(patches);
     for (int i = 0; i < 200; ++i) {
         const Vector4d p = random_point(random, 3);
+        const int asked = i % 4 - 1;
         double least = 1e9;
         std::set<std::uint32_t> near;
-        for (std::size_t t = 0; t < corners.size(); ++t) {
-            const double distance = (nearest_point(corners[t], p) - p).norm();
-            least = std::min(least, distance);
-            if (distance <= 1) {
-                near.insert(names[t]);
+        for (std::uint32_t t = 0; t < tree.count(); ++t) {
+            const double distance = (nearest_point(tree.corners(t), p) - p).norm();
+            if (patches[t] == asked || (asked == TetTree::kAnyPatch && patches[t] >= 0)) {
+                least = std::min(least, distance);
+            }
+            if (distance <= 1 && patches[t] != TetTree::kNoPatch) {
+                near.insert(t);
             }
         }
-        const NearestPoint found = tree.nearest(p);
+        const NearestPoint found = tree.nearest(p, asked);
         EXPECT_DOUBLE_EQ(found.distance_squared, least * least);
-        EXPECT_EQ((nearest_point(corners[found.tetrahedron - 1000], p) - found.place).norm(), 0);
+        EXPECT_EQ((nearest_point(tree.corners(found.tetrahedron), p) - found.place).norm(), 0);
+        EXPECT_TRUE(asked == TetTree::kAnyPatch || tree.patch(found.tetrahedron) == asked);
         std::set<std::uint32_t> within;
-        tree.visit_within(p, 1, [&](std::uint32_t name) { within.insert(name); });
+        tree.visit_within(p, 1, [&](std::uint32_t t) { within.insert(t); });
         EXPECT_EQ(within, near);
         std::set<std::uint32_t> on_ray;
-        tree.visit_ray(p,
-                       [&](std::uint32_t name, const Matrix4d& /*own*/) { on_ray.insert(name); });
-        for (std::size_t t = 0; t < corners.size(); ++t) {
-            if (crossing_sign(corners[t], p) != 0) {
-                EXPECT_TRUE(on_ray.contains(names[t]));
+        tree.visit_ray(p, [&](std::uint32_t t) { on_ray.insert(t); });
+        std::set<std::uint32_t> in_box;
+        const Vector4d size = random_point(random, 0.5).cwiseAbs();
+        tree.visit_box({p - size, p + size}, [&](std::uint32_t t) { in_box.insert(t); });
+        for (std::uint32_t t = 0; t < tree.count(); ++t) {
+            const Matrix4d own = tree.corners(t);
+            if (crossing_sign(own, p) != 0) {
+                EXPECT_TRUE(on_ray.contains(t));
+            }
+            if (((own.rowwise().maxCoeff() - p + size).array() >= 0).all()
+                && ((own.rowwise().minCoeff() - p - size).array() <= 0).all()) {
+                EXPECT_TRUE(in_box.contains(t));
             }
         }
     }

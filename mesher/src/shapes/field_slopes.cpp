@@ -1,4 +1,6 @@
 #include "fields.h"
+#include "half_spaces.h"
+#include "image_level.h"
 #include "tet_boundary.h"
 
 #include <algorithm>
@@ -25,9 +27,9 @@ ValueSlope slope_of(const CapsuleField& field, const Vector4d& p) {
 }
 
 ValueSlope slope_of(const HalfSpacesField& field, const Vector4d& p) {
-    Eigen::Index deciding = 0;
-    const double value = (field.normals * p - field.offsets).maxCoeff(&deciding);
-    return {value, field.normals.row(deciding)};
+    const HalfSpaces& all = *field.half_spaces;
+    const HalfSpace& deciding = all[all.deciding(p)];
+    return {deciding.value(p), deciding.normal};
 }
 
 ValueSlope slope_of(const RingField& field, const Vector4d& p) {
@@ -54,6 +56,10 @@ ValueSlope slope_of(const BoundaryField& field, const Vector4d& p) {
     return field.boundary->value_slope(p);
 }
 
+ValueSlope slope_of(const ImageField& field, const Vector4d& p) {
+    return field.image->value_slope(p);
+}
+
 // By central differences, where nothing better is known.
 ValueSlope differences(const Field& field, const Vector4d& p, double step) {
     ValueSlope result{field_value(field, p), Vector4d::Zero()};
@@ -71,8 +77,7 @@ ValueSlope field_slope(const Field& field, const Vector4d& p, double step) {
     return std::visit(
         [&](const auto& kind) -> ValueSlope {
             using Kind = std::decay_t<decltype(kind)>;
-            if constexpr (std::is_same_v<Kind,
-                                         ExpressionField> || std::is_same_v<Kind, ImageField>) {
+            if constexpr (std::is_same_v<Kind, ExpressionField>) {
                 return differences(field, p, step);
             } else {
                 return slope_of(kind, p);
@@ -82,8 +87,9 @@ ValueSlope field_slope(const Field& field, const Vector4d& p, double step) {
 }
 
 ValueSlope piece_slope(const Field& field, int piece, const Vector4d& p, double step) {
-    if (const auto* half_spaces = std::get_if<HalfSpacesField>(&field)) {
-        return {piece_value(field, piece, p), half_spaces->normals.row(piece)};
+    if (const auto* polytope = std::get_if<HalfSpacesField>(&field)) {
+        const HalfSpace& own = (*polytope->half_spaces)[piece];
+        return {own.value(p), own.normal};
     }
     const auto* surface = std::get_if<BoundaryField>(&field);
     return surface != nullptr ? surface->boundary->patch_slope(piece, p)

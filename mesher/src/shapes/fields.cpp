@@ -1,5 +1,6 @@
 #include "fields.h"
 
+#include "half_spaces.h"
 #include "image_level.h"
 #include "tet_boundary.h"
 
@@ -27,11 +28,8 @@ double value_of(const CapsuleField& field, const Eigen::Vector4d& p) {
 }
 
 double value_of(const HalfSpacesField& field, const Eigen::Vector4d& p) {
-    double largest = field.normals.row(0).dot(p) - field.offsets[0];
-    for (Eigen::Index i = 1; i < field.normals.rows(); ++i) {
-        largest = std::max(largest, field.normals.row(i).dot(p) - field.offsets[i]);
-    }
-    return largest;
+    const HalfSpaces& all = *field.half_spaces;
+    return all[all.deciding(p)].value(p);
 }
 
 double value_of(const RingField& field, const Eigen::Vector4d& p) {
@@ -145,16 +143,16 @@ double field_value(const Field& field, const Eigen::Vector4d& p) {
 }
 
 int piece_count(const Field& field) {
-    if (const auto* half_spaces = std::get_if<HalfSpacesField>(&field)) {
-        return static_cast<int>(half_spaces->offsets.size());
+    if (const auto* polytope = std::get_if<HalfSpacesField>(&field)) {
+        return polytope->half_spaces->count();
     }
     const auto* surface = std::get_if<BoundaryField>(&field);
     return surface != nullptr ? surface->boundary->patch_count() : 1;
 }
 
 double piece_value(const Field& field, int piece, const Eigen::Vector4d& p) {
-    if (const auto* half_spaces = std::get_if<HalfSpacesField>(&field)) {
-        return half_spaces->normals.row(piece).dot(p) - half_spaces->offsets[piece];
+    if (const auto* polytope = std::get_if<HalfSpacesField>(&field)) {
+        return (*polytope->half_spaces)[piece].value(p);
     }
     const auto* surface = std::get_if<BoundaryField>(&field);
     return surface != nullptr ? surface->boundary->patch_value(piece, p) : field_value(field, p);
@@ -165,17 +163,12 @@ std::vector<int> pieces_near(const Field& field, const Eigen::Vector4d& p, doubl
     if (count == 1) {
         return {0};
     }
-    const double value = field_value(field, p);
     if (const auto* surface = std::get_if<BoundaryField>(&field)) {
-        return surface->boundary->patches_within(p, std::abs(value) + margin);
+        return surface->boundary->patches_within(p, surface->boundary->distance(p) + margin);
     }
-    std::vector<int> pieces;
-    for (int i = 0; i < count; ++i) {
-        if (value - piece_value(field, i, p) <= margin) {
-            pieces.push_back(i);
-        }
-    }
-    return pieces;
+    // The others have one piece.
+    const HalfSpaces& all = *std::get<HalfSpacesField>(field).half_spaces;
+    return all.pieces_above(p, all[all.deciding(p)].value(p) - margin);
 }
 
 ValueRange field_range(const Field& field, const Eigen::Vector4d& center, double radius) {
@@ -185,6 +178,9 @@ ValueRange field_range(const Field& field, const Eigen::Vector4d& center, double
     }
     if (const auto* image = std::get_if<ImageField>(&field)) {
         return image->image->range(center, radius);
+    }
+    if (const auto* surface = std::get_if<BoundaryField>(&field)) {
+        return surface->boundary->range(center, radius);
     }
     const double value = field_value(field, center);
     return {value - radius, value + radius};

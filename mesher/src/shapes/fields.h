@@ -11,6 +11,7 @@
 
 namespace pent::mesher {
 
+class HalfSpaces;
 class ImageLevel;
 class TetBoundary;
 
@@ -30,10 +31,9 @@ struct CapsuleField {
     double half_length = 1;
 };
 
-/// Common part of half-spaces, one a piece: normals * p - offsets.
+/// Common part of half-spaces.
 struct HalfSpacesField {
-    Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> normals;  ///< Of length 1, outward.
-    Eigen::VectorXd offsets;                                            ///< m.
+    std::shared_ptr<const HalfSpaces> half_spaces;
 };
 
 /// A tube around a circle in xy (two axes) or a sphere in xyz (three).
@@ -97,8 +97,7 @@ using Field = std::variant<RoundField,
 [[nodiscard]] double piece_value(const Field& field, int piece, const Eigen::Vector4d& p);
 
 /// The function and its slope, zero where it has none, as on the axis of a cylinder.
-/// @param step  Differences are taken over this (m) of expressions and images, whose slope is not
-///              known.
+/// @param step  Differences are taken over this (m) of expressions, whose slope is not known.
 [[nodiscard]] ValueSlope field_slope(const Field& field, const Eigen::Vector4d& p, double step);
 [[nodiscard]] ValueSlope piece_slope(const Field& field,
                                      int piece,

@@ -26,6 +26,34 @@ void visit_grid(const Vector4i& count, const Visit& visit) {
     }
 }
 
+// The samples at the corners of the cell around a point, and the point in it.
+struct CellValues {
+    std::array<float, 16> values{};
+    Vector4d part;
+    std::array<double, 4> xy{};  // weights in two axes, of the corners there
+    std::array<double, 4> zw{};
+
+    [[nodiscard]] double weight(unsigned corner) const { return xy[corner & 3U] * zw[corner >> 2]; }
+};
+
+CellValues values_around(const Image& image, const Vector4d& p) {
+    const Image::Cell cell = image.cell(p);
+    CellValues result{{}, cell.part, {}, {}};
+    const Vector4d& t = cell.part;
+    result.xy = {(1 - t[0]) * (1 - t[1]), t[0] * (1 - t[1]), (1 - t[0]) * t[1], t[0] * t[1]};
+    result.zw = {(1 - t[2]) * (1 - t[3]), t[2] * (1 - t[3]), (1 - t[2]) * t[3], t[2] * t[3]};
+    const auto n = image.size.cast<std::size_t>();
+    const std::size_t along_y = n[0];
+    const std::size_t along_z = along_y * n[1];
+    const std::size_t along_w = along_z * n[2];
+    const float* const first = image.values.data() + image.index(cell.low);
+    for (unsigned corner = 0; corner < 16; ++corner) {
+        result.values[corner] = first[(corner & 1U) + (corner >> 1 & 1U) * along_y
+                                      + (corner >> 2 & 1U) * along_z + (corner >> 3) * along_w];
+    }
+    return result;
+}
+
 }  // namespace
 
 ImageLevel::ImageLevel(std::shared_ptr<const Image> image, double level)
@@ -88,10 +116,49 @@ void ImageLevel::find_bricks() {
 }
 
 double ImageLevel::value(const Vector4d& p) const {
+    const CellValues cell = values_around(*image_, p);
     double sum = 0;
-    visit_corners(*image_, p,
-                  [&](float value, double weight) { sum += weight * static_cast<double>(value); });
+    for (unsigned corner = 0; corner < 16; ++corner) {
+        sum += cell.weight(corner) * static_cast<double>(cell.values[corner]);
+    }
     return (level_ - sum) / slope_;
+}
+
+ValueSlope ImageLevel::value_slope(const Vector4d& p) const {
+    const CellValues cell = values_around(*image_, p);
+    double sum = 0;
+    Vector4d rise = Vector4d::Zero();  // along a cell
+    for (unsigned corner = 0; corner < 16; ++corner) {
+        const auto value = static_cast<double>(cell.values[corner]);
+        sum += cell.weight(corner) * value;
+        const double of_xy = value * cell.zw[corner >> 2];
+        const double of_zw = value * cell.xy[corner & 3U];
+        const auto towards = [&](unsigned axis, unsigned other, double rest) {
+            const double part =
+                (corner >> other & 1U) != 0 ? cell.part[other] : 1 - cell.part[other];
+            rise[axis] += ((corner >> axis & 1U) != 0 ? part : -part) * rest;
+        };
+        towards(0, 1, of_xy);
+        towards(1, 0, of_xy);
+        towards(2, 3, of_zw);
+        towards(3, 2, of_zw);
+    }
+    // Beyond the image the value does not change.
+    const Vector4d last = (image_->size.array() - 1).cast<double>() * image_->spacing.array();
+    Vector4d slope = -rise.cwiseQuotient(image_->spacing) / slope_;
+    for (int axis = 0; axis < 4; ++axis) {
+        slope[axis] = p[axis] < 0 || p[axis] > last[axis] ? 0 : slope[axis];
+    }
+    return {(level_ - sum) / slope_, slope};
+}
+
+SamplesAround samples_around(const Image& image, const Vector4d& p) {
+    const CellValues cell = values_around(image, p);
+    SamplesAround around{cell.values, {}};
+    for (unsigned corner = 0; corner < 16; ++corner) {
+        around.weights[corner] = cell.weight(corner);
+    }
+    return around;
 }
 
 ValueRange ImageLevel::range(const Vector4d& center, double radius) const {

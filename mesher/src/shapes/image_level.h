@@ -3,7 +3,9 @@
 #include <pent/mesher/image.h>
 #include <pent/mesher/solid.h>
 
+#include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace pent::mesher {
@@ -18,6 +20,9 @@ public:
     /// The level less the multilinear value, over the mean slope between samples on either side.
     /// Beyond the image that of the nearest point of it.
     [[nodiscard]] double value(const Eigen::Vector4d& p) const;
+
+    /// The same with its slope: where cells of the grid meet, that in one of them.
+    [[nodiscard]] ValueSlope value_slope(const Eigen::Vector4d& p) const;
 
     /// Bounds of the value within a ball.
     [[nodiscard]] ValueRange range(const Eigen::Vector4d& center, double radius) const;
@@ -44,20 +49,12 @@ private:
     std::vector<std::pair<float, float>> extremes_;  // of the samples in and around each brick
 };
 
-/// Calls visit(corner of a cell, its weight there) for the 16 corners.
-template <typename Visit>
-void visit_corners(const Image& image, const Eigen::Vector4d& p, const Visit& visit) {
-    const Image::Cell cell = image.cell(p);
-    for (unsigned corner = 0; corner < 16; ++corner) {
-        Eigen::Vector4i at = cell.low;
-        double weight = 1;
-        for (int axis = 0; axis < 4; ++axis) {
-            const bool is_high = (corner >> axis & 1U) != 0;
-            at[axis] += is_high ? 1 : 0;
-            weight *= is_high ? cell.part[axis] : 1 - cell.part[axis];
-        }
-        visit(image.value(at), weight);
-    }
-}
+/// The samples around a point and how much each of them weighs there: corner i is further along
+/// the axes whose bits are set in i.
+struct SamplesAround {
+    std::array<float, 16> values{};
+    std::array<double, 16> weights{};
+};
+[[nodiscard]] SamplesAround samples_around(const Image& image, const Eigen::Vector4d& p);
 
 }  // namespace pent::mesher

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <string>
 #include <utility>
 
@@ -32,6 +31,23 @@ void check_labels(const Image& image) {
                                 "65535, or --level for a body by values",
                                 static_cast<double>(*bad)));
     }
+}
+
+// The label above 0 with the largest weight, the lowest of several; 0 if there is none.
+std::uint16_t largest_label(const SamplesAround& around) {
+    float largest = 0;
+    double most = 0;
+    for (const float label : around.values) {
+        double weight = 0;
+        for (std::size_t i = 0; i < around.values.size(); ++i) {
+            weight += around.values[i] == label ? around.weights[i] : 0;
+        }
+        if (label > 0 && (weight > most || (weight == most && label < largest) || largest == 0)) {
+            largest = label;
+            most = weight;
+        }
+    }
+    return static_cast<std::uint16_t>(largest);
 }
 
 }  // namespace
@@ -79,17 +95,7 @@ std::vector<std::uint16_t> label_regions(const SimplexMesh<4>& mesh,
         for (const std::uint32_t corner : cell) {
             middle += mesh.positions.col(corner) / (5 * scale);
         }
-        std::map<float, double> parts;
-        visit_corners(labels, middle, [&](float label, double weight) {
-            if (label > 0) {
-                parts[label] += weight;
-            }
-        });
-        const auto largest =
-            std::max_element(parts.begin(), parts.end(),
-                             [](const auto& a, const auto& b) { return a.second < b.second; });
-        regions.push_back(largest == parts.end() ? std::uint16_t{0}
-                                                 : static_cast<std::uint16_t>(largest->first));
+        regions.push_back(largest_label(samples_around(labels, middle)));
     }
     return regions;
 }

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 namespace pent::mesher {
 
@@ -16,6 +18,13 @@ namespace {
 
 constexpr std::uint32_t kTask = 256;  // cells or points
 constexpr double kRounding = 1e-9;
+
+// Points asked before that may tell of one on which side it is.
+constexpr std::size_t kRemembered = 32;
+
+// Of the longest edge: further from the surface than this a value need not be known, but that it is
+// so.
+constexpr double kEnough = 2;
 
 }  // namespace
 
@@ -184,21 +193,24 @@ void LatticeTree::sample(const Solid& solid) {
     const double reach = (1 + kRounding) * std::ldexp(lattice_.longest_edge(), largest_);
     const bool is_lipschitz = solid.is_lipschitz();
     parallel_for((point_count() + kTask - 1) / kTask, 1U, [&](std::uint32_t task) {
-        Eigen::Vector4d asked_at = Eigen::Vector4d::Zero();
-        double found = 0;
+        std::vector<Sample> asked;
         for (std::uint32_t point = task * kTask;
              point < std::min((task + 1) * kTask, point_count()); ++point) {
             if (is_asked[point] == 0) {
                 continue;
             }
             const Eigen::Vector4d here = place(point);
-            const double left = std::abs(found) - (here - asked_at).norm();
+            const double left =
+                asked.empty() ? 0
+                              : std::abs(asked.back().value) - (here - asked.back().place).norm();
             if (is_lipschitz && left > reach) {
-                values_[point] = std::copysign(left, found);
+                values_[point] = std::copysign(left, asked.back().value);
                 continue;
             }
-            asked_at = here;
-            found = values_[point] = solid.value(here);
+            const std::size_t first = asked.size() - std::min(asked.size(), kRemembered);
+            values_[point] =
+                solid.value_near(here, kEnough * reach, std::span(asked).subspan(first));
+            asked.push_back({here, values_[point]});
         }
     });
     const auto not_a_number = std::find_if(values_.begin(), values_.end(),

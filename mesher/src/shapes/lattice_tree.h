@@ -8,6 +8,7 @@
 
 #include <array>
 #include <bitset>
+#include <compare>
 #include <cstdint>
 #include <unordered_set>
 #include <utility>
@@ -65,6 +66,12 @@ private:
         std::uint8_t size = 0;
         bool is_inside = false;  // with all of its points
     };
+    struct ThinEdge {
+        std::uint32_t a = 0;
+        std::uint32_t b = 0;  // the larger
+        double width = 0;     // of what is between
+        auto operator<=>(const ThinEdge&) const = default;
+    };
     struct Node;
     struct PatternTable;
 
@@ -79,8 +86,11 @@ private:
     void number_points(const std::vector<std::bitset<kPlaces>>& middles);
     void sample(const Solid& solid);
     [[nodiscard]] double steepest() const;
-    [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_to_search(
-        double steepest) const;
+    template <typename Visit>
+    void visit_near_edges(std::uint32_t task,
+                          const std::vector<double>& distances,
+                          const Visit& visit) const;
+    [[nodiscard]] ThinParts summary(const std::vector<std::vector<ThinEdge>>& found) const;
     [[nodiscard]] ThinParts find_thin_parts(const Solid& solid) const;
     void leave_out_what_is_outside();
     void visit_halved(const Places& places,

@@ -1,3 +1,4 @@
+#include "half_spaces.h"
 #include "regular_polytopes.h"
 #include "solid_data.h"
 
@@ -9,8 +10,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace pent::mesher {
 
@@ -47,22 +51,21 @@ Solid round_solid(const Eigen::Vector4d& axes, double radius) {
     return solid_of(RoundField{axes, radius}, box, 2 * radius);
 }
 
+HalfSpacesField field_of(std::vector<HalfSpace> pieces) {
+    return {std::make_shared<const HalfSpaces>(std::move(pieces))};
+}
+
 // Between two hyperplanes across each axis of finite size.
 Solid slabs(const Eigen::Vector4d& size) {
-    HalfSpacesField field;
-    const Eigen::Index count = 2 * size.array().isFinite().count();
-    field.normals.setZero(count, 4);
-    field.offsets.resize(count);
-    Eigen::Index row = 0;
+    std::vector<HalfSpace> sides;
     for (int axis = 0; axis < 4; ++axis) {
         for (const double sign : {1.0, -1.0}) {
             if (std::isfinite(size[axis])) {
-                field.normals(row, axis) = sign;
-                field.offsets[row++] = size[axis] / 2;
+                sides.push_back({sign * Eigen::Vector4d::Unit(axis), size[axis] / 2});
             }
         }
     }
-    return solid_of(std::move(field), box_around(size / 2), size.minCoeff());
+    return solid_of(field_of(std::move(sides)), box_around(size / 2), size.minCoeff());
 }
 
 }  // namespace
@@ -154,11 +157,13 @@ Solid polytope_solid(int cells, double radius) {
         throw Error("cells is " + std::to_string(cells) + "; expected 5, 8, 16, 24, 120 or 600");
     }
     check_length("radius", radius);
-    HalfSpacesField field;
-    field.normals = cell_normals(cells);
     const double inradius = inradius_ratio(cells) * radius;
-    field.offsets = Eigen::VectorXd::Constant(field.normals.rows(), inradius);
-    return solid_of(std::move(field), box_around(Eigen::Vector4d::Constant(radius)), 2 * inradius);
+    std::vector<HalfSpace> pieces;
+    for (const Eigen::Vector4d& normal : cell_normals(cells)) {
+        pieces.push_back({normal, inradius});
+    }
+    return solid_of(field_of(std::move(pieces)), box_around(Eigen::Vector4d::Constant(radius)),
+                    2 * inradius);
 }
 
 Solid half_space_solid(const Eigen::Vector4d& normal, double offset) {
@@ -168,10 +173,8 @@ Solid half_space_solid(const Eigen::Vector4d& normal, double offset) {
     if (!std::isfinite(offset)) {
         throw Error("offset is not finite; expected a number (m)");
     }
-    HalfSpacesField field;
-    field.normals = normal.normalized().transpose();
-    field.offsets = Eigen::VectorXd::Constant(1, offset / normal.norm());
-    return solid_of(std::move(field), box_around(Eigen::Vector4d::Constant(kInfinity)), kInfinity);
+    return solid_of(field_of({{normal.normalized(), offset / normal.norm()}}),
+                    box_around(Eigen::Vector4d::Constant(kInfinity)), kInfinity);
 }
 
 Solid expression_solid(const std::string& formula, const Box4& box) {

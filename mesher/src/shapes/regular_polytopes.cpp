@@ -105,7 +105,9 @@ Points centers_of_cells() {
     return centers;
 }
 
-Points directions_of_cells(int cells) {
+}  // namespace
+
+std::vector<Eigen::Vector4d> cell_normals(int cells) {
     switch (cells) {
         case 5:
             return simplex_corners();
@@ -124,17 +126,6 @@ Points directions_of_cells(int cells) {
             assert(cells == 600);
             return centers_of_cells();
     }
-}
-
-}  // namespace
-
-Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> cell_normals(int cells) {
-    const Points points = directions_of_cells(cells);
-    Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> normals(points.size(), 4);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        normals.row(static_cast<Eigen::Index>(i)) = points[i];
-    }
-    return normals;
 }
 
 double inradius_ratio(int cells) {

@@ -159,7 +159,7 @@ private:
                 return std::nullopt;
             }
             std::vector<int> there = surface_.solid->pieces_near(*place, on);
-            if (std::abs(surface_.solid->value(*place)) <= on) {
+            if (surface_.solid->is_near_surface(*place, on)) {
                 return Ridge{*place, std::move(there)};
             }
             const auto in_the_way = std::find_if(there.begin(), there.end(), [&](int piece) {
@@ -262,9 +262,8 @@ std::optional<Eigen::Vector4d> slide(const SurfaceMesh& surface,
     }
     const auto there = nearest_common_zero(*surface.solid, surface.pieces[vertex], place,
                                            surface.scale_at(vertex));
-    return there && std::abs(surface.solid->value(*there)) <= kOnPiece * surface.scale
-               ? there
-               : std::nullopt;
+    return there && surface.solid->is_near_surface(*there, kOnPiece * surface.scale) ? there
+                                                                                     : std::nullopt;
 }
 
 std::int64_t sharpen(SurfaceMesh& surface, double least_quality) {

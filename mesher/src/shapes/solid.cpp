@@ -1,4 +1,5 @@
 #include "solid_data.h"
+#include "tet_boundary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,6 +125,13 @@ const Data::Leaf& leaf_of(const Data& data, int piece) {
     return *(after - 1);
 }
 
+// The boundary of tetrahedra that a solid's surface is, if it is nothing else.
+const TetBoundary* sole_boundary(const Data& data) {
+    const auto* field =
+        data.root < 0 ? std::get_if<BoundaryField>(&data.leaves[~data.root].field) : nullptr;
+    return field != nullptr ? field->boundary.get() : nullptr;
+}
+
 // All of one and of the other, with the root still to be made.
 Data joined(const Data& a, const Data& b) {
     Data data = a;
@@ -214,6 +222,63 @@ double Solid::value(const Eigen::Vector4d& p) const {
     return node_value(*data_, data_->root, p);
 }
 
+double Solid::value_near(const Eigen::Vector4d& p,
+                         double enough,
+                         std::span<const Sample> known) const {
+    const TetBoundary* boundary = sole_boundary(*data_);
+    if (boundary == nullptr) {
+        return value(p);
+    }
+    const Data::Leaf& leaf = data_->leaves[~data_->root];
+    std::vector<Sample> own;
+    own.reserve(known.size());
+    for (const Sample& sample : known) {
+        own.push_back({leaf.local(sample.place), sample.value / leaf.factor});
+    }
+    return leaf.factor * boundary->value_near(leaf.local(p), enough / leaf.factor, own);
+}
+
+bool Solid::is_inside(const Eigen::Vector4d& p) const {
+    const TetBoundary* boundary = sole_boundary(*data_);
+    return boundary == nullptr
+               ? value(p) < 0
+               : boundary->winding_number(data_->leaves[~data_->root].local(p)) != 0;
+}
+
+bool Solid::is_near_surface(const Eigen::Vector4d& p, double distance) const {
+    const TetBoundary* boundary = sole_boundary(*data_);
+    if (boundary == nullptr) {
+        return std::abs(value(p)) < distance;
+    }
+    const Data::Leaf& leaf = data_->leaves[~data_->root];
+    return std::isfinite(boundary->distance(leaf.local(p), distance / leaf.factor));
+}
+
+Eigen::Vector4d Solid::slope(const Sample& at, double step) const {
+    const std::optional<Eigen::Vector4d> there = foot(at.place);
+    return there && at.value != 0 ? Eigen::Vector4d((at.place - *there) / at.value)
+                                  : value_slope(at.place, step).slope;
+}
+
+std::optional<Eigen::Vector4d> Solid::foot(const Eigen::Vector4d& p) const {
+    const TetBoundary* boundary = sole_boundary(*data_);
+    if (boundary == nullptr) {
+        return std::nullopt;
+    }
+    const Data::Leaf& leaf = data_->leaves[~data_->root];
+    return leaf.placed(boundary->foot(leaf.local(p)));
+}
+
+std::optional<double> Solid::first_crossing(const Eigen::Vector4d& outside,
+                                            const Eigen::Vector4d& inside) const {
+    const TetBoundary* boundary = sole_boundary(*data_);
+    if (boundary == nullptr) {
+        return std::nullopt;
+    }
+    const Data::Leaf& leaf = data_->leaves[~data_->root];
+    return boundary->first_crossing(leaf.local(outside), leaf.local(inside));
+}
+
 ValueRange Solid::values_within(const Eigen::Vector4d& center, double radius) const {
     return range_of(*data_, data_->root, center, radius);
 }
@@ -226,6 +291,10 @@ bool Solid::is_lipschitz() const {
 }
 
 std::vector<int> Solid::pieces_near(const Eigen::Vector4d& p, double margin) const {
+    if (data_->root < 0) {
+        const Data::Leaf& leaf = data_->leaves[~data_->root];
+        return mesher::pieces_near(leaf.field, leaf.local(p), margin / std::abs(leaf.factor));
+    }
     std::vector<int> pieces;
     collect_pieces(*data_, data_->root, p, margin, pieces);
     std::sort(pieces.begin(), pieces.end());
@@ -251,6 +320,18 @@ ValueSlope Solid::piece_slope(int piece, const Eigen::Vector4d& p, double step) 
     const Data::Leaf& leaf = leaf_of(*data_, piece);
     return placed(leaf, mesher::piece_slope(leaf.field, piece - leaf.first_piece, leaf.local(p),
                                             step / std::abs(leaf.factor)));
+}
+
+std::optional<Eigen::Vector4d> Solid::piece_foot(int piece, const Eigen::Vector4d& p) const {
+    if (blend_of(*data_, piece) >= 0) {
+        return std::nullopt;
+    }
+    const Data::Leaf& leaf = leaf_of(*data_, piece);
+    const auto* field = std::get_if<BoundaryField>(&leaf.field);
+    if (field == nullptr) {
+        return std::nullopt;
+    }
+    return leaf.placed(field->boundary->foot(leaf.local(p), piece - leaf.first_piece));
 }
 
 const Box4& Solid::bounds() const {

@@ -20,6 +20,11 @@ struct Solid::Data {
         [[nodiscard]] Eigen::Vector4d local(const Eigen::Vector4d& p) const {
             return to_field * p + offset;
         }
+
+        /// The other way: `to_field` is a rotation over the scale.
+        [[nodiscard]] Eigen::Vector4d placed(const Eigen::Vector4d& own) const {
+            return factor * factor * (to_field.transpose() * (own - offset));
+        }
     };
     enum class Op { Min, Max };
     struct Node {

@@ -179,7 +179,7 @@ double estimate_cells(const Solid& solid, double edge_length, const SizeField& s
                                    i / (kPerSide * kPerSide) % kPerSide,
                                    i / (kPerSide * kPerSide * kPerSide));
         const Eigen::Vector4d p = box.low.array() + (place + 0.5) * step.array();
-        if (solid.value(p) < 0) {
+        if (solid.is_inside(p)) {
             // Cells of the lattice have the largest power of two that all of them may have.
             double edge = edge_length;
             while (own.edge_within(edge_length, p, kReach * 2 * edge) >= 2 * edge) {

@@ -42,6 +42,11 @@ double zero_between(const Solid& solid, const Sample& from, const Sample& to) {
     if (from.value == 0 || to.value == 0) {
         return from.value == 0 ? 0 : 1;
     }
+    const bool is_from_outside = from.value > 0;
+    if (const auto part = is_from_outside ? solid.first_crossing(from.place, to.place)
+                                          : solid.first_crossing(to.place, from.place)) {
+        return is_from_outside ? *part : 1 - *part;
+    }
     constexpr int kMaxEvaluations = 60;
     constexpr double kClose = 1e-12;
     double a = 0;
@@ -75,6 +80,9 @@ double zero_between(const Solid& solid, const Sample& from, const Sample& to) {
 std::optional<Eigen::Vector4d> nearest_zero(const Solid& solid,
                                             const Eigen::Vector4d& start,
                                             double scale) {
+    if (const auto foot = solid.foot(start)) {
+        return (*foot - start).norm() <= scale ? foot : std::nullopt;
+    }
     Eigen::Vector4d p = start;
     for (int i = 0; i < kMaxSteps; ++i) {
         const auto [value, slope] = solid.value_slope(p, kDifference * scale);
@@ -101,6 +109,11 @@ std::optional<Eigen::Vector4d> nearest_common_zero(const Solid& solid,
                                                    std::span<const int> pieces,
                                                    const Eigen::Vector4d& start,
                                                    double scale) {
+    if (pieces.size() == 1) {
+        if (const auto foot = solid.piece_foot(pieces[0], start)) {
+            return (*foot - start).norm() <= 2 * scale ? foot : std::nullopt;
+        }
+    }
     Eigen::Vector4d p = start;
     for (int i = 0; i < kMaxSteps; ++i) {
         // The normal equations: four by four, however many pieces there are.

@@ -7,11 +7,6 @@
 
 namespace pent::mesher {
 
-struct Sample {
-    Eigen::Vector4d place;
-    double value = 0;
-};
-
 /// The part of the way from one point to the other where a solid's function is zero, to rounding;
 /// its values at the two have different signs.
 [[nodiscard]] double zero_between(const Solid& solid, const Sample& from, const Sample& to);

@@ -3,15 +3,13 @@
 #include "../union_find.h"
 #include "exact_signs.h"
 
-#include <pent/geometry.h>
 #include <pent/parallel.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <numeric>
+#include <utility>
 
 namespace pent::mesher {
 
@@ -27,6 +25,9 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr double kSmoothCosine = 0.766;
 
 constexpr double kRounding = 1e-11;  // of coordinates, enough for directions to 1e-5
+
+// Of lengths: more than rounding, less than anything that shows.
+constexpr double kSlack = 1e-9;
 
 // Turns in three planes by angles without a meaning.
 Matrix4d odd_rotation() {
@@ -45,30 +46,41 @@ Matrix4d odd_rotation() {
     return rotation;
 }
 
+TetTree turned_tree(const TetSurface& surface, const Matrix4d& rotation) {
+    std::vector<Vector4d> points(static_cast<std::size_t>(surface.points.cols()));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i] = rotation * surface.points.col(static_cast<Eigen::Index>(i));
+    }
+    std::vector<TetTree::Tetrahedron> tetrahedra(
+        static_cast<std::size_t>(surface.tetrahedra.cols()));
+    for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+        const auto corners = surface.tetrahedra.col(static_cast<Eigen::Index>(t));
+        std::copy(corners.begin(), corners.end(), tetrahedra[t].begin());
+    }
+    return {points, tetrahedra};
+}
+
 // Joins tetrahedra across triangles of two, where these meet at little of an angle.
-std::vector<std::uint32_t> smooth_parts(const TetSurface& surface,
-                                        const std::vector<Vector4d>& normals) {
+std::vector<std::uint32_t> smooth_parts(const TetTree& tree) {
     struct Side {
         std::array<std::uint32_t, 3> corners{};
         std::uint32_t tetrahedron = 0;
     };
     std::vector<Side> sides;
-    for (Eigen::Index t = 0; t < surface.tetrahedra.cols(); ++t) {
-        for (int without = 0; without < 4; ++without) {
-            Side side{{}, static_cast<std::uint32_t>(t)};
-            for (int i = 0, at = 0; i < 4; ++i) {
-                if (i != without) {
-                    side.corners[static_cast<std::size_t>(at++)] = surface.tetrahedra(i, t);
-                }
-            }
-            std::sort(side.corners.begin(), side.corners.end());
+    sides.reserve(4 * static_cast<std::size_t>(tree.count()));
+    for (std::uint32_t t = 0; t < tree.count(); ++t) {
+        TetTree::Tetrahedron corners = tree.tetrahedron(t);
+        std::sort(corners.begin(), corners.end());
+        for (const std::uint32_t without : corners) {
+            Side side{{}, t};
+            std::remove_copy(corners.begin(), corners.end(), side.corners.begin(), without);
             sides.push_back(side);
         }
     }
     std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
         return a.corners != b.corners ? a.corners < b.corners : a.tetrahedron < b.tetrahedron;
     });
-    UnionFind parts(normals.size());
+    UnionFind parts(tree.count());
     const auto are_one = [&](std::size_t i, std::size_t j) {
         return j < sides.size() && sides[i].corners == sides[j].corners;
     };
@@ -80,13 +92,13 @@ std::vector<std::uint32_t> smooth_parts(const TetSurface& surface,
         if (end == i + 2) {
             const std::uint32_t a = sides[i].tetrahedron;
             const std::uint32_t b = sides[i + 1].tetrahedron;
-            if (normals[a].dot(normals[b]) > kSmoothCosine) {
+            if (tree.normal(a).dot(tree.normal(b)) > kSmoothCosine) {
                 parts.join(a, b);
             }
         }
         i = end;
     }
-    std::vector<std::uint32_t> names(normals.size());
+    std::vector<std::uint32_t> names(tree.count());
     for (std::uint32_t t = 0; t < names.size(); ++t) {
         names[t] = parts.find(t);
     }
@@ -95,74 +107,46 @@ std::vector<std::uint32_t> smooth_parts(const TetSurface& surface,
 
 }  // namespace
 
-TetBoundary::TetBoundary(const TetSurface& surface) : rotation_(odd_rotation()) {
-    const auto count = static_cast<std::uint32_t>(surface.tetrahedra.cols());
-    std::vector<Matrix4d> corners;
-    std::vector<std::uint32_t> names(count);
-    std::iota(names.begin(), names.end(), 0U);
-    for (std::uint32_t t = 0; t < count; ++t) {
-        corners.push_back(corners_of(surface, t));
-        const Vector4d normal = facet_normal<4>(corners.back());
-        const double length = normal.norm();
-        normals_.push_back(length > 0 ? Vector4d(normal / length) : Vector4d::Zero());
-    }
-    all_ = TetTree(corners, names);
-    std::vector<std::uint8_t> is_outer(count, 0);
+TetBoundary::TetBoundary(const TetSurface& surface)
+    : rotation_(odd_rotation()), tree_(turned_tree(surface, rotation_)) {
+    std::vector<std::uint8_t> is_outer(tree_.count(), 0);
     constexpr std::uint32_t kTask = 256;
-    parallel_for(count, kTask, [&](std::uint32_t t) { is_outer[t] = separates(t, corners[t]); });
-    plant(surface, {is_outer.begin(), is_outer.end()});
+    parallel_for(tree_.count(), kTask,
+                 [&](std::uint32_t t) { is_outer[t] = separates(t) ? 1 : 0; });
+    find_patches(is_outer);
 }
 
-Matrix4d TetBoundary::corners_of(const TetSurface& surface, std::uint32_t tetrahedron) const {
-    Matrix4d corners;
-    for (int i = 0; i < 4; ++i) {
-        corners.col(i) = surface.points.col(surface.tetrahedra(i, tetrahedron));
-    }
-    return rotation_ * corners;
-}
-
-void TetBoundary::plant(const TetSurface& surface, const std::vector<bool>& is_outer) {
-    const std::vector<std::uint32_t> parts = smooth_parts(surface, normals_);
-    std::map<std::uint32_t, int> patches;
-    std::vector<std::uint32_t> outer;
-    patch_of_.assign(parts.size(), -1);
+void TetBoundary::find_patches(const std::vector<std::uint8_t>& is_outer) {
+    const std::vector<std::uint32_t> parts = smooth_parts(tree_);
+    std::vector<int> names(parts.size(), TetTree::kNoPatch);
+    std::vector<int> patches(parts.size(), TetTree::kNoPatch);
     for (std::uint32_t t = 0; t < parts.size(); ++t) {
-        if (is_outer[t]) {
-            outer.push_back(t);
-            patch_of_[t] =
-                patches.try_emplace(parts[t], static_cast<int>(patches.size())).first->second;
+        if (is_outer[t] == 0) {
+            ++inner_count_;
+            continue;
         }
-    }
-    inner_count_ = static_cast<std::int64_t>(parts.size() - outer.size());
-    std::vector<std::vector<std::uint32_t>> members(patches.size());
-    for (const std::uint32_t t : outer) {
-        members[static_cast<std::size_t>(patch_of_[t])].push_back(t);
-    }
-    const auto tree_of = [&](const std::vector<std::uint32_t>& names) {
-        std::vector<Matrix4d> corners;
-        for (const std::uint32_t t : names) {
-            corners.push_back(corners_of(surface, t));
+        int& name = names[parts[t]];
+        if (name == TetTree::kNoPatch) {
+            name = patch_count_++;
         }
-        return TetTree(std::move(corners), names);
-    };
-    outer_ = tree_of(outer);
-    for (const std::vector<std::uint32_t>& names : members) {
-        patches_.push_back(tree_of(names));
+        patches[t] = name;
     }
+    tree_.set_patches(std::move(patches));
 }
 
-// The sum over all tetrahedra above a point, in the axes of the trees.
+// The sum over all tetrahedra above a point, in the axes of the tree.
 int TetBoundary::crossings(const Vector4d& from, std::uint32_t without) const {
     int sum = 0;
-    all_.visit_ray(from, [&](std::uint32_t name, const Matrix4d& corners) {
+    tree_.visit_ray(from, [&](std::uint32_t t) {
         // Where the ray leaves a body the normal has a part along it: the shadow is turned over.
-        sum -= name != without ? crossing_sign(corners, from) : 0;
+        sum -= t != without ? crossing_sign(tree_.corners(t), from) : 0;
     });
     return sum;
 }
 
 // Whether there is body on one side only, at one of five points of it at least.
-bool TetBoundary::separates(std::uint32_t tetrahedron, const Matrix4d& corners) const {
+bool TetBoundary::separates(std::uint32_t tetrahedron) const {
+    const Matrix4d corners = tree_.corners(tetrahedron);
     const Vector4d middle = corners.rowwise().mean();
     const Vector4d below = middle - Vector4d::Unit(3) * corners.cwiseAbs().maxCoeff();
     const int own = -crossing_sign(corners, below);
@@ -191,7 +175,64 @@ int TetBoundary::winding_number(const Vector4d& p) const {
 
 double TetBoundary::value(const Vector4d& p) const {
     const Vector4d there = rotation_ * p;
-    return signed_distance(there, outer_.nearest(there));
+    return signed_distance(there, tree_.nearest(there));
+}
+
+double TetBoundary::value_near(const Vector4d& p,
+                               double enough,
+                               std::span<const Sample> known) const {
+    const Vector4d there = rotation_ * p;
+    const NearestPoint nearest = tree_.nearest(there, TetTree::kAnyPatch, enough);
+    const double distance = std::min(enough, std::sqrt(nearest.distance_squared));
+    // A part of an inner one may be where the body ends.
+    for (const Sample& sample : inner_count_ == 0 ? known : std::span<const Sample>()) {
+        if (std::abs(sample.value) + distance > (1 + kSlack) * (sample.place - p).norm()) {
+            return std::copysign(distance, sample.value);
+        }
+    }
+    return std::clamp(signed_distance(there, nearest), -enough, enough);
+}
+
+// Further away than twice the radius it is enough to know that.
+ValueRange TetBoundary::range(const Vector4d& center, double radius) const {
+    const Vector4d there = rotation_ * center;
+    const NearestPoint nearest = tree_.nearest(there, TetTree::kAnyPatch, 2 * radius);
+    const double distance = std::sqrt(nearest.distance_squared);
+    if (distance <= radius) {
+        return {-distance - radius, distance + radius};
+    }
+    const double least = std::min(distance, 2 * radius) - radius;
+    return crossings(there, kNone) != 0 ? ValueRange{-distance - radius, -least}
+                                        : ValueRange{least, distance + radius};
+}
+
+double TetBoundary::distance(const Vector4d& p, double reach) const {
+    return std::sqrt(tree_.nearest(rotation_ * p, TetTree::kAnyPatch, reach).distance_squared);
+}
+
+Vector4d TetBoundary::foot(const Vector4d& p, int patch) const {
+    return rotation_.transpose() * tree_.nearest(rotation_ * p, patch).place;
+}
+
+std::optional<double> TetBoundary::first_crossing(const Vector4d& outside,
+                                                  const Vector4d& to) const {
+    const Vector4d from = rotation_ * outside;
+    const Vector4d way = rotation_ * (to - outside);
+    std::optional<double> first;
+    tree_.visit_box({from.cwiseMin(from + way), from.cwiseMax(from + way)}, [&](std::uint32_t t) {
+        const Vector4d& normal = tree_.normal(t);
+        const Matrix4d corners = tree_.corners(t);
+        const double part = normal.dot(corners.col(0) - from) / normal.dot(way);
+        if (!(part >= 0 && part <= 1) || (first && part >= *first)) {
+            return;
+        }
+        const Vector4d place = from + part * way;
+        const double aside = (nearest_point(corners, place) - place).norm();
+        if (aside <= kSlack * (corners.rightCols<3>().colwise() - corners.col(0)).norm()) {
+            first = part;
+        }
+    });
+    return first;
 }
 
 // Nearer than rounding a point is on the boundary: the side it is on would say nothing, and to find
@@ -206,10 +247,10 @@ double TetBoundary::signed_distance(const Vector4d& there, const NearestPoint& n
 
 ValueSlope TetBoundary::value_slope(const Vector4d& p) const {
     const Vector4d there = rotation_ * p;
-    const NearestPoint nearest = outer_.nearest(there);
+    const NearestPoint nearest = tree_.nearest(there);
     const double value = signed_distance(there, nearest);
     const Vector4d slope =
-        value != 0 ? Vector4d((there - nearest.place) / value) : normals_[nearest.tetrahedron];
+        value != 0 ? Vector4d((there - nearest.place) / value) : tree_.normal(nearest.tetrahedron);
     return {value, rotation_.transpose() * slope};
 }
 
@@ -219,15 +260,15 @@ double TetBoundary::patch_value(int patch, const Vector4d& p) const {
 
 ValueSlope TetBoundary::patch_slope(int patch, const Vector4d& p) const {
     const Vector4d there = rotation_ * p;
-    const NearestPoint nearest = patches_[static_cast<std::size_t>(patch)].nearest(there);
-    const Vector4d& normal = normals_[nearest.tetrahedron];
+    const NearestPoint nearest = tree_.nearest(there, patch);
+    const Vector4d& normal = tree_.normal(nearest.tetrahedron);
     return {normal.dot(there - nearest.place), rotation_.transpose() * normal};
 }
 
 std::vector<int> TetBoundary::patches_within(const Vector4d& p, double distance) const {
     std::vector<int> found;
-    outer_.visit_within(rotation_ * p, distance,
-                        [&](std::uint32_t name) { found.push_back(patch_of_[name]); });
+    tree_.visit_within(rotation_ * p, distance,
+                       [&](std::uint32_t t) { found.push_back(tree_.patch(t)); });
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;

@@ -5,6 +5,9 @@
 #include <pent/exchange/tet_surface.h>
 
 #include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace pent::mesher {
@@ -24,11 +27,36 @@ public:
     /// where it is no more than rounding.
     [[nodiscard]] double value(const Eigen::Vector4d& p) const;
 
-    /// The same with its slope: away from the nearest point, or, there, along the normal.
+    /// The same, or `enough` (m) with its sign where it is further from 0. The ball around a point
+    /// without a tetrahedron in it and that around one that is known are on the same side if they
+    /// meet; else it takes a ray.
+    /// @param known  The value at points near by, or `enough` with its sign.
+    [[nodiscard]] double value_near(const Eigen::Vector4d& p,
+                                    double enough,
+                                    std::span<const Sample> known) const;
+
+    /// Bounds of the value within a ball.
+    [[nodiscard]] ValueRange range(const Eigen::Vector4d& center, double radius) const;
+
+    /// How far value() is from 0, m; infinite from `reach` on. It takes no ray.
+    [[nodiscard]] double distance(const Eigen::Vector4d& p,
+                                  double reach = std::numeric_limits<double>::infinity()) const;
+
+    /// The nearest point of what value() is the distance from, or of one patch.
+    [[nodiscard]] Eigen::Vector4d foot(const Eigen::Vector4d& p,
+                                       int patch = TetTree::kAnyPatch) const;
+
+    /// The part of the way from a point outside to another one at which the first tetrahedron is
+    /// crossed: a place of the body's surface, as nothing winds around what is outside. Nothing if
+    /// rounding hides it.
+    [[nodiscard]] std::optional<double> first_crossing(const Eigen::Vector4d& outside,
+                                                       const Eigen::Vector4d& to) const;
+
+    /// value() with its slope: away from the nearest point, or, there, along the normal.
     [[nodiscard]] ValueSlope value_slope(const Eigen::Vector4d& p) const;
 
     /// Patches are parts whose tetrahedra meet at less than 40 degrees.
-    [[nodiscard]] int patch_count() const { return static_cast<int>(patches_.size()); }
+    [[nodiscard]] int patch_count() const { return patch_count_; }
 
     /// Height over the nearest tetrahedron of a patch, m.
     [[nodiscard]] double patch_value(int patch, const Eigen::Vector4d& p) const;
@@ -43,21 +71,16 @@ public:
     [[nodiscard]] std::int64_t inner_count() const { return inner_count_; }
 
 private:
-    [[nodiscard]] Eigen::Matrix4d corners_of(const exchange::TetSurface& surface,
-                                             std::uint32_t tetrahedron) const;
     [[nodiscard]] double signed_distance(const Eigen::Vector4d& there,
                                          const NearestPoint& nearest) const;
     [[nodiscard]] int crossings(const Eigen::Vector4d& from, std::uint32_t without) const;
-    [[nodiscard]] bool separates(std::uint32_t tetrahedron, const Eigen::Matrix4d& corners) const;
-    void plant(const exchange::TetSurface& surface, const std::vector<bool>& is_outer);
+    [[nodiscard]] bool separates(std::uint32_t tetrahedron) const;
+    void find_patches(const std::vector<std::uint8_t>& is_outer);
 
-    // All in axes of its own, so that no ray runs along what files have straight.
+    // In axes of its own, so that no ray runs along what files have straight.
     Eigen::Matrix4d rotation_;
-    TetTree all_;                           // for rays
-    TetTree outer_;                         // for distances
-    std::vector<TetTree> patches_;          // of the same
-    std::vector<int> patch_of_;             // of tetrahedra; -1: none
-    std::vector<Eigen::Vector4d> normals_;  // of tetrahedra: outward, of length 1 or 0
+    TetTree tree_;
+    int patch_count_ = 0;
     std::int64_t inner_count_ = 0;
 };
 

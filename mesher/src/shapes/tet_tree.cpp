@@ -5,8 +5,10 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace pent::mesher {
 
@@ -42,12 +44,16 @@ void find_foot(const Eigen::Matrix<double, 4, Corners>& corners, const Vector4d&
         const Eigen::Matrix<double, 4, Corners - 1> edges =
             corners.template rightCols<Corners - 1>().colwise() - corners.col(0);
         const Square gram = edges.transpose() * edges;
-        const double part = gram.determinant() / gram.diagonal().prod();
+        Square inverse;
+        double determinant = 0;
+        bool is_invertible = false;
+        gram.computeInverseAndDetWithCheck(inverse, determinant, is_invertible, 0.0);
+        const double part = determinant / gram.diagonal().prod();
         Eigen::Vector<double, Corners> weights;
         weights.setConstant(-1);
         if (part > kFlat) {
             const Vector4d from = p - corners.col(0);
-            weights.template tail<Corners - 1>() = gram.inverse() * (edges.transpose() * from);
+            weights.template tail<Corners - 1>() = inverse * (edges.transpose() * from);
             weights[0] = 1 - weights.template tail<Corners - 1>().sum();
             const Vector4d place = corners * weights;
             const double distance_squared = (p - place).squaredNorm();
@@ -82,96 +88,170 @@ Vector4d nearest_point(const Matrix4d& corners, const Vector4d& p) {
     return best.place;
 }
 
-TetTree::TetTree(std::vector<Matrix4d> corners, std::vector<std::uint32_t> names)
-    : corners_(std::move(corners)), names_(std::move(names)) {
-    std::vector<std::uint32_t> order(names_.size());
+Eigen::Vector4f TetTree::float_below(const Vector4d& p) {
+    Eigen::Vector4f below = p.cast<float>();
+    for (int axis = 0; axis < 4; ++axis) {
+        if (static_cast<double>(below[axis]) > p[axis]) {
+            below[axis] = std::nextafter(below[axis], -std::numeric_limits<float>::infinity());
+        }
+    }
+    return below;
+}
+
+TetTree::TetTree(std::span<const Vector4d> points, std::span<const Tetrahedron> tetrahedra)
+    : patches_(tetrahedra.size(), 0) {
+    std::vector<std::uint32_t> order(tetrahedra.size());
     std::iota(order.begin(), order.end(), 0U);
-    if (!order.empty()) {
-        build(order, 0, static_cast<std::uint32_t>(order.size()));
+    {
+        std::vector<Matrix4d> corners(tetrahedra.size());
+        for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+            for (int i = 0; i < 4; ++i) {
+                corners[t].col(i) = points[tetrahedra[t][static_cast<std::size_t>(i)]];
+            }
+        }
+        build(corners, order, 0, static_cast<std::uint32_t>(order.size()));
     }
-    std::vector<Matrix4d> sorted_corners;
-    std::vector<std::uint32_t> sorted_names;
-    sorted_corners.reserve(order.size());
-    sorted_names.reserve(order.size());
-    for (const std::uint32_t i : order) {
-        sorted_corners.push_back(corners_[i]);
-        sorted_names.push_back(names_[i]);
+    nodes_.shrink_to_fit();
+    // What is near in space is near in memory.
+    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> names(points.size(), kNone);
+    tetrahedra_.reserve(order.size());
+    for (const std::uint32_t t : order) {
+        Tetrahedron own = tetrahedra[t];
+        for (std::uint32_t& corner : own) {
+            if (names[corner] == kNone) {
+                names[corner] = static_cast<std::uint32_t>(points_.size());
+                points_.push_back(points[corner]);
+            }
+            corner = names[corner];
+        }
+        tetrahedra_.push_back(own);
     }
-    corners_ = std::move(sorted_corners);
-    for (const Matrix4d& own : corners_) {
+    normals_.reserve(order.size());
+    is_round_.reserve(order.size());
+    for (std::uint32_t t = 0; t < count(); ++t) {
+        const Matrix4d own = corners(t);
         const Vector4d normal = facet_normal<4>(own);
         const double most = (own.rightCols<3>().colwise() - own.col(0)).colwise().norm().prod();
-        const bool is_round = normal.squaredNorm() > kRound * most * most;
-        normals_.push_back(is_round ? normal.normalized() : Vector4d::Zero());
+        is_round_.push_back(normal.squaredNorm() > kRound * most * most ? 1 : 0);
+        const double length = normal.norm();
+        normals_.push_back(length > 0 ? Vector4d(normal / length) : Vector4d::Zero());
     }
-    names_ = std::move(sorted_names);
+}
+
+Matrix4d TetTree::corners(std::uint32_t t) const {
+    Matrix4d corners;
+    for (int i = 0; i < 4; ++i) {
+        corners.col(i) = points_[tetrahedra_[t][static_cast<std::size_t>(i)]];
+    }
+    return corners;
 }
 
 // Halves the tetrahedra along the longest side of the box of their middles.
-void TetTree::build(std::vector<std::uint32_t>& order, std::uint32_t first, std::uint32_t count) {
-    Box4 box{corners_[order[first]].col(0), corners_[order[first]].col(0)};
-    Box4 middles{corners_[order[first]].rowwise().mean(), corners_[order[first]].rowwise().mean()};
+void TetTree::build(const std::vector<Matrix4d>& corners,
+                    std::vector<std::uint32_t>& order,
+                    std::uint32_t first,
+                    std::uint32_t count) {
+    Box4 box{corners[order[first]].col(0), corners[order[first]].col(0)};
+    Box4 middles{corners[order[first]].rowwise().mean(), corners[order[first]].rowwise().mean()};
     for (std::uint32_t k = first; k < first + count; ++k) {
-        const Matrix4d& own = corners_[order[k]];
+        const Matrix4d& own = corners[order[k]];
         box.low = box.low.cwiseMin(own.rowwise().minCoeff());
         box.high = box.high.cwiseMax(own.rowwise().maxCoeff());
         middles.low = middles.low.cwiseMin(own.rowwise().mean());
         middles.high = middles.high.cwiseMax(own.rowwise().mean());
     }
     const std::size_t node = nodes_.size();
-    nodes_.push_back({box, first, count <= kLeaf ? count : 0, 0});
+    nodes_.push_back(
+        {float_below(box.low), -float_below(-box.high), first, count <= kLeaf ? count : 0, 0, 0});
     if (count > kLeaf) {
         Eigen::Index axis = 0;
         (middles.high - middles.low).maxCoeff(&axis);
-        const auto key = [&](std::uint32_t i) { return corners_[i].row(axis).sum(); };
+        const auto key = [&](std::uint32_t i) { return corners[i].row(axis).sum(); };
         const auto begin = order.begin() + first;
         std::nth_element(begin, begin + count / 2, begin + count,
                          [&](std::uint32_t a, std::uint32_t b) {
                              return key(a) != key(b) ? key(a) < key(b) : a < b;
                          });
-        build(order, first, count / 2);
-        build(order, first + count / 2, count - count / 2);
+        build(corners, order, first, count / 2);
+        build(corners, order, first + count / 2, count - count / 2);
     }
     nodes_[node].after = static_cast<std::uint32_t>(nodes_.size());
 }
 
-void TetTree::search(std::uint32_t node, const Vector4d& p, NearestPoint& best) const {
-    const Node& here = nodes_[node];
-    for (std::uint32_t k = here.first; k < here.first + here.count; ++k) {
-        const double height = normals_[k].dot(p - corners_[k].col(0));
-        if (height * height >= best.distance_squared) {
-            continue;
+void TetTree::set_patches(std::vector<int> patches) {
+    patches_ = std::move(patches);
+    // Children are behind their parents.
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+        Node& node = nodes_[i];
+        const auto add = [&](int patch, bool is_first) {
+            node.patch = is_first || node.patch == patch ? patch : kAnyPatch;
+        };
+        for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
+            add(patches_[t], t == node.first);
         }
-        const Box4 box{corners_[k].rowwise().minCoeff(), corners_[k].rowwise().maxCoeff()};
-        if (distance_squared(box, p) >= best.distance_squared) {
-            continue;
-        }
-        Foot foot{best.place, best.distance_squared};
-        find_foot<4>(corners_[k], p, foot);
-        if (foot.distance_squared < best.distance_squared) {
-            best = {names_[k], foot.place, foot.distance_squared};
-        }
-    }
-    if (here.count > 0) {
-        return;
-    }
-    std::uint32_t near = node + 1;
-    std::uint32_t far = nodes_[near].after;
-    if (distance_squared(nodes_[far].box, p) < distance_squared(nodes_[near].box, p)) {
-        std::swap(near, far);
-    }
-    for (const std::uint32_t child : {near, far}) {
-        if (distance_squared(nodes_[child].box, p) < best.distance_squared) {
-            search(child, p, best);
+        if (node.count == 0) {
+            add(nodes_[i + 1].patch, true);
+            add(nodes_[nodes_[i + 1].after].patch, false);
         }
     }
 }
 
-NearestPoint TetTree::nearest(const Vector4d& p) const {
+void TetTree::consider(std::uint32_t t, const Vector4d& p, NearestPoint& best) const {
+    if (is_round_[t] != 0) {
+        const double height = normals_[t].dot(p - points_[tetrahedra_[t][0]]);
+        if (height * height >= best.distance_squared) {
+            return;
+        }
+    }
+    const Matrix4d own = corners(t);
+    const Vector4d in_box = p.cwiseMax(own.rowwise().minCoeff()).cwiseMin(own.rowwise().maxCoeff());
+    if ((p - in_box).squaredNorm() >= best.distance_squared) {
+        return;
+    }
+    Foot foot{best.place, best.distance_squared};
+    find_foot<4>(own, p, foot);
+    if (foot.distance_squared < best.distance_squared) {
+        best = {t, foot.place, foot.distance_squared};
+    }
+}
+
+void TetTree::search(std::uint32_t node, const Place& at, int patch, NearestPoint& best) const {
+    const Node& here = nodes_[node];
+    if (here.count > 0) {
+        for (std::uint32_t t = here.first; t < here.first + here.count; ++t) {
+            if (may_have(patches_[t], patch)) {
+                consider(t, at.p, best);
+            }
+        }
+        return;
+    }
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const auto distance_to = [&](std::uint32_t child) {
+        return may_have(nodes_[child].patch, patch) ? distance_squared(nodes_[child], at)
+                                                    : kInfinity;
+    };
+    std::uint32_t near = node + 1;
+    std::uint32_t far = nodes_[near].after;
+    double to_near = distance_to(near);
+    double to_far = distance_to(far);
+    if (to_far < to_near) {
+        std::swap(near, far);
+        std::swap(to_near, to_far);
+    }
+    if (to_near < best.distance_squared) {
+        search(near, at, patch, best);
+    }
+    if (to_far < best.distance_squared) {
+        search(far, at, patch, best);
+    }
+}
+
+NearestPoint TetTree::nearest(const Vector4d& p, int patch, double reach) const {
     NearestPoint best;
-    best.distance_squared = std::numeric_limits<double>::infinity();
-    search(0, p, best);
-    return best;
+    best.distance_squared = reach * reach;
+    search(0, {p, float_below(p), -float_below(-p)}, patch, best);
+    return best.distance_squared < reach * reach ? best : NearestPoint{};
 }
 
 }  // namespace pent::mesher

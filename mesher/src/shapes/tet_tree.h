@@ -4,7 +4,11 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 namespace pent::mesher {
@@ -13,7 +17,7 @@ namespace pent::mesher {
 struct NearestPoint {
     std::uint32_t tetrahedron = 0;
     Eigen::Vector4d place = Eigen::Vector4d::Zero();
-    double distance_squared = 0;  ///< m^2.
+    double distance_squared = std::numeric_limits<double>::infinity();  ///< m^2.
 };
 
 /// The nearest point of a simplex of 4 corners, flat ones included.
@@ -21,78 +25,140 @@ struct NearestPoint {
 [[nodiscard]] Eigen::Vector4d nearest_point(const Eigen::Matrix4d& corners,
                                             const Eigen::Vector4d& p);
 
-/// Boxes around boxes around tetrahedra of R^4.
+/// Boxes around boxes around tetrahedra of R^4, each in a patch. Tetrahedra are numbered in the
+/// order of the tree.
 class TetTree {
 public:
-    TetTree() = default;
+    using Tetrahedron = std::array<std::uint32_t, 4>;
 
-    /// @param corners  Of each tetrahedron, one a column.
-    /// @param names    What each is called in answers.
-    TetTree(std::vector<Eigen::Matrix4d> corners, std::vector<std::uint32_t> names);
+    static constexpr int kAnyPatch = -1;  ///< Asks for those of all patches.
+    static constexpr int kNoPatch = -2;   ///< Of tetrahedra that no search by distance finds.
 
-    [[nodiscard]] bool is_empty() const { return names_.empty(); }
+    /// All in patch 0.
+    /// @param tetrahedra  Of points, one or more.
+    TetTree(std::span<const Eigen::Vector4d> points, std::span<const Tetrahedron> tetrahedra);
 
-    /// The tree is not empty; the point is finite.
-    [[nodiscard]] NearestPoint nearest(const Eigen::Vector4d& p) const;
+    [[nodiscard]] std::uint32_t count() const {
+        return static_cast<std::uint32_t>(tetrahedra_.size());
+    }
 
-    /// Calls visit(name) for each tetrahedron no further than `distance` (m).
+    /// Points in the order of the tree, those of them that a tetrahedron has.
+    [[nodiscard]] const Tetrahedron& tetrahedron(std::uint32_t t) const { return tetrahedra_[t]; }
+
+    /// One a column.
+    [[nodiscard]] Eigen::Matrix4d corners(std::uint32_t t) const;
+
+    /// Of length 1, or 0 of what has none.
+    [[nodiscard]] const Eigen::Vector4d& normal(std::uint32_t t) const { return normals_[t]; }
+
+    [[nodiscard]] int patch(std::uint32_t t) const { return patches_[t]; }
+
+    /// @param patches  One a tetrahedron: 0 or more, or kNoPatch.
+    void set_patches(std::vector<int> patches);
+
+    /// The nearest of a patch, or of any, and nearer than `reach` (m); at an infinite distance if
+    /// there is none. The point is finite.
+    [[nodiscard]] NearestPoint nearest(
+        const Eigen::Vector4d& p,
+        int patch = kAnyPatch,
+        double reach = std::numeric_limits<double>::infinity()) const;
+
+    /// Calls visit(t) for each tetrahedron of a patch no further than `distance` (m).
     template <typename Visit>
     void visit_within(const Eigen::Vector4d& p, double distance, const Visit& visit) const {
         const double reach = distance * distance;
-        walk([&](const Box4& box) { return distance_squared(box, p) <= reach; },
-             [&](std::uint32_t i) {
-                 if ((nearest_point(corners_[i], p) - p).squaredNorm() <= reach) {
-                     visit(names_[i]);
+        const Place at{p, float_below(p), -float_below(-p)};
+        walk([&](const Node& node) { return distance_squared(node, at) <= reach; },
+             [&](std::uint32_t t) {
+                 if (patches_[t] != kNoPatch
+                     && (nearest_point(corners(t), p) - p).squaredNorm() <= reach) {
+                     visit(t);
                  }
              });
     }
 
-    /// Calls visit(name, corners) for each tetrahedron that a ray along the last axis may meet.
+    /// Calls visit(t) for each tetrahedron, in a patch or not, that a ray along the last axis may
+    /// meet.
     template <typename Visit>
     void visit_ray(const Eigen::Vector4d& from, const Visit& visit) const {
         walk(
-            [&](const Box4& box) {
-                return (box.low.head<3>().array() <= from.head<3>().array()).all()
-                       && (box.high.array() >= from.array()).all();
+            [&](const Node& node) {
+                return (node.low.head<3>().cast<double>().array() <= from.head<3>().array()).all()
+                       && (node.high.cast<double>().array() >= from.array()).all();
             },
-            [&](std::uint32_t i) { visit(names_[i], corners_[i]); });
+            visit);
+    }
+
+    /// Calls visit(t) for each tetrahedron, in a patch or not, that may have a part in a box.
+    template <typename Visit>
+    void visit_box(const Box4& box, const Visit& visit) const {
+        walk(
+            [&](const Node& node) {
+                return (node.low.cast<double>().array() <= box.high.array()).all()
+                       && (node.high.cast<double>().array() >= box.low.array()).all();
+            },
+            visit);
     }
 
 private:
     struct Node {
-        Box4 box;
+        Eigen::Vector4f low;  // rounded away from what is in the box
+        Eigen::Vector4f high;
         std::uint32_t first = 0;  // of its tetrahedra
         std::uint32_t count = 0;  // 0 in nodes with children, the first of which is next to it
         std::uint32_t after = 0;  // the node behind all of its own
+        int patch = 0;            // that all are in; kAnyPatch if there are several
     };
 
-    [[nodiscard]] static double distance_squared(const Box4& box, const Eigen::Vector4d& p) {
-        return (p - p.cwiseMax(box.low).cwiseMin(box.high)).squaredNorm();
+    // A point, and the floats around it.
+    struct Place {
+        Eigen::Vector4d p;
+        Eigen::Vector4f low;
+        Eigen::Vector4f high;
+    };
+
+    // Not more than it is: of numbers rounded away from each other, and less by what differences
+    // and squares of floats are rounded by.
+    [[nodiscard]] static double distance_squared(const Node& node, const Place& at) {
+        constexpr double kRounding = 1e-6;
+        const Eigen::Vector4f apart =
+            (node.low - at.high).cwiseMax(at.low - node.high).cwiseMax(0.0F);
+        return (1 - kRounding) * apart.cast<double>().squaredNorm();
+    }
+    [[nodiscard]] static Eigen::Vector4f float_below(const Eigen::Vector4d& p);
+    [[nodiscard]] static bool may_have(int own, int asked) {
+        return asked == kAnyPatch ? own != kNoPatch : own == asked || own == kAnyPatch;
     }
 
-    void build(std::vector<std::uint32_t>& order, std::uint32_t first, std::uint32_t count);
-    void search(std::uint32_t node, const Eigen::Vector4d& p, NearestPoint& best) const;
+    void build(const std::vector<Eigen::Matrix4d>& corners,
+               std::vector<std::uint32_t>& order,
+               std::uint32_t first,
+               std::uint32_t count);
+    void search(std::uint32_t node, const Place& at, int patch, NearestPoint& best) const;
+    void consider(std::uint32_t t, const Eigen::Vector4d& p, NearestPoint& best) const;
 
-    // Goes through the nodes whose boxes may be entered, to the tetrahedra of their leaves.
+    // Goes through the nodes that may be entered, to the tetrahedra of their leaves.
     template <typename Enter, typename Leaf>
     void walk(const Enter& enter, const Leaf& leaf) const {
         for (std::uint32_t i = 0; i < nodes_.size();) {
             const Node& node = nodes_[i];
-            if (!enter(node.box)) {
+            if (!enter(node)) {
                 i = node.after;
                 continue;
             }
-            for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-                leaf(k);
+            for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
+                leaf(t);
             }
             ++i;
         }
     }
 
     std::vector<Node> nodes_;
-    std::vector<Eigen::Matrix4d> corners_;  // in the order of the leaves
-    std::vector<Eigen::Vector4d> normals_;  // of length 1, or 0 if not round
-    std::vector<std::uint32_t> names_;
+    std::vector<Eigen::Vector4d> points_;
+    std::vector<Tetrahedron> tetrahedra_;
+    std::vector<Eigen::Vector4d> normals_;
+    std::vector<std::uint8_t> is_round_;  // of tetrahedra: the plane of it is known well
+    std::vector<int> patches_;
 };
 
 }  // namespace pent::mesher

@@ -4,13 +4,12 @@
 #include <pent/parallel.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace pent::mesher {
 
 namespace {
-
-using Ends = std::pair<std::uint32_t, std::uint32_t>;
 
 constexpr std::uint32_t kTask = 64;  // cells or points
 
@@ -22,12 +21,6 @@ constexpr double kThinnest = 1e-6;
 
 // Slopes of expressions are taken over this part of the spacing.
 constexpr double kDifference = 1e-3;
-
-template <typename Value>
-void make_unique(std::vector<Value>& values) {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 
 // An edge between corners of a cell, as sets of axes; its length in spacings.
 struct CellEdge {
@@ -73,93 +66,112 @@ double LatticeTree::steepest() const {
     return steepest;
 }
 
-// Edges that may go through the surface twice: both ends on one side, and near enough to it.
-std::vector<Ends> LatticeTree::edges_to_search(double steepest) const {
-    const auto add = [&](std::uint32_t a, std::uint32_t b, double reach, std::vector<Ends>& edges) {
+// Calls visit(a, b) for edges that may go through the surface twice: both ends on one side, and
+// together no further from it than from each other. An edge may come several times.
+template <typename Visit>
+void LatticeTree::visit_near_edges(std::uint32_t task,
+                                   const std::vector<double>& distances,
+                                   const Visit& visit) const {
+    const auto add = [&](std::uint32_t a, std::uint32_t b, double length) {
         const bool is_same_side = (values_[a] < 0) == (values_[b] < 0);
-        if (is_same_side && std::abs(values_[a]) + std::abs(values_[b]) < reach) {
-            edges.emplace_back(a, b);
+        if (is_same_side && distances[a] + distances[b] < length) {
+            visit(std::min(a, b), std::max(a, b));
         }
     };
-    const auto add_edges = [&](std::uint32_t cell, std::vector<Ends>& edges) {
-        const double scale = std::ldexp(steepest, cells_[cell].size);
-        const bool is_near =
-            std::any_of(corners_[cell].begin(), corners_[cell].end(), [&](std::uint32_t corner) {
-                return std::abs(values_[corner]) < scale * lattice_.longest_edge();
-            });
-        if (!is_near) {
-            return;
+    for (std::uint32_t cell = task * kTask; cell < std::min((task + 1) * kTask, cell_count());
+         ++cell) {
+        const auto& corners = corners_[cell];
+        const double longest = std::ldexp(lattice_.longest_edge(), cells_[cell].size);
+        if (cells_[cell].is_inside
+            || std::none_of(corners.begin(), corners.end(),
+                            [&](std::uint32_t corner) { return distances[corner] < longest; })) {
+            continue;
         }
         if (halved_[cell] == kNone) {
             for (const CellEdge& edge : cell_edges()) {
-                add(corners_[cell][edge.from], corners_[cell][edge.to],
-                    scale * lattice_.spacing * edge.length, edges);
+                add(corners[edge.from], corners[edge.to],
+                    std::ldexp(lattice_.spacing * edge.length, cells_[cell].size));
             }
-            return;
+            continue;
         }
         visit_simplices(cell, [&](const Simplex& simplex, bool) {
             for (int i = 0; i < 5; ++i) {
                 for (int j = i + 1; j < 5; ++j) {
-                    add(simplex[i], simplex[j],
-                        steepest * (place(simplex[j]) - place(simplex[i])).norm(), edges);
+                    add(simplex[i], simplex[j], (place(simplex[j]) - place(simplex[i])).norm());
                 }
             }
         });
-    };
-    const std::uint32_t tasks = (cell_count() + kTask - 1) / kTask;
-    std::vector<std::vector<Ends>> found(tasks);
-    parallel_for(tasks, 1U, [&](std::uint32_t task) {
-        for (std::uint32_t i = task * kTask; i < std::min((task + 1) * kTask, cell_count()); ++i) {
-            if (!cells_[i].is_inside) {
-                add_edges(i, found[task]);
-            }
-        }
-        make_unique(found[task]);
-    });
-    std::vector<Ends> all;
-    for (const std::vector<Ends>& edges : found) {
-        all.insert(all.end(), edges.begin(), edges.end());
     }
-    make_unique(all);
-    return all;
 }
 
-// From each end the surface is as far away as the function says, in the direction of its slope.
+// The surface is as far away as the function says, in the direction of its slope. At first no
+// further than where the function is steepest everywhere; then as it is at the ends of edges that
+// are near so.
 ThinParts LatticeTree::find_thin_parts(const Solid& solid) const {
-    const std::vector<Ends> edges = edges_to_search(solid.is_lipschitz() ? 1 : steepest());
-    std::vector<std::uint32_t> points;
-    for (const auto& [a, b] : edges) {
-        points.insert(points.end(), {a, b});
-    }
-    make_unique(points);
-    std::vector<ValueSlope> found(points.size());
-    parallel_for(points.size(), std::size_t{kTask}, [&](std::size_t i) {
-        found[i] = solid.value_slope(place(points[i]), kDifference * lattice_.spacing);
-    });
-    const auto at = [&](std::uint32_t point) -> const ValueSlope& {
-        return found[static_cast<std::size_t>(std::lower_bound(points.begin(), points.end(), point)
-                                              - points.begin())];
-    };
-    ThinParts thin;
-    for (const auto& [a, b] : edges) {
-        const double steep_a = at(a).slope.norm();
-        const double steep_b = at(b).slope.norm();
-        const Eigen::Vector4d outward_a = at(a).slope / steep_a;
-        const Eigen::Vector4d outward_b = at(b).slope / steep_b;
-        if (!(outward_a.dot(outward_b) < kOpposite)) {
-            continue;
-        }
-        const double side = at(a).value < 0 ? 1 : -1;
-        const Eigen::Vector4d across = side * (outward_a - outward_b).normalized();
-        const Eigen::Vector4d way = place(b) - place(a);
-        const double width =
-            across.dot(way) - std::abs(at(a).value) / steep_a - std::abs(at(b).value) / steep_b;
-        if (width > kThinnest * way.norm()) {
-            ++thin.edges;
-            if (width < thin.width) {
-                thin.width = width;
-                thin.place = (place(a) + place(b)) / 2;
+    const double steep = solid.is_lipschitz() ? 1 : steepest();
+    std::vector<double> distances(values_.size());
+    std::transform(values_.begin(), values_.end(), distances.begin(),
+                   [&](double value) { return std::abs(value) / steep; });
+    const std::uint32_t tasks = (cell_count() + kTask - 1) / kTask;
+    std::vector<std::uint8_t> is_end(values_.size(), 0);
+    parallel_for(tasks, 1U, [&](std::uint32_t task) {
+        visit_near_edges(task, distances, [&](std::uint32_t a, std::uint32_t b) {
+            for (const std::uint32_t end : {a, b}) {
+                std::atomic_ref(is_end[end]).store(1, std::memory_order_relaxed);
             }
+        });
+    });
+    std::vector<std::uint32_t> points;
+    for (std::uint32_t point = 0; point < point_count(); ++point) {
+        if (is_end[point] != 0) {
+            points.push_back(point);
+        }
+    }
+    std::vector<Eigen::Vector4d> slopes(points.size());
+    parallel_for(points.size(), std::size_t{kTask}, [&](std::size_t i) {
+        const std::uint32_t point = points[i];
+        slopes[i] = solid.slope({place(point), values_[point]}, kDifference * lattice_.spacing);
+        distances[point] = std::abs(values_[point]) / slopes[i].norm();
+    });
+    const auto outward_at = [&](std::uint32_t point) -> Eigen::Vector4d {
+        return slopes[static_cast<std::size_t>(std::lower_bound(points.begin(), points.end(), point)
+                                               - points.begin())]
+            .normalized();
+    };
+    std::vector<std::vector<ThinEdge>> found(tasks);
+    parallel_for(tasks, 1U, [&](std::uint32_t task) {
+        visit_near_edges(task, distances, [&](std::uint32_t a, std::uint32_t b) {
+            const Eigen::Vector4d outward_a = outward_at(a);
+            const Eigen::Vector4d outward_b = outward_at(b);
+            if (!(outward_a.dot(outward_b) < kOpposite)) {
+                return;
+            }
+            const double side = values_[a] < 0 ? 1 : -1;
+            const Eigen::Vector4d across = side * (outward_a - outward_b).normalized();
+            const Eigen::Vector4d way = place(b) - place(a);
+            const double width = across.dot(way) - distances[a] - distances[b];
+            if (width > kThinnest * way.norm()) {
+                found[task].push_back({a, b, width});
+            }
+        });
+    });
+    return summary(found);
+}
+
+// Each edge once, the thinnest with its place.
+ThinParts LatticeTree::summary(const std::vector<std::vector<ThinEdge>>& found) const {
+    std::vector<ThinEdge> all;
+    for (const std::vector<ThinEdge>& own : found) {
+        all.insert(all.end(), own.begin(), own.end());
+    }
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    ThinParts thin;
+    thin.edges = static_cast<std::int64_t>(all.size());
+    for (const ThinEdge& edge : all) {
+        if (edge.width < thin.width) {
+            thin.width = edge.width;
+            thin.place = (place(edge.a) + place(edge.b)) / 2;
         }
     }
     return thin;

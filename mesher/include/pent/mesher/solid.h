@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace pent::mesher {
@@ -19,7 +21,13 @@ struct ValueRange {
     double high = 0;
 };
 
-/// A function at a point, with how it changes there.
+/// A function at a point.
+struct Sample {
+    Eigen::Vector4d place;
+    double value = 0;
+};
+
+/// The same with how it changes there.
 struct ValueSlope {
     double value = 0;
     Eigen::Vector4d slope = Eigen::Vector4d::Zero();
@@ -36,9 +44,37 @@ public:
     [[nodiscard]] double value(const Eigen::Vector4d& p) const;
 
     /// The function (m) and its slope.
-    /// @param step  Differences are taken over this (m) where no slope is known: of expressions and
-    ///              images.
+    /// @param step  Differences are taken over this (m) where no slope is known: of expressions.
     [[nodiscard]] ValueSlope value_slope(const Eigen::Vector4d& p, double step) const;
+
+    /// Questions that take less than value() where the surface is that of a file.
+
+    /// The same, or, where it is further from 0, something between `enough` (m) and it.
+    /// @param known  What this gave at points near by.
+    [[nodiscard]] double value_near(const Eigen::Vector4d& p,
+                                    double enough,
+                                    std::span<const Sample> known) const;
+
+    /// Whether the value is below 0.
+    [[nodiscard]] bool is_inside(const Eigen::Vector4d& p) const;
+
+    /// Whether the value is nearer to 0 than `distance`, m.
+    [[nodiscard]] bool is_near_surface(const Eigen::Vector4d& p, double distance) const;
+
+    /// The slope of value_slope() where the value is known.
+    [[nodiscard]] Eigen::Vector4d slope(const Sample& at, double step) const;
+
+    /// The zero nearest to a point; of a boundary of tetrahedra alone, else nothing.
+    [[nodiscard]] std::optional<Eigen::Vector4d> foot(const Eigen::Vector4d& p) const;
+
+    /// The point of a piece nearest to a point; of one of such a boundary, else nothing.
+    [[nodiscard]] std::optional<Eigen::Vector4d> piece_foot(int piece,
+                                                            const Eigen::Vector4d& p) const;
+
+    /// The part of the way from a point outside to one inside at which it first meets the surface;
+    /// of a boundary of tetrahedra alone, else nothing, and nothing if rounding hides it.
+    [[nodiscard]] std::optional<double> first_crossing(const Eigen::Vector4d& outside,
+                                                       const Eigen::Vector4d& inside) const;
 
     /// Bounds of the function within a ball; infinite where an expression decides.
     [[nodiscard]] ValueRange values_within(const Eigen::Vector4d& center, double radius) const;
