@@ -170,6 +170,19 @@ TEST(Solid, IsScaledThenRotatedThenMoved) {
     }
 }
 
+TEST(Solid, HasNoBoundsWhereWhatIsIntersectedLiesApart) {
+    const Eigen::Matrix4d as_it_is = Eigen::Matrix4d::Identity();
+    const Solid nothing =
+        intersect(ball_solid(1), place(ball_solid(1), 1, as_it_is, 5 * Vector4d::Unit(0)));
+    const Solid moved = place(nothing, 2, as_it_is, Vector4d::Ones());
+    for (const Solid& solid : {nothing, moved}) {
+        EXPECT_LT((solid.bounds().high - solid.bounds().low).minCoeff(), 0);
+    }
+    const Box4& box = unite(ball_solid(1), moved).bounds();
+    EXPECT_EQ(box.low, -Vector4d::Ones());
+    EXPECT_EQ(box.high, Vector4d::Ones());
+}
+
 TEST(Solid, HasTheNamedExtentsInTheNamedAxes) {
     EXPECT_DOUBLE_EQ(spherinder_solid(1, 3).value({0, 0, 0, 2}), 0.5);
     EXPECT_DOUBLE_EQ(capsule_solid(1, 3).value({0, 0, 0, 2}), -0.5);

@@ -183,10 +183,13 @@ Solid outside_of(const Solid& solid) {
     return Solid(std::make_shared<const Data>(std::move(data)));
 }
 
-// The box around a box that was turned. An infinite side makes all infinite that it has a part in.
+// The box around a box that was turned; of nothing if that is. An infinite side makes all infinite that it has a part in.
 Box4 placed_box(const Box4& box,
                 const Eigen::Matrix4d& linear,
                 const Eigen::Vector4d& translation) {
+    if ((box.low.array() > box.high.array()).any()) {
+        return {Eigen::Vector4d::Constant(kInfinity), Eigen::Vector4d::Constant(-kInfinity)};
+    }
     Box4 result{translation, translation};
     for (int row = 0; row < 4; ++row) {
         for (int column = 0; column < 4; ++column) {
