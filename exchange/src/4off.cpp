@@ -36,8 +36,8 @@ Polygon read_list(TextReader& text, std::size_t least, std::int64_t end, const c
 // A polygon as triangles from its corner with the lowest index, so that two cells cut it alike.
 std::vector<Triangle> fan_of(const Polygon& polygon) {
     const std::size_t n = polygon.size();
-    const auto first =
-        static_cast<std::size_t>(std::ranges::min_element(polygon) - polygon.begin());
+    const auto first = static_cast<std::size_t>(std::min_element(polygon.begin(), polygon.end())
+                                                - polygon.begin());
     std::vector<Triangle> fan;
     for (std::size_t i = 1; i + 1 < n; ++i) {
         fan.push_back({polygon[first], polygon[(first + i) % n], polygon[(first + i + 1) % n]});
@@ -78,7 +78,7 @@ void check_keyword(TextReader& text) {
 class TriangleList {
 public:
     std::uint32_t number_of(Triangle corners) {
-        std::ranges::sort(corners);
+        std::sort(corners.begin(), corners.end());
         const auto [found, is_new] =
             numbers_.try_emplace(corners, static_cast<std::uint32_t>(list_.size()));
         if (is_new) {

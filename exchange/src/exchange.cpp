@@ -92,7 +92,8 @@ const Format& format_of(const std::filesystem::path& path) {
     const std::string ending = pent::format_of(path, "");
     std::string known;
     for (const Format& format : kFormats) {
-        if (std::ranges::find(format.endings, ending) != format.endings.end()) {
+        const auto& endings = format.endings;
+        if (std::find(endings.begin(), endings.end(), ending) != endings.end()) {
             return format;
         }
         for (const std::string_view one : format.endings) {

@@ -25,9 +25,9 @@ public:
         if (mesh.layers.empty()) {
             return;
         }
-        const auto [first, last] = std::ranges::minmax(mesh.layers);
-        first_ = first;
-        last_ = last;
+        const auto [first, last] = std::minmax_element(mesh.layers.begin(), mesh.layers.end());
+        first_ = *first;
+        last_ = *last;
         is_mfem_ = options.has_mfem_attributes;
         for (const std::uint16_t region : mesh.regions) {
             cell_labels_ = std::max(cell_labels_, region + 1);
@@ -143,7 +143,8 @@ Content read_mfem(const std::filesystem::path& path) {
             std::swap(mesh.cells(3, cell), mesh.cells(4, cell));
         }
     }
-    if (std::ranges::any_of(elements.labels, [](std::uint16_t label) { return label != 0; })) {
+    if (std::any_of(elements.labels.begin(), elements.labels.end(),
+                    [](std::uint16_t label) { return label != 0; })) {
         mesh.regions = elements.labels;
     }
     validate<4>(mesh, path.string());

@@ -195,7 +195,7 @@ TYPED_TEST(BarrierContactsTest, WithObstaclesHaveTheseSecondAndTheirVerticesLast
             ++counts.at(contact.second.index);
         }
     }
-    EXPECT_GT(*std::ranges::min_element(counts), 0);
+    EXPECT_GT(*std::min_element(counts.begin(), counts.end()), 0);
     EXPECT_EQ(contacts.report.obstacle, counts[0] + counts[1] + counts[2]);
     EXPECT_GT(contacts.report.point_facet, 0);
 }

@@ -97,7 +97,7 @@ TEST(FourOff, FacesOutwardForReadersThatLookAtTheFirstTwoFaces) {
         for (std::size_t side = 0; side < 2; ++side) {
             const auto& other = corners[cell[1 - side]];
             for (const std::size_t corner : corners[cell[side]]) {
-                if (std::ranges::find(other, corner) == other.end()) {
+                if (std::find(other.begin(), other.end(), corner) == other.end()) {
                     apart[side] = corner;
                 } else if (side == 0) {
                     edge.push_back(corner);

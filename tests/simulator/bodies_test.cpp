@@ -85,7 +85,8 @@ TEST(Bodies, KnowTheVerticesWhosePlacesAreGiven) {
     EXPECT_FALSE(bodies.is_kinematic(0));
     EXPECT_TRUE(bodies.is_kinematic(1));
     const DofMap dofs = number_dofs(bodies, {true, true});
-    EXPECT_EQ(dofs.count(), std::ranges::count(bodies.is_dirichlet, false));
+    EXPECT_EQ(dofs.count(),
+              std::count(bodies.is_dirichlet.begin(), bodies.is_dirichlet.end(), false));
     EXPECT_EQ(number_dofs(bodies, {false, true}).count(), 0U);
 }
 
