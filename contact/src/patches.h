@@ -28,12 +28,12 @@ struct PatchPlace {
 template <int Dim>
 struct PatchMotion {
     Vector<Dim> rest_center = Vector<Dim>::Zero();
-    PatchPlace<Dim> start;
-    PatchPlace<Dim> end;
-    bool is_still = true;      ///< Then only the end counts.
     double least_stretch = 0;  ///< No singular value of the map is less at any time.
     double radius = 0;         ///< Farthest that |X - rest_center| gets, m.
     double deviation = std::numeric_limits<double>::infinity();  ///< m; infinite where not known.
+    bool is_still = true;                                        ///< Then only the end counts.
+    PatchPlace<Dim> end;
+    PatchPlace<Dim> start;
 };
 
 /// How near a point of one and a point of another patch can be at any time, from how far they are

@@ -66,7 +66,7 @@ void SelfProximity<Dim>::fit_tree(const Simplices<Count>& simplices, const Asked
     Tree& tree = trees_[Count - 1];
     const std::vector<Box> boxes = hulls<Count>(simplices, boxes_);
     tree.simplices.refit(boxes);
-    tree.patch_boxes.resize(tree.patch_ranges.size());
+    std::vector<Box> around(tree.patch_ranges.size());
     tree.patch_inflation.resize(asked.inflation ? tree.patch_ranges.size() : 0);
     parallel_for(tree.patch_ranges.size(), kPatches, [&](std::size_t patch) {
         const BoxTree::Range& range = tree.patch_ranges[patch];
@@ -79,16 +79,12 @@ void SelfProximity<Dim>::fit_tree(const Simplices<Count>& simplices, const Asked
                 inflation = std::max(inflation, (*asked.inflation)[simplices(corner, i)]);
             }
         }
-        tree.patch_boxes[patch] = all;
+        around[patch] = all;
         if (asked.inflation) {
             tree.patch_inflation[patch] = inflation;
         }
     });
-    if (tree.patches.size() == tree.patch_boxes.size()) {
-        tree.patches.refit(tree.patch_boxes);
-    } else {
-        tree.patches = BoxTree(tree.patch_boxes);
-    }
+    tree.patches = PatchTree(around);
     ++refit_;
 }
 
@@ -229,8 +225,7 @@ template <int Dim>
 std::int64_t SelfProximity<Dim>::bytes() const {
     auto sum = static_cast<std::int64_t>(boxes_.size() * sizeof(Box));
     for (const Tree& tree : trees_) {
-        sum += tree.simplices.bytes() + tree.patches.bytes()
-               + static_cast<std::int64_t>(tree.patch_boxes.size() * sizeof(Box));
+        sum += tree.simplices.bytes() + tree.patches.bytes();
     }
     for (const Patches<Dim>& patches : patches_at_rest_) {
         sum += patches.bytes();

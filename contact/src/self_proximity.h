@@ -1,6 +1,7 @@
 #pragma once
 
 #include "candidate.h"
+#include "patch_tree.h"
 #include "patches.h"
 #include "path_cover.h"
 #include "shared_work.h"
@@ -64,9 +65,8 @@ private:
     struct Tree {
         BoxTree simplices;
         std::vector<BoxTree::Range> patch_ranges;
-        std::vector<Box> patch_boxes;
         std::vector<double> patch_inflation;  // the largest of a vertex, m; none without any
-        BoxTree patches;
+        PatchTree patches;
     };
 
     // Positions at which pairs were listed, and how patches have moved since.
@@ -84,12 +84,11 @@ private:
         std::uint32_t end = 0;
     };
 
-    // What is known of a patch and others, by these, and which of them are near now.
+    // What is known of a patch and others, by these.
     struct Row {
         std::vector<Known> known;
         std::vector<Candidate> pairs;
-        std::vector<std::uint32_t> near;     // ascending
-        std::vector<std::uint32_t> unknown;  // of these, those that no bound tells anything of
+        std::vector<std::uint32_t> unknown;  // near now, ascending, and no bound tells anything
     };
 
     // Where what is searched goes: paths, what vertices may leave them by (null if they do not),

@@ -77,7 +77,6 @@ public:
 
     // Looks where bounds hold; returns for how many pairs of patches none does.
     std::size_t look_at_lists() {
-        find_near_patches();
         for_each_row([&](std::size_t a, Found& found) { look_at_lists(a, found); });
         return count_unknown();
     }
@@ -146,55 +145,35 @@ private:
                        });
     }
 
-    void find_near_patches() {
-        struct Two {
-            std::uint32_t first;
-            std::uint32_t second;
-        };
-        const auto near = walk_overlaps<std::vector<Two>>(
-            first_tree().patches, second_tree().patches,
-            [](std::uint32_t a, std::uint32_t b, std::vector<Two>& here) {
-                here.push_back({a, b});
-            });
-        for (std::size_t a = 0; a < rows_.size(); ++a) {
-            rows_[a].near.clear();
-            if (is_same_list()) {
-                rows_[a].near.push_back(static_cast<std::uint32_t>(a));
-            }
-        }
-        for (const std::vector<Two>& here : near) {
-            for (const Two& both : here) {
-                rows_[both.first].near.push_back(both.second);
-            }
-        }
-    }
-
     void look_at_lists(std::size_t a, Found& found) {
         Row& row = rows_[a];
-        std::sort(row.near.begin(), row.near.end());
         row.unknown.clear();
-        found.overlaps += static_cast<std::int64_t>(row.near.size());
         std::vector<Listed> listed;
         const Reference* newest = all_.reference(all_.newest_);
-        for (const std::uint32_t b : row.near) {
-            const auto known =
-                std::lower_bound(row.known.begin(), row.known.end(), b,
-                                 [](const Known& k, std::uint32_t to) { return k.second < to; });
+        auto known = row.known.begin();
+        second_tree().patches.for_each_overlap(first_tree().patches.box(a), [&](std::uint32_t b) {
+            if (is_same_list() && b < a) {
+                return;
+            }
+            ++found.overlaps;
+            while (known != row.known.end() && known->second < b) {
+                ++known;
+            }
             const bool is_known = known != row.known.end() && known->second == b;
             if (is_known && look_at_list(a, *known, found)) {
-                continue;
+                return;
             }
             // What has come near since is listed where the newest reference had it.
             const bool is_newest = is_known && known->serial == all_.newest_;
             if (!newest || is_newest || !is_apart(bound(*newest, a, b), a, b)) {
                 row.unknown.push_back(b);
-                continue;
+                return;
             }
             listed.push_back({b, list(a, b, newest->positions, found)});
             for (const Candidate& pair : listed.back().pairs) {
                 look_at(pair, found);
             }
-        }
+        });
         add(row, listed);
     }
 
@@ -245,7 +224,7 @@ private:
     void look_at_all(std::size_t a, std::uint32_t b, Found& found) const {
         BoxTree::for_each_overlap(first_tree().simplices, second_tree().simplices,
                                   {first_tree().patch_ranges[a], second_tree().patch_ranges[b],
-                                   first_tree().patch_boxes[a], second_tree().patch_boxes[b]},
+                                   first_tree().patches.box(a), second_tree().patches.box(b)},
                                   [&](std::uint32_t i, std::uint32_t j) { test_(i, j, found); });
     }
 
