@@ -59,9 +59,10 @@ inline Scene hug_scene(bool self) {
     return scene;
 }
 
-// Shaken by a tenth of a cell: aligned boxes are not what bodies look like.
-inline SimplexMesh<4> hug_body(unsigned seed) {
-    SimplexMesh<4> mesh = box({60, 12, 3, 2});
+// Shaken by a tenth of a cell: aligned boxes are not what bodies look like. Two cells thick along
+// w, as hug_scene() expects.
+inline SimplexMesh<4> hug_body(unsigned seed, const std::array<int, 4>& cells = {60, 12, 3, 2}) {
+    SimplexMesh<4> mesh = box(cells);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> shake(-0.005, 0.005);
     for (double& x : mesh.positions.reshaped()) {

@@ -77,12 +77,18 @@ void run_steps(benchmark::State& state,
     state.counters["MB"] = 1e-6 * static_cast<double>(simulation.size().bytes);
 }
 
-void hug(benchmark::State& state, bool self, Integrator integrator) {
-    const std::vector<SimplexMesh<4>> meshes{hug_body(1), hug_body(2)};
+void hug_of(benchmark::State& state,
+            const std::vector<SimplexMesh<4>>& meshes,
+            bool self,
+            Integrator integrator) {
     Scene scene = hug_scene(self);
     const Start start = after_steps(scene, meshes, 12, true);
     scene.solver.integrator = integrator;
     run_steps(state, scene, meshes, start);
+}
+
+void hug(benchmark::State& state, bool self, Integrator integrator) {
+    hug_of(state, {hug_body(1), hug_body(2)}, self, integrator);
 }
 BENCHMARK_CAPTURE(hug, between, false, Integrator::LinearEuler)
     ->Arg(1)
@@ -94,6 +100,27 @@ BENCHMARK_CAPTURE(hug, self, true, Integrator::LinearEuler)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 BENCHMARK_CAPTURE(hug, newton, false, Integrator::NewtonEuler)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+// Two small bodies, 1,920 pentachora in all: what a step costs whatever there is to do.
+void small(benchmark::State& state, bool self, Integrator integrator) {
+    constexpr std::array<int, 4> kCells{5, 2, 2, 2};
+    hug_of(state, {hug_body(1, kCells), hug_body(2, kCells)}, self, integrator);
+}
+BENCHMARK_CAPTURE(small, between, false, Integrator::LinearEuler)
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(small, self, true, Integrator::LinearEuler)
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(small, newton, true, Integrator::NewtonEuler)
+    ->Arg(1)
     ->Arg(2)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();

@@ -11,6 +11,16 @@
 
 namespace pent::simulator {
 
+namespace {
+
+// The same vertices as this rank has them in its matrix: in the same order where there is but one.
+template <int Dim>
+DofMap rows_of(const DofMap& alike, const Bodies<Dim>& bodies, const std::vector<bool>& is_in) {
+    return bodies.sharing.is_shared() ? number_dofs(bodies, is_in) : alike;
+}
+
+}  // namespace
+
 template <int Dim>
 IncrementalPotential<Dim>::IncrementalPotential(const Workers& workers,
                                                 const Kernels<Dim>& kernels,
@@ -26,7 +36,7 @@ IncrementalPotential<Dim>::IncrementalPotential(const Workers& workers,
       energy_(&energy),
       elasticity_(&elasticity),
       dofs_(number_dofs_alike(bodies, std::vector<bool>(bodies.count(), true))),
-      rows_(number_dofs(bodies, std::vector<bool>(bodies.count(), true))),
+      rows_(rows_of(dofs_, bodies, std::vector<bool>(bodies.count(), true))),
       inertia_(workers, dofs_, bodies.masses),
       mass_drag_(workers, dofs_, bodies.masses),
       stiffness_drag_(
@@ -59,7 +69,7 @@ void IncrementalPotential<Dim>::renumber(const std::vector<bool>& asleep,
     std::vector<bool> awake = asleep;
     awake.flip();
     dofs_ = number_dofs_alike(*bodies_, awake);
-    rows_ = number_dofs(*bodies_, awake);
+    rows_ = rows_of(dofs_, *bodies_, awake);
     elasticity_->set_dofs(rows_, asleep, positions);
     energy_->invalidate();
     stiffness_drag_.forget();
