@@ -310,6 +310,18 @@ double ContactPotential<Dim>::max_step(const Positions<Dim>& from, const Positio
     return limit_.fraction;
 }
 
+// Where bodies are not close and the stiffness is that of the scene, it stays so whatever the
+// forces, which take another look at all contacts.
+template <int Dim>
+bool ContactPotential<Dim>::wants_balance() const {
+    return is_barrier_ && (is_close() || stiffness_ != options_.stiffness);
+}
+
+template <int Dim>
+bool ContactPotential<Dim>::is_close() const {
+    return gap() < kDeep * options_.distance;
+}
+
 // The stiffness with which the barrier would balance, in the sense of least squares, all other
 // forces where bodies are now; that of the scene unless they are close [li2020, supplement].
 template <int Dim>
@@ -318,7 +330,7 @@ bool ContactPotential<Dim>::balance(const BlockVector<Dim>& own, const BlockVect
     if (own.cols() == 0) {
         return false;  // all bodies sleep, and nothing is solved for
     }
-    if (gap() < kDeep * options_.distance) {
+    if (is_close()) {
         const double squared = own.squaredNorm();
         const double along = -others.cwiseProduct(own).sum();
         const double balancing = squared > 0 ? stiffness_ * along / squared : 0;

@@ -31,7 +31,7 @@ public:
     [[nodiscard]] bool begin_step(const StepStart<Dim>& start) override;
     [[nodiscard]] double max_step(const Positions<Dim>& from, const Positions<Dim>& to) override;
     [[nodiscard]] bool is_bounded() const override { return is_barrier_; }
-    [[nodiscard]] bool wants_balance() const override { return is_barrier_; }
+    [[nodiscard]] bool wants_balance() const override;
     [[nodiscard]] bool balance(const BlockVector<Dim>& own,
                                const BlockVector<Dim>& others) override;
     [[nodiscard]] bool adapt() override;
@@ -99,6 +99,7 @@ private:
     [[nodiscard]] double gap() const {
         return contacts_.report.smallest_distance - options_.separation;
     }
+    [[nodiscard]] bool is_close() const;  // so that stiffness has to balance other forces
 
     [[nodiscard]] contact::Contacts<Dim> own_contacts() const;
 
