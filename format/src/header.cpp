@@ -3,6 +3,7 @@
 #include <pent/crc32c.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
+#include <pent/printable.h>
 #include <pent/real_text.h>
 
 #include <algorithm>
@@ -194,7 +195,7 @@ private:
         } else if (key == "mesh") {
             header_.info.is_frame = true;
             header_.mesh_crc = parse_crc(words, 3, line);
-            header_.mesh_name = words[2];
+            header_.mesh_name = printable(words[2]);
         } else if (key == "frame") {
             header_.frame = parse_value<std::uint64_t>(words, line);
         } else if (key == "step") {
@@ -234,12 +235,13 @@ private:
         if (!count) {
             fail(line, "'element NAME COUNT' with a count of 0 to 2^64 - 1");
         }
+        const std::string name = printable(words[1]);  // a zero byte would end messages early
         for (const PlyElement& element : header_.elements) {
-            if (element.name == words[1]) {
+            if (element.name == name) {
                 fail(line, "each element only once");
             }
         }
-        header_.elements.push_back({std::string(words[1]), *count, {}});
+        header_.elements.push_back({name, *count, {}});
     }
 
     [[nodiscard]] PlyType parse_type(std::string_view word, std::string_view line) const {
@@ -262,10 +264,10 @@ private:
                 fail(line, "a whole-number type for the length of a list");
             }
             property.type = parse_type(words[3], line);
-            property.name = words[4];
+            property.name = printable(words[4]);
         } else if (words[1] != "list" && words.size() == 3) {
             property.type = parse_type(words[1], line);
-            property.name = words[2];
+            property.name = printable(words[2]);
         } else {
             fail(line, "'property TYPE NAME' or 'property list TYPE TYPE NAME'");
         }

@@ -275,6 +275,11 @@ TEST_F(DamagedFile, OptionalPropertyOfAnotherType) {
         {"property region of element pentachoron is double", "expected ushort"});
 }
 
+TEST_F(DamagedFile, ZeroBytesInNamesDoNotEndItsMessage) {
+    const std::string bytes = header_with("double x\n", std::string("double x\0\n", 10));
+    expect_contains(message(bytes), {"is 'property double x\\x00', expected 'property double x'"});
+}
+
 TEST_F(DamagedFile, UnknownElementsCutOff) {
     const auto extra = [&](const std::string& element, const std::string& bytes) {
         return with_checksum(header_with("end_header", "element extra 2\n" + element + "end_header")

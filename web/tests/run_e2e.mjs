@@ -9,8 +9,8 @@ if (!existsSync(join(web, "dist/index.html"))) {
     process.exit(1);
 }
 const files = await bundle("e2e");
-// One after the other: each draws with all cores.
-const options = ["--enable-source-maps", "--test", "--test-concurrency=1", "--test-reporter=spec"];
+// Two at a time: a page waits for its own clock now and then.
+const options = ["--enable-source-maps", "--test", "--test-concurrency=2", "--test-reporter=spec"];
 const { status } = spawnSync(process.execPath, [...options, ...process.argv.slice(2), ...files], {
     stdio: "inherit",
 });

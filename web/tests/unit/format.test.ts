@@ -238,8 +238,7 @@ test("damaged samples get the very words of the C++ reader", (t) => {
                 .trim()
                 .replace(/^pent-check: /, "")
                 .replaceAll("-nan", "nan");
-            // A C string ends at a zero byte, which damage can bring into a name.
-            const found = messageOf(() => read(bytes, path)).split("\\x00")[0];
+            const found = messageOf(() => read(bytes, path));
             if (!isBeyond(expected)) {
                 assert.equal(found, expected);
             }
