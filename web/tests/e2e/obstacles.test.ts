@@ -155,21 +155,24 @@ test("the slice of a turned box has the volume that it must have, and none where
 });
 
 test("obstacles are seen, in all layouts and themes, and not where they are switched off", async () => {
+    const { page, close } = await open("?run=all#w=0.1&shade=off");
     for (const view of [
-        "",
-        "&theme=dark",
-        "&layout=side&slices=2&spacing=0.2",
-        "&layout=onion&spacing=0.2",
-        "&ghost=perspective",
+        "&shade=off",
+        "&shade=off&theme=dark",
+        "&shade=off&layout=side&slices=2&spacing=0.2",
+        "&shade=off&layout=onion&spacing=0.2",
+        "&shade=off&ghost=perspective",
         "&shade=on",
     ]) {
-        const { page, close } = await open(`?run=all#w=0.1&shade=off${view}`);
+        // The address as one changes it by hand.
+        await page.evaluate((view) => void (location.hash = view), `w=0.1${view}`);
+        await page.waitForFunction(() => window.pentimento!.viewer.state.obstacles);
         const on = await pixels(page);
         await page.evaluate(() => window.pentimento!.viewer.update({ obstacles: false }));
         const off = await pixels(page);
         assert.ok(difference(on, off, 8) > 0.2, `${view}: ${difference(on, off, 8)}`);
-        await close();
     }
+    await close();
 });
 
 test("a switch in the panel hides obstacles, the address has it, and runs without any have none", async () => {

@@ -237,7 +237,7 @@ test("what cannot be read is said with its place, and the page stays usable", as
         ["?example=klein", /^No example is called "klein"; there are tesseract/],
     ] as const;
     for (const [query, expected] of cases) {
-        const { page, close } = await open(query);
+        const { page, close } = await open(`${query}#shade=off`);
         assert.match(await errorText(page), expected);
         assert.ok((await pixels(page)).some((value) => value > 0));
         await close();
