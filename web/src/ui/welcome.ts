@@ -17,12 +17,16 @@ export function showWelcome(actions: {
             "Move w below, and turn the body in xw: what you see is the part of it that " +
                 "lies in the space w = 0.",
         ),
-        element("p", {}, "Drop a run folder of pent-sim, a .pent mesh or a G4MF model here, or "),
+        element(
+            "p",
+            {},
+            "Drop a run folder of pent-sim, a .pent mesh or a G4MF model here, or open",
+        ),
         element(
             "div",
             { class: "actions" },
-            button("Open a run folder", kIcons.open, actions.openFolder, "Open a folder"),
-            button("Open files (.pent, .g4b, .g4tf)", kIcons.open, actions.openFiles, "Open files"),
+            button("Open a run folder", kIcons.open, actions.openFolder, "Folder"),
+            button("Open files (.pent, .g4b, .g4tf)", kIcons.open, actions.openFiles, "Files"),
             button("Pull at bodies in the playground", kIcons.play, actions.play, "Play"),
         ),
         button("Close", kIcons.close, () => {
