@@ -29,6 +29,7 @@ async function drag(page: Page, from: Finger[], to: Finger[]): Promise<void> {
             from.map(({ x, y }, i) => ({ x: between(x, to[i]!.x), y: between(y, to[i]!.y) })),
         );
     }
+    await page.waitForTimeout(100); // else Chromium takes it for a fling, and the tap behind it for its end
     await send("touchEnd", []);
 }
 
@@ -51,6 +52,7 @@ test("one finger does what its button says, two pinch and move the picture", asy
     assert.equal(looked.xx, 1);
 
     await page.locator("label, button", { hasText: /^xw yw$/ }).tap();
+    await page.locator("input[value=xw]:checked").waitFor({ state: "attached" }); // a click follows
     await drag(page, [{ x: 0, y: 0 }], [{ x: 60, y: 0 }]);
     const turned = await state();
     assert.equal(turned.azimuth, looked.azimuth);
