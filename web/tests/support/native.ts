@@ -1,5 +1,5 @@
 import { existsSync } from "node:fs";
-import { join } from "node:path";
+import { resolve } from "node:path";
 
 /** The repository. */
 export const kRoot = process.env["PENT_ROOT"]!;
@@ -7,11 +7,13 @@ export const kRoot = process.env["PENT_ROOT"]!;
 /** A program of a native build, or null: then what compares with it is skipped. */
 export function native(name: string): string | null {
     const folders = [
-        process.env["PENT_BIN"],
-        join(kRoot, "build/dev/bin"),
-        join(kRoot, "build/release/bin"),
+        process.env["PENT_BIN"], // from the repository, wherever npm runs
+        "build/dev/bin",
+        "build/release/bin",
     ].filter((folder) => folder !== undefined);
-    const found = folders.map((folder) => join(folder, name)).find((path) => existsSync(path));
+    const found = folders
+        .map((folder) => resolve(kRoot, folder, name))
+        .find((path) => existsSync(path));
     if (!found && process.env["PENT_NATIVE"] === "required") {
         throw new Error(`${name} is not built; build the preset dev`);
     }
