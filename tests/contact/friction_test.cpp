@@ -117,7 +117,7 @@ class LaggedFrictionTest : public FrictionTest<T> {
 protected:
     static constexpr int kSpace = T::value;
     static constexpr double kStep = 0.01;
-    static constexpr Friction kFriction{.coefficient = 0.5, .slip_speed = 0.1};  // e = 1e-3 m
+    inline static const Friction kFriction{.coefficient = 0.5, .slip_speed = 0.1};  // e = 1e-3 m
 
     // Contacts of random vertices, one of them with an obstacle and one without a force.
     void SetUp() override {
