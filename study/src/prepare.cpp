@@ -7,7 +7,7 @@
 #include <pent/error.h>
 #include <pent/output_file.h>
 #include <pent/runs/scene_file.h>
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 #include "resume_table.h"
 
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <array>
 #include <cstddef>

@@ -8,7 +8,7 @@
 #include <pent/pent_file.h>
 #include <pent/runs/run.h>
 #include <pent/runs/scene_file.h>
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <pent/geometry.h>
 #include <pent/simulator/energy.h>
 #include <pent/simulator/placed_mesh.h>
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <Eigen/LU>
 

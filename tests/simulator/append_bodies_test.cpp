@@ -2,7 +2,7 @@
 
 #include "potential_laws.h"
 
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include <pent/simulator/energy.h>
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

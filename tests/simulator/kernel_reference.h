@@ -4,7 +4,7 @@
 #include "kernels/kernels.h"
 
 #include <pent/simulator/energy.h>
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

@@ -4,7 +4,7 @@
 #include "kernel_reference.h"
 
 #include <pent/simulator/energy.h>
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include "scenes.h"
 
 #include <pent/simulator/energy.h>
-#include <pent/simulator/scene_words.h>
 #include <pent/simulator/simulation.h>
+#include <pent/simulator/words.h>
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 
 #include <pent/simulator/energy.h>
 #include <pent/simulator/placed_mesh.h>
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <algorithm>
 #include <cmath>

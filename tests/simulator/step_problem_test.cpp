@@ -1,5 +1,7 @@
 #include "step/step_problem.h"
 
+#include <pent/simulator/words.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,6 +57,23 @@ TEST(StepProblem, KeepsEvenMotion) {
         EXPECT_NEAR(end.positions(0), 0.1 + 2 * 0.7 * h, 1e-15);
         EXPECT_NEAR(end.velocities(0), 0.7, 1e-14);
     }
+}
+
+TEST(StepProblem, IsThatOfTheIntegrator) {
+    const State<3> before = at(0.1, 0.7);
+    const State<3> now = at(0.4, 0.5);
+    const double h = 0.25;
+    const auto target = [&](Integrator integrator, const State<3>* earlier) {
+        return step_problem<3>(integrator, now, earlier, h).target(0);
+    };
+    for (const Integrator one : values<Integrator>()) {
+        const double expected = one == Integrator::Bdf2 ? bdf2_problem<3>(now, before, h).target(0)
+                                : one == Integrator::Quasistatic ? now.positions(0)
+                                                                 : now.positions(0) + h * 0.5;
+        EXPECT_EQ(target(one, &before), expected) << word_of(one);
+    }
+    // Of the first step BDF2 has no past: it is one of Euler's.
+    EXPECT_EQ(target(Integrator::Bdf2, nullptr), target(Integrator::NewtonEuler, nullptr));
 }
 
 TEST(StaticProblem, HasNoInertia) {

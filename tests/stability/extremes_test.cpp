@@ -1,6 +1,6 @@
 #include "extremes.h"
 
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <gtest/gtest.h>
 

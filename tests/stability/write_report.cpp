@@ -2,7 +2,7 @@
 
 #include "extremes.h"
 
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -3,7 +3,7 @@
 #include <pent/formatted.h>
 #include <pent/runs/explain.h>
 #include <pent/simulator/placed_mesh.h>
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <algorithm>
 #include <cmath>

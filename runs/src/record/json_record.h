@@ -3,7 +3,7 @@
 #include "record/report_schema.h"
 
 #include <pent/error.h>
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <cmath>
 #include <concepts>

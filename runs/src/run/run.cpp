@@ -20,7 +20,7 @@
 #include <pent/runs/run.h>
 #include <pent/runs/scene_file.h>
 #include <pent/simulator/crossing_error.h>
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <algorithm>
 #include <chrono>

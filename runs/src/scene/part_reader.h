@@ -5,7 +5,7 @@
 
 #include <pent/simulator/scene_checks.h>
 #include <pent/simulator/scene_schema.h>
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 #include <pent/toml_table.h>
 
 #include <algorithm>

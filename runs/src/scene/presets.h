@@ -3,7 +3,7 @@
 #include "simulator_names.h"
 
 #include <pent/simulator/field.h>
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <array>
 

@@ -3,7 +3,7 @@
 #include <pent/real_text.h>
 #include <pent/runs/scene_file.h>
 #include <pent/simulator/scene_schema.h>
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <cassert>
 #include <cmath>

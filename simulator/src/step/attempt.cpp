@@ -39,22 +39,9 @@ constexpr int kDampedIterations = 4;
 
 template <int Dim>
 StepProblem<Dim> Simulation<Dim>::Stepper::make_problem(double time, double h) const {
-    const auto choose = [&] {
-        switch (scene_.solver.integrator) {
-            case Integrator::Quasistatic:
-                return static_problem(current_, h);
-            case Integrator::Bdf2:
-                if (history_.positions.cols() > 0 && h == scene_.dt()) {
-                    return bdf2_problem(current_, history_, h);
-                }
-                break;  // the first step, and steps cut in two, which have no even past
-            case Integrator::LinearEuler:
-            case Integrator::NewtonEuler:
-                break;
-        }
-        return euler_problem(current_, h);
-    };
-    StepProblem<Dim> problem = choose();
+    const bool has_even_past = history_.positions.cols() > 0 && h == scene_.dt();
+    StepProblem<Dim> problem =
+        step_problem(scene_.solver.integrator, current_, has_even_past ? &history_ : nullptr, h);
     problem.time = time + h;
     problem.prescribed = current_.positions;
     place_dirichlet<Dim>(bodies_, time + h, problem.prescribed, nullptr);

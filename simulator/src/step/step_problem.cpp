@@ -35,10 +35,32 @@ StepProblem<Dim> static_problem(const State<Dim>& now, double h) {
     return problem;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                             \
-    template StepProblem<Dim> euler_problem(const State<Dim>&, double);                   \
-    template StepProblem<Dim> bdf2_problem(const State<Dim>&, const State<Dim>&, double); \
-    template StepProblem<Dim> static_problem(const State<Dim>&, double);
+template <int Dim>
+StepProblem<Dim> step_problem(Integrator integrator,
+                              const State<Dim>& now,
+                              const State<Dim>* before,
+                              double h) {
+    switch (integrator) {
+        case Integrator::Quasistatic:
+            return static_problem(now, h);
+        case Integrator::Bdf2:
+            if (before != nullptr) {
+                return bdf2_problem(now, *before, h);
+            }
+            break;
+        case Integrator::LinearEuler:
+        case Integrator::NewtonEuler:
+            break;
+    }
+    return euler_problem(now, h);
+}
+
+#define PENT_INSTANTIATE(Dim)                                                                \
+    template StepProblem<Dim> euler_problem(const State<Dim>&, double);                      \
+    template StepProblem<Dim> bdf2_problem(const State<Dim>&, const State<Dim>&, double);    \
+    template StepProblem<Dim> static_problem(const State<Dim>&, double);                     \
+    template StepProblem<Dim> step_problem(Integrator, const State<Dim>&, const State<Dim>*, \
+                                           double);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 

@@ -2,6 +2,7 @@
 
 #include <pent/simplex_mesh.h>
 #include <pent/simulator/simulation.h>
+#include <pent/simulator/solver_options.h>
 
 namespace pent::simulator {
 
@@ -44,5 +45,13 @@ template <int Dim>
 /// No inertia: every step ends in equilibrium with where the Dirichlet vertices are.
 template <int Dim>
 [[nodiscard]] StepProblem<Dim> static_problem(const State<Dim>& now, double h);
+
+/// What an integrator makes of a step of h seconds from now. `before` is the state a step of h
+/// earlier, null where there is none: at first, and around steps cut in two.
+template <int Dim>
+[[nodiscard]] StepProblem<Dim> step_problem(Integrator integrator,
+                                            const State<Dim>& now,
+                                            const State<Dim>* before,
+                                            double h);
 
 }  // namespace pent::simulator

@@ -1,6 +1,6 @@
 #include "theory/eigen_oracle.h"
 
-#include <pent/simulator/scene_words.h>
+#include <pent/simulator/words.h>
 
 #include <Eigen/LU>
 #include <Eigen/QR>

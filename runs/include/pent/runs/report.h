@@ -1,7 +1,7 @@
 #pragma once
 
-#include <pent/simulator/scene_words.h>
 #include <pent/simulator/simulation.h>
+#include <pent/simulator/words.h>
 
 #include <cstdint>
 #include <filesystem>

@@ -2,9 +2,11 @@
 
 #include <pent/simulator/motion.h>
 #include <pent/simulator/selection.h>
+#include <pent/simulator/words.h>
 
 #include <Eigen/Core>
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -16,6 +18,11 @@ namespace pent::simulator {
 enum class RestOffset {
     Keep,  ///< It is that of t = 0, and moves along with what the vertex is tied to.
     Zero,  ///< None: the spring pulls the two together.
+};
+template <>
+inline constexpr std::array kWords<RestOffset> = {
+    Word<RestOffset>{RestOffset::Keep, "keep"},
+    Word<RestOffset>{RestOffset::Zero, "zero"},
 };
 
 /// Ties vertices of a body, selected on placed positions at t = 0, by a spring each: to the points

@@ -2,7 +2,9 @@
 
 #include <pent/contact/contact_model.h>
 #include <pent/simulator/solver_options.h>
+#include <pent/simulator/words.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,11 @@ namespace pent::simulator {
 
 /// How bodies that touch push each other; a barrier not with the linear Euler integrator.
 using contact::ContactModel;
+template <>
+inline constexpr std::array kWords<ContactModel> = {
+    Word<ContactModel>{ContactModel::Penalty, "penalty"},
+    Word<ContactModel>{ContactModel::Barrier, "barrier"},
+};
 
 /// Two bodies by their names, in any order; one twice for what it does to itself.
 struct BodyPair {

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <pent/contact/filter.h>
+#include <pent/simulator/words.h>
+
+#include <array>
 
 namespace pent::simulator {
 
@@ -11,6 +14,13 @@ enum class Integrator {
     Bdf2,         ///< Two-step backward differences to a tolerance: second order.
     Quasistatic,  ///< Equilibrium at every step, no inertia; every body must be held.
 };
+template <>
+inline constexpr std::array kWords<Integrator> = {
+    Word<Integrator>{Integrator::LinearEuler, "linear_euler"},
+    Word<Integrator>{Integrator::NewtonEuler, "newton_euler"},
+    Word<Integrator>{Integrator::Bdf2, "bdf2"},
+    Word<Integrator>{Integrator::Quasistatic, "quasistatic"},
+};
 
 /// What the energy of a body is the sum over; docs/simulator.md compares them.
 enum class ElementKind {
@@ -18,18 +28,46 @@ enum class ElementKind {
     Smoothed,   ///< Neighborhoods of edges, by the mean of their cells: for what bends.
     Quadratic,  ///< Quadratic simplices, of which the cells are children: does not lock.
 };
+template <>
+inline constexpr std::array kWords<ElementKind> = {
+    Word<ElementKind>{ElementKind::Linear, "linear"},
+    Word<ElementKind>{ElementKind::Smoothed, "smoothed"},
+    Word<ElementKind>{ElementKind::Quadratic, "quadratic"},
+};
 
 /// What becomes of the negative eigenvalues of Hessians, of elements as of contacts.
 using contact::Filter;
+template <>
+inline constexpr std::array kWords<Filter> = {
+    Word<Filter>{Filter::Clamp, "clamp"},
+    Word<Filter>{Filter::Absolute, "absolute"},
+    Word<Filter>{Filter::None, "none"},
+};
 
 /// Conjugate gradients; sparse L L^T, the reference, for scenes that the memory allows.
 enum class LinearSolverKind { Iterative, Direct };
+template <>
+inline constexpr std::array kWords<LinearSolverKind> = {
+    Word<LinearSolverKind>{LinearSolverKind::Iterative, "cg"},
+    Word<LinearSolverKind>{LinearSolverKind::Direct, "direct"},
+};
 
 /// Block Jacobi; Jacobi by whole extrusion columns; the latter with a coarse space of rigid modes.
 enum class PreconditionerKind { BlockJacobi, ColumnJacobi, RigidModes };
+template <>
+inline constexpr std::array kWords<PreconditionerKind> = {
+    Word<PreconditionerKind>{PreconditionerKind::BlockJacobi, "block-jacobi"},
+    Word<PreconditionerKind>{PreconditionerKind::ColumnJacobi, "column-jacobi"},
+    Word<PreconditionerKind>{PreconditionerKind::RigidModes, "rigid-modes"},
+};
 
 /// Scalar of the matrix blocks; vectors are always double.
 enum class Precision { Float, Double };
+template <>
+inline constexpr std::array kWords<Precision> = {
+    Word<Precision>{Precision::Float, "float"},
+    Word<Precision>{Precision::Double, "double"},
+};
 
 struct SolverOptions {
     Integrator integrator = Integrator::LinearEuler;
