@@ -3,6 +3,7 @@
 #include <pent/error.h>
 #include <pent/file_lock.h>
 #include <pent/output_file.h>
+#include <pent/printable.h>
 
 #include <algorithm>
 #include <cassert>
@@ -31,9 +32,10 @@ std::string first_line(const std::string& kind) {
            + ": what the program wrote here, a name a line; --force replaces these files alone";
 }
 
-// Whether a name stays within the folder. A list is a file that anybody can edit.
+// Whether a name stays within the folder. A list is a file that anybody can edit; the file system
+// would take a name with a zero byte in it for its beginning.
 bool is_inside(const fs::path& name) {
-    return !name.empty() && name.is_relative()
+    return !name.empty() && name.is_relative() && name.native().find('\0') == std::string::npos
            && std::none_of(name.begin(), name.end(),
                            [](const fs::path& part) { return part == ".." || part == "."; });
 }
@@ -45,7 +47,7 @@ bool is_folder_name(const std::string& name) {
 std::optional<List> read_list(const fs::path& folder) {
     const fs::path path = folder / kList;
     std::error_code ignored;
-    if (!fs::exists(path, ignored)) {
+    if (!fs::is_regular_file(path, ignored)) {
         return std::nullopt;
     }
     std::ifstream file(path, std::ios::binary);
@@ -65,7 +67,7 @@ std::optional<List> read_list(const fs::path& folder) {
         }
         const std::string name = text.substr(at, end - at);
         if (!is_inside(name)) {
-            throw Error(path.string() + ": \"" + name
+            throw Error(path.string() + ": \"" + printable(name)
                         + "\" is not a name within the folder; put the list right or remove it");
         }
         list.names.insert(name);

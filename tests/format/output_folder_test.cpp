@@ -211,6 +211,25 @@ TEST_F(OutputFolders, RefuseNamesThatLeadOutOfThem) {
     EXPECT_EQ(text_of("precious"), "mine");
 }
 
+// To the file system such a name ends at its zero byte: "ours" would be removed, or the folder read.
+TEST_F(OutputFolders, RefuseNamesWithAZeroByte) {
+    put("out/ours");
+    using namespace std::string_literals;
+    for (const std::string& name : {"ours\0x"s, "\0/fine/"s}) {
+        put("out/written.txt", "# pent run: x\n" + name + "\n");
+        expect_contains(error_of([&] { OutputFolder(out_, "run").clear({}); }),
+                        {"within the folder; put the list right"});
+    }
+    EXPECT_EQ(text_of("out/ours"), "mine");
+}
+
+TEST_F(OutputFolders, TakeAFolderInThePlaceOfTheListForSomebodyElses) {
+    fs::create_directories(out_ / "written.txt");
+    const OutputFolder output(out_, "run");
+    EXPECT_FALSE(output.has_list());
+    EXPECT_TRUE(output.is_foreign());
+}
+
 TEST_F(OutputFolders, ForgetHalfALineThatAKillLeft) {
     OutputFolder(out_, "run").adopt("a");
     std::ofstream(out_ / "written.txt", std::ios::app) << "not";
