@@ -9,6 +9,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <malloc.h>
 #include <petscsys.h>
 #include <thread>
 
@@ -26,9 +27,22 @@ std::string options_text(int ranks) {
     return text;
 }
 
+// SuperLU_DIST, which PETSc links, keeps all memory that is freed for later, as it is loaded: arrays
+// that grow would count two or three times. These are what the library has by itself.
+void give_freed_memory_back() {
+#ifdef __GLIBC__
+    constexpr int kMappings = 65536;
+    constexpr int kLarge = 128 * 1024;
+    mallopt(M_MMAP_MAX, kMappings);
+    mallopt(M_TRIM_THRESHOLD, kLarge);
+    mallopt(M_MMAP_THRESHOLD, kLarge);
+#endif
+}
+
 }  // namespace
 
 MpiSession::MpiSession() {
+    give_freed_memory_back();
     // Steps are taken by one thread at a time, which need not be this one.
     int provided = MPI_THREAD_SINGLE;
     if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided) != MPI_SUCCESS

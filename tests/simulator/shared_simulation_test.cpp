@@ -169,6 +169,16 @@ TEST(SharedSimulation, HasLoadsActivationsAndAttachments) {
     expect_same_on_ranks(made, 2, 1e-7);
 }
 
+// Ranks have the cells of their own vertices alone.
+TEST(SharedSimulation, HasLoadsWhereRanksHaveTheirOwnCells) {
+    Case<4> made = swing(Integrator::NewtonEuler);
+    const HalfSpaceSelection right{.normal = Eigen::Vector4d(-1, 0, 0, 0), .offset = -1.4};
+    const HalfSpaceSelection upper{.normal = Eigen::Vector4d(0, -1, 0, 0), .offset = -0.49};
+    made.scene.loads = {{.body = "box", .select = {right}, .force = Eigen::Vector4d(0, 0, 3, 0)},
+                        {.body = "box", .select = {upper}, .pressure = 50}};
+    expect_same_on_ranks(made, 2, 1e-7);
+}
+
 // What touches is on other ranks than what it touches: the bodies are cut beside one another. A
 // single linear solve: at the kinks of penalties Newton's method ends where it comes to first.
 TEST(SharedSimulation, HasContactWithFrictionAcrossRanks) {

@@ -284,8 +284,7 @@ void Run<Dim>::write_frame_files(int frame) {
                     {std::string(simulator::word_of(quantity)), std::move(values)});
             }
         }
-        const std::string& name = name_of(body);
-        write_frame(folder_.claim(frame_file(name, frame)), file,
+        write_frame(folder_.claim(frame_file(name_of(body), frame)), file,
                     {.created_by = options_.created_by});
     }
     if (do_obstacles_move()) {
@@ -364,6 +363,7 @@ RunReport Run<Dim>::operator()() {
         }
         write_report();
     });
+    simulation_.forget_cells();
     while (frame < scene_.frames && step_to_frame(frame + 1)) {
         ++frame;
         ranks_.write([&] {

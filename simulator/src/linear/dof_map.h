@@ -16,7 +16,7 @@ namespace pent::simulator {
 /// Cuthill-McKee order, which keeps neighbors close in memory [cuthill1969].
 ///
 /// Where vertices are shared by ranks, those of this rank come first: they alone have rows in its
-/// matrix. All others come behind them, as columns alone.
+/// matrix. Those of others that these rows may couple come behind them, as columns alone.
 class DofMap {
 public:
     DofMap() = default;

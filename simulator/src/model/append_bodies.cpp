@@ -98,7 +98,8 @@ void append_bodies(const Scene& scene, Bodies<Dim>& bodies) {
         bodies.first_cell.push_back(bodies.first_cell.back() + mesh.cell_count());
     }
     bodies.rest.resize(Dim, bodies.first_vertex.back());
-    bodies.cells.resize(Dim + 1, bodies.first_cell.back());
+    bodies.cell_count = bodies.first_cell.back();
+    bodies.cells.resize(Dim + 1, bodies.cell_count);
     const bool has_regions = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                          [](const Body& body) { return !body.regions.empty(); });
     for (std::size_t place = 0; place < scene.bodies.size(); ++place) {

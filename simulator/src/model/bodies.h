@@ -51,9 +51,11 @@ struct Bodies {
     std::vector<Eigen::Index> first_vertex;  ///< Bodies + 1 entries.
     Positions<Dim> rest;                     ///< Dim x vertices, m.
     std::vector<Eigen::Index> first_cell;    ///< Bodies + 1 entries.
-    Simplices<Dim + 1> cells;  ///< Of a body with regions those of each one after the other.
+    Simplices<Dim + 1> cells;  ///< Of a body with regions those of each one after the other. Ranks
+                               ///< may have those of their vertices alone: see keep_near_cells().
+    Eigen::Index cell_count = 0;  ///< Of all ranks.
     std::vector<std::uint32_t>
-        mesh_cells;  ///< Which cell of its mesh each is; empty if no body has regions.
+        mesh_cells;  ///< Which cell of its mesh each is; empty if all are and no body has regions.
     std::vector<CellRange> ranges;  ///< One a body and one a region, in this order.
     QuadraticCells<Dim> quadratic;  ///< Of which the cells are children; empty if not asked for.
     Eigen::VectorXd masses;         ///< One a vertex, kg.
@@ -64,7 +66,8 @@ struct Bodies {
     std::vector<bool> is_always_held;  ///< One a vertex: in every step.
     std::uint64_t step = 0;            ///< What is held is that of this step.
     Columns columns;
-    Sharing sharing;  ///< By ranks.
+    Sharing sharing;                  ///< By ranks.
+    bool may_couple_anything = true;  ///< Whether a matrix may couple vertices that share no cell.
 
     [[nodiscard]] Eigen::Index vertex_count() const { return rest.cols(); }
     [[nodiscard]] std::size_t count() const { return meshes.size(); }

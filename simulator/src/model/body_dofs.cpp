@@ -24,6 +24,17 @@ std::vector<bool> fixed_vertices(const Bodies<Dim>& bodies, const std::vector<bo
     return is_fixed;
 }
 
+// One entry a vertex: whether rows of this rank may have a column of it.
+template <int Dim>
+std::vector<bool> coupled_vertices(const Bodies<Dim>& bodies) {
+    std::vector<bool> is_coupled(static_cast<std::size_t>(bodies.vertex_count()),
+                                 bodies.may_couple_anything);
+    for (const std::uint32_t vertex : bodies.cells.reshaped()) {
+        is_coupled[vertex] = true;
+    }
+    return is_coupled;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -32,13 +43,14 @@ DofMap number_dofs(const Bodies<Dim>& bodies, const std::vector<bool>& is_in) {
     if (!bodies.sharing.is_shared()) {
         return number_dofs<Dim>(bodies.cells, is_fixed, bodies.columns);
     }
+    const std::vector<bool> is_coupled = coupled_vertices(bodies);
     std::vector<bool> is_own(is_fixed.size());
     std::vector<bool> has_no_row = is_fixed;
     std::vector<std::uint32_t> others;
     for (std::uint32_t vertex = 0; vertex < is_fixed.size(); ++vertex) {
         is_own[vertex] = bodies.sharing.owns(vertex);
         has_no_row[vertex] = is_fixed[vertex] || !is_own[vertex];
-        if (!is_fixed[vertex] && !is_own[vertex]) {
+        if (!is_fixed[vertex] && !is_own[vertex] && is_coupled[vertex]) {
             others.push_back(vertex);
         }
     }

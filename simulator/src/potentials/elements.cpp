@@ -1,7 +1,6 @@
 #include "potentials/elements.h"
 
 #include "model/active_strain.h"
-#include "potentials/own_elements.h"
 
 #include <pent/dimensions.h>
 #include <pent/error.h>
@@ -28,6 +27,7 @@ constexpr int kChunkQuadratic = 4 * kGroup;
 
 // Domains are grouped by their number of corners within so many that are close in memory.
 constexpr std::size_t kNearElements = std::size_t{8} * kChunkElements;
+static_assert(kNearElements % kChunkElements == 0);
 
 // What of lambda acts at every point of a quadratic element by itself, the rest acting on the mean
 // over the element: alpha mu at most. Without it elements are a fifth too soft in diagonal bending
@@ -71,7 +71,7 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
                         const BlockPattern& pattern,
                         const ActiveStrain<Dim>* strain)
     : Elements(ranges.size(), dofs, pattern) {
-    const auto make = [&](Eigen::Index cell, Element& element) {
+    const auto make = [&](std::size_t /*range*/, Eigen::Index cell, Element& element) {
         element.corners.assign(cells.col(cell).begin(), cells.col(cell).end());
         std::sort(
             element.corners.begin(), element.corners.end(),
@@ -85,20 +85,17 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
         element.rest.assign(gradients.data(), gradients.data() + gradients.size());
         element.volume = cell_volume<Dim>(rest, cells, cell);
     };
-    for (std::size_t place = 0; place < ranges.size(); ++place) {
-        const CellRange& range = ranges[place];
-        const OwnAndShared chosen = elastic_elements(
+    std::vector<OwnAndShared> chosen;
+    for (const CellRange& range : ranges) {
+        chosen.push_back(elastic_elements(
             range.begin, range.end, dofs, [&](Eigen::Index cell, const auto& visit) {
                 std::for_each(cells.col(cell).begin(), cells.col(cell).end(), visit);
-            });
-        for_each_chunk(chosen, kChunkElements, [&](const auto& next, bool counts) {
-            append(
-                next,
-                {.corners = Dim + 1, .material = range.material, .range = place, .counts = counts},
-                make, dofs, pattern);
-            keep_passive(next, strain);
-        });
+            }));
     }
+    const auto like_of = [&](std::size_t range, const auto& /*elements*/) {
+        return Chunk{.corners = Dim + 1, .material = ranges[range].material};
+    };
+    append(plan(chosen, kChunkElements, like_of), make, dofs, pattern, strain);
     color(dofs.vertex_count());
 }
 
@@ -108,58 +105,48 @@ Elements<Dim>::Elements(const std::vector<SmoothingDomains<Dim>>& domains,
                         const DofMap& dofs,
                         const BlockPattern& pattern)
     : Elements(ranges.size(), dofs, pattern) {
-    for (std::size_t place = 0; place < domains.size(); ++place) {
-        const SmoothingDomains<Dim>& of_range = domains[place];
-        const auto corner_count = [&](Eigen::Index domain) {
-            const auto d = static_cast<std::size_t>(domain);
-            return static_cast<int>(of_range.start[d + 1] - of_range.start[d]);
-        };
-        const auto make = [&](Eigen::Index domain, Element& element) {
-            const Eigen::Index start = of_range.start[static_cast<std::size_t>(domain)];
-            std::vector<std::pair<std::uint32_t, Eigen::Index>> keyed;
-            for (Eigen::Index i = start; i < start + corner_count(domain); ++i) {
-                const std::uint32_t corner = of_range.corners[static_cast<std::size_t>(i)];
-                keyed.emplace_back(dofs.rank_of(corner), i);
+    const auto corner_count = [&](std::size_t range, Eigen::Index domain) {
+        const auto d = static_cast<std::size_t>(domain);
+        return static_cast<int>(domains[range].start[d + 1] - domains[range].start[d]);
+    };
+    const auto make = [&](std::size_t range, Eigen::Index domain, Element& element) {
+        const SmoothingDomains<Dim>& of_range = domains[range];
+        const Eigen::Index start = of_range.start[static_cast<std::size_t>(domain)];
+        std::vector<std::pair<std::uint32_t, Eigen::Index>> keyed;
+        for (Eigen::Index i = start; i < start + corner_count(range, domain); ++i) {
+            const std::uint32_t corner = of_range.corners[static_cast<std::size_t>(i)];
+            keyed.emplace_back(dofs.rank_of(corner), i);
+        }
+        std::sort(keyed.begin(), keyed.end());
+        element.corners.clear();
+        element.rest.clear();
+        for (const auto& [unknown, i] : keyed) {
+            if (!element.corners.empty()) {
+                const auto gradient = of_range.gradients.col(i);
+                element.rest.insert(element.rest.end(), gradient.begin(), gradient.end());
             }
-            std::sort(keyed.begin(), keyed.end());
-            element.corners.clear();
-            element.rest.clear();
-            for (const auto& [unknown, i] : keyed) {
-                if (!element.corners.empty()) {
-                    const auto gradient = of_range.gradients.col(i);
-                    element.rest.insert(element.rest.end(), gradient.begin(), gradient.end());
-                }
-                element.corners.push_back(of_range.corners[static_cast<std::size_t>(i)]);
-            }
-            element.volume = of_range.volumes[static_cast<std::size_t>(domain)];
-        };
-        OwnAndShared both = elastic_elements(
+            element.corners.push_back(of_range.corners[static_cast<std::size_t>(i)]);
+        }
+        element.volume = of_range.volumes[static_cast<std::size_t>(domain)];
+    };
+    std::vector<OwnAndShared> chosen;
+    for (std::size_t range = 0; range < domains.size(); ++range) {
+        const SmoothingDomains<Dim>& of_range = domains[range];
+        chosen.push_back(elastic_elements(
             0, of_range.count(), dofs, [&](Eigen::Index domain, const auto& visit) {
                 const auto first =
                     of_range.corners.begin() + of_range.start[static_cast<std::size_t>(domain)];
-                std::for_each(first, first + corner_count(domain), visit);
-            });
-        for (std::vector<Eigen::Index>& chosen : both) {
-            for (std::size_t near = 0; near < chosen.size(); near += kNearElements) {
-                const std::size_t end = std::min(near + kNearElements, chosen.size());
-                std::stable_sort(chosen.begin() + static_cast<std::ptrdiff_t>(near),
-                                 chosen.begin() + static_cast<std::ptrdiff_t>(end),
-                                 [&](Eigen::Index a, Eigen::Index b) {
-                                     return corner_count(a) < corner_count(b);
-                                 });
-            }
-        }
-        static_assert(kNearElements % kChunkElements == 0);
-        for_each_chunk(both, kChunkElements, [&](const auto& next, bool counts) {
-            append(next,
-                   {.kind = ElementKind::Smoothed,
-                    .corners = corner_count(next.back()),
-                    .material = ranges[place].material,
-                    .range = place,
-                    .counts = counts},
-                   make, dofs, pattern);
-        });
+                std::for_each(first, first + corner_count(range, domain), visit);
+            }));
+        sort_near(chosen.back(), kNearElements,
+                  [&](Eigen::Index domain) { return corner_count(range, domain); });
     }
+    const auto like_of = [&](std::size_t range, const auto& elements) {
+        return Chunk{.kind = ElementKind::Smoothed,
+                     .corners = corner_count(range, elements.back()),
+                     .material = ranges[range].material};
+    };
+    append(plan(chosen, kChunkElements, like_of), make, dofs, pattern, nullptr);
     color(dofs.vertex_count());
 }
 
@@ -171,30 +158,26 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
                         const ActiveStrain<Dim>* strain)
     : Elements(quadratic.ranges.size(), dofs, pattern) {
     const QuadraticSimplices<Dim>& nodes = quadratic.nodes;
-    const auto make = [&](Eigen::Index simplex, Element& element) {
+    const auto make = [&](std::size_t /*range*/, Eigen::Index simplex, Element& element) {
         element.corners.assign(nodes.col(simplex).begin(), nodes.col(simplex).end());
         const QuadraticRest<Dim> own =
             quadratic_rest<Dim>(places_of_nodes<Dim>(rest, nodes, simplex));
         element.rest.assign(own.rows.begin(), own.rows.end());
         element.volume = own.volume;
     };
-    for (std::size_t place = 0; place < quadratic.ranges.size(); ++place) {
-        const CellRange& range = quadratic.ranges[place];
-        const OwnAndShared chosen = elastic_elements(
+    std::vector<OwnAndShared> chosen;
+    for (const CellRange& range : quadratic.ranges) {
+        chosen.push_back(elastic_elements(
             range.begin, range.end, dofs, [&](Eigen::Index simplex, const auto& visit) {
                 std::for_each(nodes.col(simplex).begin(), nodes.col(simplex).end(), visit);
-            });
-        for_each_chunk(chosen, kChunkQuadratic, [&](const auto& next, bool counts) {
-            append(next,
-                   {.kind = ElementKind::Quadratic,
-                    .corners = kQuadraticNodes<Dim>,
-                    .material = range.material,
-                    .range = place,
-                    .counts = counts},
-                   make, dofs, pattern);
-            keep_passive(next, strain);
-        });
+            }));
     }
+    const auto like_of = [&](std::size_t range, const auto& /*elements*/) {
+        return Chunk{.kind = ElementKind::Quadratic,
+                     .corners = kQuadraticNodes<Dim>,
+                     .material = quadratic.ranges[range].material};
+    };
+    append(plan(chosen, kChunkQuadratic, like_of), make, dofs, pattern, strain);
     color(dofs.vertex_count());
 }
 
@@ -206,20 +189,67 @@ std::size_t Elements<Dim>::rest_rows(const Chunk& chunk) {
 }
 
 template <int Dim>
+template <typename LikeOf>
+std::vector<typename Elements<Dim>::Plan> Elements<Dim>::plan(
+    const std::vector<OwnAndShared>& chosen, std::size_t size, const LikeOf& like_of) {
+    std::vector<Plan> plans;
+    for (std::size_t range = 0; range < chosen.size(); ++range) {
+        for_each_chunk(chosen[range], size, [&](const auto& elements, bool counts) {
+            Chunk like = like_of(range, elements);
+            like.range = range;
+            like.counts = counts;
+            plans.push_back({like, elements});
+        });
+    }
+    return plans;
+}
+
+template <int Dim>
+void Elements<Dim>::reserve(const std::vector<Plan>& plans) {
+    std::size_t rest = 0;
+    std::size_t corners = 0;
+    std::size_t blocks = 0;
+    for (const Plan& plan : plans) {
+        const std::size_t lanes = lanes_of(plan);
+        rest += rest_rows(plan.like) * lanes;
+        corners += static_cast<std::size_t>(plan.like.corners) * lanes;
+        blocks += static_cast<std::size_t>(pairs_of(plan.like.corners)) * lanes;
+    }
+    rest_.reserve(rest);
+    vertices_.reserve(corners);
+    unknowns_.reserve(corners);
+    blocks_.reserve(blocks);
+}
+
+template <int Dim>
 template <typename Make>
-void Elements<Dim>::append(std::span<const Eigen::Index> chosen,
-                           const Chunk& like,
+void Elements<Dim>::append(const std::vector<Plan>& plans,
+                           const Make& make,
+                           const DofMap& dofs,
+                           const BlockPattern& pattern,
+                           const ActiveStrain<Dim>* strain) {
+    reserve(plans);
+    for (const Plan& plan : plans) {
+        append(plan, make, dofs, pattern);
+        keep_passive(plan.elements, strain);
+    }
+}
+
+template <int Dim>
+template <typename Make>
+void Elements<Dim>::append(const Plan& plan,
                            const Make& make,
                            const DofMap& dofs,
                            const BlockPattern& pattern) {
-    const double scale = collapse_scale(like.material, Dim);
-    Chunk chunk = like;
+    const std::span<const Eigen::Index> chosen = plan.elements;
+    const std::size_t lanes = lanes_of(plan);
+    Chunk chunk = plan.like;
+    const double scale = collapse_scale(chunk.material, Dim);
     chunk.elements = static_cast<int>(chosen.size());
     chunk.collapse_norm = Dim * scale * scale;
     chunk.first_rest = rest_.size();
     chunk.first_corner = vertices_.size();
     chunk.first_block = blocks_.size();
-    const std::size_t lanes = (chosen.size() + kGroup - 1) / kGroup * kGroup;
     const auto n = static_cast<std::size_t>(chunk.corners);
     rest_.resize(rest_.size() + rest_rows(chunk) * lanes);
     vertices_.resize(vertices_.size() + n * lanes);
@@ -229,7 +259,7 @@ void Elements<Dim>::append(std::span<const Eigen::Index> chosen,
     Element element;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         if (lane < chosen.size()) {
-            make(chosen[lane], element);
+            make(chunk.range, chosen[lane], element);
         } else {
             element.volume = 0;  // padding
         }

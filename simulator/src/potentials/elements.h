@@ -4,6 +4,7 @@
 #include "linear/block_matrix.h"
 #include "model/cell_range.h"
 #include "model/quadratic_cells.h"
+#include "potentials/own_elements.h"
 #include "potentials/smoothing.h"
 
 #include <pent/parallel.h>
@@ -117,12 +118,38 @@ private:
 
     Elements(std::size_t ranges, const DofMap& dofs, const BlockPattern& pattern);
 
+    // What a chunk will be of.
+    struct Plan {
+        Chunk like;
+        std::span<const Eigen::Index> elements;
+    };
+
+    // Plans chunks of so many elements, or of what is left at the end of a range.
+    //
+    // @param like_of  Gives what a chunk is like by its range and its elements.
+    template <typename LikeOf>
+    [[nodiscard]] static std::vector<Plan> plan(const std::vector<OwnAndShared>& chosen,
+                                                std::size_t size,
+                                                const LikeOf& like_of);
+
+    // Arrays are given the size they need at once: those that grow are there twice meanwhile.
+    //
+    // @param make  Fills in an element by its range and number.
     template <typename Make>
-    void append(std::span<const Eigen::Index> chosen,
-                const Chunk& like,
+    void append(const std::vector<Plan>& plans,
+                const Make& make,
+                const DofMap& dofs,
+                const BlockPattern& pattern,
+                const ActiveStrain<Dim>* strain);
+    template <typename Make>
+    void append(const Plan& plan,
                 const Make& make,
                 const DofMap& dofs,
                 const BlockPattern& pattern);
+    void reserve(const std::vector<Plan>& plans);
+    [[nodiscard]] static std::size_t lanes_of(const Plan& plan) {
+        return (plan.elements.size() + kGroup - 1) / kGroup * kGroup;
+    }
     void set_lane(const Element& element,
                   const Chunk& chunk,
                   std::size_t lane,

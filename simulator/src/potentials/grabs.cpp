@@ -17,7 +17,7 @@ double weakening(double force, double most) {
     return force > most ? most / force : 1;
 }
 
-// Of a cell of a body's mesh.
+// Of a cell of a body's mesh, which some rank has.
 template <int Dim>
 const Material& material_of(const Bodies<Dim>& bodies, std::size_t body, std::int64_t cell) {
     const auto has_it = [&](const CellRange& range) {
@@ -28,7 +28,10 @@ const Material& material_of(const Bodies<Dim>& bodies, std::size_t body, std::in
         }
         return false;
     };
-    return std::find_if(bodies.ranges.begin(), bodies.ranges.end(), has_it)->material;
+    const auto here = std::find_if(bodies.ranges.begin(), bodies.ranges.end(), has_it);
+    const auto places = bodies.sharing.list(static_cast<double>(here - bodies.ranges.begin()));
+    const auto place = static_cast<std::size_t>(*std::min_element(places.begin(), places.end()));
+    return bodies.ranges[place].material;
 }
 
 }  // namespace

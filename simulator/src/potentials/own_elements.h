@@ -51,6 +51,19 @@ OwnAndShared elastic_elements(Eigen::Index begin,
     return chosen;
 }
 
+/// Sorts elements of each kind by a key within every so many, which leaves neighbors close.
+template <typename KeyOf>
+void sort_near(OwnAndShared& chosen, std::size_t size, const KeyOf& key_of) {
+    for (std::vector<Eigen::Index>& elements : chosen) {
+        for (std::size_t near = 0; near < elements.size(); near += size) {
+            const std::size_t end = std::min(near + size, elements.size());
+            std::stable_sort(elements.begin() + static_cast<std::ptrdiff_t>(near),
+                             elements.begin() + static_cast<std::ptrdiff_t>(end),
+                             [&](Eigen::Index a, Eigen::Index b) { return key_of(a) < key_of(b); });
+        }
+    }
+}
+
 /// Calls visit(elements, whether they count) for every so many elements of each kind.
 template <typename Visit>
 void for_each_chunk(const OwnAndShared& chosen, std::size_t size, const Visit& visit) {

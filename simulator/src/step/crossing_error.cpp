@@ -9,14 +9,14 @@ namespace pent::simulator {
 
 namespace {
 
+template <int Dim>
+using Cell = Eigen::Matrix<std::uint32_t, Dim + 1, 1>;
+
 // Whether a cell has all corners of a simplex.
 template <int Dim>
-bool has_corners(const Simplices<Dim + 1>& cells,
-                 Eigen::Index cell,
-                 const std::vector<std::uint32_t>& corners) {
-    return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
-        return (cells.col(cell).array() == corner).any();
-    });
+bool has_corners(const Cell<Dim>& cell, const std::vector<std::uint32_t>& corners) {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](std::uint32_t corner) { return (cell.array() == corner).any(); });
 }
 
 // The cells that have one of the simplices, with their own vertices alone.
@@ -30,19 +30,22 @@ SimplexMesh<Dim> cells_of(const Bodies<Dim>& bodies,
     for (std::uint32_t s = 0; s < simplices.size(); ++s) {
         at_vertex[simplices[s].front()].push_back(s);
     }
-    std::vector<Eigen::Index> cells;
+    std::vector<Cell<Dim>> cells;
     SimplexMesh<Dim> mesh;
-    for (const CellRange& range : bodies.ranges) {
-        for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
+    for (std::size_t body = 0; body < bodies.count(); ++body) {
+        const Simplices<Dim + 1>& own = bodies.meshes[body].cells;
+        for (Eigen::Index i = 0; i < own.cols(); ++i) {
+            const Cell<Dim> cell =
+                own.col(i).array() + static_cast<std::uint32_t>(bodies.first_vertex[body]);
             bool is_one = false;
             for (int corner = 0; corner <= Dim && !is_one; ++corner) {
-                for (const std::uint32_t s : at_vertex[bodies.cells(corner, cell)]) {
-                    is_one |= has_corners<Dim>(bodies.cells, cell, simplices[s]);
+                for (const std::uint32_t s : at_vertex[cell[corner]]) {
+                    is_one |= has_corners<Dim>(cell, simplices[s]);
                 }
             }
             if (is_one) {
                 cells.push_back(cell);
-                mesh.regions.push_back(static_cast<std::uint16_t>(range.body));
+                mesh.regions.push_back(static_cast<std::uint16_t>(body));
             }
         }
     }
@@ -51,7 +54,7 @@ SimplexMesh<Dim> cells_of(const Bodies<Dim>& bodies,
     mesh.cells.resize(Dim + 1, static_cast<Eigen::Index>(cells.size()));
     for (std::size_t k = 0; k < cells.size(); ++k) {
         for (int corner = 0; corner <= Dim; ++corner) {
-            const std::uint32_t vertex = bodies.cells(corner, cells[k]);
+            const std::uint32_t vertex = cells[k][corner];
             if (numbers[vertex] == kNone) {
                 numbers[vertex] = static_cast<std::uint32_t>(vertices.size());
                 vertices.push_back(vertex);

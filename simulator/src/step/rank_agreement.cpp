@@ -1,5 +1,6 @@
 #include "step/rank_agreement.h"
 
+#include "model/near_cells.h"
 #include "model/partition.h"
 
 #include <pent/crc32c.h>
@@ -55,12 +56,18 @@ Isa choose_isa(const std::string& name, const Ranks* ranks) {
 }
 
 template <int Dim>
-Bodies<Dim> share(Bodies<Dim> bodies, const std::shared_ptr<const Ranks>& ranks) {
+Bodies<Dim> share(const Scene& scene,
+                  Bodies<Dim> bodies,
+                  const std::shared_ptr<const Ranks>& ranks) {
     if (ranks != nullptr) {
         bodies.sharing =
             Sharing(ranks, partition_columns<Dim>(bodies.rest, bodies.columns, ranks->count()));
         refuse_others(ranks.get(), checksum(bodies.cells, checksum(bodies.rest, 0)), "other meshes",
                       "let all of them read the same files");
+        bodies.may_couple_anything = do_terms_couple_anything(scene);
+        if (!do_terms_need_all_cells(scene)) {
+            keep_near_cells(bodies);
+        }
     }
     return bodies;
 }
@@ -130,8 +137,8 @@ void agree(const Ranks* ranks, const std::function<void()>& work) {
     throw Error(text);
 }
 
-#define PENT_INSTANTIATE(Dim)                                                     \
-    template Bodies<Dim> share(Bodies<Dim>, const std::shared_ptr<const Ranks>&); \
+#define PENT_INSTANTIATE(Dim)                                                                   \
+    template Bodies<Dim> share(const Scene&, Bodies<Dim>, const std::shared_ptr<const Ranks>&); \
     template void refuse_disagreement(const Sharing&, const Positions<Dim>&, std::uint64_t);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE

@@ -18,12 +18,15 @@ namespace pent::simulator {
 /// @param ranks  Null for none.
 [[nodiscard]] Isa choose_isa(const std::string& name, const Ranks* ranks);
 
-/// Shares the bodies out to ranks. Throws an Error on all ranks where they have other meshes, or
-/// where there are more of them than columns.
+/// Shares the bodies out to ranks, which keep those of their cells that touch a vertex of theirs
+/// where no term of the scene asks for others. Throws an Error on all ranks where they have other
+/// meshes, or where there are more of them than columns.
 ///
 /// @param ranks  Null for none: nothing is shared then.
 template <int Dim>
-[[nodiscard]] Bodies<Dim> share(Bodies<Dim> bodies, const std::shared_ptr<const Ranks>& ranks);
+[[nodiscard]] Bodies<Dim> share(const Scene& scene,
+                                Bodies<Dim> bodies,
+                                const std::shared_ptr<const Ranks>& ranks);
 
 /// What all ranks compute alike must have come out alike: from here on they would go different
 /// ways, and wait for one another forever. Throws an Error on all of them where it has not.

@@ -41,7 +41,7 @@ Simulation<Dim>::Stepper::Stepper(const Scene& scene,
       workers_(options.tasks ? Workers(*options.tasks) : Workers(options.threads)),
       isa_(choose_isa(options.isa, options.ranks.get())),
       kernels_(&kernels<Dim>(isa_)),
-      bodies_(share(make_bodies(scene, std::move(meshes)), options.ranks)),
+      bodies_(share(scene, make_bodies(scene, std::move(meshes)), options.ranks)),
       energy_(workers_, *kernels_, bodies_, scene),
       potential_(workers_, *kernels_, bodies_, scene, energy_.sum, *energy_.elasticity),
       islands_(scene, bodies_),
@@ -81,6 +81,17 @@ void Simulation<Dim>::Stepper::set_body(int body,
     islands_.wake(body);
     number_dofs_of_the_awake();
     evaluate_current();
+}
+
+// Terms have taken what they need of them.
+template <int Dim>
+void Simulation<Dim>::Stepper::forget_cells() {
+    for (SimplexMesh<Dim>& mesh : bodies_.meshes) {
+        mesh.cells.resize(Dim + 1, 0);
+        mesh.fibers.resize(Dim, 0);
+        std::vector<std::uint16_t>().swap(mesh.regions);
+        std::vector<std::uint32_t>().swap(mesh.parents);
+    }
 }
 
 template <int Dim>
@@ -359,7 +370,7 @@ template <int Dim>
 SimulationSize Simulation<Dim>::Stepper::size() const {
     SimulationSize size;
     size.vertices = bodies_.vertex_count();
-    size.cells = bodies_.cells.cols();
+    size.cells = bodies_.cell_count;
     size.own_vertices = bodies_.sharing.own_count(bodies_.vertex_count());
     size.ghosts = energy_.elasticity->ghost_count();
     size.free_vertices = potential_.dofs().count();

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "model/bodies.h"
+
+namespace pent::simulator {
+
+/// Whether a term of a scene looks at cells far from the vertices that it is asked for: elements of
+/// more than one cell, activations that spread along a body, ties to the nearest cell, and energy
+/// densities, which one rank writes for all.
+[[nodiscard]] bool do_terms_need_all_cells(const Scene& scene);
+
+/// Whether a term of a scene couples vertices that share no element.
+[[nodiscard]] bool do_terms_couple_anything(const Scene& scene);
+
+/// Lets go of all cells but those that touch a vertex of this rank, which stay in their order: they
+/// are all that the rows of this rank and the elements that count here are made of.
+template <int Dim>
+void keep_near_cells(Bodies<Dim>& bodies);
+
+}  // namespace pent::simulator

@@ -1,0 +1,181 @@
+#include "model/near_cells.h"
+
+#include "scenes.h"
+#include "step/rank_agreement.h"
+#include "thread_ranks.h"
+
+#include <pent/simulator/simulation.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+namespace pent::simulator {
+namespace {
+
+// Two bars one beside the other, the right half of the first and the left one of the other of
+// another material.
+Scene two_bars() {
+    Scene scene = test::box_scene<4>();
+    Body second = scene.bodies[0];
+    second.name = "second";
+    second.place.translate = Eigen::Vector4d(0, 1, 0, 0);
+    scene.bodies.push_back(second);
+    for (const double side : {-1.0, 1.0}) {
+        Material stiff = scene.bodies[0].material;
+        stiff.lame = lame_from_young(4, side > 0 ? 1e7 : 1e6, 0.3);
+        stiff.density = 500;
+        const HalfSpaceSelection half{.normal = Eigen::Vector4d(side, 0, 0, 0),
+                                      .offset = 0.75 * side};
+        scene.bodies[side > 0 ? 1 : 0].regions = {
+            {.name = "stiff", .select = {half}, .material = stiff}};
+    }
+    return scene;
+}
+
+std::vector<SimplexMesh<4>> meshes() {
+    return {test::bar(), test::bar()};
+}
+
+// All cells that touch a vertex of a rank, and no others, in the order in which all are, each with
+// its body, its material and its number in the mesh.
+TEST(NearCells, AreThoseThatTouchAVertexOfTheRank) {
+    const Scene scene = two_bars();
+    const Bodies<4> all = make_bodies<4>(scene, meshes());
+    for (const int count : {1, 2, 3, 4}) {
+        SCOPED_TRACE(count);
+        test::on_ranks(count, [&](const std::shared_ptr<const Ranks>& ranks) {
+            const Bodies<4> near = share(scene, make_bodies<4>(scene, meshes()), ranks);
+            EXPECT_EQ(near.cell_count, all.cells.cols());
+            ASSERT_EQ(near.ranges.size(), all.ranges.size());
+            Eigen::Index next = 0;
+            for (std::size_t i = 0; i < all.ranges.size(); ++i) {
+                const CellRange& range = all.ranges[i];
+                EXPECT_EQ(near.ranges[i].begin, next);
+                for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
+                    const auto corners = all.cells.col(cell);
+                    if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t vertex) {
+                            return near.sharing.owns(vertex);
+                        })) {
+                        ASSERT_LT(next, near.cells.cols());
+                        EXPECT_EQ(near.cells.col(next), corners);
+                        EXPECT_EQ(near.mesh_cell(range.body, next),
+                                  all.mesh_cell(range.body, cell));
+                        ++next;
+                    }
+                }
+                EXPECT_EQ(near.ranges[i].end, next);
+                EXPECT_EQ(near.ranges[i].material.density, range.material.density);
+            }
+            EXPECT_EQ(near.cells.cols(), next);
+            for (std::size_t body = 0; body < all.count(); ++body) {
+                EXPECT_EQ(near.cells_of(body).begin, near.ranges[2 * body].begin);
+                EXPECT_EQ(near.first_cell[body + 1], near.ranges[2 * body + 1].end);
+            }
+        });
+    }
+}
+
+TEST(NearCells, AreAllOfThemWhereATermAsksForMore) {
+    const Scene scene = two_bars();
+    EXPECT_FALSE(do_terms_need_all_cells(scene));
+    EXPECT_FALSE(do_terms_couple_anything(scene));
+    Scene touching = scene;
+    touching.contact.emplace();
+    EXPECT_FALSE(do_terms_need_all_cells(touching));
+    EXPECT_TRUE(do_terms_couple_anything(touching));
+    Scene tied = scene;
+    tied.attachments.resize(1);
+    EXPECT_TRUE(do_terms_couple_anything(tied));
+    Scene smoothed = scene;
+    smoothed.solver.elements = ElementKind::Smoothed;
+    Scene active = scene;
+    active.activations.resize(1);
+    Scene dense = scene;
+    dense.output.vertex = {VertexQuantity::EnergyDensity};
+    for (const Scene& other : {tied, smoothed, active, dense}) {
+        EXPECT_TRUE(do_terms_need_all_cells(other));
+    }
+    test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
+        EXPECT_EQ(share(smoothed, make_bodies<4>(smoothed, meshes()), ranks).cells.cols(),
+                  make_bodies<4>(smoothed, meshes()).cells.cols());
+    });
+}
+
+// Rows of a rank have columns of the vertices that share a cell with one of its own, and no others.
+TEST(NearCells, HaveAllVerticesThatRowsCouple) {
+    const Scene scene = two_bars();
+    const Bodies<4> all = make_bodies<4>(scene, meshes());
+    test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
+        const Bodies<4> near = share(scene, make_bodies<4>(scene, meshes()), ranks);
+        std::vector<bool> is_coupled(static_cast<std::size_t>(all.vertex_count()), false);
+        for (const auto cell : all.cells.colwise()) {
+            const bool is_near = std::any_of(cell.begin(), cell.end(), [&](std::uint32_t vertex) {
+                return near.sharing.owns(vertex);
+            });
+            for (const std::uint32_t vertex : cell) {
+                is_coupled[vertex] = is_coupled[vertex] || is_near;
+            }
+        }
+        const DofMap dofs = number_dofs(near, {true, true});
+        EXPECT_EQ(dofs.row_count(), near.sharing.own_count(all.vertex_count()));
+        EXPECT_LT(dofs.count(), all.vertex_count());
+        for (std::uint32_t vertex = 0; vertex < is_coupled.size(); ++vertex) {
+            EXPECT_EQ(dofs.has_dof(vertex), is_coupled[vertex]) << vertex;
+        }
+    });
+}
+
+// What a cell is of is known where a rank does not have it, too.
+TEST(NearCells, LeaveAGrabAsHardAsOnOneAlone) {
+    Scene scene = two_bars();
+    scene.solver.precision = Precision::Double;
+    scene.solver.tolerance = 1e-10;
+    const auto end = [&](const std::shared_ptr<const Ranks>& ranks, int body, std::int64_t cell) {
+        Simulation<4> simulation(scene, meshes(), {.ranks = ranks});
+        Grab<4> grab;
+        grab.point = {.body = body, .cell = cell};
+        grab.point.weights.setConstant(0.2);
+        grab.anchor = Eigen::Vector4d(3, 3, 3, 3);
+        simulation.add_grab(grab);
+        EXPECT_TRUE(simulation.step().is_accepted);
+        return simulation.save().positions;
+    };
+    const Simulation<4> start(scene, meshes());
+    const std::int64_t last = start.mesh(0).cell_count() - 1;
+    for (const int body : {0, 1}) {
+        for (const std::int64_t cell : {std::int64_t{0}, last}) {
+            const Positions<4> alone = end(nullptr, body, cell);
+            const double motion = (alone - start.save().positions).norm();
+            ASSERT_GT(motion, 0);
+            test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
+                EXPECT_LT((end(ranks, body, cell) - alone).norm(), 1e-7 * motion);
+            });
+        }
+    }
+}
+
+TEST(ForgetCells, ChangesNoStep) {
+    const Scene scene = test::swinging_bar();
+    const auto end = [&](bool does_forget) {
+        Simulation<4> simulation(scene, {test::bar()});
+        if (does_forget) {
+            simulation.forget_cells();
+            EXPECT_EQ(simulation.mesh(0).cell_count(), 0);
+            EXPECT_EQ(simulation.mesh(0).vertex_count(), test::bar().vertex_count());
+        }
+        static_cast<void>(simulation.step());
+        const Snapshot<4> middle = simulation.save();
+        static_cast<void>(simulation.step());
+        simulation.restore(middle);
+        static_cast<void>(simulation.step());
+        EXPECT_EQ(simulation.size().cells, test::bar().cell_count());
+        return simulation.save().positions;
+    };
+    EXPECT_EQ(end(true), end(false));
+}
+
+}  // namespace
+}  // namespace pent::simulator
