@@ -4,8 +4,10 @@
 #include "support/kuhn_box.h"
 
 #include <pent/error.h>
+#include <pent/pent_file.h>
 #include <pent/simulator/simulation.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
 #include <tuple>
@@ -31,6 +33,46 @@ SimplexMesh<Dim> distorted(SimplexMesh<Dim> mesh, double edge) {
         }
     }
     return mesh;
+}
+
+// Each tetrahedron times [0, 1] in layers: a prism in four cells, along the ways from the lower end
+// of its first vertex to the upper end of its last, by number, so that neighbors agree.
+SimplexMesh<4> layered(const SimplexMesh<3>& base, int layers) {
+    const auto vertices = static_cast<std::uint32_t>(base.vertex_count());
+    SimplexMesh<4> mesh;
+    mesh.positions.resize(4, base.vertex_count() * (layers + 1));
+    mesh.cells.resize(5, base.cell_count() * 4 * layers);
+    for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+        mesh.positions.col(v) << base.positions.col(v % base.vertex_count()),
+            static_cast<double>(v / base.vertex_count()) / layers;
+    }
+    Eigen::Index next = 0;
+    for (int layer = 0; layer < layers; ++layer) {
+        for (Eigen::Index t = 0; t < base.cell_count(); ++t) {
+            Eigen::Matrix<std::uint32_t, 4, 1> corners = base.cells.col(t);
+            std::sort(corners.begin(), corners.end());
+            corners.array() += static_cast<std::uint32_t>(layer) * vertices;
+            for (int up = 0; up < 4; ++up) {
+                auto cell = mesh.cells.col(next);
+                cell << corners.head(up + 1), (corners.tail(4 - up).array() + vertices).matrix();
+                if (cell_volume<4>(mesh.positions, mesh.cells, next) < 0) {
+                    std::swap(cell[0], cell[1]);
+                }
+                ++next;
+            }
+        }
+    }
+    return mesh;
+}
+
+template <int Dim>
+SimplexMesh<Dim> tetgen_beam() {
+    SimplexMesh<3> base = read_mesh<3>(PENT_TETGEN_BEAM).mesh;
+    if constexpr (Dim == 4) {
+        return layered(base, 2);
+    } else {
+        return base;
+    }
 }
 
 // Of linear cells, exactly: a force that is linear in x has the mass matrix of a cell.
@@ -83,6 +125,9 @@ BodyForce<Dim> body_force(Load load) {
 
 template <int Dim>
 SimplexMesh<Dim> beam(int cells, Cut cut) {
+    if (cut == Cut::TetGen) {
+        return pent::test::cut_in_two<Dim>(tetgen_beam<Dim>());
+    }
     const bool has_parents = cells % 2 == 0;
     const int across = has_parents ? cells / 2 : cells;
     std::array<int, Dim> counts{};

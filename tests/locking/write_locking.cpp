@@ -18,8 +18,9 @@ constexpr std::pair<const char*, ElementKind> kKinds[] = {{"linear", ElementKind
 template <int Dim>
 void row(const char* name, ElementKind elements, int cells, Cut cut) {
     const pent::SimplexMesh<Dim> mesh = beam<Dim>(cells, cut);
-    std::cout << "| " << name << " | " << cells << (cut == Cut::Distorted ? ", distorted" : "")
-              << " | " << mesh.vertex_count();
+    constexpr const char* kCuts[] = {"", ", distorted", ", TetGen"};
+    std::cout << "| " << name << " | " << cells << kCuts[static_cast<int>(cut)] << " | "
+              << mesh.vertex_count();
     for (const Load load : {Load::Bending, Load::Diagonal, Load::Twist}) {
         const char* separator = " | ";
         for (const double share : kShares) {
@@ -42,6 +43,7 @@ void table(const char* ratios) {
             }
         }
         row<Dim>(name, elements, 4, Cut::Distorted);
+        row<Dim>(name, elements, 4, Cut::TetGen);
     }
 }
 

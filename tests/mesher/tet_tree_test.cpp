@@ -2,7 +2,11 @@
 
 #include "shapes/exact_signs.h"
 
+#include <pent/exchange/tet_surface.h>
 #include <pent/geometry.h>
+#include <pent/mesher/primitives.h>
+#include <pent/mesher/shapes.h>
+#include <pent/mesher/stuff.h>
 
 #include <Eigen/QR>
 #include <gtest/gtest.h>
@@ -134,19 +138,80 @@ TEST(TetTree, FindsWhatALookAtEveryTetrahedronFinds) {
         EXPECT_EQ(within, near);
         std::set<std::uint32_t> on_ray;
         tree.visit_ray(p, [&](std::uint32_t t) { on_ray.insert(t); });
-        std::set<std::uint32_t> in_box;
-        const Vector4d size = random_point(random, 0.5).cwiseAbs();
-        tree.visit_box({p - size, p + size}, [&](std::uint32_t t) { in_box.insert(t); });
         for (std::uint32_t t = 0; t < tree.count(); ++t) {
             const Matrix4d own = tree.corners(t);
             if (crossing_sign(own, p) != 0) {
                 EXPECT_TRUE(on_ray.contains(t));
             }
-            if (((own.rowwise().maxCoeff() - p + size).array() >= 0).all()
-                && ((own.rowwise().minCoeff() - p - size).array() <= 0).all()) {
-                EXPECT_TRUE(in_box.contains(t));
-            }
         }
+    }
+}
+
+// Patches by number, more than nodes can tell apart, around which all is smooth or flat: what discs
+// are made for.
+TEST(TetTree, FindsTheNearestOfEveryPatchOfASmoothSurface) {
+    std::mt19937 random(3);
+    for (const bool is_flat : {false, true}) {
+        const SimplexMesh<4> body = is_flat ? box<4>({1, 1, 1, 1}, {3, 3, 3, 3}, CubeCut::Paths)
+                                            : stuff(ball_solid(1), 0.5).mesh;
+        const exchange::TetSurface surface = exchange::boundary_of(body);
+        std::vector<Vector4d> points;
+        for (const auto& point : surface.points.colwise()) {
+            points.emplace_back(point);
+        }
+        std::vector<TetTree::Tetrahedron> tetrahedra;
+        for (const auto& own : surface.tetrahedra.colwise()) {
+            tetrahedra.push_back({own[0], own[1], own[2], own[3]});
+        }
+        TetTree tree(points, tetrahedra);
+        std::vector<int> patches;
+        for (std::uint32_t t = 0; t < tree.count(); ++t) {
+            patches.push_back(t < 70 ? static_cast<int>(t) : 70 + (tree.normal(t)[0] > 0 ? 1 : 0));
+        }
+        tree.set_patches(patches);
+        for (int i = 0; i < 400; ++i) {
+            const int asked = i % 4 == 0
+                                  ? TetTree::kAnyPatch
+                                  : patches[static_cast<std::size_t>(i) * 31 % patches.size()];
+            // Some of them on the surface.
+            const std::uint32_t own = static_cast<std::uint32_t>(i) % tree.count();
+            const Vector4d p = i % 3 == 0 ? Vector4d(tree.corners(own).rowwise().mean())
+                                          : random_point(random, 1.3);
+            double least = 1e9;
+            for (std::uint32_t t = 0; t < tree.count(); ++t) {
+                if (patches[t] == asked || asked == TetTree::kAnyPatch) {
+                    least = std::min(least, (nearest_point(tree.corners(t), p) - p).norm());
+                }
+            }
+            EXPECT_NEAR(std::sqrt(tree.nearest(p, asked).distance_squared), least, 1e-14) << i;
+        }
+    }
+}
+
+TEST(TetTree, MeetsEveryTetrahedronOnASegmentUpToWhatIsAsked) {
+    std::mt19937 random(4);
+    const TetTree tree = tree_of(scattered(200, random));
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int i = 0; i < 400; ++i) {
+        // Through a point of a tetrahedron, for a fourth of them along an axis.
+        const auto target = static_cast<std::uint32_t>(i) % tree.count();
+        const Vector4d weights = random_point(random).cwiseAbs();
+        const Vector4d through = tree.corners(target) * (weights / weights.sum());
+        const Vector4d way =
+            i % 4 == 0 ? Vector4d(Vector4d::Unit(i / 4 % 4)) : random_point(random, 2);
+        const double part = uniform(random);
+        const Vector4d from = through - part * way;
+        const auto met = [&](double asked) {
+            std::set<std::uint32_t> all;
+            tree.visit_segment(from, way, [&](std::uint32_t t) {
+                all.insert(t);
+                return asked;
+            });
+            return all;
+        };
+        EXPECT_TRUE(met(1).contains(target)) << i;
+        EXPECT_TRUE(met(part).contains(target)) << i;
+        EXPECT_LE(met(0).size(), met(1).size()) << i;
     }
 }
 

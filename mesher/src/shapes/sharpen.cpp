@@ -205,14 +205,15 @@ private:
 
     // The vertex that moved to the ridge, or is new there; nothing if either leaves cells too flat.
     std::optional<std::uint32_t> mend(const Simplex& simplex) {
-        const std::optional<Ridge> across = ridge_across(simplex);
-        if (!across) {
+        const SurfaceMesh::Attempt* before = last_attempt(simplex);
+        if (before != nullptr && before->best <= least_quality_) {
             return std::nullopt;
         }
-        double best = least_quality_;
+        const std::optional<Ridge> across = ridge_across(simplex);
+        double best = 0;
         std::optional<std::uint32_t> moving;
         Ridge target;
-        for (const std::uint32_t vertex : simplex) {
+        for (const std::uint32_t vertex : across ? simplex : Simplex()) {
             const auto ridge =
                 find_ridge(across->pieces, surface_.mesh.place(vertex), surface_.scale_at(vertex));
             if (ridge && includes(ridge->pieces, surface_.pieces[vertex])) {
@@ -224,15 +225,41 @@ private:
                 }
             }
         }
-        if (surface_.mesh.quality_if_split(simplex, across->place) > best) {
+        const double if_split =
+            across ? surface_.mesh.quality_if_split(simplex, across->place) : best;
+        if (std::max(best, if_split) <= least_quality_) {
+            note_attempt(simplex, std::max(best, if_split));
+            return std::nullopt;
+        }
+        if (if_split > best) {
             moving = surface_.mesh.split(simplex, across->place);
             surface_.pieces.push_back(across->pieces);
             surface_.sizes.push_back(largest(simplex));
-        } else if (moving) {
+        } else {
             surface_.mesh.move(*moving, target.place);
             surface_.pieces[*moving] = target.pieces;
         }
         return moving;
+    }
+
+    // What mending came to, if nothing around the simplex has changed since.
+    [[nodiscard]] const SurfaceMesh::Attempt* last_attempt(const Simplex& simplex) const {
+        const auto found = surface_.attempts.find(simplex);
+        return found != surface_.attempts.end() && found->second.changes == changes(simplex)
+                   ? &found->second
+                   : nullptr;
+    }
+
+    void note_attempt(const Simplex& simplex, double best) {
+        surface_.attempts.insert_or_assign(simplex, SurfaceMesh::Attempt{changes(simplex), best});
+    }
+
+    [[nodiscard]] std::vector<std::uint32_t> changes(const Simplex& simplex) const {
+        std::vector<std::uint32_t> changes;
+        for (const std::uint32_t vertex : simplex) {
+            changes.push_back(surface_.mesh.change(vertex));
+        }
+        return changes;
     }
 
     SurfaceMesh& surface_;
@@ -262,8 +289,11 @@ std::optional<Eigen::Vector4d> slide(const SurfaceMesh& surface,
     }
     const auto there = nearest_common_zero(*surface.solid, surface.pieces[vertex], place,
                                            surface.scale_at(vertex));
-    return there && surface.solid->is_near_surface(*there, kOnPiece * surface.scale) ? there
-                                                                                     : std::nullopt;
+    // The foot on a piece of a boundary of tetrahedra is a point of one of them.
+    const bool is_foot = surface.pieces[vertex].size() == 1 && surface.solid->is_boundary();
+    return there && (is_foot || surface.solid->is_near_surface(*there, kOnPiece * surface.scale))
+               ? there
+               : std::nullopt;
 }
 
 std::int64_t sharpen(SurfaceMesh& surface, double least_quality) {

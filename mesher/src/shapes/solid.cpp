@@ -264,6 +264,10 @@ Eigen::Vector4d Solid::slope(const Sample& at, double step) const {
                                   : value_slope(at.place, step).slope;
 }
 
+bool Solid::is_boundary() const {
+    return sole_boundary(*data_) != nullptr;
+}
+
 std::optional<Eigen::Vector4d> Solid::foot(const Eigen::Vector4d& p) const {
     const TetBoundary* boundary = sole_boundary(*data_);
     if (boundary == nullptr) {

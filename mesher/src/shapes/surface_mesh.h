@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,15 @@ struct SurfaceMesh {
     StarMesh mesh;
     std::vector<std::vector<int>> pieces;  ///< One a vertex: ascending; none inside.
     std::vector<std::uint8_t> sizes;       ///< One a vertex: cells there are 2^this times as large.
+
+    /// What bringing a boundary simplex to a ridge would have come to.
+    struct Attempt {
+        std::vector<std::uint32_t> changes;  ///< StarMesh::change() of its corners then.
+        double best = 0;  ///< Mean ratio of the worst cell, at best; 0 where there is no ridge.
+    };
+
+    /// Of simplices that sharpen() has left as they were.
+    std::map<std::vector<std::uint32_t>, Attempt> attempts = {};
 
     /// Of vertices for which smooth() has found nothing better: StarMesh::change() then.
     std::vector<std::uint32_t> settled = {};

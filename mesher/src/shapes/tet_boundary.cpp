@@ -219,18 +219,23 @@ std::optional<double> TetBoundary::first_crossing(const Vector4d& outside,
     const Vector4d from = rotation_ * outside;
     const Vector4d way = rotation_ * (to - outside);
     std::optional<double> first;
-    tree_.visit_box({from.cwiseMin(from + way), from.cwiseMax(from + way)}, [&](std::uint32_t t) {
+    tree_.visit_segment(from, way, [&](std::uint32_t t) {
+        const double most = first.value_or(1);
         const Vector4d& normal = tree_.normal(t);
-        const Matrix4d corners = tree_.corners(t);
-        const double part = normal.dot(corners.col(0) - from) / normal.dot(way);
-        if (!(part >= 0 && part <= 1) || (first && part >= *first)) {
-            return;
+        const double part = normal.dot(tree_.corner(t, 0) - from) / normal.dot(way);
+        if (!(part >= 0 && part <= most)) {
+            return most;
         }
         const Vector4d place = from + part * way;
+        if (!tree_.may_hold(t, place)) {
+            return most;
+        }
+        const Matrix4d corners = tree_.corners(t);
         const double aside = (nearest_point(corners, place) - place).norm();
         if (aside <= kSlack * (corners.rightCols<3>().colwise() - corners.col(0)).norm()) {
             first = part;
         }
+        return first.value_or(1);
     });
     return first;
 }

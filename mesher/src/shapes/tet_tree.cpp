@@ -1,6 +1,7 @@
 #include "tet_tree.h"
 
 #include <pent/geometry.h>
+#include <pent/parallel.h>
 
 #include <Eigen/LU>
 
@@ -23,8 +24,16 @@ constexpr std::uint32_t kLeaf = 4;  // tetrahedra to a leaf
 // taken for its sides alone: rounding of the square would decide what is nearest.
 constexpr double kFlat = 1e-13;
 
+// Nodes of more than this have no disc of use, and finding them would take long.
+constexpr std::uint32_t kMostInDisc = 1024;
+
 // Above this one the plane through a simplex is known to some digits more than its distances are.
 constexpr double kRound = 1e-4;
+
+// Of a length: no less than it.
+float float_above(double length) {
+    return std::nextafter(static_cast<float>(length), std::numeric_limits<float>::infinity());
+}
 
 struct Foot {
     Vector4d place = Vector4d::Zero();
@@ -136,7 +145,19 @@ TetTree::TetTree(std::span<const Vector4d> points, std::span<const Tetrahedron> 
         is_round_.push_back(normal.squaredNorm() > kRound * most * most ? 1 : 0);
         const double length = normal.norm();
         normals_.push_back(length > 0 ? Vector4d(normal / length) : Vector4d::Zero());
+        const Eigen::Vector4f center = own.rowwise().mean().cast<float>();
+        const double radius = (own.colwise() - center.cast<double>()).colwise().norm().maxCoeff();
+        balls_.push_back({center, float_above(radius)});
     }
+    parallel_for(nodes_.size(), std::size_t{256}, [&](std::size_t i) {
+        // Nodes come in the order of their tetrahedra.
+        Node& node = nodes_[i];
+        const std::uint32_t end = node.after < nodes_.size() ? nodes_[node.after].first : count();
+        node.disc.center = (node.low + node.high) / 2;
+        if (end - node.first <= kMostInDisc) {
+            node.disc = disc_around(node.first, end);
+        }
+    });
 }
 
 Matrix4d TetTree::corners(std::uint32_t t) const {
@@ -145,6 +166,55 @@ Matrix4d TetTree::corners(std::uint32_t t) const {
         corners.col(i) = points_[tetrahedra_[t][static_cast<std::size_t>(i)]];
     }
     return corners;
+}
+
+// A disc along the mean of the normals.
+TetTree::Disc TetTree::disc_around(std::uint32_t first, std::uint32_t end) const {
+    Vector4d low = points_[tetrahedra_[first][0]];
+    Vector4d high = low;
+    Vector4d normals = Vector4d::Zero();
+    for (std::uint32_t t = first; t < end; ++t) {
+        const Matrix4d own = corners(t);
+        low = low.cwiseMin(own.rowwise().minCoeff());
+        high = high.cwiseMax(own.rowwise().maxCoeff());
+        normals += normals_[t];
+    }
+    const double length = normals.norm();
+    Disc disc;
+    disc.center = ((low + high) / 2).cast<float>();
+    disc.normal = (length > 0 ? Vector4d(normals / length) : normals).cast<float>();
+    const Vector4d center = disc.center.cast<double>();
+    const Vector4d normal = disc.normal.cast<double>();
+    double radius = 0;
+    double thickness = 0;
+    for (std::uint32_t t = first; t < end; ++t) {
+        for (const std::uint32_t corner : tetrahedra_[t]) {
+            const Vector4d from = points_[corner] - center;
+            radius = std::max(radius, from.norm());
+            thickness = std::max(thickness, std::abs(normal.dot(from)));
+        }
+    }
+    disc.radius = float_above(radius);
+    disc.thickness = float_above(thickness);
+    return disc;
+}
+
+// By the height over the plane and what is left of the way along it.
+bool TetTree::may_be_nearer(const Disc& disc, const Vector4d& p, double squared) {
+    const Vector4d from = p - disc.center.cast<double>();
+    const double across = disc.normal.cast<double>().dot(from);
+    const double height = std::max(std::abs(across) - static_cast<double>(disc.thickness), 0.0);
+    const double least = (1 - kRounding) * height * height;
+    if (least > squared) {
+        return false;
+    }
+    const double along = from.squaredNorm() - (1 + kRounding) * across * across;
+    const double radius = static_cast<double>(disc.radius);
+    if (along <= radius * radius) {
+        return true;
+    }
+    const double beside = std::sqrt(along) - radius;
+    return least + (1 - kRounding) * beside * beside <= squared;
 }
 
 // Halves the tetrahedra along the longest side of the box of their middles.
@@ -163,7 +233,7 @@ void TetTree::build(const std::vector<Matrix4d>& corners,
     }
     const std::size_t node = nodes_.size();
     nodes_.push_back(
-        {float_below(box.low), -float_below(-box.high), first, count <= kLeaf ? count : 0, 0, 0});
+        {float_below(box.low), -float_below(-box.high), first, count <= kLeaf ? count : 0});
     if (count > kLeaf) {
         Eigen::Index axis = 0;
         (middles.high - middles.low).maxCoeff(&axis);
@@ -184,15 +254,12 @@ void TetTree::set_patches(std::vector<int> patches) {
     // Children are behind their parents.
     for (std::size_t i = nodes_.size(); i-- > 0;) {
         Node& node = nodes_[i];
-        const auto add = [&](int patch, bool is_first) {
-            node.patch = is_first || node.patch == patch ? patch : kAnyPatch;
-        };
+        node.patches = 0;
         for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
-            add(patches_[t], t == node.first);
+            node.patches |= bit_of(patches_[t]);
         }
         if (node.count == 0) {
-            add(nodes_[i + 1].patch, true);
-            add(nodes_[nodes_[i + 1].after].patch, false);
+            node.patches |= nodes_[i + 1].patches | nodes_[nodes_[i + 1].after].patches;
         }
     }
 }
@@ -202,6 +269,16 @@ void TetTree::consider(std::uint32_t t, const Vector4d& p, NearestPoint& best) c
         const double height = normals_[t].dot(p - points_[tetrahedra_[t][0]]);
         if (height * height >= best.distance_squared) {
             return;
+        }
+        const Vector4d from = p - balls_[t].center.cast<double>();
+        const double across = normals_[t].dot(from);
+        const double along = from.squaredNorm() - (1 + kRounding) * across * across;
+        const double radius = static_cast<double>(balls_[t].radius);
+        if (along > radius * radius) {
+            const double beside = std::sqrt(along) - radius;
+            if ((1 - kRounding) * (height * height + beside * beside) > best.distance_squared) {
+                return;
+            }
         }
     }
     const Matrix4d own = corners(t);
@@ -217,10 +294,13 @@ void TetTree::consider(std::uint32_t t, const Vector4d& p, NearestPoint& best) c
 }
 
 void TetTree::search(std::uint32_t node, const Place& at, int patch, NearestPoint& best) const {
+    if (!may_be_nearer(nodes_[node].disc, at.p, best.distance_squared)) {
+        return;
+    }
     const Node& here = nodes_[node];
     if (here.count > 0) {
         for (std::uint32_t t = here.first; t < here.first + here.count; ++t) {
-            if (may_have(patches_[t], patch)) {
+            if (patch == kAnyPatch ? patches_[t] != kNoPatch : patches_[t] == patch) {
                 consider(t, at.p, best);
             }
         }
@@ -228,14 +308,18 @@ void TetTree::search(std::uint32_t node, const Place& at, int patch, NearestPoin
     }
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const auto distance_to = [&](std::uint32_t child) {
-        return may_have(nodes_[child].patch, patch) ? distance_squared(nodes_[child], at)
-                                                    : kInfinity;
+        return (nodes_[child].patches & bits_of(patch)) != 0 ? distance_squared(nodes_[child], at)
+                                                             : kInfinity;
     };
     std::uint32_t near = node + 1;
     std::uint32_t far = nodes_[near].after;
     double to_near = distance_to(near);
     double to_far = distance_to(far);
-    if (to_far < to_near) {
+    // A point near the surface is in many boxes: the middles of discs say where to begin.
+    const auto to_center = [&](std::uint32_t child) {
+        return (nodes_[child].disc.center.cast<double>() - at.p).squaredNorm();
+    };
+    if (to_far < to_near || (to_far == to_near && to_center(far) < to_center(near))) {
         std::swap(near, far);
         std::swap(to_near, to_far);
     }

@@ -45,6 +45,10 @@ public:
     /// Points in the order of the tree, those of them that a tetrahedron has.
     [[nodiscard]] const Tetrahedron& tetrahedron(std::uint32_t t) const { return tetrahedra_[t]; }
 
+    [[nodiscard]] const Eigen::Vector4d& corner(std::uint32_t t, std::size_t i) const {
+        return points_[tetrahedra_[t][i]];
+    }
+
     /// One a column.
     [[nodiscard]] Eigen::Matrix4d corners(std::uint32_t t) const;
 
@@ -68,13 +72,16 @@ public:
     void visit_within(const Eigen::Vector4d& p, double distance, const Visit& visit) const {
         const double reach = distance * distance;
         const Place at{p, float_below(p), -float_below(-p)};
-        walk([&](const Node& node) { return distance_squared(node, at) <= reach; },
-             [&](std::uint32_t t) {
-                 if (patches_[t] != kNoPatch
-                     && (nearest_point(corners(t), p) - p).squaredNorm() <= reach) {
-                     visit(t);
-                 }
-             });
+        walk(
+            [&](const Node& node) {
+                return distance_squared(node, at) <= reach && may_be_nearer(node.disc, p, reach);
+            },
+            [&](std::uint32_t t) {
+                if (patches_[t] != kNoPatch
+                    && (nearest_point(corners(t), p) - p).squaredNorm() <= reach) {
+                    visit(t);
+                }
+            });
     }
 
     /// Calls visit(t) for each tetrahedron, in a patch or not, that a ray along the last axis may
@@ -86,28 +93,74 @@ public:
                 return (node.low.head<3>().cast<double>().array() <= from.head<3>().array()).all()
                        && (node.high.cast<double>().array() >= from.array()).all();
             },
-            visit);
+            [&](std::uint32_t t) {
+                const Eigen::Vector4d beside = from - balls_[t].center.cast<double>();
+                const double radius = (1 + kRounding) * static_cast<double>(balls_[t].radius);
+                if (beside.head<3>().squaredNorm() <= radius * radius && beside[3] <= radius) {
+                    visit(t);
+                }
+            });
     }
 
-    /// Calls visit(t) for each tetrahedron, in a patch or not, that may have a part in a box.
+    /// Whether a point may be in a tetrahedron: it is in a ball around it.
+    [[nodiscard]] bool may_hold(std::uint32_t t, const Eigen::Vector4d& p) const {
+        const double radius = (1 + kRounding) * static_cast<double>(balls_[t].radius);
+        return (p - balls_[t].center.cast<double>()).squaredNorm() <= radius * radius;
+    }
+
+    /// Calls visit(t) for each tetrahedron, in a patch or not, that may meet a segment or come near
+    /// it by 1e-6 of its length. What it returns is the part of the way up to which others count.
     template <typename Visit>
-    void visit_box(const Box4& box, const Visit& visit) const {
+    void visit_segment(const Eigen::Vector4d& from,
+                       const Eigen::Vector4d& way,
+                       const Visit& visit) const {
+        const Eigen::Array4d slack = Eigen::Array4d::Constant(kRounding * way.norm());
+        const Eigen::Array4d per_way = way.array().inverse();  // infinite along a box
+        double most = 1;
         walk(
             [&](const Node& node) {
-                return (node.low.cast<double>().array() <= box.high.array()).all()
-                       && (node.high.cast<double>().array() >= box.low.array()).all();
+                const Eigen::Array4d low = node.low.cast<double>().array() - from.array() - slack;
+                const Eigen::Array4d high = node.high.cast<double>().array() - from.array() + slack;
+                double first = 0;
+                double last = most;
+                for (int axis = 0; axis < 4; ++axis) {
+                    const double a = low[axis] * per_way[axis];
+                    const double b = high[axis] * per_way[axis];
+                    first = std::max(first, std::min(a, b));
+                    last = std::min(last, std::max(a, b));
+                }
+                return first <= last;
             },
-            visit);
+            [&](std::uint32_t t) { most = visit(t); });
     }
 
 private:
+    static constexpr double kRounding = 1e-6;  // more than that of floats, as a part
+
+    // Around the corners of a tetrahedron.
+    struct Ball {
+        Eigen::Vector4f center;
+        float radius = 0;  // rounded up
+    };
+
+    // A disc that has a part of the surface in it: what is near a plane and around a center. Where
+    // the surface is smooth it is far thinner than a box, whose sides the surface is not along.
+    struct Disc {
+        Eigen::Vector4f center = Eigen::Vector4f::Zero();
+        Eigen::Vector4f normal = Eigen::Vector4f::Zero();  // of length 1, or 0: a ball
+        float radius =
+            std::numeric_limits<float>::infinity();  // rounded up; infinite of large nodes
+        float thickness = 0;                         // on either side, rounded up
+    };
+
     struct Node {
         Eigen::Vector4f low;  // rounded away from what is in the box
         Eigen::Vector4f high;
         std::uint32_t first = 0;  // of its tetrahedra
         std::uint32_t count = 0;  // 0 in nodes with children, the first of which is next to it
         std::uint32_t after = 0;  // the node behind all of its own
-        int patch = 0;            // that all are in; kAnyPatch if there are several
+        std::uint32_t patches = bit_of(0);  // the bits of all that they are in
+        Disc disc = {};
     };
 
     // A point, and the floats around it.
@@ -120,20 +173,28 @@ private:
     // Not more than it is: of numbers rounded away from each other, and less by what differences
     // and squares of floats are rounded by.
     [[nodiscard]] static double distance_squared(const Node& node, const Place& at) {
-        constexpr double kRounding = 1e-6;
         const Eigen::Vector4f apart =
             (node.low - at.high).cwiseMax(at.low - node.high).cwiseMax(0.0F);
         return (1 - kRounding) * apart.cast<double>().squaredNorm();
     }
+    // Whether a point may be nearer than a square to what a disc holds.
+    [[nodiscard]] static bool may_be_nearer(const Disc& disc,
+                                            const Eigen::Vector4d& p,
+                                            double squared);
     [[nodiscard]] static Eigen::Vector4f float_below(const Eigen::Vector4d& p);
-    [[nodiscard]] static bool may_have(int own, int asked) {
-        return asked == kAnyPatch ? own != kNoPatch : own == asked || own == kAnyPatch;
+    // What nodes keep of the patches in them: neighbors in number have different ones of 32.
+    [[nodiscard]] static std::uint32_t bit_of(int patch) {
+        return patch == kNoPatch ? 0U : 1U << static_cast<unsigned>(patch) % 32;
+    }
+    [[nodiscard]] static std::uint32_t bits_of(int asked) {
+        return asked == kAnyPatch ? ~0U : bit_of(asked);
     }
 
     void build(const std::vector<Eigen::Matrix4d>& corners,
                std::vector<std::uint32_t>& order,
                std::uint32_t first,
                std::uint32_t count);
+    [[nodiscard]] Disc disc_around(std::uint32_t first, std::uint32_t end) const;
     void search(std::uint32_t node, const Place& at, int patch, NearestPoint& best) const;
     void consider(std::uint32_t t, const Eigen::Vector4d& p, NearestPoint& best) const;
 
@@ -158,6 +219,7 @@ private:
     std::vector<Tetrahedron> tetrahedra_;
     std::vector<Eigen::Vector4d> normals_;
     std::vector<std::uint8_t> is_round_;  // of tetrahedra: the plane of it is known well
+    std::vector<Ball> balls_;             // of tetrahedra
     std::vector<int> patches_;
 };
 

@@ -64,6 +64,9 @@ public:
     /// The slope of value_slope() where the value is known.
     [[nodiscard]] Eigen::Vector4d slope(const Sample& at, double step) const;
 
+    /// Whether the surface is that of a boundary of tetrahedra alone.
+    [[nodiscard]] bool is_boundary() const;
+
     /// The zero nearest to a point; of a boundary of tetrahedra alone, else nothing.
     [[nodiscard]] std::optional<Eigen::Vector4d> foot(const Eigen::Vector4d& p) const;
 
