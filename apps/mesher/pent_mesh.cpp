@@ -124,9 +124,15 @@ void say_body(const Program& program, const pent::mesher::Body<Dim>& body) {
                       static_cast<Long>(thin.edges), thin.width, thin.place[0], thin.place[1],
                       thin.place[2], thin.place[3], thin.width));
     }
-    if (report.curve.moved > 0) {
+    if (report.curve.moved + report.curve.limited > 0) {
         program.say(formatted("curved     %lld middles of edges, by up to %.4g m",
                               static_cast<Long>(report.curve.moved), report.curve.farthest));
+    }
+    if (report.curve.limited > 0) {
+        program.say(
+            formatted("limited    %lld middles of edges, which would fold cells on the surface: "
+                      "they are nearer to their edges, or on them; shorter edges leave fewer",
+                      static_cast<Long>(report.curve.limited)));
     }
     program.say(formatted("body       %lld vertices, %lld %s, %.10g m^%d",
                           static_cast<Long>(body.mesh.vertex_count()),
@@ -198,6 +204,7 @@ nlohmann::ordered_json to_json(const pent::mesher::Body<Dim>& body) {
                     {"beveled", report.beveled},
                     {"thin", thin_json(report.thin_parts)},
                     {"curved", report.curve.moved},
+                    {"limited", report.curve.limited},
                     {"volume", report.proof.volume},
                     {"expected_volume", report.proof.expected_volume},
                     {"boundary_volume", report.proof.boundary_volume},

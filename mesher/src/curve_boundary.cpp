@@ -1,6 +1,4 @@
-#include <pent/error.h>
 #include <pent/facets.h>
-#include <pent/formatted.h>
 #include <pent/mesher/curve_boundary.h>
 #include <pent/mesher/subdivide.h>
 
@@ -9,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <string>
+#include <numeric>
+#include <set>
 #include <utility>
+#include <vector>
 
 namespace pent::mesher {
 
@@ -23,6 +23,9 @@ using Edge = std::pair<std::uint32_t, std::uint32_t>;
 constexpr double kOnSurface = 1e-5;
 constexpr double kFarthest = 0.25;  // at which a middle would fold its cell anyhow
 constexpr int kIterations = 20;
+
+// Of the way of a middle to the surface, before it stays on its edge.
+constexpr int kMostHalvings = 4;
 
 // All middles of a quadratic mesh by their edges, lower vertex first.
 template <int Dim>
@@ -72,52 +75,134 @@ double least_jacobian(const Positions<Dim>& positions,
     return least;
 }
 
+// The middles of a mesh's edges, and how far of their ways to the surface they have gone.
 template <int Dim>
-bool is_whole(const SimplexMesh<Dim>& straight,
-              const SimplexMesh<Dim>& quadratic,
-              const std::map<Edge, std::uint32_t>& middles,
-              Eigen::Index cell) {
-    constexpr Eigen::Index kChildren = Eigen::Index{1} << Dim;
-    for (Eigen::Index child = 0; child < kChildren; ++child) {
-        if (!(cell_volume<Dim>(quadratic.positions, quadratic.cells, cell * kChildren + child)
-              > 0)) {
-            return false;
-        }
-    }
-    Eigen::Matrix<std::uint32_t, Dim + 1, Dim + 1> nodes;
-    for (int a = 0; a <= Dim; ++a) {
-        for (int b = 0; b <= Dim; ++b) {
-            const Edge edge = std::minmax(straight.cells(a, cell), straight.cells(b, cell));
-            nodes(a, b) = a == b ? edge.first : middles.at(edge);
-        }
-    }
-    return least_jacobian<Dim>(quadratic.positions, nodes) > 0;
-}
+class Curving {
+public:
+    using Vector = Eigen::Matrix<double, Dim, 1>;
 
-template <int Dim>
-void check_whole(const SimplexMesh<Dim>& straight,
-                 const SimplexMesh<Dim>& quadratic,
-                 const std::map<Edge, std::uint32_t>& middles) {
-    std::int64_t folded = 0;
-    Eigen::Index first = 0;
-    for (Eigen::Index cell = straight.cell_count(); cell-- > 0;) {
-        if (!is_whole<Dim>(straight, quadratic, middles, cell)) {
-            ++folded;
-            first = cell;
+    Curving(const SimplexMesh<Dim>& straight, const SimplexMesh<Dim>& quadratic)
+        : straight_(straight),
+          curved_(quadratic),
+          middles_(middles_of<Dim>(straight)),
+          ways_(Positions<Dim>::Zero(Dim, quadratic.vertex_count())),
+          halvings_(static_cast<std::size_t>(quadratic.vertex_count()), 0) {}
+
+    void move_onto(const OntoSurface<Dim>& onto) {
+        const FacetMatch<Dim> facets = match_facets<Dim>(straight_.cells, straight_.vertex_count());
+        std::set<Edge> edges;
+        for (Eigen::Index facet = 0; facet < facets.boundary.cols(); ++facet) {
+            for (int a = 0; a < Dim; ++a) {
+                for (int b = a + 1; b < Dim; ++b) {
+                    edges.insert(std::minmax(facets.boundary(a, facet), facets.boundary(b, facet)));
+                }
+            }
+        }
+        for (const Edge& edge : edges) {
+            move_middle(edge, onto);
         }
     }
-    if (folded > 0) {
-        std::string place;
-        for (int axis = 0; axis < Dim; ++axis) {
-            place += (axis == 0 ? "" : ", ")
-                     + formatted("%.4g", straight.positions(axis, straight.cells(0, first)));
+
+    // Halves the ways of the middles of folded cells until none is. What has gone half of its way
+    // so often stays on its edge, and a cell without a way to go is as whole as before.
+    void unfold() {
+        std::vector<Eigen::Index> suspects(static_cast<std::size_t>(straight_.cell_count()));
+        std::iota(suspects.begin(), suspects.end(), Eigen::Index{0});
+        while (!suspects.empty()) {
+            std::vector<bool> is_halved(halvings_.size(), false);
+            for (const Eigen::Index cell : suspects) {
+                if (!is_whole(cell)) {
+                    halve_ways(cell, is_halved);
+                }
+            }
+            suspects.clear();
+            for (Eigen::Index cell = 0; cell < straight_.cell_count(); ++cell) {
+                const auto nodes = nodes_of(cell);
+                if (std::any_of(nodes.data(), nodes.data() + nodes.size(),
+                                [&](std::uint32_t node) { return is_halved[node]; })) {
+                    suspects.push_back(cell);
+                }
+            }
         }
-        throw Error(std::to_string(folded) + " of " + std::to_string(straight.cell_count())
-                    + " quadratic cells would be folded with the middles of their edges on the"
-                      " surface, the first at ("
-                    + place + ") m; take shorter edges, or leave the boundary straight");
     }
-}
+
+    [[nodiscard]] CurveReport report() const {
+        CurveReport report;
+        for (Eigen::Index v = 0; v < curved_.vertex_count(); ++v) {
+            const int halvings = halvings_[static_cast<std::size_t>(v)];
+            const double distance = part_left(halvings) * ways_.col(v).norm();
+            report.moved += distance > 0 ? 1 : 0;
+            report.limited += halvings > 0 ? 1 : 0;
+            report.farthest = std::max(report.farthest, distance);
+        }
+        return report;
+    }
+
+    [[nodiscard]] const SimplexMesh<Dim>& curved() const { return curved_; }
+
+private:
+    using Nodes = Eigen::Matrix<std::uint32_t, Dim + 1, Dim + 1>;
+
+    static double part_left(int halvings) {
+        return halvings < kMostHalvings ? std::ldexp(1.0, -halvings) : 0;
+    }
+
+    void move_middle(const Edge& edge, const OntoSurface<Dim>& onto) {
+        const std::uint32_t middle = middles_.at(edge);
+        const Vector from = straight_.positions.col(edge.first);
+        const Vector to = straight_.positions.col(edge.second);
+        const Vector way = onto(from, to) - curved_.positions.col(middle);
+        if (way.norm() > kOnSurface * (to - from).norm()) {
+            ways_.col(middle) = way;
+            curved_.positions.col(middle) += way;
+        }
+    }
+
+    // The node between each two corners; the corners themselves on the diagonal.
+    [[nodiscard]] Nodes nodes_of(Eigen::Index cell) const {
+        Nodes nodes;
+        for (int a = 0; a <= Dim; ++a) {
+            for (int b = 0; b <= Dim; ++b) {
+                const Edge edge = std::minmax(straight_.cells(a, cell), straight_.cells(b, cell));
+                nodes(a, b) = a == b ? edge.first : middles_.at(edge);
+            }
+        }
+        return nodes;
+    }
+
+    [[nodiscard]] bool is_whole(Eigen::Index cell) const {
+        constexpr Eigen::Index kChildren = Eigen::Index{1} << Dim;
+        for (Eigen::Index child = cell * kChildren; child < (cell + 1) * kChildren; ++child) {
+            if (!(cell_volume<Dim>(curved_.positions, curved_.cells, child) > 0)) {
+                return false;
+            }
+        }
+        return least_jacobian<Dim>(curved_.positions, nodes_of(cell)) > 0;
+    }
+
+    void halve_ways(Eigen::Index cell, std::vector<bool>& is_halved) {
+        const Nodes nodes = nodes_of(cell);
+        for (int a = 0; a <= Dim; ++a) {
+            for (int b = a + 1; b <= Dim; ++b) {
+                const std::uint32_t node = nodes(a, b);
+                int& halvings = halvings_[node];
+                if (is_halved[node] || halvings == kMostHalvings || !ways_.col(node).any()) {
+                    continue;
+                }
+                const double before = part_left(halvings);
+                ++halvings;
+                curved_.positions.col(node) += (part_left(halvings) - before) * ways_.col(node);
+                is_halved[node] = true;
+            }
+        }
+    }
+
+    const SimplexMesh<Dim>& straight_;
+    SimplexMesh<Dim> curved_;
+    std::map<Edge, std::uint32_t> middles_;
+    Positions<Dim> ways_;  // of all vertices, to the surface; 0 where there is none
+    std::vector<int> halvings_;
+};
 
 // By Newton's method, the shortest step at a time, to zeros of all of these pieces at once.
 Eigen::Vector4d onto_pieces(const Solid& solid,
@@ -186,36 +271,11 @@ template <int Dim>
 CurveReport curve_boundary(const SimplexMesh<Dim>& straight,
                            const OntoSurface<Dim>& onto,
                            SimplexMesh<Dim>& quadratic) {
-    const std::map<Edge, std::uint32_t> middles = middles_of<Dim>(straight);
-    SimplexMesh<Dim> curved = quadratic;
-    CurveReport report;
-    std::vector<bool> is_done(static_cast<std::size_t>(quadratic.vertex_count()), false);
-    const FacetMatch<Dim> facets =
-        match_facets<Dim>(straight.cells, static_cast<Eigen::Index>(straight.vertex_count()));
-    for (Eigen::Index facet = 0; facet < facets.boundary.cols(); ++facet) {
-        for (int a = 0; a < Dim; ++a) {
-            for (int b = a + 1; b < Dim; ++b) {
-                const Edge edge = std::minmax(facets.boundary(a, facet), facets.boundary(b, facet));
-                const std::uint32_t middle = middles.at(edge);
-                if (is_done[middle]) {
-                    continue;
-                }
-                is_done[middle] = true;
-                const Eigen::Matrix<double, Dim, 1> from = straight.positions.col(edge.first);
-                const Eigen::Matrix<double, Dim, 1> to = straight.positions.col(edge.second);
-                const Eigen::Matrix<double, Dim, 1> place = onto(from, to);
-                const double distance = (place - curved.positions.col(middle)).norm();
-                if (distance > 1e-9 * (to - from).norm()) {
-                    curved.positions.col(middle) = place;
-                    ++report.moved;
-                    report.farthest = std::max(report.farthest, distance);
-                }
-            }
-        }
-    }
-    check_whole<Dim>(straight, curved, middles);
-    quadratic = std::move(curved);
-    return report;
+    Curving<Dim> curving(straight, quadratic);
+    curving.move_onto(onto);
+    curving.unfold();
+    quadratic = curving.curved();
+    return curving.report();
 }
 
 template CurveReport curve_boundary<3>(const SimplexMesh<3>&,

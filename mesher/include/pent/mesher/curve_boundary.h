@@ -22,17 +22,18 @@ using OntoSurface = std::function<Eigen::Matrix<double, Dim, 1>(
 [[nodiscard]] OntoSurface<4> onto_boundary(const Solid& solid);
 
 struct CurveReport {
-    std::int64_t moved = 0;  ///< Middles.
-    double farthest = 0;     ///< m.
+    std::int64_t moved = 0;    ///< Middles.
+    std::int64_t limited = 0;  ///< Middles that would fold a cell on the surface.
+    double farthest = 0;       ///< m.
 };
 
 /// Moves the middles of boundary edges onto the surface that the boundary stands for, so that
-/// quadratic cells are curved (isoparametric) there.
+/// quadratic cells are curved (isoparametric) there. Where a quadratic cell would be folded at one
+/// of its nodes or points, or one of its linear cells inverted, its middles go a half, a quarter or
+/// an eighth of their ways, or stay: `limited` counts them.
 ///
-/// @param straight   A mesh.
+/// @param straight   A mesh; cells of positive volume.
 /// @param quadratic  What make_quadratic() made of it.
-/// Throws an Error, and leaves the mesh as it was, if a quadratic cell would be folded at one of
-/// its nodes or points, or one of its linear cells inverted: how many, and where the first is.
 template <int Dim>
 CurveReport curve_boundary(const SimplexMesh<Dim>& straight,
                            const OntoSurface<Dim>& onto,
