@@ -85,7 +85,7 @@ run_hosts() {
 run_distributed() {
     scripts/setup.sh --distributed
     cmake --preset dev -DPENT_BUILD_DISTRIBUTED=ON
-    cmake --build --preset dev --target pent-study pent-sim pent-sim-mpi pent-mesh mpi_test ranks_equality
+    cmake --build --preset dev --target pent-study pent-sim pent-sim-mpi pent-mesh mpi_test session_mpi_test ranks_equality
     ctest --preset dev -L mpi_test
     ctest --preset dev --verbose -C Distributed -L distributed_test
 }

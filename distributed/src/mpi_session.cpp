@@ -27,8 +27,8 @@ std::string options_text(int ranks) {
     return text;
 }
 
-// SuperLU_DIST, which PETSc links, keeps all memory that is freed for later, as it is loaded: arrays
-// that grow would count two or three times. These are what the library has by itself.
+// SuperLU_DIST, which PETSc links, has freed memory kept for later from when it is loaded: arrays
+// that grow would count two or three times. These are the C library's own settings.
 void give_freed_memory_back() {
 #ifdef __GLIBC__
     constexpr int kMappings = 65536;
