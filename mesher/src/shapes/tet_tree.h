@@ -88,10 +88,11 @@ public:
     /// meet.
     template <typename Visit>
     void visit_ray(const Eigen::Vector4d& from, const Visit& visit) const {
+        const Place at{from, float_below(from), -float_below(-from)};
         walk(
             [&](const Node& node) {
-                return (node.low.head<3>().cast<double>().array() <= from.head<3>().array()).all()
-                       && (node.high.cast<double>().array() >= from.array()).all();
+                return (node.low.head<3>().array() <= at.low.head<3>().array()).all()
+                       && (node.high.array() >= at.high.array()).all();
             },
             [&](std::uint32_t t) {
                 const Eigen::Vector4d beside = from - balls_[t].center.cast<double>();
