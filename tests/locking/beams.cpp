@@ -42,9 +42,10 @@ SimplexMesh<4> layered(const SimplexMesh<3>& base, int layers) {
     SimplexMesh<4> mesh;
     mesh.positions.resize(4, base.vertex_count() * (layers + 1));
     mesh.cells.resize(5, base.cell_count() * 4 * layers);
-    for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
-        mesh.positions.col(v) << base.positions.col(v % base.vertex_count()),
-            static_cast<double>(v / base.vertex_count()) / layers;
+    for (int level = 0; level <= layers; ++level) {
+        auto own = mesh.positions.middleCols(level * base.vertex_count(), base.vertex_count());
+        own.topRows<3>() = base.positions;
+        own.row(3).setConstant(static_cast<double>(level) / layers);
     }
     Eigen::Index next = 0;
     for (int layer = 0; layer < layers; ++layer) {
