@@ -61,7 +61,7 @@ Positions<4> place(const Bodies<4>& bodies, int step, int iteration) {
 Cost cost_of(const Scene& scene, const std::shared_ptr<const Ranks>& ranks) {
     const Workers workers(1);
     const Bodies<4> bodies =
-        share<4>(make_bodies<4>(scene, {bench::hug_body(1), bench::hug_body(2)}), ranks);
+        share<4>(scene, make_bodies<4>(scene, {bench::hug_body(1), bench::hug_body(2)}), ranks);
     const DofMap dofs = number_dofs(bodies, {true, true});
     const BlockPattern pattern = make_pattern<4>(bodies.cells, dofs);
     ContactPotential<4> contact(workers, scene, bodies);
