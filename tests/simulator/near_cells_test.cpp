@@ -157,25 +157,5 @@ TEST(NearCells, LeaveAGrabAsHardAsOnOneAlone) {
     }
 }
 
-TEST(ForgetCells, ChangesNoStep) {
-    const Scene scene = test::swinging_bar();
-    const auto end = [&](bool does_forget) {
-        Simulation<4> simulation(scene, {test::bar()});
-        if (does_forget) {
-            simulation.forget_cells();
-            EXPECT_EQ(simulation.mesh(0).cell_count(), 0);
-            EXPECT_EQ(simulation.mesh(0).vertex_count(), test::bar().vertex_count());
-        }
-        static_cast<void>(simulation.step());
-        const Snapshot<4> middle = simulation.save();
-        static_cast<void>(simulation.step());
-        simulation.restore(middle);
-        static_cast<void>(simulation.step());
-        EXPECT_EQ(simulation.size().cells, test::bar().cell_count());
-        return simulation.save().positions;
-    };
-    EXPECT_EQ(end(true), end(false));
-}
-
 }  // namespace
 }  // namespace pent::simulator

@@ -363,7 +363,6 @@ RunReport Run<Dim>::operator()() {
         }
         write_report();
     });
-    simulation_.forget_cells();
     while (frame < scene_.frames && step_to_frame(frame + 1)) {
         ++frame;
         ranks_.write([&] {

@@ -45,11 +45,6 @@ const SimplexMesh<Dim>& Simulation<Dim>::mesh(int body) const {
     return stepper_->bodies().meshes[static_cast<std::size_t>(body)];
 }
 
-template <int Dim>
-void Simulation<Dim>::forget_cells() {
-    stepper_->forget_cells();
-}
-
 namespace {
 
 template <int Dim>

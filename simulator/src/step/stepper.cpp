@@ -83,17 +83,6 @@ void Simulation<Dim>::Stepper::set_body(int body,
     evaluate_current();
 }
 
-// Terms have taken what they need of them.
-template <int Dim>
-void Simulation<Dim>::Stepper::forget_cells() {
-    for (SimplexMesh<Dim>& mesh : bodies_.meshes) {
-        mesh.cells.resize(Dim + 1, 0);
-        mesh.fibers.resize(Dim, 0);
-        std::vector<std::uint16_t>().swap(mesh.regions);
-        std::vector<std::uint32_t>().swap(mesh.parents);
-    }
-}
-
 template <int Dim>
 Snapshot<Dim> Simulation<Dim>::Stepper::save() const {
     return {.positions = current_.positions,

@@ -36,7 +36,6 @@ public:
     void set_body(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
     [[nodiscard]] Snapshot<Dim> save() const;
     void restore(const Snapshot<Dim>& snapshot);
-    void forget_cells();
 
     // What a host does; see Simulation, which checks it.
     void set_held(const std::map<std::uint32_t, Vector>& targets);

@@ -60,10 +60,9 @@ public:
 
     [[nodiscard]] int body_count() const;
     [[nodiscard]] const SimplexMesh<Dim>& mesh(int body) const;  ///< As placed.
-    void forget_cells();  ///< Of mesh(), for good: no body can be added, picked or grabbed then.
-    [[nodiscard]] View positions(int body) const;   ///< m.
-    [[nodiscard]] View velocities(int body) const;  ///< m/s.
-    [[nodiscard]] View forces(int body) const;      ///< Of all that has an energy, N.
+    [[nodiscard]] View positions(int body) const;                ///< m.
+    [[nodiscard]] View velocities(int body) const;               ///< m/s.
+    [[nodiscard]] View forces(int body) const;                   ///< Of all that has an energy, N.
     [[nodiscard]] Eigen::Map<const Eigen::VectorXd> masses(int body) const;  ///< Lumped, kg.
 
     [[nodiscard]] std::shared_ptr<const void> arrays() const;  ///< Keeps what views of now show.
@@ -126,8 +125,9 @@ public:
 
     [[nodiscard]] HostState<Dim> host() const;
 
-    // Bodies and obstacles that come and go, at the cost of a start; views are gone. What is not
-    // right, or crosses at a barrier, is refused as by the constructor, and nothing has changed.
+    // Bodies and obstacles that come and go. Each costs what a start costs; views are gone. What is
+    // not right, or crosses at a barrier, is refused as by the constructor, and nothing has
+    // changed.
 
     /// Adds a body behind all others, as a scene has it at its start.
     void add_body(const Body& body, SimplexMesh<Dim> mesh);
