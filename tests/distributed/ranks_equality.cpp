@@ -211,8 +211,8 @@ bool compare(const Places& places, const QuickScene& scene) {
     std::printf(" | %.0e | %.0e | %.0e | %lld | %s |\n", worst.last, worst.energy, worst.momentum,
                 static_cast<long long>(worst.contacts),  // NOLINT(google-runtime-int)
                 worst.is_same()            ? "yes"
-                : !worst.has_same_contacts ? "OTHER CONTACTS"
                 : worst.crossings > 0      ? "CROSSES"
+                : !worst.has_same_contacts ? "OTHER CONTACTS"
                                            : "NO");
     std::fflush(stdout);
     return worst.is_same();
