@@ -211,7 +211,8 @@ TEST_F(OutputFolders, RefuseNamesThatLeadOutOfThem) {
     EXPECT_EQ(text_of("precious"), "mine");
 }
 
-// To the file system such a name ends at its zero byte: "ours" would be removed, or the folder read.
+// To the file system such a name ends at its zero byte: "ours" would be removed, or the folder
+// read as a list.
 TEST_F(OutputFolders, RefuseNamesWithAZeroByte) {
     put("out/ours");
     using namespace std::string_literals;

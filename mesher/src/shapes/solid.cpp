@@ -183,8 +183,8 @@ Solid outside_of(const Solid& solid) {
     return Solid(std::make_shared<const Data>(std::move(data)));
 }
 
-// The box around a box that was turned; of nothing if that is. An infinite side makes every side that it
-// has a part in infinite.
+// The box around a box that was turned; of nothing if that is. An infinite side makes every side
+// that it has a part in infinite.
 Box4 placed_box(const Box4& box,
                 const Eigen::Matrix4d& linear,
                 const Eigen::Vector4d& translation) {
