@@ -125,7 +125,10 @@ TEST_F(Faults, RunKilledAtAnyMomentGoesOnToTheSameBytesAndLosesNoFrame) {
     write_scene(1000 * kFrames);  // far longer than it gets
     int frames = 0;
     for (int kill = 0; kill < 5; ++kill) {
-        const std::string timeout = std::string(test::kUncounted) + "timeout -s KILL "
+        // Else `timeout` kills its whole group, itself with it, and is done before the run is dead,
+        // which holds the lock of its folder until then.
+        const std::string timeout = std::string(test::kUncounted)
+                                    + "timeout --foreground -s KILL "
                                     + std::to_string(share(random) * whole.count());
         // A run killed before its first frame has nothing to resume and is started again.
         const Outcome outcome = simulate("run", frames > 0 ? "--resume" : "--force", timeout);
