@@ -332,7 +332,7 @@ export class Viewer {
         if (color === "force" && moment.bodies.some((body) => !body.force)) {
             this.refuseColor(
                 `frame ${moment.frame} has no contact forces to color by; run the scene ` +
-                    "with [output] contact_forces = true",
+                    'with [output] vertex = ["contact_force"]',
             );
         } else if (color === "speed" && moment.bodies.some((body) => !body.speed)) {
             this.refuseColor("here is no speed to color by; open a run of pent-sim");
