@@ -1,8 +1,8 @@
 #include "document.h"
 
+#include <pent/real_text.h>
 #include <pent/toml_table.h>
 
-#include <charconv>
 #include <cstdint>
 #include <set>
 #include <sstream>
@@ -14,7 +14,7 @@ namespace {
 // Shortest text that reads back as the same number, with what makes it a float to TOML.
 std::string number(double value) {
     char digits[32];
-    const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
+    const auto [end, error] = real_to_chars(digits, digits + sizeof digits, value);
     std::string text(digits, end);
     return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }

@@ -227,7 +227,7 @@ std::string goes_on_after_a_kill(const Trial& trial) {
     const std::size_t bodies = trial.document().at("body").size();
     const std::string last = trial.document().at("body").at(bodies - 1).at("name");
     std::erase_if(frames, [&](const std::string& name) { return !name.starts_with(last + "_"); });
-    std::ranges::sort(frames);
+    std::sort(frames.begin(), frames.end());
     if (frames.size() > 1) {
         fs::remove(run / "frames" / frames.back());
     }

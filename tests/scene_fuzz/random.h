@@ -1,6 +1,7 @@
 #pragma once
 
-#include <charconv>
+#include <pent/real_text.h>
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -49,7 +50,7 @@ public:
         char digits[32];
         const int length = std::snprintf(digits, sizeof digits, "%.3g", value);
         double result = 0;
-        std::from_chars(digits, digits + length, result);
+        static_cast<void>(real_from_chars(digits, digits + length, result));
         return result;
     }
 

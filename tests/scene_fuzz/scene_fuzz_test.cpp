@@ -300,7 +300,7 @@ std::vector<std::string> samples() {
     for (const auto& entry : fs::directory_iterator(PENT_SCENE_SAMPLES)) {
         names.push_back(entry.path().stem().string());
     }
-    std::ranges::sort(names);
+    std::sort(names.begin(), names.end());
     return names;
 }
 
@@ -317,7 +317,7 @@ TEST_P(Sample, KeepsEveryLaw) {
 
 INSTANTIATE_TEST_SUITE_P(SceneFuzz, Sample, testing::ValuesIn(samples()), [](const auto& sample) {
     std::string name = sample.param;
-    std::ranges::replace(name, '-', '_');
+    std::replace(name.begin(), name.end(), '-', '_');
     return name;
 });
 

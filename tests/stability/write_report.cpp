@@ -9,7 +9,6 @@
 #include <fstream>
 #include <iostream>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace {
@@ -113,8 +112,8 @@ void write_starts() {
 
 void write_touches() {
     heading("Contact", "model", "bodies");
-    for (const auto& [name, model] : {std::pair("penalty", ContactModel::Penalty),
-                                      std::pair("barrier", ContactModel::Barrier)}) {
+    for (const ContactModel model : {ContactModel::Penalty, ContactModel::Barrier}) {
+        const std::string name(pent::simulator::word_of(model));
         for (const Touch& touch : touches()) {
             row(&touch == touches().data() ? name : "", touch.name, "out",
                 [&](Precision precision) { return text(run(touch, model, precision)); });
