@@ -3,6 +3,7 @@
 #include <pent/dimensions.h>
 
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace pent::simulator {
@@ -41,13 +42,14 @@ void NewtonSystem<Dim>::begin(BlockVector<Dim> right, Positions<Dim> shift) {
 }
 
 // In a free body the stiffness cancels for rigid motions, and the rounding that is left takes the
-// place of inertia: at most 1e-2 of it here, as rounding is not all of one sign.
+// place of inertia: at most 2e-3 of it in floats, to which doubles are the remedy, and 1e-2, as
+// rounding is not all of one sign, in doubles, to which there is none.
 template <int Dim>
 void NewtonSystem<Dim>::add_masses(double weight, const Eigen::VectorXd& masses) {
     const auto add = [&](auto& matrix) {
         using Scalar = typename std::decay_t<decltype(matrix)>::Block::Scalar;
-        constexpr double kMaxRatio =
-            1e-2 / static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+        constexpr double kMaxRatio = (std::is_same_v<Scalar, float> ? 2e-3 : 1e-2)
+                                     / static_cast<double>(std::numeric_limits<Scalar>::epsilon());
         return matrix.sum_row_chunks(*workers_, [&](std::int64_t begin, std::int64_t end) {
             int lost = 0;
             for (std::int64_t row = begin; row < end; ++row) {
