@@ -45,13 +45,14 @@ template <int Dim, int M, int N>
     return (line.transpose() * second).minCoeff() - (line.transpose() * first).maxCoeff();
 }
 
-/// Whether two sets of points are at least a distance apart along the line through their middles.
+/// Whether two sets of points are farther than a distance apart along the line through their
+/// middles. Never where these are the same point.
 template <int Dim, int M, int N>
 [[nodiscard]] bool are_apart_along_middles(const Corners<Dim, M>& first,
                                            const Corners<Dim, N>& second,
                                            double distance) {
     const Vector<Dim> line = second.rowwise().mean() - first.rowwise().mean();
-    return gap_along<Dim, M, N>(line, first, second) >= distance * line.norm();
+    return gap_along<Dim, M, N>(line, first, second) > distance * line.norm();
 }
 
 /// The same at all times for points that move evenly, along the line through their middles where
@@ -65,8 +66,8 @@ template <int Dim, int M, int N>
                                                  double distance) {
     const auto are_apart = [&](const Vector<Dim>& line) {
         const double least = distance * line.norm();
-        return gap_along<Dim, M, N>(line, first, second) >= least
-               && gap_along<Dim, M, N>(line, first_end, second_end) >= least;
+        return gap_along<Dim, M, N>(line, first, second) > least
+               && gap_along<Dim, M, N>(line, first_end, second_end) > least;
     };
     return are_apart(second.rowwise().mean() - first.rowwise().mean())
            || are_apart(second_end.rowwise().mean() - first_end.rowwise().mean());

@@ -31,7 +31,7 @@ struct Candidate {
 struct CandidateList {
     std::vector<Candidate> pairs;
     std::size_t known_count = 0;
-    std::int64_t overlaps = 0;  ///< Pairs of boxes that overlapped: the work of the search.
+    std::int64_t overlaps = 0;  ///< Pairs looked at one by one: the work of the search.
 };
 
 /// What of two colliders (or of one and itself) can come near.

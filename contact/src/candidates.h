@@ -17,7 +17,7 @@ namespace pent::contact {
 /// What the search for candidates took so far.
 struct SearchWork {
     std::int64_t searches = 0;
-    std::int64_t overlaps = 0;  ///< Pairs of boxes that the narrow phase looked at.
+    std::int64_t overlaps = 0;  ///< As those of a CandidateList.
     std::int64_t trees_built = 0;
     std::int64_t trees_refit = 0;
     double tree_seconds = 0;

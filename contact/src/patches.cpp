@@ -14,9 +14,6 @@ namespace pent::contact {
 
 namespace {
 
-// Simplices of a patch, at most. Small ones are nearer to an affine map, large ones fewer.
-constexpr std::size_t kMaxInPatch = 16;
-
 // Mean squared offset along the thinnest axis of a patch, over that along the next: below, it is
 // flat. Then, and only then, what lies across it is taken to move without stretch.
 constexpr double kFlat = 0.05;
@@ -66,14 +63,13 @@ double larger(double a, double b) {
     return a > b || std::isnan(a) ? a : b;
 }
 
-// Vertices of the simplices in a range, ascending, once each.
+// Vertices of some simplices, ascending, once each.
 template <int Count>
 std::vector<std::uint32_t> vertices_of(const Simplices<Count>& simplices,
-                                       const BoxTree& tree,
-                                       const BoxTree::Range& range) {
+                                       std::span<const std::uint32_t> patch) {
     std::vector<std::uint32_t> vertices;
-    for (std::uint32_t place = range.begin; place < range.begin + range.count; ++place) {
-        const auto corners = simplices.col(tree.leaf(place));
+    for (const std::uint32_t i : patch) {
+        const auto corners = simplices.col(i);
         vertices.insert(vertices.end(), corners.begin(), corners.end());
     }
     std::sort(vertices.begin(), vertices.end());
@@ -82,27 +78,6 @@ std::vector<std::uint32_t> vertices_of(const Simplices<Count>& simplices,
 }
 
 }  // namespace
-
-int patch_depth(std::size_t simplices) {
-    int depth = 0;
-    for (; simplices > kMaxInPatch; simplices = (simplices + 1) / 2) {
-        ++depth;
-    }
-    return depth;
-}
-
-std::vector<BoxTree::Range> patch_ranges(const BoxTree& tree) {
-    std::vector<BoxTree::Range> ranges{tree.root()};
-    for (int depth = patch_depth(tree.size()); depth > 0; --depth) {
-        std::vector<BoxTree::Range> halves;
-        for (const BoxTree::Range& range : ranges) {
-            halves.push_back(range.left());
-            halves.push_back(range.right());
-        }
-        ranges.swap(halves);
-    }
-    return ranges;
-}
 
 template <int Dim>
 PatchBound bound_of(const PatchMotion<Dim>& first, const PatchMotion<Dim>& second) {
@@ -125,11 +100,12 @@ PatchBound bound_of(const PatchMotion<Dim>& first, const PatchMotion<Dim>& secon
 template <int Dim>
 template <int Count>
 Patches<Dim>::Patches(const Simplices<Count>& simplices,
-                      const BoxTree& tree,
+                      const PatchPartition& partition,
                       const PositionsView<Dim>& rest) {
     Vertices all;
-    for (const BoxTree::Range& range : patch_ranges(tree)) {
-        const std::vector<std::uint32_t> vertices = vertices_of<Count>(simplices, tree, range);
+    for (std::size_t patch = 0; patch < partition.size(); ++patch) {
+        const std::vector<std::uint32_t> vertices =
+            vertices_of<Count>(simplices, partition[patch]);
         all.begin.push_back(all.of_patch.size());
         all.of_patch.insert(all.of_patch.end(), vertices.begin(), vertices.end());
     }
@@ -251,8 +227,8 @@ std::int64_t Patches<Dim>::bytes() const {
         + (vertices_ ? vertices_->of_patch.size() * sizeof(std::uint32_t) : 0));
 }
 
-#define PENT_INSTANTIATE_OF(Dim, Count)                                     \
-    template Patches<Dim>::Patches(const Simplices<Count>&, const BoxTree&, \
+#define PENT_INSTANTIATE_OF(Dim, Count)                                            \
+    template Patches<Dim>::Patches(const Simplices<Count>&, const PatchPartition&, \
                                    const PositionsView<Dim>&);
 #define PENT_INSTANTIATE(Dim)                                                       \
     template PatchBound bound_of(const PatchMotion<Dim>&, const PatchMotion<Dim>&); \

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "patch_partition.h"
 #include "paths.h"
 
-#include <pent/contact/box_tree.h>
 #include <pent/contact/surface.h>
 
 #include <limits>
@@ -56,13 +56,7 @@ struct PatchBound {
 template <int Dim>
 [[nodiscard]] PatchBound bound_of(const PatchMotion<Dim>& first, const PatchMotion<Dim>& second);
 
-/// How many times a tree over so many simplices is halved to get patches.
-[[nodiscard]] int patch_depth(std::size_t simplices);
-
-/// The subtrees of a tree at patch_depth(), in the order of their leaves.
-[[nodiscard]] std::vector<BoxTree::Range> patch_ranges(const BoxTree& tree);
-
-/// How each patch of a tree, one of its patch_ranges(), has moved.
+/// How each patch of a surface has moved.
 template <int Dim>
 class Patches {
 public:
@@ -70,10 +64,12 @@ public:
 
     /// Fits nothing yet.
     ///
-    /// @param tree  Over the simplices, in their order.
-    /// @param rest  Rest positions of all vertices of the scene.
+    /// @param partition  Of the simplices.
+    /// @param rest       Rest positions of all vertices of the scene.
     template <int Count>
-    Patches(const Simplices<Count>& simplices, const BoxTree& tree, const PositionsView<Dim>& rest);
+    Patches(const Simplices<Count>& simplices,
+            const PatchPartition& partition,
+            const PositionsView<Dim>& rest);
 
     /// The patches of the others, from other positions that count as at rest.
     Patches(const Patches& others, const PositionsView<Dim>& rest);
@@ -81,7 +77,7 @@ public:
     /// Finds the motion of each patch: the affine maps that fit its vertices best. Parallel.
     void fit(const Paths<Dim>& paths);
 
-    /// In the order of their leaves; empty if there are no patches.
+    /// Of each; empty if there are no patches.
     [[nodiscard]] const std::vector<PatchMotion<Dim>>& motions() const { return motions_; }
 
     [[nodiscard]] std::int64_t bytes() const;

@@ -13,14 +13,14 @@ namespace {
 
 // Pairs are listed up to this many times the distance of contact: the farther, the more a body may
 // be bent before there has to be another reference, and the longer the lists.
-constexpr double kListed = 3;
+constexpr double kListed = 2;
 
 // The same, at most, over the mean edge; and the least that is of use.
 constexpr double kMaxOfEdge = 0.6;
 constexpr double kMinListed = 1.2;
 
 // To list the pairs of two patches costs as much as to look at them so many times.
-constexpr std::int64_t kListCost = 4;
+constexpr std::int64_t kListCost = 2;
 
 }  // namespace
 
@@ -43,8 +43,8 @@ SelfProximity<Dim>::SelfProximity(const Surface<Dim>& surface,
     if constexpr (Dim > 3) {
         add_tree<Dim>(surface.facets);
     }
-    points_.resize(trees_[0].patch_ranges.size());
-    mixed_.resize(trees_[1].patch_ranges.size());
+    points_.resize(trees_[0].partition.size());
+    mixed_.resize(trees_[1].partition.size());
 }
 
 template <int Dim>
@@ -52,10 +52,9 @@ template <int Count>
 void SelfProximity<Dim>::add_tree(const Simplices<Count>& simplices) {
     const PositionsView<Dim> rest = rest_;
     Tree& tree = trees_[Count - 1];
-    tree.simplices = BoxTree(boxes_around<Dim, Count>(simplices, rest, 0.5 * distance_));
-    if (!tree.simplices.is_empty()) {
-        tree.patch_ranges = patch_ranges(tree.simplices);
-        patches_at_rest_[Count - 1] = Patches<Dim>(simplices, tree.simplices, rest);
+    tree.partition = PatchPartition(boxes_around<Dim, Count>(simplices, rest, 0.5 * distance_));
+    if (tree.partition.size() > 0) {
+        patches_at_rest_[Count - 1] = Patches<Dim>(simplices, tree.partition, rest);
     }
 }
 
@@ -64,19 +63,18 @@ template <int Count>
 void SelfProximity<Dim>::fit_tree(const Simplices<Count>& simplices, const Asked& asked) {
     constexpr int kPatches = 64;
     Tree& tree = trees_[Count - 1];
-    const std::vector<Box> boxes = hulls<Count>(simplices, boxes_);
-    tree.simplices.refit(boxes);
-    std::vector<Box> around(tree.patch_ranges.size());
-    tree.patch_inflation.resize(asked.inflation ? tree.patch_ranges.size() : 0);
-    parallel_for(tree.patch_ranges.size(), kPatches, [&](std::size_t patch) {
-        const BoxTree::Range& range = tree.patch_ranges[patch];
-        Box all = boxes[tree.simplices.leaf(range.begin)];
+    const std::size_t size = tree.partition.size();
+    std::vector<Box> around(size);
+    tree.patch_inflation.resize(asked.inflation ? size : 0);
+    parallel_for(size, kPatches, [&](std::size_t patch) {
+        const std::span<const std::uint32_t> members = tree.partition[patch];
+        Box all = boxes_[simplices(0, members[0])];
         double inflation = 0;
-        for (std::uint32_t k = 0; k < range.count; ++k) {
-            const std::uint32_t i = tree.simplices.leaf(range.begin + k);
-            all = hull(all, boxes[i]);
-            for (int corner = 0; asked.inflation && corner < Count; ++corner) {
-                inflation = std::max(inflation, (*asked.inflation)[simplices(corner, i)]);
+        for (const std::uint32_t i : members) {
+            for (int corner = 0; corner < Count; ++corner) {
+                const std::uint32_t v = simplices(corner, i);
+                all = hull(all, boxes_[v]);
+                inflation = asked.inflation ? std::max(inflation, (*asked.inflation)[v]) : 0;
             }
         }
         around[patch] = all;
@@ -96,6 +94,16 @@ void SelfProximity<Dim>::fit_trees(const Asked& asked) {
     fit_tree<3>(surface_.template simplices<3>(), asked);
     if constexpr (Dim > 3) {
         fit_tree<Dim>(surface_.facets, asked);
+    }
+}
+
+template <int Dim>
+void SelfProximity<Dim>::set_lanes(Lanes& lanes, const PositionsView<Dim>& positions) const {
+    lanes[0].set(surface_.vertices, trees_[0].partition, positions);
+    lanes[1].set(surface_.edges, trees_[1].partition, positions);
+    lanes[2].set(surface_.template simplices<3>(), trees_[2].partition, positions);
+    if constexpr (Dim > 3) {
+        lanes[Dim - 1].set(surface_.facets, trees_[Dim - 1].partition, positions);
     }
 }
 
@@ -162,12 +170,20 @@ void SelfProximity<Dim>::take_reference(const Paths<Dim>& paths, Reference& plac
         }
     }
     fit_patches(place, paths);
+    set_lanes(lanes_at_newest_, paths.to);
 }
 
 template <int Dim>
 template <typename Points, typename Mixed>
 void SelfProximity<Dim>::search(const Asked& asked, Points& points, Mixed& mixed) {
     const std::size_t unknown = points.look_at_lists() + mixed.look_at_lists();
+    if (unknown == 0) {
+        return;
+    }
+    set_lanes(lanes_at_end_, asked.paths.to);
+    if (!asked.paths.is_still()) {
+        set_lanes(lanes_at_start_, asked.paths.from);
+    }
     if (Reference* place = wanted_reference(unknown)) {
         take_reference(asked.paths, *place);
         const std::size_t unlisted = points.list_others() + mixed.list_others();
@@ -225,7 +241,12 @@ template <int Dim>
 std::int64_t SelfProximity<Dim>::bytes() const {
     auto sum = static_cast<std::int64_t>(boxes_.size() * sizeof(Box));
     for (const Tree& tree : trees_) {
-        sum += tree.simplices.bytes() + tree.patches.bytes();
+        sum += tree.partition.bytes() + tree.patches.bytes();
+    }
+    for (const Lanes* all : {&lanes_at_newest_, &lanes_at_start_, &lanes_at_end_}) {
+        for (const PatchLanes<Dim>& lanes : *all) {
+            sum += lanes.bytes();
+        }
     }
     for (const Patches<Dim>& patches : patches_at_rest_) {
         sum += patches.bytes();

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "candidate.h"
+#include "patch_lanes.h"
+#include "patch_partition.h"
 #include "patch_tree.h"
 #include "patches.h"
 #include "path_cover.h"
 #include "shared_work.h"
 
-#include <pent/contact/box_tree.h>
 #include <pent/contact/surface.h>
 
 #include <array>
@@ -61,13 +62,15 @@ public:
 private:
     static constexpr std::size_t kReferences = 3;
 
-    // Simplices of one kind. Trees have the topology of the body at rest.
+    // Simplices of one kind, divided into patches by where they are at rest.
     struct Tree {
-        BoxTree simplices;
-        std::vector<BoxTree::Range> patch_ranges;
+        PatchPartition partition;
         std::vector<double> patch_inflation;  // the largest of a vertex, m; none without any
         PatchTree patches;
     };
+
+    // Simplices of all kinds at some positions, by corners, less one.
+    using Lanes = std::array<PatchLanes<Dim>, Dim>;
 
     // Positions at which pairs were listed, and how patches have moved since.
     struct Reference {
@@ -107,6 +110,7 @@ private:
     template <int Count>
     void fit_tree(const Simplices<Count>& simplices, const Asked& asked);
     void fit_trees(const Asked& asked);
+    void set_lanes(Lanes& lanes, const PositionsView<Dim>& positions) const;
     static void fit_patches(Reference& reference, const Paths<Dim>& paths);
     [[nodiscard]] const Reference* reference(std::uint32_t serial) const;
     [[nodiscard]] std::array<std::size_t, kReferences> count_lists() const;
@@ -126,6 +130,9 @@ private:
     std::array<Patches<Dim>, Dim> patches_at_rest_;  // whose vertices all references share
     std::array<Reference, kReferences> references_;
     std::uint32_t newest_ = 0;  // serial
+    Lanes lanes_at_newest_;
+    Lanes lanes_at_start_;  // of the paths; not set where these are still
+    Lanes lanes_at_end_;
     // Pairs of patches looked at without a list since the newest, less what it could not list.
     std::int64_t owed_ = 0;
     std::vector<Row> points_;  // by patches of vertices

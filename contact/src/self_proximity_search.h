@@ -1,12 +1,16 @@
 #pragma once
 
 #include "apart.h"
+#include "near_lanes.h"
 #include "near_on_paths.h"
 #include "overlaps.h"
 #include "self_proximity.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -72,6 +76,8 @@ public:
           second_(sides.second),
           rows_(sides.rows),
           reach_(asked.reach),
+          is_still_(asked.paths.is_still()),
+          find_near_(near_lanes_kernels<Dim>().template find<K>()),
           test_(test),
           found_(chunks()) {}
 
@@ -155,7 +161,6 @@ private:
             if (is_same_list() && b < a) {
                 return;
             }
-            ++found.overlaps;
             while (known != row.known.end() && known->second < b) {
                 ++known;
             }
@@ -222,56 +227,59 @@ private:
     }
 
     void look_at_all(std::size_t a, std::uint32_t b, Found& found) const {
-        BoxTree::for_each_overlap(first_tree().simplices, second_tree().simplices,
-                                  {first_tree().patch_ranges[a], second_tree().patch_ranges[b],
-                                   first_tree().patches.box(a), second_tree().patches.box(b)},
-                                  [&](std::uint32_t i, std::uint32_t j) { test_(i, j, found); });
+        const LanesView first_end = all_.lanes_at_end_[K - 1][a];
+        const LanesView second_end = all_.lanes_at_end_[L - 1][b];
+        const LanesOnPaths patches{
+            is_still_ ? first_end : all_.lanes_at_start_[K - 1][a], first_end,
+            is_still_ ? second_end : all_.lanes_at_start_[L - 1][b], second_end};
+        for_each_near(a, b, patches, near(a, b),
+                      [&](std::uint32_t i, std::uint32_t j) { test_(i, j, found); });
     }
 
-    // The pairs of two patches that were within the listed distance somewhere, with a little more
-    // for rounding, and can be contacts.
+    // The pairs of two patches that were within the listed distance at the newest reference, with a
+    // little more for rounding, and can be contacts.
     [[nodiscard]] std::vector<Candidate> list(std::size_t a,
                                               std::uint32_t b,
                                               const PositionsView<Dim>& positions,
                                               Found& found) const {
-        const std::vector<Box> of_a = boxes_of<K>(first_tree(), a, first_, positions);
-        const std::vector<Box> of_b = boxes_of<L>(second_tree(), b, second_, positions);
-        const std::uint32_t begin_a = first_tree().patch_ranges[a].begin;
-        const std::uint32_t begin_b = second_tree().patch_ranges[b].begin;
-        const bool is_one = is_same_list() && a == b;
+        const LanesView first = all_.lanes_at_newest_[K - 1][a];
+        const LanesView second = all_.lanes_at_newest_[L - 1][b];
         std::vector<Candidate> pairs;
-        for (std::uint32_t m = 0; m < of_a.size(); ++m) {
-            for (std::uint32_t n = is_one ? m + 1 : 0; n < of_b.size(); ++n) {
-                if (!overlap(of_a[m], of_b[n])) {
-                    continue;
-                }
-                Candidate pair{first_tree().simplices.leaf(begin_a + m),
-                               second_tree().simplices.leaf(begin_b + n)};
-                if (is_same_list() && pair.second < pair.first) {
-                    std::swap(pair.first, pair.second);
-                }
-                if (!share_a_vertex<K, L>(first_, pair.first, second_, pair.second)) {
-                    ++found.overlaps;
-                    add_if_near(pair, positions, pairs);
-                }
-            }
-        }
+        for_each_near(a, b, {first, first, second, second}, listed_limit(),
+                      [&](std::uint32_t i, std::uint32_t j) {
+                          Candidate pair{i, j};
+                          if (is_same_list() && j < i) {
+                              std::swap(pair.first, pair.second);
+                          }
+                          if (!share_a_vertex<K, L>(first_, pair.first, second_, pair.second)) {
+                              ++found.overlaps;
+                              add_if_near(pair, positions, pairs);
+                          }
+                      });
         return pairs;
     }
 
-    template <int Count>
-    [[nodiscard]] std::vector<Box> boxes_of(const Tree& tree,
-                                            std::size_t patch,
-                                            const Simplices<Count>& simplices,
-                                            const PositionsView<Dim>& positions) const {
-        const BoxTree::Range& range = tree.patch_ranges[patch];
-        std::vector<Box> boxes(range.count);
-        for (std::uint32_t k = 0; k < range.count; ++k) {
-            const std::uint32_t i = tree.simplices.leaf(range.begin + k);
-            boxes[k] = box_around<Dim, Count>(gather<Dim, Count>(simplices, i, positions),
-                                              0.5 * listed_limit());
+    // Calls visit(i, j) for the pairs of two patches that may be nearer than a distance: each once.
+    template <typename Visit>
+    void for_each_near(std::size_t a,
+                       std::uint32_t b,
+                       const LanesOnPaths& patches,
+                       double distance,
+                       const Visit& visit) const {
+        std::array<std::uint16_t, kLanes> near;
+        find_near_(patches, distance, near.data());
+        const std::span<const std::uint32_t> of_a = first_tree().partition[a];
+        const std::span<const std::uint32_t> of_b = second_tree().partition[b];
+        const bool is_one = is_same_list() && a == b;
+        for (std::size_t m = 0; m < of_a.size(); ++m) {
+            unsigned bits = near[m];
+            if (is_one) {
+                bits &= ~0U << (m + 1);
+            }
+            for (; bits != 0; bits &= bits - 1) {
+                visit(of_a[m], of_b[static_cast<std::size_t>(std::countr_zero(bits))]);
+            }
         }
-        return boxes;
     }
 
     [[nodiscard]] double listed_limit() const { return (1 + kRounding) * all_.listed_distance_; }
@@ -335,6 +343,8 @@ private:
     const Simplices<L>& second_;
     std::vector<Row>& rows_;
     double reach_;
+    bool is_still_;
+    FindNearLanes find_near_;
     Test test_;
     std::vector<Found> found_;
 };

@@ -28,8 +28,8 @@ protected:
     // Edges and ridges of a bar along the first axis, and their patches.
     struct Bar {
         test::Scene<kD> scene;
-        BoxTree edge_tree;
-        BoxTree ridge_tree;
+        PatchPartition edge_partition;
+        PatchPartition ridge_partition;
         Patches<kD> edges;
         Patches<kD> ridges;
 
@@ -43,10 +43,12 @@ protected:
             scene.add(pent::test::kuhn_box<kD>(count, size), Vector<kD>::Zero());
             test::shake<kD>(scene.positions, 0.05, 3);
             const Surface<kD>& surface = scene.surfaces[0];
-            edge_tree = BoxTree(boxes_around<kD, 2>(surface.edges, scene.positions, 0));
-            ridge_tree = BoxTree(boxes_around<kD, kD - 1>(surface.ridges, scene.positions, 0));
-            edges = Patches<kD>(surface.edges, edge_tree, scene.positions);
-            ridges = Patches<kD>(surface.ridges, ridge_tree, scene.positions);
+            edge_partition =
+                PatchPartition(boxes_around<kD, 2>(surface.edges, scene.positions, 0));
+            ridge_partition =
+                PatchPartition(boxes_around<kD, kD - 1>(surface.ridges, scene.positions, 0));
+            edges = Patches<kD>(surface.edges, edge_partition, scene.positions);
+            ridges = Patches<kD>(surface.ridges, ridge_partition, scene.positions);
         }
 
         void fit(const Positions<kD>& positions) {
@@ -123,15 +125,14 @@ TYPED_TEST(PatchesTest, DeviateFromTheirMapsByNoMoreThanTheySay) {
     constexpr int kDim = TypeParam::value;
     typename TestFixture::Bar bar;
     const Positions<kDim>& rest = bar.scene.positions;
-    const auto ranges = patch_ranges(bar.ridge_tree);
-    ASSERT_EQ(ranges.size(), bar.ridges.motions().size());
+    const PatchPartition& partition = bar.ridge_partition;
+    ASSERT_EQ(partition.size(), bar.ridges.motions().size());
     for (const auto& [from, to] : TestFixture::paths(rest)) {
         bar.fit(from, to);
-        for (std::size_t patch = 0; patch < ranges.size(); ++patch) {
+        for (std::size_t patch = 0; patch < partition.size(); ++patch) {
             const PatchMotion<kDim>& motion = bar.ridges.motions()[patch];
-            for (std::uint32_t i = 0; i < ranges[patch].count; ++i) {
-                const auto corners =
-                    bar.scene.surfaces[0].ridges.col(bar.ridge_tree.leaf(ranges[patch].begin + i));
+            for (const std::uint32_t i : partition[patch]) {
+                const auto corners = bar.scene.surfaces[0].ridges.col(i);
                 for (const std::uint32_t v : corners) {
                     const Vector<kDim> offset = rest.col(v) - motion.rest_center;
                     const auto at = [&](const PatchPlace<kDim>& place) -> Vector<kDim> {
@@ -204,8 +205,6 @@ TYPED_TEST(PatchesTest, StayApartOnlyWhereAllTheirPairsDo) {
     typename TestFixture::Bar bar;
     const Positions<kDim>& rest = bar.scene.positions;
     const Surface<kDim>& surface = bar.scene.surfaces[0];
-    const auto edge_ranges = patch_ranges(bar.edge_tree);
-    const auto ridge_ranges = patch_ranges(bar.ridge_tree);
     const double rest_distance = 0.5;
     const double distance = 0.25;
     int apart = 0;
@@ -228,8 +227,8 @@ TYPED_TEST(PatchesTest, StayApartOnlyWhereAllTheirPairsDo) {
     for (const auto& [from, to] : TestFixture::paths(rest)) {
         bar.fit(from, to);
         const std::vector<Positions<kDim>> way{from, 0.5 * (from + to), to};
-        for (std::size_t a = 0; a < edge_ranges.size(); ++a) {
-            for (std::size_t b = 0; b < ridge_ranges.size(); ++b) {
+        for (std::size_t a = 0; a < bar.edge_partition.size(); ++a) {
+            for (std::size_t b = 0; b < bar.ridge_partition.size(); ++b) {
                 if (!stay_apart<kDim>(bar.edges.motions()[a], bar.ridges.motions()[b],
                                       rest_distance, distance)) {
                     ++others;
@@ -237,9 +236,8 @@ TYPED_TEST(PatchesTest, StayApartOnlyWhereAllTheirPairsDo) {
                 }
                 ++apart;
                 // A sample of the pairs: the first of one patch with all of the other.
-                for (std::uint32_t j = 0; j < ridge_ranges[b].count; ++j) {
-                    expect_apart(bar.edge_tree.leaf(edge_ranges[a].begin),
-                                 bar.ridge_tree.leaf(ridge_ranges[b].begin + j), way);
+                for (const std::uint32_t j : bar.ridge_partition[b]) {
+                    expect_apart(bar.edge_partition[a][0], j, way);
                 }
             }
         }
@@ -261,7 +259,7 @@ TYPED_TEST(PatchesTest, NeverStayApartWhereNothingIsKnown) {
     // All vertices on a line: a map across it is anyone's guess.
     test::Scene<kDim> line = bar.scene;
     line.positions.bottomRows(kDim - 1).setZero();
-    Patches<kDim> patches(line.surfaces[0].edges, bar.edge_tree, line.positions);
+    Patches<kDim> patches(line.surfaces[0].edges, bar.edge_partition, line.positions);
     const PositionsView<kDim> there = line.positions;
     patches.fit({there, there});
     EXPECT_FALSE(stay_apart<kDim>(patches.motions()[0], patches.motions()[0], 2, 1));

@@ -94,14 +94,16 @@ bool holds(const Pack<Number, Count>& pack, const Expected& expected) {
 template <typename Number, int Count, typename Expected>
 bool holds(const Mask<Number, Count>& mask, const Expected& expected) {
     bool is_any = false;
+    std::uint32_t set = 0;
     bool is_all = true;
     bool is_right = true;
     for (int i = 0; i < Count; ++i) {
         is_any = is_any || expected(i);
+        set |= (expected(i) ? 1U : 0U) << i;
         is_all = is_all && expected(i);
         is_right = is_right && mask.lanes[i] == (expected(i) ? -1 : 0);
     }
-    return is_right && any(mask) == is_any && all(mask) == is_all;
+    return is_right && any(mask) == is_any && all(mask) == is_all && bits(mask) == set;
 }
 
 template <typename Number, int Count>
@@ -208,7 +210,7 @@ const char* comparison_fault(const Number* a, const Number* b) {
         const Real one = Real::load(values);
         if (!holds(one > zero, [&](int i) { return i == lane; })
             || !holds(one <= zero, [&](int i) { return i != lane; })) {
-            return "any or all";
+            return "any, all or bits";
         }
     }
     return holds(x < x, [](int) { return false; }) ? nullptr : "any of none";

@@ -99,4 +99,37 @@ PENT_SIMD_INLINE bool all(const Mask<Number, Count>& mask) {
     return !any(!mask);
 }
 
+/// Bit i is whether lane i is true, of at most 32 lanes.
+template <typename Number, int Count>
+PENT_SIMD_INLINE std::uint32_t bits(const Mask<Number, Count>& mask) {
+    static_assert(Count <= 32);
+    [[maybe_unused]] constexpr int kBytes = static_cast<int>(sizeof mask.lanes);
+#if defined(__AVX512F__)
+    if constexpr (kBytes == 64 && sizeof(Number) == 4) {
+        const auto lanes = reinterpret_cast<__m512i>(mask.lanes);
+        return _mm512_test_epi32_mask(lanes, lanes);
+    }
+#endif
+#if defined(__AVX__)
+    if constexpr (kBytes == 32 && sizeof(Number) == 4) {
+        return static_cast<std::uint32_t>(
+            _mm256_movemask_ps(reinterpret_cast<__m256>(mask.lanes)));
+    }
+#endif
+#if defined(__SSE2__)
+    if constexpr (kBytes == 16 && sizeof(Number) == 4) {
+        return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(mask.lanes)));
+    }
+#elif defined(__wasm_simd128__)
+    if constexpr (kBytes == 16 && sizeof(Number) == 4) {
+        return wasm_i32x4_bitmask(reinterpret_cast<v128_t>(mask.lanes));
+    }
+#endif
+    std::uint32_t of_lanes = 0;
+    for (int i = 0; i < Count; ++i) {
+        of_lanes |= (mask.lanes[i] != 0 ? 1U : 0U) << i;
+    }
+    return of_lanes;
+}
+
 }  // namespace pent

@@ -22,7 +22,7 @@ void fields(Part& contact, const Visit& visit) {
     visit(key("smallest_distance", "m", "least signed distance in contact; null: nothing touches"),
           contact.smallest_distance);
     visit(key("searches", "", "how often contacts were asked for"), contact.searches);
-    visit(key("candidates", "", "pairs of boxes that overlapped"), contact.candidates);
+    visit(key("candidates", "", "pairs of simplices looked at one by one"), contact.candidates);
     visit(key("obstacle_tests", "", "distances of vertices to obstacles"), contact.obstacle_tests);
     visit(key("friction", "", "contacts whose friction was computed"), contact.friction);
     visit(key("trees_built", "", "trees of boxes made anew"), contact.trees_built);

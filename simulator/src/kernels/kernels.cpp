@@ -2,6 +2,8 @@
 
 #include "kernels/kernels_isa.h"
 
+#include <pent/processor.h>
+
 namespace pent::simulator {
 
 std::string_view isa_name(Isa isa) {
@@ -28,11 +30,9 @@ bool is_supported(Isa isa) {
             return true;
 #ifdef PENT_X86_KERNELS
         case Isa::Avx2:
-            return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
+            return has_avx2();
         case Isa::Avx512:
-            return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0
-                   && __builtin_cpu_supports("avx512bw") != 0
-                   && __builtin_cpu_supports("avx512vl") != 0;
+            return has_avx512();
 #else
         case Isa::Avx2:
         case Isa::Avx512:

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+
+// Which simplices of two patches may be near each other, for all of their pairs side by side. The
+// kernels are compiled for several instruction sets: nothing here is shared with other files but
+// plain data.
+
+namespace pent::contact {
+
+/// Simplices of a patch, at most.
+inline constexpr int kLanes = 16;
+
+/// Simplices of a patch, side by side.
+struct LanesView {
+    const float* corners = nullptr;  ///< [corner][axis][lane], m from the origin; lanes from
+                                     ///< `count` on hold any numbers.
+    const double* origin = nullptr;  ///< Dim coordinates, m.
+    float extent = 0;                ///< The largest absolute value of a coordinate in `corners`.
+    int count = 0;
+};
+
+/// Two patches on straight paths, each seen from two places that need not be the same. What does
+/// not move has the same two views.
+struct LanesOnPaths {
+    LanesView first_start;
+    LanesView first_end;
+    LanesView second_start;
+    LanesView second_end;
+};
+
+/// Sets bit j of near[i], of kLanes entries, to whether simplex i of the first and j of the second
+/// patch may be near: all pairs that are nearer than `distance` (m) at some time, and others for
+/// which neither their boxes nor the line through their middles tells that they are not. No pair is lost to the
+/// rounding of floats. Coordinates are finite; not checked.
+using FindNearLanes = void (*)(const LanesOnPaths& patches, double distance, std::uint16_t* near);
+
+/// By the corners of the simplices of the first patch: for vertices and facets, and for edges and
+/// ridges.
+template <int Dim>
+struct NearLanesKernels {
+    FindNearLanes points = nullptr;
+    FindNearLanes mixed = nullptr;
+
+    template <int K>
+    [[nodiscard]] FindNearLanes find() const {
+        return K == 1 ? points : mixed;
+    }
+};
+
+/// Instruction sets that there are kernels for, and this machine runs.
+enum class LanesIsa : std::uint8_t { Baseline, Avx2, Avx512 };
+[[nodiscard]] bool is_supported(LanesIsa isa);
+
+template <int Dim>
+[[nodiscard]] const NearLanesKernels<Dim>& near_lanes_kernels(LanesIsa isa);
+
+/// Of the widest that is supported.
+template <int Dim>
+[[nodiscard]] const NearLanesKernels<Dim>& near_lanes_kernels();
+
+}  // namespace pent::contact
