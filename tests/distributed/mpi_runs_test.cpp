@@ -107,6 +107,38 @@ TEST_F(MpiRuns, GoOnByAsManyRanksByOthersAndByPentSim) {
     }
 }
 
+// A mesh, and base and layers that make it: with regions, holds, contact and layers that turn.
+TEST_F(MpiRuns, OfBaseAndLayersAreThoseOfTheMesh) {
+    const Extrusion<4> made = extrusion();
+    static_cast<void>(write_extrusion<4>(path("base.pent"), made));
+    static_cast<void>(write_mesh(path("whole.pent"),
+                                 extrude<4>(made.base, made.ordered, made.layers, made.options)));
+    for (const std::string mesh : {"base", "whole"}) {
+        std::string scene = kTwins;
+        for (std::size_t at = 0; (at = scene.find("MESH")) != std::string::npos;) {
+            scene.replace(at, 4, mesh);
+        }
+        write(mesh, scene);
+    }
+    for (const int ranks : {0, 1, 2, 3}) {
+        for (const std::string mesh : {"base", "whole"}) {
+            const Outcome run = simulate(ranks, mesh, mesh + std::to_string(ranks));
+            ASSERT_EQ(run.exit_code, 0) << run.err;
+        }
+        const std::string base = "base" + std::to_string(ranks);
+        const std::string whole = "whole" + std::to_string(ranks);
+        for (const char* body : {"a", "b"}) {
+            expect_same_bytes(base, whole, body);
+            EXPECT_EQ(text_of(path(base + "/meshes/" + body + ".pent")),
+                      text_of(path(whole + "/meshes/" + body + ".pent")));
+        }
+        EXPECT_GT(report(base).steps.back().contact.point_facet, 0);
+    }
+    // A run goes on with the other kind of file.
+    const Outcome resumed = simulate(2, "whole", "base2", "--resume");
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+}
+
 TEST_F(MpiRuns, AreExplainedWithWhatRanksHaveAndSay) {
     const Outcome told =
         test::run_program("pent-sim-mpi --explain " + path("bar.toml"), test::mpirun(3));
