@@ -74,6 +74,28 @@ TEST_F(MpiRuns, GoWherePentSimGoes) {
     }
 }
 
+// Each rank writes a slab. Before the first step the state is the same to the bit on any ranks.
+TEST_F(MpiRuns, WriteTheFramesThatPentSimWrites) {
+    std::string text = kBoxes;
+    text.replace(text.find("frames = 4"), 10, "frames = 1");
+    write("start", text + "[output]\nvertex = [\"contact_force\", \"reaction\"]\n");
+    ASSERT_EQ(simulate(0, "start", "alone").exit_code, 0);
+    for (const int ranks : {1, 2, 3, 4}) {
+        const std::string run = "start" + std::to_string(ranks);
+        const Outcome outcome = simulate(ranks, "start", run);
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        for (const char* body : {"a", "b"}) {
+            const FileInfo own = read_info(frame(run, body, 0));
+            const FileInfo alone = read_info(frame("alone", body, 0));
+            EXPECT_EQ(own.crc32c, alone.crc32c) << ranks << " " << body;
+            EXPECT_EQ(own.vertices, alone.vertices);
+            const auto file = read_frame<3>(frame(run, body, 0));
+            EXPECT_EQ(file.contact_forces.cols(), file.positions.cols());
+            EXPECT_EQ(file.fields.size(), 1U);
+        }
+    }
+}
+
 TEST_F(MpiRuns, AreTheSameToTheBitForAnyThreadsRunAfterRun) {
     for (const int ranks : {2, 3}) {
         const std::string name = "threads" + std::to_string(ranks);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <pent/simplex_mesh.h>
+#include <pent/slab_writers.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +17,8 @@ enum class Encoding { Binary, Ascii };
 
 struct WriteOptions {
     Encoding encoding = Encoding::Binary;
-    std::string created_by = "pent";  ///< Program and version; one line.
+    std::string created_by = "pent";       ///< Program and version; one line.
+    const SlabWriters* writers = nullptr;  ///< Of frames alone: see write_frame().
 };
 
 /// What the header of a .pent file says.
@@ -118,6 +120,9 @@ template <int Dim>
 [[nodiscard]] MeshFile<Dim> read_mesh(const std::filesystem::path& path);
 
 /// Writes a frame, as write_mesh does. Throws an Error if a coordinate is not finite.
+///
+/// Where several processes write it each gives the vertices of its slab, in the order of the
+/// writers, and all else alike. The file is that which one of them alone would write of all.
 template <int Dim>
 void write_frame(const std::filesystem::path& path,
                  const Frame<Dim>& frame,
