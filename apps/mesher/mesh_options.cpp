@@ -247,6 +247,9 @@ void add_extrusion(CLI::App& cli, MeshArguments& arguments) {
         ->type_name("FILE")
         ->excludes(order)
         ->group(group);
+    cli.add_flag("--unextruded", extrusion.is_kept,
+                 "Write the base and its layers, a small file that is extruded whenever it is read")
+        ->group(group);
     cli.add_flag("--lean", arguments.lean, "The same order in all layers, instead of alternating")
         ->group(group);
 }

@@ -243,8 +243,13 @@ void write(const Program& program,
     if (arguments.output.has_parent_path()) {
         pent::make_folder(arguments.output.parent_path());
     }
-    pent::write_mesh(arguments.output, body.mesh,
-                     {.encoding = encoding, .created_by = program.name_and_version()});
+    const pent::WriteOptions options{.encoding = encoding,
+                                     .created_by = program.name_and_version()};
+    if (body.extrusion) {
+        pent::write_extrusion<Dim>(arguments.output, *body.extrusion, options);
+    } else {
+        pent::write_mesh(arguments.output, body.mesh, options);
+    }
     if (!arguments.histogram.empty()) {
         pent::write_text(
             arguments.histogram,

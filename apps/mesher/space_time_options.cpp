@@ -35,6 +35,7 @@ void refuse_other_options(const CLI::App& cli) {
                              "--profile",
                              "--one-sided",
                              "--edge-directions",
+                             "--unextruded",
                              "--format",
                              "--sphere",
                              "--ball",

@@ -4,12 +4,12 @@
 #include "generators.h"
 #include "worker_process.h"
 
-#include <pent/mesher/extrude.h>
 #include <pent/mesher/make_body.h>
 #include <pent/mesher/orient.h>
 #include <pent/mesher/prove.h>
 #include <pent/mesher/quality.h>
 #include <pent/mesher/shapes.h>
+#include <pent/mesher/straight_layers.h>
 #include <pent/parallel.h>
 
 #include <benchmark/benchmark.h>
@@ -38,7 +38,7 @@ const SimplexMesh<3>& large_base() {
     return mesh;
 }
 
-const pent::mesher::OrderedCells<3>& large_order() {
+const pent::OrderedCells<3>& large_order() {
     static const auto ordered = pent::mesher::order_cells<3>(
         large_base(), pent::mesher::direct_edges<3>(
                           large_base(), pent::mesher::rank_vertices<3>(
@@ -47,7 +47,7 @@ const pent::mesher::OrderedCells<3>& large_order() {
 }
 
 SimplexMesh<4> large_body() {
-    return pent::mesher::extrude<4>(
+    return pent::extrude<4>(
         large_base(), large_order(),
         pent::mesher::straight_layers<4>(Eigen::Vector4d(0, 0, 0, 0.2), kSlabs));
 }

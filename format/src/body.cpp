@@ -388,12 +388,10 @@ bool has_vector(const PlyElement& element,
 
 std::uint32_t write_file(const std::filesystem::path& path,
                          Header header,
-                         const std::string& body) {
-    header.info.crc32c = crc32c(body.data(), body.size());
-    OutputFile file(path);
-    file.write(format_header(header));
-    file.write(body);
-    file.commit();
+                         const std::string& body,
+                         const SlabWriters* writers) {
+    header.info.crc32c = crc32c_of_slabs(writers, body);
+    write_slabs(path, format_header(header), body, writers);
     return header.info.crc32c;
 }
 

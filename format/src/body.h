@@ -74,7 +74,13 @@ private:
                               const std::filesystem::path& path);
 
 /// Puts header (with the body's checksum) and body into a file; returns the checksum.
-std::uint32_t write_file(const std::filesystem::path& path, Header header, const std::string& body);
+///
+/// @param body     Or a slab of it, of several writers.
+/// @param writers  Null for one alone.
+std::uint32_t write_file(const std::filesystem::path& path,
+                         Header header,
+                         const std::string& body,
+                         const SlabWriters* writers = nullptr);
 
 /// The columns of a field: its name alone, or with an axis behind it.
 [[nodiscard]] std::vector<Column> field_columns(const VertexField& field);
@@ -89,12 +95,14 @@ std::uint32_t write_file(const std::filesystem::path& path, Header header, const
 
 /// Throws an Error unless fields have finite values, one or `dimension` for each of `count`.
 ///
-/// @param of  What they are quantities of: "vertex".
+/// @param of     What they are quantities of: "vertex".
+/// @param first  How many lie in front of these, in messages.
 void check_fields(const std::vector<VertexField>& fields,
                   int dimension,
                   Eigen::Index count,
                   std::string_view of,
-                  const std::filesystem::path& path);
+                  const std::filesystem::path& path,
+                  std::uint64_t first = 0);
 
 /// The element that these columns make.
 [[nodiscard]] PlyElement make_element(std::string_view name,

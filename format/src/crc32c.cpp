@@ -34,6 +34,19 @@ constexpr Tables make_tables() {
 
 constexpr Tables kTables = make_tables();
 
+// Polynomials over two elements modulo that of the checksum. As in the register the highest bit is
+// the constant term.
+constexpr std::uint32_t kOne = 0x80000000U;
+
+std::uint32_t product(std::uint32_t a, std::uint32_t b) {
+    std::uint32_t sum = 0;
+    for (std::uint32_t bit = kOne; bit != 0; bit >>= 1) {
+        sum ^= (a & bit) != 0 ? b : 0U;
+        b = (b >> 1) ^ ((b & 1) != 0 ? 0x82F63B78U : 0U);  // times x
+    }
+    return sum;
+}
+
 }  // namespace
 
 std::uint32_t crc32c(const void* data, std::size_t bytes, std::uint32_t before) {
@@ -52,6 +65,17 @@ std::uint32_t crc32c(const void* data, std::size_t bytes, std::uint32_t before) 
         crc = (crc >> 8) ^ kTables[0][(crc ^ *at) & 255];
     }
     return ~crc;
+}
+
+// Each byte behind multiplies what the first bytes left in the register by x^8.
+std::uint32_t crc32c_joined(std::uint32_t first, std::uint32_t second, std::uint64_t second_bytes) {
+    std::uint32_t factor = kOne;
+    std::uint32_t power = kOne >> 8;
+    for (; second_bytes > 0; second_bytes >>= 1) {
+        factor = (second_bytes & 1) != 0 ? product(factor, power) : factor;
+        power = product(power, power);
+    }
+    return product(first, factor) ^ second;
 }
 
 }  // namespace pent

@@ -66,7 +66,8 @@ void check_fields(const std::vector<VertexField>& fields,
                   int dimension,
                   Eigen::Index count,
                   std::string_view of,
-                  const std::filesystem::path& path) {
+                  const std::filesystem::path& path,
+                  std::uint64_t first) {
     for (const VertexField& field : fields) {
         const Eigen::Index rows = field.values.rows();
         if ((rows != 1 && rows != dimension) || field.values.cols() != count) {
@@ -76,7 +77,8 @@ void check_fields(const std::vector<VertexField>& fields,
         }
         for (Eigen::Index i = 0; i < count; ++i) {
             if (!field.values.col(i).allFinite()) {
-                throw Error(path.string() + ": " + std::string(of) + " " + std::to_string(i) + ": "
+                throw Error(path.string() + ": " + std::string(of) + " "
+                            + std::to_string(first + static_cast<std::uint64_t>(i)) + ": "
                             + field.name + " is not finite, expected finite numbers");
             }
         }

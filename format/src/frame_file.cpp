@@ -15,12 +15,14 @@ namespace {
 template <int Dim>
 void check_finite(const Positions<Dim>& values,
                   std::string_view prefix,
-                  const std::filesystem::path& path) {
+                  const std::filesystem::path& path,
+                  std::uint64_t first = 0) {
     constexpr std::string_view kAxes = "xyzw";
     for (Eigen::Index vertex = 0; vertex < values.cols(); ++vertex) {
         for (int axis = 0; axis < Dim; ++axis) {
             if (!std::isfinite(values(axis, vertex))) {
-                throw Error(path.string() + ": vertex " + std::to_string(vertex) + ": "
+                throw Error(path.string() + ": vertex "
+                            + std::to_string(first + static_cast<std::uint64_t>(vertex)) + ": "
                             + std::string(prefix) + kAxes[axis] + " is "
                             + std::to_string(values(axis, vertex)) + ", expected a finite number");
             }
@@ -30,11 +32,12 @@ void check_finite(const Positions<Dim>& values,
 
 const std::vector<std::string_view> kVectors = {"", "v", "f"};
 
+// @param writers  Of which some may have no vertices; null for one alone.
 template <int Dim>
-std::vector<Column> frame_columns(const Frame<Dim>& frame) {
+std::vector<Column> frame_columns(const Frame<Dim>& frame, const SlabWriters* writers) {
     std::vector<Column> columns = vector_columns<Dim>(frame.positions, "");
     const auto append = [&](const Positions<Dim>& values, std::string_view prefix) {
-        if (values.cols() > 0) {
+        if (place_slab(writers, static_cast<std::uint64_t>(values.cols())).all > 0) {
             const std::vector<Column> more = vector_columns<Dim>(values, prefix);
             columns.insert(columns.end(), more.begin(), more.end());
         }
@@ -59,24 +62,35 @@ void check_count(const Positions<Dim>& values,
     }
 }
 
+// @param first  How many vertices lie in front of those of the frame.
+template <int Dim>
+void check(const Frame<Dim>& frame, const std::filesystem::path& path, std::uint64_t first) {
+    check_finite<Dim>(frame.positions, "", path, first);
+    check_finite<Dim>(frame.velocities, "v", path, first);
+    check_finite<Dim>(frame.contact_forces, "f", path, first);
+    check_count<Dim>(frame.velocities, frame.positions.cols(), "velocities", path);
+    check_count<Dim>(frame.contact_forces, frame.positions.cols(), "contact forces", path);
+    check_fields(frame.fields, Dim, frame.positions.cols(), "vertex", path, first);
+    if (frame.mesh_name.empty() || frame.mesh_name.find_first_of(" \n\r") != std::string::npos) {
+        throw Error(path.string() + ": mesh name '" + frame.mesh_name
+                    + "', expected a name without spaces");
+    }
+}
+
 }  // namespace
 
 template <int Dim>
 void write_frame(const std::filesystem::path& path,
                  const Frame<Dim>& frame,
                  const WriteOptions& options) {
-    check_finite<Dim>(frame.positions, "", path);
-    check_finite<Dim>(frame.velocities, "v", path);
-    check_finite<Dim>(frame.contact_forces, "f", path);
-    check_count<Dim>(frame.velocities, frame.positions.cols(), "velocities", path);
-    check_count<Dim>(frame.contact_forces, frame.positions.cols(), "contact forces", path);
-    check_fields(frame.fields, Dim, frame.positions.cols(), "vertex", path);
-    if (frame.mesh_name.empty() || frame.mesh_name.find_first_of(" \n\r") != std::string::npos) {
-        throw Error(path.string() + ": mesh name '" + frame.mesh_name
-                    + "', expected a name without spaces");
-    }
-    const std::vector<Column> columns = frame_columns(frame);
+    const std::vector<Column> columns = frame_columns(frame, options.writers);
     const auto count = static_cast<std::uint64_t>(frame.positions.cols());
+    const SlabPlace slab = place_slab(options.writers, count);
+    if (options.writers == nullptr) {
+        check<Dim>(frame, path, 0);
+    } else {
+        options.writers->agree([&] { check<Dim>(frame, path, slab.before); });
+    }
     Header header;
     header.info.dimension = Dim;
     header.info.encoding = options.encoding;
@@ -87,10 +101,10 @@ void write_frame(const std::filesystem::path& path,
     header.frame = frame.frame;
     header.step = frame.step;
     header.time = frame.time;
-    header.elements = {make_element("vertex", count, columns)};
+    header.elements = {make_element("vertex", slab.all, columns)};
     std::string body;
     encode_rows(body, options.encoding, columns, count);
-    write_file(path, std::move(header), body);
+    write_file(path, std::move(header), body, options.writers);
 }
 
 template <int Dim>
@@ -121,7 +135,7 @@ Frame<Dim> read_frame(const std::filesystem::path& path) {
     frame.frame = header.frame;
     frame.step = header.step;
     frame.time = header.time;
-    reader.read(frame_columns(frame));
+    reader.read(frame_columns<Dim>(frame, nullptr));
     reader.finish();
     check_finite<Dim>(frame.positions, "", path);
     check_finite<Dim>(frame.velocities, "v", path);

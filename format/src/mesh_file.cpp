@@ -1,4 +1,5 @@
 #include "body.h"
+#include "extrusion_file.h"
 #include "input_file.h"
 
 #include <pent/error.h>
@@ -151,7 +152,9 @@ MeshExtras<Dim> sized_extras(const Header& header, const std::filesystem::path& 
 FileInfo read_info(const std::filesystem::path& path) {
     constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
     const InputFile file = read_input(path, kLongestHeader);
-    return parse_header(file.view(), path).info;
+    const Header header = parse_header(file.view(), path);
+    return is_extrusion(header) ? info_of_extrusion(header, read_input(path).view(), path)
+                                : header.info;
 }
 
 template <int Dim>
@@ -187,9 +190,15 @@ template <int Dim>
 MeshFile<Dim> read_mesh(const std::filesystem::path& path) {
     const InputFile file = read_input(path);
     const Header header = parse_header(file.view(), path);
-    if (header.info.dimension != Dim) {
-        throw Error(path.string() + ": header: dimension " + std::to_string(header.info.dimension)
+    const int dimension = header.info.dimension + (is_extrusion(header) ? 1 : 0);
+    if (dimension != Dim) {
+        throw Error(path.string() + ": header: dimension " + std::to_string(dimension)
                     + ", expected " + std::to_string(Dim));
+    }
+    if constexpr (Dim > 2) {
+        if (is_extrusion(header)) {
+            return extrude_file<Dim>(header, file.view(), path);
+        }
     }
     if (header.info.is_frame) {
         throw Error(path.string() + ": header: this is a frame of the mesh " + header.mesh_name

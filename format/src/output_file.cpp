@@ -39,7 +39,7 @@ std::string advice(int error) {
                 + "; " + advice(error));
 }
 
-// 0, or what went wrong.
+// 0, or what went wrong. Goes on where the descriptor is.
 int write_all(int descriptor, const void* data, std::size_t bytes) {
     const char* at = static_cast<const char*>(data);
     while (bytes > 0) {
@@ -53,27 +53,33 @@ int write_all(int descriptor, const void* data, std::size_t bytes) {
     return 0;
 }
 
-std::filesystem::path temporary_for(const std::filesystem::path& path) {
+std::filesystem::path temporary_for(const std::filesystem::path& path, std::int64_t process) {
     const std::string name =
-        "." + path.filename().string() + "." + std::to_string(::getpid()) + ".tmp";
+        "." + path.filename().string() + "." + std::to_string(process) + ".tmp";
     return path.parent_path() / name;
+}
+
+// What is to have the bytes of a file with this name: where a link leads to.
+std::filesystem::path target_of(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const bool is_link = std::filesystem::is_regular_file(path, ignored)
+                         && std::filesystem::is_symlink(path, ignored);
+    return is_link ? std::filesystem::canonical(path) : path;
 }
 
 }  // namespace
 
-OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)), target_(path_) {
+OutputFile::OutputFile(std::filesystem::path path)
+    : path_(std::move(path)), target_(target_of(path_)) {
     namespace fs = std::filesystem;
     std::error_code ignored;
     const fs::file_status status = fs::status(path_, ignored);
     if (path_.filename().empty() || fs::is_directory(status)) {
         fail(path_, EISDIR);
     }
-    if (fs::is_regular_file(status) && fs::is_symlink(path_, ignored)) {
-        target_ = fs::canonical(path_);
-    }
     // A file must not take the place of a device or a pipe.
     const bool is_stream = fs::exists(status) && !fs::is_regular_file(status);
-    temporary_ = is_stream ? target_ : temporary_for(target_);
+    temporary_ = is_stream ? target_ : temporary_for(target_, ::getpid());
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (descriptor_ < 0) {
         fail(path_, errno);
@@ -108,6 +114,22 @@ void OutputFile::commit() {
         fail(path_, errno);
     }
     temporary_.clear();
+}
+
+void write_slab(const std::filesystem::path& path,
+                std::int64_t process,
+                std::uint64_t offset,
+                std::string_view bytes) {
+    const std::filesystem::path file = temporary_for(target_of(path), process);
+    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) {
+        fail(path, errno);
+    }
+    int error = ::lseek(descriptor, static_cast<off_t>(offset), SEEK_SET) < 0 ? errno : 0;
+    error = error != 0 ? error : write_all(descriptor, bytes.data(), bytes.size());
+    if (::close(descriptor) != 0 || error != 0) {
+        fail(path, error != 0 ? error : errno);
+    }
 }
 
 void write_text(const std::filesystem::path& path, std::string_view text) {

@@ -32,6 +32,11 @@ void check_request(const BodyRequest& request, int dim) {
         throw Error("a translation of " + std::to_string(axes) + " components; expected 3"
                     + (dim == 4 ? " or 4" : "") + " finite ones");
     }
+    if (request.extrusion.is_kept && (request.subdivide > 1 || request.is_quadratic)) {
+        throw Error(name_of_input(request)
+                    + ": what is subdivided or quadratic is no extrusion any more; leave out the one"
+                      " or base and layers");
+    }
     if (request.is_curved && (!request.is_quadratic || request.subdivide > 1)) {
         throw Error(name_of_input(request)
                     + ": a curved boundary is for quadratic cells that are not subdivided before;"
@@ -41,14 +46,14 @@ void check_request(const BodyRequest& request, int dim) {
 
 void refuse_extrusion(const BodyRequest& request) {
     const ExtrusionRequest& extrusion = request.extrusion;
-    if (extrusion.thickness || extrusion.direction || extrusion.layers > 0
+    if (extrusion.is_kept || extrusion.thickness || extrusion.direction || extrusion.layers > 0
         || !extrusion.profile.empty() || extrusion.round || !extrusion.alternate
         || extrusion.anchor != Anchor::Middle || extrusion.order != VertexOrder::Index
         || !extrusion.edge_directions.empty() || extrusion.grade != 1
         || !extrusion.layer_heights.empty()) {
         throw Error(name_of_input(request)
                     + ": it is the body already, and not extruded; leave out thickness, direction,"
-                      " layers, profile, order and the like");
+                      " layers, profile, order, base and the like");
     }
 }
 

@@ -90,7 +90,7 @@ Body<Dim> finish(SimplexMesh<Dim> mesh,
     }
     report.quality = clock.time("quality", [&] { return measure_quality<Dim>(mesh); });
     report.stages = clock.stages();
-    return {std::move(mesh), std::move(report)};
+    return {std::move(mesh), std::move(report), std::nullopt};
 }
 
 void announce(const BodyRequest& request, const ExpectedSize& size) {
@@ -134,7 +134,7 @@ Body<Dim> extrude_and_prove(const SimplexMesh<Dim - 1>& base,
     report.base_cells = base.cell_count();
     report.base_volume = total_volume(base);
     report.base_edge = mean_edge<Dim - 1>(base);
-    const Layers<Dim> layers = requested_layers<Dim>(
+    Layers<Dim> layers = requested_layers<Dim>(
         extrusion, {largest_side<Dim - 1>(base.positions), report.base_volume, report.base_edge});
     report.direction = layers.layers.back().offset - layers.layers.front().offset;
     report.layers = static_cast<int>(layers.layers.size()) - 1;
@@ -143,13 +143,22 @@ Body<Dim> extrude_and_prove(const SimplexMesh<Dim - 1>& base,
         announce(request, expected_size<Dim>(static_cast<double>(report.base_cells),
                                              layers.cells_over(), report.layers, request));
     }
-    const OrderedCells<Dim - 1> ordered = clock.time("order", [&] {
+    OrderedCells<Dim - 1> ordered = clock.time("order", [&] {
         return ordered_cells<Dim - 1>(extrusion, base, report.direction / report.layers);
     });
-    SimplexMesh<Dim> mesh = clock.time("extrude", [&] {
-        return extrude<Dim>(base, ordered, layers.layers, {.alternate = extrusion.alternate});
-    });
-    return finish<Dim>(std::move(mesh), layers.volume, request, std::move(report), clock);
+    for (Layer<Dim>& layer : layers.layers) {
+        layer.offset.head(request.translation.size()) += request.translation;
+    }
+    BodyRequest moved = request;  // so that base and layers are where the body is
+    moved.translation.resize(0);
+    const ExtrudeOptions options{.alternate = extrusion.alternate};
+    SimplexMesh<Dim> mesh =
+        clock.time("extrude", [&] { return extrude<Dim>(base, ordered, layers.layers, options); });
+    Body<Dim> body = finish<Dim>(std::move(mesh), layers.volume, moved, std::move(report), clock);
+    if (extrusion.is_kept) {
+        body.extrusion = {base, std::move(ordered), std::move(layers.layers), options};
+    }
+    return body;
 }
 
 // Fixes the number of layers first, then seeks the edge length that gives the tetrahedra left.

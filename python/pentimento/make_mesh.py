@@ -66,6 +66,7 @@ def make_mesh(
     one_sided: bool = False,
     order: str | None = None,
     edge_directions: _Path | None = None,
+    unextruded: bool = False,
     lean: bool = False,
     space_time: bool = False,
     time_scale: float | None = None,

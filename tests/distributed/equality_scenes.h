@@ -12,6 +12,7 @@ namespace pent::test {
 struct QuickScene {
     std::string name;
     std::filesystem::path file;
+    std::filesystem::path nudged;  ///< The same scene, its last body away by about what rounds.
     simulator::Scene scene;
 };
 
@@ -26,7 +27,8 @@ struct Places {
 /// few times as coarse.
 [[nodiscard]] std::vector<QuickScene> data_scenes(const Places& places);
 
-/// The scenes that are hard on a barrier, in R^3 and R^4, as coarse as the tests have them.
+/// The scenes that are hard on a barrier, in R^3 and R^4, as coarse as the tests have them, but not
+/// the same when z and w are exchanged, and solved until what is left moves nothing.
 [[nodiscard]] std::vector<QuickScene> stress_scenes(const Places& places);
 
 }  // namespace pent::test

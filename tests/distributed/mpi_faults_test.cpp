@@ -106,7 +106,7 @@ TEST_F(MpiFaults, AMeshThatOneRankCannotReadIsToldByItsName) {
                    {"bar.pent", "No such file"});
 }
 
-// Rank 0 writes; the others have to hear of it. MPI has files of its own, so that the limit comes
+// Each rank writes its slab; where one cannot, nothing is left of the frame. MPI has files of its own, so that the limit comes
 // later.
 TEST_F(MpiFaults, AFullDiskEndsTheRunOnAllRanks) {
     write_long();
@@ -115,6 +115,20 @@ TEST_F(MpiFaults, AFullDiskEndsTheRunOnAllRanks) {
                     meddle("run", "", "prlimit --fsize=2000 --pid $1")),
         {"run/", "cannot be written"});
     expect_contains(simulate(2, "bar", "run").err, {"holds a run"});
+}
+
+TEST_F(MpiFaults, AFullDiskOfOneRankEndsTheRunOnAllRanks) {
+    write_long();
+    expect_refused(
+        run_program("pent-sim-mpi " + path("long.toml") + " -o " + path("run") + " --threads 1",
+                    meddle("run", "-n", "prlimit --fsize=2000 --pid $1")),
+        {"run/frames/bar_", "cannot be written", "file size"});
+    int frames = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(path("run/frames"))) {
+        static_cast<void>(read_frame<4>(entry.path()));  // whole, or it throws
+        ++frames;
+    }
+    EXPECT_GE(frames, 2);
 }
 
 TEST_F(MpiFaults, ARunThatIsThereIsNotReplaced) {

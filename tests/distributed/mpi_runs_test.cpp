@@ -74,6 +74,28 @@ TEST_F(MpiRuns, GoWherePentSimGoes) {
     }
 }
 
+// Each rank writes a slab. Before the first step the state is the same to the bit on any ranks.
+TEST_F(MpiRuns, WriteTheFramesThatPentSimWrites) {
+    std::string text = kBoxes;
+    text.replace(text.find("frames = 4"), 10, "frames = 1");
+    write("start", text + "[output]\nvertex = [\"contact_force\", \"reaction\"]\n");
+    ASSERT_EQ(simulate(0, "start", "alone").exit_code, 0);
+    for (const int ranks : {1, 2, 3, 4}) {
+        const std::string run = "start" + std::to_string(ranks);
+        const Outcome outcome = simulate(ranks, "start", run);
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        for (const char* body : {"a", "b"}) {
+            const FileInfo own = read_info(frame(run, body, 0));
+            const FileInfo alone = read_info(frame("alone", body, 0));
+            EXPECT_EQ(own.crc32c, alone.crc32c) << ranks << " " << body;
+            EXPECT_EQ(own.vertices, alone.vertices);
+            const auto file = read_frame<3>(frame(run, body, 0));
+            EXPECT_EQ(file.contact_forces.cols(), file.positions.cols());
+            EXPECT_EQ(file.fields.size(), 1U);
+        }
+    }
+}
+
 TEST_F(MpiRuns, AreTheSameToTheBitForAnyThreadsRunAfterRun) {
     for (const int ranks : {2, 3}) {
         const std::string name = "threads" + std::to_string(ranks);
@@ -105,6 +127,38 @@ TEST_F(MpiRuns, GoOnByAsManyRanksByOthersAndByPentSim) {
         expect_near<4>(run, "whole", "bar", 4, 1e-5);
         EXPECT_EQ(report(run).parts.size(), 2U);
     }
+}
+
+// A mesh, and base and layers that make it: with regions, holds, contact and layers that turn.
+TEST_F(MpiRuns, OfBaseAndLayersAreThoseOfTheMesh) {
+    const Extrusion<4> made = extrusion();
+    static_cast<void>(write_extrusion<4>(path("base.pent"), made));
+    static_cast<void>(write_mesh(path("whole.pent"),
+                                 extrude<4>(made.base, made.ordered, made.layers, made.options)));
+    for (const std::string mesh : {"base", "whole"}) {
+        std::string scene = kTwins;
+        for (std::size_t at = 0; (at = scene.find("MESH")) != std::string::npos;) {
+            scene.replace(at, 4, mesh);
+        }
+        write(mesh, scene);
+    }
+    for (const int ranks : {0, 1, 2, 3}) {
+        for (const std::string mesh : {"base", "whole"}) {
+            const Outcome run = simulate(ranks, mesh, mesh + std::to_string(ranks));
+            ASSERT_EQ(run.exit_code, 0) << run.err;
+        }
+        const std::string base = "base" + std::to_string(ranks);
+        const std::string whole = "whole" + std::to_string(ranks);
+        for (const char* body : {"a", "b"}) {
+            expect_same_bytes(base, whole, body);
+            EXPECT_EQ(text_of(path(base + "/meshes/" + body + ".pent")),
+                      text_of(path(whole + "/meshes/" + body + ".pent")));
+        }
+        EXPECT_GT(report(base).steps.back().contact.point_facet, 0);
+    }
+    // A run goes on with the other kind of file.
+    const Outcome resumed = simulate(2, "whole", "base2", "--resume");
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
 }
 
 TEST_F(MpiRuns, AreExplainedWithWhatRanksHaveAndSay) {

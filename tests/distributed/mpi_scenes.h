@@ -3,14 +3,17 @@
 #include "run_program.h"
 #include "support/kuhn_box.h"
 
+#include <pent/extrusion.h>
 #include <pent/pent_file.h>
 #include <pent/runs/report.h>
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 
 namespace pent::test {
 
@@ -71,6 +74,76 @@ protected:
     [[nodiscard]] runs::RunReport report(const std::string& run) const {
         return runs::read_report(path(run + "/report.json"));
     }
+
+    /// A box of tetrahedra through five layers, each turned and smaller than the one below.
+    [[nodiscard]] static Extrusion<4> extrusion() {
+        Extrusion<4> made;
+        made.base = kuhn_box<3>({3, 2, 2}, {0.6, 0.4, 0.4});
+        made.base.positions.colwise() -= Eigen::Vector3d(0.3, 0.2, 0.2);
+        for (Eigen::Index cell = 0; cell < made.base.cell_count(); ++cell) {
+            made.base.regions.push_back(cell % 5 == 0 ? 7 : 3);
+        }
+        made.ordered.cells = made.base.cells;
+        for (auto cell : made.ordered.cells.colwise()) {
+            bool is_odd = false;
+            for (int pass = 0; pass < 4; ++pass) {
+                for (int i = 0; i < 3; ++i) {
+                    if (cell[i] > cell[i + 1]) {
+                        std::swap(cell[i], cell[i + 1]);
+                        is_odd = !is_odd;
+                    }
+                }
+            }
+            made.ordered.is_odd.push_back(is_odd ? 1 : 0);
+        }
+        for (int l = 0; l < 5; ++l) {
+            const double angle = 0.05 * l;
+            Layer<4> layer;
+            layer.linear.setIdentity();
+            layer.linear.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle),
+                std::sin(angle), std::cos(angle);
+            layer.linear *= 1 - 0.03 * l;
+            layer.offset << 0.01 * l, 0, 0, 0.12 * l;
+            made.layers.push_back(layer);
+        }
+        return made;
+    }
+
+    // Two bodies of regions in R^4, of which one is held at an end and the other falls on it.
+    static constexpr const char* kTwins = R"([scene]
+gravity = [0, -9.8, 0, 0]
+frames = 4
+frames_per_second = 100
+
+[[body]]
+name = "a"
+mesh = "MESH.pent"
+material = { young = 1e5 }
+[[body.region]]
+name = "stiff"
+select = { region = 7 }
+material = { young = 1e6 }
+
+[[body]]
+name = "b"
+mesh = "MESH.pent"
+material = { young = 1e5 }
+place = { translate = [0.05, 0.415, 0.02, 0.03] }
+velocity = [0, -3, 0, 0]
+
+[[constraint]]
+body = "a"
+select = { half_space = { normal = [1, 0, 0, 0], offset = -0.2 } }
+
+[contact]
+distance = 0.02
+stiffness = 1000
+
+[solver]
+integrator = "newton_euler"
+tolerance = 1e-8
+precision = "double"
+)";
 
     // A bar in R^4 that is turned by its left end, falls and is damped.
     static constexpr const char* kBar = R"([scene]

@@ -65,16 +65,17 @@ std::string text_of(const fs::path& path) {
     return text.str();
 }
 
-// Runs a scene by so many ranks, or by pent-sim where that is 0, and returns the folder.
-fs::path simulate(const Places& places, const QuickScene& scene, int ranks) {
-    const fs::path folder = places.work / (scene.name + "_" + std::to_string(ranks));
+// Runs a scene, from its file or from the nudged one, by so many ranks, or by pent-sim where that
+// is 0, and returns the folder.
+fs::path simulate(const Places& places, const QuickScene& scene, const fs::path& file, int ranks) {
+    const fs::path folder = places.work / (file.stem().string() + "_" + std::to_string(ranks));
     const std::string program = ranks == 0
                                     ? "timeout 600 " + (places.programs / "pent-sim").string()
                                     : "timeout 600 mpirun -q --oversubscribe --bind-to none -n "
                                           + std::to_string(ranks) + " "
                                           + (places.programs / "pent-sim-mpi").string();
     const std::string log = folder.string() + ".log";
-    const std::string command = program + " " + scene.file.string() + " -o " + folder.string()
+    const std::string command = program + " " + file.string() + " -o " + folder.string()
                                 + " --threads 1 --force </dev/null >" + log + " 2>&1";
     if (std::system(command.c_str()) != 0) {  // NOLINT(cert-env33-c)
         throw Error(scene.name + " failed on " + std::to_string(ranks) + " ranks: " + text_of(log));
@@ -193,20 +194,24 @@ Difference difference(const QuickScene& scene, const fs::path& own, const fs::pa
 
 // A row of the table; returns whether all is the same.
 bool compare(const Places& places, const QuickScene& scene) {
-    const fs::path alone = simulate(places, scene, 0);
+    const fs::path alone = simulate(places, scene, scene.file, 0);
     std::printf("| %s | %lld", scene.name.c_str(),
                 static_cast<long long>(  // NOLINT(google-runtime-int): for printf
                     runs::read_report(alone / "report.json").size.elements));
-    Difference worst;
-    for (const int ranks : kRanks) {
-        const fs::path own = simulate(places, scene, ranks);
+    const auto beside_alone = [&](const fs::path& file, int ranks) {
+        const fs::path own = simulate(places, scene, file, ranks);
         const Difference one = scene.scene.dimension == 3 ? difference<3>(scene, own, alone)
                                                           : difference<4>(scene, own, alone);
         std::printf(" | %.0e", one.first);
         std::fflush(stdout);
-        worst.take(one);
         fs::remove_all(own);
+        return one;
+    };
+    Difference worst;
+    for (const int ranks : kRanks) {
+        worst.take(beside_alone(scene.file, ranks));
     }
+    static_cast<void>(beside_alone(scene.nudged, 0));
     fs::remove_all(alone);
     std::printf(" | %.0e | %.0e | %.0e | %lld | %s |\n", worst.last, worst.energy, worst.momentum,
                 static_cast<long long>(worst.contacts),  // NOLINT(google-runtime-int)
@@ -227,8 +232,8 @@ int compare_all(const Places& places, const std::vector<std::string>& wanted) {
     for (const int ranks : kRanks) {
         std::printf(" %d |", ranks);
     }
-    std::puts(" last step | energies | momenta | contacts | same |");
-    std::puts("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
+    std::puts(" nudged | last step | energies | momenta | contacts | same |");
+    std::puts("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
     int others = 0;
     for (const QuickScene& scene : scenes) {
         if (wanted.empty() || std::find(wanted.begin(), wanted.end(), scene.name) != wanted.end()) {

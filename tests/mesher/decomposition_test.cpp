@@ -1,5 +1,6 @@
 #include <pent/mesher/decomposition.h>
-#include <pent/mesher/extrude.h>
+#include <pent/mesher/edge_order.h>
+#include <pent/mesher/straight_layers.h>
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 
 #include <pent/error.h>
 #include <pent/mesher/edge_order.h>
-#include <pent/mesher/extrude.h>
 #include <pent/mesher/quality.h>
+#include <pent/mesher/straight_layers.h>
 
 #include <gtest/gtest.h>
 

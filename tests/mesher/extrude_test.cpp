@@ -2,7 +2,8 @@
 #include "support/messages.h"
 
 #include <pent/facets.h>
-#include <pent/mesher/extrude.h>
+#include <pent/mesher/edge_order.h>
+#include <pent/mesher/straight_layers.h>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>

@@ -35,6 +35,39 @@ TEST(PentMesh, MakesTheSameBytesAtAnyNumberOfThreads) {
     }
 }
 
+// Of bodies that are translated, leaning, round, from a file, and of regions.
+TEST(PentMesh, WritesBaseAndLayersThatAreReadAsTheMesh) {
+    const test::TempFolder folder;
+    for (const std::string options :
+         {std::string("--ball 2 --layers 3 --translate 0.1,0.2,0.3,0.7"),
+          std::string("--ball 2 --extrude 0.1,0.2,0.3,-0.5 --order quality --lean"),
+          std::string("--ball 2 --round --layers 5"),
+          kModels + "/octopus_5246f.obj --surface-triangles 600 --layers 2 --one-sided"}) {
+        const auto make = [&](const std::string& more, const std::string& name) {
+            const Outcome made =
+                run_program("pent-mesh " + options + more + " -o " + (folder / name).string());
+            ASSERT_EQ(made.exit_code, 0) << made.err;
+        };
+        make("", "mesh.pent");
+        make(" --unextruded", "base.pent");
+        EXPECT_LT(std::filesystem::file_size(folder / "base.pent"),
+                  std::filesystem::file_size(folder / "mesh.pent") / 2);
+        const FileInfo info = read_info(folder / "base.pent");
+        EXPECT_TRUE(info.is_extrusion);
+        write_mesh(folder / "read.pent", read_mesh<4>(folder / "base.pent").mesh,
+                   {.created_by = info.created_by});
+        EXPECT_EQ(test::text_of(folder / "read.pent"), test::text_of(folder / "mesh.pent"))
+            << options;
+        EXPECT_EQ(run_program("pent-check " + (folder / "base.pent").string()).exit_code, 0);
+    }
+    for (const char* other : {"--box 1,1,1,1", "--ball 1 --subdivide 2", "--ball 1 --quadratic"}) {
+        const Outcome refused = run_program(std::string("pent-mesh --unextruded ") + other + " -o "
+                                            + (folder / "no.pent").string());
+        EXPECT_EQ(refused.exit_code, 1) << other;
+        test::expect_contains(refused.err, {"base"});
+    }
+}
+
 TEST(PentMesh, GradesItsLayers) {
     const test::TempFolder folder;
     const std::string out = " -o " + (folder / "a.pent").string();

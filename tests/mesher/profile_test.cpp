@@ -5,6 +5,7 @@
 #include "support/temp_folder.h"
 
 #include <pent/formatted.h>
+#include <pent/mesher/edge_order.h>
 #include <pent/mesher/profile.h>
 #include <pent/mesher/prove.h>
 #include <pent/mesher/shapes.h>

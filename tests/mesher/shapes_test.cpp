@@ -2,10 +2,10 @@
 
 #include <pent/facets.h>
 #include <pent/mesher/edge_order.h>
-#include <pent/mesher/extrude.h>
 #include <pent/mesher/links.h>
 #include <pent/mesher/prove.h>
 #include <pent/mesher/shapes.h>
+#include <pent/mesher/straight_layers.h>
 #include <pent/mesher/subdivide.h>
 #include <pent/mesher/surface_check.h>
 

@@ -4,10 +4,10 @@
 
 #include <pent/error.h>
 #include <pent/facets.h>
-#include <pent/mesher/extrude.h>
 #include <pent/mesher/links.h>
 #include <pent/mesher/shapes.h>
 #include <pent/mesher/space_time.h>
+#include <pent/mesher/straight_layers.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -4,8 +4,8 @@
 #include "support/messages.h"
 
 #include <pent/error.h>
-#include <pent/mesher/extrude.h>
 #include <pent/mesher/space_time.h>
+#include <pent/mesher/straight_layers.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

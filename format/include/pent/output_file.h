@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 
@@ -38,6 +39,13 @@ private:
     std::filesystem::path temporary_;  // what has them; the target, if no file; empty at the end
     int descriptor_ = -1;
 };
+
+/// Writes bytes at an offset of the temporary file that an OutputFile of a process has for `path`,
+/// which may be another process, on another machine.
+void write_slab(const std::filesystem::path& path,
+                std::int64_t process,
+                std::uint64_t offset,
+                std::string_view bytes);
 
 /// Writes a whole text file through an OutputFile.
 void write_text(const std::filesystem::path& path, std::string_view text);

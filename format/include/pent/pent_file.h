@@ -1,6 +1,7 @@
 #pragma once
 
 #include <pent/simplex_mesh.h>
+#include <pent/slab_writers.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +17,8 @@ enum class Encoding { Binary, Ascii };
 
 struct WriteOptions {
     Encoding encoding = Encoding::Binary;
-    std::string created_by = "pent";  ///< Program and version; one line.
+    std::string created_by = "pent";       ///< Program and version; one line.
+    const SlabWriters* writers = nullptr;  ///< Of frames alone: see write_frame().
 };
 
 /// What the header of a .pent file says.
@@ -26,8 +28,10 @@ struct FileInfo {
     std::string created_by;
     std::uint32_t crc32c = 0;  ///< Over every byte behind the header, as stated there.
     std::uint64_t vertices = 0;
-    std::uint64_t cells = 0;  ///< 0 in a frame.
-    bool is_frame = false;    ///< Positions (and velocities) without cells.
+    std::uint64_t cells = 0;    ///< 0 in a frame.
+    bool is_frame = false;      ///< Positions (and velocities) without cells.
+    bool is_extrusion = false;  ///< Base and layers (see extrusion.h); dimension, vertices and
+                                ///< cells are those of the mesh that read_mesh() makes of them.
 };
 
 /// A further quantity of the vertices of a frame or a mesh, or of the cells of a mesh, by a name of
@@ -95,7 +99,8 @@ struct MeshFile {
     MeshExtras<Dim> extras;
 };
 
-/// Reads the header alone. Throws an Error for a file that is missing or has a damaged header.
+/// Reads the header alone; of an extrusion the layers, too. Throws an Error for a file that is
+/// missing or has a damaged header.
 [[nodiscard]] FileInfo read_info(const std::filesystem::path& path);
 
 /// Writes a mesh under a temporary name beside `path`, then renames it.
@@ -109,12 +114,15 @@ std::uint32_t write_mesh(const std::filesystem::path& path,
                          const WriteOptions& options = {},
                          const MeshExtras<Dim>& extras = {});
 
-/// Reads and fully validates a mesh. Nothing is allocated from a count that the file's size does
+/// Reads and fully validates a mesh; extrudes it where the file has base and layers. Nothing is allocated from a count that the file's size does
 /// not bear out. Throws an Error with file, element, what was found and what was expected.
 template <int Dim>
 [[nodiscard]] MeshFile<Dim> read_mesh(const std::filesystem::path& path);
 
 /// Writes a frame, as write_mesh does. Throws an Error if a coordinate is not finite.
+///
+/// Where several processes write it each gives the vertices of its slab, in the order of the
+/// writers, and all else alike. The file is that which one of them alone would write of all.
 template <int Dim>
 void write_frame(const std::filesystem::path& path,
                  const Frame<Dim>& frame,

@@ -4,8 +4,8 @@
 
 #include <pent/error.h>
 #include <pent/formatted.h>
-#include <pent/mesher/extrude.h>
 #include <pent/mesher/space_time.h>
+#include <pent/mesher/straight_layers.h>
 
 #include <algorithm>
 #include <array>

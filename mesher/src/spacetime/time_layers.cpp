@@ -2,7 +2,7 @@
 
 #include <pent/error.h>
 #include <pent/formatted.h>
-#include <pent/mesher/extrude.h>
+#include <pent/mesher/straight_layers.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

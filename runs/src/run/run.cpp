@@ -5,6 +5,7 @@
 #include "run/balance_table.h"
 #include "run/contact_table.h"
 #include "run/earlier_run.h"
+#include "run/frames.h"
 #include "run/relocated.h"
 #include "run/resume.h"
 #include "run/resumption.h"
@@ -20,7 +21,6 @@
 #include <pent/runs/run.h>
 #include <pent/runs/scene_file.h>
 #include <pent/simulator/crossing_error.h>
-#include <pent/simulator/words.h>
 
 #include <algorithm>
 #include <chrono>
@@ -89,9 +89,11 @@ private:
     [[nodiscard]] int resume_folder();
     void take_over(Resumption<Dim> found);
     void tell_resume(const Resumption<Dim>& found) const;
+    void share_mesh_crcs();
     void write_frame_files(int frame);
-    [[nodiscard]] Frame<Dim> frame_header(int body, int frame) const;
-    [[nodiscard]] FrameReport measure(int frame) const;
+    void begin_frame(int frame);
+    void write_frame_of(int body, int frame);
+    void end_frame(int frame);
     bool step_to_frame(int frame);
     void write_report();
 
@@ -233,37 +235,29 @@ void Run<Dim>::take_over(Resumption<Dim> found) {
     report_.steps = std::move(found.history.steps);
 }
 
+// They are in every frame, of which each rank writes a slab.
 template <int Dim>
-FrameReport Run<Dim>::measure(int frame) const {
-    FrameReport report;
-    report.frame = frame;
-    report.step = simulation_.step_count();
-    report.time = simulation_.time();
-    for (int body = 0; body < simulation_.body_count(); ++body) {
-        report.non_rigid.push_back(
-            {name_of(body), non_rigid<Dim>(simulation_.mesh(body).positions,
-                                           simulation_.positions(body), simulation_.masses(body))});
+void Run<Dim>::share_mesh_crcs() {
+    mesh_crcs_.resize(scene_.bodies.size());
+    for (std::uint32_t& crc : mesh_crcs_) {
+        crc = static_cast<std::uint32_t>(ranks_.list(crc)[0]);
     }
-    return report;
 }
 
-template <int Dim>
-Frame<Dim> Run<Dim>::frame_header(int body, int frame) const {
-    Frame<Dim> file;
-    file.mesh_name = name_of(body) + ".pent";
-    file.mesh_crc = mesh_crcs_[static_cast<std::size_t>(body)];
-    file.frame = static_cast<std::uint64_t>(frame);
-    file.step = simulation_.step_count();
-    file.time = simulation_.time();
-    return file;
-}
-
-// Two checkpoints are kept: should the last frame be damaged, the one before is there to resume
-// from.
 template <int Dim>
 void Run<Dim>::write_frame_files(int frame) {
+    ranks_.write([&] { begin_frame(frame); });
+    for (int body = 0; body < simulation_.body_count(); ++body) {
+        write_frame_of(body, frame);
+    }
+    ranks_.write([&] { end_frame(frame); });
+}
+
+// A frame is in the journal before it has files.
+template <int Dim>
+void Run<Dim>::begin_frame(int frame) {
     const StateBlocks carried = carried_state(simulation_, names_of_bodies(scene_));
-    report_.frames.push_back(measure(frame));
+    report_.frames.push_back(frame_report(simulation_, names_of_bodies(scene_), frame));
     report_.parts.back().last_frame = frame;
     lines_ += frame_line(report_.frames.back(), !carried.is_empty(), seconds());
     append_text(path(kJournalFile), std::exchange(lines_, ""));
@@ -272,21 +266,25 @@ void Run<Dim>::write_frame_files(int frame) {
                          simulation_.step_count(), carried);
     }
     for (int body = 0; body < simulation_.body_count(); ++body) {
-        Frame<Dim> file = frame_header(body, frame);
-        file.positions = simulation_.positions(body);
-        file.velocities = simulation_.velocities(body);
-        for (const VertexQuantity quantity : scene_.output.vertex) {
-            Eigen::MatrixXd values = simulation_.vertex_values(quantity, body);
-            if (quantity == VertexQuantity::ContactForce) {  // has columns of its own
-                file.contact_forces = values;
-            } else {
-                file.fields.push_back(
-                    {std::string(simulator::word_of(quantity)), std::move(values)});
-            }
-        }
-        write_frame(folder_.claim(frame_file(name_of(body), frame)), file,
-                    {.created_by = options_.created_by});
+        static_cast<void>(folder_.claim(frame_file(name_of(body), frame)));
     }
+}
+
+// Each rank copies and writes the vertices of its slab alone.
+template <int Dim>
+void Run<Dim>::write_frame_of(int body, int frame) {
+    const auto [first, last] = ranks_.slab_of(simulation_.positions(body).cols());
+    Frame<Dim> slab = frame_slab(simulation_, scene_.output.vertex, body, first, last);
+    slab.mesh_name = name_of(body) + ".pent";
+    slab.mesh_crc = mesh_crcs_[static_cast<std::size_t>(body)];
+    slab.frame = static_cast<std::uint64_t>(frame);
+    write_frame(path(frame_file(name_of(body), frame)), slab,
+                {.created_by = options_.created_by, .writers = ranks_.writers()});
+}
+
+// Two checkpoints are kept: if the last frame is damaged, a run goes on from the one before.
+template <int Dim>
+void Run<Dim>::end_frame(int frame) {
     if (do_obstacles_move()) {
         write_obstacles(folder_.claim(moved_obstacles_file(frame)), simulation_.obstacles());
     }
@@ -359,14 +357,17 @@ RunReport Run<Dim>::operator()() {
             begin_part(0);
             write_scene();
             write_meshes();
-            write_frame_files(0);
         }
-        write_report();
     });
+    share_mesh_crcs();
+    if (!options_.resume) {
+        write_frame_files(0);
+    }
+    ranks_.write([&] { write_report(); });
     while (frame < scene_.frames && step_to_frame(frame + 1)) {
         ++frame;
+        write_frame_files(frame);
         ranks_.write([&] {
-            write_frame_files(frame);
             if (std::chrono::duration<double>(Clock::now() - last_report_).count()
                 > kReportSeconds) {
                 write_report();  // GCOVR_EXCL_LINE: of runs longer than a test may be

@@ -1,15 +1,20 @@
 #pragma once
 
 #include <pent/simulator/ranks.h>
+#include <pent/slab_writers.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace pent::runs {
 
 /// What the processes of a run do together, and what rank 0 does for all; of a program on its own
 /// nothing but the work itself.
-class RunRanks {
+class RunRanks final : public SlabWriters {
 public:
     /// @param ranks  Null for none; must outlive this.
     explicit RunRanks(const simulator::Ranks* ranks) : ranks_(ranks) {}
@@ -20,8 +25,25 @@ public:
     /// 0 for a program on its own.
     [[nodiscard]] int count() const { return ranks_ == nullptr ? 0 : ranks_->count(); }
 
+    /// Those that write the same files; null for a program on its own.
+    [[nodiscard]] const SlabWriters* writers() const { return ranks_ == nullptr ? nullptr : this; }
+
+    [[nodiscard]] int place() const override { return ranks_ == nullptr ? 0 : ranks_->rank(); }
+
+    [[nodiscard]] std::vector<double> list(double own) const override {
+        const std::vector<std::int64_t> ones(
+            static_cast<std::size_t>(ranks_ == nullptr ? 1 : ranks_->count()), 1);
+        return ranks_ == nullptr ? std::vector<double>{own} : ranks_->gather({&own, 1}, ones);
+    }
+
     /// Work that all do and that may fail on one; then it fails on all.
-    void agree(const std::function<void()>& work) const { simulator::agree(ranks_, work); }
+    void agree(const std::function<void()>& work) const override { simulator::agree(ranks_, work); }
+
+    /// Which of so many things in a row are to be written by this process.
+    [[nodiscard]] std::pair<Eigen::Index, Eigen::Index> slab_of(Eigen::Index count) const {
+        const Eigen::Index writers = std::max(1, this->count());
+        return {count * place() / writers, count * (place() + 1) / writers};
+    }
 
     /// Work of the writer alone. What goes wrong there goes wrong on all.
     void write(const std::function<void()>& work) const {

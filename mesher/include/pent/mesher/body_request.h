@@ -1,11 +1,11 @@
 #pragma once
 
 #include <pent/mesher/edge_order.h>
-#include <pent/mesher/extrude.h>
 #include <pent/mesher/repair.h>
 #include <pent/mesher/shapes.h>
 #include <pent/mesher/size_field.h>
 #include <pent/mesher/step_limits.h>
+#include <pent/mesher/straight_layers.h>
 #include <pent/mesher/tetrahedralize.h>
 
 #include <cstdint>
@@ -54,6 +54,7 @@ struct ExtrusionRequest {
     bool round = false;  ///< To a point at both ends, see round_layers(); thickness is the whole
                          ///< height, and by default the largest side.
     bool alternate = true;
+    bool is_kept = false;  ///< Base and layers are wanted beside the mesh: Body::extrusion.
     VertexOrder order = VertexOrder::Index;
     std::filesystem::path edge_directions;  ///< File of directed edges, instead of an order.
 };

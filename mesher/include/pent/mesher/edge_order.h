@@ -1,6 +1,6 @@
 #pragma once
 
-#include <pent/simplex_mesh.h>
+#include <pent/extrusion.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -19,13 +19,6 @@ enum class VertexOrder {
     Index,    ///< As the vertices are numbered.
     Sweep,    ///< Along the longest side of the bounding box.
     Quality,  ///< Improved from Index so that the worst simplices of a slab are better.
-};
-
-/// The cells of a mesh, each with its corners in the order of its edges' directions.
-template <int Dim>
-struct OrderedCells {
-    Simplices<Dim + 1> cells;
-    std::vector<std::uint8_t> is_odd;  ///< Ordering the cell's corners was an odd permutation.
 };
 
 /// Every edge of the mesh once, from the lower to the higher index, sorted.

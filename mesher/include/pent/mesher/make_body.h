@@ -3,12 +3,15 @@
 #include <pent/mesher/body_report.h>
 #include <pent/mesher/body_request.h>
 
+#include <optional>
+
 namespace pent::mesher {
 
 template <int Dim>
 struct Body {
     SimplexMesh<Dim> mesh;
     BodyReport report;
+    std::optional<Extrusion<Dim>> extrusion;  ///< What it was extruded from, if that was asked for.
 };
 
 /// Makes a pentachoral body from a surface (read, mend, resample, fill, extrude, prove), from a tet

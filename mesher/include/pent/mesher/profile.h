@@ -1,6 +1,6 @@
 #pragma once
 
-#include <pent/mesher/extrude.h>
+#include <pent/mesher/straight_layers.h>
 
 #include <filesystem>
 #include <vector>

@@ -1,12 +1,20 @@
 #pragma once
 
-#include <pent/mesher/edge_order.h>
+#include <pent/pent_file.h>
 #include <pent/simplex_mesh.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
-namespace pent::mesher {
+namespace pent {
+
+/// The cells of a mesh, each with its corners in the order of its edges' directions.
+template <int Dim>
+struct OrderedCells {
+    Simplices<Dim + 1> cells;
+    std::vector<std::uint8_t> is_odd;  ///< Ordering the cell's corners was an odd permutation.
+};
 
 /// Where one layer of vertices lies: base vertex x goes to linear * x + offset.
 ///
@@ -19,37 +27,20 @@ struct Layer {
     [[nodiscard]] bool is_point() const { return (linear.array() == 0).all(); }
 };
 
-/// Which part of a straight extrusion lies where the base was.
-enum class Anchor {
-    Middle,  ///< The extrusion reaches as far to either side.
-    Start,   ///< The base is the first layer.
-};
-
 struct ExtrudeOptions {
     /// Reverses the order of the corners in every second slab: neighbors mirror each other and the
     /// lean of the diagonals cancels.
     bool alternate = true;
 };
 
-/// Layers of a straight extrusion in `slabs` equal steps; slabs + 1 of them.
-///
-/// @param direction  The whole extrusion, m; its last component is not 0.
+/// What a body is extruded from.
 template <int Dim>
-[[nodiscard]] std::vector<Layer<Dim>> straight_layers(
-    const Eigen::Matrix<double, Dim, 1>& direction, int slabs, Anchor anchor = Anchor::Middle);
-
-/// The same with a layer at each of these places along the direction, in order.
-template <int Dim>
-[[nodiscard]] std::vector<Layer<Dim>> straight_layers(
-    const Eigen::Matrix<double, Dim, 1>& direction, const std::vector<double>& places);
-
-/// Number of slabs that makes the worst simplices of an extrusion best: height over 0.7 times the
-/// mean edge of the base, rounded, at least 1.
-[[nodiscard]] int automatic_slabs(double height, double mean_edge);
-
-/// Mean length of the edges of a mesh, each counted once, m.
-template <int Dim>
-[[nodiscard]] double mean_edge(const SimplexMesh<Dim>& mesh);
+struct Extrusion {
+    SimplexMesh<Dim - 1> base;      ///< Of it positions, cells and regions count.
+    OrderedCells<Dim - 1> ordered;  ///< Its cells.
+    std::vector<Layer<Dim>> layers;
+    ExtrudeOptions options;
+};
 
 /// Extrudes a mesh through layers and fills each prism with Dim simplices [shi2025, Sec. 3].
 ///
@@ -62,7 +53,7 @@ template <int Dim>
 /// base cell, then slab, then k. All are positively oriented if the layers proceed to one side.
 ///
 /// @param base     Positively oriented.
-/// @param ordered  Its cells in an order without cycles, see order_cells().
+/// @param ordered  Its cells in an order without cycles, see mesher::order_cells().
 /// @param layers   Two or more; only the first and the last may be points, and not both when there
 ///                 are only two.
 /// Throws an Error if the result would have more than 2^32 - 1 vertices. Not checked: whether cells
@@ -73,4 +64,18 @@ template <int Dim>
                                        const std::vector<Layer<Dim>>& layers,
                                        const ExtrudeOptions& options = {});
 
-}  // namespace pent::mesher
+/// Writes base and layers as write_mesh() writes a mesh: a .pent file that read_mesh() extrudes.
+/// Throws an Error unless read_extrusion() would take them.
+/// @return  The checksum in the header.
+template <int Dim>
+std::uint32_t write_extrusion(const std::filesystem::path& path,
+                              const Extrusion<Dim>& extrusion,
+                              const WriteOptions& options = {});
+
+/// Reads them. Throws an Error as read_mesh() does, for a file that holds a mesh, for orders in
+/// which neighbors do not agree, and for layers that extrude() does not take; whether cells come
+/// out inverted is not checked.
+template <int Dim>
+[[nodiscard]] Extrusion<Dim> read_extrusion(const std::filesystem::path& path);
+
+}  // namespace pent

@@ -1,7 +1,5 @@
-#include "layer_places.h"
-
 #include <pent/error.h>
-#include <pent/mesher/extrude.h>
+#include <pent/extrusion.h>
 
 #include <Eigen/Geometry>
 
@@ -12,7 +10,7 @@
 #include <limits>
 #include <string>
 
-namespace pent::mesher {
+namespace pent {
 
 namespace {
 
@@ -218,40 +216,6 @@ bool proceeds_backward(const SimplexMesh<Dim - 1>& base,
 }  // namespace
 
 template <int Dim>
-std::vector<Layer<Dim>> straight_layers(const Eigen::Matrix<double, Dim, 1>& direction,
-                                        int slabs,
-                                        Anchor anchor) {
-    assert(slabs >= 1);
-    return straight_layers<Dim>(direction, even_places(slabs, anchor == Anchor::Middle ? 0.5 : 0));
-}
-
-template <int Dim>
-std::vector<Layer<Dim>> straight_layers(const Eigen::Matrix<double, Dim, 1>& direction,
-                                        const std::vector<double>& places) {
-    std::vector<Layer<Dim>> layers(places.size());
-    for (std::size_t l = 0; l < places.size(); ++l) {
-        layers[l].linear.setIdentity();
-        layers[l].offset = places[l] * direction;
-    }
-    return layers;
-}
-
-int automatic_slabs(double height, double mean_edge) {
-    constexpr double kMax = 1e6;
-    return static_cast<int>(std::clamp(std::round(height / (0.7 * mean_edge)), 1.0, kMax));
-}
-
-template <int Dim>
-double mean_edge(const SimplexMesh<Dim>& mesh) {
-    const DirectedEdges edges = edges_of<Dim>(mesh.cells);
-    double sum = 0;
-    for (const auto& edge : edges.colwise()) {
-        sum += (mesh.positions.col(edge[1]) - mesh.positions.col(edge[0])).norm();
-    }
-    return sum / static_cast<double>(edges.cols());
-}
-
-template <int Dim>
 SimplexMesh<Dim> extrude(const SimplexMesh<Dim - 1>& base,
                          const OrderedCells<Dim - 1>& ordered,
                          const std::vector<Layer<Dim>>& layers,
@@ -277,14 +241,9 @@ SimplexMesh<Dim> extrude(const SimplexMesh<Dim - 1>& base,
     return mesh;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                                   \
-    template std::vector<Layer<Dim>> straight_layers<Dim>(const Eigen::Matrix<double, Dim, 1>&, \
-                                                          int, Anchor);                         \
-    template std::vector<Layer<Dim>> straight_layers<Dim>(const Eigen::Matrix<double, Dim, 1>&, \
-                                                          const std::vector<double>&);          \
-    template double mean_edge<Dim - 1>(const SimplexMesh<Dim - 1>&);                            \
-    template SimplexMesh<Dim> extrude<Dim>(const SimplexMesh<Dim - 1>&,                         \
-                                           const OrderedCells<Dim - 1>&,                        \
+#define PENT_INSTANTIATE(Dim)                                            \
+    template SimplexMesh<Dim> extrude<Dim>(const SimplexMesh<Dim - 1>&,  \
+                                           const OrderedCells<Dim - 1>&, \
                                            const std::vector<Layer<Dim>>&, const ExtrudeOptions&);
 
 PENT_INSTANTIATE(2)
@@ -293,4 +252,4 @@ PENT_INSTANTIATE(4)
 
 #undef PENT_INSTANTIATE
 
-}  // namespace pent::mesher
+}  // namespace pent

@@ -1,0 +1,69 @@
+#include "pent/slab_writers.h"
+
+#include <pent/crc32c.h>
+#include <pent/output_file.h>
+
+#include <optional>
+#include <unistd.h>
+
+namespace pent {
+
+SlabPlace place_slab(const SlabWriters* writers, std::uint64_t own) {
+    if (writers == nullptr) {
+        return {0, own};
+    }
+    SlabPlace slab;
+    const std::vector<double> sizes = writers->list(static_cast<double>(own));
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        const auto size = static_cast<std::uint64_t>(sizes[i]);
+        slab.before += i < static_cast<std::size_t>(writers->place()) ? size : 0;
+        slab.all += size;
+    }
+    return slab;
+}
+
+std::uint32_t crc32c_of_slabs(const SlabWriters* writers, std::string_view own) {
+    const std::uint32_t sum = crc32c(own.data(), own.size());
+    if (writers == nullptr) {
+        return sum;
+    }
+    const std::vector<double> sums = writers->list(sum);
+    const std::vector<double> sizes = writers->list(static_cast<double>(own.size()));
+    std::uint32_t joined = 0;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        joined = crc32c_joined(joined, static_cast<std::uint32_t>(sums[i]),
+                               static_cast<std::uint64_t>(sizes[i]));
+    }
+    return joined;
+}
+
+void write_slabs(const std::filesystem::path& path,
+                 std::string_view header,
+                 std::string_view own,
+                 const SlabWriters* writers) {
+    if (writers == nullptr) {
+        OutputFile file(path);
+        file.write(header);
+        file.write(own);
+        file.commit();
+        return;
+    }
+    const std::uint64_t before = header.size() + place_slab(writers, own.size()).before;
+    const auto process = static_cast<std::int64_t>(writers->list(::getpid())[0]);
+    const bool is_first = writers->place() == 0;
+    std::optional<OutputFile> file;
+    writers->agree([&] {
+        if (is_first) {
+            file.emplace(path);
+            file->write(header);
+        }
+    });
+    writers->agree([&] { write_slab(path, process, before, own); });
+    writers->agree([&] {
+        if (is_first) {
+            file->commit();
+        }
+    });
+}
+
+}  // namespace pent
