@@ -114,8 +114,9 @@ std::uint32_t write_mesh(const std::filesystem::path& path,
                          const WriteOptions& options = {},
                          const MeshExtras<Dim>& extras = {});
 
-/// Reads and fully validates a mesh; extrudes it where the file has base and layers. Nothing is allocated from a count that the file's size does
-/// not bear out. Throws an Error with file, element, what was found and what was expected.
+/// Reads and fully validates a mesh; extrudes it where the file has base and layers. Nothing is
+/// allocated from a count that the file's size does not bear out. Throws an Error with file,
+/// element, what was found and what was expected.
 template <int Dim>
 [[nodiscard]] MeshFile<Dim> read_mesh(const std::filesystem::path& path);
 
