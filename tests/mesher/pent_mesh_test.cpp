@@ -38,7 +38,7 @@ TEST(PentMesh, MakesTheSameBytesAtAnyNumberOfThreads) {
 // Of bodies that are translated, leaning, round, from a file, and of regions.
 TEST(PentMesh, WritesBaseAndLayersThatAreReadAsTheMesh) {
     const test::TempFolder folder;
-    for (const std::string options :
+    for (const std::string& options :
          {std::string("--ball 2 --layers 3 --translate 0.1,0.2,0.3,0.7"),
           std::string("--ball 2 --extrude 0.1,0.2,0.3,-0.5 --order quality --lean"),
           std::string("--ball 2 --round --layers 5"),
