@@ -38,8 +38,8 @@ const NearLanesKernels<Dim>& near_lanes_kernels() {
     return widest;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                 \
-    template const NearLanesKernels<Dim>& near_lanes_kernels(LanesIsa);       \
+#define PENT_INSTANTIATE(Dim)                                           \
+    template const NearLanesKernels<Dim>& near_lanes_kernels(LanesIsa); \
     template const NearLanesKernels<Dim>& near_lanes_kernels();
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE

@@ -170,8 +170,7 @@ struct Pairs {
                 const auto is_better = end == 0 ? gap == gap : gap < least;
                 least = end == 0 ? gap : select(is_better, gap, least);
                 for (int axis = 0; axis < Dim; ++axis) {
-                    const Floats next =
-                        of_second.corner[axis] - of_first.corner[axis] - line[axis];
+                    const Floats next = of_second.corner[axis] - of_first.corner[axis] - line[axis];
                     toward[axis] = end == 0 ? next : select(is_better, next, toward[axis]);
                 }
             }
@@ -211,8 +210,7 @@ void find_near(const LanesOnPaths& patches, double distance, std::uint16_t* near
         const float end = shift_between<Dim>(patches.first_end, patches.second_end, shift[1]);
         size = end > size ? end : size;
     }
-    const float limit =
-        static_cast<float>(distance) * (1 + kRelativeRounding) + kRounding * size;
+    const float limit = static_cast<float>(distance) * (1 + kRelativeRounding) + kRounding * size;
     const int count = patches.second_start.count;
     const std::uint32_t all = (1U << count) - 1;
     const bool is_told = limit > kLeast;
@@ -238,8 +236,7 @@ void find_near(const LanesOnPaths& patches, double distance, std::uint16_t* near
                 continue;
             }
             are_apart = pairs.are_apart_along_a_line(Floats(limit), are_apart);
-            near[i] |=
-                static_cast<std::uint16_t>((bits(!are_apart) << lane) & all);
+            near[i] |= static_cast<std::uint16_t>((bits(!are_apart) << lane) & all);
         }
     }
 }

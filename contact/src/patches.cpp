@@ -104,8 +104,7 @@ Patches<Dim>::Patches(const Simplices<Count>& simplices,
                       const PositionsView<Dim>& rest) {
     Vertices all;
     for (std::size_t patch = 0; patch < partition.size(); ++patch) {
-        const std::vector<std::uint32_t> vertices =
-            vertices_of<Count>(simplices, partition[patch]);
+        const std::vector<std::uint32_t> vertices = vertices_of<Count>(simplices, partition[patch]);
         all.begin.push_back(all.of_patch.size());
         all.of_patch.insert(all.of_patch.end(), vertices.begin(), vertices.end());
     }

@@ -34,8 +34,8 @@ void check_request(const BodyRequest& request, int dim) {
     }
     if (request.extrusion.is_kept && (request.subdivide > 1 || request.is_quadratic)) {
         throw Error(name_of_input(request)
-                    + ": what is subdivided or quadratic is no extrusion any more; leave out the one"
-                      " or base and layers");
+                    + ": what is subdivided or quadratic is no extrusion any more; leave out the"
+                      " one or base and layers");
     }
     if (request.is_curved && (!request.is_quadratic || request.subdivide > 1)) {
         throw Error(name_of_input(request)

@@ -127,8 +127,7 @@ TEST_F(Faults, RunKilledAtAnyMomentGoesOnToTheSameBytesAndLosesNoFrame) {
     for (int kill = 0; kill < 5; ++kill) {
         // Else `timeout` kills its whole group, itself with it, and is done before the run is dead,
         // which holds the lock of its folder until then.
-        const std::string timeout = std::string(test::kUncounted)
-                                    + "timeout --foreground -s KILL "
+        const std::string timeout = std::string(test::kUncounted) + "timeout --foreground -s KILL "
                                     + std::to_string(share(random) * whole.count());
         // A run killed before its first frame has nothing to resume and is started again.
         const Outcome outcome = simulate("run", frames > 0 ? "--resume" : "--force", timeout);

@@ -62,8 +62,7 @@ TYPED_TEST(ApartTest, WhatCrossesInItsMiddleIsNotApart) {
     }
     other.colwise() -= other.rowwise().mean().eval();
     EXPECT_FALSE((are_apart_along_middles<kDim, 2, kDim - 1>(edge, other, 0.1)));
-    EXPECT_FALSE(
-        (are_paths_apart_along_middles<kDim, 2, kDim - 1>(edge, edge, other, other, 0.1)));
+    EXPECT_FALSE((are_paths_apart_along_middles<kDim, 2, kDim - 1>(edge, edge, other, other, 0.1)));
 }
 
 }  // namespace

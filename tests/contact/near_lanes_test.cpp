@@ -88,8 +88,7 @@ protected:
     Patch<kD, Count> patch(int count, const Vector<kD>& place, double size, double motion) {
         Patch<kD, Count> patch(count);
         for (int i = 0; i < count; ++i) {
-            const Vector<kD> center =
-                place + Vector<kD>::NullaryExpr([&] { return number(size); });
+            const Vector<kD> center = place + Vector<kD>::NullaryExpr([&] { return number(size); });
             Corners<kD, Count> start =
                 center.replicate(1, Count)
                 + Corners<kD, Count>::NullaryExpr([&] { return number(size); });
@@ -110,11 +109,8 @@ protected:
     };
 
     template <int K, int L>
-    void expect_all(Patch<kD, K>& first,
-                    Patch<kD, L>& second,
-                    bool is_still,
-                    double limit,
-                    Counts& counts) {
+    void expect_all(
+        Patch<kD, K>& first, Patch<kD, L>& second, bool is_still, double limit, Counts& counts) {
         const int times = is_still ? 0 : 8;
         std::vector<double> least;
         for (int i = 0; i < first.count(); ++i) {
@@ -122,10 +118,9 @@ protected:
                 double distance = std::numeric_limits<double>::infinity();
                 for (int k = 0; k <= times; ++k) {
                     const double t = times == 0 ? 0 : 1.0 * k / times;
-                    distance = std::min(
-                        distance, std::sqrt(test::closest_points<kD, K, L>(first.at(i, t),
-                                                                           second.at(j, t))
-                                                .distance_squared));
+                    distance = std::min(distance, std::sqrt(test::closest_points<kD, K, L>(
+                                                                first.at(i, t), second.at(j, t))
+                                                                .distance_squared));
                 }
                 least.push_back(distance);
             }
@@ -142,8 +137,7 @@ protected:
                         EXPECT_FALSE(is_found);
                         continue;
                     }
-                    const double distance =
-                        least[static_cast<std::size_t>(i * second.count() + j)];
+                    const double distance = least[static_cast<std::size_t>(i * second.count() + j)];
                     EXPECT_TRUE(is_found || distance > limit)
                         << "lanes " << i << " and " << j << " are " << distance << " m apart";
                     ++counts.all;
@@ -161,12 +155,12 @@ protected:
             for (const double away : {0.0, 1e3, 1e6}) {
                 for (int round = 0; round < 60; ++round) {
                     const Vector<kD> place = scale * away * Vector<kD>::Ones();
-                    const Vector<kD> other = place + scale * Vector<kD>::NullaryExpr([&] {
-                                                 return number(3);
-                                             });
+                    const Vector<kD> other =
+                        place + scale * Vector<kD>::NullaryExpr([&] { return number(3); });
                     auto first = patch<K>(1 + round % 6 * 3, place, scale, 0.2 * scale);
                     auto second = patch<L>(16 - round % 6 * 2, other, scale, 0.2 * scale);
-                    expect_all<K, L>(first, second, is_still, (0.1 + 0.1 * (round % 6)) * scale, counts);
+                    expect_all<K, L>(first, second, is_still, (0.1 + 0.1 * (round % 6)) * scale,
+                                     counts);
                 }
             }
         }

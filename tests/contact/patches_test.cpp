@@ -43,8 +43,7 @@ protected:
             scene.add(pent::test::kuhn_box<kD>(count, size), Vector<kD>::Zero());
             test::shake<kD>(scene.positions, 0.05, 3);
             const Surface<kD>& surface = scene.surfaces[0];
-            edge_partition =
-                PatchPartition(boxes_around<kD, 2>(surface.edges, scene.positions, 0));
+            edge_partition = PatchPartition(boxes_around<kD, 2>(surface.edges, scene.positions, 0));
             ridge_partition =
                 PatchPartition(boxes_around<kD, kD - 1>(surface.ridges, scene.positions, 0));
             edges = Patches<kD>(surface.edges, edge_partition, scene.positions);

@@ -33,7 +33,8 @@ constexpr double kStressNewton = 1e-11;
 // stand so far from such places along w.
 constexpr double kOffMirror = 1e-3;  // m
 
-// As much as rounding of positions does: whoever moves farther than that by it is not to be compared.
+// As much as rounding of positions does: whoever moves farther than that by it is not to be
+// compared.
 constexpr double kNudge = 1e-13;  // m
 
 std::string text_of(const fs::path& path) {

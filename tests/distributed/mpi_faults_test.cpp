@@ -106,8 +106,8 @@ TEST_F(MpiFaults, AMeshThatOneRankCannotReadIsToldByItsName) {
                    {"bar.pent", "No such file"});
 }
 
-// Each rank writes its slab; where one cannot, nothing is left of the frame. MPI has files of its own, so that the limit comes
-// later.
+// Each rank writes its slab; where one cannot, nothing is left of the frame. MPI has files of its
+// own, so that the limit comes later.
 TEST_F(MpiFaults, AFullDiskEndsTheRunOnAllRanks) {
     write_long();
     expect_refused(

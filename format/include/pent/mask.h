@@ -112,8 +112,7 @@ PENT_SIMD_INLINE std::uint32_t bits(const Mask<Number, Count>& mask) {
 #endif
 #if defined(__AVX__)
     if constexpr (kBytes == 32 && sizeof(Number) == 4) {
-        return static_cast<std::uint32_t>(
-            _mm256_movemask_ps(reinterpret_cast<__m256>(mask.lanes)));
+        return static_cast<std::uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask.lanes)));
     }
 #endif
 #if defined(__SSE2__)
