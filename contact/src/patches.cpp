@@ -6,9 +6,11 @@
 #include <pent/parallel.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace pent::contact {
 
@@ -65,8 +67,8 @@ double larger(double a, double b) {
 
 // Vertices of some simplices, ascending, once each.
 template <int Count>
-std::vector<std::uint32_t> vertices_of(const Simplices<Count>& simplices,
-                                       std::span<const std::uint32_t> patch) {
+std::vector<std::uint32_t> corners_of(const Simplices<Count>& simplices,
+                                      std::span<const std::uint32_t> patch) {
     std::vector<std::uint32_t> vertices;
     for (const std::uint32_t i : patch) {
         const auto corners = simplices.col(i);
@@ -87,7 +89,8 @@ PatchBound bound_of(const PatchMotion<Dim>& first, const PatchMotion<Dim>& secon
         const Map<Dim> mean = 0.5 * (a.map + b.map);
         turn = std::max(turn, 0.5 * (a.map - b.map).norm());
         shift = std::max(
-            shift, (a.center - b.center - mean * (first.rest_center - second.rest_center)).norm());
+            shift,
+            (a.center - b.center - mean * (first.earlier_center - second.earlier_center)).norm());
     };
     add(first.end, second.end);
     if (!first.is_still || !second.is_still) {
@@ -102,48 +105,37 @@ template <int Count>
 Patches<Dim>::Patches(const Simplices<Count>& simplices,
                       const PatchPartition& partition,
                       const PositionsView<Dim>& rest) {
-    Vertices all;
     for (std::size_t patch = 0; patch < partition.size(); ++patch) {
-        const std::vector<std::uint32_t> vertices = vertices_of<Count>(simplices, partition[patch]);
-        all.begin.push_back(all.of_patch.size());
-        all.of_patch.insert(all.of_patch.end(), vertices.begin(), vertices.end());
+        const std::vector<std::uint32_t> vertices = corners_of<Count>(simplices, partition[patch]);
+        begin_.push_back(of_patch_.size());
+        of_patch_.insert(of_patch_.end(), vertices.begin(), vertices.end());
     }
-    all.begin.push_back(all.of_patch.size());
-    vertices_ = std::make_shared<const Vertices>(std::move(all));
-    set_rest(rest);
+    begin_.push_back(of_patch_.size());
+    rest_.resize(partition.size());
+    offsets_.resize(Dim, static_cast<Eigen::Index>(of_patch_.size()));
+    parallel_for(rest_.size(), kChunk, [&](std::size_t patch) {
+        auto offsets = own(offsets_, patch);
+        gather(patch, rest, offsets);
+        offsets.colwise() -= offsets.rowwise().mean().eval();
+        rest_[patch] = rest_of(offsets);
+    });
 }
 
 template <int Dim>
-Patches<Dim>::Patches(const Patches& others, const PositionsView<Dim>& rest)
-    : vertices_(others.vertices_) {
-    set_rest(rest);
+void Patches<Dim>::gather(std::size_t patch,
+                          const PositionsView<Dim>& positions,
+                          Eigen::Ref<Positions<Dim>> vertices) const {
+    for (Eigen::Index k = 0; k < vertices.cols(); ++k) {
+        vertices.col(k) = positions.col(of_patch_[begin_[patch] + static_cast<std::size_t>(k)]);
+    }
 }
 
 template <int Dim>
-void Patches<Dim>::set_rest(const PositionsView<Dim>& rest) {
-    rest_positions_ = rest;
-    patches_.resize(vertices_->begin.size() - 1);
-    motions_.resize(patches_.size());
-    parallel_for(motions_.size(), kChunk,
-                 [&](std::size_t patch) { patches_[patch] = rest_of(patch, motions_[patch]); });
-}
-
-template <int Dim>
-typename Patches<Dim>::Rest Patches<Dim>::rest_of(std::size_t patch,
-                                                  PatchMotion<Dim>& motion) const {
-    const std::span<const std::uint32_t> vertices = vertices_->of(patch);
-    for (const std::uint32_t vertex : vertices) {
-        motion.rest_center += rest_positions_.col(vertex) / static_cast<double>(vertices.size());
-    }
-    Map<Dim> spread = Map<Dim>::Zero();
-    for (const std::uint32_t vertex : vertices) {
-        const Vector<Dim> offset = rest_positions_.col(vertex) - motion.rest_center;
-        spread += offset * offset.transpose();
-        motion.radius = std::max(motion.radius, offset.norm());
-    }
+typename Patches<Dim>::Rest Patches<Dim>::rest_of(const PositionsView<Dim>& offsets) {
+    Rest rest;
+    const Map<Dim> spread = offsets * offsets.transpose();
     const Eigen::SelfAdjointEigenSolver<Map<Dim>> solver(spread);
     const Vector<Dim>& along = solver.eigenvalues();  // ascending
-    Rest rest;
     rest.axes = solver.eigenvectors();
     rest.is_flat = !(along[0] > kFlat * along[1]);
     if (rest.is_flat) {
@@ -158,72 +150,108 @@ typename Patches<Dim>::Rest Patches<Dim>::rest_of(std::size_t patch,
 }
 
 template <int Dim>
-void Patches<Dim>::fit(const Paths<Dim>& paths) {
-    parallel_for(motions_.size(), kChunk,
-                 [&](std::size_t patch) { motions_[patch] = fit(patch, paths); });
+PatchPlaces<Dim> Patches<Dim>::place(const PositionsView<Dim>& positions) const {
+    PatchPlaces<Dim> places;
+    places.of_patch.resize(rest_.size());
+    places.vertices.resize(Dim, static_cast<Eigen::Index>(of_patch_.size()));
+    parallel_for(rest_.size(), kChunk, [&](std::size_t patch) {
+        auto vertices = own(places.vertices, patch);
+        gather(patch, positions, vertices);
+        places.of_patch[patch] = place(patch, vertices);
+    });
+    return places;
 }
 
-// With D what a map A changes by, (A + t D)^T (A + t D) is the mean of those at both ends, weighted
-// by time, less t (1 - t) D^T D.
 template <int Dim>
-PatchMotion<Dim> Patches<Dim>::fit(std::size_t patch, const Paths<Dim>& paths) const {
-    PatchMotion<Dim> motion;
-    motion.rest_center = motions_[patch].rest_center;
-    motion.radius = motions_[patch].radius;
-    motion.is_still = paths.is_still();
-    motion.deviation = 0;
-    motion.end = place(patch, paths.to, motion.deviation);
-    motion.least_stretch = least_stretch<Dim>(motion.end.map);
-    if (motion.is_still) {
-        motion.start = motion.end;
-    } else {
-        motion.start = place(patch, paths.from, motion.deviation);
-        const double least = std::min(motion.least_stretch, least_stretch<Dim>(motion.start.map));
-        const double change = 0.5 * (motion.end.map - motion.start.map).norm();
-        motion.least_stretch = std::sqrt(std::max(0.0, least * least - change * change));
-    }
-    return motion;
-}
-
-// Where the patch is; raises the deviation to what its vertices deviate there.
-template <int Dim>
-PatchPlace<Dim> Patches<Dim>::place(std::size_t patch,
-                                    const PositionsView<Dim>& positions,
-                                    double& deviation) const {
-    const Rest& rest = patches_[patch];
-    const Vector<Dim>& rest_center = motions_[patch].rest_center;
-    const std::span<const std::uint32_t> vertices = vertices_->of(patch);
+PatchPlace<Dim> Patches<Dim>::place(std::size_t patch, const PositionsView<Dim>& vertices) const {
+    const Rest& rest = rest_[patch];
+    const auto offsets = own(offsets_, patch);
     PatchPlace<Dim> place;
-    for (const std::uint32_t vertex : vertices) {
-        place.center += positions.col(vertex);
-    }
-    place.center /= static_cast<double>(vertices.size());
-    for (const std::uint32_t vertex : vertices) {
-        place.map += (positions.col(vertex) - place.center)
-                     * (rest_positions_.col(vertex) - rest_center).transpose();
+    place.center = vertices.rowwise().sum() / static_cast<double>(vertices.cols());
+    for (Eigen::Index k = 0; k < vertices.cols(); ++k) {
+        place.map += (vertices.col(k) - place.center) * offsets.col(k).transpose();
     }
     place.map *= rest.inverse;
     if (rest.is_flat) {
         place.map += across<Dim>(place.map * rest.axes) * rest.axes.col(0).transpose();
     }
+    return place;
+}
+
+template <int Dim>
+std::vector<PatchMotion<Dim>> Patches<Dim>::motions(const PatchPlaces<Dim>& earlier,
+                                                    const PatchPlaces<Dim>& now) const {
+    std::vector<PatchMotion<Dim>> motions(size());
+    parallel_for(size(), kChunk, [&](std::size_t patch) {
+        PatchMotion<Dim>& motion = motions[patch];
+        begin(patch, earlier, motion);
+        motion.end = motion.start = move(patch, earlier, now, motion);
+        motion.least_stretch = least_stretch<Dim>(motion.end.map);
+    });
+    return motions;
+}
+
+// With D what a map A changes by, (A + t D)^T (A + t D) is the mean of those at both ends, weighted
+// by time, less t (1 - t) D^T D.
+template <int Dim>
+std::vector<PatchMotion<Dim>> Patches<Dim>::motions(const PatchPlaces<Dim>& earlier,
+                                                    const PatchPlaces<Dim>& start,
+                                                    const PatchPlaces<Dim>& end) const {
+    std::vector<PatchMotion<Dim>> motions(size());
+    parallel_for(size(), kChunk, [&](std::size_t patch) {
+        PatchMotion<Dim>& motion = motions[patch];
+        begin(patch, earlier, motion);
+        motion.is_still = false;
+        motion.start = move(patch, earlier, start, motion);
+        motion.end = move(patch, earlier, end, motion);
+        const double least =
+            std::min(least_stretch<Dim>(motion.start.map), least_stretch<Dim>(motion.end.map));
+        const double change = 0.5 * (motion.end.map - motion.start.map).norm();
+        motion.least_stretch = std::sqrt(std::max(0.0, least * least - change * change));
+    });
+    return motions;
+}
+
+// Where a motion begins; all else of it is to come.
+template <int Dim>
+void Patches<Dim>::begin(std::size_t patch,
+                         const PatchPlaces<Dim>& earlier,
+                         PatchMotion<Dim>& motion) const {
+    motion.earlier_center = earlier.of_patch[patch].center;
+    const auto offsets = own(earlier.vertices, patch).colwise() - motion.earlier_center;
+    motion.radius = (1 + kRounding) * std::sqrt(offsets.colwise().squaredNorm().maxCoeff());
+    motion.deviation = 0;
+}
+
+// Where the patch has gone to, from where it was earlier; raises the deviation to what its vertices
+// deviate there. Any map would do: what both fits make of rest is close to the best.
+template <int Dim>
+PatchPlace<Dim> Patches<Dim>::move(std::size_t patch,
+                                   const PatchPlaces<Dim>& earlier,
+                                   const PatchPlaces<Dim>& now,
+                                   PatchMotion<Dim>& motion) const {
+    PatchPlace<Dim> place = now.of_patch[patch];
+    place.map *= earlier.of_patch[patch].map.inverse();
+    const auto before = own(earlier.vertices, patch);
+    const auto after = own(now.vertices, patch);
     double squared = 0;
-    for (const std::uint32_t vertex : vertices) {
-        const Vector<Dim> offset = rest_positions_.col(vertex) - rest_center;
-        squared = std::max(
-            squared, (positions.col(vertex) - place.center - place.map * offset).squaredNorm());
+    for (Eigen::Index k = 0; k < before.cols(); ++k) {
+        const Vector<Dim> offset = before.col(k) - motion.earlier_center;
+        squared = larger(squared, (after.col(k) - place.center - place.map * offset).squaredNorm());
     }
-    const double rounding =
-        kRounding * (place.center.norm() + rest_center.norm() + motions_[patch].radius);
-    deviation = larger(deviation, std::sqrt(squared) + rounding);
+    const double rounding = kRounding
+                            * (place.center.norm() + motion.earlier_center.norm()
+                               + (1 + place.map.norm()) * motion.radius);
+    motion.deviation = larger(motion.deviation, std::sqrt(squared) + rounding);
     return place;
 }
 
 template <int Dim>
 std::int64_t Patches<Dim>::bytes() const {
-    return static_cast<std::int64_t>(
-        patches_.size() * sizeof(Rest) + motions_.size() * sizeof(PatchMotion<Dim>)
-        + static_cast<std::size_t>(rest_positions_.size()) * sizeof(double)
-        + (vertices_ ? vertices_->of_patch.size() * sizeof(std::uint32_t) : 0));
+    return static_cast<std::int64_t>(rest_.size() * sizeof(Rest)
+                                     + begin_.size() * sizeof(std::size_t)
+                                     + of_patch_.size() * sizeof(std::uint32_t)
+                                     + static_cast<std::size_t>(offsets_.size()) * sizeof(double));
 }
 
 #define PENT_INSTANTIATE_OF(Dim, Count)                                            \

@@ -1,69 +1,89 @@
 #pragma once
 
 #include "patch_partition.h"
-#include "paths.h"
 
 #include <pent/contact/surface.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <limits>
-#include <memory>
-#include <span>
 #include <vector>
 
 namespace pent::contact {
 
-/// Where a patch of a surface is.
+/// Where a patch of a surface is: a point X of its simplices is near center + map (X - its center
+/// at rest).
 template <int Dim>
 struct PatchPlace {
     Vector<Dim> center = Vector<Dim>::Zero();
     Eigen::Matrix<double, Dim, Dim> map = Eigen::Matrix<double, Dim, Dim>::Zero();
 };
 
-/// How a patch of a surface has moved from rest, on straight paths from one place to another. A
-/// point X of its simplices is at
+/// Where all patches of a surface are at some moment.
+template <int Dim>
+struct PatchPlaces {
+    std::vector<PatchPlace<Dim>> of_patch;
+    Positions<Dim> vertices;  ///< Of the patches, one patch behind the other, m.
+
+    [[nodiscard]] std::int64_t bytes() const {
+        return static_cast<std::int64_t>(of_patch.size() * sizeof(PatchPlace<Dim>)
+                                         + static_cast<std::size_t>(vertices.size())
+                                               * sizeof(double));
+    }
+};
+
+/// How a patch of a surface has moved from one moment, on straight paths from one place to another.
+/// A point X of its simplices is at
 ///
-///     center + map (X - rest_center) + d,   |d| <= deviation
+///     center + map (X - earlier_center) + d,   |d| <= deviation
 ///
 /// with a center and a map that change evenly from those at the start to those at the end.
 template <int Dim>
 struct PatchMotion {
-    Vector<Dim> rest_center = Vector<Dim>::Zero();
+    Vector<Dim> earlier_center = Vector<Dim>::Zero();
     double least_stretch = 0;  ///< No singular value of the map is less at any time.
-    double radius = 0;         ///< Farthest that |X - rest_center| gets, m.
+    double radius = 0;         ///< Farthest that |X - earlier_center| gets, m.
     double deviation = std::numeric_limits<double>::infinity();  ///< m; infinite where not known.
     bool is_still = true;                                        ///< Then only the end counts.
     PatchPlace<Dim> end;
     PatchPlace<Dim> start;
 };
 
-/// How near a point of one and a point of another patch can be at any time, from how far they are
-/// apart at rest.
+/// How near a point of one and a point of another patch can be at any time, from how far they were
+/// apart earlier: no nearer than that times the stretch, less the lack.
 ///
-/// With G the mean of both maps, x - y is G (X - Y), which is no shorter than the rest distance
+/// With G the mean of both maps, x - y is G (X - Y), which is no shorter than the earlier distance
 /// times the least stretch of G, and what the maps and centers lack to agree with G. That is
 /// convex in time: most at one of its ends.
 struct PatchBound {
     double stretch = 0;
     double lack = std::numeric_limits<double>::infinity();  ///< m.
 
-    /// Whether points so far apart at rest (m), or farther, are certainly more than `distance`
+    /// Whether points that were so far apart (m), or farther, are certainly more than `distance`
     /// apart now. Never true where something is not finite.
-    [[nodiscard]] bool is_apart(double rest_distance, double distance) const {
-        return stretch > 0 && stretch * rest_distance - lack > distance;
+    [[nodiscard]] bool is_apart(double earlier_distance, double distance) const {
+        return stretch > 0 && stretch * earlier_distance - lack > distance;
+    }
+
+    /// What this tells of moments to which another bound has led.
+    [[nodiscard]] PatchBound after(const PatchBound& earlier) const {
+        constexpr double kMost = 1e30;  // so that products stay finite
+        return stretch > 0 && earlier.stretch > 0
+                   ? PatchBound{std::min(stretch * earlier.stretch, kMost),
+                                stretch * earlier.lack + lack}
+                   : PatchBound{};
     }
 };
 
 template <int Dim>
 [[nodiscard]] PatchBound bound_of(const PatchMotion<Dim>& first, const PatchMotion<Dim>& second);
 
-/// How each patch of a surface has moved.
+/// Divides a surface to tell how its parts move.
 template <int Dim>
 class Patches {
 public:
     Patches() = default;
 
-    /// Fits nothing yet.
-    ///
     /// @param partition  Of the simplices.
     /// @param rest       Rest positions of all vertices of the scene.
     template <int Count>
@@ -71,47 +91,53 @@ public:
             const PatchPartition& partition,
             const PositionsView<Dim>& rest);
 
-    /// The patches of the others, from other positions that count as at rest.
-    Patches(const Patches& others, const PositionsView<Dim>& rest);
+    [[nodiscard]] std::size_t size() const { return rest_.size(); }
 
-    /// Finds the motion of each patch: the affine maps that fit its vertices best. Parallel.
-    void fit(const Paths<Dim>& paths);
+    /// Where they are: the affine maps that fit their vertices best. Parallel.
+    [[nodiscard]] PatchPlaces<Dim> place(const PositionsView<Dim>& positions) const;
 
-    /// Of each; empty if there are no patches.
-    [[nodiscard]] const std::vector<PatchMotion<Dim>>& motions() const { return motions_; }
+    /// How each has moved since an earlier moment. Parallel.
+    [[nodiscard]] std::vector<PatchMotion<Dim>> motions(const PatchPlaces<Dim>& earlier,
+                                                        const PatchPlaces<Dim>& now) const;
+
+    /// The same for paths from a place to another.
+    [[nodiscard]] std::vector<PatchMotion<Dim>> motions(const PatchPlaces<Dim>& earlier,
+                                                        const PatchPlaces<Dim>& start,
+                                                        const PatchPlaces<Dim>& end) const;
 
     [[nodiscard]] std::int64_t bytes() const;
 
 private:
-    // Which vertices each patch has.
-    struct Vertices {
-        std::vector<std::size_t> begin;  // of each patch, and one more
-        std::vector<std::uint32_t> of_patch;
-
-        [[nodiscard]] std::span<const std::uint32_t> of(std::size_t patch) const {
-            return std::span(of_patch).subspan(begin[patch], begin[patch + 1] - begin[patch]);
-        }
-    };
-
     // What a patch is at rest.
     struct Rest {
         bool is_flat = false;  // across axes.col(0) there is nothing to fit to
         Eigen::Matrix<double, Dim, Dim> axes = Eigen::Matrix<double, Dim, Dim>::Zero();
-        // map = (sum of (position - center) (rest - rest_center)^T over the vertices) inverse
+        // map = (sum of (position - center) offset^T over the vertices) inverse
         Eigen::Matrix<double, Dim, Dim> inverse = Eigen::Matrix<double, Dim, Dim>::Zero();
     };
 
-    void set_rest(const PositionsView<Dim>& rest);
-    [[nodiscard]] Rest rest_of(std::size_t patch, PatchMotion<Dim>& motion) const;
-    [[nodiscard]] PatchMotion<Dim> fit(std::size_t patch, const Paths<Dim>& paths) const;
+    // The vertices of one patch, of those of all.
+    template <typename Vertices>
+    [[nodiscard]] auto own(Vertices& of_all, std::size_t patch) const {
+        return of_all.middleCols(static_cast<Eigen::Index>(begin_[patch]),
+                                 static_cast<Eigen::Index>(begin_[patch + 1] - begin_[patch]));
+    }
+    void gather(std::size_t patch,
+                const PositionsView<Dim>& positions,
+                Eigen::Ref<Positions<Dim>> vertices) const;
+    [[nodiscard]] static Rest rest_of(const PositionsView<Dim>& offsets);
     [[nodiscard]] PatchPlace<Dim> place(std::size_t patch,
-                                        const PositionsView<Dim>& positions,
-                                        double& deviation) const;
+                                        const PositionsView<Dim>& vertices) const;
+    void begin(std::size_t patch, const PatchPlaces<Dim>& earlier, PatchMotion<Dim>& motion) const;
+    [[nodiscard]] PatchPlace<Dim> move(std::size_t patch,
+                                       const PatchPlaces<Dim>& earlier,
+                                       const PatchPlaces<Dim>& now,
+                                       PatchMotion<Dim>& motion) const;
 
-    std::shared_ptr<const Vertices> vertices_;
-    Positions<Dim> rest_positions_;
-    std::vector<Rest> patches_;
-    std::vector<PatchMotion<Dim>> motions_;
+    std::vector<std::size_t> begin_;       // of the vertices of each patch, and one more
+    std::vector<std::uint32_t> of_patch_;  // vertices
+    Positions<Dim> offsets_;               // of these from the centers of patches, at rest
+    std::vector<Rest> rest_;
 };
 
 }  // namespace pent::contact

@@ -19,8 +19,9 @@ constexpr double kListed = 2;
 constexpr double kMaxOfEdge = 0.6;
 constexpr double kMinListed = 1.2;
 
-// To list the pairs of two patches costs as much as to look at them so many times.
-constexpr std::int64_t kListCost = 2;
+// What rounding to float may take from a bound, relative.
+constexpr double kRoundDown = 1 - 1e-6;
+constexpr double kRoundUp = 1 + 1e-6;
 
 }  // namespace
 
@@ -54,7 +55,7 @@ void SelfProximity<Dim>::add_tree(const Simplices<Count>& simplices) {
     Tree& tree = trees_[Count - 1];
     tree.partition = PatchPartition(boxes_around<Dim, Count>(simplices, rest, 0.5 * distance_));
     if (tree.partition.size() > 0) {
-        patches_at_rest_[Count - 1] = Patches<Dim>(simplices, tree.partition, rest);
+        patches_[Count - 1] = Patches<Dim>(simplices, tree.partition, rest);
     }
 }
 
@@ -108,99 +109,61 @@ void SelfProximity<Dim>::set_lanes(Lanes& lanes, const PositionsView<Dim>& posit
 }
 
 template <int Dim>
-void SelfProximity<Dim>::fit_patches(Reference& reference, const Paths<Dim>& paths) {
-    for (Patches<Dim>& patches : reference.patches) {
-        if (!patches.motions().empty()) {
-            patches.fit(paths);
+PatchBound SelfProximity<Dim>::Known::bound() const {
+    return {static_cast<double>(stretch), static_cast<double>(lack)};
+}
+
+template <int Dim>
+void SelfProximity<Dim>::Known::set_bound(const PatchBound& bound) {
+    stretch = static_cast<float>(bound.stretch * kRoundDown);
+    lack = static_cast<float>(bound.lack * kRoundUp);
+}
+
+template <int Dim>
+typename SelfProximity<Dim>::Places SelfProximity<Dim>::place(
+    const PositionsView<Dim>& positions) const {
+    Places places;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        places[i] = patches_[i].place(positions);
+    }
+    return places;
+}
+
+// Where paths begin is where the body was: where they end it may never be.
+template <int Dim>
+void SelfProximity<Dim>::move(const Asked& asked) {
+    ++search_;
+    Places now = place(asked.paths.from);
+    const Places end = asked.paths.is_still() ? Places() : place(asked.paths.to);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        since_[i] = search_ == 1 ? patches_[i].motions(now[i], now[i])
+                                 : patches_[i].motions(places_[i], now[i]);
+        if (!asked.paths.is_still()) {
+            ahead_[i] = patches_[i].motions(now[i], now[i], end[i]);
         }
     }
-}
-
-template <int Dim>
-const typename SelfProximity<Dim>::Reference* SelfProximity<Dim>::reference(
-    std::uint32_t serial) const {
-    const auto place =
-        std::find_if(references_.begin(), references_.end(),
-                     [&](const Reference& r) { return r.serial == serial && serial != 0; });
-    return place == references_.end() ? nullptr : &*place;
-}
-
-// How many lists are of each reference.
-template <int Dim>
-std::array<std::size_t, SelfProximity<Dim>::kReferences> SelfProximity<Dim>::count_lists() const {
-    std::array<std::size_t, kReferences> counts{};
-    for (const std::vector<Row>* rows : {&points_, &mixed_}) {
-        for (const Row& row : *rows) {
-            for (const Known& known : row.known) {
-                if (const Reference* of = reference(known.serial)) {
-                    ++counts[static_cast<std::size_t>(of - references_.data())];
-                }
-            }
-        }
-    }
-    return counts;
-}
-
-// The one to be given up, where what pairs of patches cost that no reference tells anything of has
-// added up to what it costs to list them at another, and to list anew what is lost with the old.
-template <int Dim>
-typename SelfProximity<Dim>::Reference* SelfProximity<Dim>::wanted_reference(std::size_t unknown) {
-    const auto is_due = [&](std::size_t lists) {
-        return newest_ == 0 || owed_ >= kListCost * static_cast<std::int64_t>(lists);
-    };
-    owed_ += static_cast<std::int64_t>(unknown);
-    if (unknown == 0 || !is_due(unknown)) {
-        return nullptr;
-    }
-    const std::array<std::size_t, kReferences> counts = count_lists();
-    const auto least = std::min_element(counts.begin(), counts.end());
-    return is_due(unknown + *least) ? &references_[static_cast<std::size_t>(least - counts.begin())]
-                                    : nullptr;
-}
-
-// Where the paths end.
-template <int Dim>
-void SelfProximity<Dim>::take_reference(const Paths<Dim>& paths, Reference& place) {
-    ++newest_;
-    place.serial = newest_;
-    place.positions = paths.to;
-    for (std::size_t i = 0; i < place.patches.size(); ++i) {
-        if (!patches_at_rest_[i].motions().empty()) {
-            place.patches[i] = Patches<Dim>(patches_at_rest_[i], paths.to);
-        }
-    }
-    fit_patches(place, paths);
-    set_lanes(lanes_at_newest_, paths.to);
+    places_ = std::move(now);
 }
 
 template <int Dim>
 template <typename Points, typename Mixed>
 void SelfProximity<Dim>::search(const Asked& asked, Points& points, Mixed& mixed) {
-    const std::size_t unknown = points.look_at_lists() + mixed.look_at_lists();
-    if (unknown == 0) {
+    if (points.look_at_lists() + mixed.look_at_lists() == 0) {
         return;
     }
-    set_lanes(lanes_at_end_, asked.paths.to);
+    set_lanes(lanes_at_start_, asked.paths.from);
     if (!asked.paths.is_still()) {
-        set_lanes(lanes_at_start_, asked.paths.from);
+        set_lanes(lanes_at_end_, asked.paths.to);
     }
-    if (Reference* place = wanted_reference(unknown)) {
-        take_reference(asked.paths, *place);
-        const std::size_t unlisted = points.list_others() + mixed.list_others();
-        owed_ = -kListCost * static_cast<std::int64_t>(unlisted);
-    } else {
-        points.look_at_others();
-        mixed.look_at_others();
-    }
+    points.look_at_others();
+    mixed.look_at_others();
 }
 
 template <int Dim>
 void SelfProximity<Dim>::find(const PositionsView<Dim>& positions, CandidatePairs& pairs) {
     const Asked asked{{positions, positions}, nullptr, distance_};
     fit_trees(asked);
-    for (Reference& reference : references_) {
-        fit_patches(reference, asked.paths);
-    }
+    move(asked);
     const double squared = distance_ * distance_;
     Search<NearTest<Dim, 1, Dim>, 1, Dim> points(
         *this, {surface_.vertices, surface_.facets, points_}, asked,
@@ -223,9 +186,7 @@ void SelfProximity<Dim>::find(const PathCover<Dim>& cover,
     const Asked asked{
         {start, end, mean_shift<Dim>(surface_.vertices, start, end)}, &cover.inflation(), reach};
     fit_trees(asked);
-    for (Reference& reference : references_) {
-        fit_patches(reference, asked.paths);
-    }
+    move(asked);
     Search<NearOnPaths<Dim, 1, Dim>, 1, Dim> points(
         *this, {surface_.vertices, surface_.facets, points_}, asked,
         {surface_.vertices, surface_.facets, false, cover, reach, measured});
@@ -243,19 +204,15 @@ std::int64_t SelfProximity<Dim>::bytes() const {
     for (const Tree& tree : trees_) {
         sum += tree.partition.bytes() + tree.patches.bytes();
     }
-    for (const Lanes* all : {&lanes_at_newest_, &lanes_at_start_, &lanes_at_end_}) {
+    for (const Lanes* all : {&lanes_at_start_, &lanes_at_end_}) {
         for (const PatchLanes<Dim>& lanes : *all) {
             sum += lanes.bytes();
         }
     }
-    for (const Patches<Dim>& patches : patches_at_rest_) {
-        sum += patches.bytes();
-    }
-    for (const Reference& reference : references_) {
-        sum += static_cast<std::int64_t>(sizeof(double)) * reference.positions.size();
-        for (const Patches<Dim>& patches : reference.patches) {
-            sum += patches.bytes();
-        }
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+        sum += patches_[i].bytes() + places_[i].bytes()
+               + static_cast<std::int64_t>((since_[i].size() + ahead_[i].size())
+                                           * sizeof(PatchMotion<Dim>));
     }
     for (const std::vector<Row>* rows : {&points_, &mixed_}) {
         for (const Row& row : *rows) {

@@ -6,6 +6,7 @@
 #include "patch_tree.h"
 #include "patches.h"
 #include "path_cover.h"
+#include "paths.h"
 #include "shared_work.h"
 
 #include <pent/contact/surface.h>
@@ -21,12 +22,11 @@ namespace pent::contact {
 /// rest and stay as they are.
 ///
 /// The surface is divided into patches. Of two patches that come near, all pairs are listed that
-/// were within a listed distance, larger than what is asked for, at some earlier positions: a
-/// reference. How both patches have moved since then, as affine maps and what these lack, bounds
-/// how near all others can be, however far and strongly the body has been bent before (PatchBound).
-/// Where the bound fails pairs are looked at one by one; when that has cost what new lists would,
-/// the positions of that time become a reference. There are a few at a time: the one that the
-/// fewest lists are of goes.
+/// are within a listed distance, larger than what is asked for. How both patches have moved from
+/// search to search, as affine maps and what these lack, bounds how near all others can be, however
+/// far and strongly the body is bent (PatchBound). The bound weakens with each search; where it
+/// fails the pairs of these patches are listed anew, and looked at one by one where it would fail
+/// again at once.
 ///
 /// What is found is the same whatever was asked before, but for pairs that come near at no time.
 template <int Dim>
@@ -60,8 +60,6 @@ public:
     [[nodiscard]] std::int64_t bytes() const;
 
 private:
-    static constexpr std::size_t kReferences = 3;
-
     // Simplices of one kind, divided into patches by where they are at rest.
     struct Tree {
         PatchPartition partition;
@@ -72,26 +70,29 @@ private:
     // Simplices of all kinds at some positions, by corners, less one.
     using Lanes = std::array<PatchLanes<Dim>, Dim>;
 
-    // Positions at which pairs were listed, and how patches have moved since.
-    struct Reference {
-        std::uint32_t serial = 0;  // 0 if there is none
-        Positions<Dim> positions;
-        std::array<Patches<Dim>, Dim> patches;  // by corners, less one
-    };
+    // All patches at some moment, and how they have moved, by corners, less one.
+    using Places = std::array<PatchPlaces<Dim>, Dim>;
+    using Motions = std::array<std::vector<PatchMotion<Dim>>, Dim>;
 
-    // What is known of a patch and another: pairs [begin, end) of the row, in a reference.
+    // What is known of a patch and another: pairs [begin, end) of the row, and what all others are
+    // no nearer than, from the listed distance.
     struct Known {
         std::uint32_t second = 0;
-        std::uint32_t serial = 0;
+        std::uint32_t search = 0;  // the last in which they were near
         std::uint32_t begin = 0;
         std::uint32_t end = 0;
+        float stretch = 1;
+        float lack = 0;  // m
+
+        [[nodiscard]] PatchBound bound() const;
+        void set_bound(const PatchBound& bound);
     };
 
     // What is known of a patch and others, by these.
     struct Row {
         std::vector<Known> known;
         std::vector<Candidate> pairs;
-        std::vector<std::uint32_t> unknown;  // near now, ascending, and no bound tells anything
+        std::vector<std::uint32_t> unknown;  // near now, ascending, and no list tells all
     };
 
     // Where what is searched goes: paths, what vertices may leave them by (null if they do not),
@@ -111,11 +112,8 @@ private:
     void fit_tree(const Simplices<Count>& simplices, const Asked& asked);
     void fit_trees(const Asked& asked);
     void set_lanes(Lanes& lanes, const PositionsView<Dim>& positions) const;
-    static void fit_patches(Reference& reference, const Paths<Dim>& paths);
-    [[nodiscard]] const Reference* reference(std::uint32_t serial) const;
-    [[nodiscard]] std::array<std::size_t, kReferences> count_lists() const;
-    [[nodiscard]] Reference* wanted_reference(std::size_t unknown);
-    void take_reference(const Paths<Dim>& paths, Reference& place);
+    [[nodiscard]] Places place(const PositionsView<Dim>& positions) const;
+    void move(const Asked& asked);
     template <typename Points, typename Mixed>
     void search(const Asked& asked, Points& points, Mixed& mixed);
 
@@ -127,16 +125,15 @@ private:
     SharedWork shared_;
     std::vector<Box> boxes_;  // of all vertices of the scene
     std::array<Tree, Dim> trees_;
-    std::array<Patches<Dim>, Dim> patches_at_rest_;  // whose vertices all references share
-    std::array<Reference, kReferences> references_;
-    std::uint32_t newest_ = 0;  // serial
-    Lanes lanes_at_newest_;
-    Lanes lanes_at_start_;  // of the paths; not set where these are still
-    Lanes lanes_at_end_;
-    // Pairs of patches looked at without a list since the newest, less what it could not list.
-    std::int64_t owed_ = 0;
-    std::vector<Row> points_;  // by patches of vertices
-    std::vector<Row> mixed_;   // by patches of edges
+    std::array<Patches<Dim>, Dim> patches_;  // by corners, less one
+    std::uint32_t search_ = 0;               // how many there have been
+    Places places_;                          // where the paths of the last search began
+    Motions since_;                          // from there; none in the first
+    Motions ahead_;                          // along the paths; none where these are still
+    Lanes lanes_at_start_;                   // of the paths
+    Lanes lanes_at_end_;                     // not set where these are still
+    std::vector<Row> points_;                // by patches of vertices
+    std::vector<Row> mixed_;                 // by patches of edges
     std::int64_t refit_ = 0;
 };
 

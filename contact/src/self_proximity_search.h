@@ -75,6 +75,7 @@ public:
           first_(sides.first),
           second_(sides.second),
           rows_(sides.rows),
+          start_(asked.paths.from),
           reach_(asked.reach),
           is_still_(asked.paths.is_still()),
           find_near_(near_lanes_kernels<Dim>().template find<K>()),
@@ -84,40 +85,17 @@ public:
     // Looks where bounds hold; returns for how many pairs of patches none does.
     std::size_t look_at_lists() {
         for_each_row([&](std::size_t a, Found& found) { look_at_lists(a, found); });
-        return count_unknown();
+        std::size_t unknown = 0;
+        for (const Row& row : rows_) {
+            unknown += row.unknown.size();
+        }
+        return unknown;
     }
 
-    // Looks at all other pairs.
+    // Lists all others where paths start, and looks at them; without a list at those that would
+    // need another at once.
     void look_at_others() {
-        for_each_row([&](std::size_t a, Found& found) {
-            for (const std::uint32_t b : rows_[a].unknown) {
-                look_at_all(a, b, found);
-            }
-        });
-    }
-
-    // Lists all other pairs at the reference that has just become the newest, and looks at them;
-    // returns of how many pairs of patches it does not tell anything either.
-    std::size_t list_others() {
-        const Reference& newest = *all_.reference(all_.newest_);
-        for_each_row([&](std::size_t a, Found& found) {
-            std::vector<Listed> listed;
-            std::vector<std::uint32_t> unlisted;
-            for (const std::uint32_t b : rows_[a].unknown) {
-                if (is_apart(bound(newest, a, b), a, b)) {
-                    listed.push_back({b, list(a, b, newest.positions, found)});
-                    for (const Candidate& pair : listed.back().pairs) {
-                        look_at(pair, found);
-                    }
-                } else {
-                    unlisted.push_back(b);
-                    look_at_all(a, b, found);
-                }
-            }
-            add(rows_[a], listed);
-            rows_[a].unknown.swap(unlisted);
-        });
-        return count_unknown();
+        for_each_row([&](std::size_t a, Found& found) { look_at_others(a, found); });
     }
 
     [[nodiscard]] const std::vector<Found>& found() const { return found_; }
@@ -133,14 +111,6 @@ private:
     [[nodiscard]] const Tree& first_tree() const { return all_.trees_[K - 1]; }
     [[nodiscard]] const Tree& second_tree() const { return all_.trees_[L - 1]; }
 
-    [[nodiscard]] std::size_t count_unknown() const {
-        std::size_t unknown = 0;
-        for (const Row& row : rows_) {
-            unknown += row.unknown.size();
-        }
-        return unknown;
-    }
-
     template <typename Work>
     void for_each_row(const Work& work) {
         for_each_chunk(rows_.size(), kChunk,
@@ -154,8 +124,6 @@ private:
     void look_at_lists(std::size_t a, Found& found) {
         Row& row = rows_[a];
         row.unknown.clear();
-        std::vector<Listed> listed;
-        const Reference* newest = all_.reference(all_.newest_);
         auto known = row.known.begin();
         second_tree().patches.for_each_overlap(first_tree().patches.box(a), [&](std::uint32_t b) {
             if (is_same_list() && b < a) {
@@ -164,49 +132,50 @@ private:
             while (known != row.known.end() && known->second < b) {
                 ++known;
             }
-            const bool is_known = known != row.known.end() && known->second == b;
-            if (is_known && look_at_list(a, *known, found)) {
-                return;
-            }
-            // What has come near since is listed where the newest reference had it.
-            const bool is_newest = is_known && known->serial == all_.newest_;
-            if (!newest || is_newest || !is_apart(bound(*newest, a, b), a, b)) {
+            const bool is_known =
+                known != row.known.end() && known->second == b && known->search + 1 == all_.search_;
+            if (!is_known || !look_at_list(a, *known, found)) {
                 row.unknown.push_back(b);
-                return;
-            }
-            listed.push_back({b, list(a, b, newest->positions, found)});
-            for (const Candidate& pair : listed.back().pairs) {
-                look_at(pair, found);
             }
         });
-        add(row, listed);
     }
 
     // Looks at what is listed of two patches, if that is all that can be near.
-    bool look_at_list(std::size_t a, const Known& known, Found& found) {
-        const Reference* reference = all_.reference(known.serial);
-        if (!reference) {
+    bool look_at_list(std::size_t a, Known& known, Found& found) {
+        known.set_bound(since(a, known.second).after(known.bound()));
+        known.search = all_.search_;
+        const PatchBound bound = along(a, known.second).after(known.bound());
+        if (!is_apart(bound, a, known.second)) {
             return false;
         }
-        const PatchBound now = bound(*reference, a, known.second);
-        if (!is_apart(now, a, known.second)) {
-            return false;
-        }
-        const double near = this->near(a, known.second);
-        for (std::uint32_t k = known.begin; k < known.end; ++k) {
-            const Candidate& pair = rows_[a].pairs[k];
-            if (!now.is_apart(static_cast<double>(pair.distance), near)) {
-                look_at(pair, found);
-            }
-        }
+        const std::span<const Candidate> pairs = rows_[a].pairs;
+        look_at(pairs.subspan(known.begin, known.end - known.begin), bound, near(a, known.second),
+                found);
         return true;
     }
 
-    [[nodiscard]] PatchBound bound(const Reference& reference,
-                                   std::size_t a,
-                                   std::uint32_t b) const {
-        return bound_of<Dim>(reference.patches[K - 1].motions()[a],
-                             reference.patches[L - 1].motions()[b]);
+    // The next search is taken to find the patches moved as this one does.
+    void look_at_others(std::size_t a, Found& found) {
+        std::vector<Listed> listed;
+        for (const std::uint32_t b : rows_[a].unknown) {
+            const PatchBound bound = along(a, b);
+            if (is_apart(is_still_ ? since(a, b) : bound, a, b)) {
+                listed.push_back({b, list(a, b, found)});
+                look_at(listed.back().pairs, bound, near(a, b), found);
+            } else {
+                look_at_all(a, b, found);
+            }
+        }
+        add(rows_[a], listed);
+    }
+
+    [[nodiscard]] PatchBound since(std::size_t a, std::uint32_t b) const {
+        return bound_of<Dim>(all_.since_[K - 1][a], all_.since_[L - 1][b]);
+    }
+
+    [[nodiscard]] PatchBound along(std::size_t a, std::uint32_t b) const {
+        return is_still_ ? PatchBound{1, 0}
+                         : bound_of<Dim>(all_.ahead_[K - 1][a], all_.ahead_[L - 1][b]);
     }
 
     // Whether pairs of two patches that are in no list are apart.
@@ -222,28 +191,31 @@ private:
         return reach_ + (of_a.empty() ? 0 : of_a[a] + of_b[b]);
     }
 
-    void look_at(const Candidate& pair, Found& found) const {
-        test_(pair.first, pair.second, found);
+    void look_at(std::span<const Candidate> pairs,
+                 const PatchBound& bound,
+                 double near,
+                 Found& found) const {
+        for (const Candidate& pair : pairs) {
+            if (!bound.is_apart(static_cast<double>(pair.distance), near)) {
+                test_(pair.first, pair.second, found);
+            }
+        }
     }
 
     void look_at_all(std::size_t a, std::uint32_t b, Found& found) const {
-        const LanesView first_end = all_.lanes_at_end_[K - 1][a];
-        const LanesView second_end = all_.lanes_at_end_[L - 1][b];
-        const LanesOnPaths patches{
-            is_still_ ? first_end : all_.lanes_at_start_[K - 1][a], first_end,
-            is_still_ ? second_end : all_.lanes_at_start_[L - 1][b], second_end};
+        const LanesView first = all_.lanes_at_start_[K - 1][a];
+        const LanesView second = all_.lanes_at_start_[L - 1][b];
+        const LanesOnPaths patches{first, is_still_ ? first : all_.lanes_at_end_[K - 1][a], second,
+                                   is_still_ ? second : all_.lanes_at_end_[L - 1][b]};
         for_each_near(a, b, patches, near(a, b),
                       [&](std::uint32_t i, std::uint32_t j) { test_(i, j, found); });
     }
 
-    // The pairs of two patches that were within the listed distance at the newest reference, with a
-    // little more for rounding, and can be contacts.
-    [[nodiscard]] std::vector<Candidate> list(std::size_t a,
-                                              std::uint32_t b,
-                                              const PositionsView<Dim>& positions,
-                                              Found& found) const {
-        const LanesView first = all_.lanes_at_newest_[K - 1][a];
-        const LanesView second = all_.lanes_at_newest_[L - 1][b];
+    // The pairs of two patches that are within the listed distance where paths start, with a little
+    // more for rounding, and can be contacts.
+    [[nodiscard]] std::vector<Candidate> list(std::size_t a, std::uint32_t b, Found& found) const {
+        const LanesView first = all_.lanes_at_start_[K - 1][a];
+        const LanesView second = all_.lanes_at_start_[L - 1][b];
         std::vector<Candidate> pairs;
         for_each_near(a, b, {first, first, second, second}, listed_limit(),
                       [&](std::uint32_t i, std::uint32_t j) {
@@ -253,7 +225,7 @@ private:
                           }
                           if (!share_a_vertex<K, L>(first_, pair.first, second_, pair.second)) {
                               ++found.overlaps;
-                              add_if_near(pair, positions, pairs);
+                              add_if_near(pair, pairs);
                           }
                       });
         return pairs;
@@ -284,13 +256,11 @@ private:
 
     [[nodiscard]] double listed_limit() const { return (1 + kRounding) * all_.listed_distance_; }
 
-    void add_if_near(Candidate pair,
-                     const PositionsView<Dim>& positions,
-                     std::vector<Candidate>& pairs) const {
+    void add_if_near(Candidate pair, std::vector<Candidate>& pairs) const {
         const double culled = (1 - kRounding) * all_.distance_;
         const PositionsView<Dim> rest = all_.rest_;
         const double distance =
-            PairAt<Dim, K, L>(first_, second_, pair, positions).distance_below(listed_limit());
+            PairAt<Dim, K, L>(first_, second_, pair, start_).distance_below(listed_limit());
         if (distance < listed_limit()
             && !(all_.is_rest_left_out_
                  && PairAt<Dim, K, L>(first_, second_, pair, rest).distance_below(culled)
@@ -300,23 +270,24 @@ private:
         }
     }
 
-    // Puts new lists in the place of old ones, and leaves out those of references that are gone.
+    // Puts new lists in the place of old ones, and leaves out those of patches that are not near
+    // any more.
     void add(Row& row, const std::vector<Listed>& listed) {
         if (listed.empty()) {
             return;
         }
         std::vector<Known> known;
         std::vector<Candidate> pairs;
-        const auto push = [&](std::uint32_t second, std::uint32_t serial, auto begin, auto end) {
-            const auto start = static_cast<std::uint32_t>(pairs.size());
-            pairs.insert(pairs.end(), begin, end);
-            known.push_back({second, serial, start, static_cast<std::uint32_t>(pairs.size())});
+        const auto push = [&](Known entry, std::span<const Candidate> of_both) {
+            entry.begin = static_cast<std::uint32_t>(pairs.size());
+            pairs.insert(pairs.end(), of_both.begin(), of_both.end());
+            entry.end = static_cast<std::uint32_t>(pairs.size());
+            known.push_back(entry);
         };
         auto old = row.known.begin();
         const auto push_old = [&] {
-            if (all_.reference(old->serial)) {
-                push(old->second, old->serial, row.pairs.begin() + old->begin,
-                     row.pairs.begin() + old->end);
+            if (old->search == all_.search_) {
+                push(*old, std::span(row.pairs).subspan(old->begin, old->end - old->begin));
             }
             ++old;
         };
@@ -327,7 +298,7 @@ private:
             if (old != row.known.end() && old->second == next.second) {
                 ++old;
             }
-            push(next.second, all_.newest_, next.pairs.begin(), next.pairs.end());
+            push({.second = next.second, .search = all_.search_}, next.pairs);
         }
         while (old != row.known.end()) {
             push_old();
@@ -342,6 +313,7 @@ private:
     const Simplices<K>& first_;
     const Simplices<L>& second_;
     std::vector<Row>& rows_;
+    const PositionsView<Dim>& start_;
     double reach_;
     bool is_still_;
     FindNearLanes find_near_;

@@ -30,8 +30,10 @@ protected:
         test::Scene<kD> scene;
         PatchPartition edge_partition;
         PatchPartition ridge_partition;
-        Patches<kD> edges;
-        Patches<kD> ridges;
+        Patches<kD> edge_patches;
+        Patches<kD> ridge_patches;
+        std::vector<PatchMotion<kD>> edges;
+        std::vector<PatchMotion<kD>> ridges;
 
         Bar() {
             std::array<int, kD> count{};
@@ -46,21 +48,24 @@ protected:
             edge_partition = PatchPartition(boxes_around<kD, 2>(surface.edges, scene.positions, 0));
             ridge_partition =
                 PatchPartition(boxes_around<kD, kD - 1>(surface.ridges, scene.positions, 0));
-            edges = Patches<kD>(surface.edges, edge_partition, scene.positions);
-            ridges = Patches<kD>(surface.ridges, ridge_partition, scene.positions);
+            edge_patches = Patches<kD>(surface.edges, edge_partition, scene.positions);
+            ridge_patches = Patches<kD>(surface.ridges, ridge_partition, scene.positions);
         }
 
-        void fit(const Positions<kD>& positions) {
-            const PositionsView<kD> here = positions;
-            edges.fit({here, here});
-            ridges.fit({here, here});
+        // How they move from some positions to others.
+        void move(const Positions<kD>& earlier, const Positions<kD>& now) {
+            edges = edge_patches.motions(edge_patches.place(earlier), edge_patches.place(now));
+            ridges = ridge_patches.motions(ridge_patches.place(earlier), ridge_patches.place(now));
         }
 
-        void fit(const Positions<kD>& from, const Positions<kD>& to) {
-            const PositionsView<kD> start = from;
-            const PositionsView<kD> end = to;
-            edges.fit({start, end});
-            ridges.fit({start, end});
+        // The same for paths.
+        void move(const Positions<kD>& earlier,
+                  const Positions<kD>& from,
+                  const Positions<kD>& to) {
+            edges = edge_patches.motions(edge_patches.place(earlier), edge_patches.place(from),
+                                         edge_patches.place(to));
+            ridges = ridge_patches.motions(ridge_patches.place(earlier), ridge_patches.place(from),
+                                           ridge_patches.place(to));
         }
     };
 
@@ -106,15 +111,32 @@ protected:
         all.emplace_back(rest, halves);
         return all;
     }
+
+    // Where patches were earlier, and these paths: from rest, and from a bent and a shaken bar.
+    struct Way {
+        Positions<kD> earlier;
+        Positions<kD> from;
+        Positions<kD> to;
+    };
+    static std::vector<Way> ways(const Positions<kD>& rest) {
+        const std::vector<Positions<kD>> places = deformed(rest);
+        std::vector<Way> all;
+        for (const auto& [from, to] : paths(rest)) {
+            for (const std::size_t earlier : {0, 2, 5}) {
+                all.push_back({places[earlier], from, to});
+            }
+        }
+        return all;
+    }
 };
 
-// Whether pairs so far apart at rest are certainly farther apart now than a distance.
+// Whether pairs that were so far apart are certainly farther apart now than a distance.
 template <int Dim>
 bool stay_apart(const PatchMotion<Dim>& first,
                 const PatchMotion<Dim>& second,
-                double rest_distance,
+                double earlier_distance,
                 double distance) {
-    return bound_of<Dim>(first, second).is_apart(rest_distance, distance);
+    return bound_of<Dim>(first, second).is_apart(earlier_distance, distance);
 }
 
 using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
@@ -125,15 +147,15 @@ TYPED_TEST(PatchesTest, DeviateFromTheirMapsByNoMoreThanTheySay) {
     typename TestFixture::Bar bar;
     const Positions<kDim>& rest = bar.scene.positions;
     const PatchPartition& partition = bar.ridge_partition;
-    ASSERT_EQ(partition.size(), bar.ridges.motions().size());
-    for (const auto& [from, to] : TestFixture::paths(rest)) {
-        bar.fit(from, to);
+    for (const auto& [earlier, from, to] : TestFixture::ways(rest)) {
+        bar.move(earlier, from, to);
+        ASSERT_EQ(partition.size(), bar.ridges.size());
         for (std::size_t patch = 0; patch < partition.size(); ++patch) {
-            const PatchMotion<kDim>& motion = bar.ridges.motions()[patch];
+            const PatchMotion<kDim>& motion = bar.ridges[patch];
             for (const std::uint32_t i : partition[patch]) {
                 const auto corners = bar.scene.surfaces[0].ridges.col(i);
                 for (const std::uint32_t v : corners) {
-                    const Vector<kDim> offset = rest.col(v) - motion.rest_center;
+                    const Vector<kDim> offset = earlier.col(v) - motion.earlier_center;
                     const auto at = [&](const PatchPlace<kDim>& place) -> Vector<kDim> {
                         return place.center + place.map * offset;
                     };
@@ -151,9 +173,9 @@ TYPED_TEST(PatchesTest, StretchNoLessThanTheySayAtAnyTime) {
     constexpr int kDim = TypeParam::value;
     typename TestFixture::Bar bar;
     double tightest = 0;
-    for (const auto& [from, to] : TestFixture::paths(bar.scene.positions)) {
-        bar.fit(from, to);
-        for (const PatchMotion<kDim>& motion : bar.edges.motions()) {
+    for (const auto& [earlier, from, to] : TestFixture::ways(bar.scene.positions)) {
+        bar.move(earlier, from, to);
+        for (const PatchMotion<kDim>& motion : bar.edges) {
             double least = std::numeric_limits<double>::infinity();
             for (const double t : {0.0, 0.2, 0.5, 0.7, 1.0}) {
                 const Map<kDim> map = (1 - t) * motion.start.map + t * motion.end.map;
@@ -174,8 +196,8 @@ TYPED_TEST(PatchesTest, FollowAnAffineMapExactly) {
     const Map<kDim> stretch = Vector<kDim>::LinSpaced(0.8, 1.3).asDiagonal();
     const Positions<kDim> positions =
         (test::tilt<kDim>() * stretch * bar.scene.positions).colwise() + Vector<kDim>::Ones();
-    bar.fit(positions);
-    for (const PatchMotion<kDim>& motion : bar.edges.motions()) {
+    bar.move(bar.scene.positions, positions);
+    for (const PatchMotion<kDim>& motion : bar.edges) {
         // The vertices were shaken by a twentieth: how far a flat patch is from flat.
         EXPECT_LT(motion.deviation, 0.05);
         EXPECT_GT(motion.least_stretch, 0.75);
@@ -188,9 +210,9 @@ TYPED_TEST(PatchesTest, OfABodyThatMovesRigidlyStayApart) {
     typename TestFixture::Bar bar;
     const Positions<kDim> positions =
         (test::tilt<kDim>() * bar.scene.positions).colwise() + 100 * Vector<kDim>::Ones();
-    bar.fit(positions);
-    for (const PatchMotion<kDim>& a : bar.edges.motions()) {
-        for (const PatchMotion<kDim>& b : bar.ridges.motions()) {
+    bar.move(bar.scene.positions, positions);
+    for (const PatchMotion<kDim>& a : bar.edges) {
+        for (const PatchMotion<kDim>& b : bar.ridges) {
             EXPECT_TRUE(stay_apart<kDim>(a, b, 0.1001, 0.1));
             EXPECT_FALSE(stay_apart<kDim>(a, b, 0.1, 0.1));
         }
@@ -204,16 +226,16 @@ TYPED_TEST(PatchesTest, StayApartOnlyWhereAllTheirPairsDo) {
     typename TestFixture::Bar bar;
     const Positions<kDim>& rest = bar.scene.positions;
     const Surface<kDim>& surface = bar.scene.surfaces[0];
-    const double rest_distance = 0.5;
+    const double earlier_distance = 0.5;
     const double distance = 0.25;
     int apart = 0;
     int others = 0;
-    const auto expect_apart = [&](std::uint32_t i, std::uint32_t j,
+    const auto expect_apart = [&](std::uint32_t i, std::uint32_t j, const Positions<kDim>& earlier,
                                   const std::vector<Positions<kDim>>& way) {
         const auto far = test::closest_points<kDim, 2, kDim - 1>(
-            gather<kDim, 2>(surface.edges, i, rest),
-            gather<kDim, kDim - 1>(surface.ridges, j, rest));
-        if (far.distance_squared < rest_distance * rest_distance) {
+            gather<kDim, 2>(surface.edges, i, earlier),
+            gather<kDim, kDim - 1>(surface.ridges, j, earlier));
+        if (far.distance_squared < earlier_distance * earlier_distance) {
             return;
         }
         for (const Positions<kDim>& positions : way) {
@@ -223,45 +245,82 @@ TYPED_TEST(PatchesTest, StayApartOnlyWhereAllTheirPairsDo) {
             EXPECT_GT(now.distance_squared, distance * distance);
         }
     };
-    for (const auto& [from, to] : TestFixture::paths(rest)) {
-        bar.fit(from, to);
+    for (const auto& [earlier, from, to] : TestFixture::ways(rest)) {
+        bar.move(earlier, from, to);
         const std::vector<Positions<kDim>> way{from, 0.5 * (from + to), to};
         for (std::size_t a = 0; a < bar.edge_partition.size(); ++a) {
             for (std::size_t b = 0; b < bar.ridge_partition.size(); ++b) {
-                if (!stay_apart<kDim>(bar.edges.motions()[a], bar.ridges.motions()[b],
-                                      rest_distance, distance)) {
+                if (!stay_apart<kDim>(bar.edges[a], bar.ridges[b], earlier_distance, distance)) {
                     ++others;
                     continue;
                 }
                 ++apart;
                 // A sample of the pairs: the first of one patch with all of the other.
                 for (const std::uint32_t j : bar.ridge_partition[b]) {
-                    expect_apart(bar.edge_partition[a][0], j, way);
+                    expect_apart(bar.edge_partition[a][0], j, earlier, way);
                 }
             }
         }
-        EXPECT_FALSE(stay_apart<kDim>(bar.edges.motions()[0], bar.ridges.motions()[0],
-                                      rest_distance, kInfinite));
+        EXPECT_FALSE(stay_apart<kDim>(bar.edges[0], bar.ridges[0], earlier_distance, kInfinite));
     }
     EXPECT_GT(apart, 100);
     EXPECT_GT(others, 100);
 }
 
+// What a bound tells after another is no more than what is so: from one place to another, and on.
+TYPED_TEST(PatchesTest, StayApartAlsoByOneBoundAfterAnother) {
+    constexpr int kDim = TypeParam::value;
+    typename TestFixture::Bar bar;
+    const Positions<kDim>& rest = bar.scene.positions;
+    const Surface<kDim>& surface = bar.scene.surfaces[0];
+    const std::size_t patches = bar.edge_partition.size();
+    std::vector<PatchBound> bounds(patches * bar.ridge_partition.size(), PatchBound{1, 0});
+    const std::vector<Positions<kDim>> way{
+        TestFixture::rolled(rest, 20), TestFixture::rolled(rest, 15), TestFixture::rolled(rest, 12),
+        test::tilt<kDim>() * TestFixture::rolled(rest, 12), 1.2 * TestFixture::rolled(rest, 14)};
+    for (std::size_t k = 1; k < way.size(); ++k) {
+        bar.move(way[k - 1], way[k]);
+        int told = 0;
+        for (std::size_t a = 0; a < patches; ++a) {
+            for (std::size_t b = 0; b < bar.ridge_partition.size(); ++b) {
+                PatchBound& bound = bounds[b * patches + a];
+                bound = bound_of<kDim>(bar.edges[a], bar.ridges[b]).after(bound);
+                const std::uint32_t i = bar.edge_partition[a][0];
+                const std::uint32_t j = bar.ridge_partition[b][0];
+                const auto distance = [&](const Positions<kDim>& x) {
+                    return std::sqrt(test::closest_points<kDim, 2, kDim - 1>(
+                                         gather<kDim, 2>(surface.edges, i, x),
+                                         gather<kDim, kDim - 1>(surface.ridges, j, x))
+                                         .distance_squared);
+                };
+                EXPECT_FALSE(bound.is_apart(distance(way[0]), distance(way[k]) * (1 + 1e-9)));
+                told += bound.is_apart(distance(way[0]), 0.25 * distance(way[k])) ? 1 : 0;
+            }
+        }
+        EXPECT_GT(told, 10);
+    }
+    EXPECT_FALSE((PatchBound{-1, 0}.after(PatchBound{-1, 0}).is_apart(1, 0.5)));
+    EXPECT_FALSE((PatchBound{1, 0}.after(PatchBound{}).is_apart(1, 0.5)));
+}
+
 TYPED_TEST(PatchesTest, NeverStayApartWhereNothingIsKnown) {
     constexpr int kDim = TypeParam::value;
     typename TestFixture::Bar bar;
-    Positions<kDim> positions = bar.scene.positions;
+    const Positions<kDim>& rest = bar.scene.positions;
+    Positions<kDim> positions = rest;
     positions.setConstant(std::numeric_limits<double>::quiet_NaN());
-    bar.fit(positions);
-    const PatchMotion<kDim> nowhere = bar.edges.motions()[0];
-    EXPECT_FALSE(stay_apart<kDim>(nowhere, nowhere, 2, 1));
+    for (const auto& [earlier, now] : {std::pair(rest, positions), std::pair(positions, rest)}) {
+        bar.move(earlier, now);
+        EXPECT_FALSE(stay_apart<kDim>(bar.edges[0], bar.edges[0], 2, 1));
+    }
     // All vertices on a line: a map across it is anyone's guess.
-    test::Scene<kDim> line = bar.scene;
-    line.positions.bottomRows(kDim - 1).setZero();
-    Patches<kDim> patches(line.surfaces[0].edges, bar.edge_partition, line.positions);
-    const PositionsView<kDim> there = line.positions;
-    patches.fit({there, there});
-    EXPECT_FALSE(stay_apart<kDim>(patches.motions()[0], patches.motions()[0], 2, 1));
+    Positions<kDim> line = rest;
+    line.bottomRows(kDim - 1).setZero();
+    bar.move(line, line);
+    EXPECT_FALSE(stay_apart<kDim>(bar.edges[0], bar.edges[0], 2, 1));
+    const Patches<kDim> patches(bar.scene.surfaces[0].edges, bar.edge_partition, line);
+    const auto motions = patches.motions(patches.place(line), patches.place(line));
+    EXPECT_FALSE(stay_apart<kDim>(motions[0], motions[0], 2, 1));
     EXPECT_FALSE(stay_apart<kDim>(PatchMotion<kDim>(), PatchMotion<kDim>(), 2, 1));
 }
 
