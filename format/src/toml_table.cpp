@@ -26,6 +26,14 @@ std::string in_quotes(std::string_view word) {
     return "\"" + one_line(word) + "\"";
 }
 
+std::string joined(const std::vector<std::string>& words) {
+    std::string list;
+    for (const std::string& word : words) {
+        list += (list.empty() ? "" : ", ") + word;
+    }
+    return list;
+}
+
 std::string type_of(const toml::node& node) {
     switch (node.type()) {
         case toml::node_type::table:
@@ -288,10 +296,9 @@ std::vector<TableReader> TableReader::tables(std::string_view key) {
 
 std::string TableReader::one_of(const std::vector<std::string>& kinds) {
     std::string found;
-    std::string list;
+    const std::string list = joined(kinds);
     int count = 0;
     for (const std::string& kind : kinds) {
-        list += (list.empty() ? "" : ", ") + kind;
         if (has(kind)) {
             found = kind;
             ++count;
@@ -321,7 +328,9 @@ void TableReader::refuse(std::string_view key, std::string_view reason) {
 void TableReader::finish(const std::function<std::string(const std::string&)>& hint) const {
     for (const std::string& key : unknown()) {
         const std::string text = hint ? hint(key) : "";
-        fail_unknown(key, text.empty() ? did_you_mean(key, known_) : "; " + text);
+        const std::string near = text.empty() ? did_you_mean(key, known_) : "; " + text;
+        const std::string one_of = known_.size() > 1 ? "one of " : "";
+        fail_unknown(key, near.empty() ? "; expected " + one_of + joined(known_) : near);
     }
 }
 

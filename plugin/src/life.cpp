@@ -2,6 +2,7 @@
 
 #include "handles.h"
 
+#include <pent/machine_memory.h>
 #include <pent/pent_file.h>
 #include <pent/runs/scene_file.h>
 
@@ -23,8 +24,9 @@ std::unique_ptr<Simulation<Dim>> make_simulation(const Scene& scene,
                           ? mesh_of<Dim>(meshes[all.size()], "mesh of \"" + body.name + "\"")
                           : read_mesh<Dim>(body.mesh).mesh);
     }
-    return std::make_unique<Simulation<Dim>>(scene, std::move(all),
-                                             simulator::SimulationOptions{.threads = threads});
+    return std::make_unique<Simulation<Dim>>(
+        scene, std::move(all),
+        simulator::SimulationOptions{.threads = threads, .memory = machine_memory()});
 }
 
 pent_simulation* open(const Scene& scene, const pent_mesh* meshes, int threads) {

@@ -79,6 +79,67 @@ TEST(ParseSceneErrors, NameTheBlockThatAKeyBelongsTo) {
               " \"away_from.box\" of [[activation]] or \"select.box\" of [[attachment]]");
 }
 
+TEST(ParseSceneErrors, NameTheBlockOfAKeyThatIsATable) {
+    const std::string selections =
+        "\"region.select\" of [[body]] or \"select\" of [[constraint]] or \"select\" of [[load]]"
+        " or \"select\" of [[activation]] or \"away_from\" of [[activation]] or \"select\" of"
+        " [[attachment]]";
+    EXPECT_EQ(
+        error_of("[contact]\nlayers = { first = 0 }\n"),
+        "s.toml:5:1: unknown key \"layers\" in \"contact\"; \"layers\" belongs to " + selections);
+    for (const std::string kind : {"ball", "box", "half_space"}) {
+        EXPECT_EQ(error_of("[solver]\n" + kind + " = 1\n"),
+                  "s.toml:5:1: unknown key \"" + kind + "\" in \"solver\"; \"" + kind
+                      + "\" belongs to " + selections + " or [[obstacle]]");
+    }
+    EXPECT_EQ(error_of("[[constraint]]\nbody = \"a\"\nplace = {}\n"),
+              "s.toml:6:1: unknown key \"place\" in \"constraint\"; \"place\" belongs to"
+              " [[body]]");
+    EXPECT_EQ(error_of("[solver]\nsleep = true\n"),
+              "s.toml:5:1: unknown key \"sleep\" in \"solver\"; \"sleep\" is a block of its own,"
+              " [sleep]");
+}
+
+TEST(ParseSceneErrors, NameTheBlockOfAKeyOfOldFiles) {
+    EXPECT_EQ(error_of("[solver]\ncontact_forces = true\n"),
+              "s.toml:5:1: unknown key \"contact_forces\" in \"solver\"; \"contact_forces\" belongs"
+              " to [output]");
+}
+
+// Each key of the tables, in a block that has none of them but two.
+TEST(ParseSceneErrors, NameABlockForEveryKeyThatTheSchemaHas) {
+    std::istringstream lines(schema_text());
+    std::string line;
+    int count = 0;
+    while (std::getline(lines, line)) {
+        if (!line.starts_with("| `")) {
+            continue;
+        }
+        std::istringstream keys(line.substr(3, line.find_first_of("` ", 3) - 3));
+        std::string key;
+        while (std::getline(keys, key, '.')) {
+            if (key != "speed" && key != "time") {
+                const std::string error = error_of("[sleep]\n" + key + " = 1\n");
+                EXPECT_NE(error.find("; \"" + key + "\" belongs to "), std::string::npos) << error;
+                ++count;
+            }
+        }
+    }
+    EXPECT_GT(count, 80);
+}
+
+TEST(ParseSceneErrors, ListTheKeysOfABlockWhereNoneIsNear) {
+    EXPECT_EQ(error_of("[sleep]\nqqqqqqqqqq = 1\n"),
+              "s.toml:5:1: unknown key \"qqqqqqqqqq\" in \"sleep\"; expected one of speed, time");
+    EXPECT_EQ(
+        error_of("[qqqqqqqqqq]\nspeed = 1\n"),
+        "s.toml:4:2: unknown key \"qqqqqqqqqq\" in the scene; expected one of scene, body,"
+        " constraint, load, activation, attachment, obstacle, contact, damping, sleep, solver,"
+        " output");
+    EXPECT_EQ(error_of("[[constraint]]\nbody = \"a\"\nselect = { region = 1, qqqqqqqqqq = 1 }\n"),
+              "s.toml:6:24: unknown key \"qqqqqqqqqq\" in \"select\"; expected \"region\" alone");
+}
+
 // Members of the schema that no key has.
 TEST(ParseSceneErrors, RefuseWhatIsNoKeyInAFile) {
     EXPECT_NE(error_of("material = { lame = 1 }\n").find("unknown key \"lame\""),

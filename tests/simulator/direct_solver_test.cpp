@@ -1,6 +1,7 @@
 #include "host_scenes.h"
 #include "linear/linear_solver.h"
 #include "springy_box.h"
+#include "support/messages.h"
 
 #include <gtest/gtest.h>
 
@@ -22,6 +23,25 @@ TEST(DirectSolver, LeavesTheResidualOfRoundingWhateverBlocksAreStoredIn) {
         EXPECT_LT(solution.report.residual * problem.system.right().norm(),
                   roundings * problem.dense().norm() * solution.x.norm());
     }
+}
+
+// What it says it takes beside elements is what decides.
+TEST(DirectSolver, IsRefusedWhereItTakesMoreMemoryThanThereIs) {
+    Scene scene = test::box_scene<4>();
+    const auto bytes_by = [&](LinearSolverKind linear, std::int64_t memory) {
+        scene.solver.linear = linear;
+        return Simulation<4>(scene, {test::cube<4>(2)}, {.memory = memory}).size().matrix_bytes;
+    };
+    constexpr auto kDirect = LinearSolverKind::Direct;
+    constexpr auto kIterative = LinearSolverKind::Iterative;
+    const std::int64_t factor = bytes_by(kDirect, 0) - bytes_by(kIterative, 0);
+    ASSERT_GT(factor, 0);
+    EXPECT_GT(bytes_by(kDirect, factor), 0);
+    EXPECT_GT(bytes_by(kIterative, 1), 0);
+    const std::string error =
+        pent::test::error_of([&] { static_cast<void>(bytes_by(kDirect, factor - 1)); });
+    pent::test::expect_contains(error,
+                                {"\"direct\" needs ", " MB for ", " that there are: use \"cg\""});
 }
 
 // One body on the other, with contact that couples them, one vertex held, and sleep.

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-// The springs of a host as a function of positions; host_test.cpp has them in motion.
+// The springs of a host as a function of positions; host_grab_test.cpp has them in motion.
 
 namespace pent::simulator {
 namespace {

@@ -1,6 +1,6 @@
 # Installs everything into a folder of its own, then configures, builds and runs three programs that find
-# it there; the one that links no more than the simulator must have nothing of files in it. Then runs what
-# was installed. Call with
+# it there; the one that links no more than the simulator must have nothing of files and of POSIX in it.
+# Then runs what was installed. Call with
 # -DBUILD=<build folder> -DSOURCE=<consumer> -DWORK=<folder> -DNM=<nm>.
 cmake_minimum_required(VERSION 3.25)
 
@@ -40,8 +40,9 @@ endif()
 # Of the libraries that read and write: nothing is in the host of the simulator, and, so that this test can
 # fail, something is in the other.
 set(readers "toml::|nlohmann::|pent::runs::")
-# What our code calls for files; sanitizers and counters call some of it as well.
+# What our code calls for files, and to ask the system; sanitizers and counters call some of it as well.
 set(calls " U (open|openat|creat|fsync|fdatasync|rename|flock|fcntl|mkdir|unlink|opendir|mmap)(64)?(@|$)")
+set(system " U (sysconf|getpid|gethostname|getenv|isatty|fork|waitpid|read|write|close|stat)(64)?(@|$)")
 function(count_symbols program pattern count)
   execute_process(COMMAND ${NM} -C ${WORK}/build/${program} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
   string(REPLACE ";" "," symbols "${symbols}")
@@ -53,7 +54,7 @@ function(count_symbols program pattern count)
 endfunction()
 set(patterns "${readers}")
 if(NOT "$ENV{CXXFLAGS}" MATCHES "-fsanitize|--coverage")
-  list(APPEND patterns "${calls}")
+  list(APPEND patterns "${calls}" "${system}")
 endif()
 foreach(pattern IN LISTS patterns)
   count_symbols(consumer "${pattern}" count)
@@ -62,6 +63,6 @@ foreach(pattern IN LISTS patterns)
   endif()
   count_symbols(core "${pattern}" count)
   if(NOT count EQUAL 0)
-    message(FATAL_ERROR "a program that links pent::simulator alone has ${count} symbols of files in it:\n${found}")
+    message(FATAL_ERROR "a program that links pent::simulator alone has ${count} symbols of files or of the system in it:\n${found}")
   endif()
 endforeach()

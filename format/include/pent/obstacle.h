@@ -31,7 +31,7 @@ enum class ShapeField : std::uint8_t {
 // A shape has a name, as scenes know it, and fields() calls visit(name, value, ShapeField) for each
 // of its fields: readers, writers and checks of scenes follow from it. Dim is 3, 4, or
 // Eigen::Dynamic in a scene, whose dimension is not known when it is compiled. A new shape is added
-// here, to the list Obstacle too, and its distance in contact/src/obstacles.cpp; nowhere else.
+// here, to the list Obstacle too; docs/architecture.md tells what measures, slices and shows it.
 
 /// Solid below a hyperplane: {x : normal . x < offset}.
 template <int Dim>

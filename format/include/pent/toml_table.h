@@ -93,7 +93,8 @@ public:
     /// Refuses a key with a reason, if it is there.
     void refuse(std::string_view key, std::string_view reason);
 
-    /// Throws an Error for the first key that nobody asked for, with the nearest known one.
+    /// Throws an Error for the first key that nobody asked for, with the nearest known one or, if
+    /// none is near, all of them.
     ///
     /// @param hint  What to say of such a key instead; empty for nothing.
     void finish(const std::function<std::string(const std::string& key)>& hint = nullptr) const;

@@ -11,6 +11,7 @@
 #include "run/resumption.h"
 #include "run/run_files.h"
 #include "run/run_ranks.h"
+#include "run/simulation_options.h"
 #include "scene/scene_meshes.h"
 
 #include <pent/error.h>
@@ -51,9 +52,7 @@ public:
           ranks_(options.ranks.get()),
           folder_(options.folder, kRunFolder),
           meshes_(read_meshes_alike()),
-          simulation_(scene,
-                      std::move(meshes_.meshes),
-                      {.threads = options.threads, .isa = options.isa, .ranks = options.ranks}) {
+          simulation_(scene, std::move(meshes_.meshes), simulation_options(options)) {
         report_.size = simulation_.size();
         report_.thinnest = thinnest_side(simulation_);
         report_.warnings = std::move(meshes_.warnings);

@@ -39,7 +39,7 @@ constexpr auto kEverything = std::prev(std::end(simulator::kSelectionNames));
 Selection read_selection(TableReader& table, const PartReader& reader) {
     const std::vector<std::string> names(std::begin(simulator::kSelectionNames), kEverything);
     const std::string kind = table.one_of(names);
-    table.finish();
+    table.finish([&](const std::string& /*key*/) { return "expected \"" + kind + "\" alone"; });
     const auto chosen =
         static_cast<std::size_t>(std::find(names.begin(), names.end(), kind) - names.begin());
     Selection selection;

@@ -15,6 +15,9 @@ enum class Preset { Fast, Balanced, Accurate };
 inline constexpr simulator::Field kPreset = simulator::key(
     "preset", "", "defaults for the keys below; [accuracy.md](accuracy.md) has what each costs");
 
+/// Of [output]: the one quantity of version 0.1.0, now a name in the list `vertex`.
+inline constexpr simulator::Field kContactForces = simulator::key("contact_forces");
+
 /// The settings a preset stands for. docs/accuracy.md has the measurements behind them.
 [[nodiscard]] inline SolverOptions preset(Preset choice) {
     SolverOptions solver;

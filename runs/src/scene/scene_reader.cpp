@@ -48,9 +48,8 @@ private:
         PartReader{block, scene.dimension}(kPreset, choice);
         solver = preset(choice);
     }
-    // The one quantity of version 0.1.0 had a key of its own.
     void begin(TableReader& block, simulator::Output& output) const {
-        if (block.flag("contact_forces", false)) {
+        if (block.flag(kContactForces.key, false)) {
             output.vertex.push_back(simulator::VertexQuantity::ContactForce);
         }
     }

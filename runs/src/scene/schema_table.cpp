@@ -194,17 +194,42 @@ struct BlockCollector {
             collector(kPreset, Preset::Balanced);
         }
         simulator::fields(part, collector);
+        if constexpr (std::is_same_v<Part, simulator::Output>) {
+            RowCollector{rows, collector.block, "", true}(kContactForces, false);
+        }
     }
 };
 
-// "", "place" of [[body]] or [contact]: the table that has a key.
+// "", "place" of [[body]] or [contact]: the table that has a key, which may be one around those
+// of the row, as `select` and `layers` are around `first`.
 std::string owner_of(const SchemaRow& row, const std::string& key) {
-    const std::string path = row.key.substr(0, row.key.find(' '));
-    const auto dot = path.rfind('.');
-    if (path.substr(dot == std::string::npos ? 0 : dot + 1) != key) {
+    const std::string path = "." + row.key.substr(0, row.key.find(' ')) + ".";
+    const auto found = path.find("." + key + ".");
+    if (key.empty() || found == std::string::npos) {
         return "";
     }
-    return (dot == std::string::npos ? "" : "\"" + path.substr(0, dot) + "\" of ") + row.block;
+    return (found == 0 ? "" : "\"" + path.substr(1, found - 1) + "\" of ") + row.block;
+}
+
+// "[sleep]" for the name of a block, "" for other keys.
+std::string block_of(const SchemaRow& row, const std::string& key) {
+    const std::string name = row.block.substr(row.block.find_last_of('[') + 1);
+    return name.substr(0, name.find(']')) == key ? row.block : "";
+}
+
+// All that these have of a key, each once: "[a] or [b]".
+template <typename Owner>
+std::string join_owners(const std::string& key, const Owner& owner_in) {
+    std::vector<std::string> owners;
+    std::string text;
+    for (const SchemaRow& row : schema_rows()) {
+        const std::string owner = owner_in(row, key);
+        if (!owner.empty() && std::find(owners.begin(), owners.end(), owner) == owners.end()) {
+            owners.push_back(owner);
+            text += (text.empty() ? "" : " or ") + owner;
+        }
+    }
+    return text;
 }
 
 }  // namespace
@@ -218,12 +243,12 @@ std::vector<SchemaRow> schema_rows() {
 }
 
 std::string owners_text(const std::string& key) {
-    std::string owners;
-    for (const SchemaRow& row : schema_rows()) {
-        const std::string owner = owner_of(row, key);
-        owners += (owners.empty() || owner.empty() ? "" : " or ") + owner;
+    const std::string owners = join_owners(key, owner_of);
+    if (!owners.empty()) {
+        return "\"" + key + "\" belongs to " + owners;
     }
-    return owners.empty() ? "" : "\"" + key + "\" belongs to " + owners;
+    const std::string block = join_owners(key, block_of);
+    return block.empty() ? "" : "\"" + key + "\" is a block of its own, " + block;
 }
 
 std::string schema_text() {

@@ -20,7 +20,8 @@ struct SchemaRow {
 /// All keys, by blocks, as the schema has them.
 [[nodiscard]] std::vector<SchemaRow> schema_rows();
 
-/// ""friction" belongs to [contact]" for a key that other tables have; else "".
+/// ""friction" belongs to [contact]" for a key that other tables have, ""sleep" is a block of its
+/// own, [sleep]" for a block; else "".
 [[nodiscard]] std::string owners_text(const std::string& key);
 
 }  // namespace pent::runs

@@ -3,7 +3,6 @@
 #include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
-#include <pent/machine_memory.h>
 #include <pent/stopwatch.h>
 
 #include <algorithm>
@@ -45,7 +44,7 @@ IncrementalPotential<Dim>::IncrementalPotential(const Workers& workers,
 }
 
 template <int Dim>
-void IncrementalPotential<Dim>::refuse_unsolvable() const {
+void IncrementalPotential<Dim>::refuse_unsolvable(std::int64_t memory) const {
     const bool is_direct = options_.linear == LinearSolverKind::Direct;
     if (is_direct && bodies_->sharing.is_shared()) {
         throw Error(
@@ -53,13 +52,13 @@ void IncrementalPotential<Dim>::refuse_unsolvable() const {
             " pent-sim");
     }
     constexpr double kMegabyte = 1e6;
-    const auto wanted = static_cast<double>(factor_bytes());
-    const auto memory = static_cast<double>(machine_memory());
-    if (wanted > memory) {
+    const std::int64_t wanted = factor_bytes();
+    if (memory > 0 && wanted > memory) {
         throw Error("solver.linear = \"direct\" needs "
-                    + formatted("%.0f MB for %u free vertices, of %.0f MB", wanted / kMegabyte,
-                                dofs_.count(), memory / kMegabyte)
-                    + " that this machine has: use \"cg\"");
+                    + formatted("%.3g MB for %u free vertices, of %.3g MB",
+                                static_cast<double>(wanted) / kMegabyte, dofs_.count(),
+                                static_cast<double>(memory) / kMegabyte)
+                    + " that there are: use \"cg\"");
     }
 }
 

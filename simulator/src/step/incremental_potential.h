@@ -43,9 +43,11 @@ public:
                          PotentialEnergy<Dim>& energy,
                          Elasticity<Dim>& elasticity);
 
-    /// Throws an Error where a direct solve would take more memory than the machine has, or is
-    /// asked of ranks.
-    void refuse_unsolvable() const;
+    /// Throws an Error where a direct solve would take more memory than there is, or is asked of
+    /// ranks.
+    ///
+    /// @param memory  Bytes; 0 for no limit.
+    void refuse_unsolvable(std::int64_t memory) const;
 
     /// Solves for some bodies alone from now on, and for what of them is not held now.
     ///

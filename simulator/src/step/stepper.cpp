@@ -48,7 +48,7 @@ Simulation<Dim>::Stepper::Stepper(const Scene& scene,
       asleep_(islands_.asleep()),
       extent_((bodies_.rest.rowwise().maxCoeff() - bodies_.rest.rowwise().minCoeff()).norm()),
       thinnest_(thinnest(bodies_)) {
-    potential_.refuse_unsolvable();
+    potential_.refuse_unsolvable(options.memory);
     potential_.set_observer(options.on_iterate);
     current_.positions = bodies_.rest;
     current_.velocities = start_velocities(scene, bodies_);

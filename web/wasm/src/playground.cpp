@@ -4,6 +4,7 @@
 #include "run/run_files.h"
 #include "scene/scene_meshes.h"
 
+#include <pent/machine_memory.h>
 #include <pent/obstacles_file.h>
 #include <pent/output_file.h>
 #include <pent/pent_file.h>
@@ -84,7 +85,8 @@ void take_over(const Simulation<Dim>& before, Simulation<Dim>& simulation) {
 template <int Dim>
 std::unique_ptr<Simulation<Dim>> open(const Scene& scene, const pent_simulation* before) {
     auto simulation =
-        std::make_unique<Simulation<Dim>>(scene, runs::read_meshes<Dim>(scene).meshes);
+        std::make_unique<Simulation<Dim>>(scene, runs::read_meshes<Dim>(scene).meshes,
+                                          simulator::SimulationOptions{.memory = machine_memory()});
     if (before != nullptr) {
         const std::shared_ptr<Opened> opened = simulations().find(before, "simulation");
         const auto* held = std::get_if<std::unique_ptr<Simulation<Dim>>>(&opened->simulation);

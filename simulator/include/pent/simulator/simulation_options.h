@@ -22,6 +22,9 @@ struct SimulationOptions {
     /// Processes that take the steps together; null for one alone. All give the same scene, meshes
     /// and options, and call all that follows alike.
     std::shared_ptr<const Ranks> ranks = {};
+    /// Bytes that a direct solve may take, >= 0; a scene whose solve would take more is refused. 0
+    /// for no limit. The simulator does not ask the machine: see machine_memory().
+    std::int64_t memory = 0;
     /// Told of the path that Newton's method takes in a step: all positions (Dim x vertices, m)
     /// where it starts, with true, and every iterate, with false. For plots of convergence, and
     /// proofs that nothing crosses on the way.
