@@ -1,10 +1,6 @@
 #include "explain/advice.h"
 
-#include "explain/doubts.h"
-
-#include <pent/facets.h>
 #include <pent/formatted.h>
-#include <pent/runs/explain.h>
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
@@ -47,21 +43,16 @@ double bend(ElementKind elements, int cells, double poisson) {
     return 1;
 }
 
-template <int Dim>
 class Adviser {
 public:
-    explicit Adviser(const Trial<Dim>& trial)
+    explicit Adviser(const Trial& trial)
         : trial_(trial), scene_(trial.scene), contact_(trial.scene.contact) {}
 
     std::vector<std::string> operator()() {
         if (!trial_.step.is_accepted) {
             advise("the first step fails: " + trial_.step.failure);
         }
-        for (const auto& lines : {trial_.meshes.warnings, trial_.simulation.warnings(),
-                                  doubts_of_units(scene_, trial_.simulation), trial_.overlaps,
-                                  soft_contacts(scene_, trial_.simulation)}) {
-            lines_.insert(lines_.end(), lines.begin(), lines.end());
-        }
+        lines_.insert(lines_.end(), trial_.warnings.begin(), trial_.warnings.end());
         on_bending();
         on_falling();
         on_turns();
@@ -86,13 +77,15 @@ private:
     // Whether a body bends in this scene cannot be known; whether it would bend too little can.
     void on_bending() {
         for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-            if (trial_.is_kinematic(i)) {
+            if (trial_.bodies[i].is_kinematic()) {
                 continue;
             }
-            const int across = cells_across(trial_.simulation.mesh(static_cast<int>(i)));
-            double poisson = young_from_lame(Dim, scene_.bodies[i].material.lame).poisson;
+            const int across = trial_.bodies[i].cells_across;
+            double poisson =
+                young_from_lame(scene_.dimension, scene_.bodies[i].material.lame).poisson;
             for (const Region& region : scene_.bodies[i].regions) {
-                poisson = std::max(poisson, young_from_lame(Dim, region.material.lame).poisson);
+                poisson = std::max(poisson,
+                                   young_from_lame(scene_.dimension, region.material.lame).poisson);
             }
             const double part = bend(scene_.solver.elements, across, poisson);
             if (part > kBends) {
@@ -148,8 +141,9 @@ private:
     void for_near_pairs(double most, const Action& action) const {
         for (std::size_t a = 0; a < scene_.bodies.size(); ++a) {
             for (std::size_t b = a + 1; b < scene_.bodies.size(); ++b) {
-                const double gap = trial_.start[a].exteriorDistance(trial_.start[b]);
-                if (!(trial_.is_kinematic(a) && trial_.is_kinematic(b)) && gap <= most) {
+                const double gap = trial_.bodies[a].box.exteriorDistance(trial_.bodies[b].box);
+                if (!(trial_.bodies[a].is_kinematic() && trial_.bodies[b].is_kinematic())
+                    && gap <= most) {
                     action(a, b, gap);
                 }
             }
@@ -209,8 +203,8 @@ private:
         });
     }
 
-    static Eigen::VectorXd velocity_of(const Body& body) {
-        return body.velocity.size() > 0 ? body.velocity : Eigen::VectorXd::Zero(Dim);
+    [[nodiscard]] Eigen::VectorXd velocity_of(const Body& body) const {
+        return body.velocity.size() > 0 ? body.velocity : Eigen::VectorXd::Zero(scene_.dimension);
     }
 
     [[nodiscard]] bool is_anything_moving() const {
@@ -251,7 +245,7 @@ private:
         }
     }
 
-    const Trial<Dim>& trial_;
+    const Trial& trial_;
     const Scene& scene_;
     const std::optional<Contact>& contact_;
     std::vector<std::string> lines_;
@@ -259,75 +253,8 @@ private:
 
 }  // namespace
 
-template <int Dim>
-Trial<Dim>::Trial(const Scene& of, int threads, std::shared_ptr<const simulator::Ranks> ranks)
-    : scene(of),
-      meshes(read_meshes<Dim>(of)),
-      simulation(of, std::move(meshes.meshes), {.threads = threads, .ranks = ranks}),
-      overlaps(overlaps_at_start(of, simulation)) {
-    for (std::size_t body = 0; body < of.bodies.size(); ++body) {
-        const auto i = static_cast<int>(body);
-        const auto positions = simulation.positions(i);
-        start.push_back({positions.rowwise().minCoeff(), positions.rowwise().maxCoeff()});
-        free_vertices.push_back(simulation.mesh(i).vertex_count());
-        for (const Constraint& constraint : of.constraints) {
-            // One that comes or goes leaves them their unknowns.
-            const bool lasts = constraint.from == 0 && std::isinf(constraint.to);
-            if (lasts && constraint.body == of.bodies[body].name) {
-                free_vertices.back() -= static_cast<std::int64_t>(
-                    select_vertices(simulation.mesh(i), constraint).size());
-            }
-        }
-    }
-    if (ranks != nullptr) {
-        static_cast<void>(ranks->take_traffic());  // of setting up
-    }
-    step = simulation.step();
-    traffic = ranks != nullptr ? ranks->take_traffic() : simulator::RankTraffic();
-    size = simulation.size();
+std::vector<std::string> advice(const Trial& trial) {
+    return Adviser(trial)();
 }
-
-template <int Dim>
-std::vector<std::string> advice(const Trial<Dim>& trial) {
-    return Adviser<Dim>(trial)();
-}
-
-template <int Dim>
-int cells_across(const SimplexMesh<Dim>& mesh) {
-    constexpr int kUnseen = std::numeric_limits<int>::max();
-    std::vector<int> depth(static_cast<std::size_t>(mesh.vertex_count()), kUnseen);
-    const auto facets = match_facets<Dim>(mesh.cells, mesh.vertex_count());
-    for (const std::uint32_t vertex : facets.boundary.reshaped()) {
-        depth[vertex] = 0;
-    }
-    // One pass over the cells takes the depth at least one edge further in.
-    int deepest = 0;
-    for (bool has_changed = true; has_changed;) {
-        has_changed = false;
-        for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
-            int least = kUnseen;
-            for (const std::uint32_t vertex : mesh.cells.col(cell)) {
-                least = std::min(least, depth[vertex]);
-            }
-            for (const std::uint32_t vertex : mesh.cells.col(cell)) {
-                if (least < kUnseen && depth[vertex] > least + 1) {
-                    depth[vertex] = least + 1;
-                    has_changed = true;
-                }
-            }
-        }
-    }
-    for (const int edges : depth) {
-        deepest = edges < kUnseen ? std::max(deepest, edges) : deepest;
-    }
-    return std::max(1, 2 * deepest);
-}
-
-template struct Trial<3>;
-template struct Trial<4>;
-template std::vector<std::string> advice(const Trial<3>&);
-template std::vector<std::string> advice(const Trial<4>&);
-template int cells_across<3>(const SimplexMesh<3>&);
-template int cells_across<4>(const SimplexMesh<4>&);
 
 }  // namespace pent::runs
