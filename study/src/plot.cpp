@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace pent::study {
 
@@ -21,12 +20,13 @@ constexpr std::array<Rgb, 6> kColors = {{{0.0F, 0.45F, 0.70F},
                                          {0.34F, 0.71F, 0.91F},
                                          {0.90F, 0.62F, 0.0F}}};
 
-constexpr int kLeft = 84;
-constexpr int kTop = 62;
-constexpr int kPlotWidth = 520;
-constexpr int kPlotHeight = 400;
-constexpr int kListWidth = 430;
-constexpr int kBottom = 62;
+// Pixels.
+constexpr double kLeft = 84;
+constexpr double kTop = 62;
+constexpr double kRight = kLeft + 520;
+constexpr double kBottom = kTop + 400;
+constexpr int kWidth = 1034;
+constexpr int kHeight = 524;
 constexpr int kRowHeight = 19;
 
 // A logarithmic axis over whole decades, or over 1-2-5 steps where that is too wide.
@@ -71,195 +71,199 @@ Scale scale_of(std::vector<double> values) {
     return scale;
 }
 
-class Plot {
-public:
-    explicit Plot(const StudyReport& report) : report_(report) {
-        std::vector<double> costs = {report.reference.cost.seconds_per_frame};
-        std::vector<double> errors = {report.reference.error_bar};
-        for (const Result& result : report.results) {
-            if (result.verdict == "finished") {
-                costs.push_back(result.cost.seconds_per_frame);
-                errors.push_back(error_of(result));
-            }
-        }
-        cost_ = scale_of(costs);
-        error_ = scale_of(errors);
-    }
+// The ticks within a scale.
+std::vector<double> ticks_of(const Scale& scale) {
+    std::vector<double> within = ticks(scale.low, scale.high);
+    std::erase_if(
+        within, [&](double tick) { return tick < scale.low * 0.999 || tick > scale.high * 1.001; });
+    return within;
+}
 
-    Drawing operator()() {
-        drawing_.width = kLeft + kPlotWidth + kListWidth;
-        drawing_.height = kTop + kPlotHeight + kBottom;
-        title();
-        frame();
-        reference();
-        results();
-        list();
-        return std::move(drawing_);
-    }
+struct Axes {
+    Scale cost;
+    Scale error;
 
-private:
-    // Errors that the reference cannot tell from zero are drawn at its error bar.
-    [[nodiscard]] double error_of(const Result& result) const {
-        return std::max({result.errors.position, report_.reference.error_bar, 1e-9});
+    [[nodiscard]] Point at(double seconds, double part) const {
+        return {kLeft + (kRight - kLeft) * cost(seconds),
+                kTop + (kBottom - kTop) * (1 - error(part))};
     }
-    [[nodiscard]] Point place(double cost, double error) const {
-        return {kLeft + kPlotWidth * cost_(cost), kTop + kPlotHeight * (1 - error_(error))};
+    [[nodiscard]] Line vertical(double seconds, const Rgb& color, bool is_dashed) const {
+        const double x = at(seconds, error.low).x;
+        return {.from = {x, kTop}, .to = {x, kBottom}, .color = color, .is_dashed = is_dashed};
     }
-    [[nodiscard]] Point place(const Result& result) const {
-        return place(result.cost.seconds_per_frame, error_of(result));
+    [[nodiscard]] Line horizontal(double part, const Rgb& color, bool is_dashed) const {
+        const double y = at(cost.low, part).y;
+        return {.from = {kLeft, y}, .to = {kRight, y}, .color = color, .is_dashed = is_dashed};
     }
-
-    void title() {
-        const ReferenceReport& reference = report_.reference;
-        drawing_.words.push_back({.at = {kLeft, 24},
-                                  .text = report_.scene + ": error against time",
-                                  .pixels = 17,
-                                  .color = kBlack});
-        drawing_.words.push_back(
-            {.at = {kLeft, 46},
-             .text = std::to_string(report_.cells) + " cells, " + std::to_string(report_.frames)
-                     + " frames, " + std::to_string(report_.threads)
-                     + (report_.threads == 1 ? " thread; " : " threads; ")
-                     + "position error up to t = " + short_number(reference.window) + " s",
-             .pixels = 13,
-             .color = kGray});
-    }
-
-    void frame() {
-        const double bottom = kTop + kPlotHeight;
-        for (const double tick : ticks(cost_.low, cost_.high)) {
-            if (tick >= cost_.low * 0.999 && tick <= cost_.high * 1.001) {
-                const double x = place(tick, error_.low).x;
-                drawing_.lines.push_back({.from = {x, kTop}, .to = {x, bottom}, .color = kPale});
-                drawing_.words.push_back({.at = {x, bottom + 20},
-                                          .text = short_number(tick),
-                                          .anchor = Anchor::Middle,
-                                          .color = kGray});
-            }
-        }
-        for (const double tick : ticks(error_.low, error_.high)) {
-            if (tick >= error_.low * 0.999 && tick <= error_.high * 1.001) {
-                const double y = place(cost_.low, tick).y;
-                drawing_.lines.push_back(
-                    {.from = {kLeft, y}, .to = {kLeft + kPlotWidth, y}, .color = kPale});
-                drawing_.words.push_back({.at = {kLeft - 8, y + 4},
-                                          .text = percent(tick),
-                                          .anchor = Anchor::Right,
-                                          .color = kGray});
-            }
-        }
-        drawing_.words.push_back({.at = {kLeft + kPlotWidth / 2.0, bottom + 44},
-                                  .text = "wall-clock seconds per frame",
-                                  .anchor = Anchor::Middle,
-                                  .color = kBlack});
-        drawing_.words.push_back({.at = {8, kTop - 12.0}, .text = "error", .color = kBlack});
-    }
-
-    void reference() {
-        const ReferenceReport& reference = report_.reference;
-        if (reference.error_bar >= error_.low) {
-            const double y = place(cost_.low, reference.error_bar).y;
-            drawing_.lines.push_back({.from = {kLeft, y},
-                                      .to = {kLeft + kPlotWidth, y},
-                                      .color = kGray,
-                                      .is_dashed = true});
-            drawing_.words.push_back(
-                {.at = {kLeft + 6, y - 5},
-                 .text = "error of the reference: " + percent(reference.error_bar),
-                 .pixels = 12,
-                 .color = kGray});
-        }
-        const double x = place(reference.cost.seconds_per_frame, error_.low).x;
-        drawing_.lines.push_back(
-            {.from = {x, kTop}, .to = {x, kTop + kPlotHeight}, .color = kGray, .is_dashed = true});
-        drawing_.words.push_back({.at = {x - 5, kTop + 14.0},
-                                  .text = "reference",
-                                  .anchor = Anchor::Right,
-                                  .pixels = 12,
-                                  .color = kGray});
-    }
-
-    // The values that colors tell apart: of the integrator if it is varied, else of the first axis.
-    [[nodiscard]] std::string color_value(const Result& result) const {
-        for (const Setting& setting : result.settings) {
-            if (setting.axis == "integrator") {
-                return setting.value;
-            }
-        }
-        return result.settings.empty() ? "" : result.settings.front().value;
-    }
-    [[nodiscard]] Rgb color_of(const std::string& value) {
-        const auto place = std::ranges::find(color_values_, value);
-        if (place == color_values_.end()) {
-            color_values_.push_back(value);
-            return kColors[(color_values_.size() - 1) % kColors.size()];
-        }
-        return kColors[static_cast<std::size_t>(place - color_values_.begin()) % kColors.size()];
-    }
-
-    void results() {
-        for (std::size_t i = 0; i + 1 < report_.frontier.size(); ++i) {
-            drawing_.lines.push_back({.from = place(report_.results[report_.frontier[i]]),
-                                      .to = place(report_.results[report_.frontier[i + 1]]),
-                                      .color = kBlack,
-                                      .width = 1.5});
-        }
-        for (const Result& result : report_.results) {
-            if (result.verdict == "finished") {
-                drawing_.discs.push_back({.center = place(result),
-                                          .radius = 3.5,
-                                          .color = color_of(color_value(result))});
-            }
-        }
-        for (std::size_t i = 0; i < report_.frontier.size(); ++i) {
-            const Result& result = report_.results[report_.frontier[i]];
-            const Point at = place(result);
-            drawing_.discs.push_back(
-                {.center = at, .radius = 6, .color = color_of(color_value(result))});
-            drawing_.words.push_back({.at = {at.x + 9, at.y - 7},
-                                      .text = std::to_string(i + 1),
-                                      .pixels = 14,
-                                      .color = kBlack});
-        }
-    }
-
-    void list() {
-        const double left = kLeft + kPlotWidth + 28;
-        double y = kTop + 12;
-        const auto row = [&](const std::string& text, const Rgb& color) {
-            drawing_.words.push_back(
-                {.at = {left + 14, y}, .text = text, .pixels = 12, .color = color});
-            y += kRowHeight;
-        };
-        for (const std::string& value : color_values_) {
-            drawing_.discs.push_back(
-                {.center = {left + 3, y - 4}, .radius = 4.5, .color = color_of(value)});
-            row(value, kBlack);
-        }
-        y += kRowHeight / 2.0;
-        row("Not beaten in both time and error:", kGray);
-        const auto most = static_cast<std::size_t>((drawing_.height - y) / (2 * kRowHeight));
-        for (std::size_t i = 0; i < std::min(most, report_.frontier.size()); ++i) {
-            const Result& result = report_.results[report_.frontier[i]];
-            row(std::to_string(i + 1) + "  " + settings_text(result.settings), kBlack);
-            row("    " + short_number(result.cost.seconds_per_frame) + " s per frame, error "
-                    + (result.errors.position < report_.reference.error_bar ? "below " : "")
-                    + percent(error_of(result)),
-                kGray);
-        }
-    }
-
-    const StudyReport& report_;
-    Drawing drawing_;
-    Scale cost_;
-    Scale error_;
-    std::vector<std::string> color_values_;
 };
+
+Words words(Point at,
+            const std::string& text,
+            const Rgb& color,
+            int pixels = 13,
+            Anchor anchor = Anchor::Left) {
+    return {.at = at, .text = text, .anchor = anchor, .pixels = pixels, .color = color};
+}
+
+// Errors that the reference cannot tell from zero are drawn at its error bar.
+double error_of(const StudyReport& report, const Result& result) {
+    return std::max({result.errors.position, report.reference.error_bar, 1e-9});
+}
+
+std::vector<Result> finished(const StudyReport& report) {
+    std::vector<Result> results = report.results;
+    std::erase_if(results, [](const Result& result) { return result.verdict != "finished"; });
+    return results;
+}
+
+Axes axes_of(const StudyReport& report) {
+    std::vector<double> costs = {report.reference.cost.seconds_per_frame};
+    std::vector<double> errors = {report.reference.error_bar};
+    for (const Result& result : finished(report)) {
+        costs.push_back(result.cost.seconds_per_frame);
+        errors.push_back(error_of(report, result));
+    }
+    return {scale_of(costs), scale_of(errors)};
+}
+
+Drawing title(const StudyReport& report) {
+    const std::string size =
+        std::to_string(report.cells) + " cells, " + std::to_string(report.frames) + " frames, "
+        + std::to_string(report.threads) + (report.threads == 1 ? " thread; " : " threads; ")
+        + "position error up to t = " + short_number(report.reference.window) + " s";
+    return {.words = {words({kLeft, 24}, report.scene + ": error against time", kBlack, 17),
+                      words({kLeft, 46}, size, kGray)}};
+}
+
+Drawing frame(const Axes& axes) {
+    Drawing drawing;
+    for (const double tick : ticks_of(axes.cost)) {
+        const Line line = axes.vertical(tick, kPale, false);
+        drawing.lines.push_back(line);
+        drawing.words.push_back(
+            words({line.to.x, kBottom + 20}, short_number(tick), kGray, 13, Anchor::Middle));
+    }
+    for (const double tick : ticks_of(axes.error)) {
+        const Line line = axes.horizontal(tick, kPale, false);
+        drawing.lines.push_back(line);
+        drawing.words.push_back(
+            words({kLeft - 8, line.to.y + 4}, percent(tick), kGray, 13, Anchor::Right));
+    }
+    drawing.words.push_back(words({(kLeft + kRight) / 2, kBottom + 44},
+                                  "wall-clock seconds per frame", kBlack, 13, Anchor::Middle));
+    drawing.words.push_back(words({8, kTop - 12}, "error", kBlack));
+    return drawing;
+}
+
+Drawing reference(const StudyReport& report, const Axes& axes) {
+    const ReferenceReport& reference = report.reference;
+    Drawing drawing;
+    if (reference.error_bar >= axes.error.low) {
+        const Line line = axes.horizontal(reference.error_bar, kGray, true);
+        drawing.lines.push_back(line);
+        drawing.words.push_back(words({kLeft + 6, line.to.y - 5},
+                                      "error of the reference: " + percent(reference.error_bar),
+                                      kGray, 12));
+    }
+    const Line line = axes.vertical(reference.cost.seconds_per_frame, kGray, true);
+    drawing.lines.push_back(line);
+    drawing.words.push_back(
+        words({line.to.x - 5, kTop + 14}, "reference", kGray, 12, Anchor::Right));
+    return drawing;
+}
+
+// What colors tell apart: the value of the integrator if it is varied, else of the first axis.
+std::string color_value(const Result& result) {
+    for (const Setting& setting : result.settings) {
+        if (setting.axis == "integrator") {
+            return setting.value;
+        }
+    }
+    return result.settings.empty() ? "" : result.settings.front().value;
+}
+
+std::vector<std::string> color_values(const StudyReport& report) {
+    std::vector<std::string> values;
+    for (const Result& result : finished(report)) {
+        if (std::ranges::find(values, color_value(result)) == values.end()) {
+            values.push_back(color_value(result));
+        }
+    }
+    return values;
+}
+
+Rgb color_of(const std::string& value, const std::vector<std::string>& values) {
+    const auto place = std::ranges::find(values, value) - values.begin();
+    return kColors[static_cast<std::size_t>(place) % kColors.size()];
+}
+
+Drawing results(const StudyReport& report, const Axes& axes) {
+    const std::vector<std::string> values = color_values(report);
+    const auto disc = [&](const Result& result, double radius) -> Disc {
+        return {.center = axes.at(result.cost.seconds_per_frame, error_of(report, result)),
+                .radius = radius,
+                .color = color_of(color_value(result), values)};
+    };
+    Drawing drawing;
+    for (const Result& result : finished(report)) {
+        drawing.discs.push_back(disc(result, 3.5));
+    }
+    for (std::size_t i = 0; i < report.frontier.size(); ++i) {
+        const Disc numbered = disc(report.results[report.frontier[i]], 6);
+        if (i > 0) {
+            drawing.lines.push_back({.from = drawing.discs.back().center,
+                                     .to = numbered.center,
+                                     .color = kBlack,
+                                     .width = 1.5});
+        }
+        drawing.discs.push_back(numbered);
+        drawing.words.push_back(words({numbered.center.x + 9, numbered.center.y - 7},
+                                      std::to_string(i + 1), kBlack, 14));
+    }
+    return drawing;
+}
+
+// What the colors and the numbers stand for, beside the plot.
+Drawing list(const StudyReport& report) {
+    const double left = kRight + 28;
+    double y = kTop + 12;
+    Drawing drawing;
+    const auto row = [&](const std::string& text, const Rgb& color) {
+        drawing.words.push_back(words({left + 14, y}, text, color, 12));
+        y += kRowHeight;
+    };
+    const std::vector<std::string> values = color_values(report);
+    for (const std::string& value : values) {
+        drawing.discs.push_back(
+            {.center = {left + 3, y - 4}, .radius = 4.5, .color = color_of(value, values)});
+        row(value, kBlack);
+    }
+    y += kRowHeight / 2.0;
+    row("Not beaten in both time and error:", kGray);
+    const auto most = static_cast<std::size_t>((kHeight - y) / (2 * kRowHeight));
+    for (std::size_t i = 0; i < std::min(most, report.frontier.size()); ++i) {
+        const Result& result = report.results[report.frontier[i]];
+        row(std::to_string(i + 1) + "  " + settings_text(result.settings), kBlack);
+        row("    " + short_number(result.cost.seconds_per_frame) + " s per frame, error "
+                + (result.errors.position < report.reference.error_bar ? "below " : "")
+                + percent(error_of(report, result)),
+            kGray);
+    }
+    return drawing;
+}
 
 }  // namespace
 
 Drawing frontier_plot(const StudyReport& report) {
-    return Plot(report)();
+    const Axes axes = axes_of(report);
+    Drawing plot{.width = kWidth, .height = kHeight};
+    for (const Drawing& part : {title(report), frame(axes), reference(report, axes),
+                                results(report, axes), list(report)}) {
+        plot.lines.insert(plot.lines.end(), part.lines.begin(), part.lines.end());
+        plot.discs.insert(plot.discs.end(), part.discs.begin(), part.discs.end());
+        plot.words.insert(plot.words.end(), part.words.begin(), part.words.end());
+    }
+    return plot;
 }
 
 }  // namespace pent::study

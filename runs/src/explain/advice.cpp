@@ -1,23 +1,17 @@
 #include "explain/advice.h"
 
-#include "explain/doubts.h"
-
-#include <pent/facets.h>
 #include <pent/formatted.h>
-#include <pent/runs/explain.h>
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <utility>
 
 namespace pent::runs {
 
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+using Lines = std::vector<std::string>;
 
 // Bend of a beam at most so many cells thick over that of theory, for the materials between; see
 // docs/accuracy.md, which measures them.
@@ -47,287 +41,224 @@ double bend(ElementKind elements, int cells, double poisson) {
     return 1;
 }
 
-template <int Dim>
-class Adviser {
-public:
-    explicit Adviser(const Trial<Dim>& trial)
-        : trial_(trial), scene_(trial.scene), contact_(trial.scene.contact) {}
+Lines on_first_step(const Trial& trial) {
+    return trial.step.is_accepted ? Lines{} : Lines{"the first step fails: " + trial.step.failure};
+}
 
-    std::vector<std::string> operator()() {
-        if (!trial_.step.is_accepted) {
-            advise("the first step fails: " + trial_.step.failure);
+Lines on_warnings(const Trial& trial) {
+    return trial.warnings;
+}
+
+// Whether a body bends in this scene cannot be known; whether it would bend too little can.
+Lines on_bending(const Trial& trial) {
+    const Scene& scene = trial.scene;
+    const bool is_linear = scene.solver.elements == ElementKind::Linear;
+    Lines lines;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const Body& body = scene.bodies[i];
+        const int across = trial.bodies[i].cells_across;
+        double poisson = young_from_lame(scene.dimension, body.material.lame).poisson;
+        for (const Region& region : body.regions) {
+            poisson =
+                std::max(poisson, young_from_lame(scene.dimension, region.material.lame).poisson);
         }
-        for (const auto& lines : {trial_.meshes.warnings, trial_.simulation.warnings(),
-                                  doubts_of_units(scene_, trial_.simulation), trial_.overlaps,
-                                  soft_contacts(scene_, trial_.simulation)}) {
-            lines_.insert(lines_.end(), lines.begin(), lines.end());
+        const double part = bend(scene.solver.elements, across, poisson);
+        if (trial.bodies[i].is_kinematic() || part > kBends) {
+            continue;
         }
-        on_bending();
-        on_falling();
-        on_turns();
-        if (contact_) {
-            on_idle_contact();
-            on_fast_bodies();
-        } else {
-            on_missing_contact();
-        }
-        on_idle_obstacles();
-        on_damping_and_sleep();
-        return std::move(lines_);
+        const std::string cells =
+            across == 1 ? "1 cell" : formatted("%d to %d cells", across, across + 1);
+        lines.push_back(formatted(
+            "%s is %s thick: with poisson %.2g %s elements lock, bending reaches about"
+            " %.0f%% of what it should be; take elements = %s\"quadratic\" with a mesh of"
+            " pent-mesh --quadratic, refine, or lower poisson",
+            body.name.c_str(), cells.c_str(), poisson, is_linear ? "linear" : "even smoothed",
+            100 * part, is_linear ? "\"smoothed\", or " : ""));
     }
+    return lines;
+}
 
-private:
-    void advise(std::string line) { lines_.push_back(std::move(line)); }
-    [[nodiscard]] double gravity() const { return scene_.gravity.norm(); }
-    [[nodiscard]] const std::string& name(std::size_t body) const {
-        return scene_.bodies[body].name;
+Lines on_falling(const Trial& trial) {
+    const Scene& scene = trial.scene;
+    const double g = scene.gravity.norm();
+    const bool hangs = std::any_of(scene.attachments.begin(), scene.attachments.end(),
+                                   [](const Attachment& one) { return one.target.empty(); });
+    if (g == 0 || !scene.constraints.empty() || !scene.obstacles.empty() || hangs) {
+        return {};
     }
+    const double time = scene.frames / scene.frames_per_second;
+    return {
+        formatted("nothing is held and there is no obstacle: everything falls, %.3g m by the end",
+                  0.5 * g * time * time)};
+}
 
-    // Whether a body bends in this scene cannot be known; whether it would bend too little can.
-    void on_bending() {
-        for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-            if (trial_.is_kinematic(i)) {
-                continue;
-            }
-            const int across = cells_across(trial_.simulation.mesh(static_cast<int>(i)));
-            double poisson = young_from_lame(Dim, scene_.bodies[i].material.lame).poisson;
-            for (const Region& region : scene_.bodies[i].regions) {
-                poisson = std::max(poisson, young_from_lame(Dim, region.material.lame).poisson);
-            }
-            const double part = bend(scene_.solver.elements, across, poisson);
-            if (part > kBends) {
-                continue;
-            }
-            const bool is_linear = scene_.solver.elements == ElementKind::Linear;
-            const std::string cells =
-                across == 1 ? "1 cell" : formatted("%d to %d cells", across, across + 1);
-            advise(formatted(
-                "%s is %s thick: with poisson %.2g %s elements lock, bending reaches about"
-                " %.0f%% of what it should be; take elements = %s\"quadratic\" with a mesh of"
-                " pent-mesh --quadratic, refine, or lower poisson",
-                name(i).c_str(), cells.c_str(), poisson, is_linear ? "linear" : "even smoothed",
-                100 * part, is_linear ? "\"smoothed\", or " : ""));
-        }
-    }
-
-    void on_falling() {
-        const bool hangs = std::any_of(scene_.attachments.begin(), scene_.attachments.end(),
-                                       [](const Attachment& one) { return one.target.empty(); });
-        if (gravity() > 0 && scene_.constraints.empty() && scene_.obstacles.empty() && !hangs) {
-            const double time = scene_.frames / scene_.frames_per_second;
-            advise(
-                formatted("nothing is held and there is no obstacle: everything falls, %.3g m by"
-                          " the end",
-                          0.5 * gravity() * time * time));
-        }
-    }
-
-    // One linear solve a step sees a rotation as its tangent: at 0.2 rad that is 2% too long.
-    void on_turns() {
-        constexpr double kMaxAngle = 0.2;
-        if (scene_.solver.integrator != Integrator::LinearEuler) {
-            return;
-        }
-        for (const Constraint& constraint : scene_.constraints) {
-            for (const Motion& motion : constraint.motion) {
-                const double degrees = simulator::largest_turn_rate(motion) * scene_.dt();
-                const double angle = degrees * std::numbers::pi / 180;
-                if (angle > kMaxAngle) {
-                    advise(formatted(
-                        "a constraint of %s turns %.3g degrees a step, far for linear_euler: take"
-                        " %d steps_per_frame or newton_euler",
-                        constraint.body.c_str(), degrees,
-                        static_cast<int>(std::ceil(angle / kMaxAngle)) * scene_.steps_per_frame));
-                }
+// One linear solve a step sees a rotation as its tangent: at 0.2 rad that is 2% too long.
+Lines on_turns(const Trial& trial) {
+    constexpr double kMaxAngle = 0.2;
+    const Scene& scene = trial.scene;
+    Lines lines;
+    for (const Constraint& constraint : scene.constraints) {
+        for (const Motion& motion : constraint.motion) {
+            const double degrees = simulator::largest_turn_rate(motion) * scene.dt();
+            const double angle = degrees * std::numbers::pi / 180;
+            if (scene.solver.integrator == Integrator::LinearEuler && angle > kMaxAngle) {
+                lines.push_back(formatted(
+                    "a constraint of %s turns %.3g degrees a step, far for linear_euler: take"
+                    " %d steps_per_frame or newton_euler",
+                    constraint.body.c_str(), degrees,
+                    static_cast<int>(std::ceil(angle / kMaxAngle)) * scene.steps_per_frame));
             }
         }
     }
+    return lines;
+}
 
-    // Calls action(a, b, gap) for bodies, not both held, whose boxes are at most `most` apart.
-    template <typename Action>
-    void for_near_pairs(double most, const Action& action) const {
-        for (std::size_t a = 0; a < scene_.bodies.size(); ++a) {
-            for (std::size_t b = a + 1; b < scene_.bodies.size(); ++b) {
-                const double gap = trial_.start[a].exteriorDistance(trial_.start[b]);
-                if (!(trial_.is_kinematic(a) && trial_.is_kinematic(b)) && gap <= most) {
-                    action(a, b, gap);
-                }
+struct Pair {
+    const Body& a;
+    const Body& b;
+    double gap;  // between the boxes around them at the start, m
+};
+
+// Of bodies that are not both held.
+std::vector<Pair> pairs_of(const Trial& trial) {
+    std::vector<Pair> pairs;
+    for (std::size_t a = 0; a < trial.bodies.size(); ++a) {
+        for (std::size_t b = a + 1; b < trial.bodies.size(); ++b) {
+            const TrialBody& one = trial.bodies[a];
+            const TrialBody& other = trial.bodies[b];
+            if (!one.is_kinematic() || !other.is_kinematic()) {
+                pairs.push_back({trial.scene.bodies[a], trial.scene.bodies[b],
+                                 one.box.exteriorDistance(other.box)});
             }
         }
     }
+    return pairs;
+}
 
-    void on_missing_contact() {
-        for_near_pairs(0, [&](std::size_t a, std::size_t b, double /*gap*/) {
-            advise("the boxes around " + name(a) + " and " + name(b)
+Lines on_missing_contact(const Trial& trial) {
+    Lines lines;
+    for (const Pair& pair : pairs_of(trial)) {
+        if (!trial.scene.contact && pair.gap == 0) {
+            lines.push_back("the boxes around " + pair.a.name + " and " + pair.b.name
                    + " overlap at the start, and there is no [contact]: they pass through one"
                      " another");
+        }
+    }
+    return lines;
+}
+
+Lines on_idle_contact(const Trial& trial) {
+    const Scene& scene = trial.scene;
+    const std::optional<Contact>& contact = scene.contact;
+    // Obstacles push without [contact]; but barrier and friction are its own.
+    const bool serves_obstacles =
+        contact && !scene.obstacles.empty()
+        && (contact->friction > 0 || contact->model == ContactModel::Barrier);
+    if (!contact || contact->self || serves_obstacles) {
+        return {};
+    }
+    if (scene.bodies.size() == 1) {
+        return {"[contact] has nothing to do: there is one body, and self is false"};
+    }
+    const std::vector<Pair> pairs = pairs_of(trial);
+    if (pairs.empty()) {
+        return {"[contact] has nothing to do: all bodies are held everywhere"};
+    }
+    const double nearest =
+        std::min_element(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) {
+            return p.gap < q.gap;
+        })->gap;
+    if (nearest <= contact->distance) {
+        return {};
+    }
+    return {
+        formatted("the boxes around the bodies are %.3g m apart at the start, contact"
+                  " begins at %.3g m: if they never come nearer, [contact] could go",
+                  nearest, contact->distance)};
+}
+
+// A penalty that is only looked for at the end of a step is missed by what flies through it.
+Lines on_fast_bodies(const Trial& trial) {
+    const Scene& scene = trial.scene;
+    if (!scene.contact || scene.contact->model == ContactModel::Barrier) {
+        return {};
+    }
+    const double distance = scene.contact->distance;
+    const auto velocity_of = [&](const Body& body) -> Eigen::VectorXd {
+        return body.velocity.size() > 0 ? body.velocity : Eigen::VectorXd::Zero(scene.dimension);
+    };
+    Lines lines;
+    for (const Pair& pair : pairs_of(trial)) {
+        const double travel = scene.dt() * (velocity_of(pair.a) - velocity_of(pair.b)).norm();
+        if (travel > 2 * distance) {
+            lines.push_back(
+                formatted("%s and %s move %.3g m a step past each other, contact begins at"
+                          " %.3g m: they can pass through one another; take %d"
+                          " steps_per_frame or model = \"barrier\"",
+                          pair.a.name.c_str(), pair.b.name.c_str(), travel, distance,
+                          static_cast<int>(std::ceil(travel / distance)) * scene.steps_per_frame));
+        }
+    }
+    return lines;
+}
+
+bool is_anything_moving(const Trial& trial) {
+    const auto moves = [](const auto& part) {
+        return std::any_of(part.motion.begin(), part.motion.end(), [](const Motion& motion) {
+            return !motion.translate.isZero(0) || !motion.rotate.empty()
+                   || !motion.keyframes.empty();
         });
-    }
+    };
+    const auto has_any = [&](const auto& parts) {
+        return std::any_of(parts.begin(), parts.end(), moves);
+    };
+    return has_any(trial.scene.constraints) || has_any(trial.scene.attachments)
+           || has_any(trial.scene.obstacles) || trial.step.energies.kinetic > 0;
+}
 
-    void on_idle_contact() {
-        // Obstacles push without [contact]; but barrier and friction are its own.
-        const bool serves_obstacles =
-            !scene_.obstacles.empty()
-            && (contact_->friction > 0 || contact_->model == ContactModel::Barrier);
-        if (contact_->self || serves_obstacles) {
-            return;
-        }
-        double nearest = kFar;
-        for_near_pairs(kFar, [&](std::size_t /*a*/, std::size_t /*b*/, double gap) {
-            nearest = std::min(nearest, gap);
-        });
-        if (scene_.bodies.size() == 1) {
-            advise("[contact] has nothing to do: there is one body, and self is false");
-        } else if (nearest == kFar) {
-            advise("[contact] has nothing to do: all bodies are held everywhere");
-        } else if (nearest > contact_->distance) {
-            advise(
-                formatted("the boxes around the bodies are %.3g m apart at the start, contact"
-                          " begins at %.3g m: if they never come nearer, [contact] could go",
-                          nearest, contact_->distance));
-        }
+Lines on_idle_obstacles(const Trial& trial) {
+    if (trial.scene.obstacles.empty()) {
+        return {};
     }
-
-    // A penalty that is only looked for at the end of a step is missed by what flies through it.
-    void on_fast_bodies() {
-        if (contact_->model == ContactModel::Barrier) {
-            return;
-        }
-        for_near_pairs(kFar, [&](std::size_t a, std::size_t b, double /*gap*/) {
-            const double travel =
-                scene_.dt()
-                * (velocity_of(scene_.bodies[a]) - velocity_of(scene_.bodies[b])).norm();
-            if (travel > 2 * contact_->distance) {
-                advise(
-                    formatted("%s and %s move %.3g m a step past each other, contact begins at"
-                              " %.3g m: they can pass through one another; take %d"
-                              " steps_per_frame or model = \"barrier\"",
-                              name(a).c_str(), name(b).c_str(), travel, contact_->distance,
-                              static_cast<int>(std::ceil(travel / contact_->distance))
-                                  * scene_.steps_per_frame));
-            }
-        });
+    if (trial.size.free_vertices == 0) {
+        return {"[[obstacle]] has nothing to do: all bodies are held everywhere"};
     }
-
-    static Eigen::VectorXd velocity_of(const Body& body) {
-        return body.velocity.size() > 0 ? body.velocity : Eigen::VectorXd::Zero(Dim);
+    if (!is_anything_moving(trial) && trial.step.contact.obstacle == 0) {
+        return {"[[obstacle]] could go: nothing touches one at the start, and nothing moves"};
     }
+    return {};
+}
 
-    [[nodiscard]] bool is_anything_moving() const {
-        const auto moves = [](const auto& part) {
-            return std::any_of(part.motion.begin(), part.motion.end(), [](const Motion& motion) {
-                return !motion.translate.isZero(0) || !motion.rotate.empty()
-                       || !motion.keyframes.empty();
-            });
-        };
-        const auto has_any = [&](const auto& parts) {
-            return std::any_of(parts.begin(), parts.end(), moves);
-        };
-        return has_any(scene_.constraints) || has_any(scene_.attachments)
-               || has_any(scene_.obstacles) || trial_.step.energies.kinetic > 0;
+Lines on_idle_damping(const Trial& trial) {
+    const auto& damping = trial.scene.damping;
+    const bool is_idle = damping && damping->mass == 0 && damping->stiffness == 0;
+    return is_idle ? Lines{"[damping] is all zero and could go"} : Lines{};
+}
+
+Lines on_short_sleep(const Trial& trial) {
+    constexpr double kFewSteps = 10;
+    const auto& sleep = trial.scene.sleep;
+    const double dt = trial.scene.dt();
+    if (!sleep || sleep->time >= kFewSteps * dt) {
+        return {};
     }
-
-    void on_idle_obstacles() {
-        if (scene_.obstacles.empty()) {
-            return;
-        }
-        if (trial_.size.free_vertices == 0) {
-            advise("[[obstacle]] has nothing to do: all bodies are held everywhere");
-        } else if (!is_anything_moving() && trial_.step.contact.obstacle == 0) {
-            advise("[[obstacle]] could go: nothing touches one at the start, and nothing moves");
-        }
-    }
-
-    void on_damping_and_sleep() {
-        if (scene_.damping && scene_.damping->mass == 0 && scene_.damping->stiffness == 0) {
-            advise("[damping] is all zero and could go");
-        }
-        constexpr double kFewSteps = 10;
-        if (scene_.sleep && scene_.sleep->time < kFewSteps * scene_.dt()) {
-            advise(formatted(
-                "sleep.time is %.3g s, %.2g steps: falling asleep and waking cost some"
-                " steps' worth; take %.2g s or more",
-                scene_.sleep->time, scene_.sleep->time / scene_.dt(), kFewSteps * scene_.dt()));
-        }
-    }
-
-    const Trial<Dim>& trial_;
-    const Scene& scene_;
-    const std::optional<Contact>& contact_;
-    std::vector<std::string> lines_;
-};
+    return {
+        formatted("sleep.time is %.3g s, %.2g steps: falling asleep and waking cost some"
+                  " steps' worth; take %.2g s or more",
+                  sleep->time, sleep->time / dt, kFewSteps * dt)};
+}
 
 }  // namespace
 
-template <int Dim>
-Trial<Dim>::Trial(const Scene& of, int threads, std::shared_ptr<const simulator::Ranks> ranks)
-    : scene(of),
-      meshes(read_meshes<Dim>(of)),
-      simulation(of, std::move(meshes.meshes), {.threads = threads, .ranks = ranks}),
-      overlaps(overlaps_at_start(of, simulation)) {
-    for (std::size_t body = 0; body < of.bodies.size(); ++body) {
-        const auto i = static_cast<int>(body);
-        const auto positions = simulation.positions(i);
-        start.push_back({positions.rowwise().minCoeff(), positions.rowwise().maxCoeff()});
-        free_vertices.push_back(simulation.mesh(i).vertex_count());
-        for (const Constraint& constraint : of.constraints) {
-            // One that comes or goes leaves them their unknowns.
-            const bool lasts = constraint.from == 0 && std::isinf(constraint.to);
-            if (lasts && constraint.body == of.bodies[body].name) {
-                free_vertices.back() -= static_cast<std::int64_t>(
-                    select_vertices(simulation.mesh(i), constraint).size());
-            }
-        }
+std::vector<std::string> advice(const Trial& trial) {
+    Lines all;
+    for (const auto piece :
+         {on_first_step, on_warnings, on_bending, on_falling, on_turns, on_missing_contact,
+          on_idle_contact, on_fast_bodies, on_idle_obstacles, on_idle_damping, on_short_sleep}) {
+        const Lines lines = piece(trial);
+        all.insert(all.end(), lines.begin(), lines.end());
     }
-    if (ranks != nullptr) {
-        static_cast<void>(ranks->take_traffic());  // of setting up
-    }
-    step = simulation.step();
-    traffic = ranks != nullptr ? ranks->take_traffic() : simulator::RankTraffic();
-    size = simulation.size();
+    return all;
 }
-
-template <int Dim>
-std::vector<std::string> advice(const Trial<Dim>& trial) {
-    return Adviser<Dim>(trial)();
-}
-
-template <int Dim>
-int cells_across(const SimplexMesh<Dim>& mesh) {
-    constexpr int kUnseen = std::numeric_limits<int>::max();
-    std::vector<int> depth(static_cast<std::size_t>(mesh.vertex_count()), kUnseen);
-    const auto facets = match_facets<Dim>(mesh.cells, mesh.vertex_count());
-    for (const std::uint32_t vertex : facets.boundary.reshaped()) {
-        depth[vertex] = 0;
-    }
-    // One pass over the cells takes the depth at least one edge further in.
-    int deepest = 0;
-    for (bool has_changed = true; has_changed;) {
-        has_changed = false;
-        for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
-            int least = kUnseen;
-            for (const std::uint32_t vertex : mesh.cells.col(cell)) {
-                least = std::min(least, depth[vertex]);
-            }
-            for (const std::uint32_t vertex : mesh.cells.col(cell)) {
-                if (least < kUnseen && depth[vertex] > least + 1) {
-                    depth[vertex] = least + 1;
-                    has_changed = true;
-                }
-            }
-        }
-    }
-    for (const int edges : depth) {
-        deepest = edges < kUnseen ? std::max(deepest, edges) : deepest;
-    }
-    return std::max(1, 2 * deepest);
-}
-
-template struct Trial<3>;
-template struct Trial<4>;
-template std::vector<std::string> advice(const Trial<3>&);
-template std::vector<std::string> advice(const Trial<4>&);
-template int cells_across<3>(const SimplexMesh<3>&);
-template int cells_across<4>(const SimplexMesh<4>&);
 
 }  // namespace pent::runs
