@@ -108,9 +108,6 @@ SimplexMesh<Dim> mesh_of(const pent_mesh& mesh, const std::string& name) {
     made.positions = array<Dim>(mesh.positions, mesh.vertices, "positions");
     made.cells = Eigen::Map<const Simplices<Dim + 1>>(mesh.cells, Dim + 1,
                                                       static_cast<Eigen::Index>(mesh.cell_count));
-    Eigen::Map<const Simplices<Dim + 1>>(mesh.cells, Dim + 1,
-                                         static_cast<Eigen::Index>(mesh.cell_count));
-    made.regions = labels(mesh.regions, mesh.cell_count);
     made.regions = labels(mesh.regions, mesh.cell_count);
     made.columns = labels(mesh.columns, mesh.vertices);
     made.layers = labels(mesh.layers, mesh.vertices);

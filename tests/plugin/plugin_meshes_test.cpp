@@ -36,9 +36,9 @@ template <int Dim>
 SimplexMesh<Dim> full_mesh() {
     std::array<int, Dim> count{};
     std::array<double, Dim> size{};
-    count.fill(2);
+    count.fill(1);
     size.fill(1);
-    SimplexMesh<Dim> mesh = test::kuhn_box<Dim>(count, size);
+    SimplexMesh<Dim> mesh = test::quadratic_kuhn_box<Dim>(count, size);
     const auto cells = static_cast<std::size_t>(mesh.cell_count());
     const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
     mesh.fibers = Positions<Dim>::Random(Dim, mesh.cell_count());
@@ -58,6 +58,7 @@ pent_mesh full_c_mesh(const SimplexMesh<Dim>& mesh) {
     made.regions = mesh.regions.data();
     made.columns = mesh.columns.data();
     made.layers = mesh.layers.data();
+    made.parents = mesh.parents.data();
     made.fibers = mesh.fibers.data();
     return made;
 }
@@ -74,7 +75,8 @@ void expect_round_trip(const TempFolder& folder, int is_ascii) {
     EXPECT_STREQ(read.info.created_by, "somebody 1.2");
     EXPECT_EQ(read.info.crc32c, read_info(first).crc32c);
     EXPECT_NEAR(read.info.hypervolume, 1, 1e-14);  // a few hundred roundings
-    EXPECT_EQ(read.info.arrays.parents, nullptr);
+    ASSERT_NE(read.info.arrays.parents, nullptr);
+    EXPECT_TRUE(std::equal(mesh.parents.begin(), mesh.parents.end(), read.info.arrays.parents));
     ASSERT_EQ(pent_write_mesh(read, second.c_str(), "somebody 1.2", is_ascii), 0);
     EXPECT_EQ(read_text(first, "a mesh"), read_text(second, "a mesh"));
     const pent_mesh arrays = full_c_mesh(mesh);
@@ -90,6 +92,11 @@ TEST(PluginMeshes, GoThroughFilesAndArraysToTheByte) {
         expect_round_trip<3>(folder, is_ascii);
         expect_round_trip<4>(folder, is_ascii);
     }
+}
+
+TEST(PluginMeshes, HaveNoParentsWhereNoneWereGiven) {
+    const pent_mesh arrays = closed_c_mesh(test::box<4>());
+    EXPECT_EQ(Mesh(pent_store_mesh(4, &arrays)).info.arrays.parents, nullptr);
 }
 
 TEST(PluginMeshes, HaveTheBoundaryThatTheLibraryFinds) {

@@ -1,5 +1,6 @@
 #include "plugin_client.h"
 #include "plugin_scenes.h"
+#include "stored_mesh.h"
 #include "support/temp_folder.h"
 
 #include <pent/output_file.h>
@@ -280,6 +281,38 @@ TEST(Plugin, TakesTheFibersOfAMesh) {
     ASSERT_TRUE(simulation.step().is_accepted);
     EXPECT_GT((simulation.positions(0) - same.positions).norm(), 0.01);
     expect_same(host, simulation);
+}
+
+// Quadratic cells by the parents of their children, in an order that says nothing without them: as
+// arrays, and from a file that the plugin wrote of them.
+TEST(Plugin, TakesStepsOfQuadraticElementsAsTheLibraryDoes) {
+    const pent::test::TempFolder folder;
+    SimplexMesh<4> mesh = pent::test::quadratic_kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1});
+    mesh.positions.row(1) *= 1.1;
+    const std::string scene =
+        "[scene]\ngravity = [0, -9, 0, 0]\n"
+        "[solver]\nelements = \"quadratic\"\nintegrator = \"bdf2\"\n"
+        "[[body]]\nname = \"a\"\nmesh = \"a.pent\"\n"
+        "[[constraint]]\nbody = \"a\"\nselect = { half_space = { normal = [1, 0, 0, 0], "
+        "offset = 1e-6 } }\n";
+    pent_mesh arrays = closed_c_mesh(mesh);
+    EXPECT_EQ(pent_open_text(scene.c_str(), &arrays, 1, 1), nullptr);
+    expect_error("pent-mesh --quadratic");
+    arrays.parents = mesh.parents.data();
+    const Host host(pent_open_text(scene.c_str(), &arrays, 1, 1));
+    const test::StoredMesh stored(pent_store_mesh(4, &arrays));
+    ASSERT_EQ(pent_write_mesh(stored, (folder / "a.pent").c_str(), "", 0), 0) << pent_last_error();
+    write_text(folder / "scene.toml", scene);
+    const Host from_file(pent_open_file((folder / "scene.toml").c_str(), 1));
+    Simulation<4> simulation(runs::parse_scene(scene, "scene", ""), {mesh});
+    for (int step = 0; step < 3; ++step) {
+        ASSERT_EQ(pent_step(host, nullptr), 0) << pent_last_error();
+        ASSERT_EQ(pent_step(from_file, nullptr), 0) << pent_last_error();
+        ASSERT_TRUE(simulation.step().is_accepted);
+        expect_same(host, simulation);
+        expect_same(from_file, simulation);
+    }
+    EXPECT_GT((simulation.positions(0) - mesh.positions).norm(), 0.01);
 }
 
 TEST(Plugin, OpensASceneFromMemoryOrSaysWhereItIsWrong) {

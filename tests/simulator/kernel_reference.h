@@ -48,8 +48,6 @@ ReferencePoint cell_point(const SimplexMesh<Dim>& mesh, Eigen::Index cell) {
     return point;
 }
 
-// From the shape functions l_a (2 l_a - 1) and 4 l_a l_b of straight simplices, at the points with
-// barycentric coordinates (b, a, a, ..), a = (n + 2 - sqrt(n + 2)) / ((n + 1) (n + 2)).
 template <int Dim>
 std::vector<ReferenceElement> smoothed_elements(const SimplexMesh<Dim>& mesh,
                                                 const std::vector<ReferenceElement>& cells) {
@@ -76,6 +74,8 @@ std::vector<ReferenceElement> smoothed_elements(const SimplexMesh<Dim>& mesh,
     return edges;
 }
 
+// From the shape functions l_a (2 l_a - 1) and 4 l_a l_b of straight simplices, at the points with
+// barycentric coordinates (b, a, a, ..), a = (n + 2 - sqrt(n + 2)) / ((n + 1) (n + 2)).
 template <int Dim>
 std::vector<ReferenceElement> quadratic_elements(const SimplexMesh<Dim>& mesh) {
     const QuadraticSimplices<Dim> simplices = quadratic_simplices<Dim>(mesh, "box");
