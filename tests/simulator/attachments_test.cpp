@@ -16,6 +16,8 @@ namespace {
 using test::Dimensions;
 using test::expect_derivatives;
 using test::expect_invariance_under_rigid_motion;
+using test::gradient_of;
+using test::hessian_of;
 using test::Setting;
 using test::shaken;
 using test::value_of;
@@ -86,6 +88,31 @@ TYPED_TEST(AttachmentsTest, ArePulledByTheWholeWayWithoutAnOffset) {
     EXPECT_NEAR(energy, expected, 1e-12 * expected);
     EXPECT_NEAR(attachments.summaries()[0].largest_force,
                 300 * std::sqrt((kDim - 1) * 0.04 * 0.04 + 0.03 * 0.03), 1e-9);
+}
+
+// Springs of no length have no direction; their Hessian is what it is anywhere else.
+TYPED_TEST(AttachmentsTest, HaveTheirDerivativesWhereSpringsHaveNoLength) {
+    constexpr int kDim = TypeParam::value;
+    for (const bool is_to_body : {false, true}) {
+        Scene scene = tied_cubes<kDim>(RestOffset::Keep);
+        if (!is_to_body) {
+            scene.attachments[0].target.clear();
+        }
+        const Setting<kDim> setting(scene, 2);
+        Attachments<kDim> attachments(setting.workers, setting.scene, setting.bodies);
+        static_cast<void>(attachments.set_time({0, 0.01}));
+        const Positions<kDim>& rest = setting.bodies.rest;
+        // 300 N/m and some roundings of a meter, each.
+        EXPECT_LT(gradient_of<kDim>(attachments, rest).norm(), 300 * 1e-14);
+        const BlockPattern pattern = make_pattern<kDim>(setting.bodies.cells, setting.dofs);
+        EXPECT_EQ(hessian_of<kDim>(setting, pattern, attachments, rest),
+                  hessian_of<kDim>(setting, pattern, attachments, shaken<kDim>(rest, 0.05, 5)));
+        // One spring is stretched, the others are not.
+        Positions<kDim> x = rest;
+        x.col(setting.bodies.first_vertex[1]).array() += 0.03;
+        EXPECT_GT(gradient_of<kDim>(attachments, x).norm(), 1);
+        expect_derivatives<kDim>(setting, attachments, x);
+    }
 }
 
 TYPED_TEST(AttachmentsTest, HaveTheirDerivativesWithDampingAtPointsThatMove) {

@@ -112,45 +112,51 @@ TEST(BodyDofs, AreNotThoseThatAHostHolds) {
 
 // Rows are the free vertices that a rank owns, and behind them are columns: those of others that it
 // may couple. Together the rows are all free vertices, each once.
-TEST(BodyDofs, OfRanksAreTheirOwnAndThenWhatTheseAreCoupledTo) {
+void expect_maps_of_ranks(int count, const std::vector<bool>& is_in) {
     const Scene scene = three_bars();
-    const std::vector<bool> is_in = {true, true, false};
-    for (const int count : {2, 3}) {
-        std::vector<DofMap> maps(static_cast<std::size_t>(count));
-        std::vector<DofMap> alike(maps.size());
-        test::on_ranks(count, [&](const std::shared_ptr<const Ranks>& ranks) {
-            Bodies<4> bodies = share(scene, make_bars(scene), ranks);
-            static_cast<void>(simulator::hold<4>(scene, 5, bodies.rest, bodies));
-            const Vertices free = free_vertices(bodies, is_in);
-            Vertices coupled;
-            for (const std::uint32_t v : free) {
-                const bool is_in_a_cell = (bodies.cells.array() == v).any();
-                if (bodies.sharing.owns(v) || is_in_a_cell || bodies.may_couple_anything) {
-                    coupled.insert(v);
-                }
+    std::vector<DofMap> maps(static_cast<std::size_t>(count));
+    std::vector<DofMap> alike(maps.size());
+    test::on_ranks(count, [&](const std::shared_ptr<const Ranks>& ranks) {
+        Bodies<4> bodies = share(scene, make_bars(scene), ranks);
+        const Vertices free = free_vertices(bodies, is_in);
+        Vertices own_or_coupled;
+        for (const std::uint32_t v : free) {
+            const bool is_in_a_cell = (bodies.cells.array() == v).any();
+            if (bodies.sharing.owns(v) || is_in_a_cell || bodies.may_couple_anything) {
+                own_or_coupled.insert(v);
             }
-            const DofMap dofs = number_dofs(bodies, is_in);
-            expect_map_of(dofs, bodies, coupled);
-            for (std::uint32_t dof = 0; dof < dofs.count(); ++dof) {
-                const std::uint32_t vertex = dofs.vertex_of(dof);
-                EXPECT_EQ(dof < dofs.row_count(), bodies.sharing.owns(vertex)) << vertex;
-                EXPECT_EQ(dofs.is_own(vertex), bodies.sharing.owns(vertex)) << vertex;
-            }
-            const auto rank = static_cast<std::size_t>(ranks->rank());
-            maps[rank] = dofs;
-            alike[rank] = number_dofs_alike(bodies, is_in);
-            expect_map_of(alike[rank], bodies, free);
-        });
-        Vertices rows;
-        std::size_t sum = 0;
-        for (std::size_t rank = 0; rank < maps.size(); ++rank) {
-            const auto begin = maps[rank].vertices().begin();
-            rows.insert(begin, begin + maps[rank].row_count());
-            sum += maps[rank].row_count();
-            EXPECT_EQ(alike[rank].vertices(), alike[0].vertices());
         }
-        EXPECT_EQ(rows, Vertices(alike[0].vertices().begin(), alike[0].vertices().end()));
-        EXPECT_EQ(sum, rows.size());
+        const DofMap dofs = number_dofs(bodies, is_in);
+        expect_map_of(dofs, bodies, own_or_coupled);
+        for (std::uint32_t dof = 0; dof < dofs.count(); ++dof) {
+            const std::uint32_t vertex = dofs.vertex_of(dof);
+            EXPECT_EQ(dof < dofs.row_count(), bodies.sharing.owns(vertex)) << vertex;
+            EXPECT_EQ(dofs.is_own(vertex), bodies.sharing.owns(vertex)) << vertex;
+        }
+        const auto rank = static_cast<std::size_t>(ranks->rank());
+        maps[rank] = dofs;
+        alike[rank] = number_dofs_alike(bodies, is_in);
+        expect_map_of(alike[rank], bodies, free);
+    });
+    Vertices rows;
+    std::size_t sum = 0;
+    for (std::size_t rank = 0; rank < maps.size(); ++rank) {
+        const auto begin = maps[rank].vertices().begin();
+        rows.insert(begin, begin + maps[rank].row_count());
+        sum += maps[rank].row_count();
+        EXPECT_EQ(alike[rank].vertices(), alike[0].vertices());
+    }
+    EXPECT_EQ(rows, Vertices(alike[0].vertices().begin(), alike[0].vertices().end()));
+    EXPECT_EQ(sum, rows.size());
+}
+
+// Cut between bodies and through them, so that there are held and sleeping vertices on both sides.
+TEST(BodyDofs, OfRanksAreTheirOwnAndThenWhatTheseAreCoupledTo) {
+    for (const int count : {2, 3, 5}) {
+        for (unsigned set = 1; set < 8; ++set) {
+            SCOPED_TRACE(set);
+            expect_maps_of_ranks(count, {(set & 1U) != 0, (set & 2U) != 0, (set & 4U) != 0});
+        }
     }
 }
 

@@ -74,6 +74,37 @@ TYPED_TEST(GrabsTest, HaveTheirDerivativesInAStepAndBetweenSteps) {
     }
 }
 
+// Of one that is where its anchor is, there is no direction; beside one that pulls.
+TYPED_TEST(GrabsTest, HaveTheirDerivativesWhereASpringHasNoLength) {
+    constexpr int kDim = TypeParam::value;
+    for (const double max_force : {1e9, 20.0}) {
+        const Setting<kDim> setting = two_bodies<kDim>();
+        const Positions<kDim>& x = setting.bodies.rest;
+        auto slack = holding<kDim>(setting.bodies, max_force);
+        slack.grab.anchor.array() -= 0.3 / std::sqrt(kDim);
+        slack.grab.damping = 0;
+        slack.from = slack.grab.anchor;
+        Grabs<kDim> grabs(setting.scene, setting.bodies);
+        grabs.set({slack}, 0);
+        for (const bool is_in_step : {false, true}) {
+            if (is_in_step) {
+                begin<kDim>(grabs, x);
+            } else {
+                static_cast<void>(grabs.set_time({0, 0.01}));
+            }
+            // 300 N/m and some roundings of a meter.
+            EXPECT_LT(gradient_of<kDim>(grabs, x).norm(), 300 * 1e-14);
+        }
+        auto pulling = holding<kDim>(setting.bodies, max_force);
+        pulling.id = 2;
+        pulling.grab.point.body = 0;  // its anchor is near the other
+        grabs.set({slack, pulling}, 0);
+        begin<kDim>(grabs, x);
+        EXPECT_GT(gradient_of<kDim>(grabs, x).norm(), 1);
+        expect_derivatives<kDim>(setting, grabs, x);
+    }
+}
+
 // All forces together are one at the point, whatever its cell is deformed to; and where all is
 // turned and moved, anchors too, nothing has changed but the directions.
 TYPED_TEST(GrabsTest, PullAtTheirPointAndTurnNothingAboutIt) {

@@ -2,6 +2,8 @@
 
 #include "potential_laws.h"
 
+#include <Eigen/Eigenvalues>
+
 namespace pent::simulator {
 namespace {
 
@@ -61,6 +63,94 @@ TYPED_TEST(RayleighDampingTest, HasTheDerivativesOfItsEnergyWithElementsOfEveryK
         const double work = gradient_of<kDim>(damping, x).cwiseProduct(x - start).sum();
         EXPECT_NEAR(work, 2 * value_of<kDim>(damping, x), 1e-12 * work);
     }
+}
+
+// Of a cube at the start of a step.
+template <int Dim>
+struct Damped {
+    Scene scene = test::box_scene<Dim>();
+    Setting<Dim> setting{scene, 2};
+    Elasticity<Dim> elasticity{setting.workers, setting.isa, setting.bodies, scene};
+    RayleighDamping<Dim> damping;
+    Positions<Dim> start;
+    Positions<Dim> still = 0 * setting.bodies.rest;
+
+    Damped(Filter filter, const Matrix<Dim>& map, double shake)
+        : damping(setting.workers,
+                  setting.isa.blocks,
+                  elasticity,
+                  setting.dofs,
+                  setting.bodies.sharing,
+                  filter),
+          start(map * shaken<Dim>(setting.bodies.rest, shake, 12)) {
+        static_cast<void>(value_of<Dim>(elasticity, start));
+        static_cast<void>(damping.begin_step({start, still, start, still, 0.01, 100, false}));
+    }
+};
+
+// The smallest eigenvalue of the Hessian as a part of its size.
+template <int Dim>
+double smallest_eigenvalue(Damped<Dim>& body) {
+    const Eigen::MatrixXd hessian =
+        test::hessian_of<Dim>(body.setting, body.elasticity.pattern(), body.damping, body.start);
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(hessian, Eigen::EigenvaluesOnly)
+               .eigenvalues()[0]
+           / hessian.norm();
+}
+
+// Flat, turned inside out, in one line: the tangent is filtered there, so that it takes energy, and
+// what damps a body from within pushes it nowhere.
+TYPED_TEST(RayleighDampingTest, TakesEnergyAndNoMomentumFromFlatAndInvertedStarts) {
+    constexpr int kDim = TypeParam::value;
+    Matrix<kDim> flat = Matrix<kDim>::Identity();
+    flat(1, 1) = 0;
+    Matrix<kDim> inside_out = Matrix<kDim>::Identity();
+    inside_out(0, 0) = -1;
+    const Matrix<kDim> line = Vector<kDim>::Unit(0).asDiagonal();
+    for (const Matrix<kDim>& map : {flat, inside_out, line}) {
+        Damped<kDim> unfiltered(Filter::None, map, 0.03);
+        if (kDim == 3 || map != line) {  // det F has no second derivative at a line in 4D
+            EXPECT_LT(smallest_eigenvalue(unfiltered), -1e-3);
+        }
+        for (const Filter filter : {Filter::Clamp, Filter::Absolute}) {
+            Damped<kDim> body(filter, map, 0.03);
+            EXPECT_GT(smallest_eigenvalue(body), -1e-14);
+            for (unsigned seed = 20; seed < 24; ++seed) {
+                const Positions<kDim> x = shaken<kDim>(body.start, 0.05, seed);
+                EXPECT_GE(value_of<kDim>(body.damping, x), 0);
+                const Positions<kDim> gradient = gradient_of<kDim>(body.damping, x);
+                EXPECT_LT(gradient.rowwise().sum().norm(), 1e-12 * gradient.norm());
+            }
+            expect_derivatives<kDim>(body.setting, body.damping,
+                                     shaken<kDim>(body.start, 0.05, 24));
+        }
+    }
+}
+
+// A body that is not strained, however it lies: no turn about any point, taken to first order, is
+// damped, so that nothing is turned; and what is damped turns with the body.
+TYPED_TEST(RayleighDampingTest, TakesNoAngularMomentumAndTurnsWithTheBody) {
+    constexpr int kDim = TypeParam::value;
+    const Matrix<kDim> turn = test::any_rotation<kDim>();
+    Damped<kDim> upright(Filter::Clamp, Matrix<kDim>::Identity(), 0);
+    Damped<kDim> turned(Filter::Clamp, turn, 0);
+    const Positions<kDim> way = shaken<kDim>(upright.still, 0.05, 30);
+    const Positions<kDim> x = turned.start + turn * way;
+    const Positions<kDim> gradient = gradient_of<kDim>(turned.damping, x);
+    EXPECT_LT(gradient.rowwise().sum().norm(), 1e-12 * gradient.norm());
+    const Matrix<kDim> torque = gradient * turned.start.transpose();
+    EXPECT_LT((torque - torque.transpose()).norm(), 1e-11 * gradient.norm() * turned.start.norm());
+    const double value = value_of<kDim>(upright.damping, upright.start + way);
+    EXPECT_GT(value, 0);
+    EXPECT_NEAR(value_of<kDim>(turned.damping, x), value, 1e-11 * value);
+    const Positions<kDim> of_upright = gradient_of<kDim>(upright.damping, upright.start + way);
+    EXPECT_LT((gradient - turn * of_upright).norm(), 1e-11 * gradient.norm());
+    // A slow turn by 0.1 in the plane of the first and the last axis.
+    Matrix<kDim> spin = Matrix<kDim>::Zero();
+    spin(0, kDim - 1) = -0.1;
+    spin(kDim - 1, 0) = 0.1;
+    EXPECT_LT(value_of<kDim>(turned.damping, turned.start + spin * turned.start), 1e-12 * value);
+    expect_derivatives<kDim>(turned.setting, turned.damping, x);
 }
 
 }  // namespace
