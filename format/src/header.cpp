@@ -79,10 +79,8 @@ std::string quoted(std::string_view text) {
 
 // "property double x", "property list uint v0".
 std::string declaration(const PlyProperty& property) {
-    std::string text = property.count_type ? "property list " : "property ";
-    text += name_of(property.type);
-    text += " " + property.name;
-    return text;
+    return (property.count_type ? "property list " : "property ")
+           + std::string(name_of(property.type)) + " " + property.name;
 }
 
 // Reads a header line by line; every failure names the line.
@@ -99,10 +97,8 @@ public:
             if (line == "end_header") {
                 break;
             }
-            if (words.size() >= 2 && words[0] == "comment") {
+            if (!words.empty() && words[0] == "comment") {
                 parse_comment(words, line);
-            } else if (!words.empty() && words[0] == "comment") {
-                continue;
             } else if (words.size() == 3 && words[0] == "element") {
                 parse_element(words, line);
             } else if (words.size() >= 3 && words[0] == "property") {
@@ -113,7 +109,6 @@ public:
         }
         header_.body = at_;
         check_checksum();
-        check_elements();
         return header_;
     }
 
@@ -173,7 +168,7 @@ private:
     }
 
     void parse_comment(const std::vector<std::string_view>& words, std::string_view line) {
-        const std::string_view key = words[1];
+        const std::string_view key = words.size() > 1 ? words[1] : "";
         if (std::find(kComments.begin(), kComments.end(), key) == kComments.end()) {
             return;
         }
@@ -289,73 +284,10 @@ private:
         const std::uint32_t found =
             crc32c(bytes_.data() + next, header_.body - next, crc32c(before.data(), before.size()));
         if (found != *checksum_) {
-            fail_header("its checksum is " + formatted("%08x", found) + ", the header says "
-                        + formatted("%08x", *checksum_) + ": it was changed since it was written");
+            throw Error(path_ + ": header: its checksum is " + formatted("%08x", found)
+                        + ", the header says " + formatted("%08x", *checksum_)
+                        + ": it was changed since it was written");
         }
-    }
-
-    [[noreturn]] void fail_header(const std::string& what) const {
-        throw Error(path_ + ": header: " + what);
-    }
-
-    // The known elements must begin with their required properties, in order.
-    void check_prefix(const PlyElement& element,
-                      const std::vector<std::string>& names,
-                      PlyType type) const {
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            const bool is_missing = i >= element.properties.size();
-            const PlyProperty found = is_missing ? PlyProperty{} : element.properties[i];
-            if (is_missing || found.name != names[i] || found.type != type || found.count_type) {
-                std::string what = "property " + std::to_string(i) + " of element " + element.name;
-                what += is_missing ? " is missing" : " is '" + declaration(found) + "'";
-                what += ", expected '" + declaration({names[i], type, std::nullopt}) + "'";
-                fail_header(what);
-            }
-        }
-        for (const PlyProperty& property : element.properties) {
-            if (property.count_type) {
-                fail_header("element " + element.name + " has the list property " + property.name
-                            + ", expected properties of fixed width");
-            }
-        }
-    }
-
-    void check_elements() {
-        const int dim = header_.info.dimension;
-        const std::string cells(cell_name(dim));
-        if (header_.elements.empty() || header_.elements[0].name != "vertex") {
-            fail_header("found "
-                        + (header_.elements.empty()
-                               ? std::string("no element")
-                               : "element " + header_.elements[0].name + " first")
-                        + ", expected element vertex first");
-        }
-        if (header_.elements[0].count > kMaxVertices) {
-            fail_header("element vertex has " + std::to_string(header_.elements[0].count)
-                        + " vertices, expected at most " + std::to_string(kMaxVertices));
-        }
-        const std::array<std::string, 4> axes = {"x", "y", "z", "w"};
-        check_prefix(header_.elements[0], {axes.begin(), axes.begin() + dim}, PlyType::Double);
-        header_.info.vertices = header_.elements[0].count;
-        if (header_.info.encoding == Encoding::Binary && !header_.has_checksum) {
-            fail_header("no 'comment crc32c', expected one in a binary file");
-        }
-        if (header_.info.is_frame) {
-            return;
-        }
-        if (header_.elements.size() < 2 || header_.elements[1].name != cells) {
-            fail_header("found "
-                        + (header_.elements.size() < 2 ? std::string("no element")
-                                                       : "element " + header_.elements[1].name)
-                        + " after element vertex, expected element " + cells + " (dimension "
-                        + std::to_string(dim) + ")");
-        }
-        std::vector<std::string> corners;
-        for (int k = 0; k <= dim; ++k) {
-            corners.push_back("v" + std::to_string(k));
-        }
-        check_prefix(header_.elements[1], corners, PlyType::Uint);
-        header_.info.cells = header_.elements[1].count;
     }
 
     std::string_view bytes_;
@@ -367,6 +299,66 @@ private:
     std::size_t checksum_begin_ = 0;         // of the line that has it
     std::set<std::string> seen_;
 };
+
+// What stands in an element's place, for messages.
+std::string name_of(const Header& header, std::size_t element) {
+    return element < header.elements.size() ? "element " + header.elements[element].name
+                                            : "no element";
+}
+
+// The known elements must begin with their required properties, in order.
+void check_prefix(const PlyElement& element,
+                  const std::vector<std::string>& names,
+                  PlyType type,
+                  const std::string& where) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const bool is_missing = i >= element.properties.size();
+        const PlyProperty found = is_missing ? PlyProperty{} : element.properties[i];
+        if (is_missing || found.name != names[i] || found.type != type || found.count_type) {
+            throw Error(where + "property " + std::to_string(i) + " of element " + element.name
+                        + (is_missing ? " is missing" : " is '" + declaration(found) + "'")
+                        + ", expected '" + declaration({names[i], type, std::nullopt}) + "'");
+        }
+    }
+    for (const PlyProperty& property : element.properties) {
+        if (property.count_type) {
+            throw Error(where + "element " + element.name + " has the list property "
+                        + property.name + ", expected properties of fixed width");
+        }
+    }
+}
+
+void check_vertices(const Header& header, const std::string& where) {
+    if (header.elements.empty() || header.elements[0].name != "vertex") {
+        throw Error(where + "found " + name_of(header, 0)
+                    + (header.elements.empty() ? "" : " first")
+                    + ", expected element vertex first");
+    }
+    const PlyElement& vertices = header.elements[0];
+    if (vertices.count > kMaxVertices) {
+        throw Error(where + "element vertex has " + std::to_string(vertices.count)
+                    + " vertices, expected at most " + std::to_string(kMaxVertices));
+    }
+    const std::array<std::string, 4> axes = {"x", "y", "z", "w"};
+    check_prefix(vertices, {axes.begin(), axes.begin() + header.info.dimension}, PlyType::Double,
+                 where);
+    if (header.info.encoding == Encoding::Binary && !header.has_checksum) {
+        throw Error(where + "no 'comment crc32c', expected one in a binary file");
+    }
+}
+
+void check_cells(const Header& header, const std::string& where) {
+    const int dim = header.info.dimension;
+    const std::string cells(cell_name(dim));
+    if (header.elements.size() < 2 || header.elements[1].name != cells) {
+        throw Error(where + "found " + name_of(header, 1)
+                    + " after element vertex, expected element " + cells + " (dimension "
+                    + std::to_string(dim) + ")");
+    }
+    const std::array<std::string, 5> corners = {"v0", "v1", "v2", "v3", "v4"};
+    check_prefix(header.elements[1], {corners.begin(), corners.begin() + dim + 1}, PlyType::Uint,
+                 where);
+}
 
 std::string shortest(double value) {
     std::array<char, 32> text{};
@@ -385,7 +377,15 @@ std::string_view name_of(PlyType type) {
 }
 
 Header parse_header(std::string_view bytes, const std::filesystem::path& path) {
-    return Parser(bytes, path).parse();
+    Header header = Parser(bytes, path).parse();
+    const std::string where = path.string() + ": header: ";
+    check_vertices(header, where);
+    header.info.vertices = header.elements[0].count;
+    if (!header.info.is_frame) {
+        check_cells(header, where);
+        header.info.cells = header.elements[1].count;
+    }
+    return header;
 }
 
 std::string format_header(const Header& header) {
@@ -407,8 +407,7 @@ std::string format_header(const Header& header) {
     for (const PlyElement& element : header.elements) {
         elements += "element " + element.name + " " + std::to_string(element.count) + "\n";
         for (const PlyProperty& property : element.properties) {
-            elements +=
-                "property " + std::string(name_of(property.type)) + " " + property.name + "\n";
+            elements += declaration(property) + "\n";
         }
     }
     elements += "end_header\n";

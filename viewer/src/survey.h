@@ -34,8 +34,9 @@ public:
     /// for a strain a rounding of single precision, in which the simulator solves unless told
     /// otherwise, and for the others that of interpolated values, as w has on a slice across w.
     [[nodiscard]] ColorRange range() const {
-        const double rounding = is_strain_ ? double{std::numeric_limits<float>::epsilon()}
-                                           : 64 * std::numeric_limits<double>::epsilon() * largest_;
+        const double rounding = is_strain_
+                                    ? static_cast<double>(std::numeric_limits<float>::epsilon())
+                                    : 64 * std::numeric_limits<double>::epsilon() * largest_;
         const ColorRange range = range_.value_or(ColorRange());
         if (range.high - range.low > rounding) {
             return range;
