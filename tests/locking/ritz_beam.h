@@ -111,16 +111,17 @@ template <int Dim>
 class RitzBeam {
 public:
     explicit RitzBeam(double poisson, RitzDegrees degrees = {})
-        : lame_(simulator::lame_from_young(Dim, 1, poisson))
-        , degrees_(degrees)
-        , along_(degrees.along, 4, true)
-        , over_(degrees.across, 1, false) {}
+        : lame_(simulator::lame_from_young(Dim, 1, poisson)),
+          degrees_(degrees),
+          along_(degrees.along, 4, true),
+          over_(degrees.across, 1, false) {}
 
     /// Work of the load on the displacements it makes: at most the true one, and nearer to it with
     /// higher degrees.
     [[nodiscard]] double work(const BodyForce<Dim>& load) const {
         double sum = 0;
-        for (unsigned negated = 0; negated < 1U << Dim; negated += 2) {  // bits are axes, 0 is along
+        for (unsigned negated = 0; negated < 1U << Dim;
+             negated += 2) {  // bits are axes, 0 is along
             sum += work_in_class(load, negated);
         }
         return sum;

@@ -1,4 +1,5 @@
 #include "barrier_scenes.h"
+#include "support/cut_in_two.h"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +18,11 @@ constexpr double kGravity = 9.8;
 
 // A block on a half-space, gravity turned instead of the ground: down the slope is the first axis.
 template <int Dim>
-BarrierScene<Dim> slope(ContactModel model, double tangent) {
+BarrierScene<Dim> slope(ContactModel model,
+                        double tangent,
+                        ElementKind elements = ElementKind::Linear) {
     BarrierScene<Dim> scene;
+    scene.scene.solver.elements = elements;
     const double angle = std::atan(tangent);
     scene.scene.gravity = vector<Dim>(kGravity * std::sin(angle), -kGravity * std::cos(angle));
     scene.scene.contact->model = model;
@@ -32,17 +36,20 @@ BarrierScene<Dim> slope(ContactModel model, double tangent) {
     scene.scene.damping = Damping{.mass = 0, .stiffness = 0.01};
     // Starts where the penalty of its lower corners balances its weight.
     const Eigen::VectorXd size = vector<Dim>(0.3, 0.1, 0.3);
-    const double corners = std::pow(2, Dim - 1);
+    const bool is_quadratic = elements == ElementKind::Quadratic;
+    const double corners = std::pow(is_quadratic ? 3 : 2, Dim - 1);
     const double depth = 1000 * size.prod() * kGravity * std::cos(angle) / (2 * 2e4 * corners);
-    scene.add(box<Dim>(1, 1, 1, size), vector<Dim>(0, 0.07 - depth), 1e6);
+    const SimplexMesh<Dim> block = box<Dim>(1, 1, 1, size);
+    scene.add(is_quadratic ? pent::test::cut_in_two<Dim>(block) : block,
+              vector<Dim>(0, 0.07 - depth), 1e6);
     return scene;
 }
 
 // How fast it is along the slope after 2 s. Two per cent off the angle what it gains or loses is a
 // small part of g, 0.07 m/s^2, so it takes time to stop what settling has set in motion.
 template <int Dim>
-double speed_on(ContactModel model, double tangent) {
-    const BarrierScene<Dim> scene = slope<Dim>(model, tangent);
+double speed_on(ContactModel model, double tangent, ElementKind elements = ElementKind::Linear) {
+    const BarrierScene<Dim> scene = slope<Dim>(model, tangent, elements);
     Simulation<Dim> simulation(scene.scene, scene.meshes);
     for (int k = 0; k < 100; ++k) {
         EXPECT_TRUE(simulation.step().is_accepted);
@@ -64,23 +71,36 @@ TYPED_TEST(FrictionSlopeTest, BlockSticksBelowItsFrictionAngleAndSlidesAbove) {
     }
 }
 
-TYPED_TEST(FrictionSlopeTest, BlockSlidesWithTheAccelerationOfCoulombsLaw) {
-    constexpr int kDim = TypeParam::value;
+template <int Dim>
+void expect_acceleration_of_coulomb(ContactModel model, ElementKind elements) {
     const double tangent = 2 * kFriction;
     const double angle = std::atan(tangent);
     const double expected = kGravity * (std::sin(angle) - kFriction * std::cos(angle));
-    for (const ContactModel model : {ContactModel::Penalty, ContactModel::Barrier}) {
-        const BarrierScene<kDim> scene = slope<kDim>(model, tangent);
-        Simulation<kDim> simulation(scene.scene, scene.meshes);
-        double speed = 0;
-        for (int k = 0; k < 30; ++k) {
-            EXPECT_TRUE(simulation.step().is_accepted);
-            if (k == 14) {
-                speed = simulation.velocities(0).row(0).mean();
-            }
+    const BarrierScene<Dim> scene = slope<Dim>(model, tangent, elements);
+    Simulation<Dim> simulation(scene.scene, scene.meshes);
+    double speed = 0;
+    for (int k = 0; k < 30; ++k) {
+        EXPECT_TRUE(simulation.step().is_accepted);
+        if (k == 14) {
+            speed = simulation.velocities(0).row(0).mean();
         }
-        const double acceleration = (simulation.velocities(0).row(0).mean() - speed) / (15 * 0.02);
-        EXPECT_NEAR(acceleration, expected, 0.02 * expected);
+    }
+    const double acceleration = (simulation.velocities(0).row(0).mean() - speed) / (15 * 0.02);
+    EXPECT_NEAR(acceleration, expected, 0.02 * expected);
+}
+
+TYPED_TEST(FrictionSlopeTest, BlockSlidesWithTheAccelerationOfCoulombsLaw) {
+    for (const ContactModel model : {ContactModel::Penalty, ContactModel::Barrier}) {
+        expect_acceleration_of_coulomb<TypeParam::value>(model, ElementKind::Linear);
+    }
+}
+
+// Their children's vertices are what rests and slides.
+TYPED_TEST(FrictionSlopeTest, BlockOfQuadraticElementsSticksAndSlidesAsWell) {
+    constexpr int kDim = TypeParam::value;
+    for (const ContactModel model : {ContactModel::Penalty, ContactModel::Barrier}) {
+        EXPECT_LT(speed_on<kDim>(model, 0.98 * kFriction, ElementKind::Quadratic), 1e-3);
+        expect_acceleration_of_coulomb<kDim>(model, ElementKind::Quadratic);
     }
 }
 
