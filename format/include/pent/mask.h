@@ -124,9 +124,13 @@ PENT_SIMD_INLINE std::uint32_t bits(const Mask<Number, Count>& mask) {
         return wasm_i32x4_bitmask(reinterpret_cast<v128_t>(mask.lanes));
     }
 #endif
+    // Copied: the undefined-behavior sanitizer of g++ 12 mistakes the index of a vector here.
+    using Lane = typename detail::IntegerOf<sizeof(Number)>::Type;
+    Lane lanes[Count];  // NOLINT(modernize-avoid-c-arrays)
+    __builtin_memcpy(lanes, &mask.lanes, sizeof lanes);
     std::uint32_t of_lanes = 0;
     for (int i = 0; i < Count; ++i) {
-        of_lanes |= (mask.lanes[i] != 0 ? 1U : 0U) << i;
+        of_lanes |= (lanes[i] != 0 ? 1U : 0U) << i;
     }
     return of_lanes;
 }
