@@ -4,10 +4,10 @@
 #include <pent/file_lock.h>
 #include <pent/output_file.h>
 #include <pent/printable.h>
+#include <pent/read_text.h>
 
 #include <algorithm>
 #include <cassert>
-#include <fstream>
 #include <iterator>
 #include <optional>
 #include <system_error>
@@ -50,8 +50,7 @@ std::optional<List> read_list(const fs::path& folder) {
     if (!fs::is_regular_file(path, ignored)) {
         return std::nullopt;
     }
-    std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string text = read_text(path, "the list of the files of a folder");
     constexpr std::string_view kStart = "# pent ";
     const std::size_t colon = text.find(':');
     List list;

@@ -1,4 +1,5 @@
 #include <pent/error.h>
+#include <pent/geometry.h>
 #include <pent/mesher/profile.h>
 #include <pent/text_reader.h>
 
@@ -15,17 +16,6 @@ namespace {
 
 constexpr std::array<std::array<int, 2>, 6> kPlanes = {
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
-// Turns axis `from` towards axis `to`.
-Eigen::Matrix4d rotation(int from, int to, double degrees) {
-    const double angle = degrees * std::numbers::pi / 180;
-    Eigen::Matrix4d R = Eigen::Matrix4d::Identity();
-    R(from, from) = std::cos(angle);
-    R(to, to) = std::cos(angle);
-    R(from, to) = -std::sin(angle);
-    R(to, from) = std::sin(angle);
-    return R;
-}
 
 Layer<4> read_layer(TextReader& text) {
     std::array<double, 11> values{};  // w, scale, x y z, six angles
@@ -44,7 +34,8 @@ Layer<4> read_layer(TextReader& text) {
     }
     Eigen::Matrix4d R = Eigen::Matrix4d::Identity();
     for (std::size_t plane = 0; plane < kPlanes.size(); ++plane) {
-        R = rotation(kPlanes[plane][0], kPlanes[plane][1], values[5 + plane]) * R;
+        const double angle = values[5 + plane] * std::numbers::pi / 180;
+        R = plane_rotation<4>(kPlanes[plane][0], kPlanes[plane][1], angle) * R;
     }
     Layer<4> layer;
     layer.linear = values[1] * R.leftCols<3>();

@@ -42,23 +42,6 @@ using Offered = Offer<4>;
 using Offered = Offer<3, 4>;
 #endif
 
-/// Calls work(constant) with the dimension of a scene; throws an Error for one that is not offered.
-template <typename Work>
-void with_dimension(int dimension, const Work& work) {
-#ifdef PENT_ONLY_4D
-    if (dimension != 4) {
-        throw Error("the scene has dimension " + std::to_string(dimension)
-                    + "; here it must have 4");
-    }
-#else
-    if (dimension == 3) {
-        work(std::integral_constant<int, 3>());
-        return;
-    }
-#endif
-    work(std::integral_constant<int, 4>());
-}
-
 /// What is behind a handle: a simulation, and what of it was handed out.
 struct Opened {
     Offered::Simulations simulation;

@@ -5,6 +5,7 @@
 #include <pent/machine_memory.h>
 #include <pent/pent_file.h>
 #include <pent/runs/scene_file.h>
+#include <pent/with_dimension.h>
 
 #include <algorithm>
 #include <utility>

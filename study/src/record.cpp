@@ -5,10 +5,10 @@
 
 #include <pent/error.h>
 #include <pent/output_file.h>
+#include <pent/read_text.h>
 
 #include <fstream>
 #include <iomanip>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -112,8 +112,8 @@ Cost cost_of(const Record& record, int frames) {
 }
 
 std::string read_text(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored) ? pent::read_text(path, "a file of a study") : "";
 }
 
 std::string fingerprint(const std::filesystem::path& program) {

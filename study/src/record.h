@@ -34,7 +34,7 @@ void write_record(const std::filesystem::path& path, const Record& record);
 /// Nothing if there is no such file. Throws an Error if it is something else.
 [[nodiscard]] std::optional<Record> read_record(const std::filesystem::path& path);
 
-/// All bytes of a file; none if it cannot be read.
+/// All bytes of a file; none if there is none. Throws an Error if it cannot be read.
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);
 
 /// What tells one build of a program from another: 16 hexadecimal digits of its bytes (FNV-1a).

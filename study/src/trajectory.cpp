@@ -3,6 +3,7 @@
 #include <pent/error.h>
 #include <pent/pent_file.h>
 #include <pent/simulator/placed_mesh.h>
+#include <pent/with_dimension.h>
 
 #include <algorithm>
 
@@ -38,14 +39,6 @@ double cell_measure(const Eigen::MatrixXd& positions,
     return simplex_volume<Dim>(corners);
 }
 
-double cell_measure(int dimension,
-                    const Eigen::MatrixXd& positions,
-                    const Eigen::Matrix<std::uint32_t, -1, -1>& cells,
-                    Eigen::Index cell) {
-    return dimension == 3 ? cell_measure<3>(positions, cells, cell)
-                          : cell_measure<4>(positions, cells, cell);
-}
-
 }  // namespace
 
 std::optional<runs::RunVerdict> verdict_of(const std::filesystem::path& folder) {
@@ -59,11 +52,7 @@ Trajectory::Trajectory(const simulator::Scene& scene, std::filesystem::path fold
     for (const simulator::Body& body : scene.bodies) {
         bodies_.push_back(body.name);
     }
-    if (dimension_ == 3) {
-        read_meshes<3>(scene);
-    } else {
-        read_meshes<4>(scene);
-    }
+    with_dimension(dimension_, [&](auto dim) { read_meshes<dim>(scene); });
     for (const simulator::StepReport& step : runs::read_report(folder_ / kReportFile).steps) {
         steps_.push_back(record_of(step));
     }
@@ -123,21 +112,19 @@ Moment Trajectory::moment(int frame) const {
     Moment moment;
     moment.positions.resize(dimension_, rest_.cols());
     moment.velocities.resize(dimension_, rest_.cols());
-    if (dimension_ == 3) {
-        read_moment<3>(frame, moment);
-    } else {
-        read_moment<4>(frame, moment);
-    }
+    with_dimension(dimension_, [&](auto dim) { read_moment<dim>(frame, moment); });
     return moment;
 }
 
 double Trajectory::smallest_J(const Eigen::MatrixXd& positions) const {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (Eigen::Index cell = 0; cell < cells_.cols(); ++cell) {
-        smallest =
-            std::min(smallest, cell_measure(dimension_, positions, cells_, cell) / volumes_[cell]);
-    }
-    return smallest;
+    return with_dimension(dimension_, [&](auto dim) {
+        double smallest = std::numeric_limits<double>::infinity();
+        for (Eigen::Index cell = 0; cell < cells_.cols(); ++cell) {
+            smallest =
+                std::min(smallest, cell_measure<dim>(positions, cells_, cell) / volumes_[cell]);
+        }
+        return smallest;
+    });
 }
 
 }  // namespace pent::study

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <numbers>
 #include <type_traits>
 
 namespace pent {
@@ -68,6 +69,37 @@ TYPED_TEST(Geometry, EdgesOfACellSpanItsVolume) {
     const SimplexMesh<kDim> mesh = test::kuhn_box<kDim>(counts, sizes);
     for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
         EXPECT_NEAR(edge_matrix<kDim>(mesh.positions, mesh.cells, cell).determinant(), 1, 1e-15);
+    }
+}
+
+// A quarter takes the first axis to the second and this to minus the first; turns in a plane add up;
+// and what is left where it was, in every plane, either way round.
+TYPED_TEST(Geometry, RotationOfAPlaneTakesOneAxisTowardsTheOther) {
+    constexpr int kDim = TypeParam::value;
+    using Square = Eigen::Matrix<double, kDim, kDim>;
+    using Axis = Eigen::Vector<double, kDim>;
+    for (int from = 0; from < kDim; ++from) {
+        for (int to = 0; to < kDim; ++to) {
+            if (from == to) {
+                continue;
+            }
+            const Square quarter = plane_rotation<kDim>(from, to, std::numbers::pi / 2);
+            EXPECT_LT((quarter * Axis::Unit(from) - Axis::Unit(to)).norm(), 1e-15);
+            EXPECT_LT((quarter * Axis::Unit(to) + Axis::Unit(from)).norm(), 1e-15);
+            for (int axis = 0; axis < kDim; ++axis) {
+                if (axis != from && axis != to) {
+                    EXPECT_EQ(Axis(quarter * Axis::Unit(axis)), Axis(Axis::Unit(axis)));
+                }
+            }
+            const Square one = plane_rotation<kDim>(from, to, 0.7);
+            EXPECT_LT((one.transpose() * one - Square::Identity()).norm(), 1e-15);
+            EXPECT_NEAR(one.determinant(), 1, 1e-15);
+            EXPECT_LT(
+                (one * plane_rotation<kDim>(from, to, 1.9) - plane_rotation<kDim>(from, to, 2.6))
+                    .norm(),
+                1e-15);
+            EXPECT_EQ(plane_rotation<kDim>(to, from, -0.7), one);
+        }
     }
 }
 

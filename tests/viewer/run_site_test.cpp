@@ -157,8 +157,9 @@ TEST_F(RunSiteOf, AModelOfOtherProgramsGivesThatFileAsItIs) {
 TEST_F(RunSiteOf, WhatIsNoPageIsRefused) {
     using pent::test::error_of;
     const fs::path run = folder_ / "my run";
-    expect_contains(error_of([&] { RunSite(folder_ / "none.html", run); }),
-                    {"none.html: cannot be read; build the page with scripts/web.sh"});
+    expect_contains(
+        error_of([&] { RunSite(folder_ / "none.html", run); }),
+        {"none.html: cannot be read: No such file", "build the page with scripts/web.sh"});
     expect_contains(error_of([&] { RunSite(folder_ / "secret.pent", run); }),
                     {"secret.pent: is not the page of the viewer"});
 }

@@ -1,6 +1,7 @@
 #include "pent/viewer/hyperplane.h"
 
 #include <pent/error.h>
+#include <pent/geometry.h>
 
 #include <cmath>
 
@@ -21,14 +22,7 @@ Eigen::Matrix4d smallest_rotation_to_w(const Eigen::Vector4d& n) {
 Eigen::Matrix4d rotation_matrix(std::span<const PlaneRotation> rotations) {
     Eigen::Matrix4d total = Eigen::Matrix4d::Identity();
     for (const PlaneRotation& rotation : rotations) {
-        Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
-        const double c = std::cos(rotation.radians);
-        const double s = std::sin(rotation.radians);
-        turn(rotation.from, rotation.from) = c;
-        turn(rotation.from, rotation.to) = -s;
-        turn(rotation.to, rotation.from) = s;
-        turn(rotation.to, rotation.to) = c;
-        total = turn * total;
+        total = plane_rotation<4>(rotation.from, rotation.to, rotation.radians) * total;
     }
     return total;
 }

@@ -4,12 +4,12 @@
 
 #include <pent/error.h>
 #include <pent/formatted.h>
+#include <pent/read_text.h>
 #include <pent/viewer/run_folder.h>
 
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -36,11 +36,11 @@ std::optional<std::string> read_file(const fs::path& path) {
     if (!fs::is_regular_file(path, error)) {
         return std::nullopt;
     }
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
+    try {
+        return read_text(path, "a file of a run");
+    } catch (const Error&) {
         return std::nullopt;
     }
-    return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
 // Frames as ranges: [[0,89],[95,95]].

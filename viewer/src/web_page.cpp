@@ -1,20 +1,14 @@
 #include "web_page.h"
 
 #include <pent/error.h>
-
-#include <fstream>
-#include <iterator>
+#include <pent/read_text.h>
 
 namespace pent::viewer {
 
 std::string read_web_page(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        throw Error(path.string()
-                    + ": cannot be read; build the page with scripts/web.sh, or say where it is "
-                      "with --page");
-    }
-    std::string page(std::istreambuf_iterator<char>(file), {});
+    std::string page = read_text(path,
+                                 "the page of the viewer; build the page with scripts/web.sh, or"
+                                 " say where it is with --page");
     const std::size_t mark = page.find(kRunMark);
     if (mark == std::string::npos || page.find(kRunMark, mark + 1) != std::string::npos) {
         throw Error(path.string()

@@ -2,6 +2,8 @@
 
 #include <pent/simplex_mesh.h>
 
+#include <cmath>
+
 namespace pent {
 
 /// The edges of a cell from its first corner to the others, a column each: det is Dim! times its
@@ -33,6 +35,18 @@ template <int Dim>
         corners.template rightCols<Dim - 1>().colwise() - corners.col(0);
     // normal_to() has its vector last in the determinant, the outward rule first.
     return Dim % 2 == 0 ? Eigen::Vector<double, Dim>(-normal_to(edges)) : normal_to(edges);
+}
+
+/// The rotation in the plane of two different axes by an angle in radians: takes axis `from`
+/// towards axis `to`, and leaves all others where they are.
+template <int Dim>
+[[nodiscard]] Eigen::Matrix<double, Dim, Dim> plane_rotation(int from, int to, double angle) {
+    Eigen::Matrix<double, Dim, Dim> rotation = Eigen::Matrix<double, Dim, Dim>::Identity();
+    rotation(from, from) = std::cos(angle);
+    rotation(to, to) = std::cos(angle);
+    rotation(from, to) = -std::sin(angle);
+    rotation(to, from) = std::sin(angle);
+    return rotation;
 }
 
 }  // namespace pent

@@ -1,21 +1,18 @@
 #include <pent/error.h>
+#include <pent/geometry.h>
 #include <pent/mesher/boundary_solid.h>
 #include <pent/mesher/image_solid.h>
 #include <pent/mesher/primitives.h>
 #include <pent/mesher/read_solid.h>
+#include <pent/read_text.h>
 #include <pent/toml_table.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <memory>
 #include <numbers>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 namespace pent::mesher {
@@ -151,14 +148,7 @@ Eigen::Matrix4d rotation_of(std::vector<TableReader> turns) {
                       "\"plane\" is \"" + plane + "\"; expected two of x y z w, as in \"xw\"");
         }
         const double angle = turn.number("degrees") * std::numbers::pi / 180;
-        const int from = axis_of(plane[0]);
-        const int to = axis_of(plane[1]);
-        Eigen::Matrix4d step = Eigen::Matrix4d::Identity();
-        step(from, from) = std::cos(angle);
-        step(to, to) = std::cos(angle);
-        step(from, to) = -std::sin(angle);
-        step(to, from) = std::sin(angle);
-        rotation = step * rotation;
+        rotation = plane_rotation<4>(axis_of(plane[0]), axis_of(plane[1]), angle) * rotation;
         turn.finish();
     }
     return rotation;
@@ -249,17 +239,7 @@ Solid parse_solid(std::string_view text, const std::string& name) {
 }
 
 Solid read_solid(const std::filesystem::path& path) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) {
-        throw Error(path.string() + ": is a folder; give a file");
-    }
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        throw Error(path.string()
-                    + ": cannot be opened: " + std::generic_category().message(errno));
-    }
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    return parse_solid(text, path.string());
+    return parse_solid(read_text(path, "a file of shapes (TOML)"), path.string());
 }
 
 }  // namespace pent::mesher

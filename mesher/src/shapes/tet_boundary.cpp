@@ -3,6 +3,7 @@
 #include "../union_find.h"
 #include "exact_signs.h"
 
+#include <pent/geometry.h>
 #include <pent/parallel.h>
 
 #include <algorithm>
@@ -29,21 +30,12 @@ constexpr double kRounding = 1e-11;  // of coordinates, enough for directions to
 // Of lengths: more than rounding, less than anything that shows.
 constexpr double kSlack = 1e-9;
 
-// Turns in three planes by angles without a meaning.
+// Turns in four planes by angles without a meaning.
 Matrix4d odd_rotation() {
-    Matrix4d rotation = Matrix4d::Identity();
-    const auto turn = [&](int from, int to, double angle) {
-        Matrix4d step = Matrix4d::Identity();
-        step(from, from) = step(to, to) = std::cos(angle);
-        step(to, from) = std::sin(angle);
-        step(from, to) = -step(to, from);
-        rotation = step * rotation;
-    };
-    turn(0, 1, 0.4123);
-    turn(2, 3, 0.7071);
-    turn(1, 2, 1.1357);
-    turn(0, 3, 0.5911);
-    return rotation;
+    Matrix4d rotation = plane_rotation<4>(0, 1, 0.4123);
+    rotation = plane_rotation<4>(2, 3, 0.7071) * rotation;
+    rotation = plane_rotation<4>(1, 2, 1.1357) * rotation;
+    return plane_rotation<4>(0, 3, 0.5911) * rotation;
 }
 
 TetTree turned_tree(const TetSurface& surface, const Matrix4d& rotation) {

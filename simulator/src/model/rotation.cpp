@@ -3,6 +3,7 @@
 #include "model/keyframes.h"
 
 #include <pent/dimensions.h>
+#include <pent/geometry.h>
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
@@ -20,12 +21,7 @@ constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
 template <int Dim>
 Matrix<Dim> plane_rotation(const Plane& plane, double angle) {
-    Matrix<Dim> rotation = Matrix<Dim>::Identity();
-    rotation(plane.from, plane.from) = std::cos(angle);
-    rotation(plane.to, plane.to) = std::cos(angle);
-    rotation(plane.from, plane.to) = -std::sin(angle);
-    rotation(plane.to, plane.from) = std::sin(angle);
-    return rotation;
+    return pent::plane_rotation<Dim>(plane.from, plane.to, angle);
 }
 
 template <int Dim>

@@ -9,6 +9,7 @@
 #include <pent/output_file.h>
 #include <pent/pent_file.h>
 #include <pent/runs/scene_file.h>
+#include <pent/with_dimension.h>
 
 #include <algorithm>
 #include <cmath>
