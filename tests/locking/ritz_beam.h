@@ -94,8 +94,8 @@ struct BodyForce {
 };
 
 /// Highest degrees of polynomials along the beam and, summed, in the axes across it. They are high
-/// because stresses are singular at the edges of the end that is held: ritz_beam_test.cpp finds what
-/// is still missing.
+/// because stresses are singular at the edges of the end that is held: ritz_beam_test.cpp finds
+/// what is still missing.
 struct RitzDegrees {
     int along = 40;
     int across = 12;
@@ -104,9 +104,9 @@ struct RitzDegrees {
 /// Ritz's method with products of polynomials for a beam [0, 4] x [0, 1]^(Dim - 1) of linear
 /// elasticity with Young's modulus 1 that is held where x = 0. Nothing of finite elements.
 ///
-/// The beam is its own mirror image in each axis across it. So displacements fall into classes that
-/// know nothing of one another, by what mirrors keep and what they negate; in a class each component
-/// is even or odd in each axis.
+/// The beam is its own mirror image in each axis across it. So displacements fall into classes
+/// that know nothing of one another, by what mirrors keep and what they negate; in a class each
+/// component is even or odd in each axis.
 template <int Dim>
 class RitzBeam {
 public:
@@ -120,8 +120,7 @@ public:
     /// higher degrees.
     [[nodiscard]] double work(const BodyForce<Dim>& load) const {
         double sum = 0;
-        for (unsigned negated = 0; negated < 1U << Dim;
-             negated += 2) {  // bits are axes, 0 is along
+        for (unsigned negated = 0; negated < 1U << Dim; negated += 2) {  // bits: axes across
             sum += work_in_class(load, negated);
         }
         return sum;

@@ -101,8 +101,11 @@ struct Touch {
     double speed = 0;       ///< Of the second towards the first, edges a second.
     int cells = 1;          ///< As in Extreme.
 };
-[[nodiscard]] const std::vector<Touch>& touches();
+/// Of quadratic elements, whose children are many, without those that take minutes: contact over
+/// half an edge or more, and the fastest.
+[[nodiscard]] std::vector<Touch> touches(simulator::ElementKind elements);
 [[nodiscard]] Outcome run(const Touch& touch,
+                          simulator::ElementKind elements,
                           simulator::ContactModel model,
                           simulator::Precision precision);
 

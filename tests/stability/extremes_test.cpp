@@ -153,26 +153,30 @@ TEST_P(Starts, ComeBackToRestOrAreReported) {
     }
 }
 
-using Contacts = std::tuple<Touch, simulator::ContactModel, Precision>;
+using Contacts = std::tuple<Touch, simulator::ElementKind, simulator::ContactModel, Precision>;
 class Touches : public testing::TestWithParam<Contacts> {};
 std::string contacts_name(const testing::TestParamInfo<Contacts>& info) {
-    const auto& [touch, model, precision] = info.param;
+    const auto& [touch, unused, model, precision] = info.param;
     return test_name(touch.name
                      + (model == simulator::ContactModel::Barrier ? " barrier" : " penalty")
                      + (precision == Precision::Float ? " float" : " double"));
 }
 
-INSTANTIATE_TEST_SUITE_P(All,
+auto contacts_of(simulator::ElementKind elements) {
+    return testing::Combine(
+        testing::ValuesIn(touches(elements)), testing::Values(elements),
+        testing::Values(simulator::ContactModel::Penalty, simulator::ContactModel::Barrier),
+        testing::ValuesIn(kPrecisions));
+}
+INSTANTIATE_TEST_SUITE_P(All, Touches, contacts_of(simulator::ElementKind::Linear), contacts_name);
+INSTANTIATE_TEST_SUITE_P(Quadratic,
                          Touches,
-                         testing::Combine(testing::ValuesIn(touches()),
-                                          testing::Values(simulator::ContactModel::Penalty,
-                                                          simulator::ContactModel::Barrier),
-                                          testing::ValuesIn(kPrecisions)),
+                         contacts_of(simulator::ElementKind::Quadratic),
                          contacts_name);
 
 TEST_P(Touches, KeepMomentumAndDoNotCrossOrAreReported) {
-    const auto& [touch, model, precision] = GetParam();
-    const Outcome outcome = run(touch, model, precision);
+    const auto& [touch, elements, model, precision] = GetParam();
+    const Outcome outcome = run(touch, elements, model, precision);
     EXPECT_NE(outcome.kind, Outcome::Kind::Wrong) << text(outcome);
 }
 

@@ -16,8 +16,8 @@ using simulator::Simulation;
 constexpr int kSteps = 10;
 constexpr double kDt = 0.01;  // s
 
-Scene scene_of(const Touch& touch, ContactModel model, Precision precision) {
-    Scene scene = scene_of(Extreme{.cells = touch.cells}, precision);
+Scene scene_of(const Touch& touch, const Extreme& body, ContactModel model, Precision precision) {
+    Scene scene = scene_of(body, precision);
     simulator::Body other = scene.bodies[0];
     other.name = "other";
     other.place.translate = Eigen::Vector4d(1 + touch.gap, touch.shift, touch.shift, touch.shift);
@@ -54,9 +54,15 @@ int crossings(const Simulation<4>& simulation) {
     return pent::test::count_crossings<4>(surface(0), surface(1), all);
 }
 
-Outcome simulate(const Touch& touch, ContactModel model, Precision precision) {
-    const Scene scene = scene_of(touch, model, precision);
-    const SimplexMesh<4> mesh = mesh_of({.cells = touch.cells});
+Outcome simulate(const Touch& touch,
+                 simulator::ElementKind elements,
+                 ContactModel model,
+                 Precision precision) {
+    Extreme body;
+    body.cells = touch.cells;
+    body.elements = elements;
+    const Scene scene = scene_of(touch, body, model, precision);
+    const SimplexMesh<4> mesh = mesh_of(body);
     Simulation<4> simulation(scene, {mesh, mesh});
     const Eigen::Vector4d momentum = simulation.velocities(1) * simulation.masses(1);
     Outcome outcome = step_all(simulation, kSteps - 1);
@@ -86,8 +92,8 @@ Outcome simulate(const Touch& touch, ContactModel model, Precision precision) {
 
 }  // namespace
 
-const std::vector<Touch>& touches() {
-    static const std::vector<Touch> all = {
+std::vector<Touch> touches(simulator::ElementKind elements) {
+    std::vector<Touch> all = {
         {.name = "contact within 1e-9 edges", .gap = 0.05, .distance = 1e-9},
         {.name = "contact within 1e-9 edges, nearer than that", .gap = 5e-10, .distance = 1e-9},
         {.name = "contact within 1e-3 edges", .gap = 5e-4, .distance = 1e-3},
@@ -101,11 +107,21 @@ const std::vector<Touch>& touches() {
         {.name = "one 1e6 times stiffer than the other", .ratio = 1e6},
         {.name = "meeting at 10 edges a second", .gap = 0.3, .speed = 10},
         {.name = "meeting at 1e4 edges a second", .gap = 0.3, .speed = 1e4}};
+    if (elements == simulator::ElementKind::Quadratic) {
+        all.erase(std::remove_if(all.begin(), all.end(),
+                                 [](const Touch& touch) {
+                                     return touch.distance >= 0.5 || touch.speed > 100;
+                                 }),
+                  all.end());
+    }
     return all;
 }
 
-Outcome run(const Touch& touch, ContactModel model, Precision precision) {
-    return guarded([&] { return simulate(touch, model, precision); });
+Outcome run(const Touch& touch,
+            simulator::ElementKind elements,
+            ContactModel model,
+            Precision precision) {
+    return guarded([&] { return simulate(touch, elements, model, precision); });
 }
 
 }  // namespace pent::stability

@@ -111,12 +111,17 @@ void write_starts() {
 }
 
 void write_touches() {
-    heading("Contact", "model", "bodies");
-    for (const ContactModel model : {ContactModel::Penalty, ContactModel::Barrier}) {
-        const std::string name(pent::simulator::word_of(model));
-        for (const Touch& touch : touches()) {
-            row(&touch == touches().data() ? name : "", touch.name, "out",
-                [&](Precision precision) { return text(run(touch, model, precision)); });
+    heading("Contact", "elements and model", "bodies");
+    for (const ElementKind elements : {ElementKind::Linear, ElementKind::Quadratic}) {
+        for (const ContactModel model : {ContactModel::Penalty, ContactModel::Barrier}) {
+            const std::string name = std::string(word_of(elements)) + ", "
+                                     + std::string(pent::simulator::word_of(model));
+            const std::vector<Touch> all = touches(elements);
+            for (const Touch& touch : all) {
+                row(&touch == all.data() ? name : "", touch.name, "out", [&](Precision precision) {
+                    return text(run(touch, elements, model, precision));
+                });
+            }
         }
     }
 }

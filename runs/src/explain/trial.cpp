@@ -4,6 +4,7 @@
 #include "scene/scene_meshes.h"
 
 #include <pent/facets.h>
+#include <pent/machine_memory.h>
 #include <pent/runs/explain.h>
 #include <pent/simulator/placed_mesh.h>
 
@@ -43,7 +44,7 @@ Trial make_trial(const Scene& scene,
                  const std::shared_ptr<const simulator::Ranks>& ranks) {
     SceneMeshes<Dim> meshes = read_meshes<Dim>(scene);
     Simulation<Dim> simulation(scene, std::move(meshes.meshes),
-                               {.threads = threads, .ranks = ranks});
+                               {.threads = threads, .ranks = ranks, .memory = machine_memory()});
     Trial trial{.scene = scene, .ranks = ranks.get()};
     const std::vector<std::string> overlaps = overlaps_at_start(scene, simulation);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
