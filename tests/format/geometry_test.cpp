@@ -72,8 +72,8 @@ TYPED_TEST(Geometry, EdgesOfACellSpanItsVolume) {
     }
 }
 
-// A quarter takes the first axis to the second and this to minus the first; turns in a plane add up;
-// and what is left where it was, in every plane, either way round.
+// A quarter takes the first axis to the second and this to minus the first; turns in a plane add
+// up; and what is left where it was, in every plane, either way round.
 TYPED_TEST(Geometry, RotationOfAPlaneTakesOneAxisTowardsTheOther) {
     constexpr int kDim = TypeParam::value;
     using Square = Eigen::Matrix<double, kDim, kDim>;
