@@ -4,7 +4,7 @@
 
 #include <pent/simd.h>
 
-#include <cstddef>
+#include <cstdint>
 
 // Included once for each instruction set, by a file that is compiled for it.
 
@@ -23,6 +23,7 @@ constexpr int kRegisterLanes = 4;
 constexpr int kApproaches = 4;
 
 using Floats = Pack<float, kRegisterLanes>;
+using Truths = Mask<float, kRegisterLanes>;
 
 // Of the largest coordinate: what rounding adds to a gap, at most. Coordinates lack three roundings
 // of 2^-24, and a sum of four products of twice as much some ten: 2e-6 in all.
@@ -34,56 +35,102 @@ constexpr float kRelativeRounding = 1e-5F;
 // Squares of lengths below would be lost in float.
 constexpr float kLeast = 1e-15F;
 
-// Some simplices side by side, or one in all lanes.
-template <int Dim, int Count>
-struct Simplex {
-    Floats corners[Count][Dim];  // NOLINT(modernize-avoid-c-arrays): as all here, of plain numbers
-    Floats low[Dim];             // NOLINT(modernize-avoid-c-arrays)
-    Floats high[Dim];            // NOLINT(modernize-avoid-c-arrays)
-    Floats middle[Dim];          // NOLINT(modernize-avoid-c-arrays)
+// Lanes of a patch, one in each lane of a register.
+struct Chosen {
+    Truths::Vector lanes;
 
-    [[gnu::always_inline]] void set_bounds() {
+    [[gnu::always_inline]] explicit Chosen(const std::int32_t* from) {
+        __builtin_memcpy(&lanes, from, sizeof lanes);
+    }
+
+    // Of kLanes numbers those in the chosen lanes.
+    [[nodiscard, gnu::always_inline]] Floats of(const float* numbers) const {
+#if defined(__AVX512F__)
+        return Floats(reinterpret_cast<Floats::Vector>(_mm512_maskz_permutexvar_ps(
+            0xffff, reinterpret_cast<__m512i>(lanes), _mm512_loadu_ps(numbers))));
+#elif defined(__AVX2__)
+        const auto which = reinterpret_cast<__m256i>(lanes);
+        const __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(numbers), which);
+        const __m256 high =
+            _mm256_permutevar8x32_ps(_mm256_loadu_ps(numbers + kRegisterLanes), which);
+        const __m256 is_high = _mm256_castsi256_ps(_mm256_slli_epi32(which, 28));
+        return Floats(reinterpret_cast<Floats::Vector>(_mm256_blendv_ps(low, high, is_high)));
+#else
+        Floats chosen;
+        for (int i = 0; i < kRegisterLanes; ++i) {
+            chosen.lanes[i] = numbers[lanes[i]];
+        }
+        return chosen;
+#endif
+    }
+};
+
+// The boxes around all simplices of a patch, side by side.
+template <int Dim>
+struct Boxes {
+    float low[Dim][kLanes];   // NOLINT(modernize-avoid-c-arrays): as all here, of plain numbers
+    float high[Dim][kLanes];  // NOLINT(modernize-avoid-c-arrays)
+
+    // Moved.
+    template <int Count>
+    [[gnu::always_inline]] void set(const LanesView& patch, const float* shift) {
         for (int axis = 0; axis < Dim; ++axis) {
-            low[axis] = high[axis] = middle[axis] = corners[0][axis];
-            for (int corner = 1; corner < Count; ++corner) {
-                low[axis] = min(low[axis], corners[corner][axis]);
-                high[axis] = max(high[axis], corners[corner][axis]);
-                middle[axis] += corners[corner][axis];
+            for (int lane = 0; lane < kLanes; lane += kRegisterLanes) {
+                Floats least = Floats::load(patch.corners + axis * kLanes + lane);
+                Floats most = least;
+                for (int corner = 1; corner < Count; ++corner) {
+                    const Floats next =
+                        Floats::load(patch.corners + (corner * Dim + axis) * kLanes + lane);
+                    least = min(least, next);
+                    most = max(most, next);
+                }
+                (least + Floats(shift[axis])).store(low[axis] + lane);
+                (most + Floats(shift[axis])).store(high[axis] + lane);
             }
-            middle[axis] *= Floats(1.0F / Count);
         }
     }
 };
 
-// Lanes of a patch from `lane` on, moved.
-template <int Dim, int Count>
-[[gnu::always_inline]] inline void load(const LanesView& patch,
-                                        int lane,
-                                        const float* shift,
-                                        Simplex<Dim, Count>& simplex) {
-    for (int corner = 0; corner < Count; ++corner) {
-        for (int axis = 0; axis < Dim; ++axis) {
-            simplex.corners[corner][axis] =
-                Floats::load(patch.corners + (corner * Dim + axis) * kLanes + lane)
-                + Floats(shift[axis]);
-        }
-    }
-    simplex.set_bounds();
-}
+// Those of two patches at one end of their paths.
+template <int Dim>
+struct BoxPairs {
+    Boxes<Dim> first;
+    Boxes<Dim> second;
 
-// One lane of a patch in all lanes.
+    // How far box i of the first is from those from `lane` on of the second along an axis: above
+    // and below them. Negative where they overlap.
+    [[gnu::always_inline]] void gaps(
+        int i, int lane, int axis, Floats& above, Floats& below) const {
+        above = Floats::load(second.low[axis] + lane) - Floats(first.high[axis][i]);
+        below = Floats(first.low[axis][i]) - Floats::load(second.high[axis] + lane);
+    }
+};
+
+// Some simplices side by side.
 template <int Dim, int Count>
-[[gnu::always_inline]] inline void spread(const LanesView& patch,
-                                          int lane,
-                                          Simplex<Dim, Count>& simplex) {
-    for (int corner = 0; corner < Count; ++corner) {
-        for (int axis = 0; axis < Dim; ++axis) {
-            simplex.corners[corner][axis] =
-                Floats(patch.corners[(corner * Dim + axis) * kLanes + lane]);
+struct Simplex {
+    Floats corners[Count][Dim];  // NOLINT(modernize-avoid-c-arrays)
+
+    // Those in chosen lanes of a patch, moved.
+    [[gnu::always_inline]] void set(const LanesView& patch,
+                                    const Chosen& chosen,
+                                    const float* shift) {
+        for (int corner = 0; corner < Count; ++corner) {
+            for (int axis = 0; axis < Dim; ++axis) {
+                corners[corner][axis] =
+                    chosen.of(patch.corners + (corner * Dim + axis) * kLanes) + Floats(shift[axis]);
+            }
         }
     }
-    simplex.set_bounds();
-}
+
+    [[nodiscard, gnu::always_inline]] Floats middle(int axis) const {
+        Floats sum = corners[0][axis];
+        for (int corner = 1; corner < Count; ++corner) {
+            sum += corners[corner][axis];
+        }
+        return sum * Floats(1.0F / Count);
+    }
+};
 
 template <int Dim>
 [[gnu::always_inline]] inline Floats dot(const Floats* a, const Floats* b) {
@@ -119,44 +166,27 @@ struct Support {
     }
 };
 
-// Simplices of one and of another patch, at the start and at the end of their paths.
+// Simplices of one and of another patch, different ones in each lane, at the start and at the end of
+// their paths.
 template <int Dim, int K, int L, bool IsStill>
 struct Pairs {
     Simplex<Dim, K> first[2];   // NOLINT(modernize-avoid-c-arrays)
     Simplex<Dim, L> second[2];  // NOLINT(modernize-avoid-c-arrays)
 
-    // Boxes that are apart along an axis at both ends are at all times. `distance` is that of
-    // different simplices.
-    [[nodiscard, gnu::always_inline]] Mask<float, kRegisterLanes> are_boxes_apart(
-        const Floats& distance) const {
-        Floats sum(0.0F);
-        for (int axis = 0; axis < Dim; ++axis) {
-            Floats above = second[0].low[axis] - first[0].high[axis];
-            Floats below = first[0].low[axis] - second[0].high[axis];
-            if constexpr (!IsStill) {
-                above = min(above, second[1].low[axis] - first[1].high[axis]);
-                below = min(below, first[1].low[axis] - second[1].high[axis]);
-            }
-            const Floats gap = max(max(above, below), Floats(0.0F));
-            sum = multiply_add(gap, gap, sum);
-        }
-        return sum > distance * distance;
-    }
-
     // Whether a line is found along which they are apart at both ends, hence at all times: from
     // that through their middles on the nearest point of the hull of all differences of corners is
     // approached [gilbert1966], and given up where it is nearer than the distance, or soon.
-    [[nodiscard, gnu::always_inline]] Mask<float, kRegisterLanes> are_apart_along_a_line(
-        const Floats& distance, Mask<float, kRegisterLanes> are_apart) const {
+    [[nodiscard, gnu::always_inline]] Truths are_apart(const Floats& distance) const {
         constexpr int kEnds = IsStill ? 1 : 2;
         Floats line[Dim];  // NOLINT(modernize-avoid-c-arrays)
         for (int axis = 0; axis < Dim; ++axis) {
-            line[axis] = second[0].middle[axis] - first[0].middle[axis];
+            line[axis] = second[0].middle(axis) - first[0].middle(axis);
             if constexpr (!IsStill) {
-                line[axis] += second[1].middle[axis] - first[1].middle[axis];
+                line[axis] += second[1].middle(axis) - first[1].middle(axis);
                 line[axis] *= Floats(0.5F);
             }
         }
+        Truths are_apart = distance < Floats(0.0F);
         for (int approach = 0; approach < kApproaches; ++approach) {
             const Floats squared = dot<Dim>(line, line);
             Floats least;
@@ -189,55 +219,130 @@ struct Pairs {
     }
 };
 
-// Coordinates of the origin of the second patch as seen from that of the first, and the largest
-// there is in either.
-template <int Dim>
-float shift_between(const LanesView& first, const LanesView& second, float* shift) {
-    float most = 0;
-    for (int axis = 0; axis < Dim; ++axis) {
-        shift[axis] = static_cast<float>(second.origin[axis] - first.origin[axis]);
-        const float size = shift[axis] < 0 ? -shift[axis] : shift[axis];
-        most = size > most ? size : most;
+// Two patches, and where the second is as seen from the origin of the first, at the start and at the
+// end.
+template <int Dim, int K, int L, bool IsStill>
+class PatchPair {
+public:
+    explicit PatchPair(const LanesOnPaths& patches)
+        : first_{patches.first_start, patches.first_end},
+          second_{patches.second_start, patches.second_end} {
+        for (int end = 0; end < kEnds; ++end) {
+            set_shift(end);
+        }
     }
-    return most + first.extent + second.extent;
-}
+
+    // The largest coordinate.
+    [[nodiscard]] float size() const { return size_; }
+
+    // Boxes that are apart along an axis at both ends are at all times.
+    void find_near_boxes(float distance, std::uint16_t* near) const {
+        BoxPairs<Dim> boxes[kEnds];  // NOLINT(modernize-avoid-c-arrays)
+        for (int end = 0; end < kEnds; ++end) {
+            boxes[end].first.template set<K>(first_[end], kNoShift);
+            boxes[end].second.template set<L>(second_[end], shift_[end]);
+        }
+        const std::uint32_t all = (1U << second_[0].count) - 1;
+        for (int i = 0; i < first_[0].count; ++i) {
+            std::uint32_t of_first = 0;
+            for (int lane = 0; lane < second_[0].count; lane += kRegisterLanes) {
+                Floats sum(0.0F);
+                for (int axis = 0; axis < Dim; ++axis) {
+                    Floats above;
+                    Floats below;
+                    boxes[0].gaps(i, lane, axis, above, below);
+                    if constexpr (!IsStill) {
+                        Floats above_at_end;
+                        Floats below_at_end;
+                        boxes[1].gaps(i, lane, axis, above_at_end, below_at_end);
+                        above = min(above, above_at_end);
+                        below = min(below, below_at_end);
+                    }
+                    const Floats gap = max(max(above, below), Floats(0.0F));
+                    sum = multiply_add(gap, gap, sum);
+                }
+                of_first |= bits(!(sum > Floats(distance * distance))) << lane;
+            }
+            near[i] = static_cast<std::uint16_t>(of_first & all);
+        }
+    }
+
+    // Takes out those that are apart along a line: lines take much longer than boxes, and few boxes
+    // are near each other, so that what is left is gathered until every lane has a pair.
+    void keep_near_simplices(float distance, std::uint16_t* near) const {
+        constexpr int kPairs = kLanes * kLanes;
+        std::int32_t of_first[kPairs + kRegisterLanes];   // NOLINT(modernize-avoid-c-arrays)
+        std::int32_t of_second[kPairs + kRegisterLanes];  // NOLINT(modernize-avoid-c-arrays)
+        int count = 0;
+        for (int i = 0; i < first_[0].count; ++i) {
+            for (unsigned left = near[i]; left != 0; left &= left - 1) {
+                of_first[count] = i;
+                of_second[count++] = __builtin_ctz(left);
+            }
+            near[i] = 0;
+        }
+        for (int lane = 0; lane < kRegisterLanes; ++lane) {
+            of_first[count + lane] = of_second[count + lane] = 0;  // in lanes that are left over
+        }
+        for (int begin = 0; begin < count; begin += kRegisterLanes) {
+            const auto pairs = gather(of_first + begin, of_second + begin);
+            unsigned left = bits(!pairs.are_apart(Floats(distance)));
+            if (count - begin < kRegisterLanes) {
+                left &= (1U << (count - begin)) - 1;
+            }
+            for (; left != 0; left &= left - 1) {
+                const int pair = begin + __builtin_ctz(left);
+                near[of_first[pair]] |= static_cast<std::uint16_t>(1U << of_second[pair]);
+            }
+        }
+    }
+
+private:
+    static constexpr int kEnds = IsStill ? 1 : 2;
+    static constexpr float kNoShift[Dim] = {};  // NOLINT(modernize-avoid-c-arrays)
+
+    void set_shift(int end) {
+        float most = 0;
+        for (int axis = 0; axis < Dim; ++axis) {
+            const auto shift =
+                static_cast<float>(second_[end].origin[axis] - first_[end].origin[axis]);
+            const float size = shift < 0 ? -shift : shift;
+            most = size > most ? size : most;
+            shift_[end][axis] = shift;
+        }
+        most += first_[end].extent + second_[end].extent;
+        size_ = most > size_ ? most : size_;
+    }
+
+    [[nodiscard, gnu::always_inline]] Pairs<Dim, K, L, IsStill> gather(
+        const std::int32_t* of_first, const std::int32_t* of_second) const {
+        Pairs<Dim, K, L, IsStill> pairs;
+        for (int end = 0; end < kEnds; ++end) {
+            pairs.first[end].set(first_[end], Chosen(of_first), kNoShift);
+            pairs.second[end].set(second_[end], Chosen(of_second), shift_[end]);
+        }
+        return pairs;
+    }
+
+    LanesView first_[2];       // NOLINT(modernize-avoid-c-arrays)
+    LanesView second_[2];      // NOLINT(modernize-avoid-c-arrays)
+    float shift_[kEnds][Dim];  // NOLINT(modernize-avoid-c-arrays)
+    float size_ = 0;
+};
 
 template <int Dim, int K, int L, bool IsStill>
 void find_near(const LanesOnPaths& patches, double distance, std::uint16_t* near) {
-    float shift[2][Dim];  // NOLINT(modernize-avoid-c-arrays)
-    float size = shift_between<Dim>(patches.first_start, patches.second_start, shift[0]);
-    if constexpr (!IsStill) {
-        const float end = shift_between<Dim>(patches.first_end, patches.second_end, shift[1]);
-        size = end > size ? end : size;
-    }
-    const float limit = static_cast<float>(distance) * (1 + kRelativeRounding) + kRounding * size;
-    const int count = patches.second_start.count;
-    const std::uint32_t all = (1U << count) - 1;
+    const PatchPair<Dim, K, L, IsStill> pair(patches);
+    const float limit =
+        static_cast<float>(distance) * (1 + kRelativeRounding) + kRounding * pair.size();
     const bool is_told = limit > kLeast;
+    const std::uint32_t all = (1U << patches.second_start.count) - 1;
     for (int i = 0; i < kLanes; ++i) {
         near[i] = static_cast<std::uint16_t>(is_told || i >= patches.first_start.count ? 0U : all);
     }
-    if (!is_told) {
-        return;
-    }
-    Pairs<Dim, K, L, IsStill> pairs;
-    for (int lane = 0; lane < count; lane += kRegisterLanes) {
-        load<Dim, L>(patches.second_start, lane, shift[0], pairs.second[0]);
-        if constexpr (!IsStill) {
-            load<Dim, L>(patches.second_end, lane, shift[1], pairs.second[1]);
-        }
-        for (int i = 0; i < patches.first_start.count; ++i) {
-            spread<Dim, K>(patches.first_start, i, pairs.first[0]);
-            if constexpr (!IsStill) {
-                spread<Dim, K>(patches.first_end, i, pairs.first[1]);
-            }
-            auto are_apart = pairs.are_boxes_apart(Floats(limit));
-            if (pent::all(are_apart)) {
-                continue;
-            }
-            are_apart = pairs.are_apart_along_a_line(Floats(limit), are_apart);
-            near[i] |= static_cast<std::uint16_t>((bits(!are_apart) << lane) & all);
-        }
+    if (is_told) {
+        pair.find_near_boxes(limit, near);
+        pair.keep_near_simplices(limit, near);
     }
 }
 
