@@ -27,13 +27,17 @@ public:
     [[nodiscard]] bool set_time(const TimeSpan& step) override;
     void add_couplings(Couplings& couplings) const override;
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
-    void add_hessian(double /*weight*/, Filter /*f*/, NewtonSystem<Dim>& /*s*/) override {}
+    void add_hessian(const Positions<Dim>& /*x*/,
+                     double /*weight*/,
+                     Filter /*filter*/,
+                     NewtonSystem<Dim>& /*system*/) override {}
     [[nodiscard]] std::vector<TermEnergy> energies() const override {
         return is_empty() ? std::vector<TermEnergy>() : std::vector<TermEnergy>{{"force", energy_}};
     }
 
 private:
-    struct Load {
+    // Of a load with a force.
+    struct VertexForces {
         std::size_t body = 0;
         std::vector<std::uint32_t> vertices;
         Positions<Dim> forces;  // Dim x vertices of the load, N
@@ -42,7 +46,7 @@ private:
         bool is_changing = false;  // in the step
     };
 
-    std::vector<Load> loads_;
+    std::vector<VertexForces> loads_;
     Positions<Dim> of_host_ = Positions<Dim>(Dim, 0);
     double energy_ = 0;
 };

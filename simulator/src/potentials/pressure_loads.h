@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/bodies.h"
+#include "model/held_vertices.h"
 #include "potentials/potential.h"
 
 #include <pent/parallel.h>
@@ -27,18 +28,24 @@ template <int Dim>
 class PressureLoads final : public Potential<Dim> {
 public:
     /// @param workers  Must outlive this.
-    /// @param bodies   Placed; not needed afterwards.
+    /// @param bodies, held  At the start; not needed afterwards.
     ///
     /// Throws an Error where a load selects no whole facet of the boundary.
-    PressureLoads(const Workers& workers, const Scene& scene, const Bodies<Dim>& bodies);
+    PressureLoads(const Workers& workers,
+                  const Scene& scene,
+                  const Bodies<Dim>& bodies,
+                  const HeldVertices<Dim>& held);
 
-    [[nodiscard]] bool is_empty() const { return regions_.empty(); }
+    [[nodiscard]] bool is_empty() const { return pressed_.empty(); }
 
     [[nodiscard]] bool set_time(const TimeSpan& step) override;
     void add_couplings(Couplings& couplings) const override;
     [[nodiscard]] bool begin_step(const StepStart<Dim>& start) override;
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
-    void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) override;
+    void add_hessian(const Positions<Dim>& x,
+                     double weight,
+                     Filter filter,
+                     NewtonSystem<Dim>& system) override;
     [[nodiscard]] std::vector<TermEnergy> energies() const override;
     [[nodiscard]] double rounding() const override { return rounding_; }
 
@@ -46,7 +53,7 @@ private:
     using Point = Eigen::Matrix<double, Dim, 1>;
 
     // Corners are vertices of all bodies counted through, or kNoVertex for the apex.
-    struct Region {
+    struct PressedSurface {
         std::size_t body = 0;
         Simplices<Dim> facets;  // outward; those of the surface, behind them the walls
         Eigen::Index walls = 0;
@@ -61,16 +68,16 @@ private:
         Positions<Dim> taken;  // the volume's gradient by the walls there, taken off, m^(Dim-1)
     };
 
-    [[nodiscard]] static Region make_region(const Load& load,
-                                            const Scene& scene,
-                                            const Bodies<Dim>& bodies);
-    static void hold_walls(Region& region, const Positions<Dim>& x);
+    [[nodiscard]] static PressedSurface make_pressed(const Load& load,
+                                                     const Scene& scene,
+                                                     const Bodies<Dim>& bodies,
+                                                     const HeldVertices<Dim>& held);
+    static void hold_walls(PressedSurface& pressed, const Positions<Dim>& x);
 
     const Workers* workers_;
-    std::vector<Region> regions_;
-    const Positions<Dim>* x_ = nullptr;  // last evaluated
-    double stored_ = 0;                  // J
-    double lagged_ = 0;                  // J, of regions that are not stored
+    std::vector<PressedSurface> pressed_;
+    double stored_ = 0;  // J
+    double lagged_ = 0;  // J, of those that are not stored
     double rounding_ = 0;
     std::vector<double> hessians_;  // while a system is assembled
 };

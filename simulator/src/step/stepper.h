@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/bodies.h"
+#include "model/held_vertices.h"
 #include "potentials/scene_energy.h"
 #include "step/incremental_potential.h"
 #include "step/newton.h"
@@ -56,6 +57,7 @@ public:
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const SimulationOptions& options() const { return options_; }
     [[nodiscard]] const Bodies<Dim>& bodies() const { return bodies_; }
+    [[nodiscard]] const HeldVertices<Dim>& held() const { return held_; }
     [[nodiscard]] const State<Dim>& current() const { return current_; }
     [[nodiscard]] const Positions<Dim>& forces() const { return forces_; }
     [[nodiscard]] Positions<Dim> contact_forces() const;
@@ -69,10 +71,23 @@ public:
 private:
     enum class Method { Linear, Newton, Damped };   // the last for linear steps gone astray
     enum class Outcome { Taken, Astray, Refused };  // astray: a damped step may save it
-    bool advance(double time, double h, int depth, StepReport& report);
-    [[nodiscard]] Outcome attempt(double time, double h, bool is_damped, StepReport& report);
+    // What became of one attempt or of several, the last of which has the outcome.
+    struct Attempts {
+        Outcome outcome = Outcome::Taken;
+        std::string failure;  // why the last one that was thrown away was; empty if none
+        int taken = 0;
+        int refused = 0;
+        int damped = 0;  // of those taken
+        int newton_iterations = 0;
+        double unbalanced = 0;  // the largest
+
+        void add(const Attempts& later);
+        [[nodiscard]] Attempts refuse(std::string reason, Outcome how) const;
+    };
+    [[nodiscard]] Attempts advance(double time, double h, int depth);
+    [[nodiscard]] Attempts attempt(double time, double h, bool is_damped);
     [[nodiscard]] Method choose_method() const;
-    void begin(const StepProblem<Dim>& problem, double h, Method method);
+    void begin(const std::shared_ptr<const StepProblem<Dim>>& problem, double h, Method method);
     [[nodiscard]] NewtonReport solve(const StepProblem<Dim>& problem, Method method);
     [[nodiscard]] NewtonReport minimize(Method method);
     [[nodiscard]] NewtonReport minimize_bounded(const StepProblem<Dim>& problem);
@@ -97,11 +112,12 @@ private:
     [[nodiscard]] double kinetic_energy(const Positions<Dim>& velocities) const;
 
     SimulationOptions options_;
-    Scene scene_;
+    const Scene scene_;
     Workers workers_;
     Isa isa_;
     const Kernels<Dim>* kernels_;
-    Bodies<Dim> bodies_;
+    const Bodies<Dim> bodies_;
+    HeldVertices<Dim> held_;
     SceneEnergy<Dim> energy_;
     IncrementalPotential<Dim> potential_;
     Islands<Dim> islands_;
