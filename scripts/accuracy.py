@@ -22,32 +22,37 @@ SETTINGS = (
 )
 LEVELS = ("10%", "5%", "2%", "1%")
 ELEMENTS = ("linear", "smoothed", "quadratic")
-# What the mesh costs in accuracy: a beam one quadratic cell thick, and its edges cut into so many.
+# What elements and meshes cost in accuracy by the preset accurate: the six scenes on meshes for quadratic elements, as
+# coarse as they can be and with every edge cut in two. Scene, frames, halvings of the reference, timed runs of each.
+ELEMENT_STUDIES = (("bend", 10, 2, 3), ("beam_coarse", 8, 2, 3), ("octopus_coarse", 4, 2, 1), ("alien_coarse", 4, 2, 1),
+                   ("drop_coarse", 15, 4, 3), ("collision_coarse", 15, 3, 1))
 SUBDIVISIONS = (1, 2)
-BEND_FRAMES = 10
-COARSEST = 1536  # cells
+VARY_ELEMENTS = ["elements=" + ",".join(ELEMENTS), "subdivide=" + ",".join(map(str, SUBDIVISIONS))]
+DRAWN = ("bend", "beam_coarse", "octopus_coarse")
 
 
 def run(programs, name, *arguments):
     subprocess.run([os.path.join(programs, name), *arguments, "--quiet"], check=True)
 
 
-def study(programs, out, scene, frames, halvings, vary):
+def study(programs, out, scene, frames, halvings, vary, repeats=REPEATS):
     """What pent-study finds; references that are in the folder of the scene are used again."""
+    print("accuracy:", scene, *vary, flush=True)
     folder = os.path.join(out, scene)
     axes = [word for axis in vary for word in ("--vary", axis)]
     run(programs, "pent-study", f"data/study/{scene}.toml", "-o", folder, "--frames", str(frames), "--threads", "1",
-        "--repeat", str(REPEATS), "--reference-halvings", str(halvings), *axes)
+        "--repeat", str(repeats), "--reference-halvings", str(halvings), *axes)
     with open(os.path.join(folder, "study.json"), encoding="utf-8") as file:
         return json.load(file)
 
 
-def study_and_plot(programs, out, page, scene, frames, halvings, vary):
-    print("accuracy:", scene, flush=True)
-    report = study(programs, out, scene, frames, halvings, vary)
+def keep_plot(out, page, scene):
     shutil.copy(os.path.join(out, scene, "frontier.png"),
                 os.path.join(os.path.dirname(page), "images", f"accuracy-{scene}.png"))
-    return report
+
+
+def plots(scenes, what):
+    return "\n\n".join(f"![{what}, {scene}](images/accuracy-{scene}.png)" for scene in scenes)
 
 
 def machine(out):
@@ -115,7 +120,6 @@ def settings_table(programs, out):
     rows = []
     frames = dict((scene, frames) for scene, frames, _ in STUDIES)["beam"]
     for integrator, dt, halvings, axes in SETTINGS:
-        print("accuracy: beam,", integrator, flush=True)
         report = study(programs, out, "beam", frames, halvings, ["integrator=" + integrator, "dt=" + dt, *axes])
         for result in report["results"]:
             settings = result["settings"]
@@ -145,36 +149,68 @@ def locking_table(program):
     return subprocess.run([program], capture_output=True, text=True, check=True).stdout.strip()
 
 
-def elements_table(report):
-    """Processor time per frame and error of each kind of elements, mesh by mesh."""
-    def cell(result):
-        return f"{result['cost']['cpu_seconds'] / BEND_FRAMES:.2g} s, {100 * result['errors']['position']:.2g}%"
+def by_elements(report):
+    """The result of each kind of elements on each mesh of a study, processor time per frame, and error."""
+    found = {}
+    for result in report["results"]:
+        settings = result["settings"]
+        cost = result["cost"]["cpu_seconds"] / report["frames"]
+        found[settings["elements"], int(settings["subdivide"])] = (cost, result["errors"]["position"], result)
+    return found
 
+
+def elements_table(studies):
+    """Processor time per frame and error of each kind of elements, scene by scene and mesh by mesh."""
     rows = []
-    for level in SUBDIVISIONS:
-        cells = [cell(result) for elements in ELEMENTS for result in report["results"]
-                 if result["settings"] == {"elements": elements, "subdivide": str(level)}]
-        rows.append([str(2 * level), str(COARSEST * level**4), *cells])
-    return table(["cells thick", "cells", *ELEMENTS], rows)
+    for scene, report in studies:
+        found = by_elements(report)
+        reference = report["reference"]
+        reached = percent(reference["error_bar"]) + ("" if reference["is_converged"] else ", not converged")
+        for level in SUBDIVISIONS:
+            cells = report["cells"] * level**4 // SUBDIVISIONS[-1]**4
+            kinds = [found[kind, level] for kind in ELEMENTS]
+            rows.append([scene if level == SUBDIVISIONS[0] else "", f"{cells:,}",
+                         *(f"{cost:.2g} s, {100 * error:.2g}%" for cost, error, _ in kinds),
+                         reached if level == SUBDIVISIONS[0] else ""])
+    return table(["scene", "cells", *ELEMENTS, "error bar of the reference"], rows)
+
+
+def gain_table(studies):
+    """What quadratic elements take and give where linear ones were: on their mesh, and on the next coarser."""
+    rows = []
+    for scene, report in studies:
+        found = by_elements(report)
+        coarse, fine = SUBDIVISIONS
+        row = [scene]
+        for level in (coarse, fine):
+            (cost, error, _), (old_cost, old_error, _) = found["quadratic", coarse], found["linear", level]
+            row.append(f"{cost / old_cost:.2g}, {error / old_error:.2g}")
+        least = [found[kind, coarse][2]["errors"]["smallest_J"] for kind in ("linear", "quadratic")]
+        rows.append([*row, " and ".join(f"{J:.2f}" for J in least)])
+    return table(["scene", "on the same mesh: time, error", "a mesh coarser: time, error",
+                  "least det F, linear and quadratic"], rows)
 
 
 def main():
     programs, write_locking, out, page = sys.argv[1:]
     os.makedirs(out, exist_ok=True)
     where = machine(out)
-    studies = [(scene, study_and_plot(programs, out, page, scene, frames, halvings, VARY_PRESETS))
+    studies = [(scene, study(programs, out, scene, frames, halvings, VARY_PRESETS))
                for scene, frames, halvings in STUDIES]
-    kinds = study_and_plot(programs, out, page, "bend", BEND_FRAMES, 2,
-                           ["elements=" + ",".join(ELEMENTS), "subdivide=" + ",".join(map(str, SUBDIVISIONS))])
+    kinds = [(scene, study(programs, out, scene, frames, halvings, VARY_ELEMENTS, repeats))
+             for scene, frames, halvings, repeats in ELEMENT_STUDIES]
+    scenes = [scene for scene, _ in studies]
+    for scene in (*scenes, *DRAWN):
+        keep_plot(out, page, scene)
     times = "single runs" if REPEATS == 1 else f"medians of {REPEATS} runs that alternate"
-    plots = "\n\n".join(f"![Error against time, {scene}](images/accuracy-{scene}.png)" for scene, _ in studies)
     with open("data/study/accuracy.md.in", encoding="utf-8") as template:
         text = template.read()
     for name, value in (("TIMES", times), ("MACHINE", where), ("PRESETS", presets_table(studies)),
                         ("CHEAPEST", cheapest_table(studies)), ("SETTINGS", settings_table(programs, out)),
                         ("CONTACT", contact_table(studies)), ("LOCKING", locking_table(write_locking)),
-                        ("FINEST", f"{COARSEST * SUBDIVISIONS[-1]**4:,}"),
-                        ("ELEMENTS", elements_table(kinds)), ("PLOTS", plots)):
+                        ("ELEMENTS", elements_table(kinds)), ("GAIN", gain_table(kinds)),
+                        ("PLOTS", plots(scenes, "Error against time")),
+                        ("PLOTS_OF_ELEMENTS", plots(DRAWN, "Error against time of three kinds of elements"))):
         text = text.replace(f"@{name}@", value)
     with open(page, "w", encoding="utf-8") as file:
         file.write(text)

@@ -3,7 +3,7 @@
 # docs/accuracy.md with its plots. Goes on where it was interrupted; what another build of the programs measured
 # has to be removed, or given another folder.
 #
-#   scripts/accuracy.sh [OUTPUT FOLDER]      default: out/accuracy; some minutes on a quiet machine
+#   scripts/accuracy.sh [OUTPUT FOLDER]      default: out/accuracy; ten minutes on a quiet machine
 set -euo pipefail
 out=$(realpath -m "${1:-$(dirname "$0")/../out/accuracy}")
 cd "$(dirname "$0")/.."

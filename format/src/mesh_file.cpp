@@ -2,6 +2,7 @@
 #include "extrusion_file.h"
 #include "input_file.h"
 
+#include <pent/cell_parents.h>
 #include <pent/error.h>
 #include <pent/pent_file.h>
 
@@ -18,6 +19,8 @@ Column array_column(std::string name, PlyType type, const std::vector<Value>& va
     return {std::move(name), type, reinterpret_cast<char*>(data), sizeof(Value)};
 }
 
+constexpr const char* kParent = "parent";
+constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
 constexpr const char* kTag = "bisection_tag";
 constexpr const char* kBaseLabel = "base_label";
 constexpr const char* kBoundary = "boundary";
@@ -52,7 +55,7 @@ std::vector<Column> cell_columns(const SimplexMesh<Dim>& mesh, const MeshExtras<
         columns.push_back(array_column("region", PlyType::Ushort, mesh.regions));
     }
     if (!mesh.parents.empty()) {
-        columns.push_back(array_column("parent", PlyType::Uint, mesh.parents));
+        columns.push_back(array_column(kParent, PlyType::Uint, mesh.parents));
     }
     if (mesh.fibers.cols() > 0) {
         const std::vector<Column> fibers = vector_columns<Dim>(mesh.fibers, "fiber_");
@@ -150,11 +153,17 @@ MeshExtras<Dim> sized_extras(const Header& header, const std::filesystem::path& 
 }  // namespace
 
 FileInfo read_info(const std::filesystem::path& path) {
-    constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
     const InputFile file = read_input(path, kLongestHeader);
     const Header header = parse_header(file.view(), path);
     return is_extrusion(header) ? info_of_extrusion(header, read_input(path).view(), path)
                                 : header.info;
+}
+
+bool has_parents(const std::filesystem::path& path) {
+    const InputFile file = read_input(path, kLongestHeader);
+    const Header header = parse_header(file.view(), path);
+    return !header.info.is_frame && !is_extrusion(header)
+           && has_property(header.elements[1], kParent, PlyType::Uint, path);
 }
 
 template <int Dim>
@@ -219,7 +228,7 @@ MeshFile<Dim> read_mesh(const std::filesystem::path& path) {
     if (has_property(cell, "region", PlyType::Ushort, path)) {
         mesh.regions.resize(cell.count);
     }
-    if (has_property(cell, "parent", PlyType::Uint, path)) {
+    if (has_property(cell, kParent, PlyType::Uint, path)) {
         mesh.parents.resize(cell.count);
     }
     if (has_vector(cell, Dim, "fiber_", "fiber", path)) {

@@ -89,17 +89,6 @@ std::string without_place(std::string message) {
     return message.substr(begin == std::string::npos ? 0 : message.find_first_not_of(' ', begin));
 }
 
-// What a preset stands for.
-simulator::SolverOptions preset_solver(const Setting& setting) {
-    const std::string text =
-        "[[body]]\nname = \"a\"\nmesh = \"a.pent\"\n[solver]\npreset = \"" + setting.value + "\"\n";
-    try {
-        return runs::parse_scene(text, kText, "").solver;
-    } catch (const Error& error) {
-        throw Error(place_of(setting) + ": " + without_place(error.what()));
-    }
-}
-
 simulator::Scene with_dt(simulator::Scene scene, const std::string& value) {
     const double steps = 1 / (scene.frames_per_second * parse_seconds(value));
     const double whole = std::max(1.0, std::round(steps));
@@ -211,12 +200,27 @@ double parse_seconds(const std::string& text) {
     return seconds;
 }
 
+simulator::SolverOptions preset_solver(const simulator::Scene& scene, const Setting& preset) {
+    simulator::Scene bodies;
+    bodies.dimension = scene.dimension;
+    bodies.gravity = scene.gravity;
+    bodies.bodies = scene.bodies;
+    std::string text = runs::scene_text(bodies);
+    text.replace(text.find("\n[solver]\n"), std::string::npos,
+                 "\n[solver]\npreset = \"" + preset.value + "\"\n");
+    try {
+        return runs::parse_scene(text, kText, "").solver;
+    } catch (const Error& error) {
+        throw Error(place_of(preset) + ": " + without_place(error.what()));
+    }
+}
+
 simulator::Scene with_settings(simulator::Scene scene, const Settings& settings) {
     std::string place = "these settings";
     for (const Setting& setting : settings) {
         place = settings.size() == 1 ? place_of(setting) : place;
         if (setting.axis == "preset") {
-            scene.solver = preset_solver(setting);
+            scene.solver = preset_solver(scene, setting);
         } else if (setting.axis == "dt") {
             scene = with_dt(std::move(scene), setting.value);
         }

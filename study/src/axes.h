@@ -24,6 +24,10 @@ struct Axis {
 /// Whether an axis changes the mesh: layers or subdivide.
 [[nodiscard]] bool is_mesh_axis(const std::string& name);
 
+/// What a preset stands for with the meshes of a scene. Throws an Error if there is no such preset.
+[[nodiscard]] simulator::SolverOptions preset_solver(const simulator::Scene& scene,
+                                                     const Setting& preset);
+
 /// The scene with settings: dt, preset, contact (its model), keys of [solver], and those of other
 /// blocks as in "attachment.stiffness", in any order. A
 /// preset stands in place of all of [solver], and other settings on it. Axes of the mesh leave the

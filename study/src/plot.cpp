@@ -197,6 +197,29 @@ Rgb color_of(const std::string& value, const std::vector<std::string>& values) {
     return kColors[static_cast<std::size_t>(place) % kColors.size()];
 }
 
+// The frontier of the results of each color alone: what other colors make of it, point by point.
+std::vector<Line> curves(const StudyReport& report,
+                         const Axes& axes,
+                         const std::vector<std::string>& values) {
+    std::vector<Line> lines;
+    for (const std::string& value : values) {
+        std::vector<Result> own = finished(report);
+        std::erase_if(own, [&](const Result& result) { return color_value(result) != value; });
+        const std::vector<std::size_t> frontier = frontier_of(own, report.reference.error_bar);
+        for (std::size_t i = 1; i < frontier.size(); ++i) {
+            const auto place = [&](std::size_t at) {
+                const Result& result = own[frontier[at]];
+                return axes.at(result.cost.seconds_per_frame, error_of(report, result));
+            };
+            lines.push_back({.from = place(i - 1),
+                             .to = place(i),
+                             .color = color_of(value, values),
+                             .width = 2.5});
+        }
+    }
+    return lines;
+}
+
 Drawing results(const StudyReport& report, const Axes& axes) {
     const std::vector<std::string> values = color_values(report);
     const auto disc = [&](const Result& result, double radius) -> Disc {
@@ -204,7 +227,7 @@ Drawing results(const StudyReport& report, const Axes& axes) {
                 .radius = radius,
                 .color = color_of(color_value(result), values)};
     };
-    Drawing drawing;
+    Drawing drawing{.lines = curves(report, axes, values)};
     for (const Result& result : finished(report)) {
         drawing.discs.push_back(disc(result, 3.5));
     }

@@ -35,7 +35,7 @@ Settings finest_mesh(const std::vector<Axis>& axes) {
 
 // As accurate as the program can be at a given dt. What Newton's method leaves of the momentum of a
 // step may add up over all of them, so it is little. Of several kinds of elements it has those that
-// lock least.
+// lock least, and so of presets.
 simulator::SolverOptions reference_solver(const Scene& scene, const std::vector<Axis>& axes) {
     simulator::SolverOptions exact = scene.solver;
     const auto elements = std::ranges::find(axes, "elements", &Axis::name);
@@ -43,6 +43,13 @@ simulator::SolverOptions reference_solver(const Scene& scene, const std::vector<
         const auto name = simulator::word_of(kind);
         if (elements != axes.end() && std::ranges::count(elements->values, name) > 0) {
             exact.elements = kind;
+        }
+    }
+    const auto presets = std::ranges::find(axes, "preset", &Axis::name);
+    if (elements == axes.end() && presets != axes.end()) {
+        for (const std::string& value : presets->values) {
+            const auto kind = preset_solver(scene, {presets->name, value}).elements;
+            exact.elements = kind == simulator::ElementKind::Quadratic ? kind : exact.elements;
         }
     }
     exact.precision = simulator::Precision::Double;

@@ -2,6 +2,7 @@
 #include "support/messages.h"
 #include "support/temp_folder.h"
 
+#include <pent/cell_parents.h>
 #include <pent/crc32c.h>
 #include <pent/facets.h>
 #include <pent/formatted.h>
@@ -230,6 +231,19 @@ TEST(PentFile, InfoComesFromTheHeaderAlone) {
     EXPECT_EQ(info.vertices, 12U);
     EXPECT_EQ(info.cells, 12U);
     EXPECT_FALSE(info.is_frame);
+}
+
+TEST(PentFile, ParentsAreKnownFromTheHeaderAlone) {
+    const test::TempFolder folder;
+    const std::filesystem::path path = folder / "a.pent";
+    SimplexMesh<4> mesh = test::quadratic_kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1});
+    write_mesh(path, mesh);
+    std::filesystem::resize_file(path, bytes_of(path).find("end_header") + 11);
+    EXPECT_TRUE(has_parents(path));
+    mesh.parents.clear();
+    write_mesh(path, mesh);
+    EXPECT_FALSE(has_parents(path));
+    EXPECT_THROW(static_cast<void>(has_parents(folder / "b.pent")), Error);
 }
 
 // Writes a small mesh in ascii with extra properties and elements, as another program might.

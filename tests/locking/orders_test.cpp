@@ -5,6 +5,7 @@
 #include "support/cut_in_two.h"
 #include "support/kuhn_box.h"
 
+#include <pent/formatted.h>
 #include <pent/simulator/simulation.h>
 
 #include <Eigen/LU>
@@ -236,8 +237,13 @@ Errors orders(double poisson, double dilatation) {
     const Errors coarse = errors<Dim>(kCoarse, poisson, wave);
     const Errors fine = errors<Dim>(kFine, poisson, wave);
     const double ratio = std::log(double{kFine} / kCoarse);
-    return {std::log(coarse.displacement / fine.displacement) / ratio,
-            std::log(coarse.gradient / fine.gradient) / ratio};
+    const Errors found = {std::log(coarse.displacement / fine.displacement) / ratio,
+                          std::log(coarse.gradient / fine.gradient) / ratio};
+    const simulator::Lame lame = simulator::lame_from_young(Dim, 1, poisson);
+    testing::Test::RecordProperty(
+        formatted("poisson_%g_pressure_%g", poisson, dilatation * lame.lambda / lame.mu),
+        formatted("%.2f, %.2f", found.displacement, found.gradient));
+    return found;
 }
 
 // Orders of the theory are 3 and 2; what is missing is that meshes of four dimensions are coarse.

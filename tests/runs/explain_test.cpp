@@ -232,6 +232,24 @@ TEST(Explain, NamesSmoothedElementsWhereTheyHelp) {
     EXPECT_EQ(says(ElementKind::Quadratic).find("lock"), std::string::npos);
 }
 
+TEST(Explain, TellsOfMeshesForQuadraticElementsThatAreNotUsed) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    const auto says = [&](ElementKind kind) {
+        scene.solver.elements = kind;
+        return advice(explain(scene, 1)).find("every mesh was made for quadratic elements")
+               != std::string::npos;
+    };
+    const std::string mesh = (folder / "quadratic.pent").string();
+    write_mesh(mesh, pent::test::quadratic_kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1}));
+    scene.bodies[0].mesh = mesh;
+    EXPECT_FALSE(says(ElementKind::Linear));  // the other body's is not
+    scene.bodies[1].mesh = mesh;
+    EXPECT_TRUE(says(ElementKind::Linear));
+    EXPECT_TRUE(says(ElementKind::Smoothed));
+    EXPECT_FALSE(says(ElementKind::Quadratic));
+}
+
 TEST(Explain, WarnsOfTurnsTooFarForALinearStep) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 5);

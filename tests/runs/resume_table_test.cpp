@@ -263,12 +263,12 @@ std::vector<ResumeRow> rows_of_both_dimensions() {
     return rows;
 }
 
-// Each integrator with each model of contact.
+// Each integrator with each model of contact, of the elements that muscles work in.
 std::vector<ResumeRow> driven_rows(int dimension) {
     std::vector<ResumeRow> rows;
     for (const ResumeRow& row : every_row(dimension)) {
-        const bool is_plain = row.elements == ElementKind::Linear && !row.has_sleep && !row.is_self
-                              && row.model == Model::StableNeoHookean;
+        const bool is_plain = row.elements != ElementKind::Smoothed && !row.has_sleep
+                              && !row.is_self && row.model == Model::StableNeoHookean;
         if (is_plain && (row.friction > 0 || !row.contact)) {
             rows.push_back(row);
         }

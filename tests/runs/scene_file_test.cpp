@@ -1,6 +1,9 @@
 #include "scene_text.h"
+#include "support/kuhn_box.h"
+#include "support/temp_folder.h"
 
 #include <pent/error.h>
+#include <pent/pent_file.h>
 #include <pent/runs/scene_file.h>
 
 #include <gtest/gtest.h>
@@ -208,6 +211,36 @@ TEST(ParseScene, TakesACoarserToleranceForTheFastPreset) {
         return parse(with("[solver]\npreset = \"" + preset + "\"\n")).solver.tolerance;
     };
     EXPECT_GT(tolerance("fast"), tolerance("balanced"));
+}
+
+TEST(ReadScene, TakesQuadraticElementsForTheAccuratePresetWhereEveryMeshHasThem) {
+    const pent::test::TempFolder folder;
+    const auto elements = [&](const std::string& solver) {
+        return parse_scene(
+                   "[[body]]\nname = \"a\"\nmesh = \"a.pent\"\n"
+                   "[[body]]\nname = \"b\"\nmesh = \"b.pent\"\n[solver]\n"
+                       + solver,
+                   "s.toml", folder.path())
+            .solver.elements;
+    };
+    const std::string accurate = "preset = \"accurate\"\n";
+    const auto quadratic = pent::test::quadratic_kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1});
+    SimplexMesh<4> plain = quadratic;
+    plain.parents.clear();
+    write_mesh(folder / "a.pent", quadratic);
+    EXPECT_EQ(elements(accurate), ElementKind::Linear);  // b is not there
+    write_mesh(folder / "b.pent", plain);
+    EXPECT_EQ(elements(accurate), ElementKind::Linear);
+    write_mesh(folder / "b.pent", quadratic);
+    EXPECT_EQ(elements(accurate), ElementKind::Quadratic);
+    EXPECT_EQ(elements(accurate + "elements = \"linear\"\n"), ElementKind::Linear);
+    EXPECT_EQ(elements("preset = \"balanced\"\n"), ElementKind::Linear);
+    EXPECT_EQ(elements(""), ElementKind::Linear);
+    // Written out, they stay what they are.
+    const Scene scene =
+        parse_scene("[[body]]\nname = \"a\"\nmesh = \"a.pent\"\n[solver]\n" + accurate, "s.toml",
+                    folder.path());
+    EXPECT_EQ(parse_scene(scene_text(scene), "again", "").solver.elements, ElementKind::Quadratic);
 }
 
 TEST(ParseScene, KnowsWhereMeshesAndSelectionsStand) {

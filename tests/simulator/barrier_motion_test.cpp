@@ -1,8 +1,12 @@
 #include "barrier_scenes.h"
+#include "support/cut_in_two.h"
 
 #include <pent/error.h>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 // The barrier with every integrator that takes it, and with bodies that are moved from outside.
 
@@ -51,6 +55,51 @@ TYPED_TEST(BarrierMotionTest, Bdf2KeepsBodiesApartAndMomentum) {
     EXPECT_GT(run.simulation().save().previous_positions.cols(), 0);
     // What Newton's method leaves unbalanced in a step is 1e-8 of the momentum in it.
     EXPECT_LT((momentum(run.simulation()) - before).norm(), 1e-5 * before.norm());
+}
+
+// What is left of two quadratic cubes in R^4 that meet, one of them sliding along the third axis.
+struct Rubbed {
+    double sliding = 0;      // Speed of one along the other, m/s.
+    double energy_gain = 0;  // The largest of a step, over the energy at the start.
+};
+
+Rubbed rub(double friction) {
+    BarrierScene<4> scene = collision<4>(Integrator::Bdf2);
+    scene.scene.solver.elements = ElementKind::Quadratic;
+    scene.scene.solver.newton_tolerance = 1e-8;
+    scene.scene.contact->friction = friction;
+    scene.scene.bodies[0].velocity = vector<4>(1, 0, 0.5);
+    for (SimplexMesh<4>& mesh : scene.meshes) {
+        mesh = pent::test::cut_in_two<4>(mesh);
+    }
+    WatchedRun<4> run(scene);
+    const Eigen::VectorXd before = momentum(run.simulation());
+    const double start = run.simulation().energies().total();
+    Rubbed rubbed;
+    for (int k = 0; k < 8; ++k) {
+        const double last = run.simulation().energies().total();
+        run.run(1);
+        rubbed.energy_gain =
+            std::max(rubbed.energy_gain, (run.simulation().energies().total() - last) / start);
+    }
+    EXPECT_EQ(run.failure(), "");
+    EXPECT_EQ(run.crossings(), 0);
+    EXPECT_LT(run.smallest_distance(), 0.02);  // they met
+    EXPECT_LT((momentum(run.simulation()) - before).norm(), 1e-5 * before.norm());
+    const auto along = [&](int body) { return run.simulation().velocities(body).row(2).mean(); };
+    rubbed.sliding = along(0) - along(1);
+    return rubbed;
+}
+
+TEST(BarrierMotion, QuadraticBodiesThatRubKeepApartAndMomentumAndOnlyLoseEnergy) {
+    const Rubbed smooth = rub(0);
+    const Rubbed rough = rub(0.4);
+    // The faces that meet are parallel: without friction nothing stops what slides along them. With
+    // it they stick, and spring back a little.
+    EXPECT_NEAR(smooth.sliding, 0.5, 0.05);
+    EXPECT_LT(std::abs(rough.sliding), 0.2 * smooth.sliding);
+    EXPECT_LE(rough.energy_gain, 1e-6);
+    EXPECT_LE(smooth.energy_gain, 1e-6);
 }
 
 TYPED_TEST(BarrierMotionTest, QuasistaticBlocksPressedTogetherAreInBalance) {

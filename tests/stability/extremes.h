@@ -25,6 +25,7 @@ struct Extreme {
     int across = 1;         ///< Tesseracts along each of the other axes.
     double newton_tolerance = 1e-6;
     simulator::ElementKind elements = simulator::ElementKind::Linear;
+    int turn_steps = 6;  ///< That a turn is taken in.
     int threads = 1;
 };
 
@@ -42,8 +43,8 @@ struct Case {
 /// Quadratic elements have vertices at half of the distance.
 [[nodiscard]] bool drowns_inertia(const Extreme& extreme);
 
-/// The corners of the box, every number at one of its ends, all at once. Inside are those where
-/// linear elements do not drown inertia.
+/// The corners of the box, every number at one of its ends, all at once. They have to be right
+/// where their elements do not drown inertia.
 [[nodiscard]] const std::vector<Case>& corners();
 
 /// A body of a million pentachora: for the report alone, too slow for a test.
@@ -61,6 +62,29 @@ enum class Motion {
 };
 inline constexpr Motion kMotions[] = {Motion::Fall, Motion::Descend, Motion::Turn, Motion::Load,
                                       Motion::Rest};
+
+/// An extreme with other elements. Quadratic ones bend: where layers are thin, a turn is taken by a
+/// degree a step in place of ten, by which they fold.
+[[nodiscard]] Extreme with_elements(Extreme extreme, simulator::ElementKind elements);
+
+/// What a case, with its elements, is run with.
+struct Asked {
+    Motion motion;
+    simulator::Precision precision;
+};
+
+/// What is asked of a case: all motions but, of quadratic elements, the load, since one of them
+/// does not deform evenly by its weight.
+[[nodiscard]] std::vector<Asked> asked_of(const Extreme& extreme);
+
+/// What is asked of a corner: all that, and less of quadratic elements, which take their time.
+/// Where inertia drowns, a fall in double; and turns once for all that statics does not know of or
+/// scales with, in double where layers are thin.
+[[nodiscard]] std::vector<Asked> asked_of_corner(const Extreme& extreme);
+
+/// Whether a number within the box has to be right also in float: a turn of thin layers of
+/// quadratic elements needs double.
+[[nodiscard]] bool is_right_in_float(const Extreme& extreme);
 
 struct Outcome {
     enum class Kind { Right, Refused, Reported, Wrong } kind = Kind::Right;

@@ -20,10 +20,13 @@ using pent::simulator::Integrator;
 using pent::simulator::Precision;
 
 // The worst of the motions of a case.
-std::string worst(const Case& one, Precision precision) {
+std::string worst(const Extreme& extreme, Precision precision) {
     Outcome worst;
-    for (const Motion motion : kMotions) {
-        const Outcome outcome = run(one.extreme, motion, precision);
+    for (const Asked& asked : asked_of(extreme)) {
+        if (asked.precision != precision) {
+            continue;
+        }
+        const Outcome outcome = run(extreme, asked.motion, precision);
         if (outcome.kind > worst.kind
             || (outcome.kind == worst.kind && outcome.error > worst.error)) {
             worst = outcome;
@@ -44,27 +47,57 @@ void heading(const char* title, const char* first, const char* second) {
 }
 
 void write_numbers() {
-    std::vector<Case> all = cases();
-    all.push_back(million());
-    std::string group;
-    heading("Numbers", "", "value");
-    for (const Case& one : all) {
-        row(one.group == group ? "" : one.group, one.name, one.is_inside ? "in" : "out",
-            [&](Precision precision) { return worst(one, precision); });
-        group = one.group;
+    heading("Numbers", "elements and number", "value");
+    for (const ElementKind elements : {ElementKind::Linear, ElementKind::Quadratic}) {
+        std::vector<Case> all = cases();
+        if (elements == ElementKind::Linear) {
+            all.push_back(million());
+        }
+        std::string group;
+        for (const Case& one : all) {
+            const Extreme extreme = with_elements(one.extreme, elements);
+            const bool is_in_float = is_right_in_float(extreme);
+            row(one.group == group ? "" : std::string(word_of(elements)) + ", " + one.group,
+                one.name,
+                !one.is_inside ? "out"
+                : is_in_float  ? "in"
+                               : "in double",
+                [&](Precision precision) { return worst(extreme, precision); });
+            group = one.group;
+        }
     }
 }
 
+// A motion of corners of one kind of elements, within the box or outside.
+struct Corners {
+    ElementKind elements;
+    Motion motion;
+    bool is_inside;
+};
+
+// Those that are asked for it.
+std::vector<Case> asked_corners(const Corners& what, Precision precision) {
+    std::vector<Case> all;
+    for (Case corner : corners()) {
+        corner.extreme = with_elements(corner.extreme, what.elements);
+        const std::vector<Asked> asked = asked_of_corner(corner.extreme);
+        const bool is_asked = std::any_of(asked.begin(), asked.end(), [&](const Asked& one) {
+            return one.motion == what.motion && one.precision == precision;
+        });
+        if (is_asked && drowns_inertia(corner.extreme) != what.is_inside) {
+            all.push_back(corner);
+        }
+    }
+    return all;
+}
+
 // "112 right, up to 1e-4; 16 reported".
-std::string counted(bool is_inside, Motion motion, Precision precision) {
+std::string counted(const Corners& what, Precision precision) {
     Outcome worst;
     int right = 0;
     int reported = 0;
-    for (const Case& corner : corners()) {
-        if (corner.is_inside != is_inside) {
-            continue;
-        }
-        const Outcome outcome = run(corner.extreme, motion, precision);
+    for (const Case& corner : asked_corners(what, precision)) {
+        const Outcome outcome = run(corner.extreme, what.motion, precision);
         if (outcome.kind == Outcome::Kind::Wrong) {
             return "at " + corner.name + ": " + text(outcome);
         }
@@ -72,21 +105,29 @@ std::string counted(bool is_inside, Motion motion, Precision precision) {
         (is_right ? right : reported) += 1;
         worst.error = std::max(worst.error, outcome.error);
     }
+    if (right == 0) {
+        return reported == 0 ? "not asked" : std::to_string(reported) + " reported";
+    }
     return std::to_string(right) + " " + text(worst)
            + (reported == 0 ? "" : "; " + std::to_string(reported) + " reported");
 }
 
 void write_corners() {
     constexpr const char* kNames[] = {"fall", "fall by newton_euler", "turn", "load", "rest"};
-    heading("Corners", "motion", "corners");
-    for (const Motion motion : kMotions) {
-        for (const bool is_inside : {true, false}) {
-            const auto count =
-                std::count_if(corners().begin(), corners().end(),
-                              [&](const Case& one) { return one.is_inside == is_inside; });
-            row(is_inside ? kNames[static_cast<int>(motion)] : "", std::to_string(count),
-                is_inside ? "in" : "out",
-                [&](Precision precision) { return counted(is_inside, motion, precision); });
+    heading("Corners", "elements and motion", "corners");
+    for (const ElementKind elements : {ElementKind::Linear, ElementKind::Quadratic}) {
+        for (const Motion motion : kMotions) {
+            std::string name =
+                std::string(word_of(elements)) + ", " + kNames[static_cast<int>(motion)];
+            for (const bool is_inside : {true, false}) {
+                const Corners what{elements, motion, is_inside};
+                const auto count = asked_corners(what, Precision::Double).size();
+                if (count > 0) {
+                    row(name, std::to_string(count), is_inside ? "in" : "out",
+                        [&](Precision precision) { return counted(what, precision); });
+                    name = "";
+                }
+            }
         }
     }
 }

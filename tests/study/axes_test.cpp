@@ -111,6 +111,21 @@ TEST(WithSettings, TakesAPresetInPlaceOfAllKeysOfTheSolver) {
     EXPECT_EQ(accurate.constraints.size(), 1U);
 }
 
+TEST(WithSettings, TakesQuadraticElementsWithThePresetThatHasThemWhereTheMeshHas) {
+    const TempFolder folder;
+    const simulator::Scene scene = bar_scene(folder);
+    const auto elements = [&](const char* preset) {
+        return with_settings(scene, {{"preset", preset}}).solver.elements;
+    };
+    EXPECT_EQ(elements("accurate"), simulator::ElementKind::Linear);
+    write_mesh(folder / "bar.pent", pent::test::quadratic_kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1}));
+    EXPECT_EQ(elements("accurate"), simulator::ElementKind::Quadratic);
+    EXPECT_EQ(elements("balanced"), simulator::ElementKind::Linear);
+    EXPECT_EQ(
+        with_settings(scene, {{"preset", "accurate"}, {"elements", "smoothed"}}).solver.elements,
+        simulator::ElementKind::Smoothed);
+}
+
 TEST(WithSettings, LeavesEverythingElseAsItIs) {
     const TempFolder folder;
     const simulator::Scene scene = bar_scene(folder);

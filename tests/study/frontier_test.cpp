@@ -92,6 +92,40 @@ TEST(FrontierPlot, HasADotForEveryFinishedResultWithinThePicture) {
     pent::test::expect_contains(svg(plot), {"a &amp; b &lt;c>.toml", "wall-clock seconds"});
 }
 
+// Ends of the lines of a color, as pixels from left to right.
+std::vector<double> ends_in(const Drawing& plot, const Rgb& color) {
+    std::vector<double> ends;
+    for (const Line& line : plot.lines) {
+        if (line.color == color) {
+            ends.push_back(line.from.x);
+            ends.push_back(line.to.x);
+        }
+    }
+    return ends;
+}
+
+TEST(FrontierPlot, JoinsInEachColorWhatNoOtherOfThatColorBeats) {
+    StudyReport r;
+    r.reference.cost.seconds_per_frame = 100;
+    const auto add = [&](const char* elements, const char* dt, double cost, double error) {
+        r.results.push_back(result("", cost, error));
+        r.results.back().settings = {{"elements", elements}, {"dt", dt}};
+    };
+    add("linear", "1/30", 1, 0.4);
+    add("linear", "1/60", 2, 0.2);
+    add("linear", "1/90", 3, 0.3);  // beaten by the one before
+    add("quadratic", "1/30", 1.5, 0.1);
+    add("quadratic", "1/60", 4, 0.02);
+    add("smoothed", "1/30", 5, 0.2);  // alone, and beaten by all
+    r.frontier = frontier_of(r.results, r.reference.error_bar);
+    const Drawing plot = frontier_plot(r);
+    const auto x = [&](std::size_t i) { return plot.discs[i].center.x; };
+    const auto color = [&](std::size_t i) { return plot.discs[i].color; };
+    EXPECT_EQ(ends_in(plot, color(0)), (std::vector<double>{x(0), x(1)}));
+    EXPECT_EQ(ends_in(plot, color(3)), (std::vector<double>{x(3), x(4)}));
+    EXPECT_TRUE(ends_in(plot, color(5)).empty());
+}
+
 TEST(FrontierPlot, OfNothingMeasuredIsAnEmptyFrame) {
     const Drawing plot = frontier_plot({});
     EXPECT_TRUE(plot.discs.empty());

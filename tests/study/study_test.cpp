@@ -361,6 +361,23 @@ TEST(RunStudy, MeasuresOthersAgainstQuadraticElementsWhereTheMeshHasThem) {
                     {"elements = \"quadratic\""});
 }
 
+// Presets of which one takes quadratic elements: what those of linear ones lack is in their errors.
+TEST(RunStudy, MeasuresPresetsAgainstTheElementsOfTheBest) {
+    const TempFolder folder;
+    const std::filesystem::path scene = test::write_bar(folder);
+    write_mesh(folder / "bar.pent",
+               pent::test::quadratic_kuhn_box<4>({1, 1, 1, 1}, {1.5, 0.5, 0.5, 0.5}));
+    const StudyReport report = run_study({.scene = scene,
+                                          .folder = folder / "study",
+                                          .vary = {"preset=balanced,accurate", "dt=1/60"},
+                                          .repeats = 1,
+                                          .programs = PENT_BIN});
+    ASSERT_EQ(report.results.size(), 2U);
+    EXPECT_LT(report.results[1].errors.position, report.results[0].errors.position / 3);
+    expect_contains(text_of(folder / "study/references/steps-8.toml"),
+                    {"elements = \"quadratic\""});
+}
+
 TEST(RunStudy, RefusesLevelsOfDifferentShape) {
     const TempFolder folder;
     const std::filesystem::path scene =

@@ -78,6 +78,16 @@ Lines on_bending(const Trial& trial) {
     return lines;
 }
 
+// All bodies of a scene have one kind of elements.
+Lines on_idle_parents(const Trial& trial) {
+    const bool are_idle = trial.scene.solver.elements != ElementKind::Quadratic
+                          && std::all_of(trial.bodies.begin(), trial.bodies.end(),
+                                         [](const TrialBody& body) { return body.has_parents; });
+    return are_idle ? Lines{"every mesh was made for quadratic elements, which err less for little"
+                            " more time: take elements = \"quadratic\""}
+                    : Lines{};
+}
+
 Lines on_falling(const Trial& trial) {
     const Scene& scene = trial.scene;
     const double g = scene.gravity.norm();
@@ -252,9 +262,9 @@ Lines on_short_sleep(const Trial& trial) {
 
 std::vector<std::string> advice(const Trial& trial) {
     Lines all;
-    for (const auto piece :
-         {on_first_step, on_warnings, on_bending, on_falling, on_turns, on_missing_contact,
-          on_idle_contact, on_fast_bodies, on_idle_obstacles, on_idle_damping, on_short_sleep}) {
+    for (const auto piece : {on_first_step, on_warnings, on_bending, on_idle_parents, on_falling,
+                             on_turns, on_missing_contact, on_idle_contact, on_fast_bodies,
+                             on_idle_obstacles, on_idle_damping, on_short_sleep}) {
         const Lines lines = piece(trial);
         all.insert(all.end(), lines.begin(), lines.end());
     }

@@ -23,6 +23,7 @@ TrialBody body_at_start(const Scene& scene, const Simulation<Dim>& simulation, i
     const auto positions = simulation.positions(index);
     TrialBody body{.cells = mesh.cell_count(),
                    .cells_across = cells_across(mesh),
+                   .has_parents = !mesh.parents.empty(),
                    .free_vertices = mesh.vertex_count(),
                    .box = {positions.rowwise().minCoeff(), positions.rowwise().maxCoeff()}};
     for (const Constraint& constraint : scene.constraints) {

@@ -1,6 +1,7 @@
 #include "scene/part_reader.h"
 #include "scene/presets.h"
 
+#include <pent/cell_parents.h>
 #include <pent/error.h>
 #include <pent/read_text.h>
 #include <pent/runs/scene_file.h>
@@ -47,6 +48,19 @@ private:
         Preset choice = Preset::Balanced;
         PartReader{block, scene.dimension}(kPreset, choice);
         solver = preset(choice);
+        if (choice == Preset::Accurate && do_all_have_parents()) {
+            solver.elements = simulator::ElementKind::Quadratic;
+        }
+    }
+    // What is wrong with a file is said when its mesh is read.
+    [[nodiscard]] bool do_all_have_parents() const {
+        return std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) {
+            try {
+                return has_parents(body.mesh);
+            } catch (const Error&) {
+                return false;
+            }
+        });
     }
     void begin(TableReader& block, simulator::Output& output) const {
         if (block.flag(kContactForces.key, false)) {
