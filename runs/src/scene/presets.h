@@ -13,7 +13,8 @@ enum class Preset { Fast, Balanced, Accurate };
 
 /// The first key of [solver]: no member of its options has it.
 inline constexpr simulator::Field kPreset = simulator::key(
-    "preset", "",
+    "preset",
+    "",
     "defaults for the keys below, `elements` of `accurate` being quadratic where every mesh says"
     " which cells belong together; [accuracy.md](accuracy.md) has what each costs");
 
