@@ -1,5 +1,5 @@
+#include "scene/block_keys.h"
 #include "scene/part_reader.h"
-#include "scene/presets.h"
 
 #include <pent/error.h>
 #include <pent/read_text.h>
@@ -35,24 +35,12 @@ struct BlockReader {
     void operator()(std::string_view name, Part& part) const {
         if (table.has(name)) {
             TableReader block = table.table(name);
-            begin(block, part);
+            static_cast<void>(read_block_keys(block, part));
             read_part(block, part, scene.dimension);
         }
     }
 
 private:
-    template <typename Part>
-    void begin(TableReader& /*block*/, Part& /*part*/) const {}
-    void begin(TableReader& block, SolverOptions& solver) const {
-        Preset choice = Preset::Balanced;
-        PartReader{block, scene.dimension}(kPreset, choice);
-        solver = preset(choice);
-    }
-    void begin(TableReader& block, simulator::Output& output) const {
-        if (block.flag(kContactForces.key, false)) {
-            output.vertex.push_back(simulator::VertexQuantity::ContactForce);
-        }
-    }
     void finish(const TableReader& /*entry*/, const Obstacle& /*obstacle*/) const {}
     void finish(const TableReader& entry, Body& body) const;
     template <typename Part>
