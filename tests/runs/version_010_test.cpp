@@ -55,8 +55,8 @@ protected:
     }
 
     // Expects frames of the old folder to be those of a run from the start. Newton's method leaves
-    // 1e-10 of the forces of a step that moves vertices by 0.02 m, and not the same, as the order of
-    // sums has changed; contacts make that up to some hundred times as large in four steps. Of
+    // 1e-10 of the forces of a step that moves vertices by 0.02 m, and not the same, as the order
+    // of sums has changed; contacts make that up to some hundred times as large in four steps. Of
     // velocities it is the same over a step of 1/60 s.
     void expect_frames_of(const fs::path& whole, int first, int last) const {
         for (int frame = first; frame <= last; ++frame) {

@@ -140,7 +140,7 @@ TEST(DrawScene, DrawsEveryPairOfFeaturesThatGoTogether) {
     }
 }
 
-// ------------------------------------------------------------------------------ keys by their paths
+// ----------------------------------------------------------------------------- keys by their paths
 
 // Gives a path of keys this value wherever it leads; whether it leads somewhere on every way that
 // has all of it but the last key.
