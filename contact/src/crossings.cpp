@@ -47,6 +47,11 @@ struct Two {
     int second = 0;
 };
 
+// Colliders, trees, the walk through them and the search for near pairs are those of all contact;
+// the candidates are not. Crossings are pairs of other kinds, as edges that go through facets, and
+// are asked for where a scene begins, changes or is restored, not in its steps. And what says that
+// nothing crosses is to be a witness of candidates, covers of paths and collision detection, which
+// a fault in them cannot mislead.
 template <int Dim>
 class CrossingSearch {
 public:

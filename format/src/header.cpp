@@ -16,24 +16,6 @@ namespace pent {
 
 namespace {
 
-struct TypeName {
-    std::string_view name;
-    std::string_view alias;
-    PlyType type;
-    std::size_t size;
-};
-
-constexpr std::array<TypeName, 8> kTypes = {{
-    {"char", "int8", PlyType::Char, 1},
-    {"uchar", "uint8", PlyType::Uchar, 1},
-    {"short", "int16", PlyType::Short, 2},
-    {"ushort", "uint16", PlyType::Ushort, 2},
-    {"int", "int32", PlyType::Int, 4},
-    {"uint", "uint32", PlyType::Uint, 4},
-    {"float", "float32", PlyType::Float, 4},
-    {"double", "float64", PlyType::Double, 8},
-}};
-
 // Comments with a meaning; others are ignored.
 constexpr std::array<std::string_view, 9> kComments = {
     "pent", "dimension", "created_by", "crc32c", "header_crc32c", "mesh", "frame", "step", "time"};
@@ -240,10 +222,8 @@ private:
     }
 
     [[nodiscard]] PlyType parse_type(std::string_view word, std::string_view line) const {
-        for (const TypeName& type : kTypes) {
-            if (word == type.name || word == type.alias) {
-                return type.type;
-            }
+        if (const std::optional<PlyType> type = ply_type_called(word)) {
+            return *type;
         }
         fail(line, "a PLY type: char uchar short ushort int uint float double");
     }
@@ -369,11 +349,11 @@ std::string shortest(double value) {
 }  // namespace
 
 std::size_t size_of(PlyType type) {
-    return kTypes[static_cast<std::size_t>(type)].size;
+    return kPlyTypes[static_cast<std::size_t>(type)].size;
 }
 
 std::string_view name_of(PlyType type) {
-    return kTypes[static_cast<std::size_t>(type)].name;
+    return kPlyTypes[static_cast<std::size_t>(type)].name;
 }
 
 Header parse_header(std::string_view bytes, const std::filesystem::path& path) {

@@ -1,34 +1,19 @@
 #pragma once
 
 #include <pent/pent_file.h>
+#include <pent/ply_elements.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace pent {
 
-/// The scalar types of PLY.
-enum class PlyType { Char, Uchar, Short, Ushort, Int, Uint, Float, Double };
-
 [[nodiscard]] std::size_t size_of(PlyType type);  ///< In bytes.
 [[nodiscard]] std::string_view name_of(PlyType type);
-
-struct PlyProperty {
-    std::string name;
-    PlyType type = PlyType::Double;
-    std::optional<PlyType> count_type;  ///< Of a list: the type of its length.
-};
-
-struct PlyElement {
-    std::string name;
-    std::uint64_t count = 0;
-    std::vector<PlyProperty> properties;
-};
 
 /// The header of a .pent file, as parsed; not yet compared with the body.
 struct Header {

@@ -11,7 +11,8 @@ namespace pent {
 namespace {
 
 std::string at(const std::string& file, const toml::source_position& position) {
-    return file + ":" + std::to_string(position.line) + ":" + std::to_string(position.column);
+    const auto number = [](auto value) { return ":" + std::to_string(value); };
+    return file.empty() ? "" : file + number(position.line) + number(position.column);
 }
 
 // A message may quote what it found, and that may be the end of a line.
@@ -91,7 +92,8 @@ std::string TableReader::place(std::string_view key) const {
 }
 
 void TableReader::fail(std::string_view key, const std::string& message) const {
-    throw Error(place(key) + ": " + message);
+    const std::string where = place(key);
+    throw Error(where + (where.empty() ? "" : ": ") + message);
 }
 
 std::vector<std::string> TableReader::unknown() const {
@@ -109,7 +111,8 @@ void TableReader::fail_unknown(const std::string& key, const std::string& expect
     for (const auto& [present, node] : *table_) {
         where = present.str() == key ? at(file_, present.source().begin) : where;
     }
-    throw Error(where + ": unknown key " + in_quotes(key) + " in " + name_ + expected);
+    throw Error(where + (where.empty() ? "" : ": ") + "unknown key " + in_quotes(key) + " in "
+                + name_ + expected);
 }
 
 void TableReader::fail_missing(std::string_view key, std::string_view type) const {

@@ -2,58 +2,28 @@
 #include "surface_readers.h"
 
 #include <pent/error.h>
+#include <pent/ply_elements.h>
 
-#include <array>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pent::mesher {
 
 namespace {
 
-enum class Type { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
-
-struct TypeName {
-    std::string_view name;
-    std::string_view other_name;
-    Type type;
-    std::size_t bytes;
-};
-
-constexpr std::array<TypeName, 8> kTypes = {{{"char", "int8", Type::Int8, 1},
-                                             {"uchar", "uint8", Type::Uint8, 1},
-                                             {"short", "int16", Type::Int16, 2},
-                                             {"ushort", "uint16", Type::Uint16, 2},
-                                             {"int", "int32", Type::Int32, 4},
-                                             {"uint", "uint32", Type::Uint32, 4},
-                                             {"float", "float32", Type::Float32, 4},
-                                             {"double", "float64", Type::Float64, 8}}};
-
-struct Property {
-    std::string name;
-    bool is_list = false;
-    Type count_type = Type::Uint8;  // of a list
-    Type type = Type::Float32;
-};
-
-struct Element {
-    std::string name;
-    std::int64_t count = 0;
-    std::vector<Property> properties;
-};
-
 struct Header {
     Encoding encoding = Encoding::Text;
-    std::vector<Element> elements;
+    std::vector<PlyElement> elements;
 };
 
-Type read_type(TextReader& text) {
+PlyType read_type(TextReader& text) {
     const std::string_view word = text.word();
-    for (const TypeName& known : kTypes) {
-        if (word == known.name || word == known.other_name) {
-            return known.type;
-        }
+    if (const std::optional<PlyType> type = ply_type_called(word)) {
+        return *type;
     }
     text.fail("type \"" + std::string(word) + "\"; expected one of PLY's, as in float or uchar");
 }
@@ -73,11 +43,10 @@ Encoding read_encoding(TextReader& text) {
               + "\"; expected ascii, binary_little_endian or binary_big_endian");
 }
 
-Property read_property(TextReader& text) {
-    Property property;
+PlyProperty read_property(TextReader& text) {
+    PlyProperty property;
     TextReader ahead = text;  // the first word is either "list" or a type
-    property.is_list = ahead.word() == "list";
-    if (property.is_list) {
+    if (ahead.word() == "list") {
         static_cast<void>(text.word());
         property.count_type = read_type(text);
     }
@@ -96,9 +65,10 @@ Header read_header(TextReader& text) {
         if (keyword == "format") {
             header.encoding = read_encoding(text);
         } else if (keyword == "element") {
-            Element element;
+            PlyElement element;
             element.name = text.word();
-            element.count = text.count(text.word(), "the number of elements");
+            element.count =
+                static_cast<std::uint64_t>(text.count(text.word(), "the number of elements"));
             header.elements.push_back(element);
         } else if (keyword == "property") {
             if (header.elements.empty()) {
@@ -119,31 +89,31 @@ class Values {
 public:
     Values(TextReader& text, Encoding encoding) : text_(text), numbers_(text, encoding) {}
 
-    double next(Type type) {
+    double next(PlyType type) {
         constexpr std::string_view kExpected = "a value";
         switch (type) {
-            case Type::Int8:
+            case PlyType::Char:
                 return numbers_.real<std::int8_t>(kExpected);
-            case Type::Uint8:
+            case PlyType::Uchar:
                 return numbers_.real<std::uint8_t>(kExpected);
-            case Type::Int16:
+            case PlyType::Short:
                 return numbers_.real<std::int16_t>(kExpected);
-            case Type::Uint16:
+            case PlyType::Ushort:
                 return numbers_.real<std::uint16_t>(kExpected);
-            case Type::Int32:
+            case PlyType::Int:
                 return numbers_.real<std::int32_t>(kExpected);
-            case Type::Uint32:
+            case PlyType::Uint:
                 return numbers_.real<std::uint32_t>(kExpected);
-            case Type::Float32:
+            case PlyType::Float:
                 return numbers_.real<float>(kExpected);
-            case Type::Float64:
+            case PlyType::Double:
                 return numbers_.real<double>(kExpected);
         }
         return 0;
     }
 
     // A whole number from 0 up to and without `end`.
-    std::int64_t next_below(Type type, std::int64_t end, const std::string& what) {
+    std::int64_t next_below(PlyType type, std::int64_t end, const std::string& what) {
         const double value = next(type);
         if (!(value >= 0) || value >= static_cast<double>(end) || value != std::floor(value)) {
             fail(what + " " + std::to_string(value) + "; expected a whole number below "
@@ -159,10 +129,10 @@ private:
     NumberReader numbers_;
 };
 
-void read_vertex(const Element& element, Values& values, SoupBuilder& builder) {
+void read_vertex(const PlyElement& element, Values& values, SoupBuilder& builder) {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
-    for (const Property& property : element.properties) {
-        if (property.is_list) {
+    for (const PlyProperty& property : element.properties) {
+        if (property.count_type) {
             values.fail("a list among the properties of vertex; expected single values");
         }
         const double value = values.next(property.type);
@@ -178,14 +148,14 @@ void read_vertex(const Element& element, Values& values, SoupBuilder& builder) {
 }
 
 // Reads one row; its polygon is left in `polygon` if it has one.
-void read_row(const Element& element,
+void read_row(const PlyElement& element,
               Values& values,
               std::int64_t points,
               std::int64_t longest,
               std::vector<std::uint32_t>& polygon) {
     polygon.clear();
-    for (const Property& property : element.properties) {
-        if (!property.is_list) {
+    for (const PlyProperty& property : element.properties) {
+        if (!property.count_type) {
             static_cast<void>(values.next(property.type));
             continue;
         }
@@ -193,7 +163,7 @@ void read_row(const Element& element,
             element.name == "face"
             && (property.name == "vertex_indices" || property.name == "vertex_index");
         const std::int64_t count =
-            values.next_below(property.count_type, longest, "a list of length");
+            values.next_below(*property.count_type, longest, "a list of length");
         for (std::int64_t i = 0; i < count; ++i) {
             if (is_polygon) {
                 polygon.push_back(static_cast<std::uint32_t>(
@@ -213,14 +183,14 @@ TriangleSoup read_ply(const std::filesystem::path& path) {
     Values values(text, header.encoding);
     SoupBuilder builder;
     std::vector<std::uint32_t> polygon;
-    for (const Element& element : header.elements) {
+    for (const PlyElement& element : header.elements) {
         if (element.properties.empty()) {
             continue;  // rows without a byte: nothing to read, whatever their number
         }
         if (element.name == "tristrips") {
             values.fail("triangles in strips; expected faces: write the file with faces");
         }
-        for (std::int64_t row = 0; row < element.count; ++row) {
+        for (std::uint64_t row = 0; row < element.count; ++row) {
             if (element.name == "vertex") {
                 read_vertex(element, values, builder);
                 continue;

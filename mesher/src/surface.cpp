@@ -3,6 +3,7 @@
 #include <pent/error.h>
 #include <pent/input_path.h>
 #include <pent/mesher/read_surface.h>
+#include <pent/surface_measures.h>
 
 #include <Eigen/Geometry>
 
@@ -114,27 +115,11 @@ SurfaceFile read_surface(const std::filesystem::path& path) {
 }
 
 double area(const Surface& surface) {
-    double twice = 0;
-    for (const auto& t : surface.triangles.colwise()) {
-        const Eigen::Vector3d a = surface.points.col(t[0]);
-        const Eigen::Vector3d b = surface.points.col(t[1]);
-        const Eigen::Vector3d c = surface.points.col(t[2]);
-        twice += (b - a).cross(c - a).norm();
-    }
-    return twice / 2;
+    return triangle_area(surface.points, surface.triangles);
 }
 
 double enclosed_volume(const Surface& surface) {
-    // Measured from a point of the surface: from a far origin the terms would cancel badly.
-    const Eigen::Vector3d origin = surface.points.col(0);
-    double six_volume = 0;
-    for (const auto& t : surface.triangles.colwise()) {
-        const Eigen::Vector3d a = surface.points.col(t[0]) - origin;
-        const Eigen::Vector3d b = surface.points.col(t[1]) - origin;
-        const Eigen::Vector3d c = surface.points.col(t[2]) - origin;
-        six_volume += a.cross(b).dot(c);
-    }
-    return six_volume / 6;
+    return pent::enclosed_volume(surface.points, surface.triangles);
 }
 
 double diagonal(const Positions<3>& points) {

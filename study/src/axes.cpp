@@ -3,125 +3,79 @@
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/nearest_name.h>
-#include <pent/runs/scene_file.h>
+#include <pent/runs/scene_keys.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
+#include <iterator>
 #include <sstream>
+#include <string_view>
+#include <utility>
 
 namespace pent::study {
 
 namespace {
 
-constexpr const char* kText = "settings";  // what messages call the text that settings are put into
-
-// Where a setting goes: the head of its section as scene texts have it, and its key.
-struct Place {
-    std::string head;
-    std::string key;
-};
-
-Place place_in(const std::string& scene, const std::string& axis) {
-    if (axis == "contact") {
-        return {"[contact]", "model"};
-    }
-    const auto dot = axis.find('.');
-    if (dot == std::string::npos) {
-        return {"[solver]", axis};
-    }
-    const std::string block = axis.substr(0, dot);
-    const bool is_list = scene.find("\n[[" + block + "]]\n") != std::string::npos;
-    return {is_list ? "[[" + block + "]]" : "[" + block + "]", axis.substr(dot + 1)};
-}
-
-// The keys that a section of a scene text has, in its order; empty if there is no such section.
-std::vector<std::string> keys_of(const std::string& scene, std::string_view head) {
-    std::vector<std::string> keys;
-    std::istringstream lines(scene);
-    std::string line;
-    bool is_inside = false;
-    while (std::getline(lines, line)) {
-        if (!line.empty() && line[0] == '[') {
-            is_inside = line == head;
-        } else if (is_inside && line.find(" = ") != std::string::npos) {
-            keys.push_back(line.substr(0, line.find(" = ")));
-        }
-    }
-    return keys;
-}
+constexpr const char* kOwnAxes[] = {"dt", "preset", "contact", "layers", "subdivide"};
 
 std::string place_of(const Setting& setting) {
     return "--vary " + setting.axis + "=" + setting.value;
 }
 
-// The text of a scene with another value for a key of a section, which is there.
-std::string replaced(const std::string& scene,
-                     std::string_view head,
-                     const std::string& key,
-                     const std::string& value) {
-    std::string text;
-    std::istringstream lines(scene);
-    std::string line;
-    bool is_inside = false;
-    while (std::getline(lines, line)) {
-        if (!line.empty() && line[0] == '[') {
-            is_inside = line == head;
-        }
-        const std::string start = key + " = ";
-        if (is_inside && line.rfind(start, 0) == 0) {
-            const bool is_text = line.size() > start.size() && line[start.size()] == '"';
-            const std::size_t quotes = is_text ? 1 : 0;
-            line.resize(start.size());
-            line.append(quotes, '"').append(value).append(quotes, '"');
-        }
-        text += line + "\n";
+// The path of the key of the scene that an axis stands for.
+std::string path_of(const std::string& axis) {
+    if (axis == "dt") {
+        return "scene.steps_per_frame";
     }
-    return text;
+    if (axis == "contact") {
+        return "contact.model";
+    }
+    return axis.find('.') == std::string::npos ? "solver." + axis : axis;
 }
 
-// A message about the text that settings were put into, without its lines and columns, which nobody
-// sees.
-std::string without_place(std::string message) {
-    const std::size_t begin =
-        message.find(kText) == 0 ? message.find_first_not_of(":0123456789", std::strlen(kText)) : 0;
-    return message.substr(begin == std::string::npos ? 0 : message.find_first_not_of(' ', begin));
+// What might have been meant by an axis that is not known.
+std::string guess(const std::string& axis, const std::vector<std::string>& keys) {
+    const std::string end = "." + axis.substr(axis.rfind('.') + 1);
+    std::string same;
+    for (const std::string& key : keys) {
+        if (key.ends_with(end)) {
+            same += (same.empty() ? "" : " or ") + key;
+        }
+    }
+    if (!same.empty()) {
+        return "did you mean " + same + "?";
+    }
+    constexpr std::string_view kSolver = "solver.";
+    std::vector<std::string> known(std::begin(kOwnAxes), std::end(kOwnAxes));
+    for (const std::string& key : keys) {
+        known.push_back(key.starts_with(kSolver) ? key.substr(kSolver.size()) : key);
+    }
+    const std::string nearest = nearest_name(axis, known);
+    return nearest.empty() ? "expected dt, layers, subdivide, contact, a key of [solver], or the "
+                             "path of another key, as attachment.stiffness"
+                           : "did you mean " + nearest + "?";
 }
 
-simulator::Scene with_dt(simulator::Scene scene, const std::string& value) {
-    const double steps = 1 / (scene.frames_per_second * parse_seconds(value));
-    const double whole = std::max(1.0, std::round(steps));
-    if (std::abs(steps - whole) > 1e-6 * whole || whole > 1e6) {
+void check_axis(const std::string& axis) {
+    const std::vector<std::string> keys = runs::scene_keys();
+    if (!is_mesh_axis(axis) && std::ranges::count(keys, path_of(axis)) == 0) {
+        throw Error("--vary " + axis + ": is not known; " + guess(axis, keys));
+    }
+}
+
+// The number of steps in a frame that a time step makes.
+std::string steps_of(const simulator::Scene& scene, const std::string& dt) {
+    const double steps = 1 / (scene.frames_per_second * parse_seconds(dt));
+    const double whole = std::clamp(std::round(steps), 1.0, 1e15);
+    if (std::abs(steps - whole) > 1e-6 * whole) {
         std::ostringstream nearest;
         nearest << "1/" << scene.frames_per_second * whole;
-        throw Error("dt=" + value + ": does not divide the time between two frames (1/"
+        throw Error("dt=" + dt + ": does not divide the time between two frames (1/"
                     + std::to_string(scene.frames_per_second)
                     + " s) into whole steps; the nearest that does is " + nearest.str());
     }
-    scene.steps_per_frame = static_cast<int>(whole);
-    return scene;
-}
-
-// The text of a scene with a setting of one key, in every section that has it.
-std::string with_key(const std::string& text, const Setting& setting) {
-    const auto& [head, key] = place_in(text, setting.axis);
-    std::vector<std::string> keys = keys_of(text, head);
-    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-        if (keys.empty()) {
-            throw Error("--vary " + setting.axis + ": the scene has no " + head);
-        }
-        keys.insert(keys.end(), {"dt", "preset", "contact", "layers", "subdivide"});
-        const std::string nearest = nearest_name(setting.axis, keys);
-        std::string known;
-        for (const std::string& name : keys) {
-            known += (known.empty() ? "" : ", ") + name;
-        }
-        throw Error("--vary " + setting.axis + ": is not known"
-                    + (nearest.empty() ? "" : " (did you mean " + nearest + "?)")
-                    + "; expected one of " + known);
-    }
-    return replaced(text, head, key, setting.value);
+    return formatted("%.0f", whole);
 }
 
 }  // namespace
@@ -200,41 +154,21 @@ double parse_seconds(const std::string& text) {
     return seconds;
 }
 
-simulator::SolverOptions preset_solver(const simulator::Scene& scene, const Setting& preset) {
-    simulator::Scene bodies;
-    bodies.dimension = scene.dimension;
-    bodies.gravity = scene.gravity;
-    bodies.bodies = scene.bodies;
-    std::string text = runs::scene_text(bodies);
-    text.replace(text.find("\n[solver]\n"), std::string::npos,
-                 "\n[solver]\npreset = \"" + preset.value + "\"\n");
-    try {
-        return runs::parse_scene(text, kText, "").solver;
-    } catch (const Error& error) {
-        throw Error(place_of(preset) + ": " + without_place(error.what()));
-    }
-}
-
 simulator::Scene with_settings(simulator::Scene scene, const Settings& settings) {
-    std::string place = "these settings";
+    std::vector<runs::KeyValue> keys;
     for (const Setting& setting : settings) {
-        place = settings.size() == 1 ? place_of(setting) : place;
-        if (setting.axis == "preset") {
-            scene.solver = preset_solver(scene, setting);
-        } else if (setting.axis == "dt") {
-            scene = with_dt(std::move(scene), setting.value);
-        }
-    }
-    std::string text = runs::scene_text(scene);
-    for (const Setting& setting : settings) {
-        if (!is_mesh_axis(setting.axis) && setting.axis != "preset" && setting.axis != "dt") {
-            text = with_key(text, setting);
+        check_axis(setting.axis);
+        if (!is_mesh_axis(setting.axis)) {
+            const bool is_dt = setting.axis == "dt";
+            keys.push_back({.path = path_of(setting.axis),
+                            .value = is_dt ? steps_of(scene, setting.value) : setting.value});
         }
     }
     try {
-        return runs::parse_scene(text, kText, "");
+        return runs::with_keys(std::move(scene), keys);
     } catch (const Error& error) {
-        throw Error(place + ": " + without_place(error.what()));
+        throw Error((settings.size() == 1 ? place_of(settings[0]) : "these settings") + ": "
+                    + error.what());
     }
 }
 

@@ -24,21 +24,16 @@ struct Axis {
 /// Whether an axis changes the mesh: layers or subdivide.
 [[nodiscard]] bool is_mesh_axis(const std::string& name);
 
-/// What a preset stands for with the meshes of a scene. Throws an Error if there is no such preset.
-[[nodiscard]] simulator::SolverOptions preset_solver(const simulator::Scene& scene,
-                                                     const Setting& preset);
-
-/// The scene with settings: dt, preset, contact (its model), keys of [solver], and those of other
-/// blocks as in "attachment.stiffness", in any order. A
-/// preset stands in place of all of [solver], and other settings on it. Axes of the mesh leave the
-/// scene as it is.
+/// The scene with settings: dt, preset, contact (its model), keys of [solver], and the paths of
+/// others, as in "attachment.stiffness" (runs::with_keys()), in any order. A preset stands in place
+/// of all of [solver], and other settings on it. Axes of the mesh leave the scene as it is.
 ///
 /// dt must divide the time between two frames into whole steps. Throws an Error as check_setting()
 /// does, and for settings that do not go together, as a barrier and linear_euler.
 [[nodiscard]] simulator::Scene with_settings(simulator::Scene scene, const Settings& settings);
 
-/// Throws an Error for an unknown axis (with the nearest known one), a value that the key cannot
-/// have whatever the others are, and contact in a scene without.
+/// Throws an Error for an unknown axis (with the nearest known one), a value that the schema of
+/// scenes does not have whatever the others are, and a block that the scene does not have.
 void check_setting(simulator::Scene scene, const Setting& setting);
 
 /// "1/60" or "0.01" in seconds. Throws an Error unless it is a positive number.

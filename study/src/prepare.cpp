@@ -48,7 +48,7 @@ simulator::SolverOptions reference_solver(const Scene& scene, const std::vector<
     const auto presets = std::ranges::find(axes, "preset", &Axis::name);
     if (elements == axes.end() && presets != axes.end()) {
         for (const std::string& value : presets->values) {
-            const auto kind = preset_solver(scene, {presets->name, value}).elements;
+            const auto kind = with_settings(scene, {{presets->name, value}}).solver.elements;
             exact.elements = kind == simulator::ElementKind::Quadratic ? kind : exact.elements;
         }
     }

@@ -92,6 +92,29 @@ TEST(ReadSolid, NamesPlaceAndNearestKeyOfWhatItDoesNotKnow) {
         {"shape.toml:5:6", "\"difference\"?"});
 }
 
+TEST(ReadSolid, NamesTheBlockThatAKeyBelongsTo) {
+    for (const std::string key :
+         {"ball", "polytope", "image", "op", "smooth", "scale", "rotate", "translate"}) {
+        EXPECT_EQ(refusal(key + " = 1\n[[shape]]\nball = { radius = 1 }"),
+                  "shape.toml:1:1: unknown key \"" + key + "\" in the file; \"" + key
+                      + "\" belongs to [[shape]]");
+    }
+    EXPECT_EQ(refusal("length = 1\n[[shape]]\nball = { radius = 1 }"),
+              "shape.toml:1:1: unknown key \"length\" in the file; \"length\" belongs to"
+              " \"capsule\" or \"spherinder\" of [[shape]]");
+    EXPECT_EQ(refusal("[[shape]]\nball = { radius = 1 }\nradii = [1, 1]"),
+              "shape.toml:3:1: unknown key \"radii\" in \"shape\"; \"radii\" belongs to"
+              " \"duocylinder\" of [[shape]]");
+    EXPECT_EQ(refusal("[[shape]]\nball = { radius = 1, scale = 2 }"),
+              "shape.toml:2:22: unknown key \"scale\" in \"ball\"; \"scale\" belongs to"
+              " [[shape]]");
+    EXPECT_EQ(refusal("[[shape]]\nball = { radius = 1 }\ndegrees = 30"),
+              "shape.toml:3:1: unknown key \"degrees\" in \"shape\"; \"degrees\" belongs to"
+              " \"rotate\" of [[shape]]");
+    EXPECT_EQ(refusal("shpe = 1"),
+              "shape.toml:1:1: unknown key \"shpe\" in the file; did you mean \"shape\"?");
+}
+
 TEST(ReadSolid, SaysWhereValuesAreWrong) {
     expect_refusal("[[shape]]\nball = { radius = -1 }", {"shape.toml:2:", "radius is -1"});
     expect_refusal("[[shape]]\nball = { radius = \"big\" }", {"shape.toml:2:", "the text \"big\""});

@@ -19,26 +19,6 @@ std::string number(double value) {
     return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
-std::string inline_text(const Json& value) {
-    if (value.is_number_float()) {
-        return number(value.get<double>());
-    }
-    std::string text;
-    if (value.is_array()) {
-        for (const Json& entry : value) {
-            text += (text.empty() ? "" : ", ") + inline_text(entry);
-        }
-        return "[" + text + "]";
-    }
-    if (value.is_object()) {
-        for (const auto& [key, entry] : value.items()) {
-            text += (text.empty() ? " " : ", ") + key + " = " + inline_text(entry);
-        }
-        return "{" + text + " }";
-    }
-    return value.dump();  // texts (JSON escapes as TOML does), integers, true and false
-}
-
 std::string table_text(const std::string& header, const Json& table) {
     std::string text = header + "\n";
     for (const auto& [key, value] : table.items()) {
@@ -91,6 +71,26 @@ void collect_paths(const Json& value, const std::string& path, std::set<std::str
 }
 
 }  // namespace
+
+std::string inline_text(const Json& value) {
+    if (value.is_number_float()) {
+        return number(value.get<double>());
+    }
+    std::string text;
+    if (value.is_array()) {
+        for (const Json& entry : value) {
+            text += (text.empty() ? "" : ", ") + inline_text(entry);
+        }
+        return "[" + text + "]";
+    }
+    if (value.is_object()) {
+        for (const auto& [key, entry] : value.items()) {
+            text += (text.empty() ? " " : ", ") + key + " = " + inline_text(entry);
+        }
+        return "{" + text + " }";
+    }
+    return value.dump();  // texts (JSON escapes as TOML does), integers, true and false
+}
 
 std::string toml_text(const Json& scene) {
     std::string text;

@@ -13,6 +13,9 @@ using Json = nlohmann::ordered_json;
 /// The scene as TOML: tables and lists of tables at the top have headers, all below is inline.
 [[nodiscard]] std::string toml_text(const Json& scene);
 
+/// A value as TOML has it within a line.
+[[nodiscard]] std::string inline_text(const Json& value);
+
 /// The tree of a TOML file. Throws pent::Error where the text is none.
 [[nodiscard]] Json parse_document(const std::string& text);
 

@@ -10,12 +10,14 @@
 
 #include <pent/error.h>
 #include <pent/runs/scene_file.h>
+#include <pent/runs/scene_keys.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <numeric>
 #include <set>
 
 namespace pent::scene_fuzz {
@@ -136,6 +138,96 @@ TEST(DrawScene, DrawsEveryPairOfFeaturesThatGoTogether) {
             EXPECT_TRUE(pairs.contains({*a, *b}) || is_impossible(*a, *b)) << *a << ", " << *b;
         }
     }
+}
+
+// ----------------------------------------------------------------------------- keys by their paths
+
+// Gives a path of keys this value wherever it leads; whether it leads somewhere on every way that
+// has all of it but the last key.
+bool set_at(Json& tree, const std::string& path, const Json& value) {
+    if (tree.is_array()) {
+        const auto set = [&](bool all, Json& entry) { return set_at(entry, path, value) && all; };
+        return std::accumulate(tree.begin(), tree.end(), true, set);
+    }
+    const auto dot = path.find('.');
+    const std::string head = path.substr(0, dot);
+    if (!tree.is_object() || !tree.contains(head)) {
+        return dot != std::string::npos || !tree.is_object();
+    }
+    if (dot != std::string::npos) {
+        return set_at(tree[head], path.substr(dot + 1), value);
+    }
+    tree[head] = value;
+    return true;
+}
+
+// What a path leads to first; null if nowhere.
+Json first_at(const Json& tree, const std::string& path) {
+    if (path.empty()) {
+        return tree;
+    }
+    if (tree.is_array()) {
+        for (const Json& entry : tree) {
+            if (const Json found = first_at(entry, path); !found.is_null()) {
+                return found;
+            }
+        }
+        return {};
+    }
+    const auto dot = path.find('.');
+    const std::string head = path.substr(0, dot);
+    return tree.is_object() && tree.contains(head)
+               ? first_at(tree[head], dot == std::string::npos ? "" : path.substr(dot + 1))
+               : Json();
+}
+
+// What reads as a scene; "refused: " and the reason for what does not.
+template <typename Read>
+std::string text_or_refused(const Read& read) {
+    try {
+        return runs::scene_text(read());
+    } catch (const Error& error) {
+        return std::string("refused: ") + error.what();
+    }
+}
+
+TEST(WithKeys, MakeTheSceneThatAFileWithTheirValuesHas) {
+    std::set<std::string> paths;
+    std::size_t refused = 0;
+    for (std::uint64_t seed = 0; seed < 150; ++seed) {
+        const Json scene = written(draw_scene(seed));
+        const Json other = written(draw_scene(seed + 10'000));
+        const simulator::Scene read = runs::parse_scene(toml_text(scene), "drawn", "");
+        for (const std::string& path : key_paths(scene)) {
+            Json edited = scene;
+            Json value = first_at(other, path);
+            value = value.is_null() ? first_at(scene, path) : value;
+            if (!set_at(edited, path, value)) {
+                continue;
+            }
+            const std::string expected =
+                text_or_refused([&] { return runs::parse_scene(toml_text(edited), "drawn", ""); });
+            const std::string found = text_or_refused([&] {
+                const auto set =
+                    runs::with_keys(read, {{.path = path, .value = inline_text(value)}});
+                return runs::parse_scene(runs::scene_text(set), "set", "");
+            });
+            const bool is_refused = expected.starts_with("refused: ");
+            // A file may not have keys that do not apply any more; of a scene they just go.
+            const bool has_idle_keys = expected.find("\" goes with ") != std::string::npos;
+            if (!has_idle_keys) {
+                EXPECT_EQ(found.starts_with("refused: "), is_refused)
+                    << seed << " " << path << " = " << value.dump() << "\n"
+                    << expected << "\n"
+                    << found;
+                EXPECT_TRUE(is_refused || found == expected) << seed << " " << path;
+            }
+            paths.insert(path);
+            refused += is_refused ? 1 : 0;
+        }
+    }
+    EXPECT_GT(paths.size(), 100U);
+    EXPECT_GT(refused, 100U);
 }
 
 TEST(MeshNames, SayAllOfAMesh) {

@@ -4,6 +4,7 @@
 #include "potentials/scene_energy.h"
 #include "step/newton.h"
 
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -142,6 +143,61 @@ TYPED_TEST(IncrementalPotentialTest, CarriesTheMotionOfPrescribedVerticesIntoThe
     EXPECT_LT((step.potential.prescribed_shift(end)).norm(), 1e-15);
     const double before = step.potential.evaluate(step.start + shift).gradient.norm();
     EXPECT_LT(step.potential.evaluate(end).gradient.norm(), 1e-9 * before);
+}
+
+// Two free bodies of linear energy, as stiff as asked for: a quadratic of which masses alone decide
+// about rigid motions.
+template <int Dim>
+Scene free_scene(double young, Precision precision) {
+    Scene scene = busy_scene<Dim>();
+    scene.contact.reset();
+    scene.obstacles.clear();
+    scene.constraints.clear();
+    scene.damping = {};
+    for (Body& body : scene.bodies) {
+        body.material.model = Model::Linear;
+        body.material.lame = lame_from_young(Dim, young, 0.2);
+    }
+    scene.solver.precision = precision;
+    scene.solver.tolerance = 1e-12;
+    return scene;
+}
+
+template <int Dim>
+Positions<Dim> direction_of(Step<Dim>& step) {
+    static_cast<void>(step.potential.evaluate(step.start));
+    const NewtonDirection<Dim> direction = step.potential.solve(0 * step.start, 0);
+    EXPECT_EQ(direction.failure_reason, "");
+    return direction.step;
+}
+
+// The lowest point of a quadratic by dense algebra: each column of its Hessian is the difference of
+// two gradients.
+template <int Dim>
+Positions<Dim> dense_direction(Step<Dim>& step) {
+    const Positions<Dim> at = step.potential.evaluate(step.start).gradient;
+    Eigen::MatrixXd hessian(at.size(), at.size());
+    for (Eigen::Index i = 0; i < at.size(); ++i) {
+        Positions<Dim> x = step.start;
+        x.reshaped()[i] += 1;
+        hessian.col(i) = (step.potential.evaluate(x).gradient - at).reshaped();
+    }
+    const Eigen::VectorXd step_of_all = -hessian.ldlt().solve(Eigen::VectorXd(at.reshaped()));
+    return step_of_all.reshaped(Dim, at.cols());
+}
+
+TYPED_TEST(IncrementalPotentialTest, SolvesInDoubleWhereFloatsWouldLoseTheMasses) {
+    constexpr int kDim = TypeParam::value;
+    Step<kDim> soft(free_scene<kDim>(1e5, Precision::Float));
+    Step<kDim> soft_double(free_scene<kDim>(1e5, Precision::Double));
+    EXPECT_NE(direction_of(soft), direction_of(soft_double));  // of these floats are enough
+    Step<kDim> stiff(free_scene<kDim>(1e12, Precision::Float));
+    Step<kDim> stiff_double(free_scene<kDim>(1e12, Precision::Double));
+    const Positions<kDim> direction = direction_of(stiff);
+    EXPECT_EQ(direction, direction_of(stiff_double));
+    // The residual is 1e-12 of forces that are 1e7 times those of inertia; ten times that.
+    const Positions<kDim> expected = dense_direction(stiff);
+    EXPECT_LT((direction - expected).norm(), 1e-4 * expected.norm());
 }
 
 TYPED_TEST(IncrementalPotentialTest, LeavesOutBodiesThatSleep) {

@@ -79,7 +79,7 @@ TEST(WithSettings, SetsAKeyOfEveryBlockOfAName) {
     expect_contains(error_of([&] {
                         check_setting(scene, {"attachment.stiffness", "3"});
                     }),
-                    {"--vary attachment.stiffness: the scene has no [attachment]"});
+                    {"--vary attachment.stiffness=3: the scene has no [[attachment]]"});
     simulator::Attachment attachment;
     attachment.body = "bar";
     attachment.select = {simulator::EverythingSelection{}};
@@ -93,11 +93,26 @@ TEST(WithSettings, SetsAKeyOfEveryBlockOfAName) {
     expect_contains(error_of([&] {
                         check_setting(scene, {"attachment.stifness", "3"});
                     }),
-                    {"--vary attachment.stifness: is not known", "stiffness"});
+                    {"--vary attachment.stifness: is not known; did you mean"
+                     " attachment.stiffness?"});
     expect_contains(error_of([&] {
                         check_setting(scene, {"attachment.stiffness", "-1"});
                     }),
                     {"--vary attachment.stiffness=-1", "above 0"});
+}
+
+TEST(WithSettings, ReachesKeysWithinTablesAndLists) {
+    const TempFolder folder;
+    const simulator::Scene scene = bar_scene(folder);
+    const simulator::Scene changed = with_settings(
+        scene, {{"body.material.density", "500"}, {"constraint.select.half_space.offset", "0.2"}});
+    EXPECT_EQ(changed.bodies[0].material.density, 500);
+    EXPECT_EQ(std::get<simulator::HalfSpaceSelection>(changed.constraints[0].select[0]).offset,
+              0.2);
+    expect_contains(error_of([&] {
+                        check_setting(scene, {"body.material.second_invariant", "0.2"});
+                    }),
+                    {"--vary body.material.second_invariant=0.2: ", "goes with", "mooney-rivlin"});
 }
 
 TEST(WithSettings, TakesAPresetInPlaceOfAllKeysOfTheSolver) {
@@ -147,7 +162,15 @@ TEST(CheckSetting, NamesTheNearestAxisAndRefusesBadValues) {
     EXPECT_EQ(message("integrator", "foo").rfind("--vary integrator=foo: \"integrator\" is", 0), 0U)
         << "no line and column of a text that nobody sees";
     expect_contains(message("preset", "foo"), {"--vary preset=foo: ", "\"balanced\""});
-    expect_contains(message("young", "1e5"), {"--vary young: is not known", "expected one of"});
+    EXPECT_EQ(message("young", "1e5"),
+              "--vary young: is not known; did you mean body.material.young or"
+              " body.region.material.young?");
+    EXPECT_EQ(message("layer", "2"), "--vary layer: is not known; did you mean layers?");
+    EXPECT_EQ(message("whatever", "1"),
+              "--vary whatever: is not known; expected dt, layers, subdivide, contact, a key of"
+              " [solver], or the path of another key, as attachment.stiffness");
+    expect_contains(message("max_iterations", "1e3"), {"\"max_iterations\" is 1000;", "whole"});
+    expect_contains(message("dt", "1e-9"), {"\"steps_per_frame\" is 33333333", "1000000"});
     for (const char* count : {"0", "-1", "x", "1.5", ""}) {
         expect_contains(message("layers", count), {"expected a whole number of at least 1"});
     }

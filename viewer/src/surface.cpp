@@ -1,6 +1,7 @@
 #include "pent/viewer/surface.h"
 
 #include <pent/parallel.h>
+#include <pent/surface_measures.h>
 
 #include <algorithm>
 #include <limits>
@@ -114,30 +115,11 @@ Eigen::VectorXd interpolate(const Surface& surface, const Eigen::VectorXd& value
 }
 
 double enclosed_volume(const TriangleMesh& surface) {
-    if (surface.triangle_count() == 0) {
-        return 0.0;
-    }
-    // Seen from a point of the surface: far from the origin, big numbers would cancel.
-    const Eigen::Vector3d apex = surface.positions.col(0);
-    double six_volume = 0.0;
-    for (const auto& triangle : surface.triangles.colwise()) {
-        const Eigen::Vector3d a = surface.positions.col(triangle[0]) - apex;
-        const Eigen::Vector3d b = surface.positions.col(triangle[1]) - apex;
-        const Eigen::Vector3d c = surface.positions.col(triangle[2]) - apex;
-        six_volume += a.dot(b.cross(c));
-    }
-    return six_volume / 6.0;
+    return pent::enclosed_volume(surface.positions, surface.triangles);
 }
 
 double area(const TriangleMesh& surface) {
-    double doubled = 0.0;
-    for (const auto& triangle : surface.triangles.colwise()) {
-        const Eigen::Vector3d a = surface.positions.col(triangle[0]);
-        const Eigen::Vector3d b = surface.positions.col(triangle[1]);
-        const Eigen::Vector3d c = surface.positions.col(triangle[2]);
-        doubled += (b - a).cross(c - a).norm();
-    }
-    return doubled / 2.0;
+    return triangle_area(surface.positions, surface.triangles);
 }
 
 Eigen::AlignedBox3d bounding_box(const TriangleMesh& surface) {

@@ -49,6 +49,7 @@ namespace pent {
 class TableReader {
 public:
     /// @param name  How messages call the table, as in "[solver]".
+    /// @param file  "" for a table that is of no file: messages begin with no place then.
     TableReader(const toml::table& table, std::string name, std::string file);
 
     [[nodiscard]] bool has(std::string_view key);
@@ -99,7 +100,8 @@ public:
     /// @param hint  What to say of such a key instead; empty for nothing.
     void finish(const std::function<std::string(const std::string& key)>& hint = nullptr) const;
 
-    /// Where the value of `key` stands, or the table if there is none: "scene.toml:4:8".
+    /// Where the value of `key` stands, or the table if there is none: "scene.toml:4:8"; "" for
+    /// one of no file.
     [[nodiscard]] std::string place(std::string_view key) const;
 
     /// Throws an Error at place(key).

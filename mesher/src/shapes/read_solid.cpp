@@ -10,9 +10,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace pent::mesher {
@@ -22,20 +25,48 @@ namespace {
 constexpr std::size_t kMaxShapes = 4096;
 constexpr std::int64_t kMaxCells = 600;  // of a regular polytope
 
+// Stands for a table where a reader is asked which keys it reads.
+struct KeyRecorder {
+    std::vector<std::string> keys;
+
+    double number(std::string_view key) { return note(key, 0.0); }
+    std::int64_t integer(std::string_view key,
+                         std::optional<std::int64_t> /*fallback*/,
+                         std::int64_t low,
+                         std::int64_t /*high*/) {
+        return note(key, low);
+    }
+    bool flag(std::string_view key, bool fallback) { return note(key, fallback); }
+    std::string text(std::string_view key) { return note(key, std::string()); }
+    Eigen::VectorXd vector(std::string_view key, int length) {
+        return note(key, Eigen::VectorXd(Eigen::VectorXd::Zero(length)));
+    }
+    [[nodiscard]] static std::string file() { return ""; }
+
+private:
+    template <typename Value>
+    Value note(std::string_view key, Value value) {
+        keys.emplace_back(key);
+        return value;
+    }
+};
+
 // Reads the keys of a primitive and gives what makes it.
 using Maker = std::function<Solid()>;
-using Reader = std::function<Maker(TableReader&)>;
+template <typename Table>
+using Reader = std::function<Maker(Table&)>;
 
 // A file that a shape file names: seen from its folder.
-std::filesystem::path file_named_in(TableReader& table) {
+template <typename Table>
+std::filesystem::path file_named_in(Table& table) {
     const std::filesystem::path here = table.file();
     return here.parent_path() / table.text("file");
 }
 
 // The primitives by their keys.
-const std::vector<std::pair<std::string, Reader>>& primitives() {
-    using Table = TableReader;
-    static const std::vector<std::pair<std::string, Reader>> all = {
+template <typename Table>
+const std::vector<std::pair<std::string, Reader<Table>>>& primitives() {
+    static const std::vector<std::pair<std::string, Reader<Table>>> all = {
         {"ball",
          [](Table& t) -> Maker {
              return [radius = t.number("radius")] { return ball_solid(radius); };
@@ -133,6 +164,36 @@ const std::vector<std::pair<std::string, Reader>>& primitives() {
     return all;
 }
 
+// Those of a shape beside its kind, and of a turn.
+constexpr std::string_view kShapeKeys[] = {"op", "smooth", "scale", "rotate", "translate"};
+constexpr std::string_view kTurnKeys[] = {"plane", "degrees"};
+
+// "\"radius\" belongs to \"ball\" or \"capsule\" of [[shape]]" for a key that shape files have
+// elsewhere; else "".
+std::string owners_text(const std::string& key) {
+    const auto is_key = [&](const auto& one) { return one == key; };
+    bool is_of_shape = std::any_of(std::begin(kShapeKeys), std::end(kShapeKeys), is_key);
+    std::string owners;
+    const auto add = [&](const std::string& owner) {
+        owners += (owners.empty() ? "\"" : " or \"") + owner + "\"";
+    };
+    for (const auto& [kind, read] : primitives<KeyRecorder>()) {
+        KeyRecorder recorder;
+        static_cast<void>(read(recorder));
+        is_of_shape = is_of_shape || kind == key;
+        if (std::any_of(recorder.keys.begin(), recorder.keys.end(), is_key)) {
+            add(kind);
+        }
+    }
+    if (std::any_of(std::begin(kTurnKeys), std::end(kTurnKeys), is_key)) {
+        add("rotate");
+    }
+    if (is_of_shape) {
+        return "\"" + key + "\" belongs to [[shape]]";
+    }
+    return owners.empty() ? "" : "\"" + key + "\" belongs to " + owners + " of [[shape]]";
+}
+
 Eigen::Matrix4d rotation_of(std::vector<TableReader> turns) {
     Eigen::Matrix4d rotation = Eigen::Matrix4d::Identity();
     for (TableReader& turn : turns) {
@@ -149,7 +210,7 @@ Eigen::Matrix4d rotation_of(std::vector<TableReader> turns) {
         }
         const double angle = turn.number("degrees") * std::numbers::pi / 180;
         rotation = plane_rotation<4>(axis_of(plane[0]), axis_of(plane[1]), angle) * rotation;
-        turn.finish();
+        turn.finish(owners_text);
     }
     return rotation;
 }
@@ -159,18 +220,19 @@ Solid combined_shapes(TableReader& table, std::size_t& count);
 // The primitive or group of a shape, as it is before it is placed.
 Solid shape_alone(TableReader& table, std::size_t& count) {
     std::vector<std::string> kinds = {"shape"};
-    for (const auto& [kind, reader] : primitives()) {
+    for (const auto& [kind, reader] : primitives<TableReader>()) {
         kinds.push_back(kind);
     }
     const std::string kind = table.one_of(kinds);
     if (kind == "shape") {
         return combined_shapes(table, count);
     }
-    const auto found = std::find_if(primitives().begin(), primitives().end(),
+    const auto& known = primitives<TableReader>();
+    const auto found = std::find_if(known.begin(), known.end(),
                                     [&](const auto& entry) { return entry.first == kind; });
     TableReader values = table.table(kind);
     const Maker make = found->second(values);
-    values.finish();
+    values.finish(owners_text);
     try {
         return make();
     } catch (const Error& error) {
@@ -214,7 +276,7 @@ Solid combined_shapes(TableReader& table, std::size_t& count) {
             shape.fail("smooth", "\"smooth\" is below 0; expected a length (m)");
         }
         const Solid next = placed_shape(shape, count);
-        shape.finish();
+        shape.finish(owners_text);
         all = !all      ? next
               : op == 0 ? unite(*all, next, smooth)
               : op == 1 ? intersect(*all, next, smooth)
@@ -234,7 +296,7 @@ Solid parse_solid(std::string_view text, const std::string& name) {
     TableReader table(parsed, "the file", name);
     std::size_t count = 0;
     (void)table.has("shape");
-    table.finish();
+    table.finish(owners_text);
     return combined_shapes(table, count);
 }
 

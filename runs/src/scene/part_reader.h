@@ -106,18 +106,24 @@ struct KeyFinder {
     void operator()(const simulator::Field& /*field*/, const ObstacleShape& /*shape*/) const {}
 };
 
+/// Throws an Error for a key that is there though those before it say that it does not apply.
+inline void refuse_if_idle(TableReader& table, const simulator::Field& field) {
+    if (!field.does_apply) {
+        table.refuse(field.key, "goes with " + std::string(field.goes_with) + " alone");
+    }
+}
+
 /// Reads all keys of a part and refuses others.
 template <typename Part>
 void read_part(TableReader& table, Part& part, const int& dimension) {
     simulator::fields(part, KeyFinder{table});
     const PartReader reader{table, dimension};
     simulator::fields(part, [&](const simulator::Field& field, auto& value) {
-        if (!field.does_apply) {
-            table.refuse(field.key, "goes with " + std::string(field.goes_with) + " alone");
-            return;
-        }
+        refuse_if_idle(table, field);
         if constexpr (!std::is_same_v<decltype(value), ObstacleShape&>) {
-            reader(field, value);
+            if (field.does_apply) {
+                reader(field, value);
+            }
         }
     });
     if constexpr (std::is_same_v<Part, Obstacle>) {

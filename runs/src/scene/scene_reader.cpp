@@ -1,7 +1,6 @@
+#include "scene/block_keys.h"
 #include "scene/part_reader.h"
-#include "scene/presets.h"
 
-#include <pent/cell_parents.h>
 #include <pent/error.h>
 #include <pent/read_text.h>
 #include <pent/runs/scene_file.h>
@@ -36,37 +35,12 @@ struct BlockReader {
     void operator()(std::string_view name, Part& part) const {
         if (table.has(name)) {
             TableReader block = table.table(name);
-            begin(block, part);
+            static_cast<void>(read_block_keys(scene, block, part));
             read_part(block, part, scene.dimension);
         }
     }
 
 private:
-    template <typename Part>
-    void begin(TableReader& /*block*/, Part& /*part*/) const {}
-    void begin(TableReader& block, SolverOptions& solver) const {
-        Preset choice = Preset::Balanced;
-        PartReader{block, scene.dimension}(kPreset, choice);
-        solver = preset(choice);
-        if (choice == Preset::Accurate && do_all_have_parents()) {
-            solver.elements = simulator::ElementKind::Quadratic;
-        }
-    }
-    // What is wrong with a file is said when its mesh is read.
-    [[nodiscard]] bool do_all_have_parents() const {
-        return std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) {
-            try {
-                return has_parents(body.mesh);
-            } catch (const Error&) {
-                return false;
-            }
-        });
-    }
-    void begin(TableReader& block, simulator::Output& output) const {
-        if (block.flag(kContactForces.key, false)) {
-            output.vertex.push_back(simulator::VertexQuantity::ContactForce);
-        }
-    }
     void finish(const TableReader& /*entry*/, const Obstacle& /*obstacle*/) const {}
     void finish(const TableReader& entry, Body& body) const;
     template <typename Part>

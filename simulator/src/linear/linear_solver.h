@@ -10,6 +10,11 @@
 namespace pent::simulator {
 
 /// Solves the symmetric positive definite equations of Newton's method.
+///
+/// The matrix is in float or in double, as its NewtonSystem has it, and vectors are in double. That
+/// floats give way to doubles is decided while a matrix is put together, not here: what floats lose
+/// is lost by then, and only the terms can add it up anew. NewtonSystem::has_lost_inertia() says
+/// so, and the sum that a step minimizes assembles the same equation in double.
 template <int Dim>
 class LinearSolver {
 public:

@@ -7,7 +7,7 @@
 #include "potentials/spring.h"
 
 #include <pent/parallel.h>
-#include <pent/simulator/simulation.h>
+#include <pent/simulator/step_report.h>
 
 #include <array>
 #include <cstdint>

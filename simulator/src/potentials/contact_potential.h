@@ -7,7 +7,7 @@
 
 #include <pent/contact/contact_finder.h>
 #include <pent/parallel.h>
-#include <pent/simulator/simulation.h>
+#include <pent/simulator/step_report.h>
 
 #include <memory>
 #include <string>
