@@ -1,10 +1,12 @@
 #include "pent/contact/surface.h"
 
+#include <pent/contact/boundary_surface.h>
 #include <pent/dimensions.h>
 #include <pent/facets.h>
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace pent::contact {
 
@@ -68,9 +70,14 @@ template <int Dim>
 Surface<Dim> make_surface(const Simplices<Dim + 1>& cells,
                           Eigen::Index vertices,
                           std::uint32_t first_vertex) {
+    return surface_of<Dim>(match_facets<Dim>(cells, vertices).boundary, first_vertex);
+}
+
+template <int Dim>
+Surface<Dim> surface_of(Simplices<Dim> boundary, std::uint32_t first_vertex) {
     Surface<Dim> surface;
     surface.first_vertex = first_vertex;
-    surface.facets = match_facets<Dim>(cells, vertices).boundary;
+    surface.facets = std::move(boundary);
     surface.facets.array() += first_vertex;
     surface.vertices = faces_of<Dim, 1>(surface.facets);
     surface.edges = faces_of<Dim, 2>(surface.facets);
@@ -91,6 +98,7 @@ double mean_edge_length(const Surface<Dim>& surface, const PositionsView<Dim>& p
 #define PENT_INSTANTIATE(Dim)                                                        \
     template Surface<Dim> make_surface<Dim>(const Simplices<Dim + 1>&, Eigen::Index, \
                                             std::uint32_t);                          \
+    template Surface<Dim> surface_of<Dim>(Simplices<Dim>, std::uint32_t);            \
     template double mean_edge_length<Dim>(const Surface<Dim>&, const PositionsView<Dim>&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE

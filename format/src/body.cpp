@@ -181,23 +181,14 @@ void encode_rows(std::string& body,
     }
 }
 
-BodyReader::BodyReader(const Header& header, std::string_view file, std::filesystem::path path)
-    : header_(header), body_(file.substr(header.body)), path_(std::move(path)) {
-    check_counts();
-    if (header_.info.encoding == Encoding::Binary) {
-        check_checksum();
-    }
-}
-
-void BodyReader::fail(const std::string& where, const std::string& what) const {
-    throw Error(path_.string() + ": " + where + ": " + what);
-}
-
-void BodyReader::check_counts() const {
-    std::uint64_t left = body_.size();
-    const bool is_ascii = header_.info.encoding == Encoding::Ascii;
-    for (const PlyElement& element : header_.elements) {
-        const std::size_t row_bytes = least_row_bytes(element, header_.info.encoding);
+void check_counts(const Header& header, std::uint64_t bytes, const std::filesystem::path& path) {
+    const auto fail = [&](const std::string& where, const std::string& what) {
+        throw Error(path.string() + ": " + where + ": " + what);
+    };
+    std::uint64_t left = bytes;
+    const bool is_ascii = header.info.encoding == Encoding::Ascii;
+    for (const PlyElement& element : header.elements) {
+        const std::size_t row_bytes = least_row_bytes(element, header.info.encoding);
         if (row_bytes > 0 && element.count > left / row_bytes) {
             fail("element " + element.name,
                  "the header announces " + std::to_string(element.count) + " of "
@@ -210,8 +201,8 @@ void BodyReader::check_counts() const {
         }
         left -= element.count * row_bytes;
     }
-    const bool has_lists = std::any_of(
-        header_.elements.begin(), header_.elements.end(), [](const PlyElement& element) {
+    const bool has_lists =
+        std::any_of(header.elements.begin(), header.elements.end(), [](const PlyElement& element) {
             return std::any_of(element.properties.begin(), element.properties.end(),
                                [](const PlyProperty& p) { return p.count_type.has_value(); });
         });
@@ -220,15 +211,32 @@ void BodyReader::check_counts() const {
     }
 }
 
-void BodyReader::check_checksum() const {
-    if (!header_.has_checksum) {
-        return;
+void refuse_checksum(std::uint32_t found,
+                     std::uint32_t expected,
+                     const std::filesystem::path& path) {
+    if (found != expected) {
+        throw Error(path.string()
+                    + formatted(": checksum: the data has crc32c %08x, expected %08x from the"
+                                " header: the file was changed after it was written",
+                                found, expected));
     }
-    const std::uint32_t found = crc32c(body_.data(), body_.size());
-    if (found != header_.info.crc32c) {
-        fail("checksum", formatted("the data has crc32c %08x, expected %08x from the header: the "
-                                   "file was changed after it was written",
-                                   found, header_.info.crc32c));
+}
+
+BodyReader::BodyReader(const Header& header, std::string_view file, std::filesystem::path path)
+    : header_(header), body_(file.substr(header.body)), path_(std::move(path)) {
+    check_counts(header_, body_.size(), path_);
+    if (header_.info.encoding == Encoding::Binary) {
+        check_checksum();
+    }
+}
+
+void BodyReader::fail(const std::string& where, const std::string& what) const {
+    throw Error(path_.string() + ": " + where + ": " + what);
+}
+
+void BodyReader::check_checksum() const {
+    if (header_.has_checksum) {
+        refuse_checksum(crc32c(body_.data(), body_.size()), header_.info.crc32c, path_);
     }
 }
 

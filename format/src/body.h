@@ -27,6 +27,14 @@ void encode_rows(std::string& body,
                  const std::vector<Column>& columns,
                  std::uint64_t rows);
 
+/// Throws an Error unless the elements of a header fit so many bytes behind it.
+void check_counts(const Header& header, std::uint64_t bytes, const std::filesystem::path& path);
+
+/// Throws an Error unless the body has the checksum that its header says.
+void refuse_checksum(std::uint32_t found,
+                     std::uint32_t expected,
+                     const std::filesystem::path& path);
+
 /// Reads the body of a .pent file element by element. Every failure is an Error that names the
 /// file, the element and its index.
 class BodyReader {
@@ -43,7 +51,6 @@ public:
 
 private:
     [[noreturn]] void fail(const std::string& where, const std::string& what) const;
-    void check_counts() const;
     void check_checksum() const;
     void read_binary(const PlyElement& element, const std::vector<Column>& columns);
     void read_ascii(const PlyElement& element, const std::vector<Column>& columns);

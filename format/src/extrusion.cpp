@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 
 namespace pent {
@@ -36,9 +37,9 @@ struct Stack {
 };
 
 template <int Dim>
-Stack stack_of(const SimplexMesh<Dim - 1>& base, const std::vector<Layer<Dim>>& layers) {
+Stack stack_of(Eigen::Index columns, const std::vector<Layer<Dim>>& layers) {
     Stack stack;
-    stack.columns = base.vertex_count();
+    stack.columns = columns;
     stack.has_first_point = layers.front().is_point();
     stack.has_last_point = layers.back().is_point();
     stack.height = static_cast<Eigen::Index>(layers.size()) - (stack.has_first_point ? 1 : 0)
@@ -51,37 +52,49 @@ Stack stack_of(const SimplexMesh<Dim - 1>& base, const std::vector<Layer<Dim>>& 
     return stack;
 }
 
+// Where a vertex lies.
 template <int Dim>
-void place_vertices(const SimplexMesh<Dim - 1>& base,
-                    const std::vector<Layer<Dim>>& layers,
-                    const Stack& stack,
-                    SimplexMesh<Dim>& mesh) {
+Eigen::Matrix<double, Dim, 1> place_of(const SimplexMesh<Dim - 1>& base,
+                                       const std::vector<Layer<Dim>>& layers,
+                                       const Stack& stack,
+                                       Eigen::Index vertex) {
+    if (vertex >= stack.columns * stack.height) {
+        const bool is_first = stack.has_first_point && vertex == stack.first_point();
+        return is_first ? layers.front().offset : layers.back().offset;
+    }
+    const auto layer =
+        static_cast<std::size_t>(vertex % stack.height + (stack.has_first_point ? 1 : 0));
+    const Eigen::Matrix<double, Dim - 1, 1> x = base.positions.col(vertex / stack.height);
+    return layers[layer].linear * x + layers[layer].offset;
+}
+
+template <int Dim>
+SimplexMesh<Dim> place_vertices(const SimplexMesh<Dim - 1>& base,
+                                const std::vector<Layer<Dim>>& layers,
+                                const Stack& stack) {
     const Eigen::Index first = stack.has_first_point ? 1 : 0;
+    SimplexMesh<Dim> mesh;
     mesh.positions.resize(Dim, stack.vertices());
     mesh.columns.resize(stack.vertices());
     mesh.layers.resize(stack.vertices());
-    Eigen::Index vertex = 0;
-    for (Eigen::Index column = 0; column < stack.columns; ++column) {
-        const Eigen::Matrix<double, Dim - 1, 1> x = base.positions.col(column);
-        for (Eigen::Index layer = first; layer < first + stack.height; ++layer, ++vertex) {
-            mesh.positions.col(vertex).noalias() = layers[layer].linear * x + layers[layer].offset;
-            mesh.columns[vertex] = static_cast<std::uint32_t>(column);
-            mesh.layers[vertex] = static_cast<std::uint32_t>(layer);
-        }
+    for (Eigen::Index vertex = 0; vertex < stack.columns * stack.height; ++vertex) {
+        mesh.positions.col(vertex) = place_of<Dim>(base, layers, stack, vertex);
+        mesh.columns[vertex] = static_cast<std::uint32_t>(vertex / stack.height);
+        mesh.layers[vertex] = static_cast<std::uint32_t>(first + vertex % stack.height);
     }
-    const auto add_point = [&](Eigen::Index layer, Eigen::Index column) {
+    const auto add_point = [&](std::uint32_t vertex, std::size_t layer, Eigen::Index column) {
         mesh.positions.col(vertex) = layers[layer].offset;
         mesh.columns[vertex] = static_cast<std::uint32_t>(column);
         mesh.layers[vertex] = static_cast<std::uint32_t>(layer);
-        ++vertex;
     };
     if (stack.has_first_point) {
-        add_point(0, stack.columns);
+        add_point(stack.first_point(), 0, stack.columns);
     }
     if (stack.has_last_point) {
-        add_point(static_cast<Eigen::Index>(layers.size()) - 1,
+        add_point(stack.last_point(), layers.size() - 1,
                   stack.columns + (stack.has_first_point ? 1 : 0));
     }
+    return mesh;
 }
 
 // The simplices of the lowest prism over a base cell; the others add the number of their slab.
@@ -202,15 +215,45 @@ Simplices<Dim + 1> first_simplex(const OrderedCells<Dim - 1>& ordered,
 template <int Dim>
 bool proceeds_backward(const SimplexMesh<Dim - 1>& base,
                        const OrderedCells<Dim - 1>& ordered,
-                       const Stack& stack,
-                       const SimplexMesh<Dim>& mesh) {
+                       const std::vector<Layer<Dim>>& layers,
+                       const Stack& stack) {
     double clearest = 0;
     for (Eigen::Index cell = 0; cell < std::min<Eigen::Index>(base.cell_count(), 64); ++cell) {
-        const double volume =
-            cell_volume<Dim>(mesh.positions, first_simplex<Dim>(ordered, cell, stack), 0);
+        const Simplices<Dim + 1> simplex = first_simplex<Dim>(ordered, cell, stack);
+        Eigen::Matrix<double, Dim, Dim + 1> corners;
+        for (int i = 0; i <= Dim; ++i) {
+            corners.col(i) = place_of<Dim>(base, layers, stack, simplex(i, 0));
+        }
+        const double volume = simplex_volume<Dim>(corners);
         clearest = std::abs(volume) > std::abs(clearest) ? volume : clearest;
     }
     return clearest < 0;
+}
+
+// The cells over some base cells.
+template <int Dim>
+void fill_cells(const SimplexMesh<Dim - 1>& base,
+                const OrderedCells<Dim - 1>& ordered,
+                const std::vector<Layer<Dim>>& layers,
+                bool alternate,
+                std::span<const std::uint32_t> base_cells,
+                SimplexMesh<Dim>& mesh) {
+    const Stack stack = stack_of<Dim>(base.vertex_count(), layers);
+    const Eigen::Index per_base = cells_of_column<Dim>(layers);
+    const bool is_backward = proceeds_backward<Dim>(base, ordered, layers, stack);
+    mesh.cells.resize(Dim + 1, static_cast<Eigen::Index>(base_cells.size()) * per_base);
+    if (!base.regions.empty()) {
+        mesh.regions.reserve(static_cast<std::size_t>(mesh.cell_count()));
+    }
+    std::uint32_t* out = mesh.cells.data();
+    for (const std::uint32_t cell : base_cells) {
+        const bool is_odd = (ordered.is_odd[cell] != 0) != is_backward;
+        out = fill_column<Dim>(ordered, cell, stack, is_odd, alternate, out);
+        if (!base.regions.empty()) {
+            mesh.regions.insert(mesh.regions.end(), static_cast<std::size_t>(per_base),
+                                base.regions[cell]);
+        }
+    }
 }
 
 }  // namespace
@@ -220,31 +263,44 @@ SimplexMesh<Dim> extrude(const SimplexMesh<Dim - 1>& base,
                          const OrderedCells<Dim - 1>& ordered,
                          const std::vector<Layer<Dim>>& layers,
                          const ExtrudeOptions& options) {
-    const Stack stack = stack_of<Dim>(base, layers);
-    SimplexMesh<Dim> mesh;
-    place_vertices<Dim>(base, layers, stack, mesh);
-    const Eigen::Index per_base =
-        Dim * (stack.height - 1) + (stack.has_first_point ? 1 : 0) + (stack.has_last_point ? 1 : 0);
-    mesh.cells.resize(Dim + 1, base.cell_count() * per_base);
-    const bool is_backward = proceeds_backward<Dim>(base, ordered, stack, mesh);
-    std::uint32_t* out = mesh.cells.data();
-    for (Eigen::Index cell = 0; cell < base.cell_count(); ++cell) {
-        const bool is_odd = (ordered.is_odd[cell] != 0) != is_backward;
-        out = fill_column<Dim>(ordered, cell, stack, is_odd, options.alternate, out);
-    }
-    if (!base.regions.empty()) {
-        mesh.regions.resize(mesh.cell_count());
-        for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
-            mesh.regions[cell] = base.regions[cell / per_base];
-        }
-    }
+    SimplexMesh<Dim> mesh =
+        place_vertices<Dim>(base, layers, stack_of<Dim>(base.vertex_count(), layers));
+    std::vector<std::uint32_t> all(static_cast<std::size_t>(base.cell_count()));
+    std::iota(all.begin(), all.end(), 0U);
+    fill_cells<Dim>(base, ordered, layers, options.alternate, all, mesh);
     return mesh;
 }
 
-#define PENT_INSTANTIATE(Dim)                                            \
-    template SimplexMesh<Dim> extrude<Dim>(const SimplexMesh<Dim - 1>&,  \
-                                           const OrderedCells<Dim - 1>&, \
-                                           const std::vector<Layer<Dim>>&, const ExtrudeOptions&);
+template <int Dim>
+SimplexMesh<Dim> extrude_vertices(const Extrusion<Dim>& extrusion) {
+    return place_vertices<Dim>(extrusion.base, extrusion.layers,
+                               stack_of<Dim>(extrusion.base.vertex_count(), extrusion.layers));
+}
+
+template <int Dim>
+SimplexMesh<Dim> extrude_cells(const Extrusion<Dim>& extrusion,
+                               std::span<const std::uint32_t> base_cells) {
+    SimplexMesh<Dim> mesh;
+    fill_cells<Dim>(extrusion.base, extrusion.ordered, extrusion.layers,
+                    extrusion.options.alternate, base_cells, mesh);
+    return mesh;
+}
+
+template <int Dim>
+Eigen::Index cells_of_column(const std::vector<Layer<Dim>>& layers) {
+    const Eigen::Index points =
+        (layers.front().is_point() ? 1 : 0) + (layers.back().is_point() ? 1 : 0);
+    return Dim * (static_cast<Eigen::Index>(layers.size()) - points - 1) + points;
+}
+
+#define PENT_INSTANTIATE(Dim)                                                                      \
+    template SimplexMesh<Dim> extrude<Dim>(const SimplexMesh<Dim - 1>&,                            \
+                                           const OrderedCells<Dim - 1>&,                           \
+                                           const std::vector<Layer<Dim>>&, const ExtrudeOptions&); \
+    template SimplexMesh<Dim> extrude_vertices<Dim>(const Extrusion<Dim>&);                        \
+    template SimplexMesh<Dim> extrude_cells<Dim>(const Extrusion<Dim>&,                            \
+                                                 std::span<const std::uint32_t>);                  \
+    template Eigen::Index cells_of_column<Dim>(const std::vector<Layer<Dim>>&);
 
 PENT_INSTANTIATE(2)
 PENT_INSTANTIATE(3)

@@ -4,10 +4,13 @@
 #include "input_file.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
+#include <pent/machine_memory.h>
 
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -219,7 +222,8 @@ FileInfo info_of(const Header& header, const Extrusion<Dim>& extrusion) {
     FileInfo info = header.info;
     info.dimension = Dim;
     info.vertices = height * header.info.vertices + points;
-    info.cells = header.info.cells * (Dim * (height - 1) + points);
+    info.cells =
+        header.info.cells * static_cast<std::uint64_t>(cells_of_column<Dim>(extrusion.layers));
     info.is_extrusion = true;
     return info;
 }
@@ -239,13 +243,43 @@ FileInfo info_of_extrusion(const Header& header,
 }
 
 template <int Dim>
+FileInfo info_in_memory(const Header& header,
+                        const Extrusion<Dim>& extrusion,
+                        int parts,
+                        const std::filesystem::path& path) {
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+    constexpr double kGiga = 1e9;
+    const FileInfo info = info_of<Dim>(header, extrusion);
+    const std::string what =
+        path.string() + ": its base and " + std::to_string(extrusion.layers.size())
+        + " layers make " + std::to_string(info.vertices) + " vertices and "
+        + std::to_string(info.cells) + " " + std::string(cell_name_plural(Dim));
+    if (info.vertices > kMost || info.cells > kMost) {
+        throw Error(what + "; at most 4294967295 of each can be numbered: take fewer layers");
+    }
+    const std::uint64_t vertex_bytes = Dim * sizeof(double) + 2 * sizeof(std::uint32_t);
+    const std::uint64_t cell_bytes = (Dim + 1) * sizeof(std::uint32_t)
+                                     + (extrusion.base.regions.empty() ? 0 : sizeof(std::uint16_t));
+    const std::uint64_t bytes =
+        info.vertices * vertex_bytes + info.cells / static_cast<std::uint64_t>(parts) * cell_bytes;
+    if (bytes > static_cast<std::uint64_t>(machine_memory())) {
+        throw Error(what
+                    + formatted(", which take %.3g GB; this machine has %.3g: take fewer"
+                                " layers, or a machine with more",
+                                static_cast<double>(bytes) / kGiga,
+                                static_cast<double>(machine_memory()) / kGiga));
+    }
+    return info;
+}
+
+template <int Dim>
 MeshFile<Dim> extrude_file(const Header& header,
                            std::string_view file,
                            const std::filesystem::path& path) {
     const Extrusion<Dim> from = parse_extrusion<Dim>(header, file, path);
     MeshFile<Dim> result;
+    result.info = info_in_memory<Dim>(header, from, 1, path);
     result.mesh = extrude<Dim>(from.base, from.ordered, from.layers, from.options);
-    result.info = info_of<Dim>(header, from);
     validate(result.mesh, path.string());
     return result;
 }
@@ -330,6 +364,8 @@ Extrusion<Dim> read_extrusion(const std::filesystem::path& path) {
 #define PENT_INSTANTIATE(Dim)                                                                \
     template Extrusion<Dim> parse_extrusion<Dim>(const Header&, std::string_view,            \
                                                  const std::filesystem::path&);              \
+    template FileInfo info_in_memory<Dim>(const Header&, const Extrusion<Dim>&, int,         \
+                                          const std::filesystem::path&);                     \
     template MeshFile<Dim> extrude_file<Dim>(const Header&, std::string_view,                \
                                              const std::filesystem::path&);                  \
     template std::uint32_t write_extrusion<Dim>(const std::filesystem::path&,                \

@@ -25,6 +25,17 @@ template <int Dim>
                                              std::string_view file,
                                              const std::filesystem::path& path);
 
+/// What is to be said of the mesh that they make. Throws an Error if its vertices and a part of its
+/// cells are more than can be numbered, or than this machine has memory for: a file of some
+/// megabytes may ask for any number.
+///
+/// @param parts  1 for all of its cells.
+template <int Dim>
+[[nodiscard]] FileInfo info_in_memory(const Header& header,
+                                      const Extrusion<Dim>& extrusion,
+                                      int parts,
+                                      const std::filesystem::path& path);
+
 /// The mesh that they make, checked as read_mesh() says.
 template <int Dim>
 [[nodiscard]] MeshFile<Dim> extrude_file(const Header& header,

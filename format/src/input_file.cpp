@@ -34,7 +34,7 @@ private:
 
 }  // namespace
 
-InputFile read_input(const std::filesystem::path& path, std::size_t limit) {
+InputFile read_input(const std::filesystem::path& path, std::size_t limit, std::uint64_t first) {
     const Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     struct stat status = {};
     if (descriptor.number() < 0 || ::fstat(descriptor.number(), &status) != 0) {
@@ -44,11 +44,13 @@ InputFile read_input(const std::filesystem::path& path, std::size_t limit) {
         throw Error(path.string() + ": not a regular file, expected a .pent file");
     }
     InputFile file;
-    const std::size_t wanted = std::min(limit, static_cast<std::size_t>(status.st_size));
+    const auto size = static_cast<std::uint64_t>(status.st_size);
+    const auto wanted =
+        static_cast<std::size_t>(std::min<std::uint64_t>(limit, size - std::min(size, first)));
     file.data.reset(new char[wanted]);  // not set to zero: the file fills it
     while (file.bytes < wanted) {
-        const ssize_t got =
-            ::read(descriptor.number(), file.data.get() + file.bytes, wanted - file.bytes);
+        const ssize_t got = ::pread(descriptor.number(), file.data.get() + file.bytes,
+                                    wanted - file.bytes, static_cast<off_t>(first + file.bytes));
         if (got < 0 && errno != EINTR) {
             fail(path, errno);  // GCOVR_EXCL_LINE: a disk that breaks
         }

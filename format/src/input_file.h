@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string_view>
@@ -15,9 +16,10 @@ struct InputFile {
     [[nodiscard]] std::string_view view() const { return {data.get(), bytes}; }
 };
 
-/// Reads a regular file, or its first `limit` bytes. Throws an Error that names it when it is
-/// missing, a folder, or cannot be read.
+/// Reads a regular file, or `limit` bytes of it from `first` on. Throws an Error that names it when
+/// it is missing, a folder, or cannot be read.
 [[nodiscard]] InputFile read_input(const std::filesystem::path& path,
-                                   std::size_t limit = static_cast<std::size_t>(-1));
+                                   std::size_t limit = static_cast<std::size_t>(-1),
+                                   std::uint64_t first = 0);
 
 }  // namespace pent

@@ -1,6 +1,7 @@
 #include "body.h"
 #include "extrusion_file.h"
 #include "input_file.h"
+#include "mesh_columns.h"
 
 #include <pent/cell_parents.h>
 #include <pent/error.h>
@@ -13,13 +14,6 @@ namespace pent {
 
 namespace {
 
-template <typename Value>
-Column array_column(std::string name, PlyType type, const std::vector<Value>& values) {
-    auto* data = const_cast<Value*>(values.data());  // as in row_column
-    return {std::move(name), type, reinterpret_cast<char*>(data), sizeof(Value)};
-}
-
-constexpr const char* kParent = "parent";
 constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
 constexpr const char* kTag = "bisection_tag";
 constexpr const char* kBaseLabel = "base_label";
@@ -34,33 +28,14 @@ void append_fields(const std::vector<VertexField>& fields, std::vector<Column>& 
 
 template <int Dim>
 std::vector<Column> vertex_columns(const SimplexMesh<Dim>& mesh, const MeshExtras<Dim>& extras) {
-    std::vector<Column> columns = vector_columns<Dim>(mesh.positions, "");
-    if (!mesh.columns.empty()) {
-        columns.push_back(array_column("column", PlyType::Uint, mesh.columns));
-    }
-    if (!mesh.layers.empty()) {
-        columns.push_back(array_column("layer", PlyType::Uint, mesh.layers));
-    }
+    std::vector<Column> columns = vertex_columns(mesh);
     append_fields(extras.vertex_fields, columns);
     return columns;
 }
 
 template <int Dim>
 std::vector<Column> cell_columns(const SimplexMesh<Dim>& mesh, const MeshExtras<Dim>& extras) {
-    std::vector<Column> columns;
-    for (int k = 0; k <= Dim; ++k) {
-        columns.push_back(row_column("v" + std::to_string(k), PlyType::Uint, mesh.cells, k));
-    }
-    if (!mesh.regions.empty()) {
-        columns.push_back(array_column("region", PlyType::Ushort, mesh.regions));
-    }
-    if (!mesh.parents.empty()) {
-        columns.push_back(array_column(kParent, PlyType::Uint, mesh.parents));
-    }
-    if (mesh.fibers.cols() > 0) {
-        const std::vector<Column> fibers = vector_columns<Dim>(mesh.fibers, "fiber_");
-        columns.insert(columns.end(), fibers.begin(), fibers.end());
-    }
+    std::vector<Column> columns = cell_columns(mesh);
     if (!extras.bisection_tags.empty()) {
         columns.push_back(array_column(kTag, PlyType::Uchar, extras.bisection_tags));
     }
@@ -217,23 +192,8 @@ MeshFile<Dim> read_mesh(const std::filesystem::path& path) {
     const PlyElement& vertex = header.elements[0];
     const PlyElement& cell = header.elements[1];
     SimplexMesh<Dim> mesh;
-    mesh.positions.resize(Dim, static_cast<Eigen::Index>(vertex.count));
-    mesh.cells.resize(Dim + 1, static_cast<Eigen::Index>(cell.count));
-    if (has_property(vertex, "column", PlyType::Uint, path)) {
-        mesh.columns.resize(vertex.count);
-    }
-    if (has_property(vertex, "layer", PlyType::Uint, path)) {
-        mesh.layers.resize(vertex.count);
-    }
-    if (has_property(cell, "region", PlyType::Ushort, path)) {
-        mesh.regions.resize(cell.count);
-    }
-    if (has_property(cell, kParent, PlyType::Uint, path)) {
-        mesh.parents.resize(cell.count);
-    }
-    if (has_vector(cell, Dim, "fiber_", "fiber", path)) {
-        mesh.fibers.resize(Dim, static_cast<Eigen::Index>(cell.count));
-    }
+    size_vertices(vertex, path, mesh);
+    size_cells(cell, path, mesh);
     MeshExtras<Dim> extras = sized_extras<Dim>(header, path);
     reader.read(vertex_columns(mesh, extras));
     reader.read(cell_columns(mesh, extras));

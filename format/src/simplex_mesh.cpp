@@ -2,6 +2,7 @@
 
 #include <pent/error.h>
 #include <pent/geometry.h>
+#include <pent/mesh_part.h>
 
 #include <Eigen/LU>
 
@@ -21,8 +22,14 @@ constexpr double factorial(int n) {
     return n < 2 ? 1 : n * factorial(n - 1);
 }
 
-std::string where(std::string_view name, std::string_view element, Eigen::Index index) {
-    return std::string(name) + ": " + std::string(element) + " " + std::to_string(index) + ": ";
+// @param numbers  What elements are called; empty if as they are counted.
+std::string where(std::string_view name,
+                  std::string_view element,
+                  std::span<const std::uint32_t> numbers,
+                  Eigen::Index index) {
+    const Eigen::Index number =
+        numbers.empty() ? index : Eigen::Index{numbers[static_cast<std::size_t>(index)]};
+    return std::string(name) + ": " + std::string(element) + " " + std::to_string(number) + ": ";
 }
 
 // @param what    A column is of, as in "vertex".
@@ -30,6 +37,7 @@ std::string where(std::string_view name, std::string_view element, Eigen::Index 
 template <int Dim>
 void validate_finite(const Positions<Dim>& vectors,
                      std::string_view what,
+                     std::span<const std::uint32_t> numbers,
                      const std::string& prefix,
                      std::string_view name) {
     constexpr std::array<char, 4> kAxes = {'x', 'y', 'z', 'w'};
@@ -37,7 +45,7 @@ void validate_finite(const Positions<Dim>& vectors,
         for (int axis = 0; axis < Dim; ++axis) {
             const double value = vectors(axis, i);
             if (!std::isfinite(value)) {
-                throw Error(where(name, what, i) + prefix + kAxes[axis] + " is "
+                throw Error(where(name, what, numbers, i) + prefix + kAxes[axis] + " is "
                             + std::to_string(value) + ", expected a finite number");
             }
         }
@@ -45,26 +53,32 @@ void validate_finite(const Positions<Dim>& vectors,
 }
 
 template <int Dim>
-void validate_indices(const SimplexMesh<Dim>& mesh, std::string_view name, Eigen::Index cell) {
+void validate_indices(const SimplexMesh<Dim>& mesh,
+                      std::string_view name,
+                      std::span<const std::uint32_t> numbers,
+                      Eigen::Index cell) {
     for (int i = 0; i <= Dim; ++i) {
         const std::uint32_t vertex = mesh.cells(i, cell);
         if (vertex >= mesh.vertex_count()) {
-            throw Error(where(name, cell_name(Dim), cell) + "vertex " + std::to_string(vertex)
-                        + " of " + std::to_string(mesh.vertex_count()) + ", expected at most "
-                        + std::to_string(mesh.vertex_count() - 1));
+            throw Error(where(name, cell_name(Dim), numbers, cell) + "vertex "
+                        + std::to_string(vertex) + " of " + std::to_string(mesh.vertex_count())
+                        + ", expected at most " + std::to_string(mesh.vertex_count() - 1));
         }
         for (int j = 0; j < i; ++j) {
             if (mesh.cells(j, cell) == vertex) {
-                throw Error(where(name, cell_name(Dim), cell) + "vertex " + std::to_string(vertex)
-                            + " appears twice, expected " + std::to_string(Dim + 1)
-                            + " different vertices");
+                throw Error(where(name, cell_name(Dim), numbers, cell) + "vertex "
+                            + std::to_string(vertex) + " appears twice, expected "
+                            + std::to_string(Dim + 1) + " different vertices");
             }
         }
     }
 }
 
 template <int Dim>
-void validate_orientation(const SimplexMesh<Dim>& mesh, std::string_view name, Eigen::Index cell) {
+void validate_orientation(const SimplexMesh<Dim>& mesh,
+                          std::string_view name,
+                          std::span<const std::uint32_t> numbers,
+                          Eigen::Index cell) {
     const Eigen::Matrix<double, Dim, Dim> edges =
         edge_matrix<Dim>(mesh.positions, mesh.cells, cell);
     // Scaled by the longest edge so that neither tiny nor huge bodies leave the range of double.
@@ -79,11 +93,11 @@ void validate_orientation(const SimplexMesh<Dim>& mesh, std::string_view name, E
         return;
     }
     if (determinant < -kDegenerate * hadamard) {
-        throw Error(where(name, cell_name(Dim), cell) +
+        throw Error(where(name, cell_name(Dim), numbers, cell) +
                     "inverted (its determinant is negative), expected positive orientation: swap "
                     "two of its vertices");
     }
-    throw Error(where(name, cell_name(Dim), cell)
+    throw Error(where(name, cell_name(Dim), numbers, cell)
                 + "degenerate (flat to rounding error), expected a positive volume");
 }
 
@@ -138,17 +152,24 @@ void validate(const SimplexMesh<Dim>& mesh, std::string_view name) {
         throw Error(std::string(name) + ": no " + std::string(cell_name_plural(Dim))
                     + ", expected at least one");
     }
+    validate_part(mesh, name, {});
+}
+
+template <int Dim>
+void validate_part(const SimplexMesh<Dim>& mesh,
+                   std::string_view name,
+                   std::span<const std::uint32_t> numbers) {
     validate_length(mesh.regions.size(), mesh.cell_count(), "regions", name);
     validate_length(mesh.parents.size(), mesh.cell_count(), "parents", name);
     validate_length(static_cast<std::size_t>(mesh.fibers.cols()), mesh.cell_count(), "fibers",
                     name);
     validate_length(mesh.columns.size(), mesh.vertex_count(), "columns", name);
     validate_length(mesh.layers.size(), mesh.vertex_count(), "layers", name);
-    validate_finite<Dim>(mesh.positions, "vertex", "", name);
-    validate_finite<Dim>(mesh.fibers, cell_name(Dim), "fiber_", name);
+    validate_finite<Dim>(mesh.positions, "vertex", {}, "", name);
+    validate_finite<Dim>(mesh.fibers, cell_name(Dim), numbers, "fiber_", name);
     for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
-        validate_indices(mesh, name, cell);
-        validate_orientation(mesh, name, cell);
+        validate_indices(mesh, name, numbers, cell);
+        validate_orientation(mesh, name, numbers, cell);
     }
 }
 
@@ -157,7 +178,9 @@ void validate(const SimplexMesh<Dim>& mesh, std::string_view name) {
     template double cell_volume<Dim>(const Positions<Dim>&, const Simplices<Dim + 1>&, \
                                      Eigen::Index);                                    \
     template double total_volume<Dim>(const SimplexMesh<Dim>&);                        \
-    template void validate<Dim>(const SimplexMesh<Dim>&, std::string_view);
+    template void validate<Dim>(const SimplexMesh<Dim>&, std::string_view);            \
+    template void validate_part<Dim>(const SimplexMesh<Dim>&, std::string_view,        \
+                                     std::span<const std::uint32_t>);
 PENT_INSTANTIATE(2)
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)

@@ -1,5 +1,7 @@
 #include "pent/slab_writers.h"
 
+#include "slab_sum.h"
+
 #include <pent/crc32c.h>
 #include <pent/output_file.h>
 
@@ -22,19 +24,22 @@ SlabPlace place_slab(const SlabWriters* writers, std::uint64_t own) {
     return slab;
 }
 
-std::uint32_t crc32c_of_slabs(const SlabWriters* writers, std::string_view own) {
-    const std::uint32_t sum = crc32c(own.data(), own.size());
+std::uint32_t joined_crc32c(const SlabWriters* writers, std::uint32_t own, std::uint64_t bytes) {
     if (writers == nullptr) {
-        return sum;
+        return own;
     }
-    const std::vector<double> sums = writers->list(sum);
-    const std::vector<double> sizes = writers->list(static_cast<double>(own.size()));
+    const std::vector<double> sums = writers->list(own);
+    const std::vector<double> sizes = writers->list(static_cast<double>(bytes));
     std::uint32_t joined = 0;
     for (std::size_t i = 0; i < sums.size(); ++i) {
         joined = crc32c_joined(joined, static_cast<std::uint32_t>(sums[i]),
                                static_cast<std::uint64_t>(sizes[i]));
     }
     return joined;
+}
+
+std::uint32_t crc32c_of_slabs(const SlabWriters* writers, std::string_view own) {
+    return joined_crc32c(writers, crc32c(own.data(), own.size()), own.size());
 }
 
 void write_slabs(const std::filesystem::path& path,

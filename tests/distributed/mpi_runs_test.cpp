@@ -161,6 +161,71 @@ TEST_F(MpiRuns, OfBaseAndLayersAreThoseOfTheMesh) {
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
 }
 
+// Without regions no rank has a whole mesh: each reads slabs of a file and keeps the cells of its
+// vertices, or extrudes these, and writes a slab.
+TEST_F(MpiRuns, InWhichNoRankHasAWholeMeshAreThoseOfOne) {
+    const Extrusion<4> made = extrusion();
+    static_cast<void>(write_extrusion<4>(path("base.pent"), made));
+    static_cast<void>(write_mesh(path("whole.pent"),
+                                 extrude<4>(made.base, made.ordered, made.layers, made.options)));
+    static_cast<void>(write_mesh(path("text.pent"), read_mesh<4>(path("whole.pent")).mesh,
+                                 {.encoding = Encoding::Ascii}));
+    std::string plain = kTwins;
+    const std::size_t region = plain.find("[[body.region]]");
+    plain.erase(region, plain.find("[[body]]", region) - region);
+    for (const std::string mesh : {"base", "whole", "text"}) {
+        std::string scene = plain;
+        for (std::size_t at = 0; (at = scene.find("MESH")) != std::string::npos;) {
+            scene.replace(at, 4, mesh);
+        }
+        write(mesh, scene);
+    }
+    ASSERT_EQ(simulate(0, "whole", "alone").exit_code, 0);
+    const auto data_of = [](const std::string& bytes) {
+        return bytes.substr(bytes.find("end_header"));
+    };
+    for (const int ranks : {2, 3}) {
+        const std::string number = std::to_string(ranks);
+        for (const std::string mesh : {"base", "whole", "text"}) {  // of text each has all
+            if (mesh == "text" && ranks > 2) {
+                continue;
+            }
+            const Outcome run = simulate(ranks, mesh, mesh + number);
+            ASSERT_EQ(run.exit_code, 0) << run.err;
+            for (const std::string body : {"a", "b"}) {
+                expect_same_bytes(mesh + number, "base" + number, body);
+                const std::string file = "/meshes/" + body + ".pent";
+                EXPECT_EQ(data_of(text_of(path(mesh + number + file))),
+                          data_of(text_of(path("alone" + file))));
+            }
+        }
+    }
+    EXPECT_GT(report("base3").steps.back().contact.point_facet, 0);
+}
+
+// By checksums, of which each rank finds a part.
+TEST_F(MpiRuns, GoOnWithTheSameMeshesAlone) {
+    const std::string mesh = "run/meshes/bar.pent";
+    ASSERT_EQ(simulate(2, "bar", "run").exit_code, 0);
+    const std::string good = text_of(path(mesh));
+    for (const int ranks : {0, 3}) {
+        SimplexMesh<4> other = read_mesh<4>(path("bar.pent")).mesh;
+        std::swap(other.layers.front(), other.layers.back());
+        static_cast<void>(write_mesh(path(mesh), other));
+        Outcome resumed = simulate(ranks, "bar", "run", "--resume");
+        EXPECT_EQ(resumed.exit_code, 1);
+        expect_contains(resumed.err, {"bar.pent: is another mesh than that of the scene now"});
+        std::string damaged = good;
+        damaged[damaged.size() - 100] ^= 1;
+        std::ofstream(path(mesh), std::ios::binary) << damaged;
+        resumed = simulate(ranks, "bar", "run", "--resume");
+        EXPECT_EQ(resumed.exit_code, 1);
+        expect_contains(resumed.err, {"bar.pent: checksum", "changed after it was written"});
+        std::ofstream(path(mesh), std::ios::binary) << good;
+        EXPECT_EQ(simulate(ranks, "bar", "run", "--resume").exit_code, 0);
+    }
+}
+
 TEST_F(MpiRuns, AreExplainedWithWhatRanksHaveAndSay) {
     const Outcome told =
         test::run_program("pent-sim-mpi --explain " + path("bar.toml"), test::mpirun(3));

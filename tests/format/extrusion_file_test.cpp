@@ -3,6 +3,7 @@
 #include "support/temp_folder.h"
 
 #include <pent/extrusion.h>
+#include <pent/machine_memory.h>
 
 #include <gtest/gtest.h>
 
@@ -26,6 +27,27 @@ std::string bytes_of(const std::filesystem::path& path) {
     return text.str();
 }
 
+// Cells with their corners in the order of ranks.
+template <int Dim>
+OrderedCells<Dim - 1> ordered_by(const Simplices<Dim>& cells,
+                                 const std::vector<std::uint32_t>& ranks) {
+    OrderedCells<Dim - 1> ordered;
+    ordered.cells = cells;
+    for (auto cell : ordered.cells.colwise()) {
+        bool is_odd = false;
+        for (int i = 0; i < Dim; ++i) {
+            for (int j = 0; j + 1 < Dim; ++j) {
+                if (ranks[cell[j]] > ranks[cell[j + 1]]) {
+                    std::swap(cell[j], cell[j + 1]);
+                    is_odd = !is_odd;
+                }
+            }
+        }
+        ordered.is_odd.push_back(is_odd ? 1 : 0);
+    }
+    return ordered;
+}
+
 // A box with numbers that have no short form, its vertices ranked at random, and layers that turn
 // and shrink; points at the ends that are asked for.
 template <int Dim>
@@ -46,19 +68,7 @@ Extrusion<Dim> crooked(int layers, bool has_first_point, bool has_last_point, bo
     std::vector<std::uint32_t> ranks(made.base.vertex_count());
     std::iota(ranks.begin(), ranks.end(), 0U);
     std::shuffle(ranks.begin(), ranks.end(), random);
-    made.ordered.cells = made.base.cells;
-    for (auto cell : made.ordered.cells.colwise()) {
-        bool is_odd = false;
-        for (int i = 0; i < Dim; ++i) {
-            for (int j = 0; j + 1 < Dim; ++j) {
-                if (ranks[cell[j]] > ranks[cell[j + 1]]) {
-                    std::swap(cell[j], cell[j + 1]);
-                    is_odd = !is_odd;
-                }
-            }
-        }
-        made.ordered.is_odd.push_back(is_odd ? 1 : 0);
-    }
+    made.ordered = ordered_by<Dim>(made.base.cells, ranks);
     for (int l = 0; l < layers; ++l) {
         Layer<Dim> layer;
         layer.linear.setIdentity();
@@ -195,6 +205,58 @@ TEST(ExtrusionFile, SaysWhatIsWrongInAFile) {
     std::ofstream(folder / "d.pent", std::ios::binary) << without;
     expect_contains(error_of([&] { (void)read_mesh<4>(folder / "d.pent"); }),
                     {"d.pent", "element tetrahedron has no order, which an extrusion needs"});
+}
+
+TEST(Extrude, MakesTheSameInParts) {
+    for (const bool has_first_point : {false, true}) {
+        for (const bool has_last_point : {false, true}) {
+            const Extrusion<4> from = crooked<4>(5, has_first_point, has_last_point, true);
+            const SimplexMesh<4> all =
+                extrude<4>(from.base, from.ordered, from.layers, from.options);
+            const SimplexMesh<4> vertices = extrude_vertices<4>(from);
+            EXPECT_EQ(vertices.positions, all.positions);
+            EXPECT_EQ(vertices.columns, all.columns);
+            EXPECT_EQ(vertices.layers, all.layers);
+            const Eigen::Index per_base = cells_of_column<4>(from.layers);
+            ASSERT_EQ(per_base * from.base.cell_count(), all.cell_count());
+            const std::vector<std::uint32_t> some = {0, 5, 6, 40};
+            const SimplexMesh<4> part = extrude_cells<4>(from, some);
+            ASSERT_EQ(part.cell_count(), std::ssize(some) * per_base);
+            for (Eigen::Index cell = 0; cell < part.cell_count(); ++cell) {
+                const Eigen::Index whole = some[cell / per_base] * per_base + cell % per_base;
+                EXPECT_EQ(part.cells.col(cell), all.cells.col(whole));
+                EXPECT_EQ(part.regions[cell], all.regions[whole]);
+            }
+        }
+    }
+}
+
+// A base of 384,000 tetrahedra in a file of a few megabytes, and layers that multiply it.
+TEST(ExtrusionFile, IsRefusedWhereItWouldMakeMoreThanThereIsMemoryOrNumbers) {
+    constexpr double kBytesOfALayer = 384000 * 4 * 20;
+    const test::TempFolder folder;
+    Extrusion<4> made;
+    made.base = test::kuhn_box<3>({40, 40, 40}, {1, 1, 1});
+    std::vector<std::uint32_t> ranks(made.base.vertex_count());
+    std::iota(ranks.begin(), ranks.end(), 0U);
+    made.ordered = ordered_by<4>(made.base.cells, ranks);
+    const auto message = [&](double layers) {
+        made.layers.clear();
+        for (int l = 0; l < layers; ++l) {
+            made.layers.push_back({Eigen::Matrix<double, 4, 3>::Identity(), {0, 0, 0, 1.0 * l}});
+        }
+        static_cast<void>(write_extrusion<4>(folder / "a.pent", made));
+        return error_of([&] { (void)read_mesh<4>(folder / "a.pent"); });
+    };
+    const double too_many = std::ceil(1.1 * static_cast<double>(machine_memory()) / kBytesOfALayer);
+    const double most_numbers = 4294967295.0 / (384000 * 4);
+    if (too_many < most_numbers) {  // of a machine with less than 86 GB
+        expect_contains(message(too_many), {"a.pent: its base and", "layers make", "pentachora",
+                                            "GB; this machine has", "take fewer layers"});
+    }
+    expect_contains(message(std::ceil(most_numbers) + 1),
+                    {"a.pent: its base and 2798 layers make 192840958 vertices and 4296192000"
+                     " pentachora; at most 4294967295 of each can be numbered"});
 }
 
 TEST(ExtrusionFile, IsRefusedWhereverItIsCutOrDamaged) {

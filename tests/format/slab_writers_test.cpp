@@ -1,4 +1,5 @@
 #include "support/temp_folder.h"
+#include "support/thread_writers.h"
 
 #include <pent/crc32c.h>
 #include <pent/error.h>
@@ -6,91 +7,20 @@
 
 #include <gtest/gtest.h>
 
-#include <barrier>
 #include <fstream>
 #include <limits>
 #include <random>
 #include <sstream>
-#include <thread>
 
 namespace pent {
 namespace {
+
+using test::by_writers;
 
 std::string bytes_of(const std::filesystem::path& path) {
     std::ostringstream text;
     text << std::ifstream(path, std::ios::binary).rdbuf();
     return text.str();
-}
-
-// What threads tell one another.
-struct Table {
-    explicit Table(int count)
-        : numbers(static_cast<std::size_t>(count)),
-          errors(static_cast<std::size_t>(count)),
-          barrier(count) {}
-
-    std::vector<double> numbers;
-    std::vector<std::string> errors;
-    std::barrier<> barrier;
-};
-
-class ThreadWriters final : public SlabWriters {
-public:
-    ThreadWriters(Table& table, int place) : table_(&table), place_(place) {}
-
-    [[nodiscard]] int place() const override { return place_; }
-
-    [[nodiscard]] std::vector<double> list(double own) const override {
-        table_->numbers[static_cast<std::size_t>(place_)] = own;
-        table_->barrier.arrive_and_wait();
-        std::vector<double> all = table_->numbers;
-        table_->barrier.arrive_and_wait();
-        return all;
-    }
-
-    void agree(const std::function<void()>& work) const override {
-        std::string& error = table_->errors[static_cast<std::size_t>(place_)];
-        error.clear();
-        try {
-            work();
-        } catch (const Error& what) {
-            error = what.what();
-        }
-        table_->barrier.arrive_and_wait();
-        std::string first;
-        for (const std::string& one : table_->errors) {
-            first = first.empty() ? one : first;
-        }
-        table_->barrier.arrive_and_wait();
-        if (!first.empty()) {
-            throw Error(first);
-        }
-    }
-
-private:
-    Table* table_;
-    int place_;
-};
-
-// What each of so many writers says: empty, or an error.
-template <typename Work>
-std::vector<std::string> by_writers(int count, const Work& work) {
-    Table table(count);
-    std::vector<std::string> said(static_cast<std::size_t>(count));
-    std::vector<std::thread> threads;
-    for (int place = 0; place < count; ++place) {
-        threads.emplace_back([&, place] {
-            try {
-                work(ThreadWriters(table, place));
-            } catch (const Error& error) {
-                said[static_cast<std::size_t>(place)] = error.what();
-            }
-        });
-    }
-    for (std::thread& thread : threads) {
-        thread.join();
-    }
-    return said;
 }
 
 Frame<4> random_frame(Eigen::Index vertices) {
@@ -147,7 +77,7 @@ TEST(SlabWriters, WriteTheFileThatOneAloneWrites) {
         write_frame(folder / "alone.pent", whole, {.created_by = "test"});
         for (const int count : {1, 2, 3, 7}) {
             const std::filesystem::path path = folder / "together.pent";
-            const auto said = by_writers(count, [&](const ThreadWriters& writers) {
+            const auto said = by_writers(count, [&](const test::ThreadWriters& writers) {
                 const Eigen::Index first =
                     vertices * writers.place() * writers.place() / (Eigen::Index{count} * count);
                 const Eigen::Index last = vertices * (writers.place() + 1) * (writers.place() + 1)
@@ -167,7 +97,7 @@ TEST(SlabWriters, FailTogetherAndLeaveNothing) {
     Frame<4> whole = random_frame(30);
     whole.velocities(2, 25) = std::numeric_limits<double>::quiet_NaN();
     const auto write = [&](const std::filesystem::path& path) {
-        return by_writers(3, [&](const ThreadWriters& writers) {
+        return by_writers(3, [&](const test::ThreadWriters& writers) {
             write_frame(path, part_of(whole, 10 * writers.place(), 10 * (writers.place() + 1)),
                         {.writers = &writers});
         });

@@ -2,6 +2,7 @@
 
 #include "barrier_scenes.h"
 #include "contact_scenes.h"
+#include "cut_meshes.h"
 #include "scenes.h"
 #include "support/messages.h"
 #include "thread_ranks.h"
@@ -29,8 +30,7 @@ struct State {
 };
 
 template <int Dim>
-State<Dim> simulate(const Case<Dim>& of, int steps, const std::shared_ptr<const Ranks>& ranks) {
-    Simulation<Dim> simulation(of.scene, of.meshes, {.ranks = ranks});
+State<Dim> simulate(Simulation<Dim> simulation, int steps) {
     State<Dim> state;
     for (int i = 0; i < steps; ++i) {
         state.steps.push_back(simulation.step());
@@ -44,6 +44,21 @@ State<Dim> simulate(const Case<Dim>& of, int steps, const std::shared_ptr<const 
     }
     state.size = simulation.size();
     return state;
+}
+
+template <int Dim>
+State<Dim> simulate(const Case<Dim>& of, int steps, const std::shared_ptr<const Ranks>& ranks) {
+    return simulate(Simulation<Dim>(of.scene, of.meshes, {.ranks = ranks}), steps);
+}
+
+// The same of ranks of which none has a whole mesh.
+template <int Dim>
+State<Dim> simulate_parts(const Case<Dim>& of,
+                          int steps,
+                          const std::shared_ptr<const Ranks>& ranks) {
+    return simulate(Simulation<Dim>(of.scene, test::cut_meshes<Dim>(of.scene, of.meshes, *ranks),
+                                    {.ranks = ranks}),
+                    steps);
 }
 
 // A bar that is turned, falls and is damped, to eight digits.
@@ -82,6 +97,14 @@ void expect_same_on_ranks(const Case<Dim>& of, int steps, double tolerance) {
             EXPECT_EQ(state.steps.back().iterations, all.front().steps.back().iterations);
         }
         const State<Dim>& state = all.front();
+        if (can_take_parts(of.scene)) {
+            test::on_ranks(count, [&](const std::shared_ptr<const Ranks>& ranks) {
+                const State<Dim> of_parts = simulate_parts<Dim>(of, steps, ranks);
+                EXPECT_EQ(of_parts.positions, state.positions);
+                EXPECT_EQ(of_parts.forces, state.forces);
+                EXPECT_EQ(of_parts.size.elements, state.size.elements);
+            });
+        }
         EXPECT_LT((state.positions - alone.positions).norm(), tolerance * motion);
         EXPECT_LT((state.forces - alone.forces).norm(), 100 * tolerance * force);
         EXPECT_EQ(state.size.elements, alone.size.elements);

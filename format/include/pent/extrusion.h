@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 namespace pent {
@@ -63,6 +64,20 @@ template <int Dim>
                                        const OrderedCells<Dim - 1>& ordered,
                                        const std::vector<Layer<Dim>>& layers,
                                        const ExtrudeOptions& options = {});
+
+/// The vertices alone of what extrude() makes: where a mesh is made in parts.
+template <int Dim>
+[[nodiscard]] SimplexMesh<Dim> extrude_vertices(const Extrusion<Dim>& extrusion);
+
+/// The cells alone, with their regions, over some base cells: as many over each, as extrude() has
+/// them.
+template <int Dim>
+[[nodiscard]] SimplexMesh<Dim> extrude_cells(const Extrusion<Dim>& extrusion,
+                                             std::span<const std::uint32_t> base_cells);
+
+/// How many cells there are over each base cell.
+template <int Dim>
+[[nodiscard]] Eigen::Index cells_of_column(const std::vector<Layer<Dim>>& layers);
 
 /// Writes base and layers as write_mesh() writes a mesh: a .pent file that read_mesh() extrudes.
 /// Throws an Error unless read_extrusion() would take them.

@@ -1,6 +1,7 @@
 #include "run/resume.h"
 
 #include <pent/error.h>
+#include <pent/mesh_part.h>
 #include <pent/runs/scene_file.h>
 
 #include <algorithm>
@@ -96,20 +97,25 @@ void check_same_scene(const fs::path& scene_file, const Scene& scene) {
 }
 
 template <int Dim>
-std::uint32_t check_same_mesh(const fs::path& mesh_file, const SimplexMesh<Dim>& mesh) {
-    const MeshFile<Dim> before = read_mesh<Dim>(mesh_file);
-    const bool is_same = before.mesh.positions.cols() == mesh.positions.cols()
-                         && before.mesh.positions == mesh.positions
-                         && before.mesh.cells.cols() == mesh.cells.cols()
-                         && before.mesh.cells == mesh.cells && before.mesh.regions == mesh.regions
-                         && before.mesh.columns == mesh.columns && before.mesh.layers == mesh.layers
-                         && before.mesh.parents == mesh.parents;
-    if (!is_same) {
+std::uint32_t check_same_mesh(const fs::path& mesh_file,
+                              const SimplexMesh<Dim>& slab,
+                              const RunRanks& ranks) {
+    FileInfo before;
+    ranks.agree([&] { before = read_info(mesh_file); });
+    check_checksum(mesh_file, ranks.writers());
+    const std::uint32_t now = checksum_of_mesh(slab, ranks.writers());
+    const auto count = [&](Eigen::Index own) {
+        return place_slab(ranks.writers(), static_cast<std::uint64_t>(own)).all;
+    };
+    const std::uint64_t vertices = count(slab.vertex_count());
+    const std::uint64_t cells = count(slab.cell_count());
+    if (before.is_frame || before.vertices != vertices || before.cells != cells
+        || before.crc32c != now) {
         throw Error(mesh_file.string()
                     + ": is another mesh than that of the scene now; put the old one back, or use"
                       " --force to start again");
     }
-    return before.info.crc32c;
+    return now;
 }
 
 template <int Dim>
@@ -301,7 +307,8 @@ StateBlocks carried_state_of_old_run(const fs::path& folder,
 }
 
 #define PENT_INSTANTIATE(Dim)                                                                  \
-    template std::uint32_t check_same_mesh<Dim>(const fs::path&, const SimplexMesh<Dim>&);     \
+    template std::uint32_t check_same_mesh<Dim>(const fs::path&, const SimplexMesh<Dim>&,      \
+                                                const RunRanks&);                              \
     template Frame<Dim> read_own_frame<Dim>(const fs::path&, std::uint32_t, std::uint64_t,     \
                                             std::uint64_t);                                    \
     template StateBlocks carried_state<Dim>(const Simulation<Dim>&,                            \

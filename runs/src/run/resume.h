@@ -1,6 +1,7 @@
 #pragma once
 
 #include "record/state_blocks.h"
+#include "run/run_ranks.h"
 #include "simulator_names.h"
 
 #include <pent/pent_file.h>
@@ -19,10 +20,14 @@ namespace pent::runs {
 /// Keys that it lacks have their defaults.
 void check_same_scene(const std::filesystem::path& scene_file, const Scene& scene);
 
-/// The mesh of the folder is this one, to the bit, labels included. Gives its checksum.
+/// The mesh of the folder is this one, by its checksum, labels included. Gives that.
+///
+/// @param slab   Of the mesh, as rows_of() has it, where several processes compare it together.
+/// @param ranks  These.
 template <int Dim>
 [[nodiscard]] std::uint32_t check_same_mesh(const std::filesystem::path& mesh_file,
-                                            const SimplexMesh<Dim>& mesh);
+                                            const SimplexMesh<Dim>& slab,
+                                            const RunRanks& ranks);
 
 /// Reads a frame that is whole, of this mesh and of this moment.
 template <int Dim>

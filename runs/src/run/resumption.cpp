@@ -43,7 +43,6 @@ private:
     const Simulation<Dim>& simulation_;
     Journal history_;
     std::vector<std::string> bodies_;
-    std::vector<std::uint32_t> mesh_crcs_;
 };
 
 // All bodies at one frame, if every file is there and whole.
@@ -55,7 +54,7 @@ std::optional<std::vector<Frame<Dim>>> Finder<Dim>::read_frames(int frame) const
         if (!fs::exists(file)) {
             return std::nullopt;
         }
-        frames.push_back(read_own_frame<Dim>(file, mesh_crcs_[frames.size()],
+        frames.push_back(read_own_frame<Dim>(file, run_.mesh_crcs[frames.size()],
                                              static_cast<std::uint64_t>(frame),
                                              step_of(run_.scene, frame)));
     }
@@ -72,7 +71,8 @@ int Finder<Dim>::last_known_frame() const {
 template <int Dim>
 StateBlocks Finder<Dim>::carried_state_at(int frame) const {
     if (!run_.has_list) {
-        return carried_state_of_old_run<Dim>(run_.folder, bodies_, mesh_crcs_, run_.scene, frame);
+        return carried_state_of_old_run<Dim>(run_.folder, bodies_, run_.mesh_crcs, run_.scene,
+                                             frame);
     }
     const auto& frames = history_.frames;
     const auto found = std::find_if(frames.begin(), frames.end(), [&](const FrameReport& report) {
@@ -133,10 +133,6 @@ Snapshot<Dim> Finder<Dim>::snapshot_of(const Bodies& frames, const StateBlocks& 
 
 template <int Dim>
 Resumption<Dim> Finder<Dim>::operator()() {
-    for (int body = 0; body < simulation_.body_count(); ++body) {
-        const std::string& name = bodies_[static_cast<std::size_t>(body)];
-        mesh_crcs_.push_back(check_same_mesh<Dim>(path(mesh_file(name)), simulation_.mesh(body)));
-    }
     int frame = last_known_frame();
     std::optional<Bodies> frames = read_frames(frame);
     while (!frames && frame > 0) {
@@ -152,7 +148,6 @@ Resumption<Dim> Finder<Dim>::operator()() {
     return {.frame = frame,
             .snapshot = std::move(snapshot),
             .carried = std::move(carried),
-            .mesh_crcs = std::move(mesh_crcs_),
             .history = std::move(history_)};
 }
 

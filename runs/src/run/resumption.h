@@ -21,21 +21,21 @@ struct RunInFolder {
     const Scene& scene;
     const std::filesystem::path& folder;
     bool has_list = true;  ///< Of its files; a run of version 0.1.0 has none.
+    const std::vector<std::uint32_t>& mesh_crcs;  ///< Of its meshes, one a body.
 };
 
 /// Where a run goes on, and with what.
 template <int Dim>
 struct Resumption {
-    int frame = 0;                              ///< The last that is whole.
-    Snapshot<Dim> snapshot;                     ///< Of that moment.
-    StateBlocks carried = {};                   ///< What of it is in no frame file.
-    std::vector<std::uint32_t> mesh_crcs = {};  ///< One a body.
-    Journal history = {};  ///< Up to there; frames that the journal lacked are measured.
+    int frame = 0;             ///< The last that is whole.
+    Snapshot<Dim> snapshot;    ///< Of that moment.
+    StateBlocks carried = {};  ///< What of it is in no frame file.
+    Journal history = {};      ///< Up to there; frames that the journal lacked are measured.
 };
 
 /// Reads nothing but the folder and changes nothing in it.
 ///
-/// Throws an Error that names the file if a mesh is another one, a file is damaged or of another
+/// Throws an Error that names the file if a file is damaged or of another
 /// run, or no frame is whole.
 ///
 /// @param simulation  Of the same scene, at its start.

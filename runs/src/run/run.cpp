@@ -10,9 +10,9 @@
 #include "run/resume.h"
 #include "run/resumption.h"
 #include "run/run_files.h"
+#include "run/run_meshes.h"
 #include "run/run_ranks.h"
 #include "run/simulation_options.h"
-#include "scene/scene_meshes.h"
 
 #include <pent/error.h>
 #include <pent/obstacles_file.h>
@@ -51,11 +51,11 @@ public:
           before_(std::move(before)),
           ranks_(options.ranks.get()),
           folder_(options.folder, kRunFolder),
-          meshes_(read_meshes_alike()),
-          simulation_(scene, std::move(meshes_.meshes), simulation_options(options)) {
+          meshes_(scene, ranks_),
+          simulation_(meshes_.simulate(simulation_options(options))) {
         report_.size = simulation_.size();
         report_.thinnest = thinnest_side(simulation_);
-        report_.warnings = std::move(meshes_.warnings);
+        report_.warnings = meshes_.warnings();
         for (const auto& lines : {simulation_.warnings(), doubts_of_units(scene, simulation_),
                                   overlaps_at_start(scene, simulation_)}) {
             report_.warnings.insert(report_.warnings.end(), lines.begin(), lines.end());
@@ -79,7 +79,6 @@ private:
     [[nodiscard]] const std::string& name_of(int body) const {
         return scene_.bodies[static_cast<std::size_t>(body)].name;
     }
-    [[nodiscard]] SceneMeshes<Dim> read_meshes_alike() const;
     void start_folder();
     [[nodiscard]] bool do_obstacles_move() const;
     void write_scene();
@@ -88,7 +87,6 @@ private:
     [[nodiscard]] int resume_folder();
     void take_over(Resumption<Dim> found);
     void tell_resume(const Resumption<Dim>& found) const;
-    void share_mesh_crcs();
     void write_frame_files(int frame);
     void begin_frame(int frame);
     void write_frame_of(int body, int frame);
@@ -102,7 +100,7 @@ private:
     Journal before_;  // until it is resumed
     RunRanks ranks_;
     OutputFolder folder_;
-    SceneMeshes<Dim> meshes_;  // empty once the simulation has them
+    RunMeshes<Dim> meshes_;
     Simulation<Dim> simulation_;
     std::vector<std::uint32_t> mesh_crcs_;
     std::string lines_;  // of the journal, to be written with the next frame
@@ -110,13 +108,6 @@ private:
     Clock::time_point start_ = Clock::now();
     Clock::time_point last_report_ = start_;
 };
-
-template <int Dim>
-SceneMeshes<Dim> Run<Dim>::read_meshes_alike() const {
-    SceneMeshes<Dim> meshes;
-    ranks_.agree([&] { meshes = read_meshes<Dim>(scene_); });
-    return meshes;
-}
 
 template <int Dim>
 void Run<Dim>::start_folder() {
@@ -172,9 +163,9 @@ void Run<Dim>::begin_part(int frame) {
 template <int Dim>
 void Run<Dim>::write_meshes() {
     for (int body = 0; body < simulation_.body_count(); ++body) {
-        const std::string& name = name_of(body);
-        mesh_crcs_.push_back(write_mesh(folder_.claim(mesh_file(name)), simulation_.mesh(body),
-                                        {.created_by = options_.created_by}));
+        const std::string file = mesh_file(name_of(body));
+        ranks_.write([&] { static_cast<void>(folder_.claim(file)); });
+        mesh_crcs_.push_back(meshes_.write(path(file), simulation_, body, options_.created_by));
     }
 }
 
@@ -198,11 +189,16 @@ void Run<Dim>::tell_resume(const Resumption<Dim>& found) const {
 // Puts the simulation at the last whole frame of the folder, and gives its number.
 template <int Dim>
 int Run<Dim>::resume_folder() {
+    for (int body = 0; body < simulation_.body_count(); ++body) {
+        mesh_crcs_.push_back(meshes_.compare(path(mesh_file(name_of(body))), simulation_, body));
+    }
     Resumption<Dim> found;
     ranks_.agree([&] {
-        found = find_resumption<Dim>(
-            {.scene = scene_, .folder = options_.folder, .has_list = folder_.has_list()},
-            simulation_, std::move(before_));
+        found = find_resumption<Dim>({.scene = scene_,
+                                      .folder = options_.folder,
+                                      .has_list = folder_.has_list(),
+                                      .mesh_crcs = mesh_crcs_},
+                                     simulation_, std::move(before_));
     });
     const int frame = found.frame;
     simulation_.restore(found.snapshot);
@@ -213,7 +209,6 @@ int Run<Dim>::resume_folder() {
 template <int Dim>
 void Run<Dim>::take_over(Resumption<Dim> found) {
     const int frame = found.frame;
-    mesh_crcs_ = std::move(found.mesh_crcs);
     tell_resume(found);
     if (!folder_.has_list()) {
         for (const std::string& name : files_of_old_run(names_of_bodies(scene_), frame)) {
@@ -232,15 +227,6 @@ void Run<Dim>::take_over(Resumption<Dim> found) {
     report_.parts = std::move(found.history.parts);
     report_.frames = std::move(found.history.frames);
     report_.steps = std::move(found.history.steps);
-}
-
-// They are in every frame, of which each rank writes a slab.
-template <int Dim>
-void Run<Dim>::share_mesh_crcs() {
-    mesh_crcs_.resize(scene_.bodies.size());
-    for (std::uint32_t& crc : mesh_crcs_) {
-        crc = static_cast<std::uint32_t>(ranks_.list(crc)[0]);
-    }
 }
 
 template <int Dim>
@@ -355,13 +341,13 @@ RunReport Run<Dim>::operator()() {
             start_folder();
             begin_part(0);
             write_scene();
-            write_meshes();
         }
     });
-    share_mesh_crcs();
     if (!options_.resume) {
+        write_meshes();
         write_frame_files(0);
     }
+    meshes_.let_go();
     ranks_.write([&] { write_report(); });
     while (frame < scene_.frames && step_to_frame(frame + 1)) {
         ++frame;

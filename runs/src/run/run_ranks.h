@@ -36,6 +36,25 @@ public:
         return ranks_ == nullptr ? std::vector<double>{own} : ranks_->gather({&own, 1}, ones);
     }
 
+    /// The numbers of all, those of the first in front.
+    [[nodiscard]] std::vector<double> gather(const std::vector<double>& own) const {
+        if (ranks_ == nullptr) {
+            return own;
+        }
+        std::vector<std::int64_t> sizes;
+        for (const double size : list(static_cast<double>(own.size()))) {
+            sizes.push_back(static_cast<std::int64_t>(size));
+        }
+        return ranks_->gather(own, sizes);
+    }
+
+    /// Throws an Error on all unless they give the same checksum, see simulator::refuse_others().
+    void refuse_others(std::uint32_t checksum,
+                       const std::string& what,
+                       const std::string& advice) const {
+        simulator::refuse_others(ranks_, checksum, what, advice);
+    }
+
     /// Work that all do and that may fail on one; then it fails on all.
     void agree(const std::function<void()>& work) const override { simulator::agree(ranks_, work); }
 

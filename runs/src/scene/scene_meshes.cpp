@@ -4,7 +4,6 @@
 #include <pent/facets.h>
 #include <pent/formatted.h>
 #include <pent/number_bounds.h>
-#include <pent/pent_file.h>
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
@@ -17,33 +16,6 @@ namespace {
 
 std::string at(const std::string& source) {
     return source.empty() ? "" : source + ": ";
-}
-
-template <int Dim>
-SimplexMesh<Dim> read_body(const Body& body) {
-    try {
-        const FileInfo info = read_info(body.mesh);
-        if (info.dimension != Dim) {
-            throw Error(body.mesh + ": is of dimension " + std::to_string(info.dimension)
-                        + ", the scene of " + std::to_string(Dim) + "; expected another mesh, or"
-                        " [scene] dimension = " + std::to_string(info.dimension));
-        }
-        return read_mesh<Dim>(body.mesh).mesh;
-    } catch (const Error& error) {
-        throw Error(at(body.source) + error.what());
-    }
-}
-
-template <int Dim>
-void check_size(const SimplexMesh<Dim>& mesh, const Body& body) {
-    const double extent =
-        body.place.scale
-        * (mesh.positions.rowwise().maxCoeff() - mesh.positions.rowwise().minCoeff()).norm();
-    if (!is_size(extent)) {
-        throw Error(at(body.source) + "body \"" + body.name + "\" is placed "
-                    + formatted("%.3g m large; expected a size from %.0e to %.0e m", extent,
-                                kSmallestNumber, kLargestNumber));
-    }
 }
 
 // What is wrong with how cells meet; "" if nothing is.
@@ -65,45 +37,82 @@ bool do_overlap(const Constraint& a, const Constraint& b) {
     return a.from < b.to && b.from < a.to;
 }
 
-// Throws where a vertex is held by two constraints at one time.
+}  // namespace
+
 template <int Dim>
-void check_constraints(const Scene& scene, const std::vector<SimplexMesh<Dim>>& meshes) {
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        const Body& body = scene.bodies[i];
-        const SimplexMesh<Dim> placed = place(meshes[i], body);
-        std::multimap<std::uint32_t, const Constraint*> held;
-        for (const Constraint& constraint : scene.constraints) {
-            if (constraint.body != body.name) {
-                continue;
-            }
-            for (const std::uint32_t vertex : select_vertices(placed, constraint)) {
-                const auto [begin, end] = held.equal_range(vertex);
-                const auto other = std::find_if(begin, end, [&](const auto& entry) {
-                    return do_overlap(*entry.second, constraint);
-                });
-                if (other != end) {
-                    throw Error(at(constraint.source) + "vertex " + std::to_string(vertex)
-                                + " of body \"" + body.name
-                                + "\" is held by two constraints at one time"
-                                + (other->second->source.empty()
-                                       ? ""
-                                       : ", this one and that at " + other->second->source)
-                                + "; make their selections disjoint, or let one end before the"
-                                  " other begins");
-                }
-                held.emplace(vertex, &constraint);
-            }
+FileInfo info_of_mesh(const Body& body) {
+    FileInfo info;
+    with_place_of(body, [&] {
+        info = read_info(body.mesh);
+        if (info.dimension != Dim) {
+            throw Error(body.mesh + ": is of dimension " + std::to_string(info.dimension)
+                        + ", the scene of " + std::to_string(Dim) + "; expected another mesh, or"
+                        " [scene] dimension = " + std::to_string(info.dimension));
         }
+    });
+    return info;
+}
+
+void with_place_of(const Body& body, const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const Error& error) {
+        throw Error(at(body.source) + error.what());
     }
 }
 
-}  // namespace
+template <int Dim>
+void check_size(const SimplexMesh<Dim>& mesh, const Body& body) {
+    const double extent =
+        body.place.scale
+        * (mesh.positions.rowwise().maxCoeff() - mesh.positions.rowwise().minCoeff()).norm();
+    if (!is_size(extent)) {
+        throw Error(at(body.source) + "body \"" + body.name + "\" is placed "
+                    + formatted("%.3g m large; expected a size from %.0e to %.0e m", extent,
+                                kSmallestNumber, kLargestNumber));
+    }
+}
+
+template <int Dim>
+void check_constraints(const Scene& scene, const Body& body, const SimplexMesh<Dim>& mesh) {
+    if (std::none_of(scene.constraints.begin(), scene.constraints.end(),
+                     [&](const Constraint& constraint) { return constraint.body == body.name; })) {
+        return;
+    }
+    SimplexMesh<Dim> placed = mesh;
+    put_in_place(placed, body.place);
+    std::multimap<std::uint32_t, const Constraint*> held;
+    for (const Constraint& constraint : scene.constraints) {
+        if (constraint.body != body.name) {
+            continue;
+        }
+        for (const std::uint32_t vertex : select_vertices(placed, constraint)) {
+            const auto [begin, end] = held.equal_range(vertex);
+            const auto other = std::find_if(begin, end, [&](const auto& entry) {
+                return do_overlap(*entry.second, constraint);
+            });
+            if (other != end) {
+                throw Error(at(constraint.source) + "vertex " + std::to_string(vertex)
+                            + " of body \"" + body.name
+                            + "\" is held by two constraints at one time"
+                            + (other->second->source.empty()
+                                   ? ""
+                                   : ", this one and that at " + other->second->source)
+                            + "; make their selections disjoint, or let one end before the"
+                              " other begins");
+            }
+            held.emplace(vertex, &constraint);
+        }
+    }
+}
 
 template <int Dim>
 SceneMeshes<Dim> read_meshes(const Scene& scene) {
     SceneMeshes<Dim> result;
     for (const Body& body : scene.bodies) {
-        SimplexMesh<Dim> mesh = read_body<Dim>(body);
+        static_cast<void>(info_of_mesh<Dim>(body));
+        SimplexMesh<Dim> mesh;
+        with_place_of(body, [&] { mesh = read_mesh<Dim>(body.mesh).mesh; });
         check_size(mesh, body);
         if (const std::string what = misfit(mesh); !what.empty()) {
             const std::string line = body.mesh + ": its cells do not fit together: " + what;
@@ -116,11 +125,19 @@ SceneMeshes<Dim> read_meshes(const Scene& scene) {
         }
         result.meshes.push_back(std::move(mesh));
     }
-    check_constraints(scene, result.meshes);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        check_constraints(scene, scene.bodies[i], result.meshes[i]);
+    }
     return result;
 }
 
-template SceneMeshes<3> read_meshes<3>(const Scene&);
-template SceneMeshes<4> read_meshes<4>(const Scene&);
+#define PENT_INSTANTIATE(Dim)                                            \
+    template SceneMeshes<Dim> read_meshes<Dim>(const Scene&);            \
+    template FileInfo info_of_mesh<Dim>(const Body&);                    \
+    template void check_size<Dim>(const SimplexMesh<Dim>&, const Body&); \
+    template void check_constraints<Dim>(const Scene&, const Body&, const SimplexMesh<Dim>&);
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent::runs

@@ -2,8 +2,10 @@
 
 #include "simulator_names.h"
 
+#include <pent/pent_file.h>
 #include <pent/simplex_mesh.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,5 +26,24 @@ struct SceneMeshes {
 /// nothing or what another holds at that time.
 template <int Dim>
 [[nodiscard]] SceneMeshes<Dim> read_meshes(const Scene& scene);
+
+// What it checks of each body, which holds for bodies that are read in parts, too.
+
+/// What the header of its file says. Throws an Error for another dimension.
+template <int Dim>
+[[nodiscard]] FileInfo info_of_mesh(const Body& body);
+
+/// Does work whose Errors do not know where in the scene file the body is: then they say so.
+void with_place_of(const Body& body, const std::function<void()>& work);
+
+/// Throws an Error where the body is placed so small or large that volumes leave the range.
+template <int Dim>
+void check_size(const SimplexMesh<Dim>& mesh, const Body& body);
+
+/// Throws an Error where a vertex of a body is held by two constraints at one time.
+///
+/// @param mesh  As its file has it.
+template <int Dim>
+void check_constraints(const Scene& scene, const Body& body, const SimplexMesh<Dim>& mesh);
 
 }  // namespace pent::runs

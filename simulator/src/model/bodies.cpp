@@ -1,6 +1,7 @@
 #include "model/bodies.h"
 
 #include "model/append_bodies.h"
+#include "model/part_bodies.h"
 #include "model/rotation.h"
 
 #include <pent/dimensions.h>
@@ -12,22 +13,27 @@
 
 namespace pent::simulator {
 
-namespace {
-
+// Ranks that have the cells of their vertices alone find the masses of these, and tell the others.
 template <int Dim>
 void lump_masses(const Scene& scene, Bodies<Dim>& bodies) {
-    bodies.masses.setZero(bodies.vertex_count());
+    Eigen::Matrix<double, 1, Eigen::Dynamic> masses =
+        Eigen::Matrix<double, 1, Eigen::Dynamic>::Zero(bodies.vertex_count());
     for (const CellRange& range : bodies.ranges) {
         const Lame& lame = range.material.lame;
         for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
             const double volume = cell_volume<Dim>(bodies.rest, bodies.cells, cell);
             const double share = range.material.density * volume / (Dim + 1);
-            bodies.large_energy += (lame.mu + std::abs(lame.lambda)) * volume;
+            if (bodies.sharing.owns(bodies.cells(0, cell))) {
+                bodies.large_energy += (lame.mu + std::abs(lame.lambda)) * volume;
+            }
             for (int corner = 0; corner <= Dim; ++corner) {
-                bodies.masses[bodies.cells(corner, cell)] += share;
+                masses[bodies.cells(corner, cell)] += share;
             }
         }
     }
+    bodies.sharing.gather(masses);
+    bodies.large_energy = bodies.sharing.sum(bodies.large_energy);
+    bodies.masses = masses.transpose();
     for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
         for (Eigen::Index v = bodies.first_vertex[body]; v < bodies.first_vertex[body + 1]; ++v) {
             if (!(bodies.masses[v] > 0)) {
@@ -39,12 +45,17 @@ void lump_masses(const Scene& scene, Bodies<Dim>& bodies) {
     }
 }
 
-// A mesh without columns has one a vertex.
 template <int Dim>
-Columns number_columns(const Bodies<Dim>& bodies) {
+Columns number_columns(const std::vector<SimplexMesh<Dim>>& meshes) {
     Columns all;
+    std::size_t count = 0;
+    for (const SimplexMesh<Dim>& mesh : meshes) {
+        count += static_cast<std::size_t>(mesh.vertex_count());
+    }
+    all.columns.reserve(count);
+    all.layers.reserve(count);
     std::uint32_t next = 0;
-    for (const SimplexMesh<Dim>& mesh : bodies.meshes) {
+    for (const SimplexMesh<Dim>& mesh : meshes) {
         const auto vertices = static_cast<std::uint32_t>(mesh.vertex_count());
         const bool has_columns = !mesh.columns.empty();
         std::vector<std::uint32_t> sorted = mesh.columns;
@@ -65,24 +76,27 @@ Columns number_columns(const Bodies<Dim>& bodies) {
     return all;
 }
 
-}  // namespace
-
 template <int Dim>
-Bodies<Dim> make_bodies(const Scene& scene, std::vector<SimplexMesh<Dim>> meshes) {
+void check_meshes(const Scene& scene, std::size_t meshes) {
     check(scene);
     if (scene.dimension != Dim) {
         throw Error("the scene has dimension " + std::to_string(scene.dimension) + "; expected "
                     + std::to_string(Dim));
     }
-    if (meshes.size() != scene.bodies.size()) {
+    if (meshes != scene.bodies.size()) {
         throw Error("the scene has " + std::to_string(scene.bodies.size()) + " bodies; got "
-                    + std::to_string(meshes.size()) + " meshes");
+                    + std::to_string(meshes) + " meshes");
     }
+}
+
+template <int Dim>
+Bodies<Dim> make_bodies(const Scene& scene, std::vector<SimplexMesh<Dim>> meshes) {
+    check_meshes<Dim>(scene, meshes.size());
     Bodies<Dim> bodies;
     bodies.meshes = std::move(meshes);
     append_bodies(scene, bodies);
+    bodies.columns = number_columns(bodies.meshes);
     lump_masses(scene, bodies);
-    bodies.columns = number_columns(bodies);
     return bodies;
 }
 
@@ -130,7 +144,10 @@ Positions<Dim> start_velocities(const Scene& scene, const Bodies<Dim>& bodies) {
 
 #define PENT_INSTANTIATE(Dim)                                                           \
     template struct Bodies<Dim>;                                                        \
+    template Columns number_columns<Dim>(const std::vector<SimplexMesh<Dim>>&);         \
+    template void check_meshes<Dim>(const Scene&, std::size_t);                         \
     template Bodies<Dim> make_bodies<Dim>(const Scene&, std::vector<SimplexMesh<Dim>>); \
+    template void lump_masses<Dim>(const Scene&, Bodies<Dim>&);                         \
     template Positions<Dim> start_velocities<Dim>(const Scene&, const Bodies<Dim>&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 namespace pent::simulator {
@@ -16,6 +17,10 @@ namespace pent::simulator {
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+
+std::string name_as_placed(const Body& body) {
+    return body.mesh + " (as placed for body \"" + body.name + "\")";
+}
 
 }  // namespace
 
@@ -34,8 +39,7 @@ Matrix<Dim> rotation_of(const std::vector<Turn>& turns) {
 }
 
 template <int Dim>
-SimplexMesh<Dim> place(SimplexMesh<Dim> mesh, const Body& body) {
-    const Placement& placement = body.place;
+void put_in_place(SimplexMesh<Dim>& mesh, const Placement& placement) {
     if (placement.scale != 1) {
         mesh.positions *= placement.scale;
     }
@@ -46,8 +50,20 @@ SimplexMesh<Dim> place(SimplexMesh<Dim> mesh, const Body& body) {
     }
     const Vector<Dim> translate = placement.translate;
     mesh.positions.colwise() += translate;
-    validate(mesh, body.mesh + " (as placed for body \"" + body.name + "\")");
+}
+
+template <int Dim>
+SimplexMesh<Dim> place(SimplexMesh<Dim> mesh, const Body& body) {
+    put_in_place(mesh, body.place);
+    validate(mesh, name_as_placed(body));
     return mesh;
+}
+
+template <int Dim>
+MeshPart<Dim> place(MeshPart<Dim> part, const Body& body) {
+    put_in_place(part.mesh, body.place);
+    validate_part<Dim>(part.mesh, name_as_placed(body), part.numbers);
+    return part;
 }
 
 namespace {
@@ -191,10 +207,12 @@ Pose<Dim> pose_at(const Motion& motion, double time) {
 }
 
 template Matrix<2> plane_rotation<2>(const Plane&, double);
-#define PENT_INSTANTIATE(Dim)                                            \
-    template Matrix<Dim> plane_rotation<Dim>(const Plane&, double);      \
-    template Matrix<Dim> rotation_of<Dim>(const std::vector<Turn>&);     \
-    template SimplexMesh<Dim> place<Dim>(SimplexMesh<Dim>, const Body&); \
+#define PENT_INSTANTIATE(Dim)                                             \
+    template Matrix<Dim> plane_rotation<Dim>(const Plane&, double);       \
+    template Matrix<Dim> rotation_of<Dim>(const std::vector<Turn>&);      \
+    template void put_in_place<Dim>(SimplexMesh<Dim>&, const Placement&); \
+    template SimplexMesh<Dim> place<Dim>(SimplexMesh<Dim>, const Body&);  \
+    template MeshPart<Dim> place<Dim>(MeshPart<Dim>, const Body&);        \
     template Pose<Dim> pose_at<Dim>(const Motion&, double);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE

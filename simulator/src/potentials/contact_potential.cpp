@@ -1,7 +1,9 @@
 #include "potentials/contact_potential.h"
 
+#include "model/part_bodies.h"
 #include "potentials/contact_team.h"
 
+#include <pent/contact/boundary_surface.h>
 #include <pent/dimensions.h>
 #include <pent/stopwatch.h>
 
@@ -39,12 +41,11 @@ contact::ContactScene<Dim> contact_scene(const Scene& scene,
                       .self = contact.self,
                       .margin = is_searched_often ? kMargin * contact.distance : 0};
     for (std::size_t body = 0; body < bodies.count(); ++body) {
-        const SimplexMesh<Dim>& mesh = bodies.meshes[body];
         const auto first = static_cast<std::uint32_t>(bodies.first_vertex[body]);
         contact::Surface<Dim> surface;
         surface.first_vertex = first;
         if (do_bodies_meet) {
-            surface = contact::make_surface<Dim>(mesh.cells, mesh.vertex_count(), first);
+            surface = contact::surface_of<Dim>(boundary_of(bodies, body), first);
         }
         result.bodies.push_back(
             {scene.bodies[body].name, std::move(surface), held.is_kinematic(body)});

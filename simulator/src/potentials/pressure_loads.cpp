@@ -1,10 +1,10 @@
 #include "potentials/pressure_loads.h"
 
 #include "model/keyframes.h"
+#include "model/part_bodies.h"
 
 #include <pent/dimensions.h>
 #include <pent/error.h>
-#include <pent/facets.h>
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
@@ -120,14 +120,13 @@ std::vector<Eigen::Matrix<std::uint32_t, Dim, 1>> walls_of(const Simplices<Dim>&
 
 // Facets of a body's boundary of which every corner is selected, of all bodies counted through.
 template <int Dim>
-Simplices<Dim> select_facets(const Load& load,
-                             const SimplexMesh<Dim>& mesh,
-                             std::uint32_t first_vertex) {
+Simplices<Dim> select_facets(const Load& load, const Bodies<Dim>& bodies, std::size_t body) {
+    const SimplexMesh<Dim>& mesh = bodies.meshes[body];
     std::vector<bool> is_selected(static_cast<std::size_t>(mesh.vertex_count()), false);
     for (const std::uint32_t vertex : select_vertices(mesh, load)) {
         is_selected[vertex] = true;
     }
-    const Simplices<Dim> boundary = match_facets<Dim>(mesh.cells, mesh.vertex_count()).boundary;
+    const Simplices<Dim> boundary = boundary_of(bodies, body);
     std::vector<Eigen::Index> chosen;
     for (Eigen::Index i = 0; i < boundary.cols(); ++i) {
         const auto facet = boundary.col(i);
@@ -142,7 +141,7 @@ Simplices<Dim> select_facets(const Load& load,
                     + std::to_string(Dim) + " vertices selected; select more of the boundary");
     }
     Simplices<Dim> facets = boundary(Eigen::all, chosen);
-    facets.array() += first_vertex;
+    facets.array() += static_cast<std::uint32_t>(bodies.first_vertex[body]);
     return facets;
 }
 
@@ -185,9 +184,7 @@ typename PressureLoads<Dim>::PressedSurface PressureLoads<Dim>::make_pressed(
     pressed.body = index_of(scene, load.body);
     pressed.pressure = load.pressure;
     pressed.keyframes = load.keyframes;
-    pressed.facets =
-        select_facets<Dim>(load, bodies.meshes[pressed.body],
-                           static_cast<std::uint32_t>(bodies.first_vertex[pressed.body]));
+    pressed.facets = select_facets<Dim>(load, bodies, pressed.body);
     const Eigen::Index surface = pressed.facets.cols();
     const auto walls = walls_of<Dim>(pressed.facets);
     pressed.walls = static_cast<Eigen::Index>(walls.size());

@@ -1,5 +1,7 @@
 #include "step/crossing_error.h"
 
+#include "model/part_bodies.h"
+
 #include <pent/dimensions.h>
 
 #include <algorithm>
@@ -30,25 +32,15 @@ SimplexMesh<Dim> cells_of(const Bodies<Dim>& bodies,
     for (std::uint32_t s = 0; s < simplices.size(); ++s) {
         at_vertex[simplices[s].front()].push_back(s);
     }
-    std::vector<Cell<Dim>> cells;
+    const auto [cells, of_bodies] = list_cells<Dim>(bodies, [&](const Cell<Dim>& cell) {
+        return std::any_of(cell.begin(), cell.end(), [&](std::uint32_t corner) {
+            return std::any_of(
+                at_vertex[corner].begin(), at_vertex[corner].end(),
+                [&](std::uint32_t s) { return has_corners<Dim>(cell, simplices[s]); });
+        });
+    });
     SimplexMesh<Dim> mesh;
-    for (std::size_t body = 0; body < bodies.count(); ++body) {
-        const Simplices<Dim + 1>& own = bodies.meshes[body].cells;
-        for (Eigen::Index i = 0; i < own.cols(); ++i) {
-            const Cell<Dim> cell =
-                own.col(i).array() + static_cast<std::uint32_t>(bodies.first_vertex[body]);
-            bool is_one = false;
-            for (int corner = 0; corner <= Dim && !is_one; ++corner) {
-                for (const std::uint32_t s : at_vertex[cell[corner]]) {
-                    is_one |= has_corners<Dim>(cell, simplices[s]);
-                }
-            }
-            if (is_one) {
-                cells.push_back(cell);
-                mesh.regions.push_back(static_cast<std::uint16_t>(body));
-            }
-        }
-    }
+    mesh.regions.assign(of_bodies.begin(), of_bodies.end());
     std::vector<std::uint32_t> numbers(static_cast<std::size_t>(bodies.vertex_count()), kNone);
     std::vector<std::uint32_t> vertices;
     mesh.cells.resize(Dim + 1, static_cast<Eigen::Index>(cells.size()));

@@ -1,3 +1,4 @@
+#include "model/part_bodies.h"
 #include "step/host_checks.h"
 #include "step/stepper.h"
 
@@ -15,6 +16,15 @@ Simulation<Dim>::Simulation(const Scene& scene,
                             std::vector<SimplexMesh<Dim>> meshes,
                             const SimulationOptions& options)
     : stepper_(std::make_shared<Stepper>(scene, std::move(meshes), options)) {
+    stepper_->start();
+}
+
+template <int Dim>
+Simulation<Dim>::Simulation(const Scene& scene,
+                            std::vector<MeshPart<Dim>> parts,
+                            const SimulationOptions& options)
+    : stepper_(std::make_shared<Stepper>(
+        scene, make_part_bodies(scene, std::move(parts), options.ranks), options)) {
     stepper_->start();
 }
 

@@ -1,6 +1,7 @@
 // Bodies and obstacles that come and go: a Stepper of the changed scene takes the place of the old
 // one, in the same state.
 
+#include "model/part_bodies.h"
 #include "step/host_checks.h"
 #include "step/stepper.h"
 
@@ -136,12 +137,23 @@ void wake(const std::vector<std::size_t>& bodies, Snapshot<Dim>& snapshot) {
     }
 }
 
+// Nobody has the meshes that would be made anew.
+template <int Dim>
+void refuse_parts(const Bodies<Dim>& bodies) {
+    if (is_of_parts(bodies)) {
+        throw Error(
+            "bodies and obstacles come and go where every rank has whole meshes; this"
+            " simulation was given parts of them");
+    }
+}
+
 }  // namespace
 
 template <int Dim>
 void Simulation<Dim>::rebuild(const Scene& scene,
                               std::vector<SimplexMesh<Dim>> meshes,
                               const Snapshot<Dim>& snapshot) {
+    refuse_parts(stepper_->bodies());
     auto next = std::make_shared<Stepper>(scene, std::move(meshes), stepper_->options());
     next->restore(snapshot);
     stepper_ = std::move(next);
@@ -149,6 +161,7 @@ void Simulation<Dim>::rebuild(const Scene& scene,
 
 template <int Dim>
 void Simulation<Dim>::add_body(const Body& body, SimplexMesh<Dim> mesh) {
+    refuse_parts(stepper_->bodies());
     Scene scene = placed(stepper_->scene());
     scene.bodies.push_back(body);
     std::vector<SimplexMesh<Dim>> meshes = stepper_->bodies().meshes;

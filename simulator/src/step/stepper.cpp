@@ -36,12 +36,18 @@ template <int Dim>
 Simulation<Dim>::Stepper::Stepper(const Scene& scene,
                                   std::vector<SimplexMesh<Dim>> meshes,
                                   const SimulationOptions& options)
+    : Stepper(scene, share(scene, make_bodies(scene, std::move(meshes)), options.ranks), options) {}
+
+template <int Dim>
+Simulation<Dim>::Stepper::Stepper(const Scene& scene,
+                                  Bodies<Dim> bodies,
+                                  const SimulationOptions& options)
     : options_(options),
       scene_(scene),
       workers_(options.tasks ? Workers(*options.tasks) : Workers(options.threads)),
       isa_(choose_isa(options.isa, options.ranks.get())),
       kernels_(&kernels<Dim>(isa_)),
-      bodies_(share(scene, make_bodies(scene, std::move(meshes)), options.ranks)),
+      bodies_(std::move(bodies)),
       held_(scene, bodies_),
       energy_(workers_, *kernels_, bodies_, held_, scene),
       potential_(workers_, *kernels_, bodies_, held_, scene, energy_),

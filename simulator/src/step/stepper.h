@@ -25,6 +25,8 @@ class Simulation<Dim>::Stepper {
 public:
     using Holdings = std::vector<typename HostState<Dim>::Holding>;
 
+    /// @param bodies  Of the scene, shared by the ranks of the options.
+    Stepper(const Scene& scene, Bodies<Dim> bodies, const SimulationOptions& options);
     Stepper(const Scene& scene,
             std::vector<SimplexMesh<Dim>> meshes,
             const SimulationOptions& options);

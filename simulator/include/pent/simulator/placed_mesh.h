@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/mesh_part.h>
 #include <pent/simplex_mesh.h>
 #include <pent/simulator/scene.h>
 
@@ -14,6 +15,14 @@ namespace pent::simulator {
 /// Throws an Error that names the body if the placed mesh no longer passes validate().
 template <int Dim>
 [[nodiscard]] SimplexMesh<Dim> place(SimplexMesh<Dim> mesh, const Body& body);
+
+/// The same of a part of a mesh.
+template <int Dim>
+[[nodiscard]] MeshPart<Dim> place(MeshPart<Dim> part, const Body& body);
+
+/// The same, of which nothing is checked.
+template <int Dim>
+void put_in_place(SimplexMesh<Dim>& mesh, const Placement& placement);
 
 /// Vertices of a placed mesh that are selected by any of these, in increasing order.
 ///

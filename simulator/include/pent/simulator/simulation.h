@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/mesh_part.h>
 #include <pent/simplex_mesh.h>
 #include <pent/simulator/energies.h>
 #include <pent/simulator/host.h>
@@ -40,6 +41,17 @@ public:
     Simulation(const Scene& scene,
                std::vector<SimplexMesh<Dim>> meshes,
                const SimulationOptions& options = {});
+
+    /// The same on ranks of which none has a whole mesh.
+    ///
+    /// @param parts  One for each body, as loaded: all vertices, and the cells that touch a vertex
+    ///               of this rank (see mesh_parts.h).
+    ///
+    /// Throws an Error for scenes that can_take_parts() says no to, too, and for other vertices
+    /// than on other ranks. Whether cells are missing is not checked.
+    Simulation(const Scene& scene,
+               std::vector<MeshPart<Dim>> parts,
+               const SimulationOptions& options);
     ~Simulation();
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
@@ -59,10 +71,11 @@ public:
     [[nodiscard]] const Scene& scene() const;
 
     [[nodiscard]] int body_count() const;
-    [[nodiscard]] const SimplexMesh<Dim>& mesh(int body) const;  ///< As placed.
-    [[nodiscard]] View positions(int body) const;                ///< m.
-    [[nodiscard]] View velocities(int body) const;               ///< m/s.
-    [[nodiscard]] View forces(int body) const;                   ///< Of all that has an energy, N.
+    /// As placed; without cells on ranks that were given parts.
+    [[nodiscard]] const SimplexMesh<Dim>& mesh(int body) const;
+    [[nodiscard]] View positions(int body) const;   ///< m.
+    [[nodiscard]] View velocities(int body) const;  ///< m/s.
+    [[nodiscard]] View forces(int body) const;      ///< Of all that has an energy, N.
     [[nodiscard]] Eigen::Map<const Eigen::VectorXd> masses(int body) const;  ///< Lumped, kg.
 
     [[nodiscard]] std::shared_ptr<const void> arrays() const;  ///< Keeps what views of now show.

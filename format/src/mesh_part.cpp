@@ -1,0 +1,292 @@
+#include "pent/mesh_part.h"
+
+#include "extrusion_file.h"
+#include "input_file.h"
+#include "mesh_columns.h"
+#include "slab_sum.h"
+
+#include <pent/crc32c.h>
+#include <pent/error.h>
+#include <pent/extrusion.h>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace pent {
+
+namespace {
+
+std::size_t row_bytes(const PlyElement& element) {
+    std::size_t bytes = 0;
+    for (const PlyProperty& property : element.properties) {
+        bytes += size_of(property.type);
+    }
+    return bytes;
+}
+
+// Whether any writer has something of the kind.
+bool has_any(const SlabWriters* writers, std::size_t own) {
+    return place_slab(writers, own).all > 0;
+}
+
+// A mesh with one vertex and one cell that has what the slabs together have.
+template <int Dim>
+SimplexMesh<Dim> pattern_of(const SimplexMesh<Dim>& slab, const SlabWriters* writers) {
+    SimplexMesh<Dim> pattern;
+    pattern.positions.resize(Dim, 1);
+    pattern.cells.resize(Dim + 1, 1);
+    pattern.columns.resize(has_any(writers, slab.columns.size()) ? 1 : 0);
+    pattern.layers.resize(has_any(writers, slab.layers.size()) ? 1 : 0);
+    pattern.regions.resize(has_any(writers, slab.regions.size()) ? 1 : 0);
+    pattern.parents.resize(has_any(writers, slab.parents.size()) ? 1 : 0);
+    pattern.fibers.resize(Dim,
+                          has_any(writers, static_cast<std::size_t>(slab.fibers.cols())) ? 1 : 0);
+    return pattern;
+}
+
+template <int Dim>
+std::string encode(const SimplexMesh<Dim>& slab, Encoding encoding) {
+    std::string body;
+    if (slab.vertex_count() > 0) {
+        encode_rows(body, encoding, vertex_columns(slab),
+                    static_cast<std::uint64_t>(slab.vertex_count()));
+    }
+    if (slab.cell_count() > 0) {
+        encode_rows(body, encoding, cell_columns(slab),
+                    static_cast<std::uint64_t>(slab.cell_count()));
+    }
+    return body;
+}
+
+template <typename Value>
+std::vector<Value> cut(const std::vector<Value>& values, Eigen::Index first, Eigen::Index last) {
+    return values.empty() ? values
+                          : std::vector<Value>(values.begin() + first, values.begin() + last);
+}
+
+// The rows of one element alone, read as if they were a file.
+void read_rows(const std::filesystem::path& path,
+               std::uint64_t offset,
+               const PlyElement& rows,
+               const std::vector<Column>& columns) {
+    const std::size_t bytes = row_bytes(rows) * rows.count;
+    const InputFile file = read_input(path, bytes, offset);
+    Header header;
+    header.elements = {rows};
+    BodyReader(header, file.view(), path).read(columns);
+}
+
+Header header_of(const std::filesystem::path& path) {
+    constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
+    return parse_header(read_input(path, kLongestHeader).view(), path);
+}
+
+}  // namespace
+
+MeshSlab slab_of(Eigen::Index vertices, Eigen::Index cells, int place, int count) {
+    const Eigen::Index rows = vertices + cells;
+    const Eigen::Index first = rows * place / count;
+    const Eigen::Index last = rows * (place + 1) / count;
+    return {std::min(first, vertices), std::min(last, vertices),
+            std::max(first, vertices) - vertices, std::max(last, vertices) - vertices};
+}
+
+template <int Dim>
+SimplexMesh<Dim> rows_of(const SimplexMesh<Dim>& mesh, const MeshSlab& slab) {
+    const Eigen::Index vertices = slab.last_vertex - slab.first_vertex;
+    const Eigen::Index cells = slab.last_cell - slab.first_cell;
+    SimplexMesh<Dim> rows;
+    rows.positions = mesh.positions.middleCols(slab.first_vertex, vertices);
+    rows.columns = cut(mesh.columns, slab.first_vertex, slab.last_vertex);
+    rows.layers = cut(mesh.layers, slab.first_vertex, slab.last_vertex);
+    rows.cells = mesh.cells.middleCols(slab.first_cell, cells);
+    rows.regions = cut(mesh.regions, slab.first_cell, slab.last_cell);
+    rows.parents = cut(mesh.parents, slab.first_cell, slab.last_cell);
+    if (mesh.fibers.cols() > 0) {
+        rows.fibers = mesh.fibers.middleCols(slab.first_cell, cells);
+    }
+    return rows;
+}
+
+template <int Dim>
+std::uint32_t write_mesh_slab(const std::filesystem::path& path,
+                              const SimplexMesh<Dim>& slab,
+                              const WriteOptions& options) {
+    const SimplexMesh<Dim> pattern = pattern_of(slab, options.writers);
+    const auto count = [&](Eigen::Index own) {
+        return place_slab(options.writers, static_cast<std::uint64_t>(own)).all;
+    };
+    Header header;
+    header.info.dimension = Dim;
+    header.info.encoding = options.encoding;
+    header.info.created_by = options.created_by;
+    header.elements = {
+        make_element("vertex", count(slab.vertex_count()), vertex_columns(pattern)),
+        make_element(cell_name(Dim), count(slab.cell_count()), cell_columns(pattern))};
+    return write_file(path, std::move(header), encode(slab, options.encoding), options.writers);
+}
+
+template <int Dim>
+std::uint32_t checksum_of_mesh(const SimplexMesh<Dim>& slab, const SlabWriters* writers) {
+    return crc32c_of_slabs(writers, encode(slab, Encoding::Binary));
+}
+
+void check_checksum(const std::filesystem::path& path, const SlabWriters* readers) {
+    constexpr std::uint64_t kPiece = std::uint64_t{1} << 20;
+    Header header;
+    std::uint64_t bytes = 0;
+    const auto agree = [&](const std::function<void()>& work) {
+        readers != nullptr ? readers->agree(work) : work();
+    };
+    agree([&] {
+        header = header_of(path);
+        bytes = std::filesystem::file_size(path) - header.body;
+    });
+    if (!header.has_checksum || header.info.encoding != Encoding::Binary) {
+        return;
+    }
+    const std::uint64_t count = readers != nullptr ? readers->list(0).size() : 1;
+    const auto place = static_cast<std::uint64_t>(readers != nullptr ? readers->place() : 0);
+    const std::uint64_t first = bytes * place / count;
+    const std::uint64_t last = bytes * (place + 1) / count;
+    std::uint32_t sum = 0;
+    agree([&] {
+        for (std::uint64_t at = first; at < last;) {
+            const InputFile piece = read_input(path, std::min(kPiece, last - at), header.body + at);
+            if (piece.bytes == 0) {
+                throw Error(path.string() + ": became shorter while it was read");
+            }
+            sum = crc32c(piece.data.get(), piece.bytes, sum);
+            at += piece.bytes;
+        }
+    });
+    refuse_checksum(joined_crc32c(readers, sum, last - first), header.info.crc32c, path);
+}
+
+template <int Dim>
+struct MeshSource<Dim>::Content {
+    std::filesystem::path path;
+    Header header;
+    FileInfo info;
+    std::optional<Extrusion<Dim>> extrusion;
+};
+
+template <int Dim>
+bool MeshSource<Dim>::can_read(const FileInfo& info) {
+    return info.is_extrusion || (info.encoding == Encoding::Binary && !info.is_frame);
+}
+
+template <int Dim>
+MeshSource<Dim>::MeshSource(const std::filesystem::path& path, int parts)
+    : content_(std::make_unique<Content>()) {
+    constexpr std::uint64_t kMost = 0xffffffff;
+    content_->path = path;
+    content_->header = header_of(path);
+    const Header& header = content_->header;
+    content_->info = header.info;
+    if (pent::is_extrusion(header)) {
+        const InputFile file = read_input(path);
+        content_->extrusion = parse_extrusion<Dim>(header, file.view(), path);
+        content_->info = info_in_memory<Dim>(header, *content_->extrusion, parts, path);
+        return;
+    }
+    check_counts(header, std::filesystem::file_size(path) - header.body, path);
+    if (header.info.cells == 0 || header.info.cells > kMost) {
+        throw Error(path.string() + ": " + std::to_string(header.info.cells) + " "
+                    + std::string(cell_name_plural(Dim)) + ", expected 1 to 4294967295");
+    }
+}
+
+template <int Dim>
+MeshSource<Dim>::~MeshSource() = default;
+template <int Dim>
+MeshSource<Dim>::MeshSource(MeshSource&&) noexcept = default;
+template <int Dim>
+MeshSource<Dim>& MeshSource<Dim>::operator=(MeshSource&&) noexcept = default;
+
+template <int Dim>
+const FileInfo& MeshSource<Dim>::info() const {
+    return content_->info;
+}
+
+template <int Dim>
+bool MeshSource<Dim>::is_extrusion() const {
+    return content_->extrusion.has_value();
+}
+
+template <int Dim>
+SimplexMesh<Dim> MeshSource<Dim>::vertices() const {
+    if (content_->extrusion) {
+        return extrude_vertices<Dim>(*content_->extrusion);
+    }
+    const PlyElement& vertex = content_->header.elements[0];
+    SimplexMesh<Dim> mesh;
+    size_vertices(vertex, content_->path, mesh);
+    read_rows(content_->path, content_->header.body, vertex, vertex_columns(mesh));
+    return mesh;
+}
+
+template <int Dim>
+SimplexMesh<Dim> MeshSource<Dim>::cells(Eigen::Index first, Eigen::Index last) const {
+    if (content_->extrusion) {
+        if (first == last) {
+            return {};
+        }
+        const Eigen::Index each = cells_of_column<Dim>(content_->extrusion->layers);
+        std::vector<std::uint32_t> base(
+            static_cast<std::size_t>((last - 1) / each - first / each + 1));
+        std::iota(base.begin(), base.end(), static_cast<std::uint32_t>(first / each));
+        const Eigen::Index before = first / each * each;
+        return rows_of<Dim>(extrude_cells<Dim>(*content_->extrusion, base),
+                            {.first_cell = first - before, .last_cell = last - before});
+    }
+    const PlyElement& vertex = content_->header.elements[0];
+    PlyElement rows = content_->header.elements[1];
+    rows.count = static_cast<std::uint64_t>(last - first);
+    SimplexMesh<Dim> mesh;
+    size_cells(rows, content_->path, mesh);
+    read_rows(content_->path,
+              content_->header.body + vertex.count * row_bytes(vertex)
+                  + static_cast<std::uint64_t>(first) * row_bytes(rows),
+              rows, cell_columns(mesh));
+    return mesh;
+}
+
+template <int Dim>
+MeshPart<Dim> MeshSource<Dim>::cells_over(const std::vector<bool>& is_wanted) const {
+    const Simplices<Dim>& cells = content_->extrusion->base.cells;
+    std::vector<std::uint32_t> base;
+    for (Eigen::Index cell = 0; cell < cells.cols(); ++cell) {
+        const auto corners = cells.col(cell);
+        if (std::any_of(corners.begin(), corners.end(),
+                        [&](std::uint32_t vertex) { return is_wanted[vertex]; })) {
+            base.push_back(static_cast<std::uint32_t>(cell));
+        }
+    }
+    const auto each = static_cast<std::uint32_t>(cells_of_column<Dim>(content_->extrusion->layers));
+    MeshPart<Dim> part;
+    part.mesh = extrude_cells<Dim>(*content_->extrusion, base);
+    part.cell_count = static_cast<Eigen::Index>(content_->info.cells);
+    part.numbers.reserve(base.size() * each);
+    for (const std::uint32_t cell : base) {
+        for (std::uint32_t k = 0; k < each; ++k) {
+            part.numbers.push_back(cell * each + k);
+        }
+    }
+    return part;
+}
+
+#define PENT_INSTANTIATE(Dim)                                                                  \
+    template SimplexMesh<Dim> rows_of<Dim>(const SimplexMesh<Dim>&, const MeshSlab&);          \
+    template std::uint32_t write_mesh_slab<Dim>(const std::filesystem::path&,                  \
+                                                const SimplexMesh<Dim>&, const WriteOptions&); \
+    template std::uint32_t checksum_of_mesh<Dim>(const SimplexMesh<Dim>&, const SlabWriters*); \
+    template class MeshSource<Dim>;
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent

@@ -1,0 +1,79 @@
+#include "run/run_meshes.h"
+
+#include "run/resume.h"
+#include "scene/scene_meshes.h"
+#include "scene/scene_parts.h"
+
+#include <pent/simulator/placed_mesh.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace pent::runs {
+
+template <int Dim>
+Simulation<Dim> RunMeshes<Dim>::simulate(const simulator::SimulationOptions& options) {
+    if (std::optional<SceneParts<Dim>> parts = read_parts<Dim>(scene_, ranks_)) {
+        sources_ = std::move(parts->sources);
+        return {scene_, std::move(parts->parts), options};
+    }
+    SceneMeshes<Dim> meshes;
+    ranks_.agree([&] { meshes = read_meshes<Dim>(scene_); });
+    warnings_ = std::move(meshes.warnings);
+    return {scene_, std::move(meshes.meshes), options};
+}
+
+// The rows that this rank writes or compares.
+template <int Dim>
+SimplexMesh<Dim> RunMeshes<Dim>::slab_of_mesh(const SimplexMesh<Dim>& mesh, int body) const {
+    const int count = ranks_.count();
+    if (sources_.empty()) {
+        return rows_of(mesh,
+                       slab_of(mesh.vertex_count(), mesh.cell_count(), ranks_.place(), count));
+    }
+    const auto index = static_cast<std::size_t>(body);
+    const auto cells = static_cast<Eigen::Index>(sources_[index].info().cells);
+    const MeshSlab slab = slab_of(mesh.vertex_count(), cells, ranks_.place(), count);
+    SimplexMesh<Dim> rows = sources_[index].cells(slab.first_cell, slab.last_cell);
+    put_in_place(rows, scene_.bodies[index].place);  // fibers
+    SimplexMesh<Dim> vertices =
+        rows_of(mesh, {.first_vertex = slab.first_vertex, .last_vertex = slab.last_vertex});
+    rows.positions = std::move(vertices.positions);
+    rows.columns = std::move(vertices.columns);
+    rows.layers = std::move(vertices.layers);
+    return rows;
+}
+
+template <int Dim>
+std::uint32_t RunMeshes<Dim>::write(const std::filesystem::path& file,
+                                    const Simulation<Dim>& simulation,
+                                    int body,
+                                    const std::string& created_by) const {
+    const SimplexMesh<Dim>& mesh = simulation.mesh(body);
+    const WriteOptions options = {.created_by = created_by, .writers = ranks_.writers()};
+    if (options.writers == nullptr) {
+        return write_mesh(file, mesh, options);
+    }
+    SimplexMesh<Dim> slab;
+    ranks_.agree([&] { slab = slab_of_mesh(mesh, body); });
+    return write_mesh_slab(file, slab, options);
+}
+
+template <int Dim>
+std::uint32_t RunMeshes<Dim>::compare(const std::filesystem::path& file,
+                                      const Simulation<Dim>& simulation,
+                                      int body) const {
+    const SimplexMesh<Dim>& mesh = simulation.mesh(body);
+    if (ranks_.count() == 0) {
+        return check_same_mesh(file, mesh, ranks_);
+    }
+    SimplexMesh<Dim> slab;
+    ranks_.agree([&] { slab = slab_of_mesh(mesh, body); });
+    return check_same_mesh(file, slab, ranks_);
+}
+
+template class RunMeshes<3>;
+template class RunMeshes<4>;
+
+}  // namespace pent::runs

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "run/run_ranks.h"
+#include "simulator_names.h"
+
+#include <pent/mesh_part.h>
+#include <pent/simulator/simulation.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pent::runs {
+
+/// The meshes of a run: from their files into a simulation, and from there, as placed, into the
+/// run's folder. Where ranks have parts of them none has more than that, and a slab of a file.
+template <int Dim>
+class RunMeshes {
+public:
+    /// Both must outlive this.
+    RunMeshes(const Scene& scene, const RunRanks& ranks) : scene_(scene), ranks_(ranks) {}
+
+    /// Reads them, as read_parts() or else read_meshes().
+    [[nodiscard]] Simulation<Dim> simulate(const simulator::SimulationOptions& options);
+
+    /// What was found to be said of them.
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+
+    /// Writes a mesh, each rank a slab. Gives its checksum.
+    std::uint32_t write(const std::filesystem::path& file,
+                        const Simulation<Dim>& simulation,
+                        int body,
+                        const std::string& created_by) const;
+
+    /// Compares a mesh with a file, see check_same_mesh().
+    [[nodiscard]] std::uint32_t compare(const std::filesystem::path& file,
+                                        const Simulation<Dim>& simulation,
+                                        int body) const;
+
+    /// Once they are in the folder.
+    void let_go() { sources_.clear(); }
+
+private:
+    [[nodiscard]] SimplexMesh<Dim> slab_of_mesh(const SimplexMesh<Dim>& mesh, int body) const;
+
+    const Scene& scene_;
+    const RunRanks& ranks_;
+    std::vector<MeshSource<Dim>> sources_;  // of ranks that have parts
+    std::vector<std::string> warnings_;
+};
+
+}  // namespace pent::runs

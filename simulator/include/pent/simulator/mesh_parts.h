@@ -1,0 +1,30 @@
+#pragma once
+
+#include <pent/mesh_part.h>
+#include <pent/simulator/ranks.h>
+#include <pent/simulator/scene.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pent::simulator {
+
+/// Ranks need not have whole meshes: a Simulation takes, for each body, all vertices and the cells
+/// that touch a vertex of this rank.
+
+/// Whether it may be so for a scene. Not for terms that look farther: elements of more than one
+/// cell, activations, attachments and energy densities; not for regions of a body, nor where
+/// vertices are selected by a region's label.
+[[nodiscard]] bool can_take_parts(const Scene& scene);
+
+/// Which rank each vertex is at home on, of all bodies counted through. Throws an Error where there
+/// are more ranks than columns of vertices.
+///
+/// @param meshes  Of each body as loaded; cells do not count.
+/// @param ranks   At least 1.
+template <int Dim>
+[[nodiscard]] std::vector<std::uint32_t> share_vertices(const Scene& scene,
+                                                        const std::vector<SimplexMesh<Dim>>& meshes,
+                                                        int ranks);
+
+}  // namespace pent::simulator

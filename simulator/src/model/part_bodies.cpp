@@ -1,0 +1,224 @@
+#include "model/part_bodies.h"
+
+#include "model/near_cells.h"
+#include "model/partition.h"
+
+#include <pent/crc32c.h>
+#include <pent/dimensions.h>
+#include <pent/error.h>
+#include <pent/facets.h>
+#include <pent/simulator/mesh_parts.h>
+#include <pent/simulator/placed_mesh.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <variant>
+
+namespace pent::simulator {
+
+namespace {
+
+bool selects_by_region(const std::vector<Selection>& select) {
+    return std::any_of(select.begin(), select.end(), [](const Selection& selection) {
+        return std::holds_alternative<RegionSelection>(selection);
+    });
+}
+
+// Rows of numbers that begin with two that say where they belong: those of all ranks, in order.
+template <std::size_t Width>
+std::vector<std::array<double, Width>> gather_in_order(
+    const Sharing& sharing, const std::vector<std::array<double, Width>>& own) {
+    std::vector<std::int64_t> sizes;
+    for (const double count : sharing.list(static_cast<double>(own.size() * Width))) {
+        sizes.push_back(static_cast<std::int64_t>(count));
+    }
+    const auto* numbers = own.empty() ? nullptr : own.front().data();
+    const std::vector<double> flat = sharing.ranks().gather({numbers, own.size() * Width}, sizes);
+    std::vector<std::array<double, Width>> all(flat.size() / Width);
+    for (std::size_t i = 0; i < flat.size(); ++i) {
+        all[i / Width][i % Width] = flat[i];
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+template <int Dim>
+void append_part(const Body& body, MeshPart<Dim> part, std::size_t place, Bodies<Dim>& bodies) {
+    const auto first = static_cast<std::uint32_t>(bodies.first_vertex.back());
+    const Eigen::Index begin = bodies.first_cell.back();
+    const Eigen::Index end = begin + part.mesh.cell_count();
+    bodies.cells.middleCols(begin, end - begin) = part.mesh.cells.array() + first;
+    bodies.mesh_cells.insert(bodies.mesh_cells.end(), part.numbers.begin(), part.numbers.end());
+    bodies.ranges.push_back(
+        {.begin = begin, .end = end, .material = material_of(body, 0), .body = place, .region = 0});
+    bodies.cell_count += part.cell_count;
+    bodies.first_cell.push_back(end);
+    bodies.first_vertex.push_back(first + part.mesh.vertex_count());
+    bodies.rest.middleCols(first, part.mesh.vertex_count()) = part.mesh.positions;
+    part.mesh.cells.resize(Eigen::NoChange, 0);
+    part.mesh.regions.clear();
+    bodies.meshes.push_back(std::move(part.mesh));
+}
+
+}  // namespace
+
+bool can_take_parts(const Scene& scene) {
+    const auto selects = [](const auto& list) {
+        return std::any_of(list.begin(), list.end(),
+                           [](const auto& part) { return selects_by_region(part.select); });
+    };
+    return !do_terms_need_all_cells(scene) && !selects(scene.constraints) && !selects(scene.loads)
+           && std::all_of(scene.bodies.begin(), scene.bodies.end(),
+                          [](const Body& body) { return body.regions.empty(); });
+}
+
+template <int Dim>
+std::vector<std::uint32_t> share_vertices(const Scene& scene,
+                                          const std::vector<SimplexMesh<Dim>>& meshes,
+                                          int ranks) {
+    Eigen::Index count = 0;
+    for (const SimplexMesh<Dim>& mesh : meshes) {
+        count += mesh.vertex_count();
+    }
+    Positions<Dim> rest(Dim, count);
+    count = 0;
+    for (std::size_t body = 0; body < meshes.size(); ++body) {
+        SimplexMesh<Dim> placed;
+        placed.positions = meshes[body].positions;
+        put_in_place(placed, scene.bodies[body].place);
+        rest.middleCols(count, placed.vertex_count()) = placed.positions;
+        count += placed.vertex_count();
+    }
+    return partition_columns<Dim>(rest, number_columns(meshes), ranks);
+}
+
+template <int Dim>
+Bodies<Dim> make_part_bodies(const Scene& scene,
+                             std::vector<MeshPart<Dim>> parts,
+                             const std::shared_ptr<const Ranks>& ranks) {
+    check_meshes<Dim>(scene, parts.size());
+    if (ranks == nullptr || !can_take_parts(scene)) {
+        throw Error("parts of meshes were given for a scene that needs whole ones");
+    }
+    Bodies<Dim> bodies;
+    bodies.first_vertex = {0};
+    bodies.first_cell = {0};
+    Eigen::Index vertices = 0;
+    Eigen::Index cells = 0;
+    for (const MeshPart<Dim>& part : parts) {
+        vertices += part.mesh.vertex_count();
+        cells += part.mesh.cell_count();
+    }
+    bodies.rest.resize(Dim, vertices);
+    bodies.cells.resize(Dim + 1, cells);
+    agree(ranks.get(), [&] {
+        for (std::size_t body = 0; body < parts.size(); ++body) {
+            append_part(scene.bodies[body], place(std::move(parts[body]), scene.bodies[body]), body,
+                        bodies);
+        }
+    });
+    refuse_others(
+        ranks.get(),
+        crc32c(bodies.rest.data(), static_cast<std::size_t>(bodies.rest.size()) * sizeof(double)),
+        "other meshes", "let all of them read the same files");
+    bodies.columns = number_columns(bodies.meshes);
+    bodies.may_couple_anything = do_terms_couple_anything(scene);
+    bodies.sharing =
+        Sharing(ranks, partition_columns<Dim>(bodies.rest, bodies.columns, ranks->count()));
+    lump_masses(scene, bodies);
+    return bodies;
+}
+
+// A facet is of the rank that has its lowest corner at home, and with that both of its cells.
+template <int Dim>
+Simplices<Dim> boundary_of(const Bodies<Dim>& bodies, std::size_t body) {
+    if (!is_of_parts(bodies)) {
+        const SimplexMesh<Dim>& mesh = bodies.meshes[body];
+        return match_facets<Dim>(mesh.cells, mesh.vertex_count()).boundary;
+    }
+    const auto range = bodies.cells_of(body);
+    const auto first = static_cast<std::uint32_t>(bodies.first_vertex[body]);
+    const Simplices<Dim + 1> cells =
+        bodies.cells.middleCols(range.begin, range.size).array() - first;
+    const FacetMatch<Dim> match = match_facets<Dim>(cells, bodies.meshes[body].vertex_count());
+    std::vector<std::array<double, Dim + 2>> own;
+    for (std::size_t i = 0; i < match.boundary_cells.size(); ++i) {
+        const auto facet = match.boundary.col(static_cast<Eigen::Index>(i));
+        const std::uint32_t cell = match.boundary_cells[i];
+        if (!bodies.sharing.owns(facet.minCoeff() + first)) {
+            continue;
+        }
+        const auto corners = cells.col(cell);
+        int opposite = 0;
+        while ((facet.array() == corners[opposite]).any()) {
+            ++opposite;
+        }
+        std::array<double, Dim + 2>& row = own.emplace_back();
+        row[0] = bodies.mesh_cell(body, range.begin + cell);
+        row[1] = opposite;
+        std::copy(facet.begin(), facet.end(), row.begin() + 2);
+    }
+    const auto all = gather_in_order(bodies.sharing, own);
+    Simplices<Dim> boundary(Dim, static_cast<Eigen::Index>(all.size()));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        for (int corner = 0; corner < Dim; ++corner) {
+            boundary(corner, static_cast<Eigen::Index>(i)) =
+                static_cast<std::uint32_t>(all[i][static_cast<std::size_t>(corner) + 2]);
+        }
+    }
+    return boundary;
+}
+
+template <int Dim>
+CellList<Dim> list_cells(
+    const Bodies<Dim>& bodies,
+    const std::function<bool(const Eigen::Matrix<std::uint32_t, Dim + 1, 1>&)>& is_wanted) {
+    using Cell = Eigen::Matrix<std::uint32_t, Dim + 1, 1>;
+    CellList<Dim> list;
+    std::vector<std::array<double, Dim + 3>> own;
+    for (std::size_t body = 0; body < bodies.count(); ++body) {
+        const auto first = static_cast<std::uint32_t>(bodies.first_vertex[body]);
+        const Simplices<Dim + 1>& whole = bodies.meshes[body].cells;
+        for (Eigen::Index i = 0; i < whole.cols(); ++i) {
+            const Cell cell = whole.col(i).array() + first;
+            if (is_wanted(cell)) {
+                list.cells.push_back(cell);
+                list.bodies.push_back(body);
+            }
+        }
+        const auto range = bodies.cells_of(body);
+        for (Eigen::Index i = range.begin; is_of_parts(bodies) && i < range.begin + range.size;
+             ++i) {
+            const Cell cell = bodies.cells.col(i);
+            if (bodies.sharing.owns(cell[0]) && is_wanted(cell)) {
+                std::array<double, Dim + 3>& row = own.emplace_back();
+                row[0] = static_cast<double>(body);
+                row[1] = bodies.mesh_cell(body, i);
+                std::copy(cell.begin(), cell.end(), row.begin() + 2);
+            }
+        }
+    }
+    if (is_of_parts(bodies)) {
+        for (const auto& row : gather_in_order(bodies.sharing, own)) {
+            list.bodies.push_back(static_cast<std::size_t>(row[0]));
+            std::transform(row.begin() + 2, row.end(), list.cells.emplace_back().begin(),
+                           [](double vertex) { return static_cast<std::uint32_t>(vertex); });
+        }
+    }
+    return list;
+}
+
+#define PENT_INSTANTIATE(Dim)                                                            \
+    template std::vector<std::uint32_t> share_vertices<Dim>(                             \
+        const Scene&, const std::vector<SimplexMesh<Dim>>&, int);                        \
+    template Bodies<Dim> make_part_bodies<Dim>(const Scene&, std::vector<MeshPart<Dim>>, \
+                                               const std::shared_ptr<const Ranks>&);     \
+    template Simplices<Dim> boundary_of<Dim>(const Bodies<Dim>&, std::size_t);           \
+    template CellList<Dim> list_cells<Dim>(                                              \
+        const Bodies<Dim>&,                                                              \
+        const std::function<bool(const Eigen::Matrix<std::uint32_t, Dim + 1, 1>&)>&);
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent::simulator

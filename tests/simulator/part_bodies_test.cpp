@@ -1,0 +1,142 @@
+#include "model/part_bodies.h"
+
+#include "contact_scenes.h"
+#include "cut_meshes.h"
+#include "scenes.h"
+#include "support/messages.h"
+#include "thread_ranks.h"
+
+#include <pent/facets.h>
+#include <pent/simulator/simulation.h>
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+namespace pent::simulator {
+namespace {
+
+using pent::test::error_of;
+using pent::test::expect_contains;
+
+// Two bars one beside the other, of which one is turned.
+Scene two_bars() {
+    Scene scene = test::box_scene<4>();
+    Body second = scene.bodies[0];
+    second.name = "second";
+    second.place.translate = Eigen::Vector4d(0, 3, 0, 0);
+    second.place.rotate = {{.plane = {0, 2}, .degrees = 30}};
+    scene.bodies.push_back(second);
+    scene.constraints = {test::hold(
+        HalfSpaceSelection{.normal = Eigen::Vector4d(1, 0, 0, 0), .offset = 1e-6}, test::still(4))};
+    return scene;
+}
+
+std::vector<SimplexMesh<4>> meshes() {
+    return {test::bar(), test::bar()};
+}
+
+// What is made of parts is what is made of whole meshes, but for the cells of the meshes.
+TEST(PartBodies, AreThoseOfWholeMeshes) {
+    const Scene scene = two_bars();
+    const Bodies<4> all = make_bodies<4>(scene, meshes());
+    ASSERT_FALSE(is_of_parts(all));
+    for (const int count : {1, 2, 3, 5}) {
+        SCOPED_TRACE(count);
+        test::on_ranks(count, [&](const std::shared_ptr<const Ranks>& ranks) {
+            const Bodies<4> own =
+                make_part_bodies<4>(scene, test::cut_meshes<4>(scene, meshes(), *ranks), ranks);
+            EXPECT_TRUE(is_of_parts(own));
+            EXPECT_EQ(own.rest, all.rest);
+            EXPECT_EQ(own.masses, all.masses);
+            EXPECT_NEAR(own.large_energy, all.large_energy, 1e-12 * all.large_energy);
+            EXPECT_EQ(own.cell_count, all.cell_count);
+            EXPECT_EQ(own.first_vertex, all.first_vertex);
+            EXPECT_EQ(own.is_dirichlet, all.is_dirichlet);
+            EXPECT_EQ(own.columns.columns, all.columns.columns);
+            EXPECT_EQ(own.meshes[1].positions, all.meshes[1].positions);
+            EXPECT_EQ(own.meshes[1].cell_count(), 0);
+            for (std::size_t body = 0; body < 2; ++body) {
+                EXPECT_EQ(boundary_of(own, body),
+                          match_facets<4>(all.meshes[body].cells, all.meshes[body].vertex_count())
+                              .boundary);
+            }
+        });
+    }
+}
+
+// Those with an even sum of corners, say.
+TEST(PartBodies, ListCellsOfAllRanksInTheirOrder) {
+    const Scene scene = two_bars();
+    const auto is_wanted = [](const Eigen::Matrix<std::uint32_t, 5, 1>& cell) {
+        return cell.sum() % 2 == 0;
+    };
+    const CellList<4> expected = list_cells<4>(make_bodies<4>(scene, meshes()), is_wanted);
+    ASSERT_GT(expected.cells.size(), 10U);
+    test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
+        const CellList<4> found = list_cells<4>(
+            make_part_bodies<4>(scene, test::cut_meshes<4>(scene, meshes(), *ranks), ranks),
+            is_wanted);
+        EXPECT_EQ(found.cells, expected.cells);
+        EXPECT_EQ(found.bodies, expected.bodies);
+    });
+}
+
+TEST(PartBodies, AreRefusedWhereAllCellsAreNeeded) {
+    EXPECT_TRUE(can_take_parts(two_bars()));
+    const auto refuses = [](const auto& change) {
+        Scene scene = two_bars();
+        change(scene);
+        test::on_ranks(2, [&](const std::shared_ptr<const Ranks>& ranks) {
+            expect_contains(error_of([&] {
+                                Simulation<4>(scene, test::cut_meshes<4>(scene, meshes(), *ranks),
+                                              {.ranks = ranks});
+                            }),
+                            {"needs whole ones"});
+        });
+        return !can_take_parts(scene);
+    };
+    EXPECT_TRUE(refuses([](Scene& scene) { scene.solver.elements = ElementKind::Smoothed; }));
+    EXPECT_TRUE(refuses([](Scene& scene) {
+        scene.bodies[1].regions = {{.name = "all",
+                                    .select = {EverythingSelection{}},
+                                    .material = scene.bodies[0].material}};
+    }));
+    EXPECT_TRUE(refuses(
+        [](Scene& scene) { scene.constraints[0].select = {RegionSelection{.region = 3}}; }));
+    EXPECT_TRUE(
+        refuses([](Scene& scene) { scene.output.vertex = {VertexQuantity::EnergyDensity}; }));
+}
+
+// One rank finds it, all are told.
+TEST(PartBodies, SayWhichCellOfTheWholeMeshIsWrong) {
+    const Scene scene = two_bars();
+    test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
+        std::vector<MeshPart<4>> parts = test::cut_meshes<4>(scene, meshes(), *ranks);
+        const auto last = static_cast<std::uint32_t>(parts[1].cell_count - 1);
+        if (!parts[1].numbers.empty() && parts[1].numbers.back() == last) {
+            auto cell = parts[1].mesh.cells.rightCols(1);
+            std::swap(cell(0, 0), cell(1, 0));
+        }
+        expect_contains(
+            error_of([&] { Simulation<4>(scene, std::move(parts), {.ranks = ranks}); }),
+            {"as placed for body \"second\"", "pentachoron " + std::to_string(last), "inverted"});
+    });
+}
+
+TEST(PartBodies, RefuseOtherVerticesAndChangesOfTheScene) {
+    const Scene scene = two_bars();
+    test::on_ranks(2, [&](const std::shared_ptr<const Ranks>& ranks) {
+        std::vector<MeshPart<4>> parts = test::cut_meshes<4>(scene, meshes(), *ranks);
+        Simulation<4> simulation(scene, parts, {.ranks = ranks});
+        expect_contains(error_of([&] { simulation.remove_body(0); }), {"whole meshes"});
+        expect_contains(error_of([&] { simulation.add_body(scene.bodies[0], test::bar()); }),
+                        {"whole meshes"});
+        parts[0].mesh.positions(0, 0) -= 1e-3 * ranks->rank();
+        expect_contains(error_of([&] { Simulation<4>(scene, parts, {.ranks = ranks}); }),
+                        {"rank 1 has other meshes than rank 0"});
+    });
+}
+
+}  // namespace
+}  // namespace pent::simulator
