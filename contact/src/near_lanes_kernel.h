@@ -33,34 +33,31 @@ constexpr float kRounding = 4e-6F;
 constexpr float kRelativeRounding = 1e-5F;
 
 // Squares of lengths below would be lost in float.
-constexpr float kLeast = 1e-15F;
+constexpr float kLeastLength = 1e-15F;
 
 // Lanes of a patch, one in each lane of a register.
 struct Chosen {
-    Truths::Vector lanes;
-
-    [[gnu::always_inline]] explicit Chosen(const std::int32_t* from) {
-        __builtin_memcpy(&lanes, from, sizeof lanes);
-    }
+    const std::int32_t* lanes;
 
     // Of kLanes numbers those in the chosen lanes.
     [[nodiscard, gnu::always_inline]] Floats of(const float* numbers) const {
 #if defined(__AVX512F__)
-        return Floats(reinterpret_cast<Floats::Vector>(_mm512_maskz_permutexvar_ps(
-            0xffff, reinterpret_cast<__m512i>(lanes), _mm512_loadu_ps(numbers))));
+        const __m512i which = _mm512_loadu_si512(lanes);
+        return Floats(reinterpret_cast<Floats::Vector>(
+            _mm512_maskz_permutexvar_ps(0xffff, which, _mm512_loadu_ps(numbers))));
 #elif defined(__AVX2__)
-        const auto which = reinterpret_cast<__m256i>(lanes);
+        const __m256i which = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(lanes));
         const __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(numbers), which);
         const __m256 high =
             _mm256_permutevar8x32_ps(_mm256_loadu_ps(numbers + kRegisterLanes), which);
         const __m256 is_high = _mm256_castsi256_ps(_mm256_slli_epi32(which, 28));
         return Floats(reinterpret_cast<Floats::Vector>(_mm256_blendv_ps(low, high, is_high)));
 #else
-        Floats chosen;
+        float chosen[kRegisterLanes];  // NOLINT(modernize-avoid-c-arrays)
         for (int i = 0; i < kRegisterLanes; ++i) {
-            chosen.lanes[i] = numbers[lanes[i]];
+            chosen[i] = numbers[lanes[i]];
         }
-        return chosen;
+        return Floats::load(chosen);
 #endif
     }
 };
@@ -209,7 +206,8 @@ struct Pairs {
                 break;
             }
             const Floats way = dot<Dim>(toward, toward);
-            const Floats part = -dot<Dim>(line, toward) / max(way, Floats(kLeast * kLeast));
+            const Floats part =
+                -dot<Dim>(line, toward) / max(way, Floats(kLeastLength * kLeastLength));
             const Floats step = min(max(part, Floats(0.0F)), Floats(1.0F));
             for (int axis = 0; axis < Dim; ++axis) {
                 line[axis] = multiply_add(step, toward[axis], line[axis]);
@@ -318,8 +316,8 @@ private:
         const std::int32_t* of_first, const std::int32_t* of_second) const {
         Pairs<Dim, K, L, IsStill> pairs;
         for (int end = 0; end < kEnds; ++end) {
-            pairs.first[end].set(first_[end], Chosen(of_first), kNoShift);
-            pairs.second[end].set(second_[end], Chosen(of_second), shift_[end]);
+            pairs.first[end].set(first_[end], Chosen{of_first}, kNoShift);
+            pairs.second[end].set(second_[end], Chosen{of_second}, shift_[end]);
         }
         return pairs;
     }
@@ -335,7 +333,7 @@ void find_near(const LanesOnPaths& patches, double distance, std::uint16_t* near
     const PatchPair<Dim, K, L, IsStill> pair(patches);
     const float limit =
         static_cast<float>(distance) * (1 + kRelativeRounding) + kRounding * pair.size();
-    const bool is_told = limit > kLeast;
+    const bool is_told = limit > kLeastLength;
     const std::uint32_t all = (1U << patches.second_start.count) - 1;
     for (int i = 0; i < kLanes; ++i) {
         near[i] = static_cast<std::uint16_t>(is_told || i >= patches.first_start.count ? 0U : all);

@@ -154,6 +154,7 @@ TEST(HeldVertices, StayWhereTheyAreTakenUp) {
     const Bodies<4> bodies = make_bars(scene);
     HeldVertices<4> held(scene, bodies);
     Positions<4> moved = bodies.rest;
+    moved.row(0).array() += 0.3;
     moved.row(3).array() += moved.row(1).array().square() + 0.7;
     static_cast<void>(held.hold(3, moved));
     Positions<4> placed = moved;
