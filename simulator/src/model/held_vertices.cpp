@@ -197,8 +197,9 @@ void HeldVertices<Dim>::set_places(const Positions<Dim>& places) {
 }
 
 template <int Dim>
-bool HeldVertices<Dim>::hold_for_host(std::vector<std::uint32_t> vertices,
-                                      const Positions<Dim>& targets) {
+bool HeldVertices<Dim>::hold_for_host(
+    std::vector<std::uint32_t> vertices,  // NOLINT(performance-unnecessary-value-param): moved
+    const Positions<Dim>& targets) {
     const bool has_changed = vertices != of_host_.vertices;
     of_host_.vertices = std::move(vertices);
     of_host_.targets = targets;
