@@ -21,6 +21,10 @@ struct MeshPart {
     Eigen::Index cell_count = 0;         ///< Of the whole mesh.
 };
 
+/// Of several meshes.
+template <int Dim>
+using MeshParts = std::vector<MeshPart<Dim>>;
+
 /// validate() of a mesh of which only some cells are here, or none.
 ///
 /// @param numbers  Which cells of the whole they are, for messages; empty if the first ones.

@@ -9,8 +9,11 @@
 
 namespace pent::simulator {
 
-/// Ranks need not have whole meshes: a Simulation takes, for each body, all vertices and the cells
-/// that touch a vertex of this rank.
+/// Ranks need not have whole meshes: a Simulation takes, for each body, a part as loaded: all
+/// vertices, and the cells that touch a vertex of this rank. Its constructor then throws an Error
+/// for scenes that can_take_parts() says no to, too, and for other vertices than on other ranks.
+/// Whether cells are missing is not checked. Simulation::mesh() has no cells then, and bodies and
+/// obstacles do not come and go.
 
 /// Whether it may be so for a scene. Not for terms that look farther: elements of more than one
 /// cell, activations, attachments and energy densities; not for regions of a body, nor where

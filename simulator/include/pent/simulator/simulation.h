@@ -1,7 +1,6 @@
 #pragma once
 
 #include <pent/mesh_part.h>
-#include <pent/simplex_mesh.h>
 #include <pent/simulator/energies.h>
 #include <pent/simulator/host.h>
 #include <pent/simulator/scene.h>
@@ -41,17 +40,8 @@ public:
     Simulation(const Scene& scene,
                std::vector<SimplexMesh<Dim>> meshes,
                const SimulationOptions& options = {});
-
-    /// The same on ranks of which none has a whole mesh.
-    ///
-    /// @param parts  One for each body, as loaded: all vertices, and the cells that touch a vertex
-    ///               of this rank (see mesh_parts.h).
-    ///
-    /// Throws an Error for scenes that can_take_parts() says no to, too, and for other vertices
-    /// than on other ranks. Whether cells are missing is not checked.
-    Simulation(const Scene& scene,
-               std::vector<MeshPart<Dim>> parts,
-               const SimulationOptions& options);
+    /// On ranks that have parts of the meshes, see mesh_parts.h.
+    Simulation(const Scene& scene, MeshParts<Dim> parts, const SimulationOptions& options);
     ~Simulation();
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
@@ -60,22 +50,19 @@ public:
 
     /// One time step of Scene::dt().
     ///
-    /// An attempt fails when the linear solver does not reach its tolerance or the state stops
-    /// being finite; it is then thrown away and the step cut in two, up to
-    /// SolverOptions::max_halvings times. If that does not help, the report says so and the state
-    /// stays as it was.
+    /// An attempt fails when the linear solver does not reach its tolerance or the state is not
+    /// finite; the step is then cut in two, up to SolverOptions::max_halvings times. If that does
+    /// not help, the report says so and the state stays as it was.
     [[nodiscard]] StepReport step();
 
-    /// With the bodies and obstacles that are there now; bodies have nothing left to be placed by
-    /// once one was added or removed.
+    /// As it is now; bodies have nothing left to be placed by once one was added or removed.
     [[nodiscard]] const Scene& scene() const;
 
     [[nodiscard]] int body_count() const;
-    /// As placed; without cells on ranks that were given parts.
-    [[nodiscard]] const SimplexMesh<Dim>& mesh(int body) const;
-    [[nodiscard]] View positions(int body) const;   ///< m.
-    [[nodiscard]] View velocities(int body) const;  ///< m/s.
-    [[nodiscard]] View forces(int body) const;      ///< Of all that has an energy, N.
+    [[nodiscard]] const SimplexMesh<Dim>& mesh(int body) const;  ///< As placed; of parts no cells.
+    [[nodiscard]] View positions(int body) const;                ///< m.
+    [[nodiscard]] View velocities(int body) const;               ///< m/s.
+    [[nodiscard]] View forces(int body) const;                   ///< Of all that has an energy, N.
     [[nodiscard]] Eigen::Map<const Eigen::VectorXd> masses(int body) const;  ///< Lumped, kg.
 
     [[nodiscard]] std::shared_ptr<const void> arrays() const;  ///< Keeps what views of now show.
