@@ -2,6 +2,7 @@
 // step, and the part of a product that is theirs.
 
 #include "kernels/kernels.h"
+#include "model/body_dofs.h"
 #include "potentials/contact_potential.h"
 #include "step_scenes.h"
 
@@ -14,10 +15,11 @@ namespace {
 struct Touching {
     Workers workers{1};
     Scene scene = bench::hug_scene(false);
-    Bodies<4> bodies = make_bodies<4>(scene, {bench::hug_body(1), bench::hug_body(2)});
-    DofMap dofs = number_dofs(bodies, {true, true});
+    const Bodies<4> bodies = make_bodies<4>(scene, {bench::hug_body(1), bench::hug_body(2)});
+    const HeldVertices<4> held{scene, bodies};
+    const DofMap dofs = number_dofs(bodies, held, {true, true});
     BlockPattern pattern = make_pattern<4>(bodies.cells, dofs);
-    ContactPotential<4> contact{workers, scene, bodies};
+    ContactPotential<4> contact{workers, scene, bodies, held};
     NewtonSystem<4> system{workers, dofs, pattern, Precision::Float};
     Positions<4> gradient = Positions<4>::Zero(4, bodies.vertex_count());
 
@@ -26,7 +28,7 @@ struct Touching {
     void assemble() {
         system.begin(BlockVector<4>::Zero(4, dofs.count()),
                      Positions<4>::Zero(4, bodies.vertex_count()));
-        contact.add_hessian(1, Filter::Clamp, system);
+        contact.add_hessian(bodies.rest, 1, Filter::Clamp, system);
         system.finish();
     }
 

@@ -5,6 +5,7 @@
 //
 //   bench_contact_ranks [RANKS...]
 
+#include "model/body_dofs.h"
 #include "potentials/contact_potential.h"
 #include "simulator/thread_ranks.h"
 #include "step/rank_agreement.h"
@@ -62,9 +63,10 @@ Cost cost_of(const Scene& scene, const std::shared_ptr<const Ranks>& ranks) {
     const Workers workers(1);
     const Bodies<4> bodies =
         share<4>(scene, make_bodies<4>(scene, {bench::hug_body(1), bench::hug_body(2)}), ranks);
-    const DofMap dofs = number_dofs(bodies, {true, true});
+    const HeldVertices<4> held(scene, bodies);
+    const DofMap dofs = number_dofs(bodies, held, {true, true});
     const BlockPattern pattern = make_pattern<4>(bodies.cells, dofs);
-    ContactPotential<4> contact(workers, scene, bodies);
+    ContactPotential<4> contact(workers, scene, bodies, held);
     NewtonSystem<4> system(workers, dofs, pattern, Precision::Float);
     Positions<4> gradient = Positions<4>::Zero(4, bodies.vertex_count());
     const auto evaluate = [&](const Positions<4>& x) {
@@ -80,7 +82,7 @@ Cost cost_of(const Scene& scene, const std::shared_ptr<const Ranks>& ranks) {
             add_seconds(cost.hessians, [&] {
                 system.begin(BlockVector<4>::Zero(4, dofs.count()),
                              Positions<4>::Zero(4, bodies.vertex_count()));
-                contact.add_hessian(1, Filter::Clamp, system);
+                contact.add_hessian(x, 1, Filter::Clamp, system);
             });
             add_seconds(cost.limit, [&] { static_cast<void>(contact.max_step(x, next)); });
             add_seconds(cost.energy, [&] { evaluate(next); });

@@ -101,7 +101,8 @@ TYPED_TEST(ActiveStrainTest, GivesEveryCellTheEnergyOfWhatIsLeftOfItsDeformation
         scene.bodies[0].material.model = law;
         scene.bodies[0].material.second_invariant = 0.4;
         const Setting<kDim> setting(scene, 2);
-        Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, scene);
+        Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, setting.held,
+                                    scene);
         const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.03, 11);
         double expected = 0;
         int both = 0;
@@ -142,9 +143,10 @@ TYPED_TEST(ActiveStrainTest, KeepsTheDerivativesThoseOfTheEnergy) {
             scene.activations[0].signal = Signal::Sine;
             scene.activations[0].wave = Eigen::VectorXd::Constant(kDim, 0.7);
             const Setting<kDim> setting(scene, 2);
-            Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, scene);
+            Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, setting.held,
+                                        scene);
             EXPECT_TRUE(elasticity.set_time({0.1, 0.2}));
-            expect_derivatives<kDim>(setting, elasticity.pattern(), elasticity,
+            expect_derivatives<kDim>(setting, *elasticity.pattern(), elasticity,
                                      shaken<kDim>(setting.bodies.rest, 0.02, 12));
         }
     }
@@ -160,7 +162,8 @@ TYPED_TEST(ActiveStrainTest, OfAllAlikeHasNoEnergyInTheExactShape) {
             scene.activations = {muscle<kDim>(1.4)};
             scene.activations[0].fibers = fibers;
             const Setting<kDim> setting(scene, 2);
-            Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, scene);
+            Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, setting.held,
+                                        scene);
             const Positions<kDim> shape =
                 active_deformation<kDim>(scene.activations[0], 1, scene.activations[0].direction)
                 * setting.bodies.rest;
@@ -191,7 +194,8 @@ TYPED_TEST(ActiveStrainTest, HasFibersByDistanceAndOfTheMeshAsByADirection) {
             mesh.fibers.row(1).setConstant(-3);
             const Bodies<kDim> bodies = make_bodies<kDim>(changed, {mesh});
             const Workers workers(1);
-            Elasticity<kDim> elasticity(workers, kernels<kDim>(Isa::Scalar), bodies, changed);
+            Elasticity<kDim> elasticity(workers, kernels<kDim>(Isa::Scalar), bodies,
+                                        HeldVertices<kDim>(changed, bodies), changed);
             static_cast<void>(elasticity.set_time({0, 0.1}));
             return value_of<kDim>(elasticity, shaken<kDim>(bodies.rest, 0.02, 13));
         };

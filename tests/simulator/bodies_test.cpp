@@ -1,20 +1,14 @@
 #include "model/bodies.h"
 
 #include "scenes.h"
-#include "support/messages.h"
 
 #include <gtest/gtest.h>
-
-#include <algorithm>
 
 namespace pent::simulator {
 namespace {
 
 using test::bar;
 using test::box_scene;
-using test::hold;
-using test::left_end;
-using test::still;
 
 // Two bars of different length, the second of them moved and turned.
 Scene two_bars() {
@@ -72,51 +66,6 @@ TEST(Bodies, HaveTheMassOfTheirVolume) {
     EXPECT_GT(bodies.masses.minCoeff(), 0);
 }
 
-TEST(Bodies, KnowTheVerticesWhosePlacesAreGiven) {
-    Scene scene = two_bars();
-    scene.constraints = {hold(left_end(), still(4)), hold(EverythingSelection{}, still(4))};
-    scene.constraints[1].body = "other";
-    const Bodies<4> bodies = make_bodies<4>(scene, {bar(2), bar(3)});
-    EXPECT_EQ(bodies.dirichlet_sets.size(), 2U);
-    for (Eigen::Index v = 0; v < bodies.vertex_count(); ++v) {
-        const bool expected = v >= bodies.first_vertex[1] || bodies.rest(0, v) < 1e-6;
-        EXPECT_EQ(bodies.is_dirichlet[static_cast<std::size_t>(v)], expected) << v;
-    }
-    EXPECT_FALSE(bodies.is_kinematic(0));
-    EXPECT_TRUE(bodies.is_kinematic(1));
-    const DofMap dofs = number_dofs(bodies, {true, true});
-    EXPECT_EQ(dofs.count(),
-              std::count(bodies.is_dirichlet.begin(), bodies.is_dirichlet.end(), false));
-    EXPECT_EQ(number_dofs(bodies, {false, true}).count(), 0U);
-}
-
-// The velocity of what is given is the derivative of where it is, by central differences.
-TEST(Bodies, MoveWhatIsGivenWithTheVelocityOfItsMotion) {
-    Scene scene = box_scene<4>();
-    Motion motion = still(4);
-    motion.translate = Eigen::Vector4d(1, 2, 3, 4);
-    motion.rotate = {{{0, 3}, 60}, {{1, 2}, -100}};
-    scene.constraints = {hold(left_end(), motion)};
-    const Bodies<4> bodies = make_bodies<4>(scene, {bar(2)});
-    const double time = 0.3;
-    const double step = 1e-6;
-    const auto at = [&](double moment, Positions<4>* velocities) {
-        Positions<4> positions = bodies.rest;
-        place_dirichlet<4>(bodies, moment, positions, velocities);
-        return positions;
-    };
-    Positions<4> velocities = Positions<4>::Zero(4, bodies.vertex_count());
-    const Positions<4> now = at(time, &velocities);
-    const Positions<4> slope = (at(time + step, nullptr) - at(time - step, nullptr)) / (2 * step);
-    EXPECT_LT((velocities - slope).norm(), 1e-8 * slope.norm());
-    EXPECT_GT(slope.norm(), 1);
-    for (Eigen::Index v = 0; v < now.cols(); ++v) {
-        if (!bodies.is_dirichlet[static_cast<std::size_t>(v)]) {
-            EXPECT_EQ(now.col(v), bodies.rest.col(v));
-        }
-    }
-}
-
 TEST(Bodies, StartWithTheVelocitiesOfTheScene) {
     Scene scene = two_bars();
     scene.bodies[1].velocity = Eigen::Vector4d(1, 2, 3, 4);
@@ -125,18 +74,6 @@ TEST(Bodies, StartWithTheVelocitiesOfTheScene) {
     const auto [begin, size] = bodies.vertices(1);
     EXPECT_EQ(velocities.leftCols(begin).norm(), 0);
     EXPECT_EQ((velocities.rightCols(size).colwise() - Eigen::Vector4d(1, 2, 3, 4)).norm(), 0);
-}
-
-TEST(Bodies, RefuseTwoConstraintsOnAVertexAndOnesThatSelectNone) {
-    Scene scene = box_scene<4>();
-    scene.constraints = {hold(left_end(), still(4)), hold(EverythingSelection{}, still(4))};
-    pent::test::expect_contains(
-        pent::test::error_of([&] { static_cast<void>(make_bodies<4>(scene, {bar(2)})); }),
-        {"vertex 0", "\"box\""});
-    scene.constraints = {
-        hold(HalfSpaceSelection{.normal = Eigen::Vector4d::UnitX(), .offset = -1}, still(4))};
-    EXPECT_NE(pent::test::error_of([&] { static_cast<void>(make_bodies<4>(scene, {bar(2)})); }),
-              "");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-#include "model/bodies.h"
+#include "model/body_dofs.h"
+
 #include "scenes.h"
 #include "step/rank_agreement.h"
 #include "thread_ranks.h"
@@ -40,11 +41,13 @@ Bodies<4> make_bars(const Scene& scene) {
 using Vertices = std::set<std::uint32_t>;
 
 // Not held, and of a body that is in.
-Vertices free_vertices(const Bodies<4>& bodies, const std::vector<bool>& is_in) {
+Vertices free_vertices(const Bodies<4>& bodies,
+                       const HeldVertices<4>& held,
+                       const std::vector<bool>& is_in) {
     Vertices free;
     for (std::size_t body = 0; body < is_in.size(); ++body) {
         for (Eigen::Index v = bodies.first_vertex[body]; v < bodies.first_vertex[body + 1]; ++v) {
-            if (is_in[body] && !bodies.is_dirichlet[static_cast<std::size_t>(v)]) {
+            if (is_in[body] && !held.is_held(static_cast<std::uint32_t>(v))) {
                 free.insert(static_cast<std::uint32_t>(v));
             }
         }
@@ -78,18 +81,19 @@ void expect_map_of(const DofMap& dofs, const Bodies<4>& bodies, const Vertices& 
 // Every set of bodies that are awake, while the second is held and after.
 TEST(BodyDofs, AreTheFreeVerticesOfTheBodiesThatAreIn) {
     const Scene scene = three_bars();
-    Bodies<4> bodies = make_bars(scene);
+    const Bodies<4> bodies = make_bars(scene);
+    HeldVertices<4> held(scene, bodies);
     for (const std::uint64_t step : {0U, 5U}) {
-        static_cast<void>(simulator::hold<4>(scene, step, bodies.rest, bodies));
+        static_cast<void>(held.hold(step, bodies.rest));
         for (unsigned set = 0; set < 8; ++set) {
             SCOPED_TRACE(set);
             const std::vector<bool> is_in = {(set & 1U) != 0, (set & 2U) != 0, (set & 4U) != 0};
-            const Vertices expected = free_vertices(bodies, is_in);
+            const Vertices expected = free_vertices(bodies, held, is_in);
             EXPECT_EQ(expected.empty(), set == 0 || (set == 2 && step == 0));
-            const DofMap dofs = number_dofs(bodies, is_in);
+            const DofMap dofs = number_dofs(bodies, held, is_in);
             expect_map_of(dofs, bodies, expected);
             EXPECT_EQ(dofs.row_count(), dofs.count());
-            EXPECT_EQ(number_dofs_alike(bodies, is_in).vertices(), dofs.vertices());
+            EXPECT_EQ(number_dofs_alike(bodies, held, is_in).vertices(), dofs.vertices());
         }
     }
 }
@@ -97,17 +101,17 @@ TEST(BodyDofs, AreTheFreeVerticesOfTheBodiesThatAreIn) {
 // What a host holds is not solved for, either, and is again when it lets go.
 TEST(BodyDofs, AreNotThoseThatAHostHolds) {
     const Scene scene = three_bars();
-    Bodies<4> bodies = make_bars(scene);
+    const Bodies<4> bodies = make_bars(scene);
+    HeldVertices<4> held(scene, bodies);
     const auto third = static_cast<std::uint32_t>(bodies.first_vertex[2]);
     const std::vector<bool> is_in(3, true);
-    const Vertices before = free_vertices(bodies, is_in);
-    static_cast<void>(
-        hold_for_host<4>({third, third + 2}, bodies.rest(Eigen::all, {0, 1}), bodies));
+    const Vertices before = free_vertices(bodies, held, is_in);
+    static_cast<void>(held.hold_for_host({third, third + 2}, bodies.rest(Eigen::all, {0, 1})));
     Vertices without = before;
     EXPECT_EQ(without.erase(third) + without.erase(third + 2), 2U);
-    expect_map_of(number_dofs(bodies, is_in), bodies, without);
-    static_cast<void>(hold_for_host<4>({}, Positions<4>(4, 0), bodies));
-    expect_map_of(number_dofs(bodies, is_in), bodies, before);
+    expect_map_of(number_dofs(bodies, held, is_in), bodies, without);
+    static_cast<void>(held.hold_for_host({}, Positions<4>(4, 0)));
+    expect_map_of(number_dofs(bodies, held, is_in), bodies, before);
 }
 
 // Rows are the free vertices that a rank owns, and behind them are columns: those of others that it
@@ -117,8 +121,9 @@ void expect_maps_of_ranks(int count, const std::vector<bool>& is_in) {
     std::vector<DofMap> maps(static_cast<std::size_t>(count));
     std::vector<DofMap> alike(maps.size());
     test::on_ranks(count, [&](const std::shared_ptr<const Ranks>& ranks) {
-        Bodies<4> bodies = share(scene, make_bars(scene), ranks);
-        const Vertices free = free_vertices(bodies, is_in);
+        const Bodies<4> bodies = share(scene, make_bars(scene), ranks);
+        const HeldVertices<4> held(scene, bodies);
+        const Vertices free = free_vertices(bodies, held, is_in);
         Vertices own_or_coupled;
         for (const std::uint32_t v : free) {
             const bool is_in_a_cell = (bodies.cells.array() == v).any();
@@ -126,7 +131,7 @@ void expect_maps_of_ranks(int count, const std::vector<bool>& is_in) {
                 own_or_coupled.insert(v);
             }
         }
-        const DofMap dofs = number_dofs(bodies, is_in);
+        const DofMap dofs = number_dofs(bodies, held, is_in);
         expect_map_of(dofs, bodies, own_or_coupled);
         for (std::uint32_t dof = 0; dof < dofs.count(); ++dof) {
             const std::uint32_t vertex = dofs.vertex_of(dof);
@@ -135,7 +140,7 @@ void expect_maps_of_ranks(int count, const std::vector<bool>& is_in) {
         }
         const auto rank = static_cast<std::size_t>(ranks->rank());
         maps[rank] = dofs;
-        alike[rank] = number_dofs_alike(bodies, is_in);
+        alike[rank] = number_dofs_alike(bodies, held, is_in);
         expect_map_of(alike[rank], bodies, free);
     });
     Vertices rows;

@@ -22,7 +22,7 @@ TYPED_TEST_SUITE(ContactPotentialTest, Dimensions);
 TYPED_TEST(ContactPotentialTest, ABarrierHasTheDerivativesOfItsEnergy) {
     constexpr int kDim = TypeParam::value;
     const Setting<kDim> setting(barrier_scene<kDim>(), 2);
-    ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies);
+    ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies, setting.held);
     const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.006, 12);
     ASSERT_GT(value_of<kDim>(contact, x), 0);
     ASSERT_GT(contact.contacts().pair_count, 0U);
@@ -35,7 +35,7 @@ TYPED_TEST(ContactPotentialTest, ABarrierBetweenBodiesPushesBothAlike) {
     Scene scene = barrier_scene<kDim>();
     scene.obstacles.clear();
     const Setting<kDim> setting(scene, 2);
-    ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies);
+    ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies, setting.held);
     const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.006, 13);
     ASSERT_GT(value_of<kDim>(contact, x), 0);
     expect_invariance_under_rigid_motion<kDim>(contact, x);
@@ -80,7 +80,7 @@ TYPED_TEST(ContactPotentialTest, APenaltyOfVerticesAndFacetsHasTheGradientOfItsE
     constexpr int kDim = TypeParam::value;
     constexpr double kStep = 1e-6;
     const Setting<kDim> setting(two_cubes<kDim>(0.03), 2);
-    ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies);
+    ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies, setting.held);
     int compared = 0;
     for (unsigned seed = 0; seed < 10; ++seed) {
         const Positions<kDim> x = shaken<kDim>(on_a_corner<kDim>(setting.bodies), 1e-3, seed);
@@ -105,7 +105,7 @@ TYPED_TEST(ContactPotentialTest, APenaltyOfVerticesAndFacetsHasTheGradientOfItsE
 TYPED_TEST(ContactPotentialTest, APenaltyPushesBothBodiesAlikeAndDoesNotSeeRigidMotions) {
     constexpr int kDim = TypeParam::value;
     const Setting<kDim> setting(two_cubes<kDim>(0.03), 2);
-    ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies);
+    ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies, setting.held);
     const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.006, 14);
     ASSERT_GT(value_of<kDim>(contact, x), 0);
     ASSERT_GT(contact.summary().mixed, 0);
@@ -127,7 +127,8 @@ TYPED_TEST(ContactPotentialTest, AnObstacleHasTheDerivativesOfItsEnergy) {
         scene.obstacles = {{.shape = shape, .distance = 0.05, .stiffness = 700}};
         scene.contact = Contact{.filter = Filter::None};
         const Setting<kDim> setting(scene, 1);
-        ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies);
+        ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies,
+                                       setting.held);
         const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.02, 16);
         ASSERT_GT(value_of<kDim>(contact, x), 0);
         expect_derivatives<kDim>(setting, contact, x, 1e-6);

@@ -24,7 +24,7 @@ TYPED_TEST(CrossingErrorTest, HasTheCellsThatCrossWithTheirBodies) {
     constexpr int kDim = TypeParam::value;
     const Setting<kDim> setting(barrier_scene<kDim>(), 1);
     const Bodies<kDim>& bodies = setting.bodies;
-    ContactPotential<kDim> contacts(setting.workers, setting.scene, setting.bodies);
+    ContactPotential<kDim> contacts(setting.workers, setting.scene, setting.bodies, setting.held);
     Positions<kDim> x = bodies.rest;
     EXPECT_TRUE(contacts.find_crossings(x).empty());
     const auto [begin, size] = bodies.vertices(1);

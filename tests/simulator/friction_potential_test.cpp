@@ -20,7 +20,7 @@ TYPED_TEST_SUITE(FrictionPotentialTest, Dimensions);
 TYPED_TEST(FrictionPotentialTest, HasTheDerivativesOfItsEnergyAndNeverPushesAlongTheSlip) {
     constexpr int kDim = TypeParam::value;
     const Setting<kDim> setting(barrier_scene<kDim>(), 2);
-    ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies);
+    ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies, setting.held);
     const Positions<kDim> start = shaken<kDim>(setting.bodies.rest, 0.006, 17);
     ASSERT_GT(value_of<kDim>(contact, start), 0);
     const Positions<kDim> still = Positions<kDim>::Zero(kDim, start.cols());
@@ -41,7 +41,7 @@ TYPED_TEST(FrictionPotentialTest, BetweenBodiesKeepsTheirMomentum) {
     Scene scene = barrier_scene<kDim>();
     scene.obstacles.clear();
     const Setting<kDim> setting(scene, 2);
-    ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies);
+    ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies, setting.held);
     const Positions<kDim> start = shaken<kDim>(setting.bodies.rest, 0.006, 19);
     ASSERT_GT(value_of<kDim>(contact, start), 0);
     FrictionPotential<kDim> friction(contact, {.coefficient = 0.4, .slip_speed = 1e-3});

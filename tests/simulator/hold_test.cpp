@@ -1,5 +1,5 @@
 #include "contact_scenes.h"
-#include "model/bodies.h"
+#include "model/rotation.h"
 #include "support/messages.h"
 
 #include <pent/error.h>

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 // The weighted sum that a step minimizes, over the vertices that are solved for.
 
@@ -32,31 +33,28 @@ struct Step {
     Positions<Dim> start;
     Positions<Dim> velocities;
     Positions<Dim> travel;
-    StepProblem<Dim> problem;
+    std::shared_ptr<StepProblem<Dim>> problem;
 
     explicit Step(const Scene& scene)
         : setting(scene, 2),
-          energy(setting.workers, setting.isa, setting.bodies, setting.scene),
-          potential(setting.workers,
-                    setting.isa,
-                    setting.bodies,
-                    setting.scene,
-                    energy.sum,
-                    *energy.elasticity),
+          energy(setting.workers, setting.isa, setting.bodies, setting.held, setting.scene),
+          potential(
+              setting.workers, setting.isa, setting.bodies, setting.held, setting.scene, energy),
           start(shaken<Dim>(setting.bodies.rest, 0.006, 1)),
           velocities(shaken<Dim>(0 * start, 0.3, 2)),
           travel(0 * start),
-          problem(euler_problem<Dim>({start, velocities}, 0.01)) {
+          problem(
+              std::make_shared<StepProblem<Dim>>(euler_problem<Dim>({start, velocities}, 0.01))) {
         energy.sum.update(start);
-        problem.prescribed = start;
-        for (const DirichletSet<Dim>& set : setting.bodies.dirichlet_sets) {
+        problem->prescribed = start;
+        for (const DirichletSet<Dim>& set : setting.held.sets()) {
             for (const std::uint32_t vertex : set.vertices) {
                 travel.col(vertex).setConstant(1e-3);
-                problem.prescribed.col(vertex) += travel.col(vertex);
+                problem->prescribed.col(vertex) += travel.col(vertex);
             }
         }
         potential.begin_step(
-            problem, {start, velocities, problem.origin, travel, 0.01, problem.rate, false});
+            problem, {start, velocities, problem->origin, travel, 0.01, problem->rate, false});
     }
 };
 
@@ -113,7 +111,7 @@ TYPED_TEST(IncrementalPotentialTest, SolvesForTheDirectionThatItsGradientsAskFor
     x = shaken<kDim>(x, 1e-9, 9);
     for (std::uint32_t vertex = 0; vertex < step.potential.dofs().vertex_count(); ++vertex) {
         if (!step.potential.dofs().has_dof(vertex)) {
-            x.col(vertex) = step.problem.prescribed.col(vertex);
+            x.col(vertex) = step.problem->prescribed.col(vertex);
         }
     }
     const Positions<kDim> gradient = step.potential.evaluate(x).gradient;
@@ -150,12 +148,12 @@ TYPED_TEST(IncrementalPotentialTest, LeavesOutBodiesThatSleep) {
     constexpr int kDim = TypeParam::value;
     Step<kDim> step(busy_scene<kDim>());
     const std::uint32_t all = step.potential.dofs().count();
-    step.potential.renumber({true, false}, step.start);
+    step.potential.renumber(step.setting.held, {true, false}, step.start);
     const DofMap& dofs = step.potential.dofs();
     EXPECT_LT(dofs.count(), all);
     step.energy.sum.update(step.start);
-    step.potential.begin_step(step.problem, {step.start, step.velocities, step.problem.origin,
-                                             step.travel, 0.01, step.problem.rate, false});
+    step.potential.begin_step(step.problem, {step.start, step.velocities, step.problem->origin,
+                                             step.travel, 0.01, step.problem->rate, false});
     const Evaluation<kDim> at = step.potential.evaluate(step.start);
     const auto first = step.setting.bodies.vertices(0);
     EXPECT_EQ(at.gradient.middleCols(first.begin, first.size).norm(), 0);

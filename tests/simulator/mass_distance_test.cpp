@@ -23,9 +23,10 @@ TYPED_TEST(MassDistanceTest, IsHalfTheSquaredDistanceOfWhatIsSolvedFor) {
                    test::still(kDim))};
     const Setting<kDim> setting(scene, 1);
     ASSERT_LT(setting.dofs.count(), setting.dofs.vertex_count());
-    MassDistance<kDim> inertia(setting.workers, setting.dofs, setting.bodies.masses);
+    MassDistance<kDim> inertia(setting.workers, std::make_shared<const DofMap>(setting.dofs),
+                               setting.bodies.masses);
     const Positions<kDim> anchor = shaken<kDim>(setting.bodies.rest, 0.2, 2);
-    inertia.set_anchor(anchor);
+    inertia.set_anchor(std::make_shared<const Positions<kDim>>(anchor));
     const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.2, 3);
     expect_derivatives<kDim>(setting, inertia, x);
     double expected = 0;

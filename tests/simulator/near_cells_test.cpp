@@ -1,5 +1,6 @@
 #include "model/near_cells.h"
 
+#include "model/body_dofs.h"
 #include "scenes.h"
 #include "step/rank_agreement.h"
 #include "thread_ranks.h"
@@ -119,7 +120,7 @@ TEST(NearCells, HaveAllVerticesThatRowsCouple) {
                 is_coupled[vertex] = is_coupled[vertex] || is_near;
             }
         }
-        const DofMap dofs = number_dofs(near, {true, true});
+        const DofMap dofs = number_dofs(near, HeldVertices<4>(scene, near), {true, true});
         EXPECT_EQ(dofs.row_count(), near.sharing.own_count(all.vertex_count()));
         EXPECT_LT(dofs.count(), all.vertex_count());
         for (std::uint32_t vertex = 0; vertex < is_coupled.size(); ++vertex) {

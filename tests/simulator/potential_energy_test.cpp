@@ -24,7 +24,8 @@ public:
         gradient += k_ * x;
         return value_;
     }
-    void add_hessian(double /*weight*/,
+    void add_hessian(const Positions<kDim>& /*x*/,
+                     double /*weight*/,
                      Filter /*filter*/,
                      NewtonSystem<kDim>& /*system*/) override {}
     std::vector<TermEnergy> energies() const override {

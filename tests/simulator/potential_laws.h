@@ -2,7 +2,7 @@
 
 #include "contact_scenes.h"
 #include "elastic_box.h"
-#include "model/bodies.h"
+#include "model/body_dofs.h"
 #include "model/rotation.h"
 #include "potentials/potential.h"
 
@@ -40,6 +40,7 @@ struct Setting {
     Workers workers{2};
     const Kernels<Dim>& isa = kernels<Dim>(best_isa());
     Bodies<Dim> bodies;
+    HeldVertices<Dim> held;
     DofMap dofs;
 
     Setting(const Scene& of, int cells)
@@ -47,7 +48,8 @@ struct Setting {
           bodies(make_bodies<Dim>(
               scene,
               std::vector<SimplexMesh<Dim>>(scene.bodies.size(), cube_for<Dim>(scene, cells)))),
-          dofs(number_dofs(bodies, std::vector<bool>(bodies.count(), true))) {}
+          held(scene, bodies),
+          dofs(number_dofs(bodies, held, std::vector<bool>(bodies.count(), true))) {}
 };
 
 // Positions shaken by up to `size`, m.
@@ -83,7 +85,7 @@ Eigen::MatrixXd hessian_of(const Setting<Dim>& setting,
     system.begin(BlockVector<Dim>::Zero(Dim, setting.dofs.count()),
                  Positions<Dim>::Zero(Dim, x.cols()));
     static_cast<void>(value_of<Dim>(term, x));
-    term.add_hessian(kWeight, filter, system);
+    term.add_hessian(x, kWeight, filter, system);
     system.finish();
     const auto& matrix = std::get<BlockMatrix<Dim, double>>(system.matrix());
     Eigen::MatrixXd sum = ElasticBox<Dim>::dense(matrix);

@@ -99,7 +99,7 @@ double volume_of(const Setting<Dim>& setting, const Positions<Dim>& x) {
 TYPED_TEST(PressureLoadsTest, OnAClosedSurfaceIsPressureTimesVolumeAndNeitherPushesNorTurns) {
     constexpr int kDim = TypeParam::value;
     const Setting<kDim> setting(pressed_scene<kDim>(EverythingSelection{}), 2);
-    PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies);
+    PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies, setting.held);
     const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.05, 1);
     const double expected = kPressure * volume_of<kDim>(setting, x);
     EXPECT_NEAR(value_of<kDim>(loads, x), expected, 1e-13 * expected);
@@ -118,7 +118,7 @@ TYPED_TEST(PressureLoadsTest, HasItsDerivativesWhereTheBodyIsFlatInsideOutOrAPoi
     const std::vector<Selection> selections = {EverythingSelection{}, one_half<kDim>()};
     for (const Selection& selection : selections) {
         const Setting<kDim> setting(pressed_scene<kDim>(selection), 2);
-        PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies);
+        PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies, setting.held);
         Positions<kDim> flat = shaken<kDim>(setting.bodies.rest, 0.02, 4);
         flat.row(1).setConstant(0.25);
         Positions<kDim> inside_out = shaken<kDim>(setting.bodies.rest, 0.02, 5);
@@ -141,7 +141,7 @@ TYPED_TEST(PressureLoadsTest, OnAnOpenSurfaceIsNormalToEachFacetAsItIsAtTheStart
     for (const double offset : {1e-9, 0.3}) {
         const Selection selection = offset > 0.1 ? one_half<kDim>() : one_side<kDim>();
         const Setting<kDim> setting(pressed_scene<kDim>(selection), 2);
-        PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies);
+        PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies, setting.held);
         const auto is_selected = [&](std::uint32_t v) {
             return setting.bodies.rest(0, v) <= offset;
         };
@@ -169,7 +169,7 @@ TYPED_TEST(PressureLoadsTest, WithinAFixedRimFollowsTheSurfaceExactly) {
     const HalfSpaceSelection behind{.normal = -Eigen::VectorXd::Unit(kDim, 0), .offset = -0.1};
     scene.constraints = {{.body = "box", .select = {behind}, .motion = {}}};
     const Setting<kDim> setting(scene, 2);
-    PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies);
+    PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies, setting.held);
     EXPECT_TRUE(loads.energies().at(0).is_stored);
     Positions<kDim> x = setting.bodies.rest;
     for (const std::uint32_t vertex : setting.dofs.vertices()) {
@@ -192,7 +192,7 @@ TYPED_TEST(PressureLoadsTest, WithinAFixedRimFollowsTheSurfaceExactly) {
 TYPED_TEST(PressureLoadsTest, HasAHessianThatLetsABodyMoveAsAWholeAndNoneWhereItIsFiltered) {
     constexpr int kDim = TypeParam::value;
     const Setting<kDim> setting(pressed_scene<kDim>(EverythingSelection{}), 2);
-    PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies);
+    PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies, setting.held);
     const auto pattern = make_pattern<kDim>(setting.bodies.cells, setting.dofs);
     const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.05, 9);
     const Eigen::MatrixXd exact = hessian_of<kDim>(setting, pattern, loads, x);
@@ -216,7 +216,8 @@ TYPED_TEST(PressureLoadsTest, RefusesASelectionWithoutAWholeFacet) {
     scene.loads[0].source = "scene.toml:7:3";
     try {
         const Setting<kDim> setting(scene, 2);
-        const PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies);
+        const PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies,
+                                        setting.held);
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(std::string(error.what()),

@@ -22,8 +22,9 @@ TYPED_TEST(RayleighDampingTest, IsAQuadraticOfTheTangentThatPullsBack) {
     constexpr int kDim = TypeParam::value;
     const Scene scene = test::box_scene<kDim>();
     const Setting<kDim> setting(scene, 2);
-    Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, scene);
-    RayleighDamping<kDim> damping(setting.workers, setting.isa.blocks, elasticity, setting.dofs,
+    Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, setting.held, scene);
+    RayleighDamping<kDim> damping(setting.workers, setting.isa.blocks, elasticity,
+                                  std::make_shared<const DofMap>(setting.dofs),
                                   setting.bodies.sharing, Filter::Clamp);
     const Positions<kDim> start = shaken<kDim>(setting.bodies.rest, 0.05, 10);
     const Positions<kDim> still = Positions<kDim>::Zero(kDim, start.cols());
@@ -50,15 +51,17 @@ TYPED_TEST(RayleighDampingTest, HasTheDerivativesOfItsEnergyWithElementsOfEveryK
         Scene scene = test::box_scene<kDim>();
         scene.solver.elements = kind;
         const Setting<kDim> setting(scene, 2);
-        Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, scene);
-        RayleighDamping<kDim> damping(setting.workers, setting.isa.blocks, elasticity, setting.dofs,
+        Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, setting.held,
+                                    scene);
+        RayleighDamping<kDim> damping(setting.workers, setting.isa.blocks, elasticity,
+                                      std::make_shared<const DofMap>(setting.dofs),
                                       setting.bodies.sharing, Filter::Clamp);
         const Positions<kDim> start = shaken<kDim>(setting.bodies.rest, 0.05, 12);
         const Positions<kDim> still = Positions<kDim>::Zero(kDim, start.cols());
         static_cast<void>(value_of<kDim>(elasticity, start));
         static_cast<void>(damping.begin_step({start, still, start, still, 0.01, 100, false}));
         const Positions<kDim> x = shaken<kDim>(start, 0.05, 13);
-        expect_derivatives<kDim>(setting, elasticity.pattern(), damping, x);
+        expect_derivatives<kDim>(setting, *elasticity.pattern(), damping, x);
         // Twice the energy is what its slope does along the way from the start.
         const double work = gradient_of<kDim>(damping, x).cwiseProduct(x - start).sum();
         EXPECT_NEAR(work, 2 * value_of<kDim>(damping, x), 1e-12 * work);
@@ -70,7 +73,7 @@ template <int Dim>
 struct Damped {
     Scene scene = test::box_scene<Dim>();
     Setting<Dim> setting{scene, 2};
-    Elasticity<Dim> elasticity{setting.workers, setting.isa, setting.bodies, scene};
+    Elasticity<Dim> elasticity{setting.workers, setting.isa, setting.bodies, setting.held, scene};
     RayleighDamping<Dim> damping;
     Positions<Dim> start;
     Positions<Dim> still = 0 * setting.bodies.rest;
@@ -79,7 +82,7 @@ struct Damped {
         : damping(setting.workers,
                   setting.isa.blocks,
                   elasticity,
-                  setting.dofs,
+                  std::make_shared<const DofMap>(setting.dofs),
                   setting.bodies.sharing,
                   filter),
           start(map * shaken<Dim>(setting.bodies.rest, shake, 12)) {
@@ -92,7 +95,7 @@ struct Damped {
 template <int Dim>
 double smallest_eigenvalue(Damped<Dim>& body) {
     const Eigen::MatrixXd hessian =
-        test::hessian_of<Dim>(body.setting, body.elasticity.pattern(), body.damping, body.start);
+        test::hessian_of<Dim>(body.setting, *body.elasticity.pattern(), body.damping, body.start);
     return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(hessian, Eigen::EigenvaluesOnly)
                .eigenvalues()[0]
            / hessian.norm();

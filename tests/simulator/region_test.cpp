@@ -102,14 +102,15 @@ TYPED_TEST(RegionTest, HaveTheDerivativesOfTheirEnergyAndAddUpToAll) {
     for (const ElementKind kind : kKinds) {
         const Scene scene = layered_boxes<kDim>(kind);
         const Setting<kDim> setting(scene, 3);
-        Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, scene);
+        Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, setting.held,
+                                    scene);
         const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.02, 3);
         const double energy = value_of<kDim>(elasticity, x);
         const std::vector<double> parts = elasticity.energy_of_ranges();
         ASSERT_EQ(parts.size(), 4);
         EXPECT_GT(*std::min_element(parts.begin(), parts.end()), 0);
         EXPECT_NEAR(parts[0] + parts[1] + parts[2] + parts[3], energy, 1e-12 * energy);
-        expect_derivatives<kDim>(setting, elasticity.pattern(), elasticity, x);
+        expect_derivatives<kDim>(setting, *elasticity.pattern(), elasticity, x);
     }
 }
 
@@ -125,7 +126,8 @@ TYPED_TEST(RegionTest, OfTheSameMaterialChangeNothing) {
         plain.bodies[0].regions.clear();
         const auto energy = [&](const Scene& of) {
             const Setting<kDim> setting(of, 2);
-            Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, of);
+            Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, setting.held,
+                                        of);
             return value_of<kDim>(elasticity, shaken<kDim>(setting.bodies.rest, 0.02, 4));
         };
         EXPECT_NEAR(energy(scene), energy(plain), 1e-12 * energy(plain));

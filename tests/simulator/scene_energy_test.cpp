@@ -27,7 +27,8 @@ TYPED_TEST(SceneEnergyTest, TheSumHasTheTermsOfTheSceneAndNoOthers) {
     constexpr int kDim = TypeParam::value;
     const auto names = [](const Scene& scene) {
         const Setting<kDim> setting(scene, 1);
-        SceneEnergy<kDim> energy(setting.workers, setting.isa, setting.bodies, setting.scene);
+        SceneEnergy<kDim> energy(setting.workers, setting.isa, setting.bodies, setting.held,
+                                 setting.scene);
         energy.sum.update(setting.bodies.rest);
         std::vector<std::string> list;
         for (const TermEnergy& term : energy.sum.energies()) {
@@ -54,7 +55,8 @@ TYPED_TEST(SceneEnergyTest, TheSumIsThatOfItsTerms) {
     scene.gravity[1] = -9.8;
     scene.contact->friction = 0.3;
     const Setting<kDim> setting(scene, 1);
-    SceneEnergy<kDim> energy(setting.workers, setting.isa, setting.bodies, setting.scene);
+    SceneEnergy<kDim> energy(setting.workers, setting.isa, setting.bodies, setting.held,
+                             setting.scene);
     const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.006, 21);
     energy.sum.update(x);
     double value = 0;

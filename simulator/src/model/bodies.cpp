@@ -9,9 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
-#include <numeric>
 
 namespace pent::simulator {
 
@@ -40,122 +37,6 @@ void lump_masses(const Scene& scene, Bodies<Dim>& bodies) {
             }
         }
     }
-}
-
-// The first step that begins at a time or later; times that differ by this part of a step are the
-// same, as they are sums of rounded ones.
-std::uint64_t first_step_from(double time, double dt) {
-    constexpr double kSameTime = 1e-6;
-    constexpr auto kNever = std::numeric_limits<std::uint64_t>::max();
-    const double step = std::ceil(time / dt - kSameTime);
-    return step < 1e18 ? static_cast<std::uint64_t>(std::max(step, 0.0)) : kNever;
-}
-
-// What each motion of a set turns about, by where the set was taken up, and when it begins.
-template <int Dim>
-void center_motions(const Scene& scene, DirichletSet<Dim>& set) {
-    const double start = static_cast<double>(set.first_step) * scene.dt();
-    std::vector<Motion> motions = scene.constraints[set.constraint].motion;
-    std::erase_if(motions, [&](const Motion& motion) { return motion.to <= start; });
-    for (Motion& motion : motions) {
-        motion.from = set.begins_later() ? std::max(motion.from, start) : motion.from;
-    }
-    Vector<Dim> sum = Vector<Dim>::Zero();
-    for (const auto place : set.places.colwise()) {
-        sum += place;
-    }
-    set.motions = center<Dim>(motions, sum / static_cast<double>(set.places.cols()));
-}
-
-// Whether two sets hold something in one step.
-template <int Dim>
-bool do_overlap(const DirichletSet<Dim>& a, const DirichletSet<Dim>& b) {
-    return a.first_step < b.end_step && b.first_step < a.end_step;
-}
-
-// Finds what each constraint holds, and when.
-template <int Dim>
-void find_dirichlet_sets(const Scene& scene, Bodies<Dim>& bodies) {
-    bodies.is_dirichlet.assign(static_cast<std::size_t>(bodies.vertex_count()), false);
-    bodies.is_always_held = bodies.is_dirichlet;
-    for (const Constraint& constraint : scene.constraints) {
-        DirichletSet<Dim> set;
-        set.constraint = bodies.dirichlet_sets.size();
-        set.body = index_of(scene, constraint.body);
-        set.first_step = first_step_from(constraint.from, scene.dt());
-        set.end_step = first_step_from(constraint.to, scene.dt());
-        const std::vector<std::uint32_t> selected =
-            select_vertices(bodies.meshes[set.body], constraint);
-        set.places = Positions<Dim>::Zero(Dim, static_cast<Eigen::Index>(selected.size()));
-        for (const std::uint32_t vertex : selected) {
-            const auto global = static_cast<std::uint32_t>(vertex + bodies.first_vertex[set.body]);
-            set.vertices.push_back(global);
-        }
-        for (const DirichletSet<Dim>& other : bodies.dirichlet_sets) {
-            std::vector<std::uint32_t> both;
-            std::set_intersection(set.vertices.begin(), set.vertices.end(), other.vertices.begin(),
-                                  other.vertices.end(), std::back_inserter(both));
-            if (!both.empty() && do_overlap<Dim>(set, other)) {
-                throw Error("vertex "
-                            + std::to_string(both.front() - bodies.first_vertex[set.body])
-                            + " of body \"" + constraint.body
-                            + "\" is held by two constraints at one time; make their selections"
-                              " disjoint, or let one end before the other begins");
-            }
-        }
-        for (const std::uint32_t vertex : set.vertices) {
-            bodies.is_always_held[vertex] =
-                bodies.is_always_held[vertex] || (!set.begins_later() && std::isinf(constraint.to));
-        }
-        bodies.dirichlet_sets.push_back(std::move(set));
-    }
-}
-
-// Marks what is held in a step.
-template <int Dim>
-void mark_dirichlet(std::uint64_t step, Bodies<Dim>& bodies) {
-    bodies.step = step;
-    bodies.is_dirichlet.assign(bodies.is_dirichlet.size(), false);
-    for (const DirichletSet<Dim>& set : bodies.dirichlet_sets) {
-        for (const std::uint32_t vertex : set.vertices) {
-            bodies.is_dirichlet[vertex] = bodies.is_dirichlet[vertex] || set.is_held(step);
-        }
-    }
-    for (const std::uint32_t vertex : bodies.host_holds.vertices) {
-        bodies.is_dirichlet[vertex] = true;
-    }
-}
-
-// Puts what a host holds on the straight way to its target.
-template <int Dim>
-void place_host_holds(const HostHolds<Dim>& holds,
-                      double time,
-                      Positions<Dim>& positions,
-                      Positions<Dim>* velocities) {
-    constexpr double kSameTime = 1e-6;  // parts of a step end at rounded sums
-    const double h = holds.end - holds.begin;
-    const double part = (time - holds.begin) / h;
-    for (std::size_t i = 0; i < holds.vertices.size(); ++i) {
-        const std::uint32_t vertex = holds.vertices[i];
-        const auto column = static_cast<Eigen::Index>(i);
-        const Vector<Dim> way = holds.targets.col(column) - holds.starts.col(column);
-        positions.col(vertex) = holds.targets.col(column);
-        if (part < 1 - kSameTime) {
-            positions.col(vertex) = holds.starts.col(column) + part * way;
-        }
-        if (velocities != nullptr) {
-            velocities->col(vertex) = way / h;
-        }
-    }
-}
-
-// Takes up a set where it is.
-template <int Dim>
-void take_up(const Scene& scene, const Positions<Dim>& positions, DirichletSet<Dim>& set) {
-    for (std::size_t i = 0; i < set.vertices.size(); ++i) {
-        set.places.col(static_cast<Eigen::Index>(i)) = positions.col(set.vertices[i]);
-    }
-    center_motions<Dim>(scene, set);
 }
 
 // A mesh without columns has one a vertex.
@@ -201,13 +82,6 @@ Bodies<Dim> make_bodies(const Scene& scene, std::vector<SimplexMesh<Dim>> meshes
     bodies.meshes = std::move(meshes);
     append_bodies(scene, bodies);
     lump_masses(scene, bodies);
-    find_dirichlet_sets(scene, bodies);
-    for (DirichletSet<Dim>& set : bodies.dirichlet_sets) {
-        if (!set.begins_later()) {
-            take_up<Dim>(scene, bodies.rest, set);
-        }
-    }
-    mark_dirichlet<Dim>(0, bodies);
     bodies.columns = number_columns(bodies);
     return bodies;
 }
@@ -234,89 +108,6 @@ std::size_t Bodies<Dim>::body_of(std::uint32_t vertex) const {
 }
 
 template <int Dim>
-bool Bodies<Dim>::is_kinematic(std::size_t body) const {
-    return std::all_of(is_always_held.begin() + first_vertex[body],
-                       is_always_held.begin() + first_vertex[body + 1],
-                       [](bool is_held) { return is_held; });
-}
-
-template <int Dim>
-std::vector<std::size_t> hold(const Scene& scene,
-                              std::uint64_t step,
-                              const Positions<Dim>& positions,
-                              Bodies<Dim>& bodies) {
-    std::vector<std::size_t> changed;
-    for (DirichletSet<Dim>& set : bodies.dirichlet_sets) {
-        if (set.is_held(step) == set.is_held(bodies.step)) {
-            continue;
-        }
-        changed.push_back(set.body);
-        if (step == set.first_step && set.begins_later()) {
-            take_up<Dim>(scene, positions, set);
-        }
-    }
-    if (changed.empty()) {
-        bodies.step = step;
-    } else {
-        mark_dirichlet<Dim>(step, bodies);
-    }
-    return changed;
-}
-
-template <int Dim>
-Positions<Dim> hold_places(const Bodies<Dim>& bodies) {
-    Positions<Dim> all(Dim, 0);
-    for (const DirichletSet<Dim>& set : bodies.dirichlet_sets) {
-        if (set.begins_later()) {
-            const Eigen::Index count = all.cols();
-            all.conservativeResize(Dim, count + set.places.cols());
-            all.rightCols(set.places.cols()) = set.places;
-        }
-    }
-    return all;
-}
-
-template <int Dim>
-void set_hold_places(const Scene& scene, const Positions<Dim>& places, Bodies<Dim>& bodies) {
-    Eigen::Index next = 0;
-    for (DirichletSet<Dim>& set : bodies.dirichlet_sets) {
-        if (set.begins_later()) {
-            set.places = places.middleCols(next, set.places.cols());
-            next += set.places.cols();
-            center_motions<Dim>(scene, set);
-        }
-    }
-}
-
-template <int Dim>
-bool hold_for_host(std::vector<std::uint32_t> vertices,
-                   const Positions<Dim>& targets,
-                   Bodies<Dim>& bodies) {
-    HostHolds<Dim>& holds = bodies.host_holds;
-    const bool has_changed = vertices != holds.vertices;
-    holds.vertices = std::move(vertices);
-    holds.targets = targets;
-    if (has_changed) {
-        mark_dirichlet<Dim>(bodies.step, bodies);
-    }
-    return has_changed;
-}
-
-template <int Dim>
-void begin_host_holds(const Positions<Dim>& positions,
-                      double begin,
-                      double end,
-                      Bodies<Dim>& bodies) {
-    HostHolds<Dim>& holds = bodies.host_holds;
-    holds.begin = begin;
-    holds.end = end;
-    holds.starts.resize(Dim, holds.targets.cols());
-    for (std::size_t i = 0; i < holds.vertices.size(); ++i) {
-        holds.starts.col(static_cast<Eigen::Index>(i)) = positions.col(holds.vertices[i]);
-    }
-}
-
-template <int Dim>
 Positions<Dim> start_velocities(const Scene& scene, const Bodies<Dim>& bodies) {
     Positions<Dim> velocities = Positions<Dim>::Zero(Dim, bodies.vertex_count());
     for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
@@ -337,42 +128,10 @@ Positions<Dim> start_velocities(const Scene& scene, const Bodies<Dim>& bodies) {
     return velocities;
 }
 
-template <int Dim>
-void place_dirichlet(const Bodies<Dim>& bodies,
-                     double time,
-                     Positions<Dim>& positions,
-                     Positions<Dim>* velocities) {
-    for (const DirichletSet<Dim>& set : bodies.dirichlet_sets) {
-        if (!set.is_held(bodies.step)) {
-            continue;
-        }
-        const MotionChain<Dim> chain(set.motions, time);
-        for (std::size_t i = 0; i < set.vertices.size(); ++i) {
-            const std::uint32_t vertex = set.vertices[i];
-            Vector<Dim> point = set.places.col(static_cast<Eigen::Index>(i));
-            Vector<Dim> velocity = Vector<Dim>::Zero();
-            chain.move(point, velocities != nullptr ? &velocity : nullptr);
-            positions.col(vertex) = point;
-            if (velocities != nullptr) {
-                velocities->col(vertex) = velocity;
-            }
-        }
-    }
-    place_host_holds<Dim>(bodies.host_holds, time, positions, velocities);
-}
-
-#define PENT_INSTANTIATE(Dim)                                                                     \
-    template struct Bodies<Dim>;                                                                  \
-    template Bodies<Dim> make_bodies<Dim>(const Scene&, std::vector<SimplexMesh<Dim>>);           \
-    template std::vector<std::size_t> hold(const Scene&, std::uint64_t, const Positions<Dim>&,    \
-                                           Bodies<Dim>&);                                         \
-    template Positions<Dim> hold_places(const Bodies<Dim>&);                                      \
-    template void set_hold_places(const Scene&, const Positions<Dim>&, Bodies<Dim>&);             \
-    template bool hold_for_host(std::vector<std::uint32_t>, const Positions<Dim>&, Bodies<Dim>&); \
-    template void begin_host_holds(const Positions<Dim>&, double, double, Bodies<Dim>&);          \
-    template Positions<Dim> start_velocities<Dim>(const Scene&, const Bodies<Dim>&);              \
-    template void place_dirichlet<Dim>(const Bodies<Dim>&, double, Positions<Dim>&,               \
-                                       Positions<Dim>*);
+#define PENT_INSTANTIATE(Dim)                                                           \
+    template struct Bodies<Dim>;                                                        \
+    template Bodies<Dim> make_bodies<Dim>(const Scene&, std::vector<SimplexMesh<Dim>>); \
+    template Positions<Dim> start_velocities<Dim>(const Scene&, const Bodies<Dim>&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 

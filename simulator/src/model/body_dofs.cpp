@@ -1,6 +1,4 @@
-// Which vertices of bodies are solved for, by whom and in which order.
-
-#include "model/bodies.h"
+#include "model/body_dofs.h"
 
 #include <pent/dimensions.h>
 
@@ -13,8 +11,10 @@ namespace {
 
 // One entry a vertex: whether it is held, or of a body that is not in.
 template <int Dim>
-std::vector<bool> fixed_vertices(const Bodies<Dim>& bodies, const std::vector<bool>& is_in) {
-    std::vector<bool> is_fixed = bodies.is_dirichlet;
+std::vector<bool> fixed_vertices(const Bodies<Dim>& bodies,
+                                 const HeldVertices<Dim>& held,
+                                 const std::vector<bool>& is_in) {
+    std::vector<bool> is_fixed = held.now();
     for (std::size_t body = 0; body < is_in.size(); ++body) {
         if (!is_in[body]) {
             std::fill(is_fixed.begin() + bodies.first_vertex[body],
@@ -38,8 +38,10 @@ std::vector<bool> coupled_vertices(const Bodies<Dim>& bodies) {
 }  // namespace
 
 template <int Dim>
-DofMap number_dofs(const Bodies<Dim>& bodies, const std::vector<bool>& is_in) {
-    const std::vector<bool> is_fixed = fixed_vertices(bodies, is_in);
+DofMap number_dofs(const Bodies<Dim>& bodies,
+                   const HeldVertices<Dim>& held,
+                   const std::vector<bool>& is_in) {
+    const std::vector<bool> is_fixed = fixed_vertices(bodies, held, is_in);
     if (!bodies.sharing.is_shared()) {
         return number_dofs<Dim>(bodies.cells, is_fixed, bodies.columns);
     }
@@ -61,11 +63,13 @@ DofMap number_dofs(const Bodies<Dim>& bodies, const std::vector<bool>& is_in) {
 }
 
 template <int Dim>
-DofMap number_dofs_alike(const Bodies<Dim>& bodies, const std::vector<bool>& is_in) {
+DofMap number_dofs_alike(const Bodies<Dim>& bodies,
+                         const HeldVertices<Dim>& held,
+                         const std::vector<bool>& is_in) {
     if (!bodies.sharing.is_shared()) {
-        return number_dofs(bodies, is_in);
+        return number_dofs(bodies, held, is_in);
     }
-    const std::vector<bool> is_fixed = fixed_vertices(bodies, is_in);
+    const std::vector<bool> is_fixed = fixed_vertices(bodies, held, is_in);
     std::vector<std::uint32_t> free;
     for (std::uint32_t vertex = 0; vertex < is_fixed.size(); ++vertex) {
         if (!is_fixed[vertex]) {
@@ -76,9 +80,11 @@ DofMap number_dofs_alike(const Bodies<Dim>& bodies, const std::vector<bool>& is_
     return {is_fixed.size(), std::move(free), {0, count}};
 }
 
-#define PENT_INSTANTIATE(Dim)                                                       \
-    template DofMap number_dofs<Dim>(const Bodies<Dim>&, const std::vector<bool>&); \
-    template DofMap number_dofs_alike<Dim>(const Bodies<Dim>&, const std::vector<bool>&);
+#define PENT_INSTANTIATE(Dim)                                                            \
+    template DofMap number_dofs<Dim>(const Bodies<Dim>&, const HeldVertices<Dim>&,       \
+                                     const std::vector<bool>&);                          \
+    template DofMap number_dofs_alike<Dim>(const Bodies<Dim>&, const HeldVertices<Dim>&, \
+                                           const std::vector<bool>&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 

@@ -202,7 +202,10 @@ double Attachments<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradi
 }
 
 template <int Dim>
-void Attachments<Dim>::add_hessian(double weight, Filter /*filter*/, NewtonSystem<Dim>& system) {
+void Attachments<Dim>::add_hessian(const Positions<Dim>& /*x*/,
+                                   double weight,
+                                   Filter /*filter*/,
+                                   NewtonSystem<Dim>& system) {
     for (Group& group : groups_) {
         const Attachment& attachment = *group.attachment;
         group.hessian =

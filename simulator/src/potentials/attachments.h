@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/bodies.h"
+#include "model/motion_chain.h"
 #include "model/nearest_point.h"
 #include "potentials/potential.h"
 #include "potentials/spring.h"
@@ -31,7 +32,10 @@ public:
     Attachments(const Workers& workers, const Scene& scene, const Bodies<Dim>& bodies);
 
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
-    void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) override;
+    void add_hessian(const Positions<Dim>& x,
+                     double weight,
+                     Filter filter,
+                     NewtonSystem<Dim>& system) override;
     [[nodiscard]] std::vector<TermEnergy> energies() const override;
     [[nodiscard]] bool begin_step(const StepStart<Dim>& start) override;
     [[nodiscard]] bool set_time(const TimeSpan& step) override;

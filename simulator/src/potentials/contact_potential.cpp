@@ -28,6 +28,7 @@ constexpr double kMaxStiffness = 1e8;
 template <int Dim>
 contact::ContactScene<Dim> contact_scene(const Scene& scene,
                                          const Bodies<Dim>& bodies,
+                                         const HeldVertices<Dim>& held,
                                          bool do_bodies_meet) {
     const Contact contact = scene.contact.value_or(Contact{});
     const bool is_searched_often = scene.solver.integrator != Integrator::LinearEuler;
@@ -46,7 +47,7 @@ contact::ContactScene<Dim> contact_scene(const Scene& scene,
             surface = contact::make_surface<Dim>(mesh.cells, mesh.vertex_count(), first);
         }
         result.bodies.push_back(
-            {scene.bodies[body].name, std::move(surface), bodies.is_kinematic(body)});
+            {scene.bodies[body].name, std::move(surface), held.is_kinematic(body)});
     }
     for (const Obstacle& obstacle : scene.obstacles) {
         result.obstacles.push_back(
@@ -59,8 +60,8 @@ contact::ContactScene<Dim> contact_scene(const Scene& scene,
             }
         }
     }
-    result.is_fixed = bodies.is_dirichlet;
-    result.is_always_fixed = bodies.is_always_held;
+    result.is_fixed = held.now();
+    result.is_always_fixed = held.always();
     result.rest = bodies.rest;
     return result;
 }
@@ -105,7 +106,8 @@ void add_stencils(double weight,
 template <int Dim>
 ContactPotential<Dim>::ContactPotential(const Workers& workers,
                                         const Scene& scene,
-                                        const Bodies<Dim>& bodies)
+                                        const Bodies<Dim>& bodies,
+                                        const HeldVertices<Dim>& held)
     : workers_(&workers),
       sharing_(&bodies.sharing),
       options_(scene.contact.value_or(Contact{})),
@@ -115,14 +117,16 @@ ContactPotential<Dim>::ContactPotential(const Workers& workers,
     do_bodies_meet_ = is_barrier_ || (scene.contact && (bodies.count() > 1 || scene.contact->self));
     has_obstacles_ = !scene.obstacles.empty();
     stiffness_ = options_.stiffness;
-    set_held(scene, bodies);
+    set_held(scene, bodies, held);
 }
 
 template <int Dim>
-void ContactPotential<Dim>::set_held(const Scene& scene, const Bodies<Dim>& bodies) {
+void ContactPotential<Dim>::set_held(const Scene& scene,
+                                     const Bodies<Dim>& bodies,
+                                     const HeldVertices<Dim>& held) {
     if (do_bodies_meet_ || has_obstacles_) {
         finder_ = std::make_unique<contact::ContactFinder<Dim>>(
-            contact_scene<Dim>(scene, bodies, do_bodies_meet_),
+            contact_scene<Dim>(scene, bodies, held, do_bodies_meet_),
             sharing_->is_shared() ? std::make_shared<ContactTeam>(sharing_->ranks()) : nullptr);
         finder_->move_obstacles(obstacles_);
     }
@@ -196,7 +200,6 @@ double ContactPotential<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& 
         return 0;
     }
     const Stopwatch watch;
-    x_ = &x;
     gradient_.setZero(Dim, x.cols());
     workers_->run([&] {
         contacts_ = finder_->find(x, stiffness_);
@@ -243,7 +246,8 @@ contact::Contacts<Dim> ContactPotential<Dim>::own_contacts() const {
 }
 
 template <int Dim>
-void ContactPotential<Dim>::add_hessian(double weight,
+void ContactPotential<Dim>::add_hessian(const Positions<Dim>& x,
+                                        double weight,
                                         Filter /*filter*/,
                                         NewtonSystem<Dim>& system) {
     if (is_empty()) {
@@ -255,8 +259,8 @@ void ContactPotential<Dim>::add_hessian(double weight,
         own = own_contacts();
     }
     const contact::Contacts<Dim>& contacts = sharing_->is_shared() ? own : contacts_;
-    hessians_ = workers_->run(
-        [&] { return finder_->hessians(contacts, *x_, stiffness_, options_.filter); });
+    hessians_ =
+        workers_->run([&] { return finder_->hessians(contacts, x, stiffness_, options_.filter); });
     add_stencils<Dim>(weight, hessians_, is_barrier_ ? 0 : contacts.pair_count, system);
     work_.seconds += watch.seconds();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/bodies.h"
+#include "model/held_vertices.h"
 #include "model/obstacle_motions.h"
 #include "potentials/potential.h"
 
@@ -21,10 +22,16 @@ namespace pent::simulator {
 template <int Dim>
 class ContactPotential final : public Potential<Dim> {
 public:
-    ContactPotential(const Workers& workers, const Scene& scene, const Bodies<Dim>& bodies);
+    ContactPotential(const Workers& workers,
+                     const Scene& scene,
+                     const Bodies<Dim>& bodies,
+                     const HeldVertices<Dim>& held);
 
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
-    void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) override;
+    void add_hessian(const Positions<Dim>& x,
+                     double weight,
+                     Filter filter,
+                     NewtonSystem<Dim>& system) override;
     [[nodiscard]] std::vector<TermEnergy> energies() const override;
     [[nodiscard]] bool set_time(const TimeSpan& step) override;
     void add_couplings(Couplings& couplings) const override;
@@ -85,7 +92,7 @@ public:
     [[nodiscard]] const Contact& options() const { return options_; }
 
     /// After what is held has changed.
-    void set_held(const Scene& scene, const Bodies<Dim>& bodies);
+    void set_held(const Scene& scene, const Bodies<Dim>& bodies, const HeldVertices<Dim>& held);
 
     /// What it cost since this was last asked.
     [[nodiscard]] ContactWork take_work();
@@ -115,7 +122,6 @@ private:
     TimeSpan step_;
     std::vector<pent::Obstacle<Dim>> obstacles_;           // at its end
     std::unique_ptr<contact::ContactFinder<Dim>> finder_;  // null where nothing can touch
-    const Positions<Dim>* x_ = nullptr;                    // last evaluated
     contact::Contacts<Dim> contacts_;                      // there
     Positions<Dim> gradient_;                              // there
     contact::StepLimit limit_;

@@ -1,5 +1,7 @@
 #include "potentials/elasticity.h"
 
+#include "model/body_dofs.h"
+
 #include <pent/dimensions.h>
 
 #include <algorithm>
@@ -19,23 +21,25 @@ template <int Dim>
 Elasticity<Dim>::Elasticity(const Workers& workers,
                             const Kernels<Dim>& kernels,
                             const Bodies<Dim>& bodies,
+                            const HeldVertices<Dim>& held,
                             const Scene& scene)
     : workers_(&workers),
       kernels_(&kernels),
       bodies_(&bodies),
       kind_(scene.solver.elements),
-      strain_(workers, scene, bodies),
-      layout_(lay_out(number_dofs(bodies, std::vector<bool>(bodies.count(), true)))) {
-    measure_layout();
+      strain_(workers, scene, bodies) {
+    take(lay_out(number_dofs(bodies, held, std::vector<bool>(bodies.count(), true))));
 }
 
 template <int Dim>
-void Elasticity<Dim>::measure_layout() {
+void Elasticity<Dim>::take(ElementLayout<Dim> layout) {
+    pattern_ = std::make_shared<const BlockPattern>(std::move(layout.pattern));
+    elements_ = std::move(layout.elements);
     const Sharing& sharing = bodies_->sharing;
-    size_ = {.elements = sharing.sum(layout_.elements.count()),
-             .blocks = sharing.sum(layout_.pattern.blocks()),
-             .bytes = sharing.sum(layout_.elements.bytes())};
-    ghost_count_ = static_cast<std::int64_t>(ghost_columns(layout_.pattern).size());
+    size_ = {.elements = sharing.sum(elements_->count()),
+             .blocks = sharing.sum(pattern_->blocks()),
+             .bytes = sharing.sum(elements_->bytes())};
+    ghost_count_ = static_cast<std::int64_t>(ghost_columns(*pattern_).size());
 }
 
 template <int Dim>
@@ -52,17 +56,17 @@ ElementLayout<Dim> Elasticity<Dim>::lay_out(const DofMap& dofs) const {
 
 template <int Dim>
 void Elasticity<Dim>::set_dofs(const DofMap& dofs,
+                               const HeldVertices<Dim>& held,
                                const std::vector<bool>& asleep,
                                const Positions<Dim>& positions) {
     frozen_gradient_.resize(Dim, 0);
     frozen_ = {};
     if (std::find(asleep.begin(), asleep.end(), true) != asleep.end()) {
-        layout_ = lay_out(number_dofs(*bodies_, asleep));
+        elements_ = lay_out(number_dofs(*bodies_, held, asleep)).elements;
         frozen_gradient_.setZero(Dim, positions.cols());
-        frozen_ = layout_.elements.add_gradient(*workers_, *kernels_, positions, frozen_gradient_);
+        frozen_ = elements_->add_gradient(*workers_, *kernels_, positions, frozen_gradient_);
     }
-    layout_ = lay_out(dofs);
-    measure_layout();
+    take(lay_out(dofs));
 }
 
 // Elements that other ranks have as well count once; gradients are those of the ranks that own the
@@ -71,7 +75,7 @@ template <int Dim>
 ElasticEnergy Elasticity<Dim>::add_shared_gradient(const Positions<Dim>& x,
                                                    Positions<Dim>& gradient) const {
     Positions<Dim> own = Positions<Dim>::Zero(Dim, x.cols());
-    ElasticEnergy energy = layout_.elements.add_gradient(*workers_, *kernels_, x, own);
+    ElasticEnergy energy = elements_->add_gradient(*workers_, *kernels_, x, own);
     energy.add(frozen_);
     if (frozen_gradient_.cols() > 0) {
         own += frozen_gradient_;
@@ -94,12 +98,11 @@ ElasticEnergy Elasticity<Dim>::add_shared_gradient(const Positions<Dim>& x,
 
 template <int Dim>
 double Elasticity<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
-    x_ = &x;
     if (bodies_->sharing.is_shared()) {
         energy_ = add_shared_gradient(x, gradient);
         return energy_.energy;
     }
-    energy_ = layout_.elements.add_gradient(*workers_, *kernels_, x, gradient);
+    energy_ = elements_->add_gradient(*workers_, *kernels_, x, gradient);
     energy_.add(frozen_);
     if (frozen_gradient_.cols() > 0) {
         gradient += frozen_gradient_;
@@ -108,13 +111,16 @@ double Elasticity<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradie
 }
 
 template <int Dim>
-void Elasticity<Dim>::add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) {
+void Elasticity<Dim>::add_hessian(const Positions<Dim>& x,
+                                  double weight,
+                                  Filter filter,
+                                  NewtonSystem<Dim>& system) {
     std::visit(
         [&](auto& matrix) {
             auto target = target_in(matrix, weight * hessian_factor_, filter);
             target.held_shift = system.shift().data();
             target.right = system.right().data();
-            filtered_ += layout_.elements.add_hessian(*workers_, *kernels_, *x_, target);
+            filtered_ += elements_->add_hessian(*workers_, *kernels_, x, target);
         },
         system.matrix());
 }
@@ -128,7 +134,7 @@ void Elasticity<Dim>::add_tangent(const Positions<Dim>& x,
     auto target = target_in(matrix, 1, filter);
     target.held_shift = shift.data();
     target.right = right.data();
-    layout_.elements.add_hessian(*workers_, *kernels_, x, target);
+    elements_->add_hessian(*workers_, *kernels_, x, target);
 }
 
 template <int Dim>
@@ -137,7 +143,7 @@ bool Elasticity<Dim>::set_time(const TimeSpan& step) {
     if (strain_.is_empty() || !strain_.set_time(*workers_, step.end)) {
         return false;
     }
-    layout_.elements.activate(*workers_, strain_);
+    elements_->activate(*workers_, strain_);
     return true;
 }
 
@@ -150,11 +156,10 @@ void Elasticity<Dim>::add_couplings(Couplings& couplings) const {
 template <int Dim>
 double Elasticity<Dim>::energy_at(const Positions<Dim>& x, double time) {
     if (strain_.set_time(*workers_, time)) {
-        layout_.elements.activate(*workers_, strain_);
+        elements_->activate(*workers_, strain_);
     }
     Positions<Dim> gradient = Positions<Dim>::Zero(Dim, x.cols());
-    return bodies_->sharing.sum(
-        layout_.elements.add_gradient(*workers_, *kernels_, x, gradient).energy);
+    return bodies_->sharing.sum(elements_->add_gradient(*workers_, *kernels_, x, gradient).energy);
 }
 
 template <int Dim>
@@ -176,7 +181,7 @@ double Elasticity<Dim>::rounding() const {
 
 // Other elements may not be inside out where one of their cells is.
 template <int Dim>
-std::int64_t Elasticity<Dim>::inverted_cells() const {
+std::int64_t Elasticity<Dim>::inverted_cells(const Positions<Dim>& x) const {
     if (kind_ == ElementKind::Linear) {
         return energy_.inverted;
     }
@@ -187,7 +192,7 @@ std::int64_t Elasticity<Dim>::inverted_cells() const {
         const Eigen::Index end = std::min(begin + kChunkCells, cells.cols());
         std::int64_t inverted = 0;
         for (Eigen::Index cell = begin; cell < end; ++cell) {
-            inverted += cell_volume<Dim>(*x_, cells, cell) > 0 ? 0 : 1;
+            inverted += cell_volume<Dim>(x, cells, cell) > 0 ? 0 : 1;
         }
         return inverted;
     });

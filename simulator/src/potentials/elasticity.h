@@ -3,12 +3,15 @@
 #include "kernels/kernels.h"
 #include "model/active_strain.h"
 #include "model/bodies.h"
+#include "model/held_vertices.h"
 #include "potentials/element_layout.h"
 #include "potentials/potential.h"
 
 #include <pent/parallel.h>
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace pent::simulator {
@@ -21,10 +24,12 @@ template <int Dim>
 class Elasticity final : public Potential<Dim> {
 public:
     /// @param workers, kernels, bodies  Must outlive this.
+    /// @param held   At the start; not needed afterwards.
     /// @param scene  Of which the bodies have been made. Throws as ActiveStrain does.
     Elasticity(const Workers& workers,
                const Kernels<Dim>& kernels,
                const Bodies<Dim>& bodies,
+               const HeldVertices<Dim>& held,
                const Scene& scene);
 
     /// Lays elements out anew.
@@ -33,6 +38,7 @@ public:
     /// @param asleep     One entry a body.
     /// @param positions  Dim x vertices: where sleeping bodies lie, m.
     void set_dofs(const DofMap& dofs,
+                  const HeldVertices<Dim>& held,
                   const std::vector<bool>& asleep,
                   const Positions<Dim>& positions);
 
@@ -40,7 +46,10 @@ public:
     void set_hessian_factor(double factor) { hessian_factor_ = factor; }
 
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
-    void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) override;
+    void add_hessian(const Positions<Dim>& x,
+                     double weight,
+                     Filter filter,
+                     NewtonSystem<Dim>& system) override;
     [[nodiscard]] std::vector<TermEnergy> energies() const override {
         return {{"elastic", energy_.energy}};
     }
@@ -63,11 +72,12 @@ public:
                      BlockMatrix<Dim, double>& matrix,
                      BlockVector<Dim>& right) const;
 
-    [[nodiscard]] const BlockPattern& pattern() const { return layout_.pattern; }
+    /// Of the elements now: never rewritten, but replaced by set_dofs().
+    [[nodiscard]] const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
     [[nodiscard]] double energy() const { return energy_.energy; }
     [[nodiscard]] std::int64_t collapsed() const { return energy_.collapsed; }  ///< Elements.
     [[nodiscard]] const std::vector<double>& energy_of_ranges() const { return energy_.of_ranges; }
-    [[nodiscard]] std::int64_t inverted_cells() const;
+    [[nodiscard]] std::int64_t inverted_cells(const Positions<Dim>& x) const;
 
     // Of all ranks together.
     [[nodiscard]] std::int64_t element_count() const { return size_.elements; }
@@ -82,7 +92,7 @@ public:
 
 private:
     [[nodiscard]] ElementLayout<Dim> lay_out(const DofMap& dofs) const;
-    void measure_layout();
+    void take(ElementLayout<Dim> layout);
     [[nodiscard]] ElasticEnergy add_shared_gradient(const Positions<Dim>& x,
                                                     Positions<Dim>& gradient) const;
     [[nodiscard]] double energy_at(const Positions<Dim>& x, double time);
@@ -93,7 +103,8 @@ private:
     ElementKind kind_;
     ActiveStrain<Dim> strain_;
     TimeSpan step_;  // that shapes are those of the end of
-    ElementLayout<Dim> layout_;
+    std::shared_ptr<const BlockPattern> pattern_;
+    std::optional<Elements<Dim>> elements_;  // on it; always there
     struct {
         std::int64_t elements = 0;
         std::int64_t blocks = 0;
@@ -103,7 +114,6 @@ private:
     // Of bodies that sleep: what does not change.
     Positions<Dim> frozen_gradient_;  // Dim x vertices, N; empty if none sleeps
     ElasticEnergy frozen_;
-    const Positions<Dim>* x_ = nullptr;  // last evaluated
     ElasticEnergy energy_;
     double hessian_factor_ = 1;
     std::int64_t filtered_ = 0;

@@ -27,7 +27,10 @@ public:
     [[nodiscard]] bool set_time(const TimeSpan& step) override;
     void add_couplings(Couplings& couplings) const override;
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
-    void add_hessian(double /*weight*/, Filter /*f*/, NewtonSystem<Dim>& /*s*/) override {}
+    void add_hessian(const Positions<Dim>& /*x*/,
+                     double /*weight*/,
+                     Filter /*filter*/,
+                     NewtonSystem<Dim>& /*system*/) override {}
     [[nodiscard]] std::vector<TermEnergy> energies() const override {
         return is_empty() ? std::vector<TermEnergy>() : std::vector<TermEnergy>{{"force", energy_}};
     }

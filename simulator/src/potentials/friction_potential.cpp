@@ -33,7 +33,6 @@ bool FrictionPotential<Dim>::begin_step(const StepStart<Dim>& start) {
 
 template <int Dim>
 double FrictionPotential<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
-    x_ = &x;
     gradient_.setZero(Dim, x.cols());
     energy_ = friction_.add_gradient(x, gradient_);
     gradient += gradient_;
@@ -42,10 +41,11 @@ double FrictionPotential<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>&
 }
 
 template <int Dim>
-void FrictionPotential<Dim>::add_hessian(double weight,
+void FrictionPotential<Dim>::add_hessian(const Positions<Dim>& x,
+                                         double weight,
                                          Filter /*filter*/,
                                          NewtonSystem<Dim>& system) {
-    hessians_ = friction_.hessians(*x_);
+    hessians_ = friction_.hessians(x);
     add_stencils<Dim>(weight, hessians_, 0, system);
 }
 

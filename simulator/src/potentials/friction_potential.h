@@ -23,7 +23,10 @@ public:
     [[nodiscard]] bool set_time(const TimeSpan& step) override;
     [[nodiscard]] bool begin_step(const StepStart<Dim>& start) override;
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
-    void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) override;
+    void add_hessian(const Positions<Dim>& x,
+                     double weight,
+                     Filter filter,
+                     NewtonSystem<Dim>& system) override;
     [[nodiscard]] std::vector<TermEnergy> energies() const override {
         return {{.name = "friction", .energy = energy_, .is_stored = false}};
     }
@@ -38,8 +41,7 @@ public:
 private:
     const ContactPotential<Dim>* contacts_;
     contact::LaggedFriction<Dim> friction_;
-    double end_of_step_ = 0;             // of that which is held, s
-    const Positions<Dim>* x_ = nullptr;  // last evaluated
+    double end_of_step_ = 0;  // of that which is held, s
     Positions<Dim> gradient_;
     double energy_ = 0;
     std::int64_t count_ = 0;

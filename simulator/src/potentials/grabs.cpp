@@ -124,7 +124,10 @@ double Grabs<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
 }
 
 template <int Dim>
-void Grabs<Dim>::add_hessian(double weight, Filter /*filter*/, NewtonSystem<Dim>& system) {
+void Grabs<Dim>::add_hessian(const Positions<Dim>& /*x*/,
+                             double weight,
+                             Filter /*filter*/,
+                             NewtonSystem<Dim>& system) {
     if (pulls_.empty()) {
         return;
     }

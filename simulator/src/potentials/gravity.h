@@ -20,7 +20,10 @@ public:
     void set_acceleration(const Vector& acceleration) { acceleration_ = acceleration; }
 
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
-    void add_hessian(double /*weight*/, Filter /*f*/, NewtonSystem<Dim>& /*s*/) override {}
+    void add_hessian(const Positions<Dim>& /*x*/,
+                     double /*weight*/,
+                     Filter /*filter*/,
+                     NewtonSystem<Dim>& /*system*/) override {}
     [[nodiscard]] std::vector<TermEnergy> energies() const override {
         return acceleration_.isZero(0) ? std::vector<TermEnergy>()
                                        : std::vector<TermEnergy>{{"gravity", energy_}};

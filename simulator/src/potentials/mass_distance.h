@@ -4,6 +4,9 @@
 
 #include <pent/parallel.h>
 
+#include <memory>
+#include <utility>
+
 namespace pent::simulator {
 
 /// Half the squared distance from an anchor, weighed by masses: 1/2 |x - anchor|_M^2, kg m^2.
@@ -15,23 +18,30 @@ template <int Dim>
 class MassDistance final : public Potential<Dim> {
 public:
     /// @param dofs    Of the vertices that count.
-    /// @param masses  One a vertex, kg. All must outlive this.
-    MassDistance(const Workers& workers, const DofMap& dofs, const Eigen::VectorXd& masses)
-        : workers_(&workers), dofs_(&dofs), masses_(&masses) {}
+    /// @param masses  One a vertex, kg. These and `workers` must outlive this.
+    MassDistance(const Workers& workers,
+                 std::shared_ptr<const DofMap> dofs,
+                 const Eigen::VectorXd& masses)
+        : workers_(&workers), dofs_(std::move(dofs)), masses_(&masses) {}
 
-    /// @param anchor  Dim x vertices, m; must outlive its use.
-    void set_anchor(const Positions<Dim>& anchor) { anchor_ = &anchor; }
+    void set_dofs(std::shared_ptr<const DofMap> dofs) { dofs_ = std::move(dofs); }
+
+    /// @param anchor  Dim x vertices, m.
+    void set_anchor(std::shared_ptr<const Positions<Dim>> anchor) { anchor_ = std::move(anchor); }
 
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
-    void add_hessian(double weight, Filter /*filter*/, NewtonSystem<Dim>& system) override {
+    void add_hessian(const Positions<Dim>& /*x*/,
+                     double weight,
+                     Filter /*filter*/,
+                     NewtonSystem<Dim>& system) override {
         system.add_masses(weight, *masses_);
     }
 
 private:
     const Workers* workers_;
-    const DofMap* dofs_;
+    std::shared_ptr<const DofMap> dofs_;
     const Eigen::VectorXd* masses_;
-    const Positions<Dim>* anchor_ = nullptr;
+    std::shared_ptr<const Positions<Dim>> anchor_;
 };
 
 }  // namespace pent::simulator

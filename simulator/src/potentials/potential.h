@@ -57,12 +57,17 @@ public:
     Potential(Potential&&) = delete;
     Potential& operator=(Potential&&) = delete;
 
-    /// Value at positions x, m; adds the gradient to `gradient`. The methods below without
-    /// positions speak of those last evaluated.
+    /// Value at positions x, m; adds the gradient to `gradient`. The methods below speak of the
+    /// positions last evaluated; nobody keeps where those lie.
     [[nodiscard]] virtual double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) = 0;
 
     /// Adds weight times the Hessian, its negative eigenvalues as `filter` says.
-    virtual void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) = 0;
+    ///
+    /// @param x  Those last evaluated, once more.
+    virtual void add_hessian(const Positions<Dim>& x,
+                             double weight,
+                             Filter filter,
+                             NewtonSystem<Dim>& system) = 0;
 
     /// The parts of the value by name, for reports.
     [[nodiscard]] virtual std::vector<TermEnergy> energies() const { return {}; }

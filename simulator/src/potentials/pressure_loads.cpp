@@ -148,9 +148,9 @@ Simplices<Dim> select_facets(const Load& load,
 
 // Whether vertices are held where they are for good.
 template <int Dim>
-bool is_still(const std::vector<std::uint32_t>& vertices, const Bodies<Dim>& bodies) {
-    std::vector<bool> is_fixed = bodies.is_always_held;
-    for (const DirichletSet<Dim>& set : bodies.dirichlet_sets) {
+bool is_still(const std::vector<std::uint32_t>& vertices, const HeldVertices<Dim>& held) {
+    std::vector<bool> is_fixed = held.always();
+    for (const DirichletSet<Dim>& set : held.sets()) {
         for (const std::uint32_t vertex : set.vertices) {
             is_fixed[vertex] = is_fixed[vertex] && set.motions.empty();
         }
@@ -164,11 +164,12 @@ bool is_still(const std::vector<std::uint32_t>& vertices, const Bodies<Dim>& bod
 template <int Dim>
 PressureLoads<Dim>::PressureLoads(const Workers& workers,
                                   const Scene& scene,
-                                  const Bodies<Dim>& bodies)
+                                  const Bodies<Dim>& bodies,
+                                  const HeldVertices<Dim>& held)
     : workers_(&workers) {
     for (const Load& load : scene.loads) {
         if (load.pressure != 0) {
-            regions_.push_back(make_region(load, scene, bodies));
+            regions_.push_back(make_region(load, scene, bodies, held));
             hold_walls(regions_.back(), bodies.rest);
         }
     }
@@ -177,7 +178,8 @@ PressureLoads<Dim>::PressureLoads(const Workers& workers,
 template <int Dim>
 typename PressureLoads<Dim>::Region PressureLoads<Dim>::make_region(const Load& load,
                                                                     const Scene& scene,
-                                                                    const Bodies<Dim>& bodies) {
+                                                                    const Bodies<Dim>& bodies,
+                                                                    const HeldVertices<Dim>& held) {
     Region region;
     region.body = index_of(scene, load.body);
     region.pressure = load.pressure;
@@ -195,7 +197,7 @@ typename PressureLoads<Dim>::Region PressureLoads<Dim>::make_region(const Load& 
     }
     std::sort(region.rim.begin(), region.rim.end());
     region.rim.erase(std::unique(region.rim.begin(), region.rim.end()), region.rim.end());
-    region.is_stored = is_still<Dim>(region.rim, bodies);
+    region.is_stored = is_still<Dim>(region.rim, held);
     return region;
 }
 
@@ -249,7 +251,6 @@ bool PressureLoads<Dim>::begin_step(const StepStart<Dim>& start) {
 
 template <int Dim>
 double PressureLoads<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
-    x_ = &x;
     stored_ = 0;
     lagged_ = 0;
     rounding_ = 0;
@@ -298,7 +299,10 @@ double PressureLoads<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gra
 // sum over all facets lets the body move as a whole for nothing. Filtered one by one they would
 // hold it back, and a single linear solve would not let it fall: so the filtered Hessian is none.
 template <int Dim>
-void PressureLoads<Dim>::add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) {
+void PressureLoads<Dim>::add_hessian(const Positions<Dim>& x,
+                                     double weight,
+                                     Filter filter,
+                                     NewtonSystem<Dim>& system) {
     if (filter != Filter::None) {
         return;
     }
@@ -313,7 +317,7 @@ void PressureLoads<Dim>::add_hessian(double weight, Filter filter, NewtonSystem<
     for (const Region& region : regions_) {
         double* const first = next;
         workers_->for_each(region.facets.cols(), [&](Eigen::Index i) {
-            const Normal<Dim> normal(corners_of<Dim>(region.facets.col(i), *x_, region.apex));
+            const Normal<Dim> normal(corners_of<Dim>(region.facets.col(i), x, region.apex));
             Eigen::Map<Eigen::Matrix<double, kSide, kSide>> matrix(first + i * kSide * kSide);
             for (int a = 0; a < Dim; ++a) {
                 for (int b = 0; b < Dim; ++b) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/bodies.h"
+#include "model/held_vertices.h"
 #include "potentials/potential.h"
 
 #include <pent/parallel.h>
@@ -27,10 +28,13 @@ template <int Dim>
 class PressureLoads final : public Potential<Dim> {
 public:
     /// @param workers  Must outlive this.
-    /// @param bodies   Placed; not needed afterwards.
+    /// @param bodies, held  At the start; not needed afterwards.
     ///
     /// Throws an Error where a load selects no whole facet of the boundary.
-    PressureLoads(const Workers& workers, const Scene& scene, const Bodies<Dim>& bodies);
+    PressureLoads(const Workers& workers,
+                  const Scene& scene,
+                  const Bodies<Dim>& bodies,
+                  const HeldVertices<Dim>& held);
 
     [[nodiscard]] bool is_empty() const { return regions_.empty(); }
 
@@ -38,7 +42,10 @@ public:
     void add_couplings(Couplings& couplings) const override;
     [[nodiscard]] bool begin_step(const StepStart<Dim>& start) override;
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
-    void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) override;
+    void add_hessian(const Positions<Dim>& x,
+                     double weight,
+                     Filter filter,
+                     NewtonSystem<Dim>& system) override;
     [[nodiscard]] std::vector<TermEnergy> energies() const override;
     [[nodiscard]] double rounding() const override { return rounding_; }
 
@@ -63,14 +70,14 @@ private:
 
     [[nodiscard]] static Region make_region(const Load& load,
                                             const Scene& scene,
-                                            const Bodies<Dim>& bodies);
+                                            const Bodies<Dim>& bodies,
+                                            const HeldVertices<Dim>& held);
     static void hold_walls(Region& region, const Positions<Dim>& x);
 
     const Workers* workers_;
     std::vector<Region> regions_;
-    const Positions<Dim>* x_ = nullptr;  // last evaluated
-    double stored_ = 0;                  // J
-    double lagged_ = 0;                  // J, of regions that are not stored
+    double stored_ = 0;  // J
+    double lagged_ = 0;  // J, of regions that are not stored
     double rounding_ = 0;
     std::vector<double> hessians_;  // while a system is assembled
 };

@@ -9,12 +9,13 @@ namespace pent::simulator {
 template <int Dim>
 bool RayleighDamping<Dim>::begin_step(const StepStart<Dim>& start) {
     is_on_ = !start.is_linear;
-    origin_ = &start.origin;
     if (!is_on_) {
         return true;
     }
+    origin_ = start.origin;
     if (!tangent_) {
-        tangent_ = std::make_unique<BlockMatrix<Dim, double>>(elasticity_->pattern());
+        pattern_ = elasticity_->pattern();
+        tangent_ = std::make_unique<BlockMatrix<Dim, double>>(*pattern_);
     }
     tangent_->set_zero(*workers_);
     dirichlet_part_.setZero(Dim, dofs_->count());
@@ -30,7 +31,7 @@ double RayleighDamping<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& g
     if (!is_on_) {
         return 0;
     }
-    const BlockVector<Dim> travel = at_dofs<Dim>(*dofs_, x - *origin_);
+    const BlockVector<Dim> travel = at_dofs<Dim>(*dofs_, x - origin_);
     BlockVector<Dim> resistance(Dim, travel.cols());
     tangent_->multiply(*workers_, *kernels_, travel, resistance);
     const auto rows = static_cast<Eigen::Index>(dofs_->row_count());
@@ -48,7 +49,8 @@ double RayleighDamping<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& g
 }
 
 template <int Dim>
-void RayleighDamping<Dim>::add_hessian(double weight,
+void RayleighDamping<Dim>::add_hessian(const Positions<Dim>& /*x*/,
+                                       double weight,
                                        Filter /*filter*/,
                                        NewtonSystem<Dim>& system) {
     if (is_on_) {

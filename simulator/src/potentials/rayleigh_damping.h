@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 namespace pent::simulator {
 
@@ -16,26 +17,33 @@ namespace pent::simulator {
 template <int Dim>
 class RayleighDamping final : public Potential<Dim> {
 public:
-    /// @param elasticity, dofs  Must outlive this.
+    /// @param workers, kernels, elasticity, sharing  Must outlive this.
     RayleighDamping(const Workers& workers,
                     const BlockKernels& kernels,
                     const Elasticity<Dim>& elasticity,
-                    const DofMap& dofs,
+                    std::shared_ptr<const DofMap> dofs,
                     const Sharing& sharing,
                     Filter filter)
         : workers_(&workers),
           kernels_(&kernels),
           elasticity_(&elasticity),
-          dofs_(&dofs),
+          dofs_(std::move(dofs)),
           sharing_(&sharing),
           filter_(filter) {}
 
-    /// After the dofs have changed.
-    void forget() { tangent_.reset(); }
+    /// The dofs from the next step on.
+    void set_dofs(std::shared_ptr<const DofMap> dofs) {
+        dofs_ = std::move(dofs);
+        tangent_.reset();
+        pattern_.reset();
+    }
 
     [[nodiscard]] bool begin_step(const StepStart<Dim>& start) override;
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
-    void add_hessian(double weight, Filter filter, NewtonSystem<Dim>& system) override;
+    void add_hessian(const Positions<Dim>& x,
+                     double weight,
+                     Filter filter,
+                     NewtonSystem<Dim>& system) override;
 
     /// Whether this step has a tangent of its own.
     [[nodiscard]] bool has_tangent() const { return is_on_; }
@@ -50,12 +58,13 @@ private:
     const Workers* workers_;
     const BlockKernels* kernels_;
     const Elasticity<Dim>* elasticity_;
-    const DofMap* dofs_;
+    std::shared_ptr<const DofMap> dofs_;
     const Sharing* sharing_;
     Filter filter_;
-    const Positions<Dim>* origin_ = nullptr;  // of the step
+    Positions<Dim> origin_;  // of the step
     bool is_on_ = false;
-    std::unique_ptr<BlockMatrix<Dim, double>> tangent_;
+    std::shared_ptr<const BlockPattern> pattern_;
+    std::unique_ptr<BlockMatrix<Dim, double>> tangent_;  // on it
     BlockVector<Dim> dirichlet_part_;  // Dim x dofs: K times the travel of Dirichlet vertices
     std::int64_t hessians_ = 0;
 };

@@ -42,13 +42,14 @@ template <int Dim>
 SceneEnergy<Dim>::SceneEnergy(const Workers& workers,
                               const Kernels<Dim>& kernels,
                               const Bodies<Dim>& bodies,
+                              const HeldVertices<Dim>& held,
                               const Scene& scene) {
     // What a host may change later is there from the beginning, since sums have one order.
     gravity = &sum.add(
         std::make_unique<Gravity<Dim>>(workers, bodies.masses, Vector<Dim>(scene.gravity)));
-    elasticity = &sum.add(std::make_unique<Elasticity<Dim>>(workers, kernels, bodies, scene));
+    elasticity = &sum.add(std::make_unique<Elasticity<Dim>>(workers, kernels, bodies, held, scene));
     forces = &sum.add(std::make_unique<ForceLoads<Dim>>(scene, bodies));
-    if (auto loads = std::make_unique<PressureLoads<Dim>>(workers, scene, bodies);
+    if (auto loads = std::make_unique<PressureLoads<Dim>>(workers, scene, bodies, held);
         !loads->is_empty()) {
         sum.add(std::move(loads));
     }
@@ -56,7 +57,7 @@ SceneEnergy<Dim>::SceneEnergy(const Workers& workers,
         attachments = &sum.add(std::make_unique<Attachments<Dim>>(workers, scene, bodies));
     }
     grabs = &sum.add(std::make_unique<Grabs<Dim>>(scene, bodies));
-    contact = &sum.add(std::make_unique<ContactPotential<Dim>>(workers, scene, bodies));
+    contact = &sum.add(std::make_unique<ContactPotential<Dim>>(workers, scene, bodies, held));
     if (const auto law = friction_law(scene)) {
         friction = &sum.add(std::make_unique<FrictionPotential<Dim>>(*contact, *law));
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/held_vertices.h"
 #include "potentials/attachments.h"
 #include "potentials/contact_potential.h"
 #include "potentials/elasticity.h"
@@ -14,10 +15,12 @@ namespace pent::simulator {
 /// The potential energy of a scene: what a scene asks for becomes terms here, and nowhere else.
 template <int Dim>
 struct SceneEnergy {
-    /// The references must outlive this.
+    /// @param workers, kernels, bodies  Must outlive this.
+    /// @param held                      At the start; not needed afterwards.
     SceneEnergy(const Workers& workers,
                 const Kernels<Dim>& kernels,
                 const Bodies<Dim>& bodies,
+                const HeldVertices<Dim>& held,
                 const Scene& scene);
 
     PotentialEnergy<Dim> sum;

@@ -44,14 +44,14 @@ StepProblem<Dim> Simulation<Dim>::Stepper::make_problem(double time, double h) c
         step_problem(scene_.solver.integrator, current_, has_even_past ? &history_ : nullptr, h);
     problem.time = time + h;
     problem.prescribed = current_.positions;
-    place_dirichlet<Dim>(bodies_, time + h, problem.prescribed, nullptr);
+    held_.place(time + h, problem.prescribed, nullptr);
     return problem;
 }
 
 template <int Dim>
 void Simulation<Dim>::Stepper::set_velocities(const StepProblem<Dim>& problem, double time) {
     next_.velocities = problem.rate * (next_.positions - problem.origin);
-    place_dirichlet(bodies_, time, next_.positions, &next_.velocities);
+    held_.place(time, next_.positions, &next_.velocities);
     still(next_.velocities);
 }
 
@@ -193,15 +193,17 @@ typename Simulation<Dim>::Stepper::Method Simulation<Dim>::Stepper::choose_metho
 
 // Tells the terms of the step that begins.
 template <int Dim>
-void Simulation<Dim>::Stepper::begin(const StepProblem<Dim>& problem, double h, Method method) {
+void Simulation<Dim>::Stepper::begin(const std::shared_ptr<const StepProblem<Dim>>& problem,
+                                     double h,
+                                     Method method) {
     Positions<Dim> travel = Positions<Dim>::Zero(Dim, current_.positions.cols());
-    for (std::uint32_t vertex = 0; vertex < bodies_.is_dirichlet.size(); ++vertex) {
-        if (bodies_.is_dirichlet[vertex]) {
-            travel.col(vertex) = problem.prescribed.col(vertex) - problem.origin.col(vertex);
+    for (std::uint32_t vertex = 0; vertex < travel.cols(); ++vertex) {
+        if (held_.is_held(vertex)) {
+            travel.col(vertex) = problem->prescribed.col(vertex) - problem->origin.col(vertex);
         }
     }
-    potential_.begin_step(problem, {current_.positions, current_.velocities, problem.origin, travel,
-                                    h, problem.rate, method == Method::Linear});
+    potential_.begin_step(problem, {current_.positions, current_.velocities, problem->origin,
+                                    travel, h, problem->rate, method == Method::Linear});
     potential_.accept_rough_directions(method == Method::Damped);
 }
 
@@ -215,19 +217,19 @@ typename Simulation<Dim>::Stepper::Outcome Simulation<Dim>::Stepper::attempt(dou
         ++report.refused;
         return outcome;
     };
-    const StepProblem<Dim> problem = make_problem(time, h);
+    const auto problem = std::make_shared<const StepProblem<Dim>>(make_problem(time, h));
     energy_.sum.set_time({time, time + h});
     if (std::string reason = energy_.contact->obstacle_in_the_way(current_.positions);
         !reason.empty()) {
         return refuse(std::move(reason), Outcome::Refused);
     }
     energy_.sum.update(current_.positions);
-    static_cast<void>(wake_for(problem.prescribed));
+    static_cast<void>(wake_for(problem->prescribed));
     energy_.sum.update(current_.positions);
     const Energies before{kinetic_energy(current_.velocities), energy_.sum.energies()};
     const Method method = is_damped ? Method::Damped : choose_method();
     begin(problem, h, method);
-    const NewtonReport solved = solve(problem, method);
+    const NewtonReport solved = solve(*problem, method);
     report.newton_iterations += solved.iterations;
     report.unbalanced = std::max(report.unbalanced, solved.residual);
     if (!solved.has_converged) {
@@ -236,7 +238,7 @@ typename Simulation<Dim>::Stepper::Outcome Simulation<Dim>::Stepper::attempt(dou
             method == Method::Linear && before.of("elastic") > bodies_.large_energy;
         return refuse(solved.failure_reason, is_astray ? Outcome::Astray : Outcome::Refused);
     }
-    set_velocities(problem, time + h);
+    set_velocities(*problem, time + h);
     energy_.sum.update(next_.positions);
     if (std::string reason = excess(before, method); !reason.empty()) {
         return refuse(std::move(reason),
@@ -246,7 +248,7 @@ typename Simulation<Dim>::Stepper::Outcome Simulation<Dim>::Stepper::attempt(dou
         return refuse(std::move(reason), Outcome::Refused);
     }
     // Newton's method has forces at the end of the step: what was run into there has to give way.
-    if (method != Method::Linear && wake_for(problem.prescribed)) {
+    if (method != Method::Linear && wake_for(problem->prescribed)) {
         return attempt(time, h, is_damped, report);
     }
     if (scene_.solver.integrator == Integrator::Bdf2) {

@@ -39,10 +39,10 @@ std::vector<double> angular_momentum(const Eigen::VectorXd& masses,
 }
 
 template <int Dim>
-Positions<Dim> reactions(const Bodies<Dim>& bodies, const Positions<Dim>& forces) {
+Positions<Dim> reactions(const HeldVertices<Dim>& held, const Positions<Dim>& forces) {
     Positions<Dim> all = Positions<Dim>::Zero(Dim, forces.cols());
     for (Eigen::Index vertex = 0; vertex < forces.cols(); ++vertex) {
-        if (bodies.is_dirichlet[static_cast<std::size_t>(vertex)]) {
+        if (held.is_held(static_cast<std::uint32_t>(vertex))) {
             all.col(vertex) = -forces.col(vertex);
         }
     }
@@ -50,11 +50,11 @@ Positions<Dim> reactions(const Bodies<Dim>& bodies, const Positions<Dim>& forces
 }
 
 template <int Dim>
-std::vector<ConstraintSummary> constraint_summaries(const Bodies<Dim>& bodies,
+std::vector<ConstraintSummary> constraint_summaries(const HeldVertices<Dim>& held,
                                                     const Positions<Dim>& positions,
                                                     const Positions<Dim>& forces) {
     std::vector<ConstraintSummary> all;
-    for (const DirichletSet<Dim>& set : bodies.dirichlet_sets) {
+    for (const DirichletSet<Dim>& set : held.sets()) {
         ConstraintSummary& summary = all.emplace_back();
         Vector<Dim> center = Vector<Dim>::Zero();
         for (const std::uint32_t vertex : set.vertices) {
@@ -63,7 +63,7 @@ std::vector<ConstraintSummary> constraint_summaries(const Bodies<Dim>& bodies,
         center /= static_cast<double>(set.vertices.size());
         Vector<Dim> force = Vector<Dim>::Zero();
         Matrix<Dim> moment = Matrix<Dim>::Zero();
-        if (set.is_held(bodies.step)) {
+        if (held.is_held(set)) {
             summary.held = static_cast<std::int64_t>(set.vertices.size());
             for (const std::uint32_t vertex : set.vertices) {
                 force -= forces.col(vertex);
@@ -81,9 +81,9 @@ std::vector<ConstraintSummary> constraint_summaries(const Bodies<Dim>& bodies,
     template std::vector<double> momentum<Dim>(const Eigen::VectorXd&, const Positions<Dim>&); \
     template std::vector<double> angular_momentum<Dim>(                                        \
         const Eigen::VectorXd&, const Positions<Dim>&, const Positions<Dim>&);                 \
-    template Positions<Dim> reactions<Dim>(const Bodies<Dim>&, const Positions<Dim>&);         \
+    template Positions<Dim> reactions<Dim>(const HeldVertices<Dim>&, const Positions<Dim>&);   \
     template std::vector<ConstraintSummary> constraint_summaries<Dim>(                         \
-        const Bodies<Dim>&, const Positions<Dim>&, const Positions<Dim>&);
+        const HeldVertices<Dim>&, const Positions<Dim>&, const Positions<Dim>&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 

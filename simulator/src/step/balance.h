@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/bodies.h"
+#include "model/held_vertices.h"
 
 #include <pent/simulator/step_report.h>
 
@@ -20,14 +20,14 @@ template <int Dim>
                                                    const Positions<Dim>& positions,
                                                    const Positions<Dim>& velocities);
 
-/// Minus all forces (N, without inertia and damping) that act on vertices which a constraint holds
-/// now; 0 at all others.
+/// Minus all forces (N, without inertia and damping) that act on vertices which are held now; 0 at
+/// all others.
 template <int Dim>
-[[nodiscard]] Positions<Dim> reactions(const Bodies<Dim>& bodies, const Positions<Dim>& forces);
+[[nodiscard]] Positions<Dim> reactions(const HeldVertices<Dim>& held, const Positions<Dim>& forces);
 
 /// What each constraint holds its vertices with: the reactions of these, together.
 template <int Dim>
-[[nodiscard]] std::vector<ConstraintSummary> constraint_summaries(const Bodies<Dim>& bodies,
+[[nodiscard]] std::vector<ConstraintSummary> constraint_summaries(const HeldVertices<Dim>& held,
                                                                   const Positions<Dim>& positions,
                                                                   const Positions<Dim>& forces);
 

@@ -27,10 +27,10 @@ void Simulation<Dim>::Stepper::set_held(const std::map<std::uint32_t, Vector>& h
         vertices.push_back(vertex);
     }
     std::vector<std::uint32_t> changed;
-    const std::vector<std::uint32_t>& before = bodies_.host_holds.vertices;
+    const std::vector<std::uint32_t>& before = held_.of_host().vertices;
     std::set_symmetric_difference(before.begin(), before.end(), vertices.begin(), vertices.end(),
                                   std::back_inserter(changed));
-    if (!hold_for_host(std::move(vertices), targets, bodies_)) {
+    if (!held_.hold_for_host(std::move(vertices), targets)) {
         return;
     }
     for (const std::uint32_t vertex : changed) {
@@ -86,8 +86,8 @@ HostState<Dim> Simulation<Dim>::Stepper::host() const {
             .forces = energy_.forces->of_host(),
             .grabs = energy_.grabs->holdings(),
             .next_grab = next_grab_,
-            .held = bodies_.host_holds.vertices,
-            .targets = bodies_.host_holds.targets};
+            .held = held_.of_host().vertices,
+            .targets = held_.of_host().targets};
 }
 
 // Returns whether other vertices are held than before. Who sleeps is not its business.
@@ -99,7 +99,7 @@ bool Simulation<Dim>::Stepper::restore_host(const HostState<Dim>& host) {
     energy_.grabs->set(host.grabs, time());
     next_grab_ = host.next_grab;
     energy_.sum.invalidate();
-    return hold_for_host(host.held, host.targets, bodies_);
+    return held_.hold_for_host(host.held, host.targets);
 }
 
 template <int Dim>

@@ -1,5 +1,7 @@
 #include "step/host_checks.h"
 
+#include "model/rotation.h"
+
 #include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/formatted.h>

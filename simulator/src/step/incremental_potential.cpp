@@ -1,5 +1,7 @@
 #include "step/incremental_potential.h"
 
+#include "model/body_dofs.h"
+
 #include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
@@ -14,8 +16,13 @@ namespace {
 
 // The same vertices as this rank has them in its matrix: in the same order where there is but one.
 template <int Dim>
-DofMap rows_of(const DofMap& alike, const Bodies<Dim>& bodies, const std::vector<bool>& is_in) {
-    return bodies.sharing.is_shared() ? number_dofs(bodies, is_in) : alike;
+std::shared_ptr<const DofMap> rows_of(const std::shared_ptr<const DofMap>& alike,
+                                      const Bodies<Dim>& bodies,
+                                      const HeldVertices<Dim>& held,
+                                      const std::vector<bool>& is_in) {
+    return bodies.sharing.is_shared()
+               ? std::make_shared<const DofMap>(number_dofs(bodies, held, is_in))
+               : alike;
 }
 
 }  // namespace
@@ -24,22 +31,24 @@ template <int Dim>
 IncrementalPotential<Dim>::IncrementalPotential(const Workers& workers,
                                                 const Kernels<Dim>& kernels,
                                                 const Bodies<Dim>& bodies,
+                                                const HeldVertices<Dim>& held,
                                                 const Scene& scene,
-                                                PotentialEnergy<Dim>& energy,
-                                                Elasticity<Dim>& elasticity)
+                                                SceneEnergy<Dim>& energy)
     : workers_(&workers),
       kernels_(&kernels),
       bodies_(&bodies),
       options_(scene.solver),
       damping_(scene.damping.value_or(Damping{})),
-      energy_(&energy),
-      elasticity_(&elasticity),
-      dofs_(number_dofs_alike(bodies, std::vector<bool>(bodies.count(), true))),
-      rows_(rows_of(dofs_, bodies, std::vector<bool>(bodies.count(), true))),
+      energy_(&energy.sum),
+      elasticity_(energy.elasticity),
+      is_held_(held.now()),
+      dofs_(std::make_shared<const DofMap>(
+          number_dofs_alike(bodies, held, std::vector<bool>(bodies.count(), true)))),
+      rows_(rows_of(dofs_, bodies, held, std::vector<bool>(bodies.count(), true))),
       inertia_(workers, dofs_, bodies.masses),
       mass_drag_(workers, dofs_, bodies.masses),
       stiffness_drag_(
-          workers, kernels.blocks, elasticity, rows_, bodies.sharing, scene.solver.filter) {
+          workers, kernels.blocks, *elasticity_, rows_, bodies.sharing, scene.solver.filter) {
     set_up_solver();
 }
 
@@ -56,22 +65,26 @@ void IncrementalPotential<Dim>::refuse_unsolvable(std::int64_t memory) const {
     if (memory > 0 && wanted > memory) {
         throw Error("solver.linear = \"direct\" needs "
                     + formatted("%.3g MB for %u free vertices, of %.3g MB",
-                                static_cast<double>(wanted) / kMegabyte, dofs_.count(),
+                                static_cast<double>(wanted) / kMegabyte, dofs_->count(),
                                 static_cast<double>(memory) / kMegabyte)
                     + " that there are: use \"cg\"");
     }
 }
 
 template <int Dim>
-void IncrementalPotential<Dim>::renumber(const std::vector<bool>& asleep,
+void IncrementalPotential<Dim>::renumber(const HeldVertices<Dim>& held,
+                                         const std::vector<bool>& asleep,
                                          const Positions<Dim>& positions) {
     std::vector<bool> awake = asleep;
     awake.flip();
-    dofs_ = number_dofs_alike(*bodies_, awake);
-    rows_ = rows_of(dofs_, *bodies_, awake);
-    elasticity_->set_dofs(rows_, asleep, positions);
+    is_held_ = held.now();
+    dofs_ = std::make_shared<const DofMap>(number_dofs_alike(*bodies_, held, awake));
+    rows_ = rows_of(dofs_, *bodies_, held, awake);
+    elasticity_->set_dofs(*rows_, held, asleep, positions);
     energy_->invalidate();
-    stiffness_drag_.forget();
+    inertia_.set_dofs(dofs_);
+    mass_drag_.set_dofs(dofs_);
+    stiffness_drag_.set_dofs(rows_);
     set_up_solver();
 }
 
@@ -84,13 +97,13 @@ DofOwners IncrementalPotential<Dim>::find_owners() const {
     }
     Eigen::Matrix<double, 1, Eigen::Dynamic> places =
         Eigen::RowVectorXd::Zero(bodies_->vertex_count());
-    for (std::uint32_t dof = 0; dof < rows_.row_count(); ++dof) {
-        places[rows_.vertex_of(dof)] = dof;
+    for (std::uint32_t dof = 0; dof < rows_->row_count(); ++dof) {
+        places[rows_->vertex_of(dof)] = dof;
     }
     sharing.gather(places);
     DofOwners owners;
     owners.sharing = &sharing;
-    for (const std::uint32_t vertex : rows_.vertices()) {
+    for (const std::uint32_t vertex : rows_->vertices()) {
         owners.ranks.push_back(sharing.owner(vertex));
         owners.places.push_back(static_cast<std::uint32_t>(places[vertex]));
     }
@@ -100,31 +113,31 @@ DofOwners IncrementalPotential<Dim>::find_owners() const {
 template <int Dim>
 void IncrementalPotential<Dim>::set_up_solver() {
     if (options_.linear == LinearSolverKind::Direct) {
-        solver_ = make_direct_solver<Dim>(at_dofs(rows_, bodies_->rest));
+        solver_ = make_direct_solver<Dim>(at_dofs(*rows_, bodies_->rest));
     } else {
         solver_ = make_iterative_solver<Dim>(
             *workers_, kernels_->blocks, options_.preconditioner,
-            DofGeometry<Dim>{rows_.column_start(), at_dofs(rows_, bodies_->rest), find_owners()});
+            DofGeometry<Dim>{rows_->column_start(), at_dofs(*rows_, bodies_->rest), find_owners()});
     }
     float_system_.reset();
     double_system_.reset();
+    pattern_ = elasticity_->pattern();
     auto& system = options_.precision == Precision::Float ? float_system_ : double_system_;
-    system = std::make_unique<NewtonSystem<Dim>>(*workers_, rows_, elasticity_->pattern(),
-                                                 options_.precision);
+    system = std::make_unique<NewtonSystem<Dim>>(*workers_, *rows_, *pattern_, options_.precision);
 }
 
 template <int Dim>
-void IncrementalPotential<Dim>::begin_step(const StepProblem<Dim>& problem,
+void IncrementalPotential<Dim>::begin_step(std::shared_ptr<const StepProblem<Dim>> problem,
                                            const StepStart<Dim>& start) {
-    problem_ = &problem;
-    inertia_.set_anchor(problem.target);
-    mass_drag_.set_anchor(problem.origin);
+    problem_ = std::move(problem);
+    inertia_.set_anchor({problem_, &problem_->target});
+    mass_drag_.set_anchor({problem_, &problem_->origin});
     energy_->begin_step(start);
     elasticity_->set_hessian_factor(1);
     if (damping_.stiffness > 0) {
         static_cast<void>(stiffness_drag_.begin_step(start));
         if (!stiffness_drag_.has_tangent()) {
-            elasticity_->set_hessian_factor(1 + problem.rate * damping_.stiffness);
+            elasticity_->set_hessian_factor(1 + problem_->rate * damping_.stiffness);
         }
     }
 }
@@ -137,7 +150,7 @@ void IncrementalPotential<Dim>::balance(const Positions<Dim>& x) {
         }
         const Evaluation<Dim> all = evaluate(x);
         const Positions<Dim> own = problem_->scale * energy_->gradient_of(*term);
-        if (term->balance(at_dofs<Dim>(dofs_, own), at_dofs<Dim>(dofs_, all.gradient - own))) {
+        if (term->balance(at_dofs<Dim>(*dofs_, own), at_dofs<Dim>(*dofs_, all.gradient - own))) {
             energy_->invalidate();
         }
     }
@@ -165,8 +178,8 @@ Evaluation<Dim> IncrementalPotential<Dim>::evaluate(const Positions<Dim>& x) {
     add(drag * damping_.mass, mass_drag_);
     gradient_ += problem_->scale * energy_->gradient();
     add(drag * damping_.stiffness, stiffness_drag_);
-    for (std::uint32_t vertex = 0; vertex < dofs_.vertex_count(); ++vertex) {
-        if (!dofs_.has_dof(vertex)) {
+    for (std::uint32_t vertex = 0; vertex < dofs_->vertex_count(); ++vertex) {
+        if (!dofs_->has_dof(vertex)) {
             gradient_.col(vertex).setZero();
         }
     }
@@ -177,8 +190,8 @@ Evaluation<Dim> IncrementalPotential<Dim>::evaluate(const Positions<Dim>& x) {
 template <int Dim>
 Positions<Dim> IncrementalPotential<Dim>::prescribed_shift(const Positions<Dim>& x) const {
     Positions<Dim> shift = Positions<Dim>::Zero(Dim, x.cols());
-    for (std::uint32_t vertex = 0; vertex < bodies_->is_dirichlet.size(); ++vertex) {
-        if (bodies_->is_dirichlet[vertex]) {
+    for (std::uint32_t vertex = 0; vertex < is_held_.size(); ++vertex) {
+        if (is_held_[vertex]) {
             shift.col(vertex) = problem_->prescribed.col(vertex) - x.col(vertex);
         }
     }
@@ -206,22 +219,22 @@ bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
                                          Filter filter,
                                          const Positions<Dim>& shift) {
     const Stopwatch watch;
-    system.begin(-at_dofs(rows_, gradient_), shift);
+    system.begin(-at_dofs(*rows_, gradient_), shift);
     double others = 0;  // seconds, which terms count themselves
     for (const auto& term : energy_->terms()) {
         const Stopwatch own;
-        term->add_hessian(problem_->scale, filter, system);
+        term->add_hessian(x_, problem_->scale, filter, system);
         others += term.get() == elasticity_ ? 0 : own.seconds();
     }
     const double drag = problem_->scale * problem_->rate;
     if (problem_->inertia != 0) {
-        inertia_.add_hessian(problem_->inertia, filter, system);
+        inertia_.add_hessian(x_, problem_->inertia, filter, system);
     }
     if (drag * damping_.mass != 0) {
-        mass_drag_.add_hessian(drag * damping_.mass, filter, system);
+        mass_drag_.add_hessian(x_, drag * damping_.mass, filter, system);
     }
     if (drag * damping_.stiffness != 0) {
-        stiffness_drag_.add_hessian(drag * damping_.stiffness, filter, system);
+        stiffness_drag_.add_hessian(x_, drag * damping_.stiffness, filter, system);
     }
     work_.hessians += elasticity_->element_count();
     work_.assembly_seconds += watch.seconds() - others;
@@ -229,7 +242,7 @@ bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
     if (has_lost_inertia && !(may_be_rough_ && &system == double_system_.get())) {
         return false;
     }
-    work_.unknowns += std::int64_t{Dim} * dofs_.count();
+    work_.unknowns += std::int64_t{Dim} * dofs_->count();
     const Stopwatch summing;
     system.finish();
     work_.stencil_seconds += summing.seconds();
@@ -245,8 +258,8 @@ NewtonSystem<Dim>* IncrementalPotential<Dim>::assemble_somehow(Filter filter,
         return float_system_.get();
     }
     if (!double_system_) {
-        double_system_ = std::make_unique<NewtonSystem<Dim>>(
-            *workers_, rows_, elasticity_->pattern(), Precision::Double);
+        double_system_ =
+            std::make_unique<NewtonSystem<Dim>>(*workers_, *rows_, *pattern_, Precision::Double);
     }
     return assemble(*double_system_, filter, shift) ? double_system_.get() : nullptr;
 }
@@ -259,10 +272,10 @@ LinearSolution<Dim> IncrementalPotential<Dim>::solve_filtered(const NewtonSystem
                                      .max_iterations = options_.max_iterations};
     // Where all is to be solved for at once, most of it is the motion that inertia alone leads to.
     BlockVector<Dim> guess = tolerance == 0
-                                 ? at_dofs<Dim>(rows_, problem_->target - x_)
-                                 : BlockVector<Dim>(BlockVector<Dim>::Zero(Dim, rows_.count()));
+                                 ? at_dofs<Dim>(*rows_, problem_->target - x_)
+                                 : BlockVector<Dim>(BlockVector<Dim>::Zero(Dim, rows_->count()));
     LinearSolution<Dim> solution =
-        solver_->solve(system, at_dofs(rows_, x_), options, std::move(guess));
+        solver_->solve(system, at_dofs(*rows_, x_), options, std::move(guess));
     work_.solve_seconds += watch.seconds();
     work_.iterations += solution.report.iterations;
     work_.residual = std::max(work_.residual, solution.report.residual);
@@ -273,7 +286,7 @@ template <int Dim>
 NewtonDirection<Dim> IncrementalPotential<Dim>::solve(const Positions<Dim>& shift,
                                                       double tolerance) {
     NewtonDirection<Dim> direction{shift, ""};
-    if (dofs_.count() == 0) {  // all bodies sleep, or move from outside alone
+    if (dofs_->count() == 0) {  // all bodies sleep, or move from outside alone
         return direction;
     }
     LinearSolution<Dim> solution;
@@ -299,8 +312,8 @@ NewtonDirection<Dim> IncrementalPotential<Dim>::solve(const Positions<Dim>& shif
                                        : "the linear solver did not reach its tolerance";
         return direction;
     }
-    for (std::uint32_t dof = 0; dof < rows_.row_count(); ++dof) {
-        direction.step.col(rows_.vertex_of(dof)) = solution.x.col(dof);
+    for (std::uint32_t dof = 0; dof < rows_->row_count(); ++dof) {
+        direction.step.col(rows_->vertex_of(dof)) = solution.x.col(dof);
     }
     bodies_->sharing.gather(direction.step);
     return direction;
@@ -323,7 +336,7 @@ std::int64_t IncrementalPotential<Dim>::tangent_bytes() const {
 template <int Dim>
 std::int64_t IncrementalPotential<Dim>::factor_bytes() const {
     return options_.linear == LinearSolverKind::Direct
-               ? direct_bytes<Dim>(elasticity_->pattern(), at_dofs(rows_, bodies_->rest))
+               ? direct_bytes<Dim>(*pattern_, at_dofs(*rows_, bodies_->rest))
                : 0;
 }
 

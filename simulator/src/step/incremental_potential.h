@@ -1,9 +1,10 @@
 #pragma once
 
 #include "linear/linear_solver.h"
+#include "model/held_vertices.h"
 #include "potentials/mass_distance.h"
-#include "potentials/potential_energy.h"
 #include "potentials/rayleigh_damping.h"
+#include "potentials/scene_energy.h"
 #include "step/objective.h"
 #include "step/step_problem.h"
 
@@ -33,15 +34,14 @@ public:
     /// Told where vertices are on the path of a step, Dim x vertices, m; true where it starts.
     using Observer = std::function<void(const Eigen::MatrixXd& positions, bool is_start)>;
 
-    /// The references must outlive this.
-    ///
-    /// @param elasticity  One of the terms of `energy`.
+    /// @param workers, kernels, bodies, energy  Must outlive this.
+    /// @param held                              Now; all bodies are awake.
     IncrementalPotential(const Workers& workers,
                          const Kernels<Dim>& kernels,
                          const Bodies<Dim>& bodies,
+                         const HeldVertices<Dim>& held,
                          const Scene& scene,
-                         PotentialEnergy<Dim>& energy,
-                         Elasticity<Dim>& elasticity);
+                         SceneEnergy<Dim>& energy);
 
     /// Throws an Error where a direct solve would take more memory than there is, or is asked of
     /// ranks.
@@ -51,14 +51,15 @@ public:
 
     /// Solves for some bodies alone from now on, and for what of them is not held now.
     ///
+    /// @param held       Now.
     /// @param asleep     One entry a body: those that are not solved for.
     /// @param positions  Dim x vertices: where these lie, m.
-    void renumber(const std::vector<bool>& asleep, const Positions<Dim>& positions);
+    void renumber(const HeldVertices<Dim>& held,
+                  const std::vector<bool>& asleep,
+                  const Positions<Dim>& positions);
 
     /// Starts a step; the energy must have been evaluated where it starts.
-    ///
-    /// @param problem, start  Must last while the step is solved.
-    void begin_step(const StepProblem<Dim>& problem, const StepStart<Dim>& start);
+    void begin_step(std::shared_ptr<const StepProblem<Dim>> problem, const StepStart<Dim>& start);
 
     /// Whether solve() may give directions that are not exact in the step that has begun: what
     /// conjugate gradients leave at max_iterations, or what rounding leaves of inertia.
@@ -79,7 +80,7 @@ public:
     void set_observer(Observer observer) { observer_ = std::move(observer); }
     void tell_start(const Positions<Dim>& x) const;
 
-    [[nodiscard]] const DofMap& dofs() const { return dofs_; }
+    [[nodiscard]] const DofMap& dofs() const { return *dofs_; }
     [[nodiscard]] SolveWork take_work() { return std::exchange(work_, {}); }
     [[nodiscard]] std::int64_t take_damping_hessians() { return stiffness_drag_.take_hessians(); }
 
@@ -107,8 +108,11 @@ private:
     Damping damping_;
     PotentialEnergy<Dim>* energy_;
     Elasticity<Dim>* elasticity_;
-    DofMap dofs_;  // alike on all ranks
-    DofMap rows_;  // the same as this rank has them in its matrix
+    std::vector<bool> is_held_;  // one a vertex
+    // Never rewritten, but replaced: those who were given one keep it as it was.
+    std::shared_ptr<const DofMap> dofs_;           // alike on all ranks
+    std::shared_ptr<const DofMap> rows_;           // the same as this rank has them in its matrix
+    std::shared_ptr<const BlockPattern> pattern_;  // of elements, by rows
     MassDistance<Dim> inertia_;
     MassDistance<Dim> mass_drag_;
     RayleighDamping<Dim> stiffness_drag_;
@@ -116,7 +120,7 @@ private:
     // Where float has turned out too coarse there are both.
     std::unique_ptr<NewtonSystem<Dim>> float_system_;
     std::unique_ptr<NewtonSystem<Dim>> double_system_;
-    const StepProblem<Dim>* problem_ = nullptr;
+    std::shared_ptr<const StepProblem<Dim>> problem_;
     bool may_be_rough_ = false;
     Positions<Dim> x_;         // last evaluated
     Positions<Dim> gradient_;  // there, of all vertices

@@ -98,6 +98,7 @@ template <int Dim>
 Snapshot<Dim> without_body(Snapshot<Dim> snapshot,
                            const Scene& scene,
                            const Bodies<Dim>& bodies,
+                           const HeldVertices<Dim>& held,
                            std::size_t body) {
     const auto range = bodies.vertices(body);
     for (Positions<Dim>* array : {&snapshot.positions, &snapshot.velocities,
@@ -106,7 +107,7 @@ Snapshot<Dim> without_body(Snapshot<Dim> snapshot,
     }
     snapshot.sleep.erase(snapshot.sleep.begin() + static_cast<std::ptrdiff_t>(body));
     Eigen::Index places = 0;
-    for (const DirichletSet<Dim>& set : bodies.dirichlet_sets) {
+    for (const DirichletSet<Dim>& set : held.sets()) {
         if (set.begins_later() && set.body == body) {
             cut<Dim>(snapshot.hold_places, places, set.places.cols());
         } else if (set.begins_later()) {
@@ -183,7 +184,7 @@ void Simulation<Dim>::remove_body(int body) {
     std::vector<SimplexMesh<Dim>> meshes = bodies.meshes;
     meshes.erase(meshes.begin() + body);
     rebuild(placed(without_body(stepper_->scene(), index)), std::move(meshes),
-            without_body(std::move(snapshot), stepper_->scene(), bodies, index));
+            without_body(std::move(snapshot), stepper_->scene(), bodies, stepper_->held(), index));
 }
 
 template <int Dim>

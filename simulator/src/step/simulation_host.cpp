@@ -31,11 +31,10 @@ template <int Dim>
 using Held = std::map<std::uint32_t, Vector<Dim>>;
 
 template <int Dim>
-Held<Dim> held_in(const Bodies<Dim>& bodies) {
+Held<Dim> held_in(const HostHolds<Dim>& holds) {
     Held<Dim> held;
-    for (std::size_t i = 0; i < bodies.host_holds.vertices.size(); ++i) {
-        held[bodies.host_holds.vertices[i]] =
-            bodies.host_holds.targets.col(static_cast<Eigen::Index>(i));
+    for (std::size_t i = 0; i < holds.vertices.size(); ++i) {
+        held[holds.vertices[i]] = holds.targets.col(static_cast<Eigen::Index>(i));
     }
     return held;
 }
@@ -49,7 +48,7 @@ void Simulation<Dim>::set_targets(int body,
     const Bodies<Dim>& bodies = stepper_->bodies();
     check_vertices(body, vertices, bodies);
     check_array<Dim>("targets", targets, static_cast<Eigen::Index>(vertices.size()));
-    Held<Dim> held = held_in(bodies);
+    Held<Dim> held = held_in(stepper_->held().of_host());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         held[static_cast<std::uint32_t>(first_vertex(body)) + vertices[i]] =
             targets.col(static_cast<Eigen::Index>(i));
@@ -60,7 +59,7 @@ void Simulation<Dim>::set_targets(int body,
 template <int Dim>
 void Simulation<Dim>::release(int body, const std::vector<std::uint32_t>& vertices) {
     check_vertices(body, vertices, stepper_->bodies());
-    Held<Dim> held = held_in(stepper_->bodies());
+    Held<Dim> held = held_in(stepper_->held().of_host());
     for (const std::uint32_t vertex : vertices) {
         held.erase(static_cast<std::uint32_t>(first_vertex(body)) + vertex);
     }

@@ -31,7 +31,7 @@ void spread(const std::vector<BodyPair>& pairs, const CanTake& can_take, std::ve
 }  // namespace
 
 template <int Dim>
-Islands<Dim>::Islands(const Scene& scene, const Bodies<Dim>& bodies)
+Islands<Dim>::Islands(const Scene& scene, const Bodies<Dim>& bodies, const HeldVertices<Dim>& held)
     : bodies_(&bodies), is_on_(scene.sleep.has_value()), states_(bodies.count()) {
     if (!is_on_) {
         return;
@@ -44,7 +44,7 @@ Islands<Dim>::Islands(const Scene& scene, const Bodies<Dim>& bodies)
         const double size =
             (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).norm();
         speed_.push_back(scene.sleep->speed * size);
-        is_kinematic_.push_back(bodies.is_kinematic(body));
+        is_kinematic_.push_back(held.is_kinematic(body));
     }
 }
 
@@ -73,12 +73,10 @@ bool Islands<Dim>::wake(const Couplings& couplings,
     std::vector<bool> is_moving(states_.size());
     for (std::size_t body = 0; body < states_.size(); ++body) {
         is_moving[body] = !states_[body].is_asleep && !is_kinematic_[body];
-        for (Eigen::Index v = bodies_->first_vertex[body]; v < bodies_->first_vertex[body + 1];
-             ++v) {
-            if (bodies_->is_dirichlet[static_cast<std::size_t>(v)] && from.col(v) != to.col(v)) {
-                is_moving[body] = true;
-            }
-        }
+        const auto range = bodies_->vertices(body);
+        is_moving[body] =
+            is_moving[body]
+            || from.middleCols(range.begin, range.size) != to.middleCols(range.begin, range.size);
     }
     for (const std::size_t body : couplings.driven) {
         is_moving[body] = is_moving[body] || !is_kinematic_[body];
@@ -97,9 +95,11 @@ bool Islands<Dim>::wake(const Couplings& couplings,
 
 // Dirichlet vertices have to be still: what they are about to do would wake the body at once.
 template <int Dim>
-bool Islands<Dim>::is_quiet(std::size_t body, const Positions<Dim>& velocities) const {
+bool Islands<Dim>::is_quiet(std::size_t body,
+                            const HeldVertices<Dim>& held,
+                            const Positions<Dim>& velocities) const {
     for (Eigen::Index v = bodies_->first_vertex[body]; v < bodies_->first_vertex[body + 1]; ++v) {
-        const double most = bodies_->is_dirichlet[static_cast<std::size_t>(v)] ? 0 : speed_[body];
+        const double most = held.is_held(static_cast<std::uint32_t>(v)) ? 0 : speed_[body];
         if (velocities.col(v).norm() > most) {
             return false;
         }
@@ -109,6 +109,7 @@ bool Islands<Dim>::is_quiet(std::size_t body, const Positions<Dim>& velocities) 
 
 template <int Dim>
 bool Islands<Dim>::put_to_sleep(const Couplings& couplings,
+                                const HeldVertices<Dim>& held,
                                 const Positions<Dim>& velocities,
                                 double stiffness) {
     if (!is_on_) {
@@ -125,7 +126,7 @@ bool Islands<Dim>::put_to_sleep(const Couplings& couplings,
         if (state.is_asleep) {
             continue;
         }
-        const bool is_at_rest = !is_driven[body] && is_quiet(body, velocities);
+        const bool is_at_rest = !is_driven[body] && is_quiet(body, held, velocities);
         state.quiet_steps = is_at_rest ? state.quiet_steps + 1 : 0;
         is_moving[body] = state.quiet_steps < (is_kinematic_[body] ? 1 : steps_to_sleep_);
         can_sleep = can_sleep || !(is_moving[body] || is_kinematic_[body]);

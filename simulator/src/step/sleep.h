@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/bodies.h"
+#include "model/held_vertices.h"
 #include "potentials/potential.h"
 
 #include <pent/simulator/simulation.h>
@@ -16,7 +17,8 @@ template <int Dim>
 class Islands {
 public:
     /// @param bodies  Must outlive this.
-    Islands(const Scene& scene, const Bodies<Dim>& bodies);
+    /// @param held    At the start; not needed afterwards.
+    Islands(const Scene& scene, const Bodies<Dim>& bodies, const HeldVertices<Dim>& held);
 
     [[nodiscard]] int asleep_count() const;
     [[nodiscard]] const std::vector<SleepState>& states() const { return states_; }
@@ -30,7 +32,8 @@ public:
     /// Wakes bodies whose Dirichlet vertices move or that are driven, bodies coupled to what moves
     /// or is awake, and what is coupled to these in turn.
     ///
-    /// @param from, to  Dim x vertices: where Dirichlet vertices are and will be.
+    /// @param from, to  Dim x vertices: where Dirichlet vertices are and will be, m; all others
+    ///                  the same in both.
     /// @return          Whether any has woken.
     bool wake(const Couplings& couplings, const Positions<Dim>& from, const Positions<Dim>& to);
 
@@ -41,11 +44,14 @@ public:
     /// @param stiffness  Of a barrier now, N/m.
     /// @return           Whether any has.
     bool put_to_sleep(const Couplings& couplings,
+                      const HeldVertices<Dim>& held,
                       const Positions<Dim>& velocities,
                       double stiffness);
 
 private:
-    [[nodiscard]] bool is_quiet(std::size_t body, const Positions<Dim>& velocities) const;
+    [[nodiscard]] bool is_quiet(std::size_t body,
+                                const HeldVertices<Dim>& held,
+                                const Positions<Dim>& velocities) const;
 
     const Bodies<Dim>* bodies_;
     bool is_on_;

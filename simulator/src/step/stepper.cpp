@@ -42,9 +42,10 @@ Simulation<Dim>::Stepper::Stepper(const Scene& scene,
       isa_(choose_isa(options.isa, options.ranks.get())),
       kernels_(&kernels<Dim>(isa_)),
       bodies_(share(scene, make_bodies(scene, std::move(meshes)), options.ranks)),
-      energy_(workers_, *kernels_, bodies_, scene),
-      potential_(workers_, *kernels_, bodies_, scene, energy_.sum, *energy_.elasticity),
-      islands_(scene, bodies_),
+      held_(scene, bodies_),
+      energy_(workers_, *kernels_, bodies_, held_, scene),
+      potential_(workers_, *kernels_, bodies_, held_, scene, energy_),
+      islands_(scene, bodies_, held_),
       asleep_(islands_.asleep()),
       extent_((bodies_.rest.rowwise().maxCoeff() - bodies_.rest.rowwise().minCoeff()).norm()),
       thinnest_(thinnest(bodies_)) {
@@ -52,7 +53,7 @@ Simulation<Dim>::Stepper::Stepper(const Scene& scene,
     potential_.set_observer(options.on_iterate);
     current_.positions = bodies_.rest;
     current_.velocities = start_velocities(scene, bodies_);
-    place_dirichlet(bodies_, 0, current_.positions, &current_.velocities);
+    held_.place(0, current_.positions, &current_.velocities);
 }
 
 template <int Dim>
@@ -92,7 +93,7 @@ Snapshot<Dim> Simulation<Dim>::Stepper::save() const {
             .sleep = islands_.states(),
             .steps = steps_,
             .contact_stiffness = energy_.contact->stiffness(),
-            .hold_places = hold_places(bodies_),
+            .hold_places = held_.places(),
             .broken_springs = broken_springs(),
             .host = host()};
 }
@@ -128,9 +129,9 @@ void Simulation<Dim>::Stepper::restore(const Snapshot<Dim>& snapshot) {
     }
     // What is held is that of the last step until the next one begins.
     bool has_changed =
-        !hold(scene_, std::max<std::uint64_t>(steps_, 1) - 1, current_.positions, bodies_).empty();
+        !held_.hold(std::max<std::uint64_t>(steps_, 1) - 1, current_.positions).empty();
     has_changed = restore_host(snapshot.host) || has_changed;
-    set_hold_places(scene_, snapshot.hold_places, bodies_);
+    held_.set_places(snapshot.hold_places);
     if (has_changed) {
         number_dofs_of_the_free();
     } else {
@@ -166,7 +167,7 @@ void Simulation<Dim>::Stepper::number_dofs_of_the_awake() {
     std::vector<bool> asleep = islands_.asleep();
     if (asleep != asleep_) {
         asleep_ = std::move(asleep);
-        potential_.renumber(asleep_, current_.positions);
+        potential_.renumber(held_, asleep_, current_.positions);
     }
 }
 
@@ -174,14 +175,14 @@ void Simulation<Dim>::Stepper::number_dofs_of_the_awake() {
 template <int Dim>
 void Simulation<Dim>::Stepper::number_dofs_of_the_free() {
     asleep_ = islands_.asleep();
-    potential_.renumber(asleep_, current_.positions);
-    energy_.contact->set_held(scene_, bodies_);
+    potential_.renumber(held_, asleep_, current_.positions);
+    energy_.contact->set_held(scene_, bodies_, held_);
 }
 
 // Holds and lets go what constraints ask for in the step that begins.
 template <int Dim>
 void Simulation<Dim>::Stepper::hold_and_release() {
-    const std::vector<std::size_t> changed = hold(scene_, steps_, current_.positions, bodies_);
+    const std::vector<std::size_t> changed = held_.hold(steps_, current_.positions);
     for (const std::size_t body : changed) {
         islands_.wake(static_cast<int>(body));
     }
@@ -235,7 +236,7 @@ void Simulation<Dim>::Stepper::break_springs() {
 template <int Dim>
 void Simulation<Dim>::Stepper::put_to_sleep() {
     if (!islands_.is_on()
-        || !islands_.put_to_sleep(energy_.sum.couplings(), current_.velocities,
+        || !islands_.put_to_sleep(energy_.sum.couplings(), held_, current_.velocities,
                                   energy_.contact->stiffness())) {
         return;
     }
@@ -277,7 +278,7 @@ StepReport Simulation<Dim>::Stepper::step() {
     const Stopwatch watch;
     refuse_disagreement(bodies_.sharing, current_.positions, steps_);
     hold_and_release();
-    begin_host_holds(current_.positions, time(), time() + scene_.dt(), bodies_);
+    held_.begin_step_of_host(current_.positions, time(), time() + scene_.dt());
     const State<Dim> before = current_;
     const State<Dim> history_before = history_;
     const double stiffness_before = energy_.contact->stiffness();
@@ -303,7 +304,7 @@ StepReport Simulation<Dim>::Stepper::step() {
     report.step = steps_;
     report.time = time();
     report.asleep = islands_.asleep_count();
-    report.inverted = energy_.elasticity->inverted_cells();
+    report.inverted = energy_.elasticity->inverted_cells(current_.positions);
     report.collapsed = energy_.elasticity->collapsed();
     report.energies = energies();
     if (scene_.output.balance) {
@@ -311,7 +312,7 @@ StepReport Simulation<Dim>::Stepper::step() {
         report.angular_momentum =
             angular_momentum<Dim>(bodies_.masses, current_.positions, current_.velocities);
     }
-    report.constraints = constraint_summaries(bodies_, current_.positions, forces_);
+    report.constraints = constraint_summaries(held_, current_.positions, forces_);
     if (energy_.attachments != nullptr) {
         report.attachments = energy_.attachments->summaries();
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/bodies.h"
+#include "model/held_vertices.h"
 #include "potentials/scene_energy.h"
 #include "step/incremental_potential.h"
 #include "step/newton.h"
@@ -56,6 +57,7 @@ public:
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const SimulationOptions& options() const { return options_; }
     [[nodiscard]] const Bodies<Dim>& bodies() const { return bodies_; }
+    [[nodiscard]] const HeldVertices<Dim>& held() const { return held_; }
     [[nodiscard]] const State<Dim>& current() const { return current_; }
     [[nodiscard]] const Positions<Dim>& forces() const { return forces_; }
     [[nodiscard]] Positions<Dim> contact_forces() const;
@@ -72,7 +74,7 @@ private:
     bool advance(double time, double h, int depth, StepReport& report);
     [[nodiscard]] Outcome attempt(double time, double h, bool is_damped, StepReport& report);
     [[nodiscard]] Method choose_method() const;
-    void begin(const StepProblem<Dim>& problem, double h, Method method);
+    void begin(const std::shared_ptr<const StepProblem<Dim>>& problem, double h, Method method);
     [[nodiscard]] NewtonReport solve(const StepProblem<Dim>& problem, Method method);
     [[nodiscard]] NewtonReport minimize(Method method);
     [[nodiscard]] NewtonReport minimize_bounded(const StepProblem<Dim>& problem);
@@ -97,11 +99,12 @@ private:
     [[nodiscard]] double kinetic_energy(const Positions<Dim>& velocities) const;
 
     SimulationOptions options_;
-    Scene scene_;
+    const Scene scene_;
     Workers workers_;
     Isa isa_;
     const Kernels<Dim>* kernels_;
-    Bodies<Dim> bodies_;
+    const Bodies<Dim> bodies_;
+    HeldVertices<Dim> held_;
     SceneEnergy<Dim> energy_;
     IncrementalPotential<Dim> potential_;
     Islands<Dim> islands_;

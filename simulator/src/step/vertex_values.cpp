@@ -52,7 +52,7 @@ Eigen::MatrixXd Simulation<Dim>::vertex_values(VertexQuantity quantity, int body
         case VertexQuantity::ContactForce:
             return contact_forces(body);
         case VertexQuantity::Reaction:
-            return reactions(stepper_->bodies(), stepper_->forces())
+            return reactions(stepper_->held(), stepper_->forces())
                 .middleCols(range.begin, range.size);
         case VertexQuantity::EnergyDensity:
             break;

@@ -1,0 +1,251 @@
+#include "model/held_vertices.h"
+
+#include <pent/dimensions.h>
+#include <pent/error.h>
+#include <pent/simulator/placed_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace pent::simulator {
+
+namespace {
+
+// The first step that begins at a time or later; times that differ by this part of a step are the
+// same, as they are sums of rounded ones.
+std::uint64_t first_step_from(double time, double dt) {
+    constexpr double kSameTime = 1e-6;
+    constexpr auto kNever = std::numeric_limits<std::uint64_t>::max();
+    const double step = std::ceil(time / dt - kSameTime);
+    return step < 1e18 ? static_cast<std::uint64_t>(std::max(step, 0.0)) : kNever;
+}
+
+// What is left of a constraint's motions where its vertices are taken up.
+std::vector<Motion> path_from(double start, bool begins_later, std::vector<Motion> motions) {
+    std::erase_if(motions, [&](const Motion& motion) { return motion.to <= start; });
+    for (Motion& motion : motions) {
+        motion.from = begins_later ? std::max(motion.from, start) : motion.from;
+    }
+    return motions;
+}
+
+// What each motion of a set turns about, by where the set was taken up.
+template <int Dim>
+void center_motions(DirichletSet<Dim>& set) {
+    Vector<Dim> sum = Vector<Dim>::Zero();
+    for (const auto place : set.places.colwise()) {
+        sum += place;
+    }
+    set.motions = center<Dim>(set.path, sum / static_cast<double>(set.places.cols()));
+}
+
+// Takes up a set where it is.
+template <int Dim>
+void take_up(const Positions<Dim>& positions, DirichletSet<Dim>& set) {
+    for (std::size_t i = 0; i < set.vertices.size(); ++i) {
+        set.places.col(static_cast<Eigen::Index>(i)) = positions.col(set.vertices[i]);
+    }
+    center_motions<Dim>(set);
+}
+
+// What a constraint holds, and when.
+template <int Dim>
+DirichletSet<Dim> make_set(const Constraint& constraint,
+                           const Scene& scene,
+                           const Bodies<Dim>& bodies) {
+    DirichletSet<Dim> set;
+    set.body = index_of(scene, constraint.body);
+    set.first_step = first_step_from(constraint.from, scene.dt());
+    set.end_step = first_step_from(constraint.to, scene.dt());
+    for (const std::uint32_t vertex : select_vertices(bodies.meshes[set.body], constraint)) {
+        set.vertices.push_back(static_cast<std::uint32_t>(vertex + bodies.first_vertex[set.body]));
+    }
+    set.path = path_from(static_cast<double>(set.first_step) * scene.dt(), set.begins_later(),
+                         constraint.motion);
+    set.places = Positions<Dim>::Zero(Dim, static_cast<Eigen::Index>(set.vertices.size()));
+    if (!set.begins_later()) {
+        take_up<Dim>(bodies.rest, set);
+    }
+    return set;
+}
+
+// Throws where two sets hold a vertex in one step.
+template <int Dim>
+void refuse_overlap(const DirichletSet<Dim>& set,
+                    const DirichletSet<Dim>& other,
+                    const Scene& scene,
+                    const Bodies<Dim>& bodies) {
+    std::vector<std::uint32_t> both;
+    std::set_intersection(set.vertices.begin(), set.vertices.end(), other.vertices.begin(),
+                          other.vertices.end(), std::back_inserter(both));
+    if (!both.empty() && set.first_step < other.end_step && other.first_step < set.end_step) {
+        throw Error("vertex " + std::to_string(both.front() - bodies.first_vertex[set.body])
+                    + " of body \"" + scene.bodies[set.body].name
+                    + "\" is held by two constraints at one time; make their selections disjoint,"
+                      " or let one end before the other begins");
+    }
+}
+
+// Puts what a host holds on the straight way to its target.
+template <int Dim>
+void place_host_holds(const HostHolds<Dim>& holds,
+                      double time,
+                      Positions<Dim>& positions,
+                      Positions<Dim>* velocities) {
+    constexpr double kSameTime = 1e-6;  // parts of a step end at rounded sums
+    const double h = holds.end - holds.begin;
+    const double part = (time - holds.begin) / h;
+    for (std::size_t i = 0; i < holds.vertices.size(); ++i) {
+        const std::uint32_t vertex = holds.vertices[i];
+        const auto column = static_cast<Eigen::Index>(i);
+        const Vector<Dim> way = holds.targets.col(column) - holds.starts.col(column);
+        positions.col(vertex) = holds.targets.col(column);
+        if (part < 1 - kSameTime) {
+            positions.col(vertex) = holds.starts.col(column) + part * way;
+        }
+        if (velocities != nullptr) {
+            velocities->col(vertex) = way / h;
+        }
+    }
+}
+
+}  // namespace
+
+template <int Dim>
+HeldVertices<Dim>::HeldVertices(const Scene& scene, const Bodies<Dim>& bodies)
+    : is_held_(static_cast<std::size_t>(bodies.vertex_count()), false), is_always_held_(is_held_) {
+    for (const Constraint& constraint : scene.constraints) {
+        DirichletSet<Dim> set = make_set<Dim>(constraint, scene, bodies);
+        for (const DirichletSet<Dim>& other : sets_) {
+            refuse_overlap<Dim>(set, other, scene, bodies);
+        }
+        for (const std::uint32_t vertex : set.vertices) {
+            is_always_held_[vertex] =
+                is_always_held_[vertex] || (!set.begins_later() && std::isinf(constraint.to));
+        }
+        sets_.push_back(std::move(set));
+    }
+    for (std::size_t body = 0; body < bodies.count(); ++body) {
+        is_kinematic_.push_back(std::all_of(is_always_held_.begin() + bodies.first_vertex[body],
+                                            is_always_held_.begin() + bodies.first_vertex[body + 1],
+                                            [](bool is_held) { return is_held; }));
+    }
+    mark();
+}
+
+// Marks what is held in the step.
+template <int Dim>
+void HeldVertices<Dim>::mark() {
+    is_held_.assign(is_held_.size(), false);
+    for (const DirichletSet<Dim>& set : sets_) {
+        for (const std::uint32_t vertex : set.vertices) {
+            is_held_[vertex] = is_held_[vertex] || is_held(set);
+        }
+    }
+    for (const std::uint32_t vertex : of_host_.vertices) {
+        is_held_[vertex] = true;
+    }
+}
+
+template <int Dim>
+std::vector<std::size_t> HeldVertices<Dim>::hold(std::uint64_t step,
+                                                 const Positions<Dim>& positions) {
+    std::vector<std::size_t> changed;
+    for (DirichletSet<Dim>& set : sets_) {
+        if (set.is_held(step) == is_held(set)) {
+            continue;
+        }
+        changed.push_back(set.body);
+        if (step == set.first_step && set.begins_later()) {
+            take_up<Dim>(positions, set);
+        }
+    }
+    step_ = step;
+    if (!changed.empty()) {
+        mark();
+    }
+    return changed;
+}
+
+template <int Dim>
+Positions<Dim> HeldVertices<Dim>::places() const {
+    Positions<Dim> all(Dim, 0);
+    for (const DirichletSet<Dim>& set : sets_) {
+        if (set.begins_later()) {
+            const Eigen::Index count = all.cols();
+            all.conservativeResize(Dim, count + set.places.cols());
+            all.rightCols(set.places.cols()) = set.places;
+        }
+    }
+    return all;
+}
+
+template <int Dim>
+void HeldVertices<Dim>::set_places(const Positions<Dim>& places) {
+    Eigen::Index next = 0;
+    for (DirichletSet<Dim>& set : sets_) {
+        if (set.begins_later()) {
+            set.places = places.middleCols(next, set.places.cols());
+            next += set.places.cols();
+            center_motions<Dim>(set);
+        }
+    }
+}
+
+template <int Dim>
+bool HeldVertices<Dim>::hold_for_host(
+    std::vector<std::uint32_t> vertices,  // NOLINT(performance-unnecessary-value-param): moved
+    const Positions<Dim>& targets) {
+    const bool has_changed = vertices != of_host_.vertices;
+    of_host_.vertices = std::move(vertices);
+    of_host_.targets = targets;
+    if (has_changed) {
+        mark();
+    }
+    return has_changed;
+}
+
+template <int Dim>
+void HeldVertices<Dim>::begin_step_of_host(const Positions<Dim>& positions,
+                                           double begin,
+                                           double end) {
+    of_host_.begin = begin;
+    of_host_.end = end;
+    of_host_.starts.resize(Dim, of_host_.targets.cols());
+    for (std::size_t i = 0; i < of_host_.vertices.size(); ++i) {
+        of_host_.starts.col(static_cast<Eigen::Index>(i)) = positions.col(of_host_.vertices[i]);
+    }
+}
+
+template <int Dim>
+void HeldVertices<Dim>::place(double time,
+                              Positions<Dim>& positions,
+                              Positions<Dim>* velocities) const {
+    for (const DirichletSet<Dim>& set : sets_) {
+        if (!is_held(set)) {
+            continue;
+        }
+        const MotionChain<Dim> chain(set.motions, time);
+        for (std::size_t i = 0; i < set.vertices.size(); ++i) {
+            const std::uint32_t vertex = set.vertices[i];
+            Vector<Dim> point = set.places.col(static_cast<Eigen::Index>(i));
+            Vector<Dim> velocity = Vector<Dim>::Zero();
+            chain.move(point, velocities != nullptr ? &velocity : nullptr);
+            positions.col(vertex) = point;
+            if (velocities != nullptr) {
+                velocities->col(vertex) = velocity;
+            }
+        }
+    }
+    place_host_holds<Dim>(of_host_, time, positions, velocities);
+}
+
+#define PENT_INSTANTIATE(Dim) template class HeldVertices<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent::simulator
