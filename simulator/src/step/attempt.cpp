@@ -208,20 +208,34 @@ void Simulation<Dim>::Stepper::begin(const std::shared_ptr<const StepProblem<Dim
 }
 
 template <int Dim>
-typename Simulation<Dim>::Stepper::Outcome Simulation<Dim>::Stepper::attempt(double time,
-                                                                             double h,
-                                                                             bool is_damped,
-                                                                             StepReport& report) {
-    const auto refuse = [&](std::string reason, Outcome outcome) {
-        report.failure = std::move(reason);
-        ++report.refused;
-        return outcome;
-    };
+void Simulation<Dim>::Stepper::Attempts::add(const Attempts& later) {
+    outcome = later.outcome;
+    failure = later.failure.empty() ? failure : later.failure;
+    taken += later.taken;
+    refused += later.refused;
+    damped += later.damped;
+    newton_iterations += later.newton_iterations;
+    unbalanced = std::max(unbalanced, later.unbalanced);
+}
+
+template <int Dim>
+typename Simulation<Dim>::Stepper::Attempts Simulation<Dim>::Stepper::Attempts::refuse(
+    std::string reason, Outcome how) const {
+    Attempts all = *this;
+    all.add({.outcome = how, .failure = std::move(reason), .refused = 1});
+    return all;
+}
+
+template <int Dim>
+typename Simulation<Dim>::Stepper::Attempts Simulation<Dim>::Stepper::attempt(double time,
+                                                                              double h,
+                                                                              bool is_damped) {
+    Attempts now;
     const auto problem = std::make_shared<const StepProblem<Dim>>(make_problem(time, h));
     energy_.sum.set_time({time, time + h});
     if (std::string reason = energy_.contact->obstacle_in_the_way(current_.positions);
         !reason.empty()) {
-        return refuse(std::move(reason), Outcome::Refused);
+        return now.refuse(std::move(reason), Outcome::Refused);
     }
     energy_.sum.update(current_.positions);
     static_cast<void>(wake_for(problem->prescribed));
@@ -230,53 +244,60 @@ typename Simulation<Dim>::Stepper::Outcome Simulation<Dim>::Stepper::attempt(dou
     const Method method = is_damped ? Method::Damped : choose_method();
     begin(problem, h, method);
     const NewtonReport solved = solve(*problem, method);
-    report.newton_iterations += solved.iterations;
-    report.unbalanced = std::max(report.unbalanced, solved.residual);
+    now.newton_iterations = solved.iterations;
+    now.unbalanced = std::max(now.unbalanced, solved.residual);
     if (!solved.has_converged) {
         // Of a body that is strained by more than one matrices may have no solution.
         const bool is_astray =
             method == Method::Linear && before.of("elastic") > bodies_.large_energy;
-        return refuse(solved.failure_reason, is_astray ? Outcome::Astray : Outcome::Refused);
+        return now.refuse(solved.failure_reason, is_astray ? Outcome::Astray : Outcome::Refused);
     }
     set_velocities(*problem, time + h);
     energy_.sum.update(next_.positions);
     if (std::string reason = excess(before, method); !reason.empty()) {
-        return refuse(std::move(reason),
-                      method == Method::Linear ? Outcome::Astray : Outcome::Refused);
+        return now.refuse(std::move(reason),
+                          method == Method::Linear ? Outcome::Astray : Outcome::Refused);
     }
     if (std::string reason = tunneling(); !reason.empty()) {
-        return refuse(std::move(reason), Outcome::Refused);
+        return now.refuse(std::move(reason), Outcome::Refused);
     }
     // Newton's method has forces at the end of the step: what was run into there has to give way.
     if (method != Method::Linear && wake_for(problem->prescribed)) {
-        return attempt(time, h, is_damped, report);
+        now.add(attempt(time, h, is_damped));
+        return now;
     }
     if (scene_.solver.integrator == Integrator::Bdf2) {
         history_ = h == scene_.dt() ? current_ : State<Dim>();
     }
     current_ = next_;  // copied: hosts see the arrays where they lie
-    ++report.substeps;
-    report.damped += is_damped ? 1 : 0;
-    return Outcome::Taken;
+    now.taken = 1;
+    now.damped = is_damped ? 1 : 0;
+    return now;
 }
 
 template <int Dim>
-bool Simulation<Dim>::Stepper::advance(double time, double h, int depth, StepReport& report) {
-    Outcome outcome = attempt(time, h, false, report);
-    if (outcome == Outcome::Astray) {
-        const std::string reason = report.failure;  // what to change, whatever becomes of it
-        outcome = attempt(time, h, true, report);
-        report.failure = reason;
+typename Simulation<Dim>::Stepper::Attempts Simulation<Dim>::Stepper::advance(double time,
+                                                                              double h,
+                                                                              int depth) {
+    Attempts all = attempt(time, h, false);
+    if (all.outcome == Outcome::Astray) {
+        Attempts damped = attempt(time, h, true);
+        damped.failure = all.failure;  // what to change, whatever becomes of it
+        all.add(damped);
     }
-    if (outcome == Outcome::Taken) {
-        return true;
+    if (all.outcome == Outcome::Taken || depth >= scene_.solver.max_halvings) {
+        return all;
     }
-    return depth < scene_.solver.max_halvings && advance(time, h / 2, depth + 1, report)
-           && advance(time + h / 2, h / 2, depth + 1, report);
+    all.add(advance(time, h / 2, depth + 1));
+    if (all.outcome == Outcome::Taken) {
+        all.add(advance(time + h / 2, h / 2, depth + 1));
+    }
+    return all;
 }
 
-#define PENT_INSTANTIATE(Dim) \
-    template bool Simulation<Dim>::Stepper::advance(double, double, int, StepReport&);
+#define PENT_INSTANTIATE(Dim)                                                               \
+    template typename Simulation<Dim>::Stepper::Attempts Simulation<Dim>::Stepper::advance( \
+        double, double, int);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 

@@ -285,7 +285,14 @@ StepReport Simulation<Dim>::Stepper::step() {
     StepReport work_between;  // of looking at the state between steps: of nobody's step
     add_work(work_between);
     StepReport report;
-    report.is_accepted = workers_.run([&] { return advance(time(), scene_.dt(), 0, report); });
+    const Attempts attempts = workers_.run([&] { return advance(time(), scene_.dt(), 0); });
+    report.is_accepted = attempts.outcome == Outcome::Taken;
+    report.failure = attempts.failure;
+    report.substeps = attempts.taken;
+    report.refused = attempts.refused;
+    report.damped = attempts.damped;
+    report.newton_iterations = attempts.newton_iterations;
+    report.unbalanced = attempts.unbalanced;
     if (report.is_accepted) {
         report.activation_work = energy_.elasticity->activation_work(
             before.positions, current_.positions, {time(), time() + scene_.dt()});

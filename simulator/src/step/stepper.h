@@ -71,8 +71,21 @@ public:
 private:
     enum class Method { Linear, Newton, Damped };   // the last for linear steps gone astray
     enum class Outcome { Taken, Astray, Refused };  // astray: a damped step may save it
-    bool advance(double time, double h, int depth, StepReport& report);
-    [[nodiscard]] Outcome attempt(double time, double h, bool is_damped, StepReport& report);
+    // What became of one attempt or of several, the last of which has the outcome.
+    struct Attempts {
+        Outcome outcome = Outcome::Taken;
+        std::string failure;  // why the last one that was thrown away was; empty if none
+        int taken = 0;
+        int refused = 0;
+        int damped = 0;  // of those taken
+        int newton_iterations = 0;
+        double unbalanced = 0;  // the largest
+
+        void add(const Attempts& later);
+        [[nodiscard]] Attempts refuse(std::string reason, Outcome how) const;
+    };
+    [[nodiscard]] Attempts advance(double time, double h, int depth);
+    [[nodiscard]] Attempts attempt(double time, double h, bool is_damped);
     [[nodiscard]] Method choose_method() const;
     void begin(const std::shared_ptr<const StepProblem<Dim>>& problem, double h, Method method);
     [[nodiscard]] NewtonReport solve(const StepProblem<Dim>& problem, Method method);
