@@ -12,7 +12,7 @@ namespace pent::simulator {
 namespace {
 
 template <int Dim>
-using Placed = typename ObstacleMotions<Dim>::Placement;
+using Placed = typename ObstacleMotions<Dim>::RigidMap;
 
 // Keeps the point among the fields of a shape.
 template <int Dim>
@@ -29,17 +29,17 @@ struct MiddleFinder {
 // Moves the fields of a shape.
 template <int Dim>
 struct FieldMover {
-    const Placed<Dim>& placement;
+    const Placed<Dim>& map;
     void operator()(const char* /*name*/, Vector<Dim>& value, ShapeField kind) const {
         if (kind == ShapeField::Point) {
-            value = (placement.rotation * value + placement.shift).eval();
+            value = (map.rotation * value + map.shift).eval();
         } else if (kind != ShapeField::Length) {  // a direction
-            value = (placement.rotation * value).normalized().eval();
+            value = (map.rotation * value).normalized().eval();
         }
     }
     void operator()(const char* /*name*/, Matrix<Dim>& axes, ShapeField /*kind*/) const {
-        axes = (placement.rotation * axes).eval();
-        for (int axis = 0; axis < Dim; ++axis) {  // far from the origin the placement is rounded
+        axes = (map.rotation * axes).eval();
+        for (int axis = 0; axis < Dim; ++axis) {  // far from the origin the map is rounded
             for (int before = 0; before < axis; ++before) {
                 axes.col(axis) -= axes.col(before).dot(axes.col(axis)) * axes.col(before);
             }
@@ -64,10 +64,10 @@ Vector<Dim> middle_of(const pent::Obstacle<Dim>& obstacle) {
 
 // The same obstacle elsewhere.
 template <int Dim>
-pent::Obstacle<Dim> moved_to(pent::Obstacle<Dim> obstacle, const Placed<Dim>& placement) {
-    std::visit([&](auto& shape) { shape.fields(shape, FieldMover<Dim>{placement}); }, obstacle);
+pent::Obstacle<Dim> moved_to(pent::Obstacle<Dim> obstacle, const Placed<Dim>& map) {
+    std::visit([&](auto& shape) { shape.fields(shape, FieldMover<Dim>{map}); }, obstacle);
     if (auto* half_space = std::get_if<HalfSpace<Dim>>(&obstacle)) {
-        half_space->offset += half_space->normal.dot(placement.shift);
+        half_space->offset += half_space->normal.dot(map.shift);
     }
     return obstacle;
 }
@@ -91,17 +91,17 @@ ObstacleMotions<Dim>::ObstacleMotions(const Scene& scene) {
 }
 
 template <int Dim>
-typename ObstacleMotions<Dim>::Placement ObstacleMotions<Dim>::placement(std::size_t obstacle,
-                                                                         double time) const {
+typename ObstacleMotions<Dim>::RigidMap ObstacleMotions<Dim>::map_at(std::size_t obstacle,
+                                                                     double time) const {
     const MotionChain<Dim> chain(obstacles_[obstacle].motions, time);
-    Placement placement{Matrix<Dim>::Identity(), Vector<Dim>::Zero()};
-    chain.move(placement.shift, nullptr);
+    RigidMap map{Matrix<Dim>::Identity(), Vector<Dim>::Zero()};
+    chain.move(map.shift, nullptr);
     for (int axis = 0; axis < Dim; ++axis) {
         Vector<Dim> end = Vector<Dim>::Unit(axis);
         chain.move(end, nullptr);
-        placement.rotation.col(axis) = end - placement.shift;
+        map.rotation.col(axis) = end - map.shift;
     }
-    return placement;
+    return map;
 }
 
 template <int Dim>
@@ -110,17 +110,17 @@ std::vector<pent::Obstacle<Dim>> ObstacleMotions<Dim>::at(double time) const {
     for (std::size_t i = 0; i < obstacles_.size(); ++i) {
         const Moved& moving = obstacles_[i];
         all.push_back(moving.motions.empty() ? moving.start
-                                             : moved_to<Dim>(moving.start, placement(i, time)));
+                                             : moved_to<Dim>(moving.start, map_at(i, time)));
     }
     return all;
 }
 
 template <int Dim>
-typename ObstacleMotions<Dim>::Placement ObstacleMotions<Dim>::carried(std::size_t obstacle,
-                                                                       double from,
-                                                                       double to) const {
-    const Placement before = placement(obstacle, from);
-    const Placement now = placement(obstacle, to);
+typename ObstacleMotions<Dim>::RigidMap ObstacleMotions<Dim>::carried(std::size_t obstacle,
+                                                                      double from,
+                                                                      double to) const {
+    const RigidMap before = map_at(obstacle, from);
+    const RigidMap now = map_at(obstacle, to);
     const Matrix<Dim> rotation = now.rotation * before.rotation.transpose();
     return {rotation, now.shift - rotation * before.shift};
 }
@@ -130,14 +130,14 @@ Vector<Dim> ObstacleMotions<Dim>::travel(std::size_t obstacle,
                                          const Vector<Dim>& point,
                                          double from,
                                          double to) const {
-    const Placement before = carried(obstacle, to, from);
+    const RigidMap before = carried(obstacle, to, from);
     return point - (before.rotation * point + before.shift);
 }
 
 template <int Dim>
 bool ObstacleMotions<Dim>::is_moving(std::size_t obstacle, double from, double to) const {
-    const Placement before = placement(obstacle, from);
-    const Placement now = placement(obstacle, to);
+    const RigidMap before = map_at(obstacle, from);
+    const RigidMap now = map_at(obstacle, to);
     return before.rotation != now.rotation || before.shift != now.shift;
 }
 

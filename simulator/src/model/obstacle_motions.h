@@ -14,7 +14,7 @@ template <int Dim>
 class ObstacleMotions {
 public:
     /// X goes to rotation X + shift.
-    struct Placement {
+    struct RigidMap {
         Matrix<Dim> rotation;
         Vector<Dim> shift;
     };
@@ -28,7 +28,7 @@ public:
     [[nodiscard]] std::vector<pent::Obstacle<Dim>> at(double time) const;
 
     /// Where what goes with an obstacle is at one time, of where it is at another.
-    [[nodiscard]] Placement carried(std::size_t obstacle, double from, double to) const;
+    [[nodiscard]] RigidMap carried(std::size_t obstacle, double from, double to) const;
 
     /// How far the point of an obstacle that is at `point` at one time has come since another, m.
     [[nodiscard]] Vector<Dim> travel(std::size_t obstacle,
@@ -44,7 +44,7 @@ private:
         pent::Obstacle<Dim> start;
         std::vector<CenteredMotion<Dim>> motions;
     };
-    [[nodiscard]] Placement placement(std::size_t obstacle, double time) const;
+    [[nodiscard]] RigidMap map_at(std::size_t obstacle, double time) const;
 
     std::vector<Moved> obstacles_;
     bool is_any_ = false;

@@ -27,12 +27,12 @@ Attachments<Dim>::Attachments(const Workers& workers, const Scene& scene, const 
     : list_(scene.attachments), dt_(scene.dt()) {
     for (const Attachment& attachment : list_) {
         const std::uint32_t body = index_of(scene, attachment.body);
-        groups_.push_back(
+        bundles_.push_back(
             {.attachment = &attachment,
              .body = body,
              .target = attachment.target.empty() ? body : index_of(scene, attachment.target),
              .begin = springs_.size()});
-        add_springs(workers, bodies, groups_.back());
+        add_springs(workers, bodies, bundles_.back());
     }
     broken_.assign(springs_.size(), 0);
     static_cast<void>(set_time({}));
@@ -42,25 +42,25 @@ Attachments<Dim>::Attachments(const Workers& workers, const Scene& scene, const 
 template <int Dim>
 void Attachments<Dim>::add_springs(const Workers& workers,
                                    const Bodies<Dim>& bodies,
-                                   Group& group) {
-    const Attachment& attachment = *group.attachment;
+                                   Bundle& bundle) {
+    const Attachment& attachment = *bundle.attachment;
     const std::vector<std::uint32_t> selected =
-        select_vertices(bodies.meshes[group.body], attachment);
-    springs_.resize(group.begin + selected.size());
+        select_vertices(bodies.meshes[bundle.body], attachment);
+    springs_.resize(bundle.begin + selected.size());
     std::vector<double> distances(selected.size(), 0);
-    const auto first = static_cast<std::uint32_t>(bodies.first_vertex[group.body]);
+    const auto first = static_cast<std::uint32_t>(bodies.first_vertex[bundle.body]);
     std::optional<NearestPointSearch<Dim>> target;
-    if (group.target != group.body) {
-        const auto cells = bodies.cells_of(group.target);
+    if (bundle.target != bundle.body) {
+        const auto cells = bodies.cells_of(bundle.target);
         target.emplace(bodies.rest, bodies.cells.middleCols(cells.begin, cells.size));
     }
     workers.for_each(selected.size(), [&](std::size_t i) {
         const std::uint32_t vertex = first + selected[i];
-        springs_[group.begin + i] = target
-                                        ? tie_to_body(bodies, group, *target, vertex, distances[i])
-                                        : tie_to_space(bodies, attachment, vertex);
+        springs_[bundle.begin + i] =
+            target ? tie_to_body(bodies, bundle, *target, vertex, distances[i])
+                   : tie_to_space(bodies, attachment, vertex);
     });
-    group.end = springs_.size();
+    bundle.end = springs_.size();
     const auto farthest = std::max_element(distances.begin(), distances.end());
     if (*farthest > attachment.max_distance) {
         throw Error(
@@ -71,11 +71,11 @@ void Attachments<Dim>::add_springs(const Workers& workers,
             + ": select less, place the bodies nearer to each other, or raise it");
     }
     Vector<Dim> sum = Vector<Dim>::Zero();
-    for (std::size_t s = group.begin; s < group.end; ++s) {
+    for (std::size_t s = bundle.begin; s < bundle.end; ++s) {
         sum += springs_[s].place;
     }
-    group.motions =
-        center<Dim>(attachment.motion, sum / static_cast<double>(group.end - group.begin));
+    bundle.motions =
+        center<Dim>(attachment.motion, sum / static_cast<double>(bundle.end - bundle.begin));
 }
 
 // To where it is, or by an offset to a point: its anchor is that point and the offset, which a
@@ -95,14 +95,14 @@ typename Attachments<Dim>::Tie Attachments<Dim>::tie_to_space(const Bodies<Dim>&
 
 template <int Dim>
 typename Attachments<Dim>::Tie Attachments<Dim>::tie_to_body(const Bodies<Dim>& bodies,
-                                                             const Group& group,
+                                                             const Bundle& bundle,
                                                              const NearestPointSearch<Dim>& target,
                                                              std::uint32_t vertex,
                                                              double& distance) {
     const Vector<Dim> point = bodies.rest.col(vertex);
     MaterialPoint<Dim> nearest = target.nearest(point);
     distance = nearest.distance;
-    if (group.attachment->offset == RestOffset::Keep && distance > 0) {
+    if (bundle.attachment->offset == RestOffset::Keep && distance > 0) {
         Eigen::Matrix<double, Dim, Dim + 1> corners;
         for (std::size_t i = 0; i <= Dim; ++i) {
             corners.col(static_cast<Eigen::Index>(i)) = bodies.rest.col(nearest.vertices[i]);
@@ -110,9 +110,9 @@ typename Attachments<Dim>::Tie Attachments<Dim>::tie_to_body(const Bodies<Dim>& 
         nearest.weights = barycentric<Dim>(corners, point);
         const double most = nearest.weights.cwiseAbs().maxCoeff();
         if (!(most <= kMaxCoordinate)) {
-            throw Error(place_and_name(*group.attachment) + ": the cell of \""
-                        + group.attachment->target + "\" that is nearest to vertex "
-                        + std::to_string(vertex - bodies.first_vertex[group.body])
+            throw Error(place_and_name(*bundle.attachment) + ": the cell of \""
+                        + bundle.attachment->target + "\" that is nearest to vertex "
+                        + std::to_string(vertex - bodies.first_vertex[bundle.body])
                         + " is too flat to carry an offset of " + formatted("%.3g m", distance)
                         + formatted(" (coordinates up to %.3g; expected at most %.0f)", most,
                                     kMaxCoordinate)
@@ -127,14 +127,14 @@ typename Attachments<Dim>::Tie Attachments<Dim>::tie_to_body(const Bodies<Dim>& 
     return spring;
 }
 
-// Calls visit(group, spring, its place) for each that pulls now.
+// Calls visit(bundle, spring, its place) for each that pulls now.
 template <int Dim>
 template <typename Visit>
 void Attachments<Dim>::for_each_spring(const Visit& visit) const {
-    for (const Group& group : groups_) {
-        for (std::size_t s = group.begin; group.is_on && s < group.end; ++s) {
+    for (const Bundle& bundle : bundles_) {
+        for (std::size_t s = bundle.begin; bundle.is_on && s < bundle.end; ++s) {
             if (broken_[s] == 0) {
-                visit(group, springs_[s], s);
+                visit(bundle, springs_[s], s);
             }
         }
     }
@@ -149,18 +149,18 @@ bool Attachments<Dim>::is_there(const Attachment& attachment, double begin) cons
 template <int Dim>
 bool Attachments<Dim>::set_time(const TimeSpan& step) {
     bool has_changed = false;
-    for (Group& group : groups_) {
-        const bool was_on = group.is_on;
-        group.is_on = is_there(*group.attachment, step.begin);
+    for (Bundle& bundle : bundles_) {
+        const bool was_on = bundle.is_on;
+        bundle.is_on = is_there(*bundle.attachment, step.begin);
         const double before = std::max(0.0, step.begin - dt_);
-        group.is_driven = group.is_on != is_there(*group.attachment, before);
-        has_changed = has_changed || group.is_on != was_on;
-        if (group.target != group.body) {
+        bundle.is_driven = bundle.is_on != is_there(*bundle.attachment, before);
+        has_changed = has_changed || bundle.is_on != was_on;
+        if (bundle.target != bundle.body) {
             continue;
         }
-        const MotionChain<Dim> begin(group.motions, step.begin);
-        const MotionChain<Dim> end(group.motions, step.end);
-        for (std::size_t s = group.begin; s < group.end; ++s) {
+        const MotionChain<Dim> begin(bundle.motions, step.begin);
+        const MotionChain<Dim> end(bundle.motions, step.end);
+        for (std::size_t s = bundle.begin; s < bundle.end; ++s) {
             Tie& spring = springs_[s];
             Vector<Dim> from = spring.place;
             Vector<Dim> to = spring.place;
@@ -168,7 +168,7 @@ bool Attachments<Dim>::set_time(const TimeSpan& step) {
             begin.move(from, nullptr);
             end.move(to, &spring.velocity);
             has_changed = has_changed || to != spring.anchor;
-            group.is_driven = group.is_driven || (group.is_on && from != to);
+            bundle.is_driven = bundle.is_driven || (bundle.is_on && from != to);
             spring.anchor = to;
         }
     }
@@ -179,11 +179,11 @@ template <int Dim>
 bool Attachments<Dim>::begin_step(const StepStart<Dim>& start) {
     rate_ = start.rate;
     bool has_damping = false;
-    for (const Group& group : groups_) {
-        for (std::size_t s = group.begin; s < group.end; ++s) {
+    for (const Bundle& bundle : bundles_) {
+        for (std::size_t s = bundle.begin; s < bundle.end; ++s) {
             springs_[s].begin_step(rate_, start.origin);
         }
-        has_damping = has_damping || group.attachment->damping > 0;
+        has_damping = has_damping || bundle.attachment->damping > 0;
     }
     return has_damping;
 }
@@ -192,8 +192,8 @@ template <int Dim>
 double Attachments<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
     energy_ = 0;
     damping_energy_ = 0;
-    for_each_spring([&](const Group& group, const Tie& /*spring*/, std::size_t s) {
-        const SpringLaw law{group.attachment->stiffness, group.attachment->damping};
+    for_each_spring([&](const Bundle& bundle, const Tie& /*spring*/, std::size_t s) {
+        const SpringLaw law{bundle.attachment->stiffness, bundle.attachment->damping};
         const auto energy = springs_[s].evaluate(law, rate_, x, gradient);
         energy_ += energy.elastic;
         damping_energy_ += energy.damping;
@@ -206,14 +206,14 @@ void Attachments<Dim>::add_hessian(const Positions<Dim>& /*x*/,
                                    double weight,
                                    Filter /*filter*/,
                                    NewtonSystem<Dim>& system) {
-    for (Group& group : groups_) {
-        const Attachment& attachment = *group.attachment;
-        group.hessian =
+    for (Bundle& bundle : bundles_) {
+        const Attachment& attachment = *bundle.attachment;
+        bundle.hessian =
             (attachment.stiffness + rate_ * attachment.damping) * Matrix<Dim>::Identity();
     }
     system.reserve_stencils(springs_.size());
-    for_each_spring([&](const Group& group, const Tie& spring, std::size_t /*s*/) {
-        system.add_stencil(spring.stencil(weight, group.hessian));
+    for_each_spring([&](const Bundle& bundle, const Tie& spring, std::size_t /*s*/) {
+        system.add_stencil(spring.stencil(weight, bundle.hessian));
     });
 }
 
@@ -225,36 +225,36 @@ std::vector<TermEnergy> Attachments<Dim>::energies() const {
 
 template <int Dim>
 void Attachments<Dim>::add_couplings(Couplings& couplings) const {
-    for (const Group& group : groups_) {
+    for (const Bundle& bundle : bundles_) {
         const bool is_whole =
-            std::any_of(broken_.begin() + static_cast<std::ptrdiff_t>(group.begin),
-                        broken_.begin() + static_cast<std::ptrdiff_t>(group.end),
+            std::any_of(broken_.begin() + static_cast<std::ptrdiff_t>(bundle.begin),
+                        broken_.begin() + static_cast<std::ptrdiff_t>(bundle.end),
                         [](std::uint8_t broken) { return broken == 0; });
-        if (is_whole && group.is_driven) {
-            couplings.driven.push_back(group.body);
-            couplings.driven.push_back(group.target);
+        if (is_whole && bundle.is_driven) {
+            couplings.driven.push_back(bundle.body);
+            couplings.driven.push_back(bundle.target);
         }
-        if (is_whole && group.is_on && group.body != group.target) {
-            couplings.pairs.emplace_back(group.body, group.target);
+        if (is_whole && bundle.is_on && bundle.body != bundle.target) {
+            couplings.pairs.emplace_back(bundle.body, bundle.target);
         }
     }
 }
 
 template <int Dim>
 std::vector<AttachmentSummary> Attachments<Dim>::summaries() const {
-    std::vector<AttachmentSummary> all(groups_.size());
-    std::vector<Vector<Dim>> forces(groups_.size(), Vector<Dim>::Zero());
-    for_each_spring([&](const Group& group, const Tie& spring, std::size_t /*s*/) {
-        const auto g = static_cast<std::size_t>(&group - groups_.data());
-        const Vector<Dim> force = -group.attachment->stiffness * spring.stretch;
+    std::vector<AttachmentSummary> all(bundles_.size());
+    std::vector<Vector<Dim>> forces(bundles_.size(), Vector<Dim>::Zero());
+    for_each_spring([&](const Bundle& bundle, const Tie& spring, std::size_t /*s*/) {
+        const auto g = static_cast<std::size_t>(&bundle - bundles_.data());
+        const Vector<Dim> force = -bundle.attachment->stiffness * spring.stretch;
         forces[g] += force;
         ++all[g].springs;
         all[g].largest_force = std::max(all[g].largest_force, force.norm());
     });
     for (std::size_t g = 0; g < all.size(); ++g) {
         all[g].force = forces[g].norm();
-        all[g].broken = std::count(broken_.begin() + static_cast<std::ptrdiff_t>(groups_[g].begin),
-                                   broken_.begin() + static_cast<std::ptrdiff_t>(groups_[g].end),
+        all[g].broken = std::count(broken_.begin() + static_cast<std::ptrdiff_t>(bundles_[g].begin),
+                                   broken_.begin() + static_cast<std::ptrdiff_t>(bundles_[g].end),
                                    std::uint8_t{1});
     }
     return all;
@@ -263,11 +263,11 @@ std::vector<AttachmentSummary> Attachments<Dim>::summaries() const {
 template <int Dim>
 std::vector<std::size_t> Attachments<Dim>::break_springs() {
     std::vector<std::size_t> bodies;
-    for_each_spring([&](const Group& group, const Tie& spring, std::size_t s) {
-        if (group.attachment->stiffness * spring.stretch.norm() > group.attachment->break_force) {
+    for_each_spring([&](const Bundle& bundle, const Tie& spring, std::size_t s) {
+        if (bundle.attachment->stiffness * spring.stretch.norm() > bundle.attachment->break_force) {
             broken_[s] = 1;
-            bodies.push_back(group.body);
-            bodies.push_back(group.target);
+            bodies.push_back(bundle.body);
+            bodies.push_back(bundle.target);
         }
     });
     return bodies;

@@ -57,7 +57,7 @@ private:
         Vector<Dim> place = Vector<Dim>::Zero();  // of a point in space at t = 0, m
     };
     // The springs of one attachment.
-    struct Group {
+    struct Bundle {
         const Attachment* attachment = nullptr;
         std::size_t body = 0;
         std::size_t target = 0;  // the same for points in space
@@ -69,12 +69,12 @@ private:
         bool is_driven = false;  // in this step it comes or goes, or its points move
     };
 
-    void add_springs(const Workers& workers, const Bodies<Dim>& bodies, Group& group);
+    void add_springs(const Workers& workers, const Bodies<Dim>& bodies, Bundle& bundle);
     [[nodiscard]] static Tie tie_to_space(const Bodies<Dim>& bodies,
                                           const Attachment& attachment,
                                           std::uint32_t vertex);
     [[nodiscard]] static Tie tie_to_body(const Bodies<Dim>& bodies,
-                                         const Group& group,
+                                         const Bundle& bundle,
                                          const NearestPointSearch<Dim>& target,
                                          std::uint32_t vertex,
                                          double& distance);
@@ -84,7 +84,7 @@ private:
 
     std::vector<Attachment> list_;
     double dt_;
-    std::vector<Group> groups_;
+    std::vector<Bundle> bundles_;
     std::vector<Tie> springs_;
     std::vector<std::uint8_t> broken_;
     double rate_ = 0;  // 1/s; 0 before the first step

@@ -11,11 +11,11 @@ namespace pent::simulator {
 
 template <int Dim>
 ForceLoads<Dim>::ForceLoads(const Scene& scene, const Bodies<Dim>& bodies) {
-    for (const simulator::Load& load : scene.loads) {
+    for (const Load& load : scene.loads) {
         if (load.force.isZero(0)) {
             continue;
         }
-        Load made;
+        VertexForces made;
         made.body = index_of(scene, load.body);
         made.keyframes = load.keyframes;
         made.vertices = select_vertices(bodies.meshes[made.body], load);
@@ -36,7 +36,7 @@ ForceLoads<Dim>::ForceLoads(const Scene& scene, const Bodies<Dim>& bodies) {
 template <int Dim>
 bool ForceLoads<Dim>::set_time(const TimeSpan& step) {
     bool has_changed = false;
-    for (Load& load : loads_) {
+    for (VertexForces& load : loads_) {
         const double factor = factor_at(load.keyframes, step.end);
         load.is_changing = factor != factor_at(load.keyframes, step.begin);
         has_changed = has_changed || factor != load.factor;
@@ -47,7 +47,7 @@ bool ForceLoads<Dim>::set_time(const TimeSpan& step) {
 
 template <int Dim>
 void ForceLoads<Dim>::add_couplings(Couplings& couplings) const {
-    for (const Load& load : loads_) {
+    for (const VertexForces& load : loads_) {
         if (load.is_changing) {
             couplings.driven.push_back(load.body);
         }
@@ -57,7 +57,7 @@ void ForceLoads<Dim>::add_couplings(Couplings& couplings) const {
 template <int Dim>
 double ForceLoads<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
     energy_ = 0;
-    for (const Load& load : loads_) {
+    for (const VertexForces& load : loads_) {
         for (std::size_t i = 0; i < load.vertices.size(); ++i) {
             const auto force = load.factor * load.forces.col(static_cast<Eigen::Index>(i));
             gradient.col(load.vertices[i]) -= force;

@@ -36,7 +36,8 @@ public:
     }
 
 private:
-    struct Load {
+    // Of a load with a force.
+    struct VertexForces {
         std::size_t body = 0;
         std::vector<std::uint32_t> vertices;
         Positions<Dim> forces;  // Dim x vertices of the load, N
@@ -45,7 +46,7 @@ private:
         bool is_changing = false;  // in the step
     };
 
-    std::vector<Load> loads_;
+    std::vector<VertexForces> loads_;
     Positions<Dim> of_host_ = Positions<Dim>(Dim, 0);
     double energy_ = 0;
 };

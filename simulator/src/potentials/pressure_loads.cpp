@@ -169,53 +169,54 @@ PressureLoads<Dim>::PressureLoads(const Workers& workers,
     : workers_(&workers) {
     for (const Load& load : scene.loads) {
         if (load.pressure != 0) {
-            regions_.push_back(make_region(load, scene, bodies, held));
-            hold_walls(regions_.back(), bodies.rest);
+            pressed_.push_back(make_pressed(load, scene, bodies, held));
+            hold_walls(pressed_.back(), bodies.rest);
         }
     }
 }
 
 template <int Dim>
-typename PressureLoads<Dim>::Region PressureLoads<Dim>::make_region(const Load& load,
-                                                                    const Scene& scene,
-                                                                    const Bodies<Dim>& bodies,
-                                                                    const HeldVertices<Dim>& held) {
-    Region region;
-    region.body = index_of(scene, load.body);
-    region.pressure = load.pressure;
-    region.keyframes = load.keyframes;
-    region.facets =
-        select_facets<Dim>(load, bodies.meshes[region.body],
-                           static_cast<std::uint32_t>(bodies.first_vertex[region.body]));
-    const Eigen::Index surface = region.facets.cols();
-    const auto walls = walls_of<Dim>(region.facets);
-    region.walls = static_cast<Eigen::Index>(walls.size());
-    region.facets.conservativeResize(Dim, surface + region.walls);
+typename PressureLoads<Dim>::PressedSurface PressureLoads<Dim>::make_pressed(
+    const Load& load,
+    const Scene& scene,
+    const Bodies<Dim>& bodies,
+    const HeldVertices<Dim>& held) {
+    PressedSurface pressed;
+    pressed.body = index_of(scene, load.body);
+    pressed.pressure = load.pressure;
+    pressed.keyframes = load.keyframes;
+    pressed.facets =
+        select_facets<Dim>(load, bodies.meshes[pressed.body],
+                           static_cast<std::uint32_t>(bodies.first_vertex[pressed.body]));
+    const Eigen::Index surface = pressed.facets.cols();
+    const auto walls = walls_of<Dim>(pressed.facets);
+    pressed.walls = static_cast<Eigen::Index>(walls.size());
+    pressed.facets.conservativeResize(Dim, surface + pressed.walls);
     for (std::size_t i = 0; i < walls.size(); ++i) {
-        region.facets.col(surface + static_cast<Eigen::Index>(i)) = walls[i];
-        region.rim.insert(region.rim.end(), walls[i].begin() + 1, walls[i].end());
+        pressed.facets.col(surface + static_cast<Eigen::Index>(i)) = walls[i];
+        pressed.rim.insert(pressed.rim.end(), walls[i].begin() + 1, walls[i].end());
     }
-    std::sort(region.rim.begin(), region.rim.end());
-    region.rim.erase(std::unique(region.rim.begin(), region.rim.end()), region.rim.end());
-    region.is_stored = is_still<Dim>(region.rim, held);
-    return region;
+    std::sort(pressed.rim.begin(), pressed.rim.end());
+    pressed.rim.erase(std::unique(pressed.rim.begin(), pressed.rim.end()), pressed.rim.end());
+    pressed.is_stored = is_still<Dim>(pressed.rim, held);
+    return pressed;
 }
 
 // The apex and the walls' part of the gradient, as at x.
 template <int Dim>
-void PressureLoads<Dim>::hold_walls(Region& region, const Positions<Dim>& x) {
-    if (region.rim.empty()) {
-        region.apex = x.col(region.facets(0, 0));  // any point, best a near one
+void PressureLoads<Dim>::hold_walls(PressedSurface& pressed, const Positions<Dim>& x) {
+    if (pressed.rim.empty()) {
+        pressed.apex = x.col(pressed.facets(0, 0));  // any point, best a near one
         return;
     }
-    region.start = x(Eigen::all, region.rim);
-    region.apex = region.start.rowwise().mean();
-    region.taken.setZero(Dim, region.start.cols());
-    for (const auto& wall : region.facets.rightCols(region.walls).colwise()) {
-        const Normal<Dim> normal(corners_of<Dim>(wall, x, region.apex));
+    pressed.start = x(Eigen::all, pressed.rim);
+    pressed.apex = pressed.start.rowwise().mean();
+    pressed.taken.setZero(Dim, pressed.start.cols());
+    for (const auto& wall : pressed.facets.rightCols(pressed.walls).colwise()) {
+        const Normal<Dim> normal(corners_of<Dim>(wall, x, pressed.apex));
         for (int a = 1; a < Dim; ++a) {
-            const auto place = std::lower_bound(region.rim.begin(), region.rim.end(), wall[a]);
-            region.taken.col(place - region.rim.begin()) += normal.value / Dim;
+            const auto place = std::lower_bound(pressed.rim.begin(), pressed.rim.end(), wall[a]);
+            pressed.taken.col(place - pressed.rim.begin()) += normal.value / Dim;
         }
     }
 }
@@ -223,28 +224,28 @@ void PressureLoads<Dim>::hold_walls(Region& region, const Positions<Dim>& x) {
 template <int Dim>
 bool PressureLoads<Dim>::set_time(const TimeSpan& step) {
     bool has_changed = false;
-    for (Region& region : regions_) {
-        const double factor = factor_at(region.keyframes, step.end);
-        region.is_changing = factor != factor_at(region.keyframes, step.begin);
-        has_changed = has_changed || factor != region.factor;
-        region.factor = factor;
+    for (PressedSurface& pressed : pressed_) {
+        const double factor = factor_at(pressed.keyframes, step.end);
+        pressed.is_changing = factor != factor_at(pressed.keyframes, step.begin);
+        has_changed = has_changed || factor != pressed.factor;
+        pressed.factor = factor;
     }
     return has_changed;
 }
 
 template <int Dim>
 void PressureLoads<Dim>::add_couplings(Couplings& couplings) const {
-    for (const Region& region : regions_) {
-        if (region.is_changing) {
-            couplings.driven.push_back(region.body);
+    for (const PressedSurface& pressed : pressed_) {
+        if (pressed.is_changing) {
+            couplings.driven.push_back(pressed.body);
         }
     }
 }
 
 template <int Dim>
 bool PressureLoads<Dim>::begin_step(const StepStart<Dim>& start) {
-    for (Region& region : regions_) {
-        hold_walls(region, start.positions);
+    for (PressedSurface& pressed : pressed_) {
+        hold_walls(pressed, start.positions);
     }
     return true;
 }
@@ -255,21 +256,21 @@ double PressureLoads<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gra
     lagged_ = 0;
     rounding_ = 0;
     std::vector<Point> normals;
-    for (const Region& region : regions_) {
-        const double pressure = region.factor * region.pressure;
-        normals.resize(static_cast<std::size_t>(region.facets.cols()));
+    for (const PressedSurface& pressed : pressed_) {
+        const double pressure = pressed.factor * pressed.pressure;
+        normals.resize(static_cast<std::size_t>(pressed.facets.cols()));
         constexpr Eigen::Index kChunk = 256;
-        const Eigen::Index count = region.facets.cols();
+        const Eigen::Index count = pressed.facets.cols();
         workers_->for_each((count + kChunk - 1) / kChunk, [&](Eigen::Index chunk) {
             for (Eigen::Index i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, count); ++i) {
                 normals[static_cast<std::size_t>(i)] =
-                    Normal<Dim>(corners_of<Dim>(region.facets.col(i), x, region.apex)).value;
+                    Normal<Dim>(corners_of<Dim>(pressed.facets.col(i), x, pressed.apex)).value;
             }
         });
         double energy = 0;
         double size = 0;
         for (Eigen::Index i = 0; i < count; ++i) {
-            const auto facet = region.facets.col(i);
+            const auto facet = pressed.facets.col(i);
             const Point& normal = normals[static_cast<std::size_t>(i)];
             for (int a = 0; a < Dim; ++a) {
                 if (facet[a] != kNoVertex) {
@@ -277,18 +278,18 @@ double PressureLoads<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gra
                 }
             }
             if (facet[0] != kNoVertex) {  // the walls meet the apex
-                const double cone = pressure / Dim * normal.dot(x.col(facet[0]) - region.apex);
+                const double cone = pressure / Dim * normal.dot(x.col(facet[0]) - pressed.apex);
                 energy += cone;
                 size += std::abs(cone);
             }
         }
-        for (std::size_t i = 0; i < region.rim.size(); ++i) {
+        for (std::size_t i = 0; i < pressed.rim.size(); ++i) {
             const auto column = static_cast<Eigen::Index>(i);
-            const Point taken = pressure * region.taken.col(column);
-            gradient.col(region.rim[i]) -= taken;
-            energy -= taken.dot(x.col(region.rim[i]) - region.start.col(column));
+            const Point taken = pressure * pressed.taken.col(column);
+            gradient.col(pressed.rim[i]) -= taken;
+            energy -= taken.dot(x.col(pressed.rim[i]) - pressed.start.col(column));
         }
-        (region.is_stored ? stored_ : lagged_) += energy;
+        (pressed.is_stored ? stored_ : lagged_) += energy;
         rounding_ += size * std::numeric_limits<double>::epsilon();
     }
     return stored_ + lagged_;
@@ -308,16 +309,16 @@ void PressureLoads<Dim>::add_hessian(const Positions<Dim>& x,
     }
     constexpr Eigen::Index kSide = Dim * Dim;
     Eigen::Index total = 0;
-    for (const Region& region : regions_) {
-        total += region.facets.cols();
+    for (const PressedSurface& pressed : pressed_) {
+        total += pressed.facets.cols();
     }
     hessians_.resize(static_cast<std::size_t>(total * kSide * kSide));
     system.reserve_stencils(static_cast<std::size_t>(total));
     double* next = hessians_.data();
-    for (const Region& region : regions_) {
+    for (const PressedSurface& pressed : pressed_) {
         double* const first = next;
-        workers_->for_each(region.facets.cols(), [&](Eigen::Index i) {
-            const Normal<Dim> normal(corners_of<Dim>(region.facets.col(i), x, region.apex));
+        workers_->for_each(pressed.facets.cols(), [&](Eigen::Index i) {
+            const Normal<Dim> normal(corners_of<Dim>(pressed.facets.col(i), x, pressed.apex));
             Eigen::Map<Eigen::Matrix<double, kSide, kSide>> matrix(first + i * kSide * kSide);
             for (int a = 0; a < Dim; ++a) {
                 for (int b = 0; b < Dim; ++b) {
@@ -326,15 +327,15 @@ void PressureLoads<Dim>::add_hessian(const Positions<Dim>& x,
                 }
             }
         });
-        next += region.facets.cols() * kSide * kSide;
-        for (Eigen::Index i = 0; i < region.facets.cols(); ++i) {
+        next += pressed.facets.cols() * kSide * kSide;
+        for (Eigen::Index i = 0; i < pressed.facets.cols(); ++i) {
             // Of a wall all but the apex, which comes first.
-            const int skipped = region.facets(0, i) == kNoVertex ? 1 : 0;
-            system.add_stencil({.vertices = &region.facets(skipped, i),
+            const int skipped = pressed.facets(0, i) == kNoVertex ? 1 : 0;
+            system.add_stencil({.vertices = &pressed.facets(skipped, i),
                                 .matrix = first + i * kSide * kSide + skipped * Dim * (kSide + 1),
                                 .count = Dim - skipped,
                                 .stride = static_cast<std::int32_t>(kSide),
-                                .scale = weight * region.factor * region.pressure / (2 * Dim)});
+                                .scale = weight * pressed.factor * pressed.pressure / (2 * Dim)});
         }
     }
 }
@@ -343,8 +344,9 @@ template <int Dim>
 std::vector<TermEnergy> PressureLoads<Dim>::energies() const {
     std::vector<TermEnergy> parts;
     const auto has = [&](bool is_stored) {
-        return std::any_of(regions_.begin(), regions_.end(),
-                           [&](const Region& region) { return region.is_stored == is_stored; });
+        return std::any_of(pressed_.begin(), pressed_.end(), [&](const PressedSurface& pressed) {
+            return pressed.is_stored == is_stored;
+        });
     };
     if (has(true)) {
         parts.push_back({"pressure", stored_});

@@ -36,7 +36,7 @@ public:
                   const Bodies<Dim>& bodies,
                   const HeldVertices<Dim>& held);
 
-    [[nodiscard]] bool is_empty() const { return regions_.empty(); }
+    [[nodiscard]] bool is_empty() const { return pressed_.empty(); }
 
     [[nodiscard]] bool set_time(const TimeSpan& step) override;
     void add_couplings(Couplings& couplings) const override;
@@ -53,7 +53,7 @@ private:
     using Point = Eigen::Matrix<double, Dim, 1>;
 
     // Corners are vertices of all bodies counted through, or kNoVertex for the apex.
-    struct Region {
+    struct PressedSurface {
         std::size_t body = 0;
         Simplices<Dim> facets;  // outward; those of the surface, behind them the walls
         Eigen::Index walls = 0;
@@ -68,16 +68,16 @@ private:
         Positions<Dim> taken;  // the volume's gradient by the walls there, taken off, m^(Dim-1)
     };
 
-    [[nodiscard]] static Region make_region(const Load& load,
-                                            const Scene& scene,
-                                            const Bodies<Dim>& bodies,
-                                            const HeldVertices<Dim>& held);
-    static void hold_walls(Region& region, const Positions<Dim>& x);
+    [[nodiscard]] static PressedSurface make_pressed(const Load& load,
+                                                     const Scene& scene,
+                                                     const Bodies<Dim>& bodies,
+                                                     const HeldVertices<Dim>& held);
+    static void hold_walls(PressedSurface& pressed, const Positions<Dim>& x);
 
     const Workers* workers_;
-    std::vector<Region> regions_;
+    std::vector<PressedSurface> pressed_;
     double stored_ = 0;  // J
-    double lagged_ = 0;  // J, of regions that are not stored
+    double lagged_ = 0;  // J, of those that are not stored
     double rounding_ = 0;
     std::vector<double> hessians_;  // while a system is assembled
 };

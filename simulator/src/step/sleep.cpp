@@ -10,15 +10,17 @@ namespace pent::simulator {
 
 namespace {
 
-using BodyPair = std::pair<std::size_t, std::size_t>;
+using CoupledPair = std::pair<std::size_t, std::size_t>;
 
 // Marks what is coupled to something marked that may pass it on, until nothing is new.
 template <typename CanTake>
-void spread(const std::vector<BodyPair>& pairs, const CanTake& can_take, std::vector<bool>& marks) {
+void spread(const std::vector<CoupledPair>& pairs,
+            const CanTake& can_take,
+            std::vector<bool>& marks) {
     for (bool has_changed = true; has_changed;) {
         has_changed = false;
         for (const auto& [a, b] : pairs) {
-            for (const auto& [from, to] : {BodyPair(a, b), BodyPair(b, a)}) {
+            for (const auto& [from, to] : {CoupledPair(a, b), CoupledPair(b, a)}) {
                 if (marks[from] && !marks[to] && can_take(to)) {
                     marks[to] = true;
                     has_changed = true;
