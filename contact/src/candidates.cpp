@@ -111,7 +111,7 @@ void Candidates<Dim>::cover(const PositionsView<Dim>& positions) {
             continue;
         }
         if (is_penalty()) {
-            find_pairs_within(body, positions);
+            insert_within(body, proximity(body).find(positions));
         } else if (longest_[static_cast<std::size_t>(body)] < 0
                    || !within_.covers(colliders_.surface(body).vertices, positions)) {
             search_within(body, {positions, positions});
@@ -168,11 +168,8 @@ void Candidates<Dim>::search_within(int body, const Paths<Dim>& paths) {
         std::max(longest_path<Dim>(vertices, paths.from, paths.to), min_inflation_);
     within_.set(vertices, paths.from, paths.to, min_inflation_, kInflationOfPath);
     const double reach = this->reach(body, body);
-    CandidatePairs pairs{.first = body, .second = body};
-    proximity(body).find(within_, reach, measured(reach), pairs);
-    work_.overlaps += pairs.overlaps();
     ++work_.searches;
-    insert(std::move(pairs));
+    insert_within(body, proximity(body).find(within_, reach, measured(reach)));
 }
 
 // In the place of what is there of the same colliders; lists are by these.
@@ -281,9 +278,9 @@ SelfProximity<Dim>& Candidates<Dim>::proximity(int body) {
 }
 
 template <int Dim>
-void Candidates<Dim>::find_pairs_within(int body, const PositionsView<Dim>& positions) {
-    CandidatePairs pairs{.first = body, .second = body};
-    proximity(body).find(positions, pairs);
+void Candidates<Dim>::insert_within(int body, CandidatePairs pairs) {
+    pairs.first = body;
+    pairs.second = body;
     work_.overlaps += pairs.overlaps();
     insert(std::move(pairs));
 }

@@ -109,7 +109,7 @@ private:
     void find_pairs_between();
     void insert(CandidatePairs pairs);
     [[nodiscard]] SelfProximity<Dim>& proximity(int body);
-    void find_pairs_within(int body, const PositionsView<Dim>& positions);
+    void insert_within(int body, CandidatePairs pairs);
     template <int K, int L>
     [[nodiscard]] CandidateList search(int first, int second) const;
 

@@ -177,10 +177,10 @@ StencilMatrix<Dim> moving_hessian(const DistanceEnergy& energy,
 }
 
 template <int Dim>
-void evaluate_all(const ContactScene<Dim>& scene,
-                  const PositionsView<Dim>& positions,
-                  double stiffness,
-                  Contacts<Dim>& contacts) {
+Contacts<Dim> evaluate_all(const ContactScene<Dim>& scene,
+                           const PositionsView<Dim>& positions,
+                           double stiffness,
+                           Contacts<Dim> contacts) {
     std::vector<Sums<Dim>> parts((contacts.list.size() + kChunk - 1) / kChunk);
     for_each_chunk(
         contacts.list.size(), kChunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
@@ -201,6 +201,7 @@ void evaluate_all(const ContactScene<Dim>& scene,
         contacts.mollified.insert(contacts.mollified.end(), sums.mollified.begin(),
                                   sums.mollified.end());
     }
+    return contacts;
 }
 
 template <int Dim>
@@ -271,8 +272,8 @@ void add_gradient(const Contacts<Dim>& contacts, Positions<Dim>& gradient) {
                                         Filter);                                               \
     template StencilMatrix<Dim> moving_hessian(const DistanceEnergy&, const Contact<Dim>&,     \
                                                const PositionsView<Dim>&, Filter);             \
-    template void evaluate_all(const ContactScene<Dim>&, const PositionsView<Dim>&, double,    \
-                               Contacts<Dim>&);                                                \
+    template Contacts<Dim> evaluate_all(const ContactScene<Dim>&, const PositionsView<Dim>&,   \
+                                        double, Contacts<Dim>);                                \
     template StencilHessians<Dim> hessians_of(const ContactScene<Dim>&, const Contacts<Dim>&,  \
                                               const PositionsView<Dim>&, double, Filter);      \
     template void add_gradient(const Contacts<Dim>&, Positions<Dim>&);

@@ -49,12 +49,14 @@ template <int Dim>
                                                 const PositionsView<Dim>& positions,
                                                 Filter filter);
 
-/// Sets energies and slopes of all contacts, in parallel, and sums them up.
+/// The contacts with energies and slopes, found in parallel and summed up.
+///
+/// @param contacts  With where they are; moved from one to the other, nothing is copied.
 template <int Dim>
-void evaluate_all(const ContactScene<Dim>& scene,
-                  const PositionsView<Dim>& positions,
-                  double stiffness,
-                  Contacts<Dim>& contacts);
+[[nodiscard]] Contacts<Dim> evaluate_all(const ContactScene<Dim>& scene,
+                                         const PositionsView<Dim>& positions,
+                                         double stiffness,
+                                         Contacts<Dim> contacts);
 
 /// Filtered Hessians of all contacts, in their order. Parallel.
 template <int Dim>

@@ -204,7 +204,7 @@ private:
         contacts.list.insert(contacts.list.end(), at_obstacles.begin(), at_obstacles.end());
         report.obstacle_tests =
             static_cast<std::int64_t>(scene_.obstacles.size() * pushed_vertices_.size());
-        evaluate_all<Dim>(scene_, positions, stiffness, contacts);
+        contacts = evaluate_all<Dim>(scene_, positions, stiffness, std::move(contacts));
         sum_up(contacts);
         report.seconds = watch.seconds();
         return contacts;

@@ -160,7 +160,7 @@ void SelfProximity<Dim>::search(const Asked& asked, Points& points, Mixed& mixed
 }
 
 template <int Dim>
-void SelfProximity<Dim>::find(const PositionsView<Dim>& positions, CandidatePairs& pairs) {
+CandidatePairs SelfProximity<Dim>::find(const PositionsView<Dim>& positions) {
     const Asked asked{{positions, positions}, nullptr, distance_};
     fit_trees(asked);
     move(asked);
@@ -172,15 +172,13 @@ void SelfProximity<Dim>::find(const PositionsView<Dim>& positions, CandidatePair
         *this, {surface_.edges, surface_.ridges, mixed_}, asked,
         {surface_.edges, surface_.ridges, Dim == 3, positions, squared, Closest::Interior});
     search(asked, points, mixed);
-    pairs.points_first = united(points.found());
-    pairs.mixed_first = united(mixed.found());
+    return {.points_first = united(points.found()), .mixed_first = united(mixed.found())};
 }
 
 template <int Dim>
-void SelfProximity<Dim>::find(const PathCover<Dim>& cover,
-                              double reach,
-                              double measured,
-                              CandidatePairs& pairs) {
+CandidatePairs SelfProximity<Dim>::find(const PathCover<Dim>& cover,
+                                        double reach,
+                                        double measured) {
     const PositionsView<Dim> start = cover.start();
     const PositionsView<Dim> end = cover.end();
     const Asked asked{
@@ -194,8 +192,7 @@ void SelfProximity<Dim>::find(const PathCover<Dim>& cover,
         *this, {surface_.edges, surface_.ridges, mixed_}, asked,
         {surface_.edges, surface_.ridges, Dim == 3, cover, reach, measured});
     search(asked, points, mixed);
-    pairs.points_first = joined(points.found());
-    pairs.mixed_first = joined(mixed.found());
+    return {.points_first = joined(points.found()), .mixed_first = joined(mixed.found())};
 }
 
 template <int Dim>

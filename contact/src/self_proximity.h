@@ -43,17 +43,16 @@ public:
                   bool is_rest_left_out,
                   const SharedWork& shared = {});
 
-    /// Sets both lists to the pairs nearer than the distance now that are not nearer at rest, and
-    /// maybe others of these: vertices and facets, and mixed pairs whose closest points are inside
-    /// both. Ascending, of unknown distance. Parallel.
-    void find(const PositionsView<Dim>& positions, CandidatePairs& pairs);
+    /// The pairs nearer than the distance now that are not nearer at rest, and maybe others of
+    /// these: vertices and facets, and mixed pairs whose closest points are inside both. Ascending,
+    /// of unknown distance, and of no body: that is for who asks to say. Parallel.
+    [[nodiscard]] CandidatePairs find(const PositionsView<Dim>& positions);
 
-    /// Sets them to the pairs that may come within reach while their vertices are near their paths.
-    /// Parallel.
+    /// The pairs that may come within reach while their vertices are near their paths. Parallel.
     ///
     /// @param reach     m.
     /// @param measured  Up to this distances at the end are measured, m.
-    void find(const PathCover<Dim>& cover, double reach, double measured, CandidatePairs& pairs);
+    [[nodiscard]] CandidatePairs find(const PathCover<Dim>& cover, double reach, double measured);
 
     /// Trees fit so far.
     [[nodiscard]] std::int64_t refit() const { return refit_; }

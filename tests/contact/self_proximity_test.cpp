@@ -120,14 +120,12 @@ TYPED_TEST(SelfProximityTest, FindsAllThatIsNearWhateverHappenedBefore) {
     for (const double amount : amounts) {
         ++seed;
         const Positions<kDim> x = this->bent(amount, seed % 5 == 0 ? 0.2 : 0.01, seed);
-        CandidatePairs pairs;
-        kept.find(x, pairs);
+        const CandidatePairs pairs = kept.find(x);
         this->template expect_all<1, kDim>(pairs.points_first, surface.vertices, surface.facets, x);
         this->template expect_all<2, kDim - 1>(pairs.mixed_first, surface.edges, surface.ridges, x);
         // The same as of one that was asked nothing before, but for pairs that are near at rest.
         SelfProximity<kDim> fresh(surface, this->scene_.positions, kDistance, true);
-        CandidatePairs anew;
-        fresh.find(x, anew);
+        const CandidatePairs anew = fresh.find(x);
         this->template expect_all<1, kDim>(anew.points_first, surface.vertices, surface.facets, x);
     }
     EXPECT_GT(this->near_, 100U);
@@ -153,8 +151,7 @@ TYPED_TEST(SelfProximityTest, FindsAllThatComesNearOnPathsWhateverHappenedBefore
         const Positions<kDim> end = this->bent(to, 0.005, seed + 1);
         PathCover<kDim> cover;
         cover.set(surface.vertices, start, end, kInflation, 0.1);
-        CandidatePairs pairs;
-        kept.find(cover, kReach, kMeasured, pairs);
+        const CandidatePairs pairs = kept.find(cover, kReach, kMeasured);
         const auto expect_all = [&]<int K, int L>(const CandidateList& list,
                                                   const Simplices<K>& first,
                                                   const Simplices<L>& second) {
@@ -204,13 +201,11 @@ TYPED_TEST(SelfProximityTest, LooksAtFewPairsWhereABodyHardlyChanges) {
     constexpr int kDim = TypeParam::value;
     const Surface<kDim>& surface = this->scene_.surfaces[0];
     SelfProximity<kDim> proximity(surface, this->scene_.positions, kDistance, true);
-    CandidatePairs pairs;
-    proximity.find(this->bent(0.85, 0, 1), pairs);
-    const std::int64_t at_first = pairs.overlaps();
+    const std::int64_t at_first = proximity.find(this->bent(0.85, 0, 1)).overlaps();
     EXPECT_GT(at_first, 0);
-    proximity.find(
-        (test::tilt<kDim>() * this->bent(0.855, 0, 1)).colwise() + 7 * Vector<kDim>::Ones(), pairs);
-    EXPECT_LT(pairs.overlaps(), at_first / 2);
+    const Positions<kDim> later =
+        (test::tilt<kDim>() * this->bent(0.855, 0, 1)).colwise() + 7 * Vector<kDim>::Ones();
+    EXPECT_LT(proximity.find(later).overlaps(), at_first / 2);
 }
 
 // What is listed where nothing changes stays listed, however often the end wants other lists: an
@@ -231,11 +226,8 @@ TYPED_TEST(SelfProximityTest, AnEndThatShakesCostsNothingElsewhere) {
                 x.col(v) = shaken.col(v);
             }
         }
-        CandidatePairs pairs;
-        of_end.find(x, pairs);
-        end += pairs.overlaps();
-        of_all.find(shaken, pairs);
-        all += pairs.overlaps();
+        end += of_end.find(x).overlaps();
+        all += of_all.find(shaken).overlaps();
     }
     EXPECT_LT(end, all / 2);
 }
