@@ -32,7 +32,7 @@ constexpr float kRounding = 4e-6F;
 constexpr float kRelativeRounding = 1e-5F;
 
 // Squares of lengths below would be lost in float.
-constexpr float kLeast = 1e-15F;
+constexpr float kLeastLength = 1e-15F;
 
 // Some simplices side by side, or one in all lanes.
 template <int Dim, int Count>
@@ -179,7 +179,8 @@ struct Pairs {
                 break;
             }
             const Floats way = dot<Dim>(toward, toward);
-            const Floats part = -dot<Dim>(line, toward) / max(way, Floats(kLeast * kLeast));
+            const Floats part =
+                -dot<Dim>(line, toward) / max(way, Floats(kLeastLength * kLeastLength));
             const Floats step = min(max(part, Floats(0.0F)), Floats(1.0F));
             for (int axis = 0; axis < Dim; ++axis) {
                 line[axis] = multiply_add(step, toward[axis], line[axis]);
@@ -213,7 +214,7 @@ void find_near(const LanesOnPaths& patches, double distance, std::uint16_t* near
     const float limit = static_cast<float>(distance) * (1 + kRelativeRounding) + kRounding * size;
     const int count = patches.second_start.count;
     const std::uint32_t all = (1U << count) - 1;
-    const bool is_told = limit > kLeast;
+    const bool is_told = limit > kLeastLength;
     for (int i = 0; i < kLanes; ++i) {
         near[i] = static_cast<std::uint16_t>(is_told || i >= patches.first_start.count ? 0U : all);
     }
