@@ -28,7 +28,8 @@ std::string where(std::string_view name,
                   std::span<const std::uint32_t> numbers,
                   Eigen::Index index) {
     const Eigen::Index number =
-        numbers.empty() ? index : Eigen::Index{numbers[static_cast<std::size_t>(index)]};
+        numbers.empty() ? index
+                        : static_cast<Eigen::Index>(numbers[static_cast<std::size_t>(index)]);
     return std::string(name) + ": " + std::string(element) + " " + std::to_string(number) + ": ";
 }
 

@@ -61,10 +61,11 @@ Simplices<Dim + 1> piece_of(const MeshSource<Dim>& source,
                             Eigen::Index first,
                             Eigen::Index last,
                             const RunRanks& ranks) {
-    const auto [begin, end] = ranks.slab_of(last - first);
+    const auto own_cells = ranks.slab_of(last - first);
     std::vector<double> own;
     ranks.agree([&] {
-        const SimplexMesh<Dim> slab = source.cells(first + begin, first + end);
+        const SimplexMesh<Dim> slab =
+            source.cells(first + own_cells.first, first + own_cells.second);
         own.assign(slab.cells.data(), slab.cells.data() + slab.cells.size());
     });
     const std::vector<double> all = ranks.gather(own);
