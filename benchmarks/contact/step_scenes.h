@@ -33,7 +33,7 @@ inline Scene one_body() {
     body.place.translate = Eigen::Vector4d::Zero();
     body.material.lame = lame_from_young(4, 1e7, 0.28);
     scene.bodies = {body};
-    scene.contact = Contact{.distance = kEps, .stiffness = 1e4};
+    scene.contact = ContactSettings{.distance = kEps, .stiffness = 1e4};
     scene.solver.tolerance = 1e-3;
     return scene;
 }

@@ -53,7 +53,7 @@ Case hug(double part) {
     result.scene.bodies = {body("left", {0, 0, 0, 0}, {0, 0, 0, 0.5}),
                            body("right", {0.033, 0.021, 0.013, 0.22}, {0, 0, 0, -0.5})};
     result.scene.gravity = Eigen::Vector4d::Zero();
-    result.scene.contact = Contact{.distance = 0.02, .stiffness = 3000};
+    result.scene.contact = ContactSettings{.distance = 0.02, .stiffness = 3000};
     result.scene.solver.tolerance = 1e-3;
     return result;
 }
@@ -77,7 +77,7 @@ Case noodles(double part) {
     }
     result.scene.obstacles.push_back(
         {.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d(0, 1, 0, 0)}, .stiffness = 3000});
-    result.scene.contact = Contact{.distance = 0.02, .stiffness = 3000};
+    result.scene.contact = ContactSettings{.distance = 0.02, .stiffness = 3000};
     result.scene.solver.tolerance = 1e-3;
     return result;
 }

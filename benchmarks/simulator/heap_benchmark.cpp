@@ -75,10 +75,11 @@ Scene scene_of(const Heap& heap) {
     scene.frames_per_second = heap.rate;
     scene.obstacles.push_back(
         {.shape = CavityObstacle{.center = Eigen::Vector4d::Zero(), .radius = 1.7}});
-    scene.contact = Contact{.model = heap.penalty ? ContactModel::Penalty : ContactModel::Barrier,
-                            .distance = 0.02,
-                            .self = heap.self,
-                            .friction = heap.friction};
+    scene.contact =
+        ContactSettings{.model = heap.penalty ? ContactModel::Penalty : ContactModel::Barrier,
+                        .distance = 0.02,
+                        .self = heap.self,
+                        .friction = heap.friction};
     scene.solver.integrator = Integrator::Bdf2;
     for (const Eigen::Vector4d& at : places(heap.bodies)) {
         Body body;

@@ -277,7 +277,7 @@ bool may_touch(const Scene& scene, std::size_t a, std::size_t b) {
     const bool are_tied = std::any_of(
         scene.attachments.begin(), scene.attachments.end(),
         [&](const Attachment& tie) { return !tie.contact && are_these(tie.body, tie.target); });
-    const Contact& contact = *scene.contact;
+    const ContactSettings& contact = *scene.contact;
     return (a != b || contact.self) && !are_tied && !has(contact.ignore)
            && (contact.only.empty() || has(contact.only));
 }

@@ -64,7 +64,7 @@ TEST(Explain, ListsEveryTermWithWhatSwitchesIt) {
     EXPECT_EQ(off.unknowns, 4 * 2 * 3 * 8);  // 3 x 2 x 2 x 2 vertices each
     scene.gravity[1] = -9.8;
     scene.damping = Damping{.mass = 0.1};
-    scene.contact = Contact{.self = true, .friction = 0.4};
+    scene.contact = ContactSettings{.self = true, .friction = 0.4};
     scene.obstacles = {
         {.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d::UnitY(), .offset = -9}}};
     scene.sleep = Sleep{};
@@ -90,7 +90,7 @@ TEST(Explain, ListsEveryTermWithWhatSwitchesIt) {
 TEST(Explain, CountsTheMemoryOfATermOnce) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 5);
-    scene.contact = Contact{.self = true};
+    scene.contact = ContactSettings{.self = true};
     const Explanation explanation = explain(scene, 1);
     std::int64_t bytes = 0;
     double seconds = 0;
@@ -122,7 +122,7 @@ TEST(Explain, CountsTheDoubleMatrixThatStandsInForTheFloatOne) {
 TEST(Explain, TellsThePartsOfTheBarrierAndOfDampingWithNewtonsMethod) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 2.01);
-    scene.contact = Contact{.model = ContactModel::Barrier, .distance = 0.02};
+    scene.contact = ContactSettings{.model = ContactModel::Barrier, .distance = 0.02};
     scene.solver.integrator = Integrator::NewtonEuler;
     scene.damping = Damping{.mass = 0, .stiffness = 0.01};
     scene.obstacles = {
@@ -152,7 +152,7 @@ TEST(Explain, GivesTheCostOfContactToTheFirstKindThatIsOn) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 5);
     scene.bodies.pop_back();
-    scene.contact = Contact{.self = true};
+    scene.contact = ContactSettings{.self = true};
     const Explanation explanation = explain(scene, 1);
     EXPECT_FALSE(term(explanation, "contact between bodies").is_on);
     EXPECT_GT(term(explanation, "contact within bodies").bytes, 0);
@@ -175,7 +175,7 @@ TEST(Explain, SaysThatTheFirstStepFailsAndWhy) {
 TEST(Explain, RepeatsTheWarningsOfTheSimulation) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 5);
-    scene.contact = Contact{.distance = 1};
+    scene.contact = ContactSettings{.distance = 1};
     expect_contains(advice(explain(scene, 1)),
                     {"contact distance 1 m is more than half of the mean surface edge"});
 }
@@ -183,10 +183,10 @@ TEST(Explain, RepeatsTheWarningsOfTheSimulation) {
 TEST(Explain, SaysThatContactBetweenBodiesFarApartCouldGo) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 5);
-    scene.contact = Contact{.distance = 0.1};
+    scene.contact = ContactSettings{.distance = 0.1};
     expect_contains(advice(explain(scene, 1)), {"3 m apart", "0.1 m", "[contact] could go"});
     scene = two_boxes(folder, 2.05);
-    scene.contact = Contact{.distance = 0.1};
+    scene.contact = ContactSettings{.distance = 0.1};
     EXPECT_EQ(advice(explain(scene, 1)).find("could go"), std::string::npos);
 }
 
@@ -266,7 +266,7 @@ TEST(Explain, SaysWhatContactObstaclesAndSleepHaveNothingToDo) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 5);
     scene.bodies.pop_back();
-    scene.contact = Contact{};
+    scene.contact = ContactSettings{};
     const HalfSpaceObstacle floor{.normal = Eigen::Vector4d::UnitY(), .offset = -1};
     scene.obstacles = {{.shape = floor}};
     scene.sleep = Sleep{.speed = 1e-3, .time = 0.1};
@@ -285,7 +285,7 @@ TEST(Explain, SaysWhatContactObstaclesAndSleepHaveNothingToDo) {
 TEST(Explain, SaysThatNothingPushesBodiesThatAreHeldEverywhere) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 5);
-    scene.contact = Contact{};
+    scene.contact = ContactSettings{};
     scene.constraints = {test::hold(EverythingSelection{}, test::still(4)),
                          test::hold(EverythingSelection{}, test::still(4))};
     scene.constraints[1].body = "other";
@@ -300,7 +300,7 @@ TEST(Explain, SaysThatNothingPushesBodiesThatAreHeldEverywhere) {
 TEST(Explain, WarnsOfBodiesTooFastForASoftContact) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 5);
-    scene.contact = Contact{.distance = 0.1};
+    scene.contact = ContactSettings{.distance = 0.1};
     scene.bodies[0].velocity = Eigen::Vector4d(30, 0, 0, 0);  // 1 m a step
     expect_contains(advice(explain(scene, 1)),
                     {"box and other move 1 m a step", "10 steps_per_frame"});
@@ -318,7 +318,7 @@ TEST(Explain, DoubtsUnitsThatDoNotFitOneAnother) {
         return advice(explain(other, 1));
     };
     EXPECT_EQ(says([](Scene&) {}).find("as meant"), std::string::npos);
-    expect_contains(says([](Scene& s) { s.contact = Contact{.distance = 0.11}; }),
+    expect_contains(says([](Scene& s) { s.contact = ContactSettings{.distance = 0.11}; }),
                     {"[contact] distance = 0.11 m is more than a tenth of \"box\"", "1 m thick"});
     expect_contains(
         says([](Scene& s) {
@@ -339,14 +339,14 @@ TEST(Explain, SaysWhatOverlapsAtTheStart) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 1.9);
     scene.bodies[1].place.translate.tail(3).setConstant(0.05);
-    scene.contact = Contact{};
+    scene.contact = ContactSettings{};
     scene.obstacles = {
         {.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d::UnitY(), .offset = 0.3}}};
     expect_contains(advice(explain(scene, 1)),
                     {"\"box\" and \"other\" overlap at the start, by 0.05 m",
                      "\"box\" and [[obstacle]] 1 overlap at the start, by 0.3 m"});
     scene = two_boxes(folder, 2);  // face to face
-    scene.contact = Contact{};
+    scene.contact = ContactSettings{};
     EXPECT_EQ(advice(explain(scene, 1)).find("overlap"), std::string::npos);
 }
 
@@ -375,7 +375,7 @@ TEST(Explain, SaysWhichStiffnessWouldDo) {
     flying.frames = 10;
     flying.steps_per_frame = 10;
     flying.solver.integrator = Integrator::NewtonEuler;
-    flying.contact = Contact{};
+    flying.contact = ContactSettings{};
     for (Scene* scene : {&lying, &falling, &flying}) {
         const auto deepest = [&] {
             const RunReport report = run(*scene, {.folder = folder / "run", .force = true});

@@ -70,11 +70,11 @@ BarrierScene<Dim> busy_scene(const ResumeRow& row) {
     made.scene.contact.reset();
     const bool has_barrier = row.contact == ContactModel::Barrier;
     if (row.contact) {
-        made.scene.contact = Contact{.model = *row.contact,
-                                     .distance = 0.02,
-                                     .stiffness = has_barrier ? 20.0 : 100,  // has to adapt
-                                     .self = row.is_self,
-                                     .friction = row.friction};
+        made.scene.contact = ContactSettings{.model = *row.contact,
+                                             .distance = 0.02,
+                                             .stiffness = has_barrier ? 20.0 : 100,  // has to adapt
+                                             .self = row.is_self,
+                                             .friction = row.friction};
     }
     if (row.has_sleep) {
         made.scene.sleep = Sleep{.speed = 0.01, .time = 0.03};

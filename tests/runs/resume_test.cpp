@@ -289,7 +289,7 @@ TEST(Resume, RefusesARunOfVersion010WithABarrier) {
     const TempFolder folder;
     Scene scene = falling_bar(folder, 2);
     scene.solver.integrator = Integrator::NewtonEuler;
-    scene.contact = Contact{.model = ContactModel::Barrier, .distance = 0.01};
+    scene.contact = ContactSettings{.model = ContactModel::Barrier, .distance = 0.01};
     const fs::path out = folder / "run";
     const RunReport known = run(scene, {.folder = out});
     for (const char* newer : {"checkpoint", "journal.txt", "written.txt"}) {

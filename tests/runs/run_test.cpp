@@ -172,7 +172,7 @@ TEST(Run, NeverReplacesWhatTheSceneReads) {
 TEST(Run, PutsTheWarningsOfTheSimulationIntoItsReport) {
     const TempFolder folder;
     Scene scene = falling_bar(folder, 1);
-    scene.contact = Contact{.distance = 0.2, .self = true};
+    scene.contact = ContactSettings{.distance = 0.2, .self = true};
     std::vector<std::string> told;
     const RunReport report =
         run(scene, {.folder = folder / "run"},
@@ -246,7 +246,7 @@ TEST(Run, WarnsOfCellsThatDoNotFitTogetherAndRefusesThemWithContact) {
     ASSERT_EQ(report.warnings.size(), 1U);
     pent::test::expect_contains(report.warnings[0],
                                 {"bar.pent", "do not fit together", "pent-check"});
-    scene.contact = Contact{};
+    scene.contact = ContactSettings{};
     pent::test::expect_contains(
         pent::test::error_of([&] { static_cast<void>(run(scene, {.folder = folder / "touch"})); }),
         {"bar.pent", "contact needs a closed surface"});

@@ -38,7 +38,7 @@ Scene crawler(double waves, double friction) {
     floor.distance = 0.02;
     floor.stiffness = 4000;
     scene.obstacles = {floor};
-    scene.contact = Contact{.friction = friction, .slip_speed = 0.01};
+    scene.contact = ContactSettings{.friction = friction, .slip_speed = 0.01};
     scene.solver.tolerance = 1e-6;
     return scene;
 }

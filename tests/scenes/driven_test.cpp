@@ -141,7 +141,7 @@ TEST(Walker, IsTurnedByABallUnderItThroughFrictionAlone) {
                             .stiffness = 5e4,
                             .motion = {turn},
                             .friction = friction}};
-        scene.contact = Contact{.distance = 0.04, .friction = friction};
+        scene.contact = ContactSettings{.distance = 0.04, .friction = friction};
         Simulation<4> simulation(scene, {bar(3)});
         while (simulation.time() < 1) {
             const StepReport report = simulation.step();

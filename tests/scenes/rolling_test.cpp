@@ -46,7 +46,7 @@ Scene pushed(int along) {
     ground.normal = Eigen::Vector4d::UnitY();
     ground.offset = 0;
     scene.obstacles = {{.shape = ground, .distance = 0.04, .stiffness = 5e4}};
-    scene.contact = Contact{.distance = 0.04, .friction = 0.5, .slip_speed = 0.01};
+    scene.contact = ContactSettings{.distance = 0.04, .friction = 0.5, .slip_speed = 0.01};
     return scene;
 }
 

@@ -136,7 +136,7 @@ TEST(SmallHug, TouchesAndPhasesOutOfTheSlice) {
     scene.bodies[0].velocity = Eigen::Vector4d(0, 3, 0, 0);
     scene.bodies[1].velocity = Eigen::Vector4d(0, -3, 0, 0);
     scene.bodies[1].spin = {{{3, 2}, 30}};
-    scene.contact = Contact{.distance = 0.05, .stiffness = 3000};
+    scene.contact = ContactSettings{.distance = 0.05, .stiffness = 3000};
     const SimplexMesh<4> box = kuhn_box<4>({2, 2, 2, 2}, {1, 1, 1, 1});
     Simulation<4> simulation(scene, {box, box});
     const Boundary<4> boundary = viewer::make_boundary<4>(box, "box");

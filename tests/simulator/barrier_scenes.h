@@ -26,7 +26,7 @@ struct BarrierScene {
         scene.frames_per_second = 100;
         scene.solver.integrator = Integrator::NewtonEuler;
         scene.contact =
-            Contact{.model = ContactModel::Barrier, .distance = 0.02, .stiffness = 1000};
+            ContactSettings{.model = ContactModel::Barrier, .distance = 0.02, .stiffness = 1000};
     }
 
     Body& add(const SimplexMesh<Dim>& mesh, const Eigen::VectorXd& at, double young = 1e5) {

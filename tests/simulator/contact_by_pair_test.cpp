@@ -79,7 +79,7 @@ TYPED_TEST(ContactByPair, LeavesSingleBodiesOutOfContactWithThemselves) {
     constexpr int kDim = TypeParam::value;
     for (const bool ignores : {false, true}) {
         Scene scene = test::box_scene<kDim>();
-        scene.contact = Contact{.distance = 0.05, .stiffness = 2e3, .self = true};
+        scene.contact = ContactSettings{.distance = 0.05, .stiffness = 2e3, .self = true};
         if (ignores) {
             scene.contact->ignore = {{"box", "box"}};
         }
@@ -106,7 +106,7 @@ TYPED_TEST(ContactByPair, HasTheFrictionOfBothSides) {
         scene.obstacles = {
             {.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(kDim, 1), .offset = -0.015},
              .stiffness = 2e4}};
-        scene.contact = Contact{.distance = 0.02, .stiffness = 2e4, .friction = 0.8};
+        scene.contact = ContactSettings{.distance = 0.02, .stiffness = 2e4, .friction = 0.8};
         (of_floor == 0.8 ? scene.bodies[0].friction : scene.obstacles[0].friction) =
             of_floor == 0.8 ? of_body : of_floor;
         scene.solver.integrator = Integrator::NewtonEuler;

@@ -125,7 +125,7 @@ TYPED_TEST(ContactPotentialTest, AnObstacleHasTheDerivativesOfItsEnergy) {
     for (const ObstacleShape& shape : shapes) {
         Scene scene = test::box_scene<kDim>();
         scene.obstacles = {{.shape = shape, .distance = 0.05, .stiffness = 700}};
-        scene.contact = Contact{.filter = Filter::None};
+        scene.contact = ContactSettings{.filter = Filter::None};
         const Setting<kDim> setting(scene, 1);
         ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies,
                                        setting.held);

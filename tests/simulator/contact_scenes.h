@@ -28,7 +28,7 @@ Scene two_cubes(double gap) {
     scene.bodies[1].name = "b";
     scene.bodies[1].place.translate.setConstant(0.04);
     scene.bodies[1].place.translate[1] = 0.5 + gap;
-    scene.contact = Contact{.distance = 0.05, .stiffness = 2e3};
+    scene.contact = ContactSettings{.distance = 0.05, .stiffness = 2e3};
     scene.frames_per_second = 100;
     return scene;
 }

@@ -257,7 +257,7 @@ TYPED_TEST(ContactLaws, KeepABodyOutOfItselfWhereAsked) {
     for (const bool self : {false, true}) {
         Scene scene = test::box_scene<kDim>();
         scene.frames_per_second = 100;
-        scene.contact = Contact{.distance = 0.05, .stiffness = 2e3, .self = self};
+        scene.contact = ContactSettings{.distance = 0.05, .stiffness = 2e3, .self = self};
         Simulation<kDim> simulation(scene, {mesh});
         Positions<kDim> velocities = Positions<kDim>::Zero(kDim, 2 * half);
         velocities.row(1).leftCols(half).setConstant(0.3);
@@ -296,7 +296,7 @@ TEST(NoContact, BuildsNoTreeSearchesNothingAndTakesNoMemory) {
 
 TEST(NoContact, CostsNothingForOneBodyThatDoesNotMeetItself) {
     Scene scene = test::box_scene<4>();
-    scene.contact = Contact{};
+    scene.contact = ContactSettings{};
     Simulation<4> simulation(scene, {cube<4>()});
     EXPECT_EQ(simulation.size().contact_bytes, 0);
     EXPECT_EQ(simulation.step().contact.searches, 0);

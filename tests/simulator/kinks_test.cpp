@@ -15,7 +15,7 @@ TEST_P(Kinks, NeitherStopNewtonsMethodNorMakeItGoInCircles) {
     Scene scene = test::box_scene<4>();
     scene.solver.integrator = GetParam();
     scene.frames_per_second = 60;
-    scene.contact = Contact{.distance = 0.05, .stiffness = 2e4};
+    scene.contact = ContactSettings{.distance = 0.05, .stiffness = 2e4};
     scene.bodies.push_back(scene.bodies[0]);
     scene.bodies[1].name = "b";
     scene.bodies[0].velocity = Eigen::Vector4d(2, 0, 0, 0);

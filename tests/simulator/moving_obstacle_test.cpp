@@ -39,7 +39,7 @@ Scene cube_on_floor(ContactModel model) {
          .distance = 0.02,
          .stiffness = 2e4,
          .motion = {still(Dim)}}};
-    scene.contact = Contact{.model = model, .distance = 0.02, .stiffness = 2e4};
+    scene.contact = ContactSettings{.model = model, .distance = 0.02, .stiffness = 2e4};
     return scene;
 }
 

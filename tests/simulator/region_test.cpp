@@ -201,7 +201,7 @@ TYPED_TEST(RegionTest, GoOnToTheSameBitsFromASnapshotAndWithAnyThreads) {
     for (const ElementKind kind : kKinds) {
         Scene scene = layered_boxes<kDim>(kind);
         scene.gravity[1] = -9.8;
-        scene.contact = Contact{.distance = 0.05, .stiffness = 2e3};
+        scene.contact = ContactSettings{.distance = 0.05, .stiffness = 2e3};
         scene.bodies[1].velocity = -20 * Eigen::VectorXd::Unit(kDim, 1);
         const auto make = [&](int threads) {
             return Simulation<kDim>(scene, {cube_for<kDim>(scene, 3), cube_for<kDim>(scene, 3)},

@@ -41,7 +41,7 @@ TYPED_TEST(SceneEnergyTest, TheSumHasTheTermsOfTheSceneAndNoOthers) {
     EXPECT_EQ(names(scene), (std::vector<std::string>{"elastic"}));
     scene.gravity[1] = -9.8;
     EXPECT_EQ(names(scene), (std::vector<std::string>{"gravity", "elastic"}));
-    scene.contact = Contact{.distance = 0.05, .stiffness = 2e3, .friction = 0.3};
+    scene.contact = ContactSettings{.distance = 0.05, .stiffness = 2e3, .friction = 0.3};
     EXPECT_EQ(names(scene),
               (std::vector<std::string>{"gravity", "elastic", "contact", "friction"}));
     scene.contact.reset();

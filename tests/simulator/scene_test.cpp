@@ -54,8 +54,9 @@ TEST(CheckScene, SaysWhatIsWrongAndWhatWasExpected) {
              s.constraints[0].body = "bar";
          },
          {"constraint on \"bar\"", "no body has this name"}},
-        {[](Scene& s) { s.contact = Contact{.distance = -1}; }, {"contact", "distance", "-1"}},
-        {[](Scene& s) { s.contact = Contact{.model = ContactModel::Barrier}; },
+        {[](Scene& s) { s.contact = ContactSettings{.distance = -1}; },
+         {"contact", "distance", "-1"}},
+        {[](Scene& s) { s.contact = ContactSettings{.model = ContactModel::Barrier}; },
          {"barrier", "newton_euler"}},
         {[](Scene& s) {
              s.sleep = Sleep{};

@@ -26,7 +26,7 @@ Scene scene_of(const Touch& touch, const Extreme& body, ContactModel model, Prec
     other.material.lame.lambda *= touch.ratio;
     scene.bodies.push_back(other);
     scene.contact =
-        simulator::Contact{.model = model, .distance = touch.distance, .stiffness = 100};
+        simulator::ContactSettings{.model = model, .distance = touch.distance, .stiffness = 100};
     scene.solver.integrator = simulator::Integrator::NewtonEuler;
     scene.frames_per_second = 1 / kDt;
     return scene;

@@ -84,7 +84,7 @@ TEST(WithSettings, SetsAKeyOfEveryBlockOfAName) {
     attachment.body = "bar";
     attachment.select = {simulator::EverythingSelection{}};
     scene.attachments = {attachment, attachment};
-    scene.contact = simulator::Contact{};
+    scene.contact = simulator::ContactSettings{};
     const simulator::Scene changed =
         with_settings(scene, {{"attachment.stiffness", "3e4"}, {"contact.stiffness", "7"}});
     EXPECT_EQ(changed.attachments[0].stiffness, 3e4);
@@ -179,7 +179,7 @@ TEST(CheckSetting, NamesTheNearestAxisAndRefusesBadValues) {
 TEST(WithSettings, DoNotDependOnTheirOrder) {
     const TempFolder folder;
     simulator::Scene scene = bar_scene(folder);
-    scene.contact = simulator::Contact{};
+    scene.contact = simulator::ContactSettings{};
     const Setting barrier{"contact", "barrier"};  // not with linear_euler, which the scene has
     const Setting newton{"integrator", "newton_euler"};
     const Setting preset{"preset", "fast"};
@@ -194,7 +194,7 @@ TEST(WithSettings, DoNotDependOnTheirOrder) {
 TEST(WithSettings, RefuseWhatDoesNotGoTogetherThoughEachIsRight) {
     const TempFolder folder;
     simulator::Scene scene = bar_scene(folder);
-    scene.contact = simulator::Contact{};
+    scene.contact = simulator::ContactSettings{};
     const Setting barrier{"contact", "barrier"};
     EXPECT_NO_THROW(check_setting(scene, barrier));
     expect_contains(error_of([&] { static_cast<void>(with_settings(scene, {barrier})); }),

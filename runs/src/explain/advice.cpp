@@ -159,7 +159,7 @@ Lines on_missing_contact(const Trial& trial) {
 
 Lines on_idle_contact(const Trial& trial) {
     const Scene& scene = trial.scene;
-    const std::optional<Contact>& contact = scene.contact;
+    const std::optional<ContactSettings>& contact = scene.contact;
     // Obstacles push without [contact]; but barrier and friction are its own.
     const bool serves_obstacles =
         contact && !scene.obstacles.empty()

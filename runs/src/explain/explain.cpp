@@ -182,7 +182,7 @@ Terms attachments(const Trial& trial) {
 }
 
 std::string contact_text(const Trial& trial, std::int64_t pairs) {
-    const Contact& contact = *trial.scene.contact;
+    const ContactSettings& contact = *trial.scene.contact;
     return word(contact.model) + formatted(" within %.3g m; ", contact.distance)
            + std::to_string(pairs) + " pairs touch after a step"
            + (contact.model == ContactModel::Barrier
@@ -248,7 +248,7 @@ Terms obstacles(const Trial& trial) {
 }
 
 Terms friction(const Trial& trial) {
-    const std::optional<Contact>& contact = trial.scene.contact;
+    const std::optional<ContactSettings>& contact = trial.scene.contact;
     const auto count_own = [](const auto& parts) {
         return std::count_if(parts.begin(), parts.end(),
                              [](const auto& part) { return std::isfinite(part.friction); });

@@ -32,7 +32,7 @@ contact::ContactScene<Dim> contact_scene(const Scene& scene,
                                          const Bodies<Dim>& bodies,
                                          const HeldVertices<Dim>& held,
                                          bool do_bodies_meet) {
-    const Contact contact = scene.contact.value_or(Contact{});
+    const ContactSettings contact = scene.contact.value_or(ContactSettings{});
     const bool is_searched_often = scene.solver.integrator != Integrator::LinearEuler;
     contact::ContactScene<Dim> result;
     result.options = {.model = contact.model,
@@ -111,13 +111,13 @@ ContactPotential<Dim>::ContactPotential(const Workers& workers,
                                         const HeldVertices<Dim>& held)
     : workers_(&workers),
       sharing_(&bodies.sharing),
-      options_(scene.contact.value_or(Contact{})),
+      settings_(scene.contact.value_or(ContactSettings{})),
       motions_(scene),
       obstacles_(motions_.at(0)) {
-    is_barrier_ = scene.contact && options_.model == ContactModel::Barrier;
+    is_barrier_ = scene.contact && settings_.model == ContactModel::Barrier;
     do_bodies_meet_ = is_barrier_ || (scene.contact && (bodies.count() > 1 || scene.contact->self));
     has_obstacles_ = !scene.obstacles.empty();
-    stiffness_ = options_.stiffness;
+    stiffness_ = settings_.stiffness;
     set_held(scene, bodies, held);
 }
 
@@ -261,7 +261,7 @@ void ContactPotential<Dim>::add_hessian(const Positions<Dim>& x,
     }
     const contact::Contacts<Dim>& contacts = sharing_->is_shared() ? own : contacts_;
     hessians_ =
-        workers_->run([&] { return finder_->hessians(contacts, x, stiffness_, options_.filter); });
+        workers_->run([&] { return finder_->hessians(contacts, x, stiffness_, settings_.filter); });
     add_stencils<Dim>(weight, hessians_, is_barrier_ ? 0 : contacts.pair_count, system);
     work_.seconds += watch.seconds();
 }
@@ -319,12 +319,12 @@ double ContactPotential<Dim>::max_step(const Positions<Dim>& from, const Positio
 // forces, which take another look at all contacts.
 template <int Dim>
 bool ContactPotential<Dim>::wants_balance() const {
-    return is_barrier_ && (is_close() || stiffness_ != options_.stiffness);
+    return is_barrier_ && (is_close() || stiffness_ != settings_.stiffness);
 }
 
 template <int Dim>
 bool ContactPotential<Dim>::is_close() const {
-    return gap() < kDeep * options_.distance;
+    return gap() < kDeep * settings_.distance;
 }
 
 // The stiffness with which the barrier would balance, in the sense of least squares, all other
@@ -339,9 +339,10 @@ bool ContactPotential<Dim>::balance(const BlockVector<Dim>& own, const BlockVect
         const double squared = own.squaredNorm();
         const double along = -others.cwiseProduct(own).sum();
         const double balancing = squared > 0 ? stiffness_ * along / squared : 0;
-        stiffness_ = std::clamp(balancing, options_.stiffness, kMaxStiffness * options_.stiffness);
+        stiffness_ =
+            std::clamp(balancing, settings_.stiffness, kMaxStiffness * settings_.stiffness);
     } else {
-        stiffness_ = options_.stiffness;
+        stiffness_ = settings_.stiffness;
     }
     return stiffness_ != before;
 }
@@ -351,8 +352,8 @@ bool ContactPotential<Dim>::adapt() {
     if (!is_barrier_) {
         return false;
     }
-    const bool is_tight = gap() < std::min(last_gap_, kTight * options_.distance)
-                          && stiffness_ < kMaxStiffness * options_.stiffness;
+    const bool is_tight = gap() < std::min(last_gap_, kTight * settings_.distance)
+                          && stiffness_ < kMaxStiffness * settings_.stiffness;
     last_gap_ = gap();
     if (is_tight) {
         stiffness_ *= 2;

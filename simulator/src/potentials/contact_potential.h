@@ -89,7 +89,7 @@ public:
     /// Stiffness of a barrier now, N/m, never below that of the scene; 0 without one.
     [[nodiscard]] double stiffness() const { return is_barrier_ ? stiffness_ : 0; }
     void set_stiffness(double stiffness) { stiffness_ = is_barrier_ ? stiffness : stiffness_; }
-    [[nodiscard]] const Contact& options() const { return options_; }
+    [[nodiscard]] const ContactSettings& settings() const { return settings_; }
 
     /// After what is held has changed.
     void set_held(const Scene& scene, const Bodies<Dim>& bodies, const HeldVertices<Dim>& held);
@@ -104,7 +104,7 @@ public:
 
 private:
     [[nodiscard]] double gap() const {
-        return contacts_.report.smallest_distance - options_.separation;
+        return contacts_.report.smallest_distance - settings_.separation;
     }
     [[nodiscard]] bool is_close() const;  // so that stiffness has to balance other forces
 
@@ -112,7 +112,7 @@ private:
 
     const Workers* workers_;
     const Sharing* sharing_;
-    Contact options_;
+    ContactSettings settings_;
     bool is_barrier_ = false;
     bool do_bodies_meet_ = false;
     bool has_obstacles_ = false;

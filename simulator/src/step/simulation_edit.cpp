@@ -32,7 +32,7 @@ void remove_from_pairs(const std::string& body, Scene& scene) {
     const auto has_it = [&](const BodyPair& pair) {
         return pair.first == body || pair.second == body;
     };
-    Contact& contact = *scene.contact;
+    ContactSettings& contact = *scene.contact;
     const bool had_only = !contact.only.empty();
     std::erase_if(contact.ignore, has_it);
     std::erase_if(contact.only, has_it);

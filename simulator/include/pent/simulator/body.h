@@ -39,7 +39,7 @@ struct Body {
     std::vector<Spin> spin;  ///< At the start, about the center of mass, added to the velocity.
     double friction =
         std::numeric_limits<double>::infinity();  ///< Coulomb's coefficient, >= 0; infinite: that
-                                                  ///< of Contact.
+                                                  ///< of ContactSettings.
     std::vector<Region> regions = {};             ///< Of what two select the later one has it.
     std::string source =
         {};  ///< Where its mesh stands in a scene file, as in "scene.toml:4:8", for messages;

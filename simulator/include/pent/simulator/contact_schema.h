@@ -1,6 +1,6 @@
 #pragma once
 
-#include <pent/simulator/contact.h>
+#include <pent/simulator/contact_settings.h>
 #include <pent/simulator/field.h>
 #include <pent/simulator/obstacle.h>
 
@@ -42,7 +42,7 @@ void fields(Part& obstacle, const Visit& visit) {
           obstacle.friction);
 }
 
-template <PartOf<Contact> Part, typename Visit>
+template <PartOf<ContactSettings> Part, typename Visit>
 void fields(Part& contact, const Visit& visit) {
     visit(key("model", "",
               "with a barrier nothing crosses ([barrier.md](barrier.md)); not with `linear_euler`"),

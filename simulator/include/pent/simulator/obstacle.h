@@ -32,7 +32,7 @@ struct Obstacle {
     /// One after the other, as of a Constraint; each turns it about the same point unless it says
     /// otherwise.
     std::vector<Motion> motion = {};
-    /// Coulomb's coefficient, >= 0, as of a Body; infinite: that of Contact.
+    /// Coulomb's coefficient, >= 0, as of a Body; infinite: that of ContactSettings.
     double friction = std::numeric_limits<double>::infinity();
 };
 

@@ -4,7 +4,7 @@
 #include <pent/simulator/attachment.h>
 #include <pent/simulator/body.h>
 #include <pent/simulator/constraint.h>
-#include <pent/simulator/contact.h>
+#include <pent/simulator/contact_settings.h>
 #include <pent/simulator/load.h>
 #include <pent/simulator/obstacle.h>
 #include <pent/simulator/output.h>
@@ -52,7 +52,8 @@ struct Scene {
     std::vector<Activation> activations;
     std::vector<Attachment> attachments;
     std::vector<Obstacle> obstacles;
-    std::optional<Contact> contact;  ///< Absent: bodies pass through one another, at no cost.
+    /// Absent: bodies pass through one another, at no cost.
+    std::optional<ContactSettings> contact;
     std::optional<Damping> damping;  ///< Absent: not modeled.
     std::optional<Sleep> sleep;      ///< Absent: all bodies are solved for all the time.
     SolverOptions solver;

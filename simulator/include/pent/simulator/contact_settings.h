@@ -25,7 +25,7 @@ struct BodyPair {
 };
 
 /// Contact between bodies, and within them if asked.
-struct Contact {
+struct ContactSettings {
     ContactModel model = ContactModel::Penalty;
     double distance = 0.02;   ///< m, > 0: how near is in contact; a quarter of an edge is good.
     double stiffness = 1000;  ///< N/m for each pair, > 0; a barrier raises it where it has to.
