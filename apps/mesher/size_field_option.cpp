@@ -90,8 +90,8 @@ void complete_size_field(MeshArguments& arguments) {
         sizes.point = four_in(text, text);
     } else {
         const std::string_view words = text;
-        sizes.plane = mesher::Hyperplane{normal_in(words.substr(0, equals), text),
-                                         number_in(words.substr(equals + 1), text)};
+        sizes.plane = Hyperplane<4>{normal_in(words.substr(0, equals), text),
+                                    number_in(words.substr(equals + 1), text)};
     }
 }
 

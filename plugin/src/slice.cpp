@@ -24,7 +24,7 @@ namespace {
 template <int Dim>
 viewer::Surface section(const viewer::Boundary<Dim>& boundary,
                         const Positions<Dim>& positions,
-                        const viewer::Hyperplane& plane) {
+                        const viewer::FramedHyperplane& plane) {
     if constexpr (Dim == 3) {
         return viewer::skin(boundary, positions);
     } else {
@@ -33,7 +33,7 @@ viewer::Surface section(const viewer::Boundary<Dim>& boundary,
 }
 
 template <int Dim>
-viewer::Hyperplane hyperplane(const double* normal, double offset) {
+viewer::FramedHyperplane hyperplane(const double* normal, double offset) {
     if (Dim == 3) {
         return {};
     }
@@ -45,7 +45,7 @@ viewer::Hyperplane hyperplane(const double* normal, double offset) {
 }
 
 // Keeps a surface in `seen`, and gives what a host sees of it.
-pent_surface show(viewer::Surface made, const viewer::Hyperplane& plane, SeenSurface& seen) {
+pent_surface show(viewer::Surface made, const viewer::FramedHyperplane& plane, SeenSurface& seen) {
     seen = {std::move(made.positions), std::move(made.triangles), std::move(made.ends),
             std::move(made.weights)};
     pent_surface surface = {.positions = seen.positions.data(),
@@ -117,7 +117,7 @@ int slice_stored(const pent_stored_mesh* mesh,
                  const double** normals) {
     return with_solid(mesh, -1, [&]<int Dim>(const SimplexMesh<Dim>& held, StoredMesh& stored) {
         require(surface, "surface");
-        const viewer::Hyperplane plane = plane_of(std::integral_constant<int, Dim>());
+        const viewer::FramedHyperplane plane = plane_of(std::integral_constant<int, Dim>());
         const Positions<Dim> places = places_of(stored, held, positions);
         const viewer::Boundary<Dim>& boundary = indexed(stored, held);
         viewer::Surface made = section<Dim>(boundary, places, plane);
@@ -145,7 +145,7 @@ viewer::PlaneRotation rotation_of(const pent_turn& turn) {
     return {turn.from, turn.to, turn.degrees * (std::numbers::pi / 180)};
 }
 
-viewer::Hyperplane hyperplane_of(const pent_hyperplane* plane) {
+viewer::FramedHyperplane hyperplane_of(const pent_hyperplane* plane) {
     require(plane, "plane");
     if (!std::isfinite(plane->offset)) {
         throw Error("the offset of a slice must be finite");
@@ -172,7 +172,7 @@ int pent_slice(pent_simulation* simulation,
     return with_body(simulation, body, -1, [&](auto& held, Opened& opened) {
         constexpr int kDim = kDimOf<std::remove_reference_t<decltype(held)>>;
         require(surface, "surface");
-        const viewer::Hyperplane plane = hyperplane<kDim>(normal, offset);
+        const viewer::FramedHyperplane plane = hyperplane<kDim>(normal, offset);
         const auto boundary = viewer::make_boundary<kDim>(held.mesh(body), "the mesh");
         *surface =
             show(section<kDim>(boundary, held.positions(body), plane), plane, opened.surface);
@@ -195,7 +195,7 @@ int pent_slice_turned(const pent_stored_mesh* mesh,
                       pent_surface* surface,
                       const double** normals) {
     const auto plane_of = [&](auto dimension) {
-        return dimension == 3 ? viewer::Hyperplane() : hyperplane_of(plane);
+        return dimension == 3 ? viewer::FramedHyperplane() : hyperplane_of(plane);
     };
     return slice_stored(mesh, positions, plane_of, surface, normals);
 }

@@ -27,7 +27,7 @@ constexpr double kPi = std::numbers::pi;
 
 SizeField at_plane(const Vector4d& normal, double offset, double growth) {
     SizeField sizes;
-    sizes.plane = Hyperplane{normal, offset};
+    sizes.plane = Hyperplane<4>{normal, offset};
     sizes.growth = growth;
     return sizes;
 }

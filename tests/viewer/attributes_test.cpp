@@ -72,7 +72,7 @@ TEST(CornerNormals, OfABoxAreItsSidesInSpiteOfSliversAndZeroAreas) {
     const SimplexMesh<4> mesh = kuhn_box<4>({2, 2, 2, 2}, {1, 1, 1, 1});
     const Boundary<4> boundary = make_boundary(mesh, "box");
     for (const double w : {0.3, 0.5, 0.5 + 1e-15, 1.0}) {
-        const Hyperplane plane = hyperplane_at(w);
+        const FramedHyperplane plane = hyperplane_at(w);
         const Surface surface = slice(boundary, mesh.positions, plane);
         const Positions<3> normals =
             corner_normals<4>(surface, boundary, mesh.positions, plane.frame.topRows<3>(), 1.0);
@@ -101,7 +101,7 @@ TEST(CornerNormals, OfAFineBallPointAwayFromItsCenter) {
         point *= largest > 0 ? largest / point.norm() : 0;
     }
     const Boundary<4> boundary = make_boundary(mesh, "ball");
-    const Hyperplane plane = hyperplane_across({0.2, 0.3, -0.1, 1}, 0.2);
+    const FramedHyperplane plane = hyperplane_across({0.2, 0.3, -0.1, 1}, 0.2);
     const Surface surface = slice(boundary, mesh.positions, plane);
     const Positions<3> normals =
         corner_normals<4>(surface, boundary, mesh.positions, plane.frame.topRows<3>(), 1.0);

@@ -51,7 +51,7 @@ TEST(Hyperplane, AcrossAnyNormalHasARightHandedFrameEndingInIt) {
     for (int i = 0; i < 100; ++i) {
         const Eigen::Vector4d normal(coordinate(random), coordinate(random), coordinate(random),
                                      coordinate(random));
-        const Hyperplane plane = hyperplane_across(normal, 0.5);
+        const FramedHyperplane plane = hyperplane_across(normal, 0.5);
         expect_rotation(plane.frame);
         EXPECT_NEAR((plane.frame.row(3).transpose() - normal.normalized()).norm(), 0, kRounding);
     }
@@ -60,7 +60,7 @@ TEST(Hyperplane, AcrossAnyNormalHasARightHandedFrameEndingInIt) {
 TEST(Hyperplane, AcrossNormalsNearMinusWIsStillARotation) {
     for (const double tilt : {0.0, 1e-300, 1e-16, 1e-8, 1e-3}) {
         const Eigen::Vector4d normal(tilt, -tilt, tilt / 2, -1);
-        const Hyperplane plane = hyperplane_across(normal, 0);
+        const FramedHyperplane plane = hyperplane_across(normal, 0);
         expect_rotation(plane.frame);
         EXPECT_NEAR((plane.frame.row(3).transpose() - normal.normalized()).norm(), 0, kRounding);
     }

@@ -40,7 +40,7 @@ bool is_solid(const ObstacleSlice& slice, const Eigen::Vector3d& x) {
 }
 
 // The point of R^4 that is seen at x.
-Eigen::Vector4d point_at(const Hyperplane& plane, const Eigen::Vector3d& x) {
+Eigen::Vector4d point_at(const FramedHyperplane& plane, const Eigen::Vector3d& x) {
     Eigen::Vector4d seen;
     seen << x, plane.offset;
     return plane.frame.transpose() * seen;
@@ -59,7 +59,7 @@ public:
         }
         return p;
     }
-    Hyperplane hyperplane() { return hyperplane_across(point<4>(), number(-0.8, 0.8)); }
+    FramedHyperplane hyperplane() { return hyperplane_across(point<4>(), number(-0.8, 0.8)); }
     template <int Dim>
     std::vector<Obstacle<Dim>> one_of_each() {
         return {HalfSpace<Dim>{point<Dim>().normalized(), number(-0.5, 0.5)},
@@ -93,7 +93,7 @@ TEST(ObstacleSlice, IsSolidWhereContactHoldsTheObstacleForSolid) {
     int solid = 0;
     int points = 0;
     for (int repeat = 0; repeat < 200; ++repeat) {
-        const Hyperplane plane = random.hyperplane();
+        const FramedHyperplane plane = random.hyperplane();
         for (const Obstacle<4>& obstacle : random.one_of_each<4>()) {
             const ObstacleSlice cut = slice(obstacle, plane);
             for (int i = 0; i < 50; ++i) {
@@ -143,7 +143,7 @@ TEST(ObstacleSlice, OfAHalfSpaceBesideTheHyperplaneIsEverythingOrNothing) {
 TEST(ObstacleSlice, OfRoundOnesBeyondTheirRadiusIsWhatIsAroundThem) {
     const Eigen::Vector4d center(1, 2, 3, 0);
     for (const double w : {-0.5, 0.5, 0.7}) {  // touching, and beyond
-        const Hyperplane plane = hyperplane_at(w);
+        const FramedHyperplane plane = hyperplane_at(w);
         EXPECT_TRUE(slice(Ball<4>{center, 0.5}, plane).is_empty);
         EXPECT_TRUE(slice(Cavity<4>{center, 0.5}, plane).is_everything());
         const ObstacleSlice ground = slice(Bowl<4>{center, 0.5, Eigen::Vector4d::UnitY()}, plane);
@@ -186,7 +186,7 @@ TEST(ObstacleSurface, LiesOnTheObstacleAndIsTurnedOutOfIt) {
     const Sphere view{Eigen::Vector3d(0.1, 0.2, 0.3), 2};
     int triangles = 0;
     for (int repeat = 0; repeat < 40; ++repeat) {
-        const Hyperplane plane = random.hyperplane();
+        const FramedHyperplane plane = random.hyperplane();
         for (const Obstacle<4>& obstacle : random.one_of_each<4>()) {
             const ObstacleSlice cut = slice(obstacle, plane);
             const TriangleMesh mesh = obstacle_surface(cut, view, 24);

@@ -74,7 +74,7 @@ TEST(Outline, VolumeIsThatOfAllTetrahedraSeenFromTheFront) {
 
 TEST(Project, LeavesPointsOfTheFilmWhereTheyAre) {
     SimplexMesh<4> mesh = test::jittered_box({2, 2, 2, 2}, 32);
-    const Hyperplane film = hyperplane_at(0.5);
+    const FramedHyperplane film = hyperplane_at(0.5);
     mesh.positions.row(3).setConstant(0.5);
     Projection projection{.film = film, .center = {0.1, 0.2, 0.3}, .eye_distance = 2.0};
     EXPECT_LT((project(mesh.positions, projection) - mesh.positions.topRows<3>()).norm(), 1e-14);

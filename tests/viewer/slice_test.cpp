@@ -32,7 +32,7 @@ double section_volume(double hypervolume, std::array<double, 5> heights, double 
     return 4 * hypervolume * sum;
 }
 
-double brute_force_volume(const SimplexMesh<4>& mesh, const Hyperplane& plane) {
+double brute_force_volume(const SimplexMesh<4>& mesh, const FramedHyperplane& plane) {
     const Eigen::VectorXd heights = distances(mesh.positions, plane);
     double volume = 0;
     for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
@@ -47,7 +47,7 @@ double brute_force_volume(const SimplexMesh<4>& mesh, const Hyperplane& plane) {
 
 // Between two levels of vertices the slice's volume is a cubic in the offset, for which two Gauss
 // points are exact.
-double integrated_slices(const SimplexMesh<4>& mesh, Hyperplane plane) {
+double integrated_slices(const SimplexMesh<4>& mesh, FramedHyperplane plane) {
     const Boundary<4> boundary = make_boundary(mesh, "mesh");
     plane.offset = 0;
     const Eigen::VectorXd heights = distances(mesh.positions, plane);
@@ -69,8 +69,8 @@ double integrated_slices(const SimplexMesh<4>& mesh, Hyperplane plane) {
     return sum;
 }
 
-std::vector<Hyperplane> awkward_planes() {
-    std::vector<Hyperplane> planes;
+std::vector<FramedHyperplane> awkward_planes() {
+    std::vector<FramedHyperplane> planes;
     for (const double offset : {0.0, 1.0, 2.0, 3.0, 0.5, -0.0}) {
         for (const Eigen::Vector4d& normal :
              {Eigen::Vector4d(0, 0, 0, 1), Eigen::Vector4d(0, 0, 0, -1),
@@ -108,7 +108,7 @@ TEST(Slice, AcrossTheDiagonalOfATesseractIsTheOctahedron) {
 TEST(Slice, IsClosedAndOrientedAtEveryAwkwardPlane) {
     const SimplexMesh<4> mesh = kuhn_box<4>({3, 2, 2, 3}, {3, 2, 2, 3});
     const Boundary<4> boundary = make_boundary(mesh, "mesh");
-    for (const Hyperplane& plane : awkward_planes()) {
+    for (const FramedHyperplane& plane : awkward_planes()) {
         const Surface surface = slice(boundary, mesh.positions, plane);
         EXPECT_TRUE(is_closed_and_oriented(surface)) << plane.frame << " " << plane.offset;
         EXPECT_GE(enclosed_volume(surface), -1e-12);  // rounding of products up to 27
@@ -143,7 +143,7 @@ TEST(Slice, VolumeEqualsTheSumOverSlicedPentachora) {
     mesh.positions = twisted(mesh.positions, 0.4);
     const Boundary<4> boundary = make_boundary(mesh, "mesh");
     for (const double offset : {0.05, 0.3, 0.61, 0.9, 1.2}) {
-        for (const Hyperplane& plane :
+        for (const FramedHyperplane& plane :
              {hyperplane_at(offset), hyperplane_across({0.3, -0.5, 0.2, 0.7}, offset / 2)}) {
             const double expected = brute_force_volume(mesh, plane);
             // The divided differences of the brute force cancel about six digits.
@@ -175,7 +175,7 @@ TEST(Slice, AfterRotationEqualsTheRotatedBodySlicedPlainly) {
 
 TEST(Slice, VerticesLieOnTheirEdgesAndInTheHyperplane) {
     const SimplexMesh<4> mesh = jittered_box({2, 2, 2, 2}, 11);
-    const Hyperplane plane = hyperplane_across({0.2, 0.1, -0.4, 1}, 0.3);
+    const FramedHyperplane plane = hyperplane_across({0.2, 0.1, -0.4, 1}, 0.3);
     const Surface surface = slice(make_boundary(mesh, "mesh"), mesh.positions, plane);
     for (int axis = 0; axis < 4; ++axis) {
         const Eigen::VectorXd seen =
@@ -219,7 +219,7 @@ TEST(MergeCoincident, LeavesNoZeroAreaAndStaysClosedAtALayer) {
 TEST(MergeCoincident, KeepsTwoTrianglesAtEveryEdgeAtEveryAwkwardPlane) {
     const SimplexMesh<4> mesh = kuhn_box<4>({3, 2, 2, 3}, {3, 2, 2, 3});
     const Boundary<4> boundary = make_boundary(mesh, "mesh");
-    for (const Hyperplane& plane : awkward_planes()) {
+    for (const FramedHyperplane& plane : awkward_planes()) {
         const Surface raw = slice(boundary, mesh.positions, plane);
         const Surface merged = merge_coincident(raw);
         EXPECT_TRUE(is_closed_and_oriented(merged));

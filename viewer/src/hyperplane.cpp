@@ -27,11 +27,11 @@ Eigen::Matrix4d rotation_matrix(std::span<const PlaneRotation> rotations) {
     return total;
 }
 
-Hyperplane hyperplane_at(double offset, std::span<const PlaneRotation> rotations) {
+FramedHyperplane hyperplane_at(double offset, std::span<const PlaneRotation> rotations) {
     return {rotation_matrix(rotations), offset};
 }
 
-Hyperplane hyperplane_across(const Eigen::Vector4d& normal, double offset) {
+FramedHyperplane hyperplane_across(const Eigen::Vector4d& normal, double offset) {
     const double largest = normal.cwiseAbs().maxCoeff();
     if (!std::isfinite(largest) || largest == 0.0) {
         throw Error(

@@ -72,8 +72,8 @@ struct Cut {
         const Boundary<Dim> boundary = make_boundary<Dim>(mesh, "box");
         Surface surface;
         if constexpr (Dim == 4) {
-            surface = merge_coincident(
-                viewer::slice(boundary, mesh.positions, Hyperplane{.frame = frame, .offset = w}));
+            surface = merge_coincident(viewer::slice(
+                boundary, mesh.positions, FramedHyperplane{.frame = frame, .offset = w}));
         } else {
             surface = skin(boundary, mesh.positions);
         }
@@ -86,7 +86,7 @@ struct Cut {
 
 }  // namespace
 
-ObstacleSlice slice(const Obstacle<4>& obstacle, const Hyperplane& hyperplane) {
+ObstacleSlice slice(const Obstacle<4>& obstacle, const FramedHyperplane& hyperplane) {
     return std::visit(Cut<4>{hyperplane.frame, hyperplane.offset}, obstacle);
 }
 

@@ -100,7 +100,7 @@ Surface outline(const Boundary<4>& boundary,
 }
 
 Projection make_projection(const ProjectionOptions& options,
-                           const Hyperplane& film,
+                           const FramedHyperplane& film,
                            std::span<const Frame<4>> frames) {
     Eigen::AlignedBox<double, 4> box;
     for (const Frame<4>& frame : frames) {

@@ -27,7 +27,7 @@ void check(const SectionOptions& options) {
     }
 }
 
-Hyperplane make_plane(const SectionOptions& options, double offset) {
+FramedHyperplane make_plane(const SectionOptions& options, double offset) {
     return options.normal ? hyperplane_across(*options.normal, offset)
                           : hyperplane_at(offset, options.rotations);
 }
@@ -45,7 +45,7 @@ std::string span(double first, double last) {
     return short_number(first) + " to " + short_number(last);
 }
 
-std::string label_of(const SectionOptions& options, const Hyperplane& plane) {
+std::string label_of(const SectionOptions& options, const FramedHyperplane& plane) {
     if (options.normal) {
         std::string label = "(";
         for (int axis = 0; axis < 4; ++axis) {
@@ -112,7 +112,7 @@ std::vector<Section> make_sections<4>(const SectionOptions& options,
     std::vector<Section> sections;
     for (const SectionOptions& pose : poses) {
         for (const double offset : offsets) {
-            const Hyperplane plane = make_plane(pose, offset);
+            const FramedHyperplane plane = make_plane(pose, offset);
             sections.push_back({plane, label_of(pose, plane)});
         }
     }

@@ -63,7 +63,7 @@ int mask_above(const Eigen::Vector4<std::uint32_t>& tet, const Eigen::VectorXd& 
 // One surface vertex per cut edge; gives the number of each.
 std::vector<std::uint32_t> cut_edges(const Boundary<4>& boundary,
                                      const Positions<4>& positions,
-                                     const Hyperplane& hyperplane,
+                                     const FramedHyperplane& hyperplane,
                                      const Eigen::VectorXd& heights,
                                      Surface& surface) {
     const Simplices<2>& edges = boundary.edges;
@@ -97,7 +97,7 @@ std::vector<std::uint32_t> cut_edges(const Boundary<4>& boundary,
 
 }  // namespace
 
-Eigen::VectorXd distances(const Positions<4>& positions, const Hyperplane& hyperplane) {
+Eigen::VectorXd distances(const Positions<4>& positions, const FramedHyperplane& hyperplane) {
     const Eigen::RowVector4d normal = hyperplane.frame.row(3);
     Eigen::VectorXd heights(positions.cols());
     parallel_for(positions.cols(), kLightChunk, [&](Eigen::Index v) {
@@ -108,7 +108,7 @@ Eigen::VectorXd distances(const Positions<4>& positions, const Hyperplane& hyper
 
 Surface slice(const Boundary<4>& boundary,
               const Positions<4>& positions,
-              const Hyperplane& hyperplane) {
+              const FramedHyperplane& hyperplane) {
     const Eigen::VectorXd heights = distances(positions, hyperplane);
     Surface surface;
     const std::vector<std::uint32_t> numbers =

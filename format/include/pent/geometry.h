@@ -6,6 +6,14 @@
 
 namespace pent {
 
+/// The points p with normal . p = offset.
+template <int Dim>
+struct Hyperplane {
+    Eigen::Matrix<double, Dim, 1> normal =
+        Eigen::Matrix<double, Dim, 1>::Unit(Dim - 1);  ///< Of any length but 0.
+    double offset = 0;                                 ///< m, times the length of the normal.
+};
+
 /// The edges of a cell from its first corner to the others, a column each: det is Dim! times its
 /// volume.
 template <int Dim>

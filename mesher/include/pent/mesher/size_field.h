@@ -1,5 +1,7 @@
 #pragma once
 
+#include <pent/geometry.h>
+
 #include <Eigen/Core>
 
 #include <limits>
@@ -7,16 +9,10 @@
 
 namespace pent::mesher {
 
-/// All p with normal * p = offset.
-struct Hyperplane {
-    Eigen::Vector4d normal = Eigen::Vector4d::UnitW();  ///< Of any length but 0.
-    double offset = 0;                                  ///< m, times the length of the normal.
-};
-
 /// How long the edges of a body may be, place by place: shortest at a hyperplane or a point, longer
 /// away from it. Of one length everywhere if there is neither.
 struct SizeField {
-    std::optional<Hyperplane> plane;
+    std::optional<Hyperplane<4>> plane;
     std::optional<Eigen::Vector4d> point;  ///< Instead, m.
     double growth = 1;                     ///< m of edge for each m of distance, 0 or more.
     double longest = std::numeric_limits<double>::infinity();  ///< m.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/geometry.h>
 #include <pent/simulator/host.h>
 #include <pent/simulator/simulation.h>
 
@@ -14,13 +15,6 @@ template <int Dim>
 struct Ray {
     Eigen::Matrix<double, Dim, 1> origin;     ///< m.
     Eigen::Matrix<double, Dim, 1> direction;  ///< Of any length but 0.
-};
-
-/// The points with normal . x = offset, in which a slice lies.
-template <int Dim>
-struct Hyperplane {
-    Eigen::Matrix<double, Dim, 1> normal;  ///< Of any length but 0.
-    double offset = 0;
 };
 
 /// What a ray meets.

@@ -17,7 +17,7 @@ namespace pent::viewer {
 /// three-dimensional one, with a three-dimensional film.
 struct Projection {
     /// Points in it stay where they are, so a slice by it lies within the image of its body.
-    Hyperplane film;
+    FramedHyperplane film;
     /// Under the eye, in the film's frame.
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
     /// Of the eye from the film along its normal, m, over 0; none: infinitely far, orthographic.
@@ -51,7 +51,7 @@ struct ProjectionOptions {
 /// @param frames  Of all bodies at the start.
 /// Throws an Error for an eye distance that is not over 0.
 [[nodiscard]] Projection make_projection(const ProjectionOptions& options,
-                                         const Hyperplane& film,
+                                         const FramedHyperplane& film,
                                          std::span<const Frame<4>> frames);
 
 }  // namespace pent::viewer

@@ -33,7 +33,7 @@ struct SectionOptions {
 
 /// A hyperplane with the words to tell it by.
 struct Section {
-    Hyperplane plane;
+    FramedHyperplane plane;
     std::string label;  ///< As "w = 0.25"; empty in three dimensions.
 };
 

@@ -19,13 +19,13 @@ namespace pent::viewer {
 /// @param positions  Of the vertices of the mesh; they need not be those the boundary came from.
 [[nodiscard]] Surface slice(const Boundary<4>& boundary,
                             const Positions<4>& positions,
-                            const Hyperplane& hyperplane);
+                            const FramedHyperplane& hyperplane);
 
 /// The whole boundary surface of a three-dimensional body.
 [[nodiscard]] Surface skin(const Boundary<3>& boundary, const Positions<3>& positions);
 
 /// Signed distances of points from a hyperplane, one a column, m.
 [[nodiscard]] Eigen::VectorXd distances(const Positions<4>& positions,
-                                        const Hyperplane& hyperplane);
+                                        const FramedHyperplane& hyperplane);
 
 }  // namespace pent::viewer
