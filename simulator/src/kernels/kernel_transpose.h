@@ -1,18 +1,15 @@
 #pragma once
 
+#include <pent/simd.h>
+
 #include <cstddef>
 #include <utility>
 
-// Small arrays from one lane an element to one element after the other, and on into memory.
+// Small arrays from one lane an element to one element after the other, and on into memory. By the
+// vector types of the compiler, which have shuffles.
 
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
-
-template <typename Scalar, int Width>
-struct VectorOf {
-    // The vector type of the compiler, which has shuffles.
-    using Type [[gnu::vector_size(Width * sizeof(Scalar))]] = Scalar;
-};
 
 // One butterfly of a transposition: where a lane has the bit Step it takes from `high`.
 template <int Step, typename Type, std::size_t... Lane>
@@ -41,7 +38,7 @@ void exchange_all(Type (&rows)[Width]) {
 template <int Rows, int Width, typename Scalar>
 void transpose(const Scalar (&from)[Rows][Width], Scalar (&to)[Width][Rows]) {
     if constexpr (Width > 1 && Rows % Width == 0) {
-        using Type = typename VectorOf<Scalar, Width>::Type;
+        using Type = typename Pack<Scalar, Width>::Vector;
         for (int tile = 0; tile < Rows; tile += Width) {
             Type rows[Width];
             for (int i = 0; i < Width; ++i) {
@@ -65,7 +62,7 @@ void transpose(const Scalar (&from)[Rows][Width], Scalar (&to)[Width][Rows]) {
 template <int Count, int Width, typename Scalar>
 void add_to(const Scalar (&from)[Count], Scalar* to) {
     if constexpr (Width > 1 && Count % Width == 0) {
-        using Type = typename VectorOf<Scalar, Width>::Type;
+        using Type = typename Pack<Scalar, Width>::Vector;
         for (int i = 0; i < Count; i += Width) {
             Type sum;
             Type part;
