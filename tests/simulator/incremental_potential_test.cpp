@@ -117,7 +117,7 @@ TYPED_TEST(IncrementalPotentialTest, SolvesForTheDirectionThatItsGradientsAskFor
     }
     const Positions<kDim> gradient = step.potential.evaluate(x).gradient;
     const NewtonDirection<kDim> direction =
-        step.potential.solve(step.potential.prescribed_shift(x), 0);
+        step.potential.solve(step.potential.prescribed_displacement(x), 0);
     ASSERT_EQ(direction.failure_reason, "");
     const Positions<kDim> after = step.potential.evaluate(x + direction.step).gradient;
     EXPECT_LT(after.norm(), 1e-3 * gradient.norm());
@@ -133,15 +133,15 @@ TYPED_TEST(IncrementalPotentialTest, CarriesTheMotionOfPrescribedVerticesIntoThe
     scene.bodies[1].material.model = Model::Linear;
     scene.solver.tolerance = 1e-12;
     Step<kDim> step(scene);
-    const Positions<kDim> shift = step.potential.prescribed_shift(step.start);
-    EXPECT_GT(shift.norm(), 0);
+    const Positions<kDim> displacement = step.potential.prescribed_displacement(step.start);
+    EXPECT_GT(displacement.norm(), 0);
     static_cast<void>(step.potential.evaluate(step.start));
-    const NewtonDirection<kDim> direction = step.potential.solve(shift, 0);
+    const NewtonDirection<kDim> direction = step.potential.solve(displacement, 0);
     ASSERT_EQ(direction.failure_reason, "");
     // A quadratic: its lowest point in one step, with the others where they were to go.
     const Positions<kDim> end = step.start + direction.step;
-    EXPECT_LT((step.potential.prescribed_shift(end)).norm(), 1e-15);
-    const double before = step.potential.evaluate(step.start + shift).gradient.norm();
+    EXPECT_LT((step.potential.prescribed_displacement(end)).norm(), 1e-15);
+    const double before = step.potential.evaluate(step.start + displacement).gradient.norm();
     EXPECT_LT(step.potential.evaluate(end).gradient.norm(), 1e-9 * before);
 }
 

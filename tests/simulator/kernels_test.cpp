@@ -161,8 +161,8 @@ TEST_P(KernelKinds, CountCollapsedElements) {
     EXPECT_EQ(box.forces(best_isa(), box.positions, forces).collapsed, box.elements->count());
 }
 
-// The columns of held vertices go to the right side: K_fh shift, from the full matrix of a free
-// box.
+// The columns of held vertices go to the right side: K_fh displacement, from the full matrix of a
+// free box.
 TEST_P(KernelKinds, TakeColumnsOfHeldVerticesToTheRightSide) {
     const Material material = soft(Model::StableNeoHookean);
     const std::vector<std::uint32_t> held = {1, 4, 9};
@@ -170,21 +170,21 @@ TEST_P(KernelKinds, TakeColumnsOfHeldVerticesToTheRightSide) {
     ElasticBox<4> box(material, held, GetParam());
     free_box.scramble(0.1, 8);
     box.positions = free_box.positions;
-    Positions<4> shift = Positions<4>::Zero(4, box.mesh.vertex_count());
+    Positions<4> displacement = Positions<4>::Zero(4, box.mesh.vertex_count());
     for (const std::uint32_t vertex : held) {
-        shift.col(vertex) = Eigen::Vector4d(0.1, -0.2, 0.3, 0.05 * vertex);
+        displacement.col(vertex) = Eigen::Vector4d(0.1, -0.2, 0.3, 0.05 * vertex);
     }
-    BlockVector<4> all_shift(4, free_box.pattern.rows());
+    BlockVector<4> all_displacement(4, free_box.pattern.rows());
     for (std::uint32_t u = 0; u < free_box.dofs.count(); ++u) {
-        all_shift.col(u) = shift.col(free_box.dofs.vertex_of(u));
+        all_displacement.col(u) = displacement.col(free_box.dofs.vertex_of(u));
     }
     const MatrixXd K = free_box.stiffness<double>(Isa::Scalar, Filter::Clamp);
-    const Eigen::VectorXd pulled = 2.5 * K * all_shift.reshaped();
+    const Eigen::VectorXd pulled = 2.5 * K * all_displacement.reshaped();
     for (const Isa isa : supported_isas()) {
         BlockMatrix<4, double> matrix(box.pattern);
         BlockVector<4> right = BlockVector<4>::Zero(4, box.pattern.rows());
         HessianTarget<double> target = target_in(matrix, 2.5, Filter::Clamp);
-        target.held_shift = shift.data();
+        target.prescribed_displacement = displacement.data();
         target.right = right.data();
         box.elements->add_hessian(Workers(1), kernels<4>(isa), box.positions, target);
         for (std::uint32_t u = 0; u < box.dofs.count(); ++u) {

@@ -32,17 +32,17 @@ public:
         farthest_ = std::max(farthest_, x(0, 0));
         return at;
     }
-    NewtonDirection<3> solve(const Positions<3>& shift, double /*tolerance*/) override {
+    NewtonDirection<3> solve(const Positions<3>& displacement, double /*tolerance*/) override {
         // Where springs are at rest behind the first point, wherever that goes.
-        Positions<3> step = shift;
-        step.col(1) = x_.col(0) + shift.col(0) + Eigen::Vector3d::UnitX() - x_.col(1);
+        Positions<3> step = displacement;
+        step.col(1) = x_.col(0) + displacement.col(0) + Eigen::Vector3d::UnitX() - x_.col(1);
         step.col(2) = x_.col(1) + step.col(1) + Eigen::Vector3d::UnitX() - x_.col(2);
         return {step, ""};
     }
-    Positions<3> prescribed_shift(const Positions<3>& x) const override {
-        Positions<3> shift = Positions<3>::Zero(3, 3);
-        shift(0, 0) = goal_ - x(0, 0);
-        return shift;
+    Positions<3> prescribed_displacement(const Positions<3>& x) const override {
+        Positions<3> displacement = Positions<3>::Zero(3, 3);
+        displacement(0, 0) = goal_ - x(0, 0);
+        return displacement;
     }
     double max_step(const Positions<3>& from, const Positions<3>& to) override {
         const double way = to(0, 0) - from(0, 0);

@@ -45,7 +45,7 @@ TEST(NewtonSystem, IsTheSumOfItsPartsLessTheShareOfVerticesWithoutDofs) {
                               .norm(),
                           1e-13 * full.norm());
             } else {
-                right.col(row) -= block * problem.shift.col(vertex);
+                right.col(row) -= block * problem.displacement.col(vertex);
             }
         }
     }

@@ -58,16 +58,16 @@ TEST(PatchTest, LinearFieldsAreExact) {
     gradient(1, 1) = 1.2;
     gradient(2, 0) = -0.1;
     const Positions<4> linear = gradient * patch.mesh.positions;
-    Positions<4> held_shift = Positions<4>::Zero(4, patch.mesh.vertex_count());
+    Positions<4> prescribed_displacement = Positions<4>::Zero(4, patch.mesh.vertex_count());
     for (Eigen::Index v = 0; v < patch.mesh.vertex_count(); ++v) {
         if (patch.is_boundary[static_cast<std::size_t>(v)]) {
-            held_shift.col(v) = linear.col(v) - patch.mesh.positions.col(v);
+            prescribed_displacement.col(v) = linear.col(v) - patch.mesh.positions.col(v);
         }
     }
     BlockMatrix<4, double> K(pattern);
     BlockVector<4> right = BlockVector<4>::Zero(4, pattern.rows());
     HessianTarget<double> target = target_in(K, 1, Filter::None);
-    target.held_shift = held_shift.data();
+    target.prescribed_displacement = prescribed_displacement.data();
     target.right = right.data();
     elements.add_hessian(Workers(1), kernels<4>(best_isa()), patch.mesh.positions, target);
     const Eigen::VectorXd moved = ElasticBox<4>::dense(K).ldlt().solve(right.reshaped());

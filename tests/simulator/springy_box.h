@@ -16,7 +16,7 @@ struct SpringyBox {
     ElasticBox<kBoxDim> box{{.lame = {.lambda = 2, .mu = 1}}, {3, 7}};
     Workers workers{2};
     Eigen::VectorXd masses;
-    Positions<kBoxDim> shift;
+    Positions<kBoxDim> displacement;
     BlockVector<kBoxDim> b;
     std::array<std::uint32_t, 2> ends{};
     std::array<double, 2> weights = {1, -1};
@@ -30,16 +30,16 @@ struct SpringyBox {
         std::normal_distribution<double> normal;
         const Eigen::Index total = box.mesh.vertex_count();
         masses.setConstant(total, mass);
-        shift = Positions<kBoxDim>::Zero(kBoxDim, total);
-        shift.col(3).setConstant(0.1);
+        displacement = Positions<kBoxDim>::Zero(kBoxDim, total);
+        displacement.col(3).setConstant(0.1);
         b = BlockVector<kBoxDim>::NullaryExpr(kBoxDim, box.pattern.rows(),
                                               [&] { return normal(random); });
         ends = {0, static_cast<std::uint32_t>(total - 1)};
-        system.begin(b, shift);
+        system.begin(b, displacement);
         std::visit(
             [&](auto& matrix) {
                 auto target = target_in(matrix, 1, Filter::Clamp);
-                target.held_shift = shift.data();
+                target.prescribed_displacement = displacement.data();
                 target.right = system.right().data();
                 box.elements->add_hessian(workers, kernels<kBoxDim>(best_isa()), box.positions,
                                           target);

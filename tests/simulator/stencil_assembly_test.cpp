@@ -22,7 +22,7 @@ struct Stencils {
     std::vector<Eigen::VectorXd> weights;
     std::vector<Eigen::MatrixXd> matrices;
     std::vector<HessianStencil> list;
-    Positions<Dim> shift;
+    Positions<Dim> displacement;
 
     explicit Stencils(int count) {
         std::mt19937 random(3);
@@ -54,7 +54,7 @@ struct Stencils {
                             .stride = static_cast<std::int32_t>(matrices[i].rows()),
                             .scale = kScale});
         }
-        shift = Positions<Dim>::NullaryExpr(Dim, total, any);
+        displacement = Positions<Dim>::NullaryExpr(Dim, total, any);
     }
 
     // Their sum over all vertices, in the vertices' own order.
@@ -90,7 +90,7 @@ void expect_the_sum_over_stencils(int threads) {
     BlockMatrix<Dim, double> matrix(stencils.box.pattern);
     BlockVector<Dim> right = BlockVector<Dim>::Zero(Dim, stencils.box.pattern.rows());
     const auto coupling = assemble_stencils<Dim, double>(Workers(threads), dofs, stencils.list,
-                                                         stencils.shift, matrix, right);
+                                                         stencils.displacement, matrix, right);
     ASSERT_NE(coupling, nullptr);
     const Eigen::MatrixXd full = stencils.oracle();
     const auto dense = ElasticBox<Dim>::template dense<double>;
@@ -106,7 +106,7 @@ void expect_the_sum_over_stencils(int threads) {
                     (sum.block<Dim, Dim>(Dim * row, Dim * dofs.dof_of(vertex)) - block).norm(),
                     1e-13 * size);
             } else {
-                expected_right.segment<Dim>(Dim * row) -= block * stencils.shift.col(vertex);
+                expected_right.segment<Dim>(Dim * row) -= block * stencils.displacement.col(vertex);
             }
         }
     }
@@ -156,8 +156,9 @@ TEST(StencilAssembly, IsTheSameToTheBitForAnyNumberOfThreads) {
     for (const int threads : {1, 2, 3, 8}) {
         BlockMatrix<4, double> matrix(stencils.box.pattern);
         BlockVector<4> right = BlockVector<4>::Zero(4, stencils.box.pattern.rows());
-        const auto coupling = assemble_stencils<4, double>(
-            Workers(threads), stencils.box.dofs, stencils.list, stencils.shift, matrix, right);
+        const auto coupling =
+            assemble_stencils<4, double>(Workers(threads), stencils.box.dofs, stencils.list,
+                                         stencils.displacement, matrix, right);
         sums.emplace_back(ElasticBox<4>::dense(matrix) + ElasticBox<4>::dense(coupling->matrix));
         EXPECT_EQ(sums.back(), sums.front()) << threads;
     }

@@ -202,8 +202,8 @@ void scatter_held(const BlockPack<Real, Dim>& pack,
             if (group.unknowns[b * kGroup + lane] < group.free_unknowns) {
                 continue;
             }
-            const double* shift =
-                target.held_shift + std::int64_t{Dim} * group.vertices[b * kGroup + lane];
+            const double* displacement = target.prescribed_displacement
+                                         + std::int64_t{Dim} * group.vertices[b * kGroup + lane];
             for (int a = 0; a < b; ++a) {
                 const std::uint32_t row = group.unknowns[a * kGroup + lane];
                 if (row >= group.free_unknowns) {
@@ -213,7 +213,7 @@ void scatter_held(const BlockPack<Real, Dim>& pack,
                 double* right = target.right + std::int64_t{Dim} * row;
                 for (int i = 0; i < Dim; ++i) {
                     for (int j = 0; j < Dim; ++j) {
-                        right[i] -= static_cast<double>(block[j * Dim + i][l]) * shift[j];
+                        right[i] -= static_cast<double>(block[j * Dim + i][l]) * displacement[j];
                     }
                 }
             }
@@ -274,7 +274,7 @@ std::int64_t add_hessian(const ElementRun& run,
             filtered_elements += count_marked(hessian.is_filtered, group.elements - lane);
             hessian_blocks(hessian, scale * volume, pack);
             scatter_blocks(pack, group, lane, target.values);
-            if (has_held && target.held_shift != nullptr) {
+            if (has_held && target.prescribed_displacement != nullptr) {
                 scatter_held(pack, group, lane, target);
             }
         }

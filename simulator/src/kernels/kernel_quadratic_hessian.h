@@ -153,15 +153,16 @@ void scatter_held_block(const Scalar (&entries)[Dim * Dim],
     const bool is_turned = group.unknowns[row] >= group.free_unknowns;
     const int known = is_turned ? row : column;
     const std::uint32_t unknown = group.unknowns[is_turned ? column : row];
-    if (target.held_shift == nullptr || unknown >= group.free_unknowns) {
+    if (target.prescribed_displacement == nullptr || unknown >= group.free_unknowns) {
         return;
     }
-    const double* shift = target.held_shift + std::int64_t{Dim} * group.vertices[known];
+    const double* displacement =
+        target.prescribed_displacement + std::int64_t{Dim} * group.vertices[known];
     double* right = target.right + std::int64_t{Dim} * unknown;
     for (int i = 0; i < Dim; ++i) {
         for (int j = 0; j < Dim; ++j) {
             const Scalar value = is_turned ? entries[i * Dim + j] : entries[j * Dim + i];
-            right[i] -= static_cast<double>(value) * shift[j];
+            right[i] -= static_cast<double>(value) * displacement[j];
         }
     }
 }

@@ -234,15 +234,17 @@ void scatter_tile(const BlockTile<Real, Scalar, Dim>& tile,
             }
             const std::uint32_t row = group.unknowns[tile.row * kGroup + lane];
             const int column = (tile.first + k) * kGroup + lane;
-            if (target.held_shift == nullptr || row >= group.free_unknowns
+            if (target.prescribed_displacement == nullptr || row >= group.free_unknowns
                 || group.unknowns[column] < group.free_unknowns) {
                 continue;
             }
-            const double* shift = target.held_shift + std::int64_t{Dim} * group.vertices[column];
+            const double* displacement =
+                target.prescribed_displacement + std::int64_t{Dim} * group.vertices[column];
             double* right = target.right + std::int64_t{Dim} * row;
             for (int i = 0; i < Dim; ++i) {
                 for (int j = 0; j < Dim; ++j) {
-                    right[i] -= static_cast<double>(tile.entries[k][l][j * Dim + i]) * shift[j];
+                    right[i] -=
+                        static_cast<double>(tile.entries[k][l][j * Dim + i]) * displacement[j];
                 }
             }
         }

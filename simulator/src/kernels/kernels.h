@@ -77,8 +77,10 @@ struct HessianTarget {
     Scalar* values = nullptr;  ///< Dim x Dim blocks, column-major; added to.
     double scale = 1;          ///< Factor on every block.
     Filter filter = Filter::Clamp;
-    const double* held_shift = nullptr;  ///< Dim x vertices: how far held vertices move, m.
-    double* right = nullptr;  ///< Dim x unknowns: less block * held_shift for held columns.
+    /// Dim x vertices: how far held vertices move, m.
+    const double* prescribed_displacement = nullptr;
+    /// Dim x unknowns: less block * prescribed_displacement for held columns.
+    double* right = nullptr;
 };
 
 /// The kernels of one instruction set.

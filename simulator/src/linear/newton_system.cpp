@@ -28,9 +28,9 @@ NewtonSystem<Dim>::NewtonSystem(const Workers& workers,
     : workers_(&workers), dofs_(&dofs), matrix_(make_matrix<Dim>(pattern, precision)) {}
 
 template <int Dim>
-void NewtonSystem<Dim>::begin(BlockVector<Dim> right, Positions<Dim> shift) {
+void NewtonSystem<Dim>::begin(BlockVector<Dim> right, Positions<Dim> displacement) {
     right_ = std::move(right);
-    shift_ = std::move(shift);
+    prescribed_displacement_ = std::move(displacement);
     stencils_.clear();
     has_lost_inertia_ = false;
     std::visit(
@@ -92,8 +92,8 @@ template <int Dim>
 void NewtonSystem<Dim>::finish() {
     const auto add = [&](auto& matrix) {
         using Scalar = typename std::decay_t<decltype(matrix)>::Block::Scalar;
-        auto coupling =
-            assemble_stencils<Dim, Scalar>(*workers_, *dofs_, stencils_, shift_, matrix, right_);
+        auto coupling = assemble_stencils<Dim, Scalar>(*workers_, *dofs_, stencils_,
+                                                       prescribed_displacement_, matrix, right_);
         matrix.set_coupling(coupling ? &coupling->matrix : nullptr);
         coupling_ = std::move(coupling);
     };

@@ -15,9 +15,9 @@ namespace pent::simulator {
 
 /// The linear equation H dx = right of Newton's method while potentials put it together.
 ///
-/// Vertices without a dof that are moved all the same (by `shift`) take their part of H to the
-/// right side. What elements couple lies on a fixed pattern; stencils may couple anything, and what
-/// is left over becomes a second part of the matrix, made anew by finish().
+/// Vertices without a dof that are moved all the same (by `displacement`) take their part of H to
+/// the right side. What elements couple lies on a fixed pattern; stencils may couple anything, and
+/// what is left over becomes a second part of the matrix, made anew by finish().
 template <int Dim>
 class NewtonSystem {
 public:
@@ -31,9 +31,9 @@ public:
 
     /// Starts anew: H = 0.
     ///
-    /// @param right  Dim x dofs.
-    /// @param shift  Dim x vertices: how far vertices without a dof move, m; 0 for all others.
-    void begin(BlockVector<Dim> right, Positions<Dim> shift);
+    /// @param right         Dim x dofs.
+    /// @param displacement  Dim x vertices: how far vertices without a dof move, m; 0 for others.
+    void begin(BlockVector<Dim> right, Positions<Dim> displacement);
 
     /// Adds weight * masses to the diagonal. Elements must have been added, and stencils that are
     /// to be checked: where masses drown in the rounding of the stiffness that is there,
@@ -59,7 +59,9 @@ public:
     [[nodiscard]] const Matrix& matrix() const { return matrix_; }
     [[nodiscard]] BlockVector<Dim>& right() { return right_; }
     [[nodiscard]] const BlockVector<Dim>& right() const { return right_; }
-    [[nodiscard]] const Positions<Dim>& shift() const { return shift_; }
+    [[nodiscard]] const Positions<Dim>& prescribed_displacement() const {
+        return prescribed_displacement_;
+    }
 
 private:
     [[nodiscard]] bool do_stencils_drown(double max_ratio,
@@ -74,7 +76,7 @@ private:
                  std::unique_ptr<CouplingMatrix<Dim, double>>>
         coupling_;
     BlockVector<Dim> right_;
-    Positions<Dim> shift_;
+    Positions<Dim> prescribed_displacement_;
     std::vector<HessianStencil> stencils_;
     bool has_lost_inertia_ = false;
 };

@@ -68,12 +68,12 @@ class RowSum {
 public:
     RowSum(const DofMap& dofs,
            const std::vector<HessianStencil>& stencils,
-           const Positions<Dim>& shift,
+           const Positions<Dim>& displacement,
            BlockMatrix<Dim, Scalar>& matrix,
            BlockVector<Dim>& right)
         : dofs_(dofs),
           stencils_(stencils),
-          shift_(shift),
+          displacement_(displacement),
           matrix_(matrix),
           right_(right),
           slots_(dofs.count(), 0) {}
@@ -132,7 +132,7 @@ private:
             return;
         }
         if (!dofs_.has_dof(vertex)) {
-            right_.col(row) -= block * shift_.col(vertex);
+            right_.col(row) -= block * displacement_.col(vertex);
             return;
         }
         const std::uint32_t column = dofs_.dof_of(vertex);
@@ -164,7 +164,7 @@ private:
 
     const DofMap& dofs_;
     const std::vector<HessianStencil>& stencils_;
-    const Positions<Dim>& shift_;
+    const Positions<Dim>& displacement_;
     BlockMatrix<Dim, Scalar>& matrix_;
     BlockVector<Dim>& right_;
     std::vector<std::uint32_t> slots_;  // of columns, one more than the place in sums_; 0 for none
@@ -230,7 +230,7 @@ std::unique_ptr<CouplingMatrix<Dim, Scalar>> assemble_stencils(
     const Workers& workers,
     const DofMap& dofs,
     const std::vector<HessianStencil>& stencils,
-    const Positions<Dim>& shift,
+    const Positions<Dim>& displacement,
     BlockMatrix<Dim, Scalar>& matrix,
     BlockVector<Dim>& right) {
     if (stencils.empty()) {
@@ -241,7 +241,7 @@ std::unique_ptr<CouplingMatrix<Dim, Scalar>> assemble_stencils(
     const std::size_t size = std::max(kMinRows, (rows + kMaxChunks - 1) / kMaxChunks);
     std::vector<Leftover<Dim, Scalar>> parts((rows + size - 1) / size);
     workers.for_each(static_cast<int>(parts.size()), [&](int chunk) {
-        RowSum<Dim, Scalar> sum(dofs, stencils, shift, matrix, right);
+        RowSum<Dim, Scalar> sum(dofs, stencils, displacement, matrix, right);
         const std::size_t begin = static_cast<std::size_t>(chunk) * size;
         for (std::size_t i = begin; i < std::min(begin + size, rows); ++i) {
             sum.add_row(incidences.rows[i], incidences.list.data() + incidences.begin[i],

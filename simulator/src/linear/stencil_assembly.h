@@ -32,15 +32,15 @@ struct CouplingMatrix {
 /// touches, made anew each time, since what touches changes. Each row is summed by one thread in
 /// the order of the stencils.
 ///
-/// @param shift  Dim x vertices: how far vertices without a dof move, m.
-/// @param right  Dim x dofs: less K_fixed shift.
-/// @return       Null if no block is left over.
+/// @param displacement  Dim x vertices: how far vertices without a dof move, m.
+/// @param right         Dim x dofs: less K_fixed displacement.
+/// @return              Null if no block is left over.
 template <int Dim, typename Scalar>
 [[nodiscard]] std::unique_ptr<CouplingMatrix<Dim, Scalar>> assemble_stencils(
     const Workers& workers,
     const DofMap& dofs,
     const std::vector<HessianStencil>& stencils,
-    const Positions<Dim>& shift,
+    const Positions<Dim>& displacement,
     BlockMatrix<Dim, Scalar>& matrix,
     BlockVector<Dim>& right);
 

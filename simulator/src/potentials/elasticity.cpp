@@ -118,7 +118,7 @@ void Elasticity<Dim>::add_hessian(const Positions<Dim>& x,
     std::visit(
         [&](auto& matrix) {
             auto target = target_in(matrix, weight * hessian_factor_, filter);
-            target.held_shift = system.shift().data();
+            target.prescribed_displacement = system.prescribed_displacement().data();
             target.right = system.right().data();
             filtered_ += elements_->add_hessian(*workers_, *kernels_, x, target);
         },
@@ -128,11 +128,11 @@ void Elasticity<Dim>::add_hessian(const Positions<Dim>& x,
 template <int Dim>
 void Elasticity<Dim>::add_tangent(const Positions<Dim>& x,
                                   Filter filter,
-                                  const Positions<Dim>& shift,
+                                  const Positions<Dim>& displacement,
                                   BlockMatrix<Dim, double>& matrix,
                                   BlockVector<Dim>& right) const {
     auto target = target_in(matrix, 1, filter);
-    target.held_shift = shift.data();
+    target.prescribed_displacement = displacement.data();
     target.right = right.data();
     elements_->add_hessian(*workers_, *kernels_, x, target);
 }

@@ -65,10 +65,10 @@ public:
     [[nodiscard]] const ActiveStrain<Dim>& strain() const { return strain_; }
 
     /// Adds the Hessian at positions x to a matrix on pattern(), and takes that of vertices that
-    /// have no dof and move by `shift` (Dim x vertices, m) off `right` (Dim x dofs).
+    /// have no dof and move by `displacement` (Dim x vertices, m) off `right` (Dim x dofs).
     void add_tangent(const Positions<Dim>& x,
                      Filter filter,
-                     const Positions<Dim>& shift,
+                     const Positions<Dim>& displacement,
                      BlockMatrix<Dim, double>& matrix,
                      BlockVector<Dim>& right) const;
 

@@ -115,11 +115,12 @@ std::string Simulation<Dim>::Stepper::tunneling() const {
 // its energy is bounded, as they only ever lower what is minimized.
 template <int Dim>
 NewtonReport Simulation<Dim>::Stepper::minimize(Method method) {
-    Positions<Dim> begin = current_.positions + potential_.prescribed_shift(current_.positions);
+    Positions<Dim> begin =
+        current_.positions + potential_.prescribed_displacement(current_.positions);
     const Evaluation<Dim> start = potential_.evaluate(begin);
     const bool is_damped = method == Method::Damped;
     if (is_damped) {  // the linear step was taken, and thrown away
-        next_.positions += potential_.prescribed_shift(next_.positions);
+        next_.positions += potential_.prescribed_displacement(next_.positions);
     } else {
         next_.positions = current_.positions;
         NewtonReport first = newton_step(potential_, next_.positions);

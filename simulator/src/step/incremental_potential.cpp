@@ -188,14 +188,14 @@ Evaluation<Dim> IncrementalPotential<Dim>::evaluate(const Positions<Dim>& x) {
 }
 
 template <int Dim>
-Positions<Dim> IncrementalPotential<Dim>::prescribed_shift(const Positions<Dim>& x) const {
-    Positions<Dim> shift = Positions<Dim>::Zero(Dim, x.cols());
+Positions<Dim> IncrementalPotential<Dim>::prescribed_displacement(const Positions<Dim>& x) const {
+    Positions<Dim> displacement = Positions<Dim>::Zero(Dim, x.cols());
     for (std::uint32_t vertex = 0; vertex < is_held_.size(); ++vertex) {
         if (is_held_[vertex]) {
-            shift.col(vertex) = problem_->prescribed.col(vertex) - x.col(vertex);
+            displacement.col(vertex) = problem_->prescribed.col(vertex) - x.col(vertex);
         }
     }
-    return shift;
+    return displacement;
 }
 
 template <int Dim>
@@ -217,9 +217,9 @@ void IncrementalPotential<Dim>::tell_start(const Positions<Dim>& x) const {
 template <int Dim>
 bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
                                          Filter filter,
-                                         const Positions<Dim>& shift) {
+                                         const Positions<Dim>& displacement) {
     const Stopwatch watch;
-    system.begin(-at_dofs(*rows_, gradient_), shift);
+    system.begin(-at_dofs(*rows_, gradient_), displacement);
     double others = 0;  // seconds, which terms count themselves
     for (const auto& term : energy_->terms()) {
         const Stopwatch own;
@@ -253,15 +253,15 @@ bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
 // too.
 template <int Dim>
 NewtonSystem<Dim>* IncrementalPotential<Dim>::assemble_somehow(Filter filter,
-                                                               const Positions<Dim>& shift) {
-    if (float_system_ && assemble(*float_system_, filter, shift)) {
+                                                               const Positions<Dim>& displacement) {
+    if (float_system_ && assemble(*float_system_, filter, displacement)) {
         return float_system_.get();
     }
     if (!double_system_) {
         double_system_ =
             std::make_unique<NewtonSystem<Dim>>(*workers_, *rows_, *pattern_, Precision::Double);
     }
-    return assemble(*double_system_, filter, shift) ? double_system_.get() : nullptr;
+    return assemble(*double_system_, filter, displacement) ? double_system_.get() : nullptr;
 }
 
 template <int Dim>
@@ -283,16 +283,16 @@ LinearSolution<Dim> IncrementalPotential<Dim>::solve_filtered(const NewtonSystem
 }
 
 template <int Dim>
-NewtonDirection<Dim> IncrementalPotential<Dim>::solve(const Positions<Dim>& shift,
+NewtonDirection<Dim> IncrementalPotential<Dim>::solve(const Positions<Dim>& displacement,
                                                       double tolerance) {
-    NewtonDirection<Dim> direction{shift, ""};
+    NewtonDirection<Dim> direction{displacement, ""};
     if (dofs_->count() == 0) {  // all bodies sleep, or move from outside alone
         return direction;
     }
     LinearSolution<Dim> solution;
     // Clamped, the matrix is positive definite whatever the scene asks for.
     for (const Filter filter : {options_.filter, Filter::Clamp}) {
-        NewtonSystem<Dim>* system = assemble_somehow(filter, shift);
+        NewtonSystem<Dim>* system = assemble_somehow(filter, displacement);
         if (system == nullptr) {
             direction.failure_reason =
                 "the stiffness drowns the inertia; take smaller steps, softer or denser bodies, or"

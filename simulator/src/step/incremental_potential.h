@@ -69,9 +69,9 @@ public:
     void balance(const Positions<Dim>& x);
 
     [[nodiscard]] Evaluation<Dim> evaluate(const Positions<Dim>& x) override;
-    [[nodiscard]] NewtonDirection<Dim> solve(const Positions<Dim>& shift,
+    [[nodiscard]] NewtonDirection<Dim> solve(const Positions<Dim>& displacement,
                                              double tolerance) override;
-    [[nodiscard]] Positions<Dim> prescribed_shift(const Positions<Dim>& x) const override;
+    [[nodiscard]] Positions<Dim> prescribed_displacement(const Positions<Dim>& x) const override;
     [[nodiscard]] double max_step(const Positions<Dim>& from, const Positions<Dim>& to) override {
         return energy_->max_step(from, to);
     }
@@ -96,8 +96,9 @@ private:
     void set_up_solver();
     [[nodiscard]] bool assemble(NewtonSystem<Dim>& system,
                                 Filter filter,
-                                const Positions<Dim>& shift);
-    [[nodiscard]] NewtonSystem<Dim>* assemble_somehow(Filter filter, const Positions<Dim>& shift);
+                                const Positions<Dim>& displacement);
+    [[nodiscard]] NewtonSystem<Dim>* assemble_somehow(Filter filter,
+                                                      const Positions<Dim>& displacement);
     [[nodiscard]] LinearSolution<Dim> solve_filtered(const NewtonSystem<Dim>& system,
                                                      double tolerance);
 

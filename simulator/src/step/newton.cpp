@@ -62,8 +62,8 @@ public:
         start_ = x_;
         start_value_ = options_.start_norm ? options_.start_value : at_.value;
         start_norm_ = options_.start_norm.value_or(at_.gradient.norm());
-        shift_ = function_.prescribed_shift(x_);
-        is_pending_ = !shift_.isZero(0);
+        displacement_ = function_.prescribed_displacement(x_);
+        is_pending_ = !displacement_.isZero(0);
         while (report_.iterations < options_.max_iterations) {
             if (!iterate()) {
                 return report_;
@@ -91,7 +91,7 @@ private:
             is_current_ = true;
         }
         ++report_.iterations;
-        const NewtonDirection<Dim> direction = function_.solve(shift_, kForcing);
+        const NewtonDirection<Dim> direction = function_.solve(displacement_, kForcing);
         if (!direction.failure_reason.empty()) {
             return fail(direction.failure_reason);
         }
@@ -210,10 +210,10 @@ private:
 
     // After a step of prescribed points: whether they can go on, or have arrived.
     bool carry_on(double limit) {
-        shift_ = function_.prescribed_shift(x_);
-        is_pending_ = shift_.cwiseAbs().maxCoeff() > options_.arrival;
+        displacement_ = function_.prescribed_displacement(x_);
+        is_pending_ = displacement_.cwiseAbs().maxCoeff() > options_.arrival;
         if (!is_pending_) {
-            shift_.setZero();
+            displacement_.setZero();
         }
         start_norm_ = std::max(start_norm_, at_.gradient.norm());
         stuck_ = limit < kStuck ? stuck_ + 1 : 0;
@@ -259,11 +259,11 @@ private:
     Positions<Dim>& x_;
     Positions<Dim> trial_;
     Positions<Dim> start_;
-    Evaluation<Dim> at_;       // at x
-    bool is_current_ = true;   // whether the function was last evaluated there
-    Positions<Dim> shift_;     // of prescribed points, to their places
-    bool is_pending_ = false;  // whether they are still on their way
-    int stuck_ = 0;            // steps in a row that hardly moved them
+    Evaluation<Dim> at_;           // at x
+    bool is_current_ = true;       // whether the function was last evaluated there
+    Positions<Dim> displacement_;  // of prescribed points, to their places
+    bool is_pending_ = false;      // whether they are still on their way
+    int stuck_ = 0;                // steps in a row that hardly moved them
     double start_value_ = 0;
     double start_norm_ = 0;
     Positions<Dim> best_;
@@ -283,7 +283,7 @@ template <int Dim>
 NewtonReport newton_step(Objective<Dim>& function, Positions<Dim>& x) {
     NewtonReport report;
     static_cast<void>(function.evaluate(x));
-    const NewtonDirection<Dim> direction = function.solve(function.prescribed_shift(x), 0);
+    const NewtonDirection<Dim> direction = function.solve(function.prescribed_displacement(x), 0);
     report.failure_reason = direction.failure_reason;
     report.has_converged = direction.failure_reason.empty();
     if (report.has_converged) {

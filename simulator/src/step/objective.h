@@ -37,15 +37,16 @@ public:
 
     [[nodiscard]] virtual Evaluation<Dim> evaluate(const Positions<Dim>& x) = 0;
 
-    /// -(Hessian)^-1 gradient at the point last evaluated, prescribed points moving by `shift`.
+    /// -(Hessian)^-1 gradient at the point last evaluated, prescribed points moving by
+    /// `displacement`.
     ///
     /// @param tolerance  Residual of the linear solve over that at its start; 0 for the best there
     /// is.
-    [[nodiscard]] virtual NewtonDirection<Dim> solve(const Positions<Dim>& shift,
+    [[nodiscard]] virtual NewtonDirection<Dim> solve(const Positions<Dim>& displacement,
                                                      double tolerance) = 0;
 
     /// How far prescribed points are from their places at x; 0 for all others.
-    [[nodiscard]] virtual Positions<Dim> prescribed_shift(const Positions<Dim>& x) const {
+    [[nodiscard]] virtual Positions<Dim> prescribed_displacement(const Positions<Dim>& x) const {
         return Positions<Dim>::Zero(Dim, x.cols());
     }
 
