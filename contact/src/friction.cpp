@@ -76,7 +76,7 @@ void LaggedFriction<Dim>::begin_step(
     const Positions<Dim>& positions,
     const Positions<Dim>* velocities,
     double h,
-    const std::function<Vector<Dim>(const Contact<Dim>&)>& travel) {
+    const std::function<Vector<Dim>(const Contact<Dim>&)>& obstacle_displacement) {
     slip_ = friction_.slip_speed * h;
     is_linear_ = velocities != nullptr;
     lagged_ =
@@ -93,8 +93,8 @@ void LaggedFriction<Dim>::begin_step(
             lagged.normal = contact.direction;
             lagged.force = coefficient * std::abs(contact.slope);
             Vector<Dim> carried = Vector<Dim>::Zero();
-            if (travel && contact.second.is_obstacle()) {
-                carried = travel(contact);
+            if (obstacle_displacement && contact.second.is_obstacle()) {
+                carried = obstacle_displacement(contact);
             }
             lagged.start = weighted_sum(lagged, positions) + carried;
             lagged.resistance.setZero();

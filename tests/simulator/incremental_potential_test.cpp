@@ -33,7 +33,7 @@ struct Step {
     IncrementalPotential<Dim> potential;
     Positions<Dim> start;
     Positions<Dim> velocities;
-    Positions<Dim> travel;
+    Positions<Dim> displacement;
     std::shared_ptr<StepProblem<Dim>> problem;
 
     explicit Step(const Scene& scene)
@@ -43,19 +43,19 @@ struct Step {
               setting.workers, setting.isa, setting.bodies, setting.held, setting.scene, energy),
           start(shaken<Dim>(setting.bodies.rest, 0.006, 1)),
           velocities(shaken<Dim>(0 * start, 0.3, 2)),
-          travel(0 * start),
+          displacement(0 * start),
           problem(
               std::make_shared<StepProblem<Dim>>(euler_problem<Dim>({start, velocities}, 0.01))) {
         energy.sum.update(start);
         problem->prescribed = start;
         for (const DirichletSet<Dim>& set : setting.held.sets()) {
             for (const std::uint32_t vertex : set.vertices) {
-                travel.col(vertex).setConstant(1e-3);
-                problem->prescribed.col(vertex) += travel.col(vertex);
+                displacement.col(vertex).setConstant(1e-3);
+                problem->prescribed.col(vertex) += displacement.col(vertex);
             }
         }
-        potential.begin_step(
-            problem, {start, velocities, problem->origin, travel, 0.01, problem->rate, false});
+        potential.begin_step(problem, {start, velocities, problem->origin, displacement, 0.01,
+                                       problem->rate, false});
     }
 };
 
@@ -209,7 +209,7 @@ TYPED_TEST(IncrementalPotentialTest, LeavesOutBodiesThatSleep) {
     EXPECT_LT(dofs.count(), all);
     step.energy.sum.update(step.start);
     step.potential.begin_step(step.problem, {step.start, step.velocities, step.problem->origin,
-                                             step.travel, 0.01, step.problem->rate, false});
+                                             step.displacement, 0.01, step.problem->rate, false});
     const Evaluation<kDim> at = step.potential.evaluate(step.start);
     const auto first = step.setting.bodies.vertices(0);
     EXPECT_EQ(at.gradient.middleCols(first.begin, first.size).norm(), 0);

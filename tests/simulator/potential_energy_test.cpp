@@ -98,8 +98,11 @@ TEST_F(PotentialEnergyTest, GoesAsFarAsEachOfItsTermsLets) {
 TEST_F(PotentialEnergyTest, IsEvaluatedAgainWhereATermHasChanged) {
     sum_.update(x_);
     const Positions<kDim> still = Positions<kDim>::Zero(kDim, x_.cols());
-    sum_.begin_step(
-        {.positions = x_, .velocities = still, .origin = x_, .dirichlet_travel = still, .h = 0.5});
+    sum_.begin_step({.positions = x_,
+                     .velocities = still,
+                     .origin = x_,
+                     .prescribed_displacement = still,
+                     .h = 0.5});
     sum_.update(x_);
     EXPECT_DOUBLE_EQ(sum_.value(), 0.5 * x_.squaredNorm());
     EXPECT_FALSE(sum_.adapt());

@@ -102,13 +102,13 @@ void place_host_holds(const HostHolds<Dim>& holds,
     for (std::size_t i = 0; i < holds.vertices.size(); ++i) {
         const std::uint32_t vertex = holds.vertices[i];
         const auto column = static_cast<Eigen::Index>(i);
-        const Vector<Dim> way = holds.targets.col(column) - holds.starts.col(column);
+        const Vector<Dim> displacement = holds.targets.col(column) - holds.starts.col(column);
         positions.col(vertex) = holds.targets.col(column);
         if (part < 1 - kSameTime) {
-            positions.col(vertex) = holds.starts.col(column) + part * way;
+            positions.col(vertex) = holds.starts.col(column) + part * displacement;
         }
         if (velocities != nullptr) {
-            velocities->col(vertex) = way / h;
+            velocities->col(vertex) = displacement / h;
         }
     }
 }

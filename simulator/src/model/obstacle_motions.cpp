@@ -126,10 +126,10 @@ typename ObstacleMotions<Dim>::RigidMap ObstacleMotions<Dim>::carried(std::size_
 }
 
 template <int Dim>
-Vector<Dim> ObstacleMotions<Dim>::travel(std::size_t obstacle,
-                                         const Vector<Dim>& point,
-                                         double from,
-                                         double to) const {
+Vector<Dim> ObstacleMotions<Dim>::displacement(std::size_t obstacle,
+                                               const Vector<Dim>& point,
+                                               double from,
+                                               double to) const {
     const RigidMap before = carried(obstacle, to, from);
     return point - (before.rotation * point + before.shift);
 }

@@ -31,10 +31,10 @@ public:
     [[nodiscard]] RigidMap carried(std::size_t obstacle, double from, double to) const;
 
     /// How far the point of an obstacle that is at `point` at one time has come since another, m.
-    [[nodiscard]] Vector<Dim> travel(std::size_t obstacle,
-                                     const Vector<Dim>& point,
-                                     double from,
-                                     double to) const;
+    [[nodiscard]] Vector<Dim> displacement(std::size_t obstacle,
+                                           const Vector<Dim>& point,
+                                           double from,
+                                           double to) const;
 
     /// Whether one is moving from one time to another, turning about itself included.
     [[nodiscard]] bool is_moving(std::size_t obstacle, double from, double to) const;

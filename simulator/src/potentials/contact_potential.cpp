@@ -146,13 +146,13 @@ bool ContactPotential<Dim>::set_time(const TimeSpan& step) {
 
 // Of the point at the surface that is next to the body.
 template <int Dim>
-Vector<Dim> ContactPotential<Dim>::travel(const contact::Contact<Dim>& contact,
-                                          const Positions<Dim>& x) const {
+Vector<Dim> ContactPotential<Dim>::obstacle_displacement(const contact::Contact<Dim>& contact,
+                                                         const Positions<Dim>& x) const {
     Vector<Dim> point = -contact.distance * contact.direction;
     for (int i = 0; i < contact.count; ++i) {
         point += contact.weights[i] * x.col(contact.vertices[static_cast<std::size_t>(i)]);
     }
-    return motions_.travel(contact.second.index, point, step_.begin, step_.end);
+    return motions_.displacement(contact.second.index, point, step_.begin, step_.end);
 }
 
 template <int Dim>

@@ -66,8 +66,8 @@ public:
     [[nodiscard]] bool has_moving_obstacles() const { return motions_.is_any(); }
 
     /// How far the point of an obstacle that a contact touches moves in the step, m.
-    [[nodiscard]] Vector<Dim> travel(const contact::Contact<Dim>& contact,
-                                     const Positions<Dim>& x) const;
+    [[nodiscard]] Vector<Dim> obstacle_displacement(const contact::Contact<Dim>& contact,
+                                                    const Positions<Dim>& x) const;
 
     /// Why obstacles could not move in the step with all vertices where they are; empty if they
     /// could. Always so without a barrier.

@@ -20,14 +20,15 @@ bool FrictionPotential<Dim>::set_time(const TimeSpan& step) {
 
 template <int Dim>
 bool FrictionPotential<Dim>::begin_step(const StepStart<Dim>& start) {
-    std::function<Vector<Dim>(const contact::Contact<Dim>&)> travel;
+    std::function<Vector<Dim>(const contact::Contact<Dim>&)> obstacle_displacement;
     if (contacts_->has_moving_obstacles()) {
-        travel = [&](const contact::Contact<Dim>& contact) {
-            return contacts_->travel(contact, start.positions);
+        obstacle_displacement = [&](const contact::Contact<Dim>& contact) {
+            return contacts_->obstacle_displacement(contact, start.positions);
         };
     }
     friction_.begin_step(contacts_->contacts().list, start.positions,
-                         start.is_linear ? &start.velocities : nullptr, start.h, travel);
+                         start.is_linear ? &start.velocities : nullptr, start.h,
+                         obstacle_displacement);
     return true;
 }
 

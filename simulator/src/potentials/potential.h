@@ -20,9 +20,8 @@ struct StepStart {
     const Positions<Dim>& positions;   ///< Dim x vertices, m; where the energy was last evaluated.
     const Positions<Dim>& velocities;  ///< Dim x vertices, m/s.
     const Positions<Dim>& origin;      ///< Dim x vertices, m.
-    const Positions<Dim>&
-        dirichlet_travel;    ///< Dim x vertices: from the origin to where Dirichlet vertices will
-                             ///< be, m; 0 for all others.
+    /// Dim x vertices: from the origin to where Dirichlet vertices will be, m; 0 for all others.
+    const Positions<Dim>& prescribed_displacement;
     double h = 0;            ///< s.
     double rate = 0;         ///< 1/s.
     bool is_linear = false;  ///< A single linear solve, no Newton's method behind it.

@@ -19,7 +19,7 @@ bool RayleighDamping<Dim>::begin_step(const StepStart<Dim>& start) {
     }
     tangent_->set_zero(*workers_);
     dirichlet_part_.setZero(Dim, dofs_->count());
-    elasticity_->add_tangent(start.positions, filter_, start.dirichlet_travel, *tangent_,
+    elasticity_->add_tangent(start.positions, filter_, start.prescribed_displacement, *tangent_,
                              dirichlet_part_);
     dirichlet_part_ = -dirichlet_part_;
     hessians_ += elasticity_->element_count();
@@ -31,9 +31,9 @@ double RayleighDamping<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& g
     if (!is_on_) {
         return 0;
     }
-    const BlockVector<Dim> travel = at_dofs<Dim>(*dofs_, x - origin_);
-    BlockVector<Dim> resistance(Dim, travel.cols());
-    tangent_->multiply(*workers_, *kernels_, travel, resistance);
+    const BlockVector<Dim> displacement = at_dofs<Dim>(*dofs_, x - origin_);
+    BlockVector<Dim> resistance(Dim, displacement.cols());
+    tangent_->multiply(*workers_, *kernels_, displacement, resistance);
     const auto rows = static_cast<Eigen::Index>(dofs_->row_count());
     Positions<Dim> forces = Positions<Dim>::Zero(Dim, gradient.cols());
     for (Eigen::Index dof = 0; dof < rows; ++dof) {
@@ -43,7 +43,7 @@ double RayleighDamping<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& g
     sharing_->gather(forces);
     gradient += forces;
     const auto along = [&](const BlockVector<Dim>& force) {
-        return force.leftCols(rows).cwiseProduct(travel.leftCols(rows)).sum();
+        return force.leftCols(rows).cwiseProduct(displacement.leftCols(rows)).sum();
     };
     return sharing_->sum(0.5 * along(resistance) + along(dirichlet_part_));
 }

@@ -65,7 +65,7 @@ private:
     bool is_on_ = false;
     std::shared_ptr<const BlockPattern> pattern_;
     std::unique_ptr<BlockMatrix<Dim, double>> tangent_;  // on it
-    BlockVector<Dim> dirichlet_part_;  // Dim x dofs: K times the travel of Dirichlet vertices
+    BlockVector<Dim> dirichlet_part_;  // Dim x dofs: K times how far Dirichlet vertices move
     std::int64_t hessians_ = 0;
 };
 

@@ -197,14 +197,15 @@ template <int Dim>
 void Simulation<Dim>::Stepper::begin(const std::shared_ptr<const StepProblem<Dim>>& problem,
                                      double h,
                                      Method method) {
-    Positions<Dim> travel = Positions<Dim>::Zero(Dim, current_.positions.cols());
-    for (std::uint32_t vertex = 0; vertex < travel.cols(); ++vertex) {
+    Positions<Dim> displacement = Positions<Dim>::Zero(Dim, current_.positions.cols());
+    for (std::uint32_t vertex = 0; vertex < displacement.cols(); ++vertex) {
         if (held_.is_held(vertex)) {
-            travel.col(vertex) = problem->prescribed.col(vertex) - problem->origin.col(vertex);
+            displacement.col(vertex) =
+                problem->prescribed.col(vertex) - problem->origin.col(vertex);
         }
     }
     potential_.begin_step(problem, {current_.positions, current_.velocities, problem->origin,
-                                    travel, h, problem->rate, method == Method::Linear});
+                                    displacement, h, problem->rate, method == Method::Linear});
     potential_.accept_rough_directions(method == Method::Damped);
 }
 

@@ -60,16 +60,17 @@ public:
 
     /// Starts a step of length h (s) at these positions and contacts.
     ///
-    /// @param velocities  Null for a step that minimizes. For one of a single linear solve those at
-    ///                    its start, m/s: they tell how fast contacts slip, and so their
-    ///                    resistance.
-    /// @param travel      How far the point of an obstacle that a contact touches moves in the
-    ///                    step, m; empty where none moves.
-    void begin_step(const std::vector<Contact<Dim>>& contacts,
-                    const Positions<Dim>& positions,
-                    const Positions<Dim>* velocities,
-                    double h,
-                    const std::function<Vector<Dim>(const Contact<Dim>&)>& travel = {});
+    /// @param velocities             Null for a step that minimizes. For one of a single linear
+    ///                               solve those at its start, m/s: they tell how fast contacts
+    ///                               slip, and so their resistance.
+    /// @param obstacle_displacement  How far the point of an obstacle that a contact touches moves
+    ///                               in the step, m; empty where none moves.
+    void begin_step(
+        const std::vector<Contact<Dim>>& contacts,
+        const Positions<Dim>& positions,
+        const Positions<Dim>* velocities,
+        double h,
+        const std::function<Vector<Dim>(const Contact<Dim>&)>& obstacle_displacement = {});
 
     /// Adds the gradient at these positions, N, and returns the energy, J: of use within a step
     /// alone, since it starts anew with each.
