@@ -163,7 +163,7 @@ NewtonReport Simulation<Dim>::Stepper::minimize_bounded(const StepProblem<Dim>& 
                 .max_iterations = kMaxBoundedIterations,
                 .extends_steps = true},
                next_.positions);
-    if (report.is_stuck) {
+    if (report.has_blocked_points) {
         std::ostringstream message;
         message << "held vertices cannot go on without a crossing at t = " << problem.time
                 << " s: " << energy_.contact->describe(energy_.contact->limit().limiting);

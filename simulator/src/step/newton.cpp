@@ -42,9 +42,9 @@ constexpr int kMaxStretches = 4;
 constexpr double kMinStretch = 1.3;  // anything less is not worth an evaluation
 
 // Prescribed points that get no further than this part of their way, so many times in a row, are
-// stuck.
-constexpr double kStuck = 1e-3;
-constexpr int kMaxStuck = 10;
+// blocked.
+constexpr double kBlocked = 1e-3;
+constexpr int kMaxBlockedSteps = 10;
 
 template <int Dim>
 bool has_less_gradient(const Evaluation<Dim>& at, const Evaluation<Dim>& next, double factor) {
@@ -216,9 +216,9 @@ private:
             displacement_.setZero();
         }
         start_norm_ = std::max(start_norm_, at_.gradient.norm());
-        stuck_ = limit < kStuck ? stuck_ + 1 : 0;
-        if (is_pending_ && stuck_ == kMaxStuck) {
-            report_.is_stuck = true;
+        blocked_steps_ = limit < kBlocked ? blocked_steps_ + 1 : 0;
+        if (is_pending_ && blocked_steps_ == kMaxBlockedSteps) {
+            report_.has_blocked_points = true;
             return fail("prescribed points cannot go on");
         }
         return true;
@@ -263,7 +263,7 @@ private:
     bool is_current_ = true;       // whether the function was last evaluated there
     Positions<Dim> displacement_;  // of prescribed points, to their places
     bool is_pending_ = false;      // whether they are still on their way
-    int stuck_ = 0;                // steps in a row that hardly moved them
+    int blocked_steps_ = 0;        // steps in a row that hardly moved them
     double start_value_ = 0;
     double start_norm_ = 0;
     Positions<Dim> best_;

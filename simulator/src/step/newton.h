@@ -27,11 +27,11 @@ struct NewtonOptions {
 
 struct NewtonReport {
     bool has_converged = false;
-    std::string failure_reason;  ///< Empty if it has.
-    bool is_stuck = false;       ///< Prescribed points could not get to their places.
-    int iterations = 0;          ///< Linear solves.
-    double residual = 0;         ///< |gradient| at the end over that at the start; 0 if it ended by
-                                 ///< tolerance of the gradient or correction.
+    std::string failure_reason;       ///< Empty if it has.
+    bool has_blocked_points = false;  ///< Prescribed points could not get to their places.
+    int iterations = 0;               ///< Linear solves.
+    double residual = 0;  ///< |gradient| at the end over that at the start; 0 if it ended by
+                          ///< tolerance of the gradient or correction.
 };
 
 /// Minimizes a function by Newton's method with line search, from x, where the result goes.
