@@ -177,15 +177,15 @@ std::optional<Contact<Dim>> contact_of(const Colliders<Dim>& colliders,
                                        const PositionsView<Dim>& positions,
                                        const std::array<int, 2>& which,
                                        const Candidate& pair,
-                                       double reach) {
+                                       double activation_distance) {
     const Simplices<K>& first = colliders.surface(which[0]).template simplices<K>();
     const Simplices<L>& second = colliders.surface(which[1]).template simplices<L>();
     const Corners<Dim, K> a = gather<Dim, K>(first, pair.first, positions);
     const Corners<Dim, L> b = gather<Dim, L>(second, pair.second, positions);
-    if (are_boxes_apart<Dim, K, L>(a, b, reach * reach)) {
+    if (are_boxes_apart<Dim, K, L>(a, b, activation_distance * activation_distance)) {
         return {};
     }
-    ClosestPointSearch<Dim, K, L> search(a, b, reach * reach);
+    ClosestPointSearch<Dim, K, L> search(a, b, activation_distance * activation_distance);
     if (!search.run()
         || (colliders.template is_fixed<K>(first, pair.first)
             && colliders.template is_fixed<L>(second, pair.second))) {
@@ -219,18 +219,18 @@ BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
     std::vector<Found<Dim>> all;
     std::uint32_t lists = 0;
     candidates.for_each_list([&]<int K, int L>(const CandidateList& list, int first, int second) {
-        const double reach = candidates.reach(first, second);
+        const double distance = candidates.activation_distance(first, second);
         const DistanceCull<K, L> cull(list, colliders.surface(first).template simplices<K>(),
                                       colliders.surface(second).template simplices<L>(),
-                                      displacements.of(first, second), reach);
+                                      displacements.of(first, second), distance);
         const std::vector<Found<Dim>> found = collect<Found<Dim>>(
             cull.size(), kChunk, [&](std::size_t k, std::vector<Found<Dim>>& here) {
                 if (!cull.passes(k)) {
                     return;
                 }
                 const Candidate& pair = list.pairs[k];
-                if (const auto contact =
-                        contact_of<Dim, K, L>(colliders, positions, {first, second}, pair, reach)) {
+                if (const auto contact = contact_of<Dim, K, L>(colliders, positions,
+                                                               {first, second}, pair, distance)) {
                     here.push_back({*contact, {lists, pair.first, pair.second}});
                 }
             });

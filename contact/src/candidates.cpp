@@ -70,8 +70,8 @@ bool Candidates<Dim>::is_too_coarse(double searched, double measured_from, doubl
 }
 
 template <int Dim>
-double Candidates<Dim>::measured(double reach) const {
-    return reach + (kMeasured - 1) * activation_distance_;
+double Candidates<Dim>::measured_within(double distance) const {
+    return distance + (kMeasured - 1) * activation_distance_;
 }
 
 template <int Dim>
@@ -167,9 +167,9 @@ void Candidates<Dim>::search_within(int body, const Paths<Dim>& paths) {
     longest_[static_cast<std::size_t>(body)] =
         std::max(longest_path<Dim>(vertices, paths.from, paths.to), min_inflation_);
     within_.set(vertices, paths.from, paths.to, min_inflation_, kInflationOfPath);
-    const double reach = this->reach(body, body);
+    const double distance = activation_distance(body, body);
     ++work_.searches;
-    insert_within(body, proximity(body).find(within_, reach, measured(reach)));
+    insert_within(body, proximity(body).find(within_, distance, measured_within(distance)));
 }
 
 // In the place of what is there of the same colliders; lists are by these.
@@ -250,14 +250,15 @@ CandidateList Candidates<Dim>::search(int first, int second) const {
     const Simplices<L>& b = colliders_.surface(second).template simplices<L>();
     const BoxTree& first_tree = trees(first).template tree<K>();
     const BoxTree& second_tree = trees(second).template tree<L>();
-    const double reach = this->reach(first, second);
+    const double distance = activation_distance(first, second);
     if (!is_penalty()) {
         return joined(walk_overlaps<FoundOnPaths>(
             first_tree, second_tree,
-            NearOnPaths<Dim, K, L>{a, b, false, between_, reach, measured(reach)}, shared_));
+            NearOnPaths<Dim, K, L>{a, b, false, between_, distance, measured_within(distance)},
+            shared_));
     }
     // Tests allow for rounding where candidates have to be a superset.
-    const double limit = (reach + 2 * min_inflation_) * (is_exact() ? 1 : 1 + 1e-9);
+    const double limit = (distance + 2 * min_inflation_) * (is_exact() ? 1 : 1 + 1e-9);
     const PositionsView<Dim> end = between_.end();
     return joined(walk_overlaps<CandidateList>(
         first_tree, second_tree,

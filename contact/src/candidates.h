@@ -73,7 +73,7 @@ public:
     }
 
     /// How near simplices of two colliders have to be found, m.
-    [[nodiscard]] double reach(int first, int second) const {
+    [[nodiscard]] double activation_distance(int first, int second) const {
         return activation_distance_ + colliders_.radius(first) + colliders_.radius(second);
     }
 
@@ -99,7 +99,7 @@ private:
     [[nodiscard]] bool is_penalty() const { return !colliders_.is_barrier(); }
 
     // Up to where distances are measured under a barrier, m.
-    [[nodiscard]] double measured(double reach) const;
+    [[nodiscard]] double measured_within(double distance) const;
     [[nodiscard]] bool does_cover(int body, const Paths<Dim>& paths) const;
     [[nodiscard]] bool is_too_coarse(double searched, double measured_from, double asked) const;
     void search_between(const Paths<Dim>& paths);

@@ -37,9 +37,9 @@ struct FoundOnPaths {
     return all;
 }
 
-/// Adds pairs of two lists of simplices that share no vertex and may come within reach of each
-/// other while their vertices are near their paths. Within one list (edges in R^3, within one body)
-/// a pair has the lower place first.
+/// Adds pairs of two lists of simplices that share no vertex and may come within the activation
+/// distance of each other while their vertices are near their paths. Within one list (edges in R^3,
+/// within one body) a pair has the lower place first.
 template <int Dim, int K, int L>
 struct NearOnPaths {
     using Found = FoundOnPaths;
@@ -48,8 +48,8 @@ struct NearOnPaths {
     const Simplices<L>& second;
     bool is_same_list = false;
     const PathCover<Dim>& cover;
-    double reach = 0;     ///< m.
-    double measured = 0;  ///< Up to this distances are measured, m.
+    double activation_distance = 0;  ///< m.
+    double measured = 0;             ///< Up to this distances are measured, m.
 
     void operator()(std::uint32_t i, std::uint32_t j, FoundOnPaths& found) const {
         // Tests allow for rounding: candidates have to be a superset.
@@ -64,7 +64,7 @@ struct NearOnPaths {
         const PositionsView<Dim> start = cover.start();
         const PositionsView<Dim> end = cover.end();
         // Boxes around whole paths are crude: what counts is how near the two come at any one time.
-        const double near = (reach + cover.template inflation_of<K>(first, i)
+        const double near = (activation_distance + cover.template inflation_of<K>(first, i)
                              + cover.template inflation_of<L>(second, j))
                             * kRoundUp;
         const Corners<Dim, K> p_start = gather<Dim, K>(first, i, start);

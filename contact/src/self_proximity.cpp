@@ -89,7 +89,8 @@ void SelfProximity<Dim>::fit_tree(const Simplices<Count>& simplices, const Asked
 
 template <int Dim>
 void SelfProximity<Dim>::fit_trees(const Asked& asked) {
-    fit_boxes<Dim>(surface_.vertices, asked.paths, asked.inflation, 0.5 * asked.reach, boxes_);
+    fit_boxes<Dim>(surface_.vertices, asked.paths, asked.inflation, 0.5 * asked.activation_distance,
+                   boxes_);
     fit_tree<1>(surface_.vertices, asked);
     fit_tree<2>(surface_.edges, asked);
     fit_tree<3>(surface_.template simplices<3>(), asked);
@@ -177,20 +178,21 @@ CandidatePairs SelfProximity<Dim>::find(const PositionsView<Dim>& positions) {
 
 template <int Dim>
 CandidatePairs SelfProximity<Dim>::find(const PathCover<Dim>& cover,
-                                        double reach,
+                                        double activation_distance,
                                         double measured) {
     const PositionsView<Dim> start = cover.start();
     const PositionsView<Dim> end = cover.end();
-    const Asked asked{
-        {start, end, mean_shift<Dim>(surface_.vertices, start, end)}, &cover.inflation(), reach};
+    const Asked asked{{start, end, mean_shift<Dim>(surface_.vertices, start, end)},
+                      &cover.inflation(),
+                      activation_distance};
     fit_trees(asked);
     move(asked);
     Search<NearOnPaths<Dim, 1, Dim>, 1, Dim> points(
         *this, {surface_.vertices, surface_.facets, points_}, asked,
-        {surface_.vertices, surface_.facets, false, cover, reach, measured});
+        {surface_.vertices, surface_.facets, false, cover, activation_distance, measured});
     Search<NearOnPaths<Dim, 2, Dim - 1>, 2, Dim - 1> mixed(
         *this, {surface_.edges, surface_.ridges, mixed_}, asked,
-        {surface_.edges, surface_.ridges, Dim == 3, cover, reach, measured});
+        {surface_.edges, surface_.ridges, Dim == 3, cover, activation_distance, measured});
     search(asked, points, mixed);
     return {.points_first = joined(points.found()), .mixed_first = joined(mixed.found())};
 }

@@ -48,11 +48,14 @@ public:
     /// of unknown distance, and of no body: that is for who asks to say. Parallel.
     [[nodiscard]] CandidatePairs find(const PositionsView<Dim>& positions);
 
-    /// The pairs that may come within reach while their vertices are near their paths. Parallel.
+    /// The pairs that may come within the activation distance while their vertices are near their
+    /// paths. Parallel.
     ///
-    /// @param reach     m.
-    /// @param measured  Up to this distances at the end are measured, m.
-    [[nodiscard]] CandidatePairs find(const PathCover<Dim>& cover, double reach, double measured);
+    /// @param activation_distance  m.
+    /// @param measured             Up to this distances at the end are measured, m.
+    [[nodiscard]] CandidatePairs find(const PathCover<Dim>& cover,
+                                      double activation_distance,
+                                      double measured);
 
     /// Trees fit so far.
     [[nodiscard]] std::int64_t refit() const { return refit_; }
@@ -99,7 +102,7 @@ private:
     struct Asked {
         Paths<Dim> paths;
         const Eigen::VectorXd* inflation = nullptr;
-        double reach = 0;
+        double activation_distance = 0;
     };
 
     template <typename Test, int K, int L>

@@ -76,7 +76,7 @@ public:
           second_(sides.second),
           rows_(sides.rows),
           start_(asked.paths.from),
-          reach_(asked.reach),
+          activation_distance_(asked.activation_distance),
           is_still_(asked.paths.is_still()),
           find_near_(near_lanes_kernels<Dim>().template find<K>()),
           test_(test),
@@ -188,7 +188,7 @@ private:
     [[nodiscard]] double near(std::size_t a, std::uint32_t b) const {
         const std::vector<double>& of_a = first_tree().patch_inflation;
         const std::vector<double>& of_b = second_tree().patch_inflation;
-        return reach_ + (of_a.empty() ? 0 : of_a[a] + of_b[b]);
+        return activation_distance_ + (of_a.empty() ? 0 : of_a[a] + of_b[b]);
     }
 
     void look_at(std::span<const Candidate> pairs,
@@ -314,7 +314,7 @@ private:
     const Simplices<L>& second_;
     std::vector<Row>& rows_;
     const PositionsView<Dim>& start_;
-    double reach_;
+    double activation_distance_;
     bool is_still_;
     FindNearLanes find_near_;
     Test test_;

@@ -16,9 +16,8 @@ class SurfaceTrees {
 public:
     /// Fits the tree of the vertices.
     ///
-    /// @param boxes  Around each vertex of the scene, and all that is to be within reach of it;
-    /// read for
-    ///               those of the surface.
+    /// @param boxes  Around each vertex of the scene, and all that is to be near it; read for those
+    ///               of the surface.
     void update_vertices(const Surface<Dim>& surface, const std::vector<Box>& boxes);
 
     /// Fits those of edges, ridges and facets.

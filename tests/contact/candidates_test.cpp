@@ -21,7 +21,7 @@ template <typename T>
 class CandidatesTest : public testing::Test {
 protected:
     static constexpr int kSpace = T::value;
-    static constexpr double kReach = 0.2;
+    static constexpr double kDistance = 0.2;
     static constexpr double kInflation = 0.05;
 
     void SetUp() override {
@@ -30,7 +30,7 @@ protected:
         aside[0] = 1.3;
         scene_.add(test::cube<kSpace>(1), aside);
         test::shake<kSpace>(scene_.positions, 0.02, 4);
-        options_ = {.model = ContactModel::Barrier, .distance = kReach};
+        options_ = {.model = ContactModel::Barrier, .distance = kDistance};
         model_ = test::contact_scene<kSpace>(scene_, options_);
     }
 
@@ -129,9 +129,9 @@ TYPED_TEST(CandidatesTest, HoldAllThatComesNearOnTheWay) {
             candidates.cover(x);
             EXPECT_EQ(candidates.work().searches, 1);  // the way is covered
             this->expect_complete(candidates, candidates.displacements(x, x).between, x,
-                                  this->kReach);
+                                  this->kDistance);
             this->expect_complete(candidates, candidates.displacements(from, to).between, x,
-                                  0.1 * this->kReach);
+                                  0.1 * this->kDistance);
         }
     }
     EXPECT_GT(this->near_, 100U);  // the test is about something
@@ -150,7 +150,8 @@ TYPED_TEST(CandidatesTest, HoldWhileVerticesStayNearTheirPaths) {
         test::shake<kDim>(x, 0.9 * this->kInflation / std::sqrt(kDim), seed);
         candidates.cover(x);
         EXPECT_EQ(candidates.work().searches, 1);
-        this->expect_complete(candidates, candidates.displacements(x, x).between, x, this->kReach);
+        this->expect_complete(candidates, candidates.displacements(x, x).between, x,
+                              this->kDistance);
     }
     EXPECT_GT(this->held_back_, 100U);  // the cull is of use
     Positions<kDim> away = to;
@@ -158,7 +159,7 @@ TYPED_TEST(CandidatesTest, HoldWhileVerticesStayNearTheirPaths) {
     candidates.cover(away);
     EXPECT_EQ(candidates.work().searches, 2);
     this->expect_complete(candidates, candidates.displacements(away, away).between, away,
-                          this->kReach);
+                          this->kDistance);
 }
 
 TYPED_TEST(CandidatesTest, AreSearchedAnewForMotionsThatAreMuchShorterElsewhere) {
@@ -182,7 +183,7 @@ TYPED_TEST(CandidatesTest, AreSearchedAnewForMotionsThatAreMuchShorterElsewhere)
 TYPED_TEST(CandidatesTest, OfAMarginHoldWhileNoVertexMovesFarther) {
     constexpr int kDim = TypeParam::value;
     this->scene_.body(1).row(0).array() -= 0.25;  // near one another
-    const ContactOptions options{.distance = this->kReach, .margin = 0.1};
+    const ContactOptions options{.distance = this->kDistance, .margin = 0.1};
     const ContactScene<kDim> model = test::contact_scene<kDim>(this->scene_, options);
     const Colliders<kDim> colliders(model);
     Candidates<kDim> candidates(colliders);
@@ -194,7 +195,8 @@ TYPED_TEST(CandidatesTest, OfAMarginHoldWhileNoVertexMovesFarther) {
         candidates.cover(x);
         candidates.drop_what_is_not_kept();
         EXPECT_EQ(candidates.work().searches, 1);
-        this->expect_complete(candidates, candidates.displacements(x, x).between, x, this->kReach);
+        this->expect_complete(candidates, candidates.displacements(x, x).between, x,
+                              this->kDistance);
     }
     EXPECT_GT(this->near_, 100U);
     Positions<kDim> away = this->scene_.positions;
@@ -207,7 +209,7 @@ TYPED_TEST(CandidatesTest, WithoutAMarginAreExactAndNotKept) {
     constexpr int kDim = TypeParam::value;
     this->scene_.body(1).row(0).array() -= 0.25;
     const ContactScene<kDim> model =
-        test::contact_scene<kDim>(this->scene_, {.distance = this->kReach});
+        test::contact_scene<kDim>(this->scene_, {.distance = this->kDistance});
     const Colliders<kDim> colliders(model);
     Candidates<kDim> candidates(colliders);
     const Positions<kDim>& x = this->scene_.positions;
@@ -217,17 +219,17 @@ TYPED_TEST(CandidatesTest, WithoutAMarginAreExactAndNotKept) {
     const Surface<kDim>& a = this->scene_.surfaces[0];
     const Surface<kDim>& b = this->scene_.surfaces[1];
     EXPECT_EQ(candidates.pairs()[0].points_first.pairs.size(),
-              (this->template near<1, kDim>(a.vertices, b.facets, x, this->kReach).size()));
+              (this->template near<1, kDim>(a.vertices, b.facets, x, this->kDistance).size()));
     int inside = 0;
     for (std::uint32_t i = 0; i < a.edges.cols(); ++i) {
         for (std::uint32_t j = 0; j < b.ridges.cols(); ++j) {
             const auto edge = gather<kDim, 2>(a.edges, i, x);
             const auto ridge = gather<kDim, kDim - 1>(b.ridges, j, x);
-            inside +=
-                ClosestPointSearch<kDim, 2, kDim - 1>(edge, ridge, this->kReach * this->kReach)
-                        .run_interior()
-                    ? 1
-                    : 0;
+            inside += ClosestPointSearch<kDim, 2, kDim - 1>(edge, ridge,
+                                                            this->kDistance * this->kDistance)
+                              .run_interior()
+                          ? 1
+                          : 0;
         }
     }
     EXPECT_EQ(candidates.pairs()[0].mixed_first.pairs.size(), static_cast<std::size_t>(inside));

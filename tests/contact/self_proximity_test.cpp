@@ -131,15 +131,17 @@ TYPED_TEST(SelfProximityTest, FindsAllThatIsNearWhateverHappenedBefore) {
     EXPECT_GT(this->near_, 100U);
 }
 
-// Of paths between these places, at times on the way: all that come within reach while vertices
-// are off their paths, those near at rest too, with distances that are no more than at the end.
+// Of paths between these places, at times on the way: all that come within the distance while
+// vertices are off their paths, those near at rest too, with distances that are no more than at the
+// end.
 TYPED_TEST(SelfProximityTest, FindsAllThatComesNearOnPathsWhateverHappenedBefore) {
     constexpr int kDim = TypeParam::value;
     constexpr double kInflation = 0.02;
-    constexpr double kReach = 0.1;
+    constexpr double kActivationDistance = 0.1;
     constexpr double kMeasured = 0.16;
     const Surface<kDim>& surface = this->scene_.surfaces[0];
-    SelfProximity<kDim> kept(surface, this->scene_.positions, kReach + 2 * kInflation, false);
+    SelfProximity<kDim> kept(surface, this->scene_.positions, kActivationDistance + 2 * kInflation,
+                             false);
     const std::pair<double, double> steps[] = {{0, 0.005},     {0.01, 0.02}, {0.02, 0.1},
                                                {0.5, 0.51},    {0.95, 1},    {1, 1.001},
                                                {1.001, 1.002}, {1, 0.6},     {0, 0}};
@@ -151,7 +153,7 @@ TYPED_TEST(SelfProximityTest, FindsAllThatComesNearOnPathsWhateverHappenedBefore
         const Positions<kDim> end = this->bent(to, 0.005, seed + 1);
         PathCover<kDim> cover;
         cover.set(surface.vertices, start, end, kInflation, 0.1);
-        const CandidatePairs pairs = kept.find(cover, kReach, kMeasured);
+        const CandidatePairs pairs = kept.find(cover, kActivationDistance, kMeasured);
         const auto expect_all = [&]<int K, int L>(const CandidateList& list,
                                                   const Simplices<K>& first,
                                                   const Simplices<L>& second) {
@@ -165,10 +167,11 @@ TYPED_TEST(SelfProximityTest, FindsAllThatComesNearOnPathsWhateverHappenedBefore
                         continue;
                     }
                     // Whatever point is nearest may come nearer by this.
-                    const double reach = kReach + cover.inflation()(first.col(i)).minCoeff()
-                                         + cover.inflation()(second.col(j)).minCoeff();
+                    const double near_enough = kActivationDistance
+                                               + cover.inflation()(first.col(i)).minCoeff()
+                                               + cover.inflation()(second.col(j)).minCoeff();
                     double at_end = 0;
-                    double least = reach;
+                    double least = near_enough;
                     for (const double t : {0.0, 0.5, 1.0}) {
                         const Positions<kDim> x = start + t * (end - start);
                         at_end = std::sqrt(
@@ -181,7 +184,7 @@ TYPED_TEST(SelfProximityTest, FindsAllThatComesNearOnPathsWhateverHappenedBefore
                     if (place != found.end()) {
                         EXPECT_LE(static_cast<double>(place->second), at_end * (1 + 1e-6));
                     }
-                    if (least < reach) {
+                    if (least < near_enough) {
                         ++near;
                         EXPECT_TRUE(place != found.end()) << i << " " << j << " step " << seed;
                     }
