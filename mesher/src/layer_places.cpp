@@ -54,12 +54,12 @@ std::vector<double> graded_places(int slabs, double growth, double slice) {
     }
     const double before = slabs_before(slabs, growth, slice);
     const double behind = slabs - before;
-    const auto reach = [&](double u) { return std::pow(growth, u) - 1; };
+    const auto height = [&](double u) { return std::pow(growth, u) - 1; };
     std::vector<double> places(slabs + 1);
     for (int l = 0; l <= slabs; ++l) {
         const double u = slice == 0.5 ? (2 * l - slabs) / 2.0 : l - before;
-        places[l] =
-            u < 0 ? -slice * (reach(-u) / reach(before)) : (1 - slice) * (reach(u) / reach(behind));
+        places[l] = u < 0 ? -slice * (height(-u) / height(before))
+                          : (1 - slice) * (height(u) / height(behind));
     }
     places.front() = -slice;
     places.back() = 1 - slice;

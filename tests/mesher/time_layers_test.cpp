@@ -48,10 +48,10 @@ TEST(FirstInversion, IsWhereSamplesOfTheWayFindIt) {
     for (int trial = 0; trial < 400; ++trial) {
         Eigen::Matrix<double, 3, 4> from;
         Eigen::Matrix<double, 3, 4> to;
-        const double reach = trial % 2 == 0 ? 0.5 : 1.5;
+        const double spread = trial % 2 == 0 ? 0.5 : 1.5;
         for (int i = 0; i < 12; ++i) {
             from(i) = normal(random);
-            to(i) = from(i) + reach * normal(random);
+            to(i) = from(i) + spread * normal(random);
         }
         const VolumePolynomial volume = volume_on_the_way(from, to);
         double smallest = 0;

@@ -35,15 +35,15 @@ public:
         return std::exchange(k_, start.h) != start.h;  // a stiffness that is held during a step
     }
     double max_step(const Positions<kDim>& /*from*/, const Positions<kDim>& /*to*/) override {
-        return reach;
+        return step_limit;
     }
-    bool is_bounded() const override { return reach < 1; }
+    bool is_bounded() const override { return step_limit < 1; }
     bool adapt() override { return std::exchange(will_adapt, false); }
     double rounding() const override { return 1e-3 * k_; }
     bool has_kink() const override { return is_kinked; }
 
     int evaluations = 0;
-    double reach = 1;
+    double step_limit = 1;
     bool will_adapt = false;
     bool is_kinked = false;
 
@@ -88,8 +88,8 @@ TEST_F(PotentialEnergyTest, IsNotEvaluatedTwiceAtOnePlace) {
 TEST_F(PotentialEnergyTest, GoesAsFarAsEachOfItsTermsLets) {
     EXPECT_FALSE(sum_.is_bounded());
     EXPECT_EQ(sum_.max_step(x_, 2 * x_), 1);
-    first_.reach = 0.75;
-    second_.reach = 0.25;
+    first_.step_limit = 0.75;
+    second_.step_limit = 0.25;
     EXPECT_TRUE(sum_.is_bounded());
     EXPECT_EQ(sum_.max_step(x_, 2 * x_), 0.25);
 }

@@ -58,9 +58,9 @@ Eigen::VectorXd vertex_force(const Frame<Dim>& frame) {
 template <int Dim>
 Eigen::VectorXd vertex_strain(const SimplexMesh<Dim>& rest, const Positions<Dim>& positions) {
     // Coordinates of a motion in closed form are a few roundings off, and each edge has two ends.
-    const double reach =
+    const double farthest =
         std::max(rest.positions.cwiseAbs().maxCoeff(), positions.cwiseAbs().maxCoeff());
-    const double rounding = 16 * std::numeric_limits<double>::epsilon() * reach;
+    const double rounding = 16 * std::numeric_limits<double>::epsilon() * farthest;
     Eigen::VectorXd volumes(rest.cell_count());
     Eigen::VectorXd strains(rest.cell_count());
     parallel_for(rest.cell_count(), kLightChunk, [&](Eigen::Index c) {

@@ -74,7 +74,7 @@ Lighting make_lighting(const Eigen::Matrix3d& camera_frame, double scene_size) {
     Lighting lighting;
     lighting.to_key = (-0.65F * right + 1.0F * lighting.up + 0.55F * back).normalized();
     lighting.to_fill = (0.8F * right + 0.1F * lighting.up + 0.6F * back).normalized();
-    lighting.reach = 0.2F * static_cast<float>(scene_size);
+    lighting.occlusion_distance = 0.2F * static_cast<float>(scene_size);
     lighting.skin = 1e-4F * static_cast<float>(scene_size);
     return lighting;
 }
@@ -93,7 +93,8 @@ Visibility trace_visibility(const RayScene& scene,
     for (int k = 0; k < kSkyRays; ++k) {
         const Eigen::Vector2f& d = sky_points[ray_index(pattern, k)];
         const float height = std::sqrt(std::max(0.0F, 1 - d.squaredNorm()));
-        bundle.add(d.x() * tangent.a + d.y() * tangent.b + height * normal, lighting.reach);
+        bundle.add(d.x() * tangent.a + d.y() * tangent.b + height * normal,
+                   lighting.occlusion_distance);
     }
     const Across lamp = across(lighting.to_key);
     for (int k = 0; k < kKeyRays; ++k) {

@@ -19,10 +19,10 @@ struct Visibility {
 /// The lamps of a picture, set up for a camera.
 struct Lighting {
     Vec up = Vec::UnitY();
-    Vec to_key = Vec::UnitY();   ///< Unit, to the middle of the key light.
-    Vec to_fill = Vec::UnitX();  ///< Unit, to a weak light from the other side.
-    float reach = 1;             ///< How far things darken each other under the sky, m.
-    float skin = 1e-4F;          ///< How far off a surface its rays start, m.
+    Vec to_key = Vec::UnitY();     ///< Unit, to the middle of the key light.
+    Vec to_fill = Vec::UnitX();    ///< Unit, to a weak light from the other side.
+    float occlusion_distance = 1;  ///< How far things darken each other under the sky, m.
+    float skin = 1e-4F;            ///< How far off a surface its rays start, m.
 };
 
 /// @param camera_frame  Right, up and back as columns.

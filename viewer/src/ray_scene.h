@@ -61,9 +61,9 @@ public:
         std::array<float, kRays> farthest{};  ///< m.
         int count = 0;                        ///< How many of them there are.
 
-        void add(const Vec& direction, float reach) {
+        void add(const Vec& direction, float max_distance) {
             directions[count] = direction;
-            farthest[count] = reach;
+            farthest[count] = max_distance;
             ++count;
         }
     };

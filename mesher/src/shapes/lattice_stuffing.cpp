@@ -174,10 +174,10 @@ Eigen::Vector4d LatticeStuffing::moved(std::uint32_t point, const Edge& edge) co
     const Eigen::Vector4d place = tree_->place(point);
     const Eigen::Vector4d from = tree_->place(edge.from);
     const Eigen::Vector4d cut = from + edge.cut * (tree_->place(edge.to) - from);
-    const double reach = (cut - place).norm();
+    const double to_cut = (cut - place).norm();
     const std::optional<Eigen::Vector4d> foot =
         nearest_zero(*solid_, place, std::ldexp(tree_->lattice().spacing, tree_->size(point)));
-    return foot && (*foot - place).norm() <= reach ? *foot : cut;
+    return foot && (*foot - place).norm() <= to_cut ? *foot : cut;
 }
 
 std::uint32_t LatticeStuffing::edge_between(std::uint32_t from, std::uint32_t to) const {

@@ -190,7 +190,7 @@ void LatticeTree::sample(const Solid& solid) {
             }
         }
     }
-    const double reach = (1 + kRounding) * std::ldexp(lattice_.longest_edge(), largest_);
+    const double longest_edge = (1 + kRounding) * std::ldexp(lattice_.longest_edge(), largest_);
     const bool is_lipschitz = solid.is_lipschitz();
     parallel_for((point_count() + kTask - 1) / kTask, 1U, [&](std::uint32_t task) {
         std::vector<Sample> asked;
@@ -203,13 +203,13 @@ void LatticeTree::sample(const Solid& solid) {
             const double left =
                 asked.empty() ? 0
                               : std::abs(asked.back().value) - (here - asked.back().place).norm();
-            if (is_lipschitz && left > reach) {
+            if (is_lipschitz && left > longest_edge) {
                 values_[point] = std::copysign(left, asked.back().value);
                 continue;
             }
             const std::size_t first = asked.size() - std::min(asked.size(), kRemembered);
             values_[point] =
-                solid.value_near(here, kEnough * reach, std::span(asked).subspan(first));
+                solid.value_near(here, kEnough * longest_edge, std::span(asked).subspan(first));
             asked.push_back({here, values_[point]});
         }
     });

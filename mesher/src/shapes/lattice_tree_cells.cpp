@@ -51,7 +51,7 @@ void LatticeTree::set_range(const Solid& solid, const SizeField& sizes) {
     const Eigen::Vector4d middle = lattice_.coordinates((box.low + box.high) / 2);
     // The farthest of the corners along each axis of the lattice: all coordinates grow with all
     // of a point.
-    const Eigen::Vector4d reach = lattice_.coordinates((box.high - box.low) / 2);
+    const Eigen::Vector4d half_size = lattice_.coordinates((box.high - box.low) / 2);
     const double shortest = lattice_.mean_edge();
     const double radius = (box.high - box.low).norm() / 2;
     const double longest =
@@ -63,12 +63,12 @@ void LatticeTree::set_range(const Solid& solid, const SizeField& sizes) {
     largest_ = std::clamp(static_cast<int>(std::floor(std::log2(longest / shortest) + kRounding)),
                           0, kKeyBits - 3);
     top_ = std::max(largest_, kSmallestAsked);
-    while (top_ < kKeyBits - 2 && 2 * reach.maxCoeff() > 4 * std::ldexp(1.0, top_)) {
+    while (top_ < kKeyBits - 2 && 2 * half_size.maxCoeff() > 4 * std::ldexp(1.0, top_)) {
         ++top_;
     }
     const double side = std::ldexp(1.0, top_);
-    const Eigen::Vector4d first = ((middle - reach).array() / side - kRounding).floor();
-    const Eigen::Vector4d last = ((middle + reach).array() / side + kRounding).floor();
+    const Eigen::Vector4d first = ((middle - half_size).array() / side - kRounding).floor();
+    const Eigen::Vector4d last = ((middle + half_size).array() / side + kRounding).floor();
     const Eigen::Vector4d count = (last - first).array() + 1;
     if (!(side * count.maxCoeff() < std::ldexp(1.0, kKeyBits)
           && side * first.cwiseAbs().maxCoeff() < kFarthestPoint)) {

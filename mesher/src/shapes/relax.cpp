@@ -87,7 +87,7 @@ private:
         }
         const auto corners = 4 * static_cast<double>(mesh.star(vertex).size());
         const Eigen::Vector4d slope = mesh.quality_slope(worst_cell, vertex).normalized();
-        const double reach = edge / corners;
+        const double mean_edge = edge / corners;
         bool has_moved = false;
         const auto attempt = [&](const Eigen::Vector4d& step) {
             if (!step.allFinite()) {
@@ -107,7 +107,7 @@ private:
             return true;
         };
         for (const double part : {0.4, 0.2, 0.1, 0.05, 0.025}) {
-            if (attempt(part * reach * slope)) {
+            if (attempt(part * mean_edge * slope)) {
                 break;
             }
         }

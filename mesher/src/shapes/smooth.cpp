@@ -49,7 +49,7 @@ bool improve(SurfaceMesh& surface, std::uint32_t vertex, double least) {
         }
     }
     const auto cells = static_cast<double>(mesh.star(vertex).size());
-    const double reach = lengths / (4 * cells);
+    const double mean_edge = lengths / (4 * cells);
     const auto attempt = [&](const Eigen::Vector4d& step) {
         constexpr double kWorthIt = 1e-4;  // of a cell's quality
         const auto place =
@@ -65,7 +65,7 @@ bool improve(SurfaceMesh& surface, std::uint32_t vertex, double least) {
         return true;
     };
     for (const double part : {0.4, 0.2, 0.1, 0.05}) {
-        if (attempt(part * reach * slope.normalized())) {
+        if (attempt(part * mean_edge * slope.normalized())) {
             return true;
         }
     }

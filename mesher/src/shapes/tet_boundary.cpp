@@ -198,8 +198,9 @@ ValueRange TetBoundary::range(const Vector4d& center, double radius) const {
                                         : ValueRange{least, distance + radius};
 }
 
-double TetBoundary::distance(const Vector4d& p, double reach) const {
-    return std::sqrt(tree_.nearest(rotation_ * p, TetTree::kAnyPatch, reach).distance_squared);
+double TetBoundary::distance(const Vector4d& p, double max_distance) const {
+    return std::sqrt(
+        tree_.nearest(rotation_ * p, TetTree::kAnyPatch, max_distance).distance_squared);
 }
 
 Vector4d TetBoundary::foot(const Vector4d& p, int patch) const {

@@ -38,9 +38,10 @@ public:
     /// Bounds of the value within a ball.
     [[nodiscard]] ValueRange range(const Eigen::Vector4d& center, double radius) const;
 
-    /// How far value() is from 0, m; infinite from `reach` on. It takes no ray.
-    [[nodiscard]] double distance(const Eigen::Vector4d& p,
-                                  double reach = std::numeric_limits<double>::infinity()) const;
+    /// How far value() is from 0, m; infinite from `max_distance` on. It takes no ray.
+    [[nodiscard]] double distance(
+        const Eigen::Vector4d& p,
+        double max_distance = std::numeric_limits<double>::infinity()) const;
 
     /// The nearest point of what value() is the distance from, or of one patch.
     [[nodiscard]] Eigen::Vector4d foot(const Eigen::Vector4d& p,

@@ -331,11 +331,11 @@ void TetTree::search(std::uint32_t node, const Place& at, int patch, NearestPoin
     }
 }
 
-NearestPoint TetTree::nearest(const Vector4d& p, int patch, double reach) const {
+NearestPoint TetTree::nearest(const Vector4d& p, int patch, double max_distance) const {
     NearestPoint best;
-    best.distance_squared = reach * reach;
+    best.distance_squared = max_distance * max_distance;
     search(0, {p, float_below(p), -float_below(-p)}, patch, best);
-    return best.distance_squared < reach * reach ? best : NearestPoint{};
+    return best.distance_squared < max_distance * max_distance ? best : NearestPoint{};
 }
 
 }  // namespace pent::mesher

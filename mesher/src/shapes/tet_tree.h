@@ -60,25 +60,26 @@ public:
     /// @param patches  One a tetrahedron: 0 or more, or kNoPatch.
     void set_patches(std::vector<int> patches);
 
-    /// The nearest of a patch, or of any, and nearer than `reach` (m); at an infinite distance if
-    /// there is none. The point is finite.
+    /// The nearest of a patch, or of any, and nearer than `max_distance` (m); at an infinite
+    /// distance if there is none. The point is finite.
     [[nodiscard]] NearestPoint nearest(
         const Eigen::Vector4d& p,
         int patch = kAnyPatch,
-        double reach = std::numeric_limits<double>::infinity()) const;
+        double max_distance = std::numeric_limits<double>::infinity()) const;
 
     /// Calls visit(t) for each tetrahedron of a patch no further than `distance` (m).
     template <typename Visit>
     void visit_within(const Eigen::Vector4d& p, double distance, const Visit& visit) const {
-        const double reach = distance * distance;
+        const double squared = distance * distance;
         const Place at{p, float_below(p), -float_below(-p)};
         walk(
             [&](const Node& node) {
-                return distance_squared(node, at) <= reach && may_be_nearer(node.disc, p, reach);
+                return distance_squared(node, at) <= squared
+                       && may_be_nearer(node.disc, p, squared);
             },
             [&](std::uint32_t t) {
                 if (patches_[t] != kNoPatch
-                    && (nearest_point(corners(t), p) - p).squaredNorm() <= reach) {
+                    && (nearest_point(corners(t), p) - p).squaredNorm() <= squared) {
                     visit(t);
                 }
             });

@@ -151,8 +151,9 @@ std::vector<std::string> doubts_of_units(const Scene& scene, const Simulation<Di
 template <int Dim>
 std::vector<std::string> overlaps_at_start(const Scene& scene, const Simulation<Dim>& simulation) {
     std::map<std::pair<std::string, std::string>, double> deepest;
-    const auto note = [&](const std::string& a, const std::string& b, double depth, double reach) {
-        if (depth > 0.1 * reach) {
+    const auto note = [&](const std::string& a, const std::string& b, double depth,
+                          double distance) {
+        if (depth > 0.1 * distance) {
             double& most = deepest[{a, b}];
             most = std::max(most, depth);
         }
