@@ -33,7 +33,7 @@ constexpr float kRounding = 4e-6F;
 constexpr float kRelativeRounding = 1e-5F;
 
 // Squares of lengths below would be lost in float.
-constexpr float kLeastLength = 1e-15F;
+constexpr float kMinLength = 1e-15F;
 
 // Lanes of a patch, one in each lane of a register.
 struct Chosen {
@@ -206,8 +206,7 @@ struct Pairs {
                 break;
             }
             const Floats way = dot<Dim>(toward, toward);
-            const Floats part =
-                -dot<Dim>(line, toward) / max(way, Floats(kLeastLength * kLeastLength));
+            const Floats part = -dot<Dim>(line, toward) / max(way, Floats(kMinLength * kMinLength));
             const Floats step = min(max(part, Floats(0.0F)), Floats(1.0F));
             for (int axis = 0; axis < Dim; ++axis) {
                 line[axis] = multiply_add(step, toward[axis], line[axis]);
@@ -333,7 +332,7 @@ void find_near(const LanesOnPaths& patches, double distance, std::uint16_t* near
     const PatchPair<Dim, K, L, IsStill> pair(patches);
     const float limit =
         static_cast<float>(distance) * (1 + kRelativeRounding) + kRounding * pair.size();
-    const bool is_told = limit > kLeastLength;
+    const bool is_told = limit > kMinLength;
     const std::uint32_t all = (1U << patches.second_start.count) - 1;
     for (int i = 0; i < kLanes; ++i) {
         near[i] = static_cast<std::uint16_t>(is_told || i >= patches.first_start.count ? 0U : all);

@@ -67,9 +67,9 @@ struct PatchBound {
 
     /// What this tells of moments to which another bound has led.
     [[nodiscard]] PatchBound after(const PatchBound& earlier) const {
-        constexpr double kMostStretch = 1e30;  // so that products stay finite
+        constexpr double kMaxStretch = 1e30;  // so that products stay finite
         return stretch > 0 && earlier.stretch > 0
-                   ? PatchBound{std::min(stretch * earlier.stretch, kMostStretch),
+                   ? PatchBound{std::min(stretch * earlier.stretch, kMaxStretch),
                                 stretch * earlier.lack + lack}
                    : PatchBound{};
     }

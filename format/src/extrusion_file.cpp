@@ -247,14 +247,14 @@ FileInfo info_in_memory(const Header& header,
                         const Extrusion<Dim>& extrusion,
                         int parts,
                         const std::filesystem::path& path) {
-    constexpr std::uint64_t kMostRows = std::numeric_limits<std::uint32_t>::max();
+    constexpr std::uint64_t kMaxRows = std::numeric_limits<std::uint32_t>::max();
     constexpr double kGiga = 1e9;
     const FileInfo info = info_of<Dim>(header, extrusion);
     const std::string what =
         path.string() + ": its base and " + std::to_string(extrusion.layers.size())
         + " layers make " + std::to_string(info.vertices) + " vertices and "
         + std::to_string(info.cells) + " " + std::string(cell_name_plural(Dim));
-    if (info.vertices > kMostRows || info.cells > kMostRows) {
+    if (info.vertices > kMaxRows || info.cells > kMaxRows) {
         throw Error(what + "; at most 4294967295 of each can be numbered: take fewer layers");
     }
     const std::uint64_t vertex_bytes = Dim * sizeof(double) + 2 * sizeof(std::uint32_t);

@@ -182,7 +182,7 @@ bool MeshSource<Dim>::can_read(const FileInfo& info) {
 template <int Dim>
 MeshSource<Dim>::MeshSource(const std::filesystem::path& path, int parts)
     : content_(std::make_unique<Content>()) {
-    constexpr std::uint64_t kMostRows = 0xffffffff;
+    constexpr std::uint64_t kMaxRows = 0xffffffff;
     content_->path = path;
     content_->header = header_of(path);
     const Header& header = content_->header;
@@ -194,7 +194,7 @@ MeshSource<Dim>::MeshSource(const std::filesystem::path& path, int parts)
         return;
     }
     check_counts(header, std::filesystem::file_size(path) - header.body, path);
-    if (header.info.cells == 0 || header.info.cells > kMostRows) {
+    if (header.info.cells == 0 || header.info.cells > kMaxRows) {
         throw Error(path.string() + ": " + std::to_string(header.info.cells) + " "
                     + std::string(cell_name_plural(Dim)) + ", expected 1 to 4294967295");
     }

@@ -25,7 +25,7 @@ constexpr double kFarthest = 0.25;  // at which a middle would fold its cell any
 constexpr int kIterations = 20;
 
 // Of the way of a middle to the surface, before it stays on its edge.
-constexpr int kMostHalvings = 4;
+constexpr int kMaxHalvings = 4;
 
 // All middles of a quadratic mesh by their edges, lower vertex first.
 template <int Dim>
@@ -144,7 +144,7 @@ private:
     using Nodes = Eigen::Matrix<std::uint32_t, Dim + 1, Dim + 1>;
 
     static double part_left(int halvings) {
-        return halvings < kMostHalvings ? std::ldexp(1.0, -halvings) : 0;
+        return halvings < kMaxHalvings ? std::ldexp(1.0, -halvings) : 0;
     }
 
     void move_middle(const Edge& edge, const OntoSurface<Dim>& onto) {
@@ -186,7 +186,7 @@ private:
             for (int b = a + 1; b <= Dim; ++b) {
                 const std::uint32_t node = nodes(a, b);
                 int& halvings = halvings_[node];
-                if (is_halved[node] || halvings == kMostHalvings || !ways_.col(node).any()) {
+                if (is_halved[node] || halvings == kMaxHalvings || !ways_.col(node).any()) {
                     continue;
                 }
                 const double before = part_left(halvings);

@@ -95,12 +95,12 @@ void require(const void* argument, const char* name) {
 template <int Dim>
 SimplexMesh<Dim> mesh_of(const pent_mesh& mesh, const std::string& name) {
     const std::string of = name + ": ";
-    constexpr auto kMostCounted = std::int64_t{std::numeric_limits<std::uint32_t>::max()};
-    if (mesh.vertices < 1 || mesh.vertices > kMostCounted || mesh.cell_count < 1
-        || mesh.cell_count > kMostCounted) {
+    constexpr auto kMaxCount = std::int64_t{std::numeric_limits<std::uint32_t>::max()};
+    if (mesh.vertices < 1 || mesh.vertices > kMaxCount || mesh.cell_count < 1
+        || mesh.cell_count > kMaxCount) {
         throw Error(of + std::to_string(mesh.vertices) + " vertices and "
                     + std::to_string(mesh.cell_count) + " cells; expected 1 to "
-                    + std::to_string(kMostCounted) + " of either");
+                    + std::to_string(kMaxCount) + " of either");
     }
     require(mesh.positions, (of + "positions").c_str());
     require(mesh.cells, (of + "cells").c_str());

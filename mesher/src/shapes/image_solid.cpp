@@ -19,11 +19,11 @@ namespace {
 using Eigen::Vector4d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr float kMostLabels = 65535;
+constexpr float kMaxLabels = 65535;
 
 void check_labels(const Image& image) {
     const auto bad = std::find_if(image.values.begin(), image.values.end(), [](float value) {
-        return !(value >= 0) || value > kMostLabels || value != std::floor(value);
+        return !(value >= 0) || value > kMaxLabels || value != std::floor(value);
     });
     if (bad != image.values.end()) {
         throw Error(image.name

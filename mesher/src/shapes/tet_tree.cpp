@@ -25,7 +25,7 @@ constexpr std::uint32_t kLeaf = 4;  // tetrahedra to a leaf
 constexpr double kFlat = 1e-13;
 
 // Nodes of more than this have no disc of use, and finding them would take long.
-constexpr std::uint32_t kMostInDisc = 1024;
+constexpr std::uint32_t kMaxInDisc = 1024;
 
 // Above this one the plane through a simplex is known to some digits more than its distances are.
 constexpr double kRound = 1e-4;
@@ -154,7 +154,7 @@ TetTree::TetTree(std::span<const Vector4d> points, std::span<const Tetrahedron> 
         Node& node = nodes_[i];
         const std::uint32_t end = node.after < nodes_.size() ? nodes_[node.after].first : count();
         node.disc.center = (node.low + node.high) / 2;
-        if (end - node.first <= kMostInDisc) {
+        if (end - node.first <= kMaxInDisc) {
             node.disc = disc_around(node.first, end);
         }
     });

@@ -6,7 +6,7 @@ namespace pent::simulator {
 
 namespace {
 
-constexpr double kLeastShift = 1e-6;
+constexpr double kMinShift = 1e-6;
 
 }  // namespace
 
@@ -38,8 +38,7 @@ GatheredSolver::GatheredSolver(const Sharing& sharing,
     Eigen::MatrixXd whole = Eigen::Map<const Eigen::MatrixXd>(all.data(), total, total);
     factors_.compute(whole);
     // What rounding has left indefinite is made definite: the diagonal is above zero.
-    for (double shift = kLeastShift; factors_.info() != Eigen::Success && shift < 1e6;
-         shift *= 10) {
+    for (double shift = kMinShift; factors_.info() != Eigen::Success && shift < 1e6; shift *= 10) {
         whole.diagonal() *= 1 + shift;
         factors_.compute(whole);
     }

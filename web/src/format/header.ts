@@ -42,7 +42,7 @@ const kComments = [
     "time",
 ];
 const kLongestLine = 4096;
-const kMostVertices = 0xffffffffn; // indices are 32 bits wide
+const kMaxVertices = 0xffffffffn; // indices are 32 bits wide
 
 // One byte a character.
 function toText(bytes: Uint8Array): string {
@@ -337,10 +337,10 @@ class Parser {
             const found = vertex ? `element ${vertex.name} first` : "no element";
             this.failHeader(`found ${found}, expected element vertex first`);
         }
-        if (vertex.count > kMostVertices) {
+        if (vertex.count > kMaxVertices) {
             this.failHeader(
                 `element vertex has ${vertex.count} vertices, ` +
-                    `expected at most ${kMostVertices}`,
+                    `expected at most ${kMaxVertices}`,
             );
         }
         this.checkPrefix(vertex, [..."xyzw"].slice(0, dimension), "double");

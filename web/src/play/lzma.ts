@@ -10,7 +10,7 @@ const kLengthStates = 4;
 const kAligned = 4; // lowest bits of far distances, which have probabilities of their own
 const kSlots = 6; // bits of the size of a distance
 const kNearEnd = 14; // first size of distances whose middle bits are all alike
-const kLeastLength = 2;
+const kMinLength = 2;
 const kCopied = 7; // states from this on: the last symbol was a copy
 const kHalf = 1024; // of 2048: a bit that is as often 0 as 1
 
@@ -94,7 +94,7 @@ class LengthReader {
 
     read(bits: BitReader): number {
         return (
-            kLeastLength +
+            kMinLength +
             (bits.bit(this.choice, 0) === 0
                 ? bits.number(this.low, 3)
                 : bits.bit(this.choice, 1) === 0
@@ -111,7 +111,7 @@ class DistanceReader {
 
     /** Less one, as all distances here. */
     read(bits: BitReader, length: number): number {
-        const state = Math.min(length - kLeastLength, kLengthStates - 1);
+        const state = Math.min(length - kMinLength, kLengthStates - 1);
         const slot = bits.number(this.slots[state]!, kSlots);
         if (slot < 4) {
             return slot;

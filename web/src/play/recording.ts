@@ -5,7 +5,7 @@ import type { RunFiles } from "./protocol.ts";
 
 const kFolder = "/run"; // of the module's file system
 const kEvery = 1 / 30; // s between frames
-const kMostBytes = 400e6;
+const kMaxBytes = 400e6;
 
 /** A run that is being recorded: the files that the library writes, taken out of the module's file system as soon as
  * they are there. */
@@ -35,7 +35,7 @@ export class Recording {
         this.next = Math.max(this.next + kEvery, simulation.time);
         simulation.addFrame(kFolder, this.frames++);
         this.collect(kFolder);
-        this.isFull = this.bytes > kMostBytes;
+        this.isFull = this.bytes > kMaxBytes;
         return !this.isFull;
     }
 

@@ -9,7 +9,7 @@ import type { PlayCalls, PlayMessage, PlayRequest } from "./protocol.ts";
 // The simulator on a thread of its own: takes steps as the clock asks for, and sends a frame whenever the page has
 // shown the one before.
 
-const kMostBehind = 0.1; // s of the clock that steps may lag; what is more is left out
+const kMaxBehind = 0.1; // s of the clock that steps may lag; what is more is left out
 const kSpeedWindow = 0.5; // s over which the speed is measured
 
 let playground: Playground | null = null;
@@ -74,7 +74,7 @@ function tick(): void {
         return;
     }
     const now = performance.now();
-    debt = Math.min(debt + (now - lastTick) / 1000, kMostBehind);
+    debt = Math.min(debt + (now - lastTick) / 1000, kMaxBehind);
     lastTick = now;
     if (debt >= playground.timeStep) {
         debt -= playground.timeStep;

@@ -7,7 +7,7 @@ import type { Body, BodyFrame } from "./decode.ts";
 import type { Moment, Run } from "./run.ts";
 
 const kQuantities = ["speed", "strain", "force"] as const;
-const kMostVertices = 1 << 24; // what a graphics card takes
+const kMaxVertices = 1 << 24; // what a graphics card takes
 const kAgain = "export the page again";
 
 /** What pent-view --export writes into a page beside the frames. */
@@ -42,7 +42,7 @@ function readDescription(text: string): Description {
         .list()
         .map((body) => ({
             name: body.at("name").text(),
-            vertices: body.at("vertices").whole(kMostVertices),
+            vertices: body.at("vertices").whole(kMaxVertices),
             cells: body.at("cells").whole(),
             facets: body.at("facets").whole(),
         }));
