@@ -49,7 +49,7 @@ struct Bench {
     BlockVector<4> x = BlockVector<4>::Ones(4, beam.pattern.rows());
     BlockVector<4> y = BlockVector<4>::Zero(4, beam.pattern.rows());
     Positions<4> forces = Positions<4>::Zero(4, beam.mesh.vertex_count());
-    BlockVector<4> at_unknowns{4, beam.pattern.rows()};
+    BlockVector<4> dof_positions{4, beam.pattern.rows()};
     std::unique_ptr<Hierarchy> hierarchy;
     std::unique_ptr<Preconditioner<4>> preconditioner;
 
@@ -59,14 +59,14 @@ struct Bench {
         beam.assemble(workers, kernels<4>(best_isa()), matrix);
         for (std::int64_t row = 0; row < matrix.rows(); ++row) {
             matrix.diagonal(row).diagonal().array() += kMass;
-            at_unknowns.col(row) =
+            dof_positions.col(row) =
                 beam.positions.col(beam.dofs.vertex_of(static_cast<std::uint32_t>(row)));
         }
         if (kind == ElementKind::Linear) {
             sparse = both_triangles(matrix);
         }
         hierarchy = std::make_unique<Hierarchy>(
-            make_hierarchy<4>(beam.pattern, beam.dofs.column_start(), at_unknowns), beam.pattern);
+            make_hierarchy<4>(beam.pattern, beam.dofs.column_start(), dof_positions), beam.pattern);
         preconditioner = make_preconditioner(workers);
         work.size.vertices = beam.mesh.vertex_count();
         work.size.free_vertices = matrix.rows();
@@ -79,7 +79,7 @@ struct Bench {
 
     [[nodiscard]] std::unique_ptr<Preconditioner<4>> make_preconditioner(
         const Workers& workers) const {
-        return multilevel(workers, kernels<4>(best_isa()).blocks, matrix, *hierarchy, at_unknowns,
+        return multilevel(workers, kernels<4>(best_isa()).blocks, matrix, *hierarchy, dof_positions,
                           column_jacobi(workers, matrix, beam.dofs.column_start()));
     }
 };

@@ -19,11 +19,11 @@ struct Group {
     const double* rest;
     const double* volume;
     const std::uint32_t* vertices;
-    const std::uint32_t* unknowns;
+    const std::uint32_t* dofs;
     const std::int32_t* blocks;
     int corners;   // of every element
     int elements;  // lanes in use
-    std::uint32_t free_unknowns;
+    std::uint32_t dof_count;
 };
 
 template <int Dim>
@@ -38,11 +38,11 @@ Group<Dim> group_at(const ElementRun& run, int group) {
     return {rest,
             rest + gradient_rows * kGroup,
             run.vertices + first * run.corners,
-            run.unknowns + first * run.corners,
+            run.dofs + first * run.corners,
             run.blocks + first * pairs,
             run.corners,
             left < kGroup ? left : kGroup,
-            run.free_unknowns};
+            run.dof_count};
 }
 
 // Edges x_a - x_0 of every element of a group: [axis][a - 1][lane], subtracted in double.

@@ -150,15 +150,15 @@ void scatter_held_block(const Scalar (&entries)[Dim * Dim],
                         int row,
                         int column,
                         const HessianTarget<Scalar>& target) {
-    const bool is_turned = group.unknowns[row] >= group.free_unknowns;
+    const bool is_turned = group.dofs[row] >= group.dof_count;
     const int known = is_turned ? row : column;
-    const std::uint32_t unknown = group.unknowns[is_turned ? column : row];
-    if (target.prescribed_displacement == nullptr || unknown >= group.free_unknowns) {
+    const std::uint32_t dof = group.dofs[is_turned ? column : row];
+    if (target.prescribed_displacement == nullptr || dof >= group.dof_count) {
         return;
     }
     const double* displacement =
         target.prescribed_displacement + std::int64_t{Dim} * group.vertices[known];
-    double* right = target.right + std::int64_t{Dim} * unknown;
+    double* right = target.right + std::int64_t{Dim} * dof;
     for (int i = 0; i < Dim; ++i) {
         for (int j = 0; j < Dim; ++j) {
             const Scalar value = is_turned ? entries[i * Dim + j] : entries[j * Dim + i];

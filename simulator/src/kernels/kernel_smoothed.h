@@ -232,10 +232,10 @@ void scatter_tile(const BlockTile<Real, Scalar, Dim>& tile,
                                          target.values + std::int64_t{block} * kEntries);
                 continue;
             }
-            const std::uint32_t row = group.unknowns[tile.row * kGroup + lane];
+            const std::uint32_t row = group.dofs[tile.row * kGroup + lane];
             const int column = (tile.first + k) * kGroup + lane;
-            if (target.prescribed_displacement == nullptr || row >= group.free_unknowns
-                || group.unknowns[column] < group.free_unknowns) {
+            if (target.prescribed_displacement == nullptr || row >= group.dof_count
+                || group.dofs[column] < group.dof_count) {
                 continue;
             }
             const double* displacement =

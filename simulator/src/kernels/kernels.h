@@ -39,7 +39,7 @@ inline constexpr std::int32_t kTurnedBlock = -2;
 ///
 /// An element that is not quadratic deforms by F = sum over its corners of x_a g_a^T, with rest
 /// gradients g_a that add up to zero: a simplex has Dim + 1 of them, a smoothing domain may have
-/// more. The corners are in increasing order of their unknown, held ones last; an element with
+/// more. The corners are in increasing order of their dof, held ones last; an element with
 /// fewer than the others repeats its first, with zeros for gradients.
 ///
 /// A quadratic simplex has kQuadraticNodes corners, its nodes in their own order; QuadraticRule
@@ -58,11 +58,11 @@ struct ElementRun {
                   ///< simplex for each of its points: the inverse of Dm of the linear simplex it
                   ///< deforms as, share of the volume; then the volume.
     const std::uint32_t* vertices = nullptr;  ///< `corners` rows.
-    const std::uint32_t* unknowns = nullptr;  ///< `corners` rows; >= free_unknowns where held.
+    const std::uint32_t* dofs = nullptr;      ///< `corners` rows; >= dof_count where held.
     const std::int32_t* blocks =
         nullptr;  ///< pairs_of(corners) rows: index of the matrix block, kNoBlock, or
                   ///< kTurnedBlock - index.
-    std::uint32_t free_unknowns = 0;
+    std::uint32_t dof_count = 0;
 };
 
 struct RunEnergy {
@@ -79,7 +79,7 @@ struct HessianTarget {
     Filter filter = Filter::Clamp;
     /// Dim x vertices: how far held vertices move, m.
     const double* prescribed_displacement = nullptr;
-    /// Dim x unknowns: less block * prescribed_displacement for held columns.
+    /// Dim x dofs: less block * prescribed_displacement for held columns.
     double* right = nullptr;
 };
 

@@ -33,13 +33,13 @@ struct LineAllocator {
     }
 };
 
-/// Vectors of the unknowns, one block a column: Dim x rows.
+/// Vectors of the dofs, one block a column: Dim x rows.
 template <int Dim>
 using BlockVector = Positions<Dim>;
 
 /// Symmetric matrix of Dim x Dim blocks on a fixed pattern, upper triangle stored.
 ///
-/// There may be a second part on another pattern over the same unknowns, which products include:
+/// There may be a second part on another pattern over the same dofs, which products include:
 /// what contact couples beyond elasticity.
 template <int Dim, typename Scalar>
 class BlockMatrix {

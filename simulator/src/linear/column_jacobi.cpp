@@ -78,7 +78,7 @@ private:
             });
     }
 
-    // How far apart in one column unknowns are coupled.
+    // How far apart in one column dofs are coupled.
     static std::uint32_t band_of(const BlockPattern& pattern,
                                  const std::vector<std::uint32_t>& column_start) {
         std::uint32_t band = 0;
@@ -128,7 +128,7 @@ private:
         return factors.info() == Eigen::Success && solved.allFinite();
     }
 
-    // Rows of one unknown in its column's factors: toward the j-th behind it.
+    // Rows of one dof in its column's factors: toward the j-th behind it.
     struct Row {
         std::array<Block, kMaxBand> plain;   // S
         std::array<Block, kMaxBand> scaled;  // D^-1 S
@@ -187,7 +187,7 @@ private:
     const std::vector<std::uint32_t>* column_start_;
     std::uint32_t band_;
     std::vector<Stored> inverses_;   // D_k^-1
-    std::vector<Stored> couplings_;  // E_k,j, `band_` an unknown
+    std::vector<Stored> couplings_;  // E_k,j, `band_` a dof
 };
 
 }  // namespace

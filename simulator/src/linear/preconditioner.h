@@ -37,7 +37,7 @@ public:
     }
 };
 
-/// Block Jacobi along the columns of an extruded mesh: the unknowns of all layers above one base
+/// Block Jacobi along the columns of an extruded mesh: the dofs of all layers above one base
 /// vertex are solved for together, by factorization of a band of blocks: layers up to two apart may
 /// be coupled.
 ///

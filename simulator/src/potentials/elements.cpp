@@ -120,7 +120,7 @@ Elements<Dim>::Elements(const std::vector<SmoothingDomains<Dim>>& domains,
         std::sort(keyed.begin(), keyed.end());
         element.corners.clear();
         element.rest.clear();
-        for (const auto& [unknown, i] : keyed) {
+        for (const auto& [dof, i] : keyed) {
             if (!element.corners.empty()) {
                 const auto gradient = of_range.gradients.col(i);
                 element.rest.insert(element.rest.end(), gradient.begin(), gradient.end());
@@ -217,7 +217,7 @@ void Elements<Dim>::reserve(const std::vector<Plan>& plans) {
     }
     rest_.reserve(rest);
     vertices_.reserve(corners);
-    unknowns_.reserve(corners);
+    dofs_.reserve(corners);
     blocks_.reserve(blocks);
 }
 
@@ -253,7 +253,7 @@ void Elements<Dim>::append(const Plan& plan,
     const auto n = static_cast<std::size_t>(chunk.corners);
     rest_.resize(rest_.size() + rest_rows(chunk) * lanes);
     vertices_.resize(vertices_.size() + n * lanes);
-    unknowns_.resize(unknowns_.size() + n * lanes);
+    dofs_.resize(dofs_.size() + n * lanes);
     blocks_.resize(blocks_.size() + static_cast<std::size_t>(pairs_of(chunk.corners)) * lanes,
                    kNoBlock);
     Element element;
@@ -292,7 +292,7 @@ void Elements<Dim>::set_lane(const Element& element,
         const std::uint32_t vertex = element.corners[a < element.corners.size() ? a : 0];
         const std::uint32_t row = dofs.rank_of(vertex);
         vertices_[at(chunk.first_corner, n, a)] = vertex;
-        unknowns_[at(chunk.first_corner, n, a)] = row;
+        dofs_[at(chunk.first_corner, n, a)] = row;
         for (std::size_t b = a; b < n; ++b, ++pair) {
             if (b >= element.corners.size()) {
                 continue;
@@ -339,9 +339,9 @@ ElementRun Elements<Dim>::run(int chunk) const {
             .corners = c.corners,
             .rest = rest_.data() + c.first_rest,
             .vertices = vertices_.data() + c.first_corner,
-            .unknowns = unknowns_.data() + c.first_corner,
+            .dofs = dofs_.data() + c.first_corner,
             .blocks = blocks_.data() + c.first_block,
-            .free_unknowns = dof_count_};
+            .dof_count = dof_count_};
 }
 
 template <int Dim>
@@ -402,7 +402,7 @@ std::int64_t Elements<Dim>::bytes() const {
             chunk.rest.size() * sizeof(double) + chunk.elements.size() * sizeof(Eigen::Index);
     }
     return static_cast<std::int64_t>(passive + rest_.size() * sizeof(double)
-                                     + (vertices_.size() + unknowns_.size() + blocks_.size())
+                                     + (vertices_.size() + dofs_.size() + blocks_.size())
                                            * sizeof(std::uint32_t));
 }
 

@@ -163,7 +163,7 @@ private:
 
     std::vector<double> rest_;
     std::vector<std::uint32_t> vertices_;
-    std::vector<std::uint32_t> unknowns_;
+    std::vector<std::uint32_t> dofs_;
     std::vector<std::int32_t> blocks_;
     std::vector<Chunk> chunks_;
     std::vector<Passive> passive_;

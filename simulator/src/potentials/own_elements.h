@@ -17,7 +17,7 @@ namespace pent::simulator {
 /// Elements of this rank: those that count here, and those that another rank has, too, and counts.
 using OwnAndShared = std::array<std::vector<Eigen::Index>, 2>;
 
-/// Elements with a free corner and one of this rank, by their lowest unknown, so that neighbors are
+/// Elements with a free corner and one of this rank, by their lowest dof, so that neighbors are
 /// close. An element counts where its first vertex is at home.
 ///
 /// @param corners_of  Calls its second argument with the corners of an element.
