@@ -205,8 +205,9 @@ struct Pairs {
             if (pent::all(are_apart || squared < distance * distance)) {
                 break;
             }
-            const Floats way = dot<Dim>(toward, toward);
-            const Floats part = -dot<Dim>(line, toward) / max(way, Floats(kMinLength * kMinLength));
+            const Floats toward_squared = dot<Dim>(toward, toward);
+            const Floats part =
+                -dot<Dim>(line, toward) / max(toward_squared, Floats(kMinLength * kMinLength));
             const Floats step = min(max(part, Floats(0.0F)), Floats(1.0F));
             for (int axis = 0; axis < Dim; ++axis) {
                 line[axis] = multiply_add(step, toward[axis], line[axis]);

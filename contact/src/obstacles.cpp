@@ -139,13 +139,13 @@ bool passes_through(const Obstacle<Dim>& obstacle,
     if (height <= 0 || at_end <= 0) {
         return false;
     }
-    double way = 0;
+    double path_length = 0;
     while (height > 0) {
-        way += std::max(height, depth / 8);
-        if (way >= length - at_end) {
+        path_length += std::max(height, depth / 8);
+        if (path_length >= length - at_end) {
             return false;
         }
-        height = above(from + way / length * (to - from));
+        height = above(from + path_length / length * (to - from));
     }
     return true;
 }
