@@ -69,12 +69,12 @@ private:
 
     // Everything counted takes a byte or more, but for what zlib makes small.
     std::int64_t count_of(const XmlElement& piece, std::string_view key) {
-        constexpr std::int64_t kMax = std::int64_t{1} << 32;
+        constexpr std::int64_t kMaxCount = std::int64_t{1} << 32;
         const std::string_view word = piece.attribute(key);
         std::int64_t count = 0;
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
         if (error != std::errc() || end != word.data() + word.size() || word.empty() || count < 0
-            || count >= kMax) {
+            || count >= kMaxCount) {
             fail(piece, std::string(key) + " is " + in_quotes(word)
                             + ", expected a whole number below 2^32");
         }

@@ -29,8 +29,8 @@ std::vector<Layer<Dim>> straight_layers(const Eigen::Matrix<double, Dim, 1>& dir
 }
 
 int automatic_slabs(double height, double mean_edge) {
-    constexpr double kMax = 1e6;
-    return static_cast<int>(std::clamp(std::round(height / (0.7 * mean_edge)), 1.0, kMax));
+    constexpr double kMaxLayers = 1e6;
+    return static_cast<int>(std::clamp(std::round(height / (0.7 * mean_edge)), 1.0, kMaxLayers));
 }
 
 template <int Dim>

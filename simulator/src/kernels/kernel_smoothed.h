@@ -186,12 +186,12 @@ CornerHessian<Real, Dim> corner_hessian(const EnergyHessian<Real, Dim>& hessian,
 // Blocks of a corner `row` with corners `first`, `first` + 1 .., in lanes and element by element.
 template <typename Real, typename Scalar, int Dim>
 struct BlockTile {
-    static constexpr int kMax = 8;
+    static constexpr int kMaxBlocks = 8;
     int row = 0;
     int first = 0;
     int count = 0;
     alignas(64) typename Lanes<Real>::Number packed[Dim * Dim][Lanes<Real>::kCount];
-    alignas(64) Scalar entries[kMax][Lanes<Real>::kCount][Dim * Dim];
+    alignas(64) Scalar entries[kMaxBlocks][Lanes<Real>::kCount][Dim * Dim];
 };
 
 // Where the matrix indices of the blocks (a, a), (a, a + 1) .. of a group are.
@@ -283,9 +283,10 @@ void add_pack_hessian(const EnergyHessian<Real, Dim>& hessian,
         }
         const CornerHessian<Real, Dim> row =
             corner_hessian(hessian, a == 0 ? first : load_gradient<Real>(group, a, lane));
-        for (int b = a; b < group.corners; b += Tile::kMax) {
+        for (int b = a; b < group.corners; b += Tile::kMaxBlocks) {
             tile.first = b;
-            tile.count = group.corners - b < Tile::kMax ? group.corners - b : Tile::kMax;
+            tile.count =
+                group.corners - b < Tile::kMaxBlocks ? group.corners - b : Tile::kMaxBlocks;
             for (int k = 0; k < tile.count; ++k) {
                 const Vector<Real, Dim> gradient =
                     b + k == 0 ? first : load_gradient<Real>(group, b + k, lane);

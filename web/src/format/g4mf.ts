@@ -17,7 +17,7 @@ export interface ModelFrame {
     shape: number | null; // that is blended in; null: what the file itself blends in
 }
 
-const kMax = 1 << 24; // points, and tetrahedra: what a graphics card takes
+const kMaxCount = 1 << 24; // points, and tetrahedra: what a graphics card takes
 const kLargest = 3.4e38; // that a float holds
 const kSecondsPerShape = 1; // of shapes that say nothing of time
 // Blend shapes as pent-convert names them: "octopus_000012 at 0.4 s".
@@ -69,8 +69,8 @@ export class G4mfModel {
             }
             points += body.points.length / 4;
             tetrahedra += body.tetrahedra.length / 4;
-            if (points > kMax || tetrahedra > kMax) {
-                instance.mesh.fail(`with it there are more than ${kMax} points or tetrahedra`);
+            if (points > kMaxCount || tetrahedra > kMaxCount) {
+                instance.mesh.fail(`with it there are more than ${kMaxCount} points or tetrahedra`);
             }
             this.bodies.push(body);
             this.shown.push(instance);

@@ -50,7 +50,7 @@ function listMesh(mesh: string): Listing {
 
 // Ranges [first, last] of frame numbers, as pent-view lists them.
 function toNumbers(ranges: unknown, where: string): number[] {
-    const kMax = 1_000_000; // of frames; pent-sim writes fewer
+    const kMaxFrames = 1_000_000; // of frames; pent-sim writes fewer
     const numbers: number[] = [];
     for (const range of ranges as [number, number][]) {
         const [first, last] = range;
@@ -59,7 +59,7 @@ function toNumbers(ranges: unknown, where: string): number[] {
             !Number.isSafeInteger(last) ||
             first < 0 ||
             last < first ||
-            numbers.length + last - first > kMax
+            numbers.length + last - first > kMaxFrames
         ) {
             throw new PentError(
                 `${where}: found frames ${JSON.stringify(range).slice(0, 60)}; ` +

@@ -3,7 +3,7 @@ import { byId, element } from "./dom.ts";
 import { kIcons } from "./icons.ts";
 
 const kShown = 8000; // ms that a note stays; errors stay until they are closed
-const kMax = 4;
+const kMaxMessages = 4;
 
 /** Messages over the picture; also said to screen readers. */
 export class Messages {
@@ -69,7 +69,7 @@ export class Messages {
             close,
         );
         this.root.append(message);
-        while (this.root.childElementCount > kMax) {
+        while (this.root.childElementCount > kMaxMessages) {
             this.root.firstElementChild!.remove();
         }
         if (!isError && milliseconds < Infinity) {
