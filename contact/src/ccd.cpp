@@ -44,7 +44,7 @@ double time_apart(const Vector<Dim>& u,
 }
 
 template <int Dim>
-bool is_free_side_convex(const Obstacle<Dim>& obstacle) {
+bool is_free_side_convex(const ObstacleShape<Dim>& obstacle) {
     return std::visit([](const auto& shape) { return shape.kIsFreeSideConvex; }, obstacle);
 }
 
@@ -106,7 +106,7 @@ double safe_fraction(const Corners<Dim, K>& first,
 }
 
 template <int Dim>
-double safe_fraction(const Obstacle<Dim>& obstacle,
+double safe_fraction(const ObstacleShape<Dim>& obstacle,
                      const Vector<Dim>& point,
                      const Vector<Dim>& motion,
                      const Clearance& clearance,
@@ -147,10 +147,10 @@ double safe_fraction(const Obstacle<Dim>& obstacle,
     template double safe_fraction<Dim, K, L>(const Corners<Dim, K>&, const Corners<Dim, K>&, \
                                              const Corners<Dim, L>&, const Corners<Dim, L>&, \
                                              const Clearance&, double);
-#define PENT_INSTANTIATE(Dim)                                                    \
-    PENT_INSTANTIATE_PAIR(Dim, 1, Dim)                                           \
-    PENT_INSTANTIATE_PAIR(Dim, 2, Dim - 1)                                       \
-    template double safe_fraction<Dim>(const Obstacle<Dim>&, const Vector<Dim>&, \
+#define PENT_INSTANTIATE(Dim)                                                         \
+    PENT_INSTANTIATE_PAIR(Dim, 1, Dim)                                                \
+    PENT_INSTANTIATE_PAIR(Dim, 2, Dim - 1)                                            \
+    template double safe_fraction<Dim>(const ObstacleShape<Dim>&, const Vector<Dim>&, \
                                        const Vector<Dim>&, const Clearance&, double);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE

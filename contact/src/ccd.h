@@ -51,7 +51,7 @@ template <int Dim, int K, int L>
 /// The same for a point and an obstacle: its signed distance changes no faster than the point
 /// moves, and is concave along a line where the free side is convex (half-space and cavity).
 template <int Dim>
-[[nodiscard]] double safe_fraction(const Obstacle<Dim>& obstacle,
+[[nodiscard]] double safe_fraction(const ObstacleShape<Dim>& obstacle,
                                    const Vector<Dim>& point,
                                    const Vector<Dim>& motion,
                                    const Clearance& clearance = {},

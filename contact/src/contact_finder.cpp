@@ -93,25 +93,25 @@ public:
         return limit;
     }
 
-    void move_obstacles(const std::vector<Obstacle<Dim>>& shapes) {
+    void move_obstacles(const std::vector<ObstacleShape<Dim>>& shapes) {
         for (std::size_t i = 0; i < shapes.size(); ++i) {
             scene_.obstacles[i].shape = shapes[i];
         }
         colliders_.update_cores();
     }
 
-    StepLimit limit_obstacles(const std::vector<Obstacle<Dim>>& from,
+    StepLimit limit_obstacles(const std::vector<ObstacleShape<Dim>>& from,
                               const PositionsView<Dim>& positions) {
         if (!colliders_.is_barrier()) {
             return {};
         }
         const Stopwatch watch;
-        const auto place = [&](const std::vector<Obstacle<Dim>>& shapes) {
+        const auto place = [&](const std::vector<ObstacleShape<Dim>>& shapes) {
             move_obstacles(shapes);
             return colliders_.with_cores(
                 positions, [](const PositionsView<Dim>& all) { return Positions<Dim>(all); });
         };
-        std::vector<Obstacle<Dim>> now;
+        std::vector<ObstacleShape<Dim>> now;
         for (const ContactObstacle<Dim>& obstacle : scene_.obstacles) {
             now.push_back(obstacle.shape);
         }
@@ -255,12 +255,12 @@ StepLimit ContactFinder<Dim>::limit_step(const PositionsView<Dim>& from,
 }
 
 template <int Dim>
-void ContactFinder<Dim>::move_obstacles(const std::vector<Obstacle<Dim>>& shapes) {
+void ContactFinder<Dim>::move_obstacles(const std::vector<ObstacleShape<Dim>>& shapes) {
     state_->move_obstacles(shapes);
 }
 
 template <int Dim>
-StepLimit ContactFinder<Dim>::limit_obstacles(const std::vector<Obstacle<Dim>>& from,
+StepLimit ContactFinder<Dim>::limit_obstacles(const std::vector<ObstacleShape<Dim>>& from,
                                               const PositionsView<Dim>& positions) {
     return state_->limit_obstacles(from, positions);
 }

@@ -116,14 +116,14 @@ ObstacleCore<Dim> core_of_shape(const Cuboid<Dim>& box) {
 }  // namespace
 
 template <int Dim>
-SignedDistance<Dim> signed_distance(const Obstacle<Dim>& obstacle, const Vector<Dim>& point) {
+SignedDistance<Dim> signed_distance(const ObstacleShape<Dim>& obstacle, const Vector<Dim>& point) {
     return std::visit([&](const auto& shape) { return distance_to(shape, point); }, obstacle);
 }
 
 // Distances have slope one: from where one is d, nothing nearer than d along the way is in the
 // solid.
 template <int Dim>
-bool passes_through(const Obstacle<Dim>& obstacle,
+bool passes_through(const ObstacleShape<Dim>& obstacle,
                     const Vector<Dim>& from,
                     const Vector<Dim>& to,
                     double depth) {
@@ -151,7 +151,7 @@ bool passes_through(const Obstacle<Dim>& obstacle,
 }
 
 template <int Dim>
-ObstacleCore<Dim> core_of(const Obstacle<Dim>& obstacle) {
+ObstacleCore<Dim> core_of(const ObstacleShape<Dim>& obstacle) {
     return std::visit(
         [](const auto& shape) {
             if constexpr (std::remove_cvref_t<decltype(shape)>::kRepels == Repels::Facets) {
@@ -163,11 +163,12 @@ ObstacleCore<Dim> core_of(const Obstacle<Dim>& obstacle) {
         obstacle);
 }
 
-#define PENT_INSTANTIATE(Dim)                                                                    \
-    template SignedDistance<Dim> signed_distance<Dim>(const Obstacle<Dim>&, const Vector<Dim>&); \
-    template bool passes_through<Dim>(const Obstacle<Dim>&, const Vector<Dim>&,                  \
-                                      const Vector<Dim>&, double);                               \
-    template ObstacleCore<Dim> core_of<Dim>(const Obstacle<Dim>&);
+#define PENT_INSTANTIATE(Dim)                                                        \
+    template SignedDistance<Dim> signed_distance<Dim>(const ObstacleShape<Dim>&,     \
+                                                      const Vector<Dim>&);           \
+    template bool passes_through<Dim>(const ObstacleShape<Dim>&, const Vector<Dim>&, \
+                                      const Vector<Dim>&, double);                   \
+    template ObstacleCore<Dim> core_of<Dim>(const ObstacleShape<Dim>&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 

@@ -77,7 +77,7 @@ To copied(const From& from) {
 template <int Dim>
 struct FixedSize {
     template <template <int> class Shape>
-    Obstacle<Dim> operator()(const Shape<Eigen::Dynamic>& shape) const {
+    ObstacleShape<Dim> operator()(const Shape<Eigen::Dynamic>& shape) const {
         return copied<Shape<Eigen::Dynamic>, Shape<Dim>>(shape);
     }
 };
@@ -90,13 +90,13 @@ std::vector<std::variant<Shapes...>> one_of_each(const std::variant<Shapes...>* 
 }  // namespace
 
 template <int Dim>
-Obstacle<Dim> fixed_size(const Obstacle<Eigen::Dynamic>& obstacle) {
+ObstacleShape<Dim> fixed_size(const ObstacleShape<Eigen::Dynamic>& obstacle) {
     return std::visit(FixedSize<Dim>(), obstacle);
 }
 
-std::vector<Obstacle<Eigen::Dynamic>> all_shapes(int dimension) {
-    auto shapes = one_of_each(static_cast<const Obstacle<Eigen::Dynamic>*>(nullptr));
-    for (Obstacle<Eigen::Dynamic>& shape : shapes) {
+std::vector<ObstacleShape<Eigen::Dynamic>> all_shapes(int dimension) {
+    auto shapes = one_of_each(static_cast<const ObstacleShape<Eigen::Dynamic>*>(nullptr));
+    for (ObstacleShape<Eigen::Dynamic>& shape : shapes) {
         std::visit(
             [&](auto& one) {
                 one.fields(one, [&](const char* /*name*/, auto& value, ShapeField kind) {
@@ -128,7 +128,7 @@ bool is_rotation(const Eigen::Ref<const Eigen::MatrixXd>& axes) {
 }
 
 template <int Dim>
-void check(const Obstacle<Dim>& obstacle, int dimension, const std::string& what) {
+void check(const ObstacleShape<Dim>& obstacle, int dimension, const std::string& what) {
     std::visit(
         [&](const auto& shape) {
             shape.fields(shape, FieldCheck{dimension, what});
@@ -137,7 +137,7 @@ void check(const Obstacle<Dim>& obstacle, int dimension, const std::string& what
 }
 
 template <int Dim>
-std::string_view name_of(const Obstacle<Dim>& obstacle) {
+std::string_view name_of(const ObstacleShape<Dim>& obstacle) {
     return std::visit([](const auto& shape) { return std::string_view(shape.kName); }, obstacle);
 }
 
@@ -181,11 +181,11 @@ SimplexMesh<Dim> to_mesh(const Cuboid<Dim>& box) {
 
 template SimplexMesh<3> to_mesh<3>(const Cuboid<3>&);
 template SimplexMesh<4> to_mesh<4>(const Cuboid<4>&);
-template Obstacle<3> fixed_size<3>(const Obstacle<Eigen::Dynamic>&);
-template Obstacle<4> fixed_size<4>(const Obstacle<Eigen::Dynamic>&);
-#define PENT_INSTANTIATE(Dim)                                                \
-    template void check<Dim>(const Obstacle<Dim>&, int, const std::string&); \
-    template std::string_view name_of<Dim>(const Obstacle<Dim>&);
+template ObstacleShape<3> fixed_size<3>(const ObstacleShape<Eigen::Dynamic>&);
+template ObstacleShape<4> fixed_size<4>(const ObstacleShape<Eigen::Dynamic>&);
+#define PENT_INSTANTIATE(Dim)                                                     \
+    template void check<Dim>(const ObstacleShape<Dim>&, int, const std::string&); \
+    template std::string_view name_of<Dim>(const ObstacleShape<Dim>&);
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)
 PENT_INSTANTIATE(Eigen::Dynamic)

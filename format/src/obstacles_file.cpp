@@ -112,18 +112,18 @@ std::string quoted(const std::string& text) {
 
 std::string known_kinds() {
     std::string text;
-    const std::vector<Obstacle<Eigen::Dynamic>> shapes = all_shapes(4);
-    for (const Obstacle<Eigen::Dynamic>& shape : shapes) {
+    const std::vector<ObstacleShape<Eigen::Dynamic>> shapes = all_shapes(4);
+    for (const ObstacleShape<Eigen::Dynamic>& shape : shapes) {
         text += &shape == &shapes.front() ? "" : &shape == &shapes.back() ? " or " : ", ";
         text += name_of<Eigen::Dynamic>(shape);
     }
     return text;
 }
 
-Obstacle<Eigen::Dynamic> shape_of_kind(const std::string& kind,
-                                       int dimension,
-                                       const std::string& where) {
-    for (const Obstacle<Eigen::Dynamic>& shape : all_shapes(dimension)) {
+ObstacleShape<Eigen::Dynamic> shape_of_kind(const std::string& kind,
+                                            int dimension,
+                                            const std::string& where) {
+    for (const ObstacleShape<Eigen::Dynamic>& shape : all_shapes(dimension)) {
         if (kind == name_of<Eigen::Dynamic>(shape)) {
             return shape;
         }
@@ -133,7 +133,7 @@ Obstacle<Eigen::Dynamic> shape_of_kind(const std::string& kind,
 }
 
 template <int Dim>
-Json to_json(const Obstacle<Dim>& obstacle) {
+Json to_json(const ObstacleShape<Dim>& obstacle) {
     Json json;
     json["kind"] = name_of<Dim>(obstacle);
     std::visit([&](const auto& shape) { shape.fields(shape, FieldWriter{json}); }, obstacle);
@@ -141,7 +141,7 @@ Json to_json(const Obstacle<Dim>& obstacle) {
 }
 
 template <int Dim>
-Obstacle<Dim> from_json(const Json& json, const std::string& where) {
+ObstacleShape<Dim> from_json(const Json& json, const std::string& where) {
     const auto kind = json.find("kind");
     if (kind == json.end() || !kind->is_string()) {
         throw Error(where + ": found no kind; expected " + known_kinds());
@@ -175,10 +175,10 @@ std::uint64_t count_of(const Json& json, const char* key) {
 }  // namespace
 
 template <int Dim>
-std::string obstacles_text(const std::vector<Obstacle<Dim>>& obstacles) {
+std::string obstacles_text(const std::vector<ObstacleShape<Dim>>& obstacles) {
     std::string text = "{\n\"pent_obstacles\": " + std::to_string(kVersion)
                        + ",\n\"dimension\": " + std::to_string(Dim) + ",\n\"obstacles\": [";
-    for (const Obstacle<Dim>& obstacle : obstacles) {
+    for (const ObstacleShape<Dim>& obstacle : obstacles) {
         text += &obstacle == &obstacles.front() ? "\n" : ",\n";
         text += to_json<Dim>(obstacle).dump();
     }
@@ -187,12 +187,12 @@ std::string obstacles_text(const std::vector<Obstacle<Dim>>& obstacles) {
 
 template <int Dim>
 void write_obstacles(const std::filesystem::path& path,
-                     const std::vector<Obstacle<Dim>>& obstacles) {
+                     const std::vector<ObstacleShape<Dim>>& obstacles) {
     write_text(path, obstacles_text<Dim>(obstacles));
 }
 
 template <int Dim>
-std::vector<Obstacle<Dim>> read_obstacles(const std::filesystem::path& path) {
+std::vector<ObstacleShape<Dim>> read_obstacles(const std::filesystem::path& path) {
     const InputFile file = read_input(path);
     const Json json = Json::parse(file.view(), nullptr, false);
     const auto list = json.find("obstacles");
@@ -204,7 +204,7 @@ std::vector<Obstacle<Dim>> read_obstacles(const std::filesystem::path& path) {
         throw Error(path.string() + ": has no dimension or another; expected " + std::to_string(Dim)
                     + " as the bodies have");
     }
-    std::vector<Obstacle<Dim>> obstacles;
+    std::vector<ObstacleShape<Dim>> obstacles;
     for (const Json& entry : *list) {
         const std::string where =
             path.string() + ": obstacle " + std::to_string(obstacles.size() + 1);
@@ -213,11 +213,13 @@ std::vector<Obstacle<Dim>> read_obstacles(const std::filesystem::path& path) {
     return obstacles;
 }
 
-template std::string obstacles_text<3>(const std::vector<Obstacle<3>>&);
-template std::string obstacles_text<4>(const std::vector<Obstacle<4>>&);
-template void write_obstacles<3>(const std::filesystem::path&, const std::vector<Obstacle<3>>&);
-template void write_obstacles<4>(const std::filesystem::path&, const std::vector<Obstacle<4>>&);
-template std::vector<Obstacle<3>> read_obstacles<3>(const std::filesystem::path&);
-template std::vector<Obstacle<4>> read_obstacles<4>(const std::filesystem::path&);
+template std::string obstacles_text<3>(const std::vector<ObstacleShape<3>>&);
+template std::string obstacles_text<4>(const std::vector<ObstacleShape<4>>&);
+template void write_obstacles<3>(const std::filesystem::path&,
+                                 const std::vector<ObstacleShape<3>>&);
+template void write_obstacles<4>(const std::filesystem::path&,
+                                 const std::vector<ObstacleShape<4>>&);
+template std::vector<ObstacleShape<3>> read_obstacles<3>(const std::filesystem::path&);
+template std::vector<ObstacleShape<4>> read_obstacles<4>(const std::filesystem::path&);
 
 }  // namespace pent

@@ -100,7 +100,7 @@ protected:
         return product;
     }
 
-    [[nodiscard]] std::vector<Obstacle<kSpace>> obstacles_below() const {
+    [[nodiscard]] std::vector<ObstacleShape<kSpace>> obstacles_below() const {
         return {Ball<kSpace>{cubes_.below(0.35), 0.2},
                 Cuboid<kSpace>{cubes_.below(0.25), Vector<kSpace>::LinSpaced(0.31, 0.37)},
                 HalfSpace<kSpace>{Vector<kSpace>::Unit(1), -0.1}};

@@ -193,12 +193,12 @@ TYPED_TEST(CcdTest, TakesNoMoreThanTheLimit) {
 TYPED_TEST(CcdTest, KeepsPointsOutOfObstacles) {
     constexpr int kDim = TypeParam::value;
     const Vector<kDim> up = Vector<kDim>::Unit(1);
-    const std::vector<Obstacle<kDim>> obstacles{
+    const std::vector<ObstacleShape<kDim>> obstacles{
         HalfSpace<kDim>{up, -1.0}, Ball<kDim>{Vector<kDim>::Constant(0.2), 0.7},
         Cavity<kDim>{Vector<kDim>::Zero(), 2.5},
         Cuboid<kDim>{Vector<kDim>::Zero(), Vector<kDim>::LinSpaced(0.8, 1.2)},
         Bowl<kDim>{Vector<kDim>::Zero(), 1.5, up}};
-    for (const Obstacle<kDim>& obstacle : obstacles) {
+    for (const ObstacleShape<kDim>& obstacle : obstacles) {
         int stopped = 0;
         for (int k = 0; k < 2000; ++k) {
             const Vector<kDim> point = this->template corners<1>(1.5);
@@ -229,7 +229,7 @@ TYPED_TEST(CcdTest, KeepsPointsOutOfObstacles) {
 TYPED_TEST(CcdTest, GivesUpSafelyWhereItWouldTakeTooLong) {
     constexpr int kDim = TypeParam::value;
     constexpr double kGap = 1e-9;
-    const Obstacle<kDim> ball = Ball<kDim>{Vector<kDim>::Zero(), 1};
+    const ObstacleShape<kDim> ball = Ball<kDim>{Vector<kDim>::Zero(), 1};
     const Vector<kDim> point = (1 + kGap) * Vector<kDim>::Unit(1);
     const Vector<kDim> motion = 3 * Vector<kDim>::Unit(0);
     const double t = safe_fraction<kDim>(ball, point, motion);

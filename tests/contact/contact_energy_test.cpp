@@ -276,10 +276,11 @@ TYPED_TEST(SurfaceHessian, IsTheDifferenceOfTheForceAndFilteredLikeADenseOne) {
     const double h = 1e-6;
     int compared = 0;
     const Vector<kDim> center = Vector<kDim>::Constant(0.1);
-    for (const Obstacle<kDim>& obstacle :
-         {Obstacle<kDim>(Ball<kDim>{center, 0.8}), Obstacle<kDim>(Cavity<kDim>{center, 0.9}),
-          Obstacle<kDim>(Bowl<kDim>{center, 0.9, Vector<kDim>::Unit(1)}),
-          Obstacle<kDim>(Cuboid<kDim>{center, Vector<kDim>::LinSpaced(0.7, 1.1)})}) {
+    for (const ObstacleShape<kDim>& obstacle :
+         {ObstacleShape<kDim>(Ball<kDim>{center, 0.8}),
+          ObstacleShape<kDim>(Cavity<kDim>{center, 0.9}),
+          ObstacleShape<kDim>(Bowl<kDim>{center, 0.9, Vector<kDim>::Unit(1)}),
+          ObstacleShape<kDim>(Cuboid<kDim>{center, Vector<kDim>::LinSpaced(0.7, 1.1)})}) {
         const auto force = [&](const Vector<kDim>& x) -> Vector<kDim> {
             const SignedDistance<kDim> at = signed_distance<kDim>(obstacle, x);
             return penalty.slope(at.value) * at.gradient;

@@ -16,7 +16,7 @@ namespace {
 template <int Dim>
 ContactScene<Dim> scene_of(const test::Scene<Dim>& scene,
                            bool self = false,
-                           const std::vector<Obstacle<Dim>>& obstacles = {}) {
+                           const std::vector<ObstacleShape<Dim>>& obstacles = {}) {
     return test::contact_scene<Dim>(
         scene, {.model = ContactModel::Barrier, .distance = 0.1, .self = self}, obstacles);
 }
@@ -24,7 +24,7 @@ ContactScene<Dim> scene_of(const test::Scene<Dim>& scene,
 template <int Dim>
 std::vector<Crossing> crossings_of(const test::Scene<Dim>& scene,
                                    bool self = false,
-                                   const std::vector<Obstacle<Dim>>& obstacles = {}) {
+                                   const std::vector<ObstacleShape<Dim>>& obstacles = {}) {
     return ContactFinder<Dim>(scene_of<Dim>(scene, self, obstacles))
         .find_crossings(scene.positions);
 }
@@ -155,9 +155,9 @@ TYPED_TEST(CrossingsTest, WithObstaclesAreNoneOfBodiesThatAreMovedFromOutside) {
     test::Scene<kDim> scene;
     scene.add(test::cube<kDim>(1), Vector<kDim>::Zero());
     for (const bool is_kinematic : {false, true}) {
-        for (const Obstacle<kDim>& obstacle :
-             {Obstacle<kDim>(HalfSpace<kDim>{Vector<kDim>::Unit(1), 0.5}),
-              Obstacle<kDim>(Ball<kDim>{Vector<kDim>::Zero(), 0.2})}) {
+        for (const ObstacleShape<kDim>& obstacle :
+             {ObstacleShape<kDim>(HalfSpace<kDim>{Vector<kDim>::Unit(1), 0.5}),
+              ObstacleShape<kDim>(Ball<kDim>{Vector<kDim>::Zero(), 0.2})}) {
             ContactScene<kDim> model = scene_of<kDim>(scene, false, {obstacle});
             model.bodies[0].is_kinematic = is_kinematic;
             EXPECT_EQ(ContactFinder<kDim>(model).find_crossings(scene.positions).empty(),
@@ -172,9 +172,9 @@ TYPED_TEST(CrossingsTest, WithAnObstacleThatABodyHasSwallowedAreReported) {
     test::Scene<kDim> scene;
     scene.add(test::cube<kDim>(3), Vector<kDim>::Zero());
     const Vector<kDim> middle = Vector<kDim>::Constant(1.4);
-    for (const Obstacle<kDim>& obstacle :
-         {Obstacle<kDim>(Ball<kDim>{middle, 0.5}),
-          Obstacle<kDim>(Cuboid<kDim>{middle, Vector<kDim>::Constant(0.9)})}) {
+    for (const ObstacleShape<kDim>& obstacle :
+         {ObstacleShape<kDim>(Ball<kDim>{middle, 0.5}),
+          ObstacleShape<kDim>(Cuboid<kDim>{middle, Vector<kDim>::Constant(0.9)})}) {
         const std::vector<Crossing> crossings = crossings_of<kDim>(scene, false, {obstacle});
         ASSERT_EQ(crossings.size(), 1U);
         EXPECT_EQ(describe<kDim>(crossings[0], scene_of<kDim>(scene)), "obstacle 1 is inside 'a'");

@@ -10,7 +10,7 @@ namespace {
 template <typename T>
 class ObstacleContactsTest : public testing::Test {
 protected:
-    static std::vector<Obstacle<T::value>> obstacles() {
+    static std::vector<ObstacleShape<T::value>> obstacles() {
         const Vector<T::value> up = Vector<T::value>::Unit(1);
         return {HalfSpace<T::value>{up, 0.1}, Ball<T::value>{Vector<T::value>::Zero(), 0.4}};
     }

@@ -26,7 +26,7 @@ protected:
         return Vector<T::value>::NullaryExpr([&] { return coordinate(random_); });
     }
 
-    std::vector<Obstacle<T::value>> obstacles() {
+    std::vector<ObstacleShape<T::value>> obstacles() {
         const Vector<T::value> center = random_point(0.3);
         const Vector<T::value> up = random_point(1).normalized();
         return {HalfSpace<T::value>{up, 0.2},
@@ -176,8 +176,8 @@ TYPED_TEST(ObstaclesTest, AreFiniteAtTheirCenters) {
     constexpr int kDim = TypeParam::value;
     const Vector<kDim> center = this->random_point(1);
     const Vector<kDim> up = Vector<kDim>::UnitY();
-    const std::vector<Obstacle<kDim>> obstacles{Ball<kDim>{center, 1}, Cavity<kDim>{center, 1},
-                                                Bowl<kDim>{center, 1, up}};
+    const std::vector<ObstacleShape<kDim>> obstacles{Ball<kDim>{center, 1}, Cavity<kDim>{center, 1},
+                                                     Bowl<kDim>{center, 1, up}};
     for (const auto& obstacle : obstacles) {
         for (const double above : {0.0, 0.5}) {
             const Vector<kDim> x = center + above * up;
@@ -195,7 +195,7 @@ TYPED_TEST(ObstaclesTest, ThatMakeNoSenseAreRefused) {
     const Vector<kDim> one = Vector<kDim>::Ones();
     Block<kDim> mirror = Block<kDim>::Identity();
     mirror(0, 0) = kDim == 3 ? 1 : -1;  // an odd number of axes against their directions
-    const std::vector<std::pair<Obstacle<kDim>, std::vector<std::string>>> wrong{
+    const std::vector<std::pair<ObstacleShape<kDim>, std::vector<std::string>>> wrong{
         {HalfSpace<kDim>{zero, 0}, {"normal", "length 1"}},
         {HalfSpace<kDim>{Vector<kDim>::UnitX(), nan}, {"offset", "finite"}},
         {Ball<kDim>{zero, 0}, {"radius", "above 0"}},
@@ -217,7 +217,7 @@ TYPED_TEST(ObstaclesTest, OfAnyDimensionBecomeThoseOfOne) {
     constexpr int kDim = TypeParam::value;
     const Vector<kDim> x = this->random_point(1);
     std::size_t shapes = 0;
-    for (Obstacle<Eigen::Dynamic> shape : all_shapes(kDim)) {
+    for (ObstacleShape<Eigen::Dynamic> shape : all_shapes(kDim)) {
         double number = 0.3;
         std::visit(
             [&](auto& one) {
@@ -240,7 +240,7 @@ TYPED_TEST(ObstaclesTest, OfAnyDimensionBecomeThoseOfOne) {
         pent::test::expect_contains(
             pent::test::error_of([&] { pent::check<Eigen::Dynamic>(shape, 7 - kDim, "obstacle"); }),
             {"finite numbers"});
-        const Obstacle<kDim> fixed = fixed_size<kDim>(shape);
+        const ObstacleShape<kDim> fixed = fixed_size<kDim>(shape);
         EXPECT_EQ(fixed.index(), shapes++);
         if (const auto* ball = std::get_if<Ball<kDim>>(&fixed)) {
             EXPECT_EQ(ball->center, Vector<kDim>::Constant(0.3));
@@ -251,7 +251,7 @@ TYPED_TEST(ObstaclesTest, OfAnyDimensionBecomeThoseOfOne) {
         }
         EXPECT_TRUE(std::isfinite(signed_distance<kDim>(fixed, x).value));
     }
-    EXPECT_EQ(shapes, std::variant_size_v<Obstacle<kDim>>);
+    EXPECT_EQ(shapes, std::variant_size_v<ObstacleShape<kDim>>);
 }
 
 // Those that repel facets: the distance to the core, less its radius, is that to the surface.

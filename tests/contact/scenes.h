@@ -33,9 +33,10 @@ struct Scene {
 /// The bodies of a scene, called "a", "b" and so on, with these options, at rest where they are.
 /// All vertices are free.
 template <int Dim>
-[[nodiscard]] ContactScene<Dim> contact_scene(const Scene<Dim>& scene,
-                                              const ContactOptions& options,
-                                              const std::vector<Obstacle<Dim>>& obstacles = {}) {
+[[nodiscard]] ContactScene<Dim> contact_scene(
+    const Scene<Dim>& scene,
+    const ContactOptions& options,
+    const std::vector<ObstacleShape<Dim>>& obstacles = {}) {
     ContactScene<Dim> result;
     result.options = options;
     result.rest = scene.positions;
@@ -43,7 +44,7 @@ template <int Dim>
         result.bodies.push_back(
             {std::string(1, static_cast<char>('a' + result.bodies.size())), surface, false});
     }
-    for (const Obstacle<Dim>& obstacle : obstacles) {
+    for (const ObstacleShape<Dim>& obstacle : obstacles) {
         result.obstacles.push_back({obstacle, options.distance, 1000});
     }
     result.is_fixed.assign(static_cast<std::size_t>(scene.positions.cols()), false);

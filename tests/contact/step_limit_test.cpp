@@ -80,9 +80,10 @@ TYPED_TEST(StepLimitTest, IsTheWholeStepUnderAPenalty) {
 // Below the middle of the lowest side of the first cube: facets meet them between their vertices.
 TYPED_TEST(StepLimitTest, LetsNoFacetCutABallOrABoxBetweenItsVertices) {
     constexpr int kDim = TypeParam::value;
-    for (const Obstacle<kDim>& obstacle :
-         {Obstacle<kDim>(Ball<kDim>{this->cubes_.below(0.35), 0.2}),
-          Obstacle<kDim>(Cuboid<kDim>{this->cubes_.below(0.3), Vector<kDim>::Constant(0.3)})}) {
+    for (const ObstacleShape<kDim>& obstacle :
+         {ObstacleShape<kDim>(Ball<kDim>{this->cubes_.below(0.35), 0.2}),
+          ObstacleShape<kDim>(
+              Cuboid<kDim>{this->cubes_.below(0.3), Vector<kDim>::Constant(0.3)})}) {
         ContactFinder<kDim> finder(this->cubes_.model({obstacle}));
         const Positions<kDim>& x = this->cubes_.scene.positions;
         Positions<kDim> to = x;

@@ -23,7 +23,8 @@ struct TwoCubes {
         shake<Dim>(scene.positions, 0.02, 4);
     }
 
-    [[nodiscard]] ContactScene<Dim> model(const std::vector<Obstacle<Dim>>& obstacles = {}) const {
+    [[nodiscard]] ContactScene<Dim> model(
+        const std::vector<ObstacleShape<Dim>>& obstacles = {}) const {
         ContactScene<Dim> model = contact_scene<Dim>(scene, options, obstacles);
         model.rest = rest;
         return model;

@@ -19,7 +19,7 @@ using test::TempFolder;
 
 // The numbers of a shape, one after the other.
 template <int Dim>
-std::vector<double> numbers_of(const Obstacle<Dim>& obstacle) {
+std::vector<double> numbers_of(const ObstacleShape<Dim>& obstacle) {
     std::vector<double> numbers;
     std::visit(
         [&](const auto& shape) {
@@ -37,7 +37,7 @@ std::vector<double> numbers_of(const Obstacle<Dim>& obstacle) {
 }
 
 template <int Dim>
-std::vector<Obstacle<Dim>> one_of_each() {
+std::vector<ObstacleShape<Dim>> one_of_each() {
     using Vector = Eigen::Matrix<double, Dim, 1>;
     const Vector odd = Vector::LinSpaced(0.1, 1.0 / 3.0);
     Eigen::Matrix<double, Dim, Dim> turned = Eigen::Matrix<double, Dim, Dim>::Identity();
@@ -55,9 +55,9 @@ std::vector<Obstacle<Dim>> one_of_each() {
 template <int Dim>
 void expect_same_after_reading() {
     const TempFolder folder;
-    const std::vector<Obstacle<Dim>> written = one_of_each<Dim>();
+    const std::vector<ObstacleShape<Dim>> written = one_of_each<Dim>();
     write_obstacles(folder / "obstacles.json", written);
-    const std::vector<Obstacle<Dim>> read = read_obstacles<Dim>(folder / "obstacles.json");
+    const std::vector<ObstacleShape<Dim>> read = read_obstacles<Dim>(folder / "obstacles.json");
     ASSERT_EQ(read.size(), written.size());
     for (std::size_t i = 0; i < read.size(); ++i) {
         EXPECT_EQ(read[i].index(), written[i].index());

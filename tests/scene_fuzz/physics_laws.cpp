@@ -122,7 +122,7 @@ void check_reaction_in(const Scene& scene) {
 // --------------------------------------------------------------------------------------- crossings
 
 template <int Dim>
-double signed_distance(const pent::Obstacle<Dim>& shape,
+double signed_distance(const pent::ObstacleShape<Dim>& shape,
                        const Eigen::Matrix<double, Dim, 1>& point) {
     struct Distance {
         const Eigen::Matrix<double, Dim, 1>& x;
@@ -212,7 +212,7 @@ private:
         const bool is_any_held_for_good = std::any_of(
             scene_.constraints.begin(), scene_.constraints.end(),
             [](const Constraint& held) { return held.from == 0 && held.to == kForever; });
-        for (const pent::Obstacle<Dim>& obstacle : simulation_.obstacles()) {
+        for (const pent::ObstacleShape<Dim>& obstacle : simulation_.obstacles()) {
             for (std::size_t s = 0; s < surfaces_.size() && !is_any_held_for_good; ++s) {
                 for (const std::uint32_t v : surfaces_[s].vertices.reshaped()) {
                     if (signed_distance<Dim>(obstacle, positions.col(v)) <= 0) {

@@ -128,7 +128,7 @@ TEST_F(AnExportedPage, HoldsObstaclesOfEveryFrameAndOnceWhereNoneMoves) {
         return text.substr(at == std::string::npos ? text.size() : at);
     };
     const auto ball = [](double x) {
-        return std::vector<Obstacle<4>>{Ball<4>{Eigen::Vector4d(x, 0, 0, 0), 0.5}};
+        return std::vector<ObstacleShape<4>>{Ball<4>{Eigen::Vector4d(x, 0, 0, 0), 0.5}};
     };
     EXPECT_EQ(obstacles(), "\"obstacles\":[]}");
     write_obstacles<4>(run / "obstacles.json", ball(0));

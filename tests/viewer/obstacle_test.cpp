@@ -61,7 +61,7 @@ public:
     }
     FramedHyperplane hyperplane() { return hyperplane_across(point<4>(), number(-0.8, 0.8)); }
     template <int Dim>
-    std::vector<Obstacle<Dim>> one_of_each() {
+    std::vector<ObstacleShape<Dim>> one_of_each() {
         return {HalfSpace<Dim>{point<Dim>().normalized(), number(-0.5, 0.5)},
                 Ball<Dim>{point<Dim>(), number(0.2, 1)},
                 Cavity<Dim>{point<Dim>(), number(0.2, 1)},
@@ -94,7 +94,7 @@ TEST(ObstacleSlice, IsSolidWhereContactHoldsTheObstacleForSolid) {
     int points = 0;
     for (int repeat = 0; repeat < 200; ++repeat) {
         const FramedHyperplane plane = random.hyperplane();
-        for (const Obstacle<4>& obstacle : random.one_of_each<4>()) {
+        for (const ObstacleShape<4>& obstacle : random.one_of_each<4>()) {
             const ObstacleSlice cut = slice(obstacle, plane);
             for (int i = 0; i < 50; ++i) {
                 const Eigen::Vector3d x = 1.5 * random.point<3>();
@@ -115,7 +115,7 @@ TEST(ObstacleSlice, IsSolidWhereContactHoldsTheObstacleForSolid) {
 TEST(ObstacleSlice, InThreeDimensionsIsTheObstacleItself) {
     Random random;
     for (int repeat = 0; repeat < 50; ++repeat) {
-        for (const Obstacle<3>& obstacle : random.one_of_each<3>()) {
+        for (const ObstacleShape<3>& obstacle : random.one_of_each<3>()) {
             const ObstacleSlice all = whole(obstacle);
             for (int i = 0; i < 50; ++i) {
                 const Eigen::Vector3d x = 1.5 * random.point<3>();
@@ -129,13 +129,13 @@ TEST(ObstacleSlice, InThreeDimensionsIsTheObstacleItself) {
 }
 
 TEST(ObstacleSlice, OfAHalfSpaceBesideTheHyperplaneIsEverythingOrNothing) {
-    const Obstacle<4> half_space = HalfSpace<4>{Eigen::Vector4d::UnitW(), 0.3};
+    const ObstacleShape<4> half_space = HalfSpace<4>{Eigen::Vector4d::UnitW(), 0.3};
     EXPECT_TRUE(slice(half_space, hyperplane_at(0.2)).is_everything());
     EXPECT_TRUE(slice(half_space, hyperplane_at(0.4)).is_empty);
     EXPECT_TRUE(slice(half_space, hyperplane_at(0.3)).is_empty);  // touches it
     // A turn by 90 degrees leaves rounding in the axes, which must not become a far plane.
     const PlaneRotation turn[] = {{0, 3, std::numbers::pi / 2}};
-    const Obstacle<4> wall = HalfSpace<4>{Eigen::Vector4d::UnitX(), 0.3};
+    const ObstacleShape<4> wall = HalfSpace<4>{Eigen::Vector4d::UnitX(), 0.3};
     EXPECT_TRUE(slice(wall, hyperplane_at(0.2, turn)).is_everything());
     EXPECT_TRUE(slice(wall, hyperplane_at(0.4, turn)).is_empty);
 }
@@ -154,7 +154,8 @@ TEST(ObstacleSlice, OfRoundOnesBeyondTheirRadiusIsWhatIsAroundThem) {
 // A bowl whose up has a part along w is met by a hyperplane above its center with the hollow over
 // or under the ground.
 TEST(ObstacleSlice, OfALeaningBowlLosesAHollowThatIsInTheAir) {
-    const Obstacle<4> bowl = Bowl<4>{Eigen::Vector4d::Zero(), 1, Eigen::Vector4d(0, 0.6, 0, 0.8)};
+    const ObstacleShape<4> bowl =
+        Bowl<4>{Eigen::Vector4d::Zero(), 1, Eigen::Vector4d(0, 0.6, 0, 0.8)};
     const ObstacleSlice over = slice(bowl, hyperplane_at(0.9));
     EXPECT_TRUE(over.plane && !over.hollow);
     const ObstacleSlice under = slice(bowl, hyperplane_at(-0.9));
@@ -187,7 +188,7 @@ TEST(ObstacleSurface, LiesOnTheObstacleAndIsTurnedOutOfIt) {
     int triangles = 0;
     for (int repeat = 0; repeat < 40; ++repeat) {
         const FramedHyperplane plane = random.hyperplane();
-        for (const Obstacle<4>& obstacle : random.one_of_each<4>()) {
+        for (const ObstacleShape<4>& obstacle : random.one_of_each<4>()) {
             const ObstacleSlice cut = slice(obstacle, plane);
             const TriangleMesh mesh = obstacle_surface(cut, view, 24);
             for (const auto& x : mesh.positions.colwise()) {
@@ -321,7 +322,7 @@ TEST(Ground, IsMetWhereARayGoesFromTheFreeIntoTheSolid) {
     Random random;
     int hits = 0;
     for (int repeat = 0; repeat < 1200; ++repeat) {
-        const std::vector<Obstacle<4>> shapes = random.one_of_each<4>();
+        const std::vector<ObstacleShape<4>> shapes = random.one_of_each<4>();
         const ObstacleSlice cut = slice(shapes[repeat % 4], random.hyperplane());
         const Eigen::Vector3d origin = random.point<3>();
         const Eigen::Vector3d from = 2 * random.point<3>();

@@ -132,7 +132,7 @@ TEST_F(RenderObstacles, ThatMoveAreWhereTheyAreAtEachFrame) {
     const Image at_rest = picture_of("run", some);
     const int frame = open_run(folder_ / "run").frames.front();
     std::filesystem::remove(folder_ / "run/obstacles.json");
-    const auto put = [&](int number, const std::vector<Obstacle<4>>& obstacles) {
+    const auto put = [&](int number, const std::vector<ObstacleShape<4>>& obstacles) {
         std::filesystem::create_directories(folder_ / "run/obstacles");
         write_obstacles<4>(folder_ / "run" / formatted("obstacles/%06d.json", number), obstacles);
     };

@@ -211,7 +211,7 @@ private:
     // none.
     [[nodiscard]] std::string obstacles() const {
         std::vector<std::string> texts;
-        for (const std::vector<Obstacle<Dim>>& list : obstacles_) {
+        for (const std::vector<ObstacleShape<Dim>>& list : obstacles_) {
             texts.push_back(obstacles_text<Dim>(list));
         }
         if (std::adjacent_find(texts.begin(), texts.end(), std::not_equal_to<>()) == texts.end()) {
@@ -231,7 +231,7 @@ private:
     std::vector<ColorBy> quantities_;
     std::vector<double> maxima_;
     std::vector<double> times_;
-    std::vector<std::vector<Obstacle<Dim>>> obstacles_;  // of each frame
+    std::vector<std::vector<ObstacleShape<Dim>>> obstacles_;  // of each frame
     std::size_t frames_seen_ = 0;
     Eigen::AlignedBox<double, Dim> box_;
 };

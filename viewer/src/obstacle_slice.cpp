@@ -86,11 +86,11 @@ struct Cut {
 
 }  // namespace
 
-ObstacleSlice slice(const Obstacle<4>& obstacle, const FramedHyperplane& hyperplane) {
+ObstacleSlice slice(const ObstacleShape<4>& obstacle, const FramedHyperplane& hyperplane) {
     return std::visit(Cut<4>{hyperplane.frame, hyperplane.offset}, obstacle);
 }
 
-ObstacleSlice whole(const Obstacle<3>& obstacle) {
+ObstacleSlice whole(const ObstacleShape<3>& obstacle) {
     return std::visit(Cut<3>{Eigen::Matrix3d::Identity()}, obstacle);
 }
 

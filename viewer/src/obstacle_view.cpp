@@ -48,7 +48,7 @@ RenderObject wall_object(const ObstacleSlice& slice, const Color& color, float o
     return to_object(std::move(mesh), std::move(normals), color, opacity);
 }
 
-RenderObject outline_object(const Obstacle<4>& obstacle,
+RenderObject outline_object(const ObstacleShape<4>& obstacle,
                             const Projection& projection,
                             float opacity) {
     TriangleMesh mesh = obstacle_outline(obstacle, projection, kFineCircle);
@@ -57,7 +57,7 @@ RenderObject outline_object(const Obstacle<4>& obstacle,
     return to_object(std::move(mesh), std::move(normals), obstacle_color(), opacity);
 }
 
-TriangleMesh obstacle_outline(const Obstacle<4>& obstacle,
+TriangleMesh obstacle_outline(const ObstacleShape<4>& obstacle,
                               const Projection& projection,
                               int circle) {
     if (const auto* ball = std::get_if<Ball<4>>(&obstacle)) {

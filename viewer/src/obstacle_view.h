@@ -18,10 +18,10 @@ namespace pent::viewer {
 
 /// The slices of all obstacles, in their order.
 template <int Dim>
-[[nodiscard]] std::vector<ObstacleSlice> take_sections(std::span<const Obstacle<Dim>> obstacles,
-                                                       const Section& section) {
+[[nodiscard]] std::vector<ObstacleSlice> take_sections(
+    std::span<const ObstacleShape<Dim>> obstacles, const Section& section) {
     std::vector<ObstacleSlice> slices;
-    for (const Obstacle<Dim>& obstacle : obstacles) {
+    for (const ObstacleShape<Dim>& obstacle : obstacles) {
         slices.push_back(take_section<Dim>(obstacle, section));
     }
     return slices;
@@ -33,12 +33,12 @@ template <int Dim>
                                        float opacity);
 
 /// The outline of a four-dimensional obstacle that has an end; without triangles where it has none.
-[[nodiscard]] RenderObject outline_object(const Obstacle<4>& obstacle,
+[[nodiscard]] RenderObject outline_object(const ObstacleShape<4>& obstacle,
                                           const Projection& projection,
                                           float opacity);
 
 /// The outline itself; empty for obstacles without an end.
-[[nodiscard]] TriangleMesh obstacle_outline(const Obstacle<4>& obstacle,
+[[nodiscard]] TriangleMesh obstacle_outline(const ObstacleShape<4>& obstacle,
                                             const Projection& projection,
                                             int circle);
 

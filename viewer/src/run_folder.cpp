@@ -220,7 +220,7 @@ Frame<Dim> load_frame(const RunFolder& run, const Body<Dim>& body, int frame) {
 }
 
 template <int Dim>
-std::vector<Obstacle<Dim>> load_obstacles(const RunFolder& run, int frame) {
+std::vector<ObstacleShape<Dim>> load_obstacles(const RunFolder& run, int frame) {
     std::error_code error;
     fs::path path = run.path / "obstacles.json";
     if (!fs::exists(path, error)) {  // unless they move
@@ -254,7 +254,7 @@ template std::vector<Body<3>> load_bodies<3>(const RunFolder& run);
 template std::vector<Body<4>> load_bodies<4>(const RunFolder& run);
 template Frame<3> load_frame<3>(const RunFolder& run, const Body<3>& body, int frame);
 template Frame<4> load_frame<4>(const RunFolder& run, const Body<4>& body, int frame);
-template std::vector<Obstacle<3>> load_obstacles<3>(const RunFolder& run, int frame);
-template std::vector<Obstacle<4>> load_obstacles<4>(const RunFolder& run, int frame);
+template std::vector<ObstacleShape<3>> load_obstacles<3>(const RunFolder& run, int frame);
+template std::vector<ObstacleShape<4>> load_obstacles<4>(const RunFolder& run, int frame);
 
 }  // namespace pent::viewer

@@ -112,7 +112,7 @@ void RunRenderer<Dim>::look_at(int frame) {
 template <int Dim>
 void RunRenderer<Dim>::look_at_obstacles(const Tile& tile, const Snapshot<Dim>& snapshot) {
     constexpr int kCoarse = 32;  // corners of a circle: half a percent of the radius
-    for (const Obstacle<Dim>& obstacle : shown_obstacles(snapshot)) {
+    for (const ObstacleShape<Dim>& obstacle : shown_obstacles(snapshot)) {
         for (const std::size_t section : tile.sections) {
             const ObstacleSlice slice = take_section<Dim>(obstacle, sections_[section]);
             const std::optional<double> radius = radius_of(slice);
@@ -248,7 +248,7 @@ Projection RunRenderer<Dim>::projection_of(const Tile& tile) const {
 }
 
 template <int Dim>
-std::span<const Obstacle<Dim>> RunRenderer<Dim>::shown_obstacles(
+std::span<const ObstacleShape<Dim>> RunRenderer<Dim>::shown_obstacles(
     const Snapshot<Dim>& snapshot) const {
     return std::span(snapshot.obstacles)
         .first(options_.has_obstacles ? snapshot.obstacles.size() : 0);
@@ -278,7 +278,7 @@ template <int Dim>
 void RunRenderer<Dim>::add_obstacle_ghosts(const Tile& tile,
                                            const Snapshot<Dim>& snapshot,
                                            std::vector<RenderObject>& objects) const {
-    for (const Obstacle<Dim>& obstacle : shown_obstacles(snapshot)) {
+    for (const ObstacleShape<Dim>& obstacle : shown_obstacles(snapshot)) {
         for (const std::size_t section : tile.sections) {
             const ObstacleSlice slice = take_section<Dim>(obstacle, sections_[section]);
             const std::optional<Color> tint = ghost_tint(tile, section);

@@ -89,7 +89,7 @@ private:
                                       const Snapshot<Dim>& snapshot,
                                       bool with_normals) const;
     [[nodiscard]] Projection projection_of(const Tile& tile) const;
-    [[nodiscard]] std::span<const Obstacle<Dim>> shown_obstacles(
+    [[nodiscard]] std::span<const ObstacleShape<Dim>> shown_obstacles(
         const Snapshot<Dim>& snapshot) const;
     void add_items(const Tile& tile,
                    const Snapshot<Dim>& snapshot,

@@ -145,12 +145,12 @@ Surface take_section<3>(const Body<3>& body,
 }
 
 template <>
-ObstacleSlice take_section<4>(const Obstacle<4>& obstacle, const Section& section) {
+ObstacleSlice take_section<4>(const ObstacleShape<4>& obstacle, const Section& section) {
     return slice(obstacle, section.plane);
 }
 
 template <>
-ObstacleSlice take_section<3>(const Obstacle<3>& obstacle, const Section& /*section*/) {
+ObstacleSlice take_section<3>(const ObstacleShape<3>& obstacle, const Section& /*section*/) {
     return whole(obstacle);
 }
 

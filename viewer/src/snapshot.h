@@ -18,7 +18,7 @@ struct Snapshot {
     int number = 0;                       ///< As files are numbered.
     std::vector<Frame<Dim>> frames;       ///< One a body.
     std::vector<Eigen::VectorXd> values;  ///< One a body: the colored quantity at its vertices.
-    std::vector<Obstacle<Dim>> obstacles;
+    std::vector<ObstacleShape<Dim>> obstacles;
 };
 
 /// Throws an Error as load_frame and load_obstacles do.

@@ -124,20 +124,20 @@ private:
     static constexpr int kSize = Dim == Eigen::Dynamic ? 0 : Dim;
 };
 
-/// Something that stands still.
+/// The shape of an obstacle and where it stands.
 template <int Dim>
-using Obstacle = std::variant<HalfSpace<Dim>, Ball<Dim>, Cavity<Dim>, Bowl<Dim>, Cuboid<Dim>>;
+using ObstacleShape = std::variant<HalfSpace<Dim>, Ball<Dim>, Cavity<Dim>, Bowl<Dim>, Cuboid<Dim>>;
 
 /// The name of its shape, as scenes know it.
 template <int Dim>
-[[nodiscard]] std::string_view name_of(const Obstacle<Dim>& obstacle);
+[[nodiscard]] std::string_view name_of(const ObstacleShape<Dim>& obstacle);
 
 /// The same obstacle with the dimension known.
 template <int Dim>
-[[nodiscard]] Obstacle<Dim> fixed_size(const Obstacle<Eigen::Dynamic>& obstacle);
+[[nodiscard]] ObstacleShape<Dim> fixed_size(const ObstacleShape<Eigen::Dynamic>& obstacle);
 
 /// One of every shape, with its fields of the given dimension not set: for readers to choose from.
-[[nodiscard]] std::vector<Obstacle<Eigen::Dynamic>> all_shapes(int dimension);
+[[nodiscard]] std::vector<ObstacleShape<Eigen::Dynamic>> all_shapes(int dimension);
 
 /// A box as a mesh of 6 tetrahedra or 24 pentachora, which have all of its corners for vertices.
 template <int Dim>
@@ -149,6 +149,6 @@ template <int Dim>
 /// Throws an Error, beginning with `what`, unless numbers are finite, lengths > 0, directions of
 /// unit length (to 1e-9), axes a rotation, and vectors of the dimension.
 template <int Dim>
-void check(const Obstacle<Dim>& obstacle, int dimension, const std::string& what);
+void check(const ObstacleShape<Dim>& obstacle, int dimension, const std::string& what);
 
 }  // namespace pent

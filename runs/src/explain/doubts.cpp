@@ -40,7 +40,7 @@ double gap(const Scene& scene,
     const Positions<Dim>& positions = simulation.mesh(body).positions;
     double least = kFar;
     if (obstacle != nullptr) {
-        const pent::Obstacle<Dim> shape = fixed_size<Dim>(obstacle->shape);
+        const pent::ObstacleShape<Dim> shape = fixed_size<Dim>(obstacle->shape);
         for (Eigen::Index vertex = 0; vertex < positions.cols(); ++vertex) {
             least =
                 std::min(least, contact::signed_distance<Dim>(shape, positions.col(vertex)).value);

@@ -52,7 +52,7 @@ struct FieldMover {
 // What a motion turns an obstacle about that does not say it: its center, or of a half-space the
 // point next to the origin.
 template <int Dim>
-Vector<Dim> middle_of(const pent::Obstacle<Dim>& obstacle) {
+Vector<Dim> middle_of(const pent::ObstacleShape<Dim>& obstacle) {
     if (const auto* half_space = std::get_if<HalfSpace<Dim>>(&obstacle)) {
         return half_space->offset * half_space->normal;
     }
@@ -64,7 +64,7 @@ Vector<Dim> middle_of(const pent::Obstacle<Dim>& obstacle) {
 
 // The same obstacle elsewhere.
 template <int Dim>
-pent::Obstacle<Dim> moved_to(pent::Obstacle<Dim> obstacle, const Placed<Dim>& map) {
+pent::ObstacleShape<Dim> moved_to(pent::ObstacleShape<Dim> obstacle, const Placed<Dim>& map) {
     std::visit([&](auto& shape) { shape.fields(shape, FieldMover<Dim>{map}); }, obstacle);
     if (auto* half_space = std::get_if<HalfSpace<Dim>>(&obstacle)) {
         half_space->offset += half_space->normal.dot(map.shift);
@@ -77,7 +77,7 @@ pent::Obstacle<Dim> moved_to(pent::Obstacle<Dim> obstacle, const Placed<Dim>& ma
 template <int Dim>
 ObstacleMotions<Dim>::ObstacleMotions(const Scene& scene) {
     for (const auto& obstacle : scene.obstacles) {
-        pent::Obstacle<Dim> start = fixed_size<Dim>(obstacle.shape);
+        pent::ObstacleShape<Dim> start = fixed_size<Dim>(obstacle.shape);
         if (!obstacle.rotate.empty()) {
             const Vector<Dim> middle = middle_of<Dim>(start);
             const Matrix<Dim> turn = rotation_of<Dim>(obstacle.rotate);
@@ -105,8 +105,8 @@ typename ObstacleMotions<Dim>::RigidMap ObstacleMotions<Dim>::map_at(std::size_t
 }
 
 template <int Dim>
-std::vector<pent::Obstacle<Dim>> ObstacleMotions<Dim>::at(double time) const {
-    std::vector<pent::Obstacle<Dim>> all;
+std::vector<pent::ObstacleShape<Dim>> ObstacleMotions<Dim>::at(double time) const {
+    std::vector<pent::ObstacleShape<Dim>> all;
     for (std::size_t i = 0; i < obstacles_.size(); ++i) {
         const Moved& moving = obstacles_[i];
         all.push_back(moving.motions.empty() ? moving.start

@@ -25,7 +25,7 @@ public:
     [[nodiscard]] bool is_any() const { return is_any_; }
 
     /// All of them at a time, s; those without a motion as the scene has them, to the bit.
-    [[nodiscard]] std::vector<pent::Obstacle<Dim>> at(double time) const;
+    [[nodiscard]] std::vector<pent::ObstacleShape<Dim>> at(double time) const;
 
     /// Where what goes with an obstacle is at one time, of where it is at another.
     [[nodiscard]] RigidMap carried(std::size_t obstacle, double from, double to) const;
@@ -41,7 +41,7 @@ public:
 
 private:
     struct Moved {
-        pent::Obstacle<Dim> start;
+        pent::ObstacleShape<Dim> start;
         std::vector<CenteredMotion<Dim>> motions;
     };
     [[nodiscard]] RigidMap map_at(std::size_t obstacle, double time) const;

@@ -62,7 +62,9 @@ public:
     [[nodiscard]] const contact::StepLimit& limit() const { return limit_; }
 
     /// Where obstacles are now.
-    [[nodiscard]] const std::vector<pent::Obstacle<Dim>>& obstacles() const { return obstacles_; }
+    [[nodiscard]] const std::vector<pent::ObstacleShape<Dim>>& obstacles() const {
+        return obstacles_;
+    }
     [[nodiscard]] bool has_moving_obstacles() const { return motions_.is_any(); }
 
     /// How far the point of an obstacle that a contact touches moves in the step, m.
@@ -120,7 +122,7 @@ private:
     double last_gap_ = 0;   // m, of the last accepted iterate
     ObstacleMotions<Dim> motions_;
     TimeSpan step_;
-    std::vector<pent::Obstacle<Dim>> obstacles_;           // at its end
+    std::vector<pent::ObstacleShape<Dim>> obstacles_;      // at its end
     std::unique_ptr<contact::ContactFinder<Dim>> finder_;  // null where nothing can touch
     contact::Contacts<Dim> contacts_;                      // there
     Positions<Dim> gradient_;                              // there

@@ -129,7 +129,7 @@ std::span<const contact::Contact<Dim>> Simulation<Dim>::contacts() const {
 }
 
 template <int Dim>
-const std::vector<pent::Obstacle<Dim>>& Simulation<Dim>::obstacles() const {
+const std::vector<pent::ObstacleShape<Dim>>& Simulation<Dim>::obstacles() const {
     return stepper_->contact().obstacles();
 }
 

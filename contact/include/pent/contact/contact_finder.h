@@ -76,12 +76,12 @@ public:
                                        const PositionsView<Dim>& to);
 
     /// Puts obstacles somewhere else: one shape for each, of the same kind and size as before.
-    void move_obstacles(const std::vector<Obstacle<Dim>>& shapes);
+    void move_obstacles(const std::vector<ObstacleShape<Dim>>& shapes);
 
     /// How far obstacles may go from these shapes to where they are now, while all vertices stay:
     /// less than 1 where a barrier has them in the way, as limit_step() says, or 0 where a vertex
     /// is then inside of one that repels vertices.
-    [[nodiscard]] StepLimit limit_obstacles(const std::vector<Obstacle<Dim>>& from,
+    [[nodiscard]] StepLimit limit_obstacles(const std::vector<ObstacleShape<Dim>>& from,
                                             const PositionsView<Dim>& positions);
 
     /// What crosses, touches or is inside something else, no more than `most`, in order of bodies;

@@ -38,7 +38,7 @@ struct ContactBody {
 /// An obstacle, and how it pushes under the penalty model.
 template <int Dim>
 struct ContactObstacle {
-    Obstacle<Dim> shape;
+    ObstacleShape<Dim> shape;
     double distance = 0;   ///< m, > 0.
     double stiffness = 0;  ///< N/m, > 0.
 };

@@ -48,7 +48,7 @@ struct SignedDistance {
 /// of a bowl, where the whole rim may be nearest, it is towards one point of the rim. The Hessian
 /// is zero there.
 template <int Dim>
-[[nodiscard]] SignedDistance<Dim> signed_distance(const Obstacle<Dim>& obstacle,
+[[nodiscard]] SignedDistance<Dim> signed_distance(const ObstacleShape<Dim>& obstacle,
                                                   const Vector<Dim>& point);
 
 /// Whether the straight way between two points that are not so deep in an obstacle goes deeper into
@@ -56,7 +56,7 @@ template <int Dim>
 ///
 /// @param depth  m, > 0.
 template <int Dim>
-[[nodiscard]] bool passes_through(const Obstacle<Dim>& obstacle,
+[[nodiscard]] bool passes_through(const ObstacleShape<Dim>& obstacle,
                                   const Vector<Dim>& from,
                                   const Vector<Dim>& to,
                                   double depth);
@@ -75,6 +75,6 @@ struct ObstacleCore {
 };
 
 template <int Dim>
-[[nodiscard]] ObstacleCore<Dim> core_of(const Obstacle<Dim>& obstacle);
+[[nodiscard]] ObstacleCore<Dim> core_of(const ObstacleShape<Dim>& obstacle);
 
 }  // namespace pent::contact

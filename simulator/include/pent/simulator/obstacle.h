@@ -16,7 +16,7 @@ using BallObstacle = pent::Ball<Eigen::Dynamic>;
 using CavityObstacle = pent::Cavity<Eigen::Dynamic>;
 using BowlObstacle = pent::Bowl<Eigen::Dynamic>;
 using BoxObstacle = pent::Cuboid<Eigen::Dynamic>;
-using ObstacleShape = pent::Obstacle<Eigen::Dynamic>;
+using ObstacleShape = pent::ObstacleShape<Eigen::Dynamic>;
 
 /// Something no body may enter; it moves as it is told, or not at all.
 ///

@@ -79,7 +79,7 @@ public:
     [[nodiscard]] std::span<const contact::Contact<Dim>> contacts() const;
 
     /// The obstacles of the scene, where they are now.
-    [[nodiscard]] const std::vector<pent::Obstacle<Dim>>& obstacles() const;
+    [[nodiscard]] const std::vector<pent::ObstacleShape<Dim>>& obstacles() const;
 
     /// First vertex of a body where those of all bodies are counted through.
     [[nodiscard]] std::int64_t first_vertex(int body) const;

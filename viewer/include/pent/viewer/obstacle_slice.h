@@ -41,9 +41,10 @@ struct ObstacleSlice {
 ///
 /// A half-space parallel to the hyperplane (to 1e-12) gives everything or nothing. What only
 /// touches the hyperplane gives nothing.
-[[nodiscard]] ObstacleSlice slice(const Obstacle<4>& obstacle, const FramedHyperplane& hyperplane);
+[[nodiscard]] ObstacleSlice slice(const ObstacleShape<4>& obstacle,
+                                  const FramedHyperplane& hyperplane);
 
 /// An obstacle in three dimensions, where no hyperplane is needed.
-[[nodiscard]] ObstacleSlice whole(const Obstacle<3>& obstacle);
+[[nodiscard]] ObstacleSlice whole(const ObstacleShape<3>& obstacle);
 
 }  // namespace pent::viewer

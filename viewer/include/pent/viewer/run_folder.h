@@ -49,7 +49,7 @@ template <int Dim>
 /// any.
 /// Throws an Error as read_obstacles does.
 template <int Dim>
-[[nodiscard]] std::vector<Obstacle<Dim>> load_obstacles(const RunFolder& run, int frame);
+[[nodiscard]] std::vector<ObstacleShape<Dim>> load_obstacles(const RunFolder& run, int frame);
 
 /// The numbers a user asked for, out of those there are.
 ///

@@ -58,7 +58,8 @@ template <int Dim>
 
 /// What is seen of an obstacle: its slice, or in three dimensions all of it.
 template <int Dim>
-[[nodiscard]] ObstacleSlice take_section(const Obstacle<Dim>& obstacle, const Section& section);
+[[nodiscard]] ObstacleSlice take_section(const ObstacleShape<Dim>& obstacle,
+                                         const Section& section);
 
 /// A number in few digits, as in captions: "0.25", "-3", "1.2e-05".
 [[nodiscard]] std::string short_number(double value);
