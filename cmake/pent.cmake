@@ -1,5 +1,16 @@
 # Flags and functions shared by all our targets.
 
+# What was compiled before, in this folder or in another clone of the project, comes from the store of ccache. Paths are taken
+# from the project's folder for that; counts of lines that ran need whole ones.
+if(PROJECT_IS_TOP_LEVEL AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER AND NOT PENT_COVERAGE AND NOT EMSCRIPTEN)
+  find_program(PENT_CCACHE ccache)
+  if(PENT_CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
+      ${PENT_CCACHE})
+    set(CMAKE_C_COMPILER_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
+  endif()
+endif()
+
 # Files of wider instruction sets, which are chosen at run time.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(PENT_X86 ON)

@@ -43,7 +43,7 @@ for argument in "$@"; do
 done
 
 packages=(
-    g++ cmake ninja-build         # build
+    g++ cmake ninja-build ccache  # build
     libeigen3-dev                 # linear algebra
     libtbb-dev                    # threads
     libtomlplusplus-dev           # scene files
