@@ -18,7 +18,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-CELLS = (14, 14, 15, 16)  # so many that GAMG solves the coarse matrix, as for all that are larger
+CELLS = (14, 14, 15, 16)  # so many that there are four levels of aggregates
 ALONE = 2  # times that one rank is timed, of which the fastest counts
 BYTES_OF_VECTOR = 32  # of a vertex
 CELLS_OF_VERTEX = 24  # inside a Kuhn box
@@ -80,6 +80,21 @@ def ghosts_of(vertices, layers, ranks):
     return vertices / ranks * ((1 + 2 * (1 - ranks ** (-1 / 3)) / side) ** 3 - 1)
 
 
+def levels_of(vertices):
+    """Levels of aggregates: 48 vertices to one, then 6 of these, until 24 are left."""
+    return max(1, 1 + math.ceil(math.log(vertices / 48 / 24, 6)))
+
+
+def exchanges_of(levels):
+    """Of an iteration, one after the other: two for each visit of a W-cycle, and one between both of a pair."""
+    return sum(2 * 2**level for level in range(levels - 1)) + sum(2 ** (level - 1) for level in range(1, levels - 1))
+
+
+def gathers_of(levels):
+    """Of the coarsest level, in an iteration."""
+    return 2 ** max(0, levels - 2)
+
+
 def vertices_of(cells):
     return math.prod(n + 1 for n in cells)
 
@@ -117,9 +132,10 @@ class Model:
         ghosts = ghosts_of(vertices, c.layers, ranks) if ranks > 1 else 0
         doubled = 1 + ghosts * ranks / vertices / 2  # elements at borders belong to two
         cores = nodes * c.cores
-        # A V-cycle of the coarse matrix sends about 20 log2(ranks) messages from each rank, one after the other.
-        coarse = 20 * math.log2(ranks) * c.latency if ranks > 1 else 0
-        waits = self.reductions * 2 * math.log2(ranks) * c.latency if ranks > 1 else 0
+        levels = levels_of(vertices)
+        coarse = exchanges_of(levels) * 26 * c.latency if ranks > 1 else 0
+        reductions = self.reductions + gathers_of(levels) - gathers_of(levels_of(vertices_of(CELLS)))
+        waits = reductions * 2 * math.log2(ranks) * c.latency if ranks > 1 else 0
         update = (26 * c.latency + BYTES_OF_VECTOR * ghosts * c.ranks / c.network) if ranks > 1 else 0
         gather = self.gathers * BYTES_OF_VECTOR * vertices * c.ranks / c.network if nodes > 1 else 0
         work = cells / cores

@@ -21,16 +21,26 @@ PetscExchange::PetscExchange(MPI_Comm comm, const simulator::Ghosts& ghosts) {
 }
 
 PetscExchange::~PetscExchange() {
-    for (auto& [rows, column] : columns_) {
+    for (auto& [key, column] : columns_) {
         MPI_Type_free(&column);
     }
     PetscSFDestroy(&forest_);
 }
 
 void PetscExchange::update(double* values, int rows) {
-    MPI_Datatype& column = columns_.try_emplace(rows, MPI_DATATYPE_NULL).first->second;
+    update(values, MPI_DOUBLE, rows);
+}
+
+void PetscExchange::update(float* values, int rows) {
+    update(values, MPI_FLOAT, rows);
+}
+
+void PetscExchange::update(void* values, MPI_Datatype number, int rows) {
+    int bytes = 0;
+    MPI_Type_size(number, &bytes);
+    MPI_Datatype& column = columns_.try_emplace({rows, bytes}, MPI_DATATYPE_NULL).first->second;
     if (column == MPI_DATATYPE_NULL) {
-        MPI_Type_contiguous(rows, MPI_DOUBLE, &column);
+        MPI_Type_contiguous(rows, number, &column);
         MPI_Type_commit(&column);
     }
     check(PetscSFBcastBegin(forest_, column, values, values, MPI_REPLACE));

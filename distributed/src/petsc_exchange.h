@@ -4,6 +4,7 @@
 
 #include <map>
 #include <petscsf.h>
+#include <utility>
 
 namespace pent::distributed {
 
@@ -18,10 +19,14 @@ public:
     PetscExchange& operator=(PetscExchange&&) = delete;
 
     void update(double* values, int rows) override;
+    void update(float* values, int rows) override;
 
 private:
+    void update(void* values, MPI_Datatype number, int rows);
+
     PetscSF forest_ = nullptr;
-    std::map<int, MPI_Datatype> columns_;  // by the numbers in one
+    // By the numbers in one and the bytes of each.
+    std::map<std::pair<int, int>, MPI_Datatype> columns_;
 };
 
 }  // namespace pent::distributed

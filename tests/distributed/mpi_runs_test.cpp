@@ -7,6 +7,7 @@ namespace pent {
 namespace {
 
 using test::expect_contains;
+using test::kuhn_box;
 using test::Outcome;
 using test::text_of;
 
@@ -105,6 +106,50 @@ TEST_F(MpiRuns, AreTheSameToTheBitForAnyThreadsRunAfterRun) {
         expect_same_bytes(name + "a", name + "b", "bar");
         expect_same_bytes(name + "a", name + "c", "bar");
     }
+}
+
+// 80 boxes that share no link: more than every rank factors, so that PETSc has the coarsest level.
+TEST_F(MpiRuns, OfManyPiecesGoWherePentSimGoesAndAreTheSameRunAfterRun) {
+    const SimplexMesh<3> box = kuhn_box<3>({1, 1, 1}, {0.2, 0.3, 0.2});
+    const Eigen::Index corners = box.vertex_count();
+    constexpr Eigen::Index kPieces = 80;
+    SimplexMesh<3> pieces;
+    pieces.positions.resize(3, kPieces * corners);
+    pieces.cells.resize(4, kPieces * box.cell_count());
+    for (Eigen::Index i = 0; i < kPieces; ++i) {
+        pieces.positions.middleCols(i * corners, corners) =
+            box.positions.colwise()
+            + Eigen::Vector3d(0.5 * static_cast<double>(i % 9), 0, 0.4 * static_cast<double>(i));
+        pieces.cells.middleCols(i * box.cell_count(), box.cell_count()) =
+            box.cells.array() + static_cast<std::uint32_t>(i * corners);
+    }
+    static_cast<void>(write_mesh(path("pieces.pent"), pieces));
+    write("pieces", R"([scene]
+dimension = 3
+gravity = [0, -9.8, 0]
+frames = 4
+
+[[body]]
+name = "pieces"
+mesh = "pieces.pent"
+material = { young = 1e5 }
+
+[[constraint]]
+body = "pieces"
+select = { half_space = { normal = [0, 1, 0], offset = 1e-6 } }
+motion = { rotate = [{ plane = "zx", degrees_per_s = 60 }] }
+
+[solver]
+tolerance = 1e-8
+precision = "double"
+)");
+    ASSERT_EQ(simulate(0, "pieces", "alone").exit_code, 0);
+    for (const char* run : {"first", "second"}) {
+        const Outcome outcome = simulate(3, "pieces", run);
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        expect_near<3>(run, "alone", "pieces", 4, 1e-5);
+    }
+    expect_same_bytes("first", "second", "pieces");
 }
 
 // With the same ranks to the bit; else as near as other ranks are.

@@ -21,6 +21,18 @@ inline Aggregates stripes(std::uint32_t children, std::uint32_t pieces) {
     return aggregates;
 }
 
+inline Aggregates by_number(std::uint32_t children, std::uint32_t most) {
+    Aggregates aggregates;
+    for (std::uint32_t child = 0; child < children; ++child) {
+        if (child % most == 0) {
+            aggregates.members.emplace_back();
+        }
+        aggregates.members.back().push_back(child);
+        aggregates.of_child.push_back(child / most);
+    }
+    return aggregates;
+}
+
 inline std::vector<Arm<4>> random_arms(std::size_t count, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;

@@ -1,5 +1,7 @@
 #include "linear/aggregates.h"
 
+#include "cut_matrix.h"
+#include "elastic_box.h"
 #include "linear/aggregate_matrix.h"
 #include "support/kuhn_box.h"
 
@@ -217,10 +219,53 @@ TEST(MakeHierarchy, LeavesAloneWhatHasNoLinksAndEndsThere) {
     EXPECT_EQ(levels[0].count(), static_cast<int>(kCount));
 }
 
-TEST(MakeHierarchy, IsEmptyWithoutDofs) {
+TEST(MakeHierarchy, IsOneLevelOfNothingWithoutDofs) {
     BlockPattern pattern;
     pattern.row_start = {0};
-    EXPECT_TRUE(make_hierarchy<4>(pattern, {0}, Positions<4>(4, 0)).empty());
+    const auto levels = make_hierarchy<4>(pattern, {0}, Positions<4>(4, 0));
+    ASSERT_EQ(levels.size(), 1U);
+    EXPECT_EQ(levels[0].count(), 0);
+}
+
+// A rank may have no dofs, or as few as one aggregate needs, where others have thousands.
+TEST(MakeHierarchy, HasAsManyLevelsOnAllRanksAndFewAggregatesAtItsEnd) {
+    const test::ElasticBox<4> box(pent::test::kuhn_box<4>({8, 6, 6, 6}, {1, 1, 1, 1}), {},
+                                  ElementKind::Linear);
+    const BlockMatrix<4, double> A(box.pattern);
+    std::vector<std::uint32_t> owners;
+    for (std::uint32_t dof = 0; dof < A.rows(); ++dof) {
+        owners.push_back(dof < 40 ? 0 : dof < 1000 ? 1 : 2);
+    }
+    std::array<std::vector<int>, 4> counts;
+    test::on_ranks(4, [&](const std::shared_ptr<const Ranks>& ranks) {
+        const test::CutMatrix cut(A, owners, ranks);
+        Positions<4> rest(4, A.rows());
+        for (Eigen::Index column = 0; column < rest.cols(); ++column) {
+            rest.col(column) = box.mesh.positions.col(
+                box.dofs.vertex_of(cut.dofs[static_cast<std::size_t>(column)]));
+        }
+        std::size_t children = cut.column_start.size() - 1;
+        for (const Aggregates& level :
+             make_hierarchy<4>(cut.pattern, cut.column_start, rest, &cut.sharing)) {
+            EXPECT_EQ(level.of_child.size(), children);
+            children = level.members.size();
+            counts[static_cast<std::size_t>(ranks->rank())].push_back(level.count());
+        }
+    });
+    const auto all = [&](std::size_t level) {
+        int sum = 0;
+        for (const std::vector<int>& of_rank : counts) {
+            sum += of_rank[level];
+        }
+        return sum;
+    };
+    for (const std::vector<int>& of_rank : counts) {
+        ASSERT_EQ(of_rank.size(), counts[0].size());
+    }
+    EXPECT_EQ(counts[0][0], 1);
+    EXPECT_EQ(counts[3][0], 0);
+    EXPECT_GT(all(0), 2 * kCoarsestAggregates);
+    EXPECT_LE(all(counts[0].size() - 1), kCoarsestAggregates);
 }
 
 }  // namespace

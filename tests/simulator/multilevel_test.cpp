@@ -1,3 +1,4 @@
+#include "aggregate_levels.h"
 #include "preconditioner_cases.h"
 
 #include <Eigen/Cholesky>
@@ -5,20 +6,9 @@
 namespace pent::simulator {
 namespace {
 
+using test::by_number;
 using test::iterations;
 using Fixture = test::ScrambledBox;
-
-Aggregates by_number(std::uint32_t children, std::uint32_t most) {
-    Aggregates aggregates;
-    for (std::uint32_t child = 0; child < children; ++child) {
-        if (child % most == 0) {
-            aggregates.members.emplace_back();
-        }
-        aggregates.members.back().push_back(child);
-        aggregates.of_child.push_back(child / most);
-    }
-    return aggregates;
-}
 
 // A few vertices to an aggregate and three levels, whatever the size.
 Hierarchy three_levels(const Fixture& f, std::uint32_t most) {
@@ -26,7 +16,7 @@ Hierarchy three_levels(const Fixture& f, std::uint32_t most) {
     for (const std::uint32_t children : {2U, 3U}) {
         levels.push_back(by_number(static_cast<std::uint32_t>(levels.back().count()), children));
     }
-    return {std::move(levels), f.A.pattern()};
+    return {levels, f.A.pattern()};
 }
 
 BlockVector<4> positions_of(const Fixture& f) {
@@ -99,15 +89,15 @@ TEST(Multilevel, CorrectsRigidMotionsOfTheCoarsestAggregatesExactly) {
     };
     std::vector<Eigen::Matrix4d> spins;
     std::vector<Eigen::Vector4d> shifts;
-    for (int a = 0; a < hierarchy.levels.back().count(); ++a) {
+    for (int a = 0; a < hierarchy.levels.back().aggregates.count(); ++a) {
         const Eigen::Matrix4d any = normal_matrix();
         spins.emplace_back(any - any.transpose());  // rotations in all six planes
         shifts.emplace_back(any.col(0));
     }
     for (std::uint32_t dof = 0; dof < f.A.rows(); ++dof) {
         std::uint32_t a = dof;
-        for (const Aggregates& level : hierarchy.levels) {
-            a = level.of_child[a];
+        for (const HierarchyLevel& level : hierarchy.levels) {
+            a = level.aggregates.of_child[a];
         }
         motion.col(dof) = spins[a] * positions.col(dof) + shifts[a];
     }

@@ -265,6 +265,24 @@ TEST(SharedSimulation, GoesOnFromASnapshotOfOneAloneAndGivesOneBack) {
     EXPECT_EQ(shared.steps, 3U);
 }
 
+// 1512 vertices: two levels, and on four ranks half of the vertices have a neighbor on another.
+TEST(SharedSimulation, TakesAtMost15PercentMoreIterationsOnMoreRanks) {
+    Case<4> made{test::box_scene<4>(),
+                 {pent::test::kuhn_box<4>({6, 5, 5, 5}, {0.6, 0.5, 0.5, 0.5})}};
+    made.scene.bodies[0].material.lame = lame_from_young(4, 1e7, 0.28);
+    made.scene.gravity[1] = -9.8;
+    made.scene.constraints = {test::hold(
+        HalfSpaceSelection{.normal = Eigen::Vector4d(1, 0, 0, 0), .offset = 1e-6}, test::still(4))};
+    made.scene.solver.tolerance = 1e-6;
+    const int alone = simulate<4>(made, 1, nullptr).steps[0].iterations;
+    for (const int count : {1, 2, 4}) {
+        test::on_ranks(count, [&](const std::shared_ptr<const Ranks>& ranks) {
+            const int shared = simulate<4>(made, 1, ranks).steps[0].iterations;
+            EXPECT_LE(shared, (count == 1 ? 1 : 1.15) * alone);
+        });
+    }
+}
+
 TEST(SharedSimulation, HasTheSameBitsForAnyThreads) {
     const Case<4> made = swing(Integrator::NewtonEuler);
     const auto end = [&](int threads) {

@@ -38,10 +38,13 @@ AggregatePattern make_pattern_of(const Aggregates& aggregates, const ForEachLink
         const std::uint32_t b = aggregates.of_child[other];
         if (a != b && found[a].back() != b) {  // most repetitions come one after the other
             found[a].push_back(b);
-            found[b].push_back(a);
+            if (b < rows) {
+                found[b].push_back(a);
+            }
         }
     });
     AggregatePattern pattern;
+    pattern.ghosts = aggregates.ghosts;
     pattern.row_start.push_back(0);
     for (std::vector<std::uint32_t>& columns : found) {
         std::sort(columns.begin(), columns.end());
@@ -62,7 +65,8 @@ void for_each_block(const Pattern& pattern, const Visit& visit) {
     }
 }
 
-// One row of P^T H P, where A = H + H^T: the upper triangle of A with its diagonal halved.
+// One row of P^T H P, where A = H + H^T: the upper triangle of A with its diagonal halved, and all
+// blocks in columns of other ranks.
 template <int Dim, int Rows>
 class RowProduct {
 public:
@@ -142,13 +146,16 @@ void for_each_row(const Workers& workers, std::int64_t rows, const Work& work) {
     });
 }
 
-// A = H + H^T, in place. Each pair of blocks is one thread's.
+// A = H + H^T, in place; what is between ranks is whole. Each pair of blocks is one thread's.
 template <int Dim, typename Scalar>
 void add_transposed(const Workers& workers, AggregateMatrix<Dim, Scalar>& A) {
     const AggregatePattern& pattern = *A.pattern;
     for_each_row(workers, pattern.rows(), [&](std::uint32_t row) {
         for (std::int64_t k = pattern.diagonal[row]; k < pattern.row_start[row + 1]; ++k) {
             const std::uint32_t column = pattern.columns[static_cast<std::size_t>(k)];
+            if (column >= pattern.rows()) {
+                break;
+            }
             auto upper = A.block(k);
             auto lower = A.block(pattern.find(column, row));
             const typename AggregateMatrix<Dim, Scalar>::Block sum = upper + lower.transpose();
@@ -210,7 +217,7 @@ void AggregateMatrix<Dim, Scalar>::multiply(const Workers& workers,
                                             Vector& y) const {
     constexpr std::int64_t kRows = 64;  // of a task
     const std::int64_t rows = pattern->rows();
-    y.resize(x.size());
+    y.resize(static_cast<Eigen::Index>(kModes<Dim> * rows));
     workers.for_each((rows + kRows - 1) / kRows, [&](std::int64_t chunk) {
         multiply_rows(kernels, part, {chunk * kRows, std::min((chunk + 1) * kRows, rows)}, x.data(),
                       y.data());

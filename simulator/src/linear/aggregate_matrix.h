@@ -4,6 +4,8 @@
 #include "linear/block_matrix.h"
 #include "linear/rigid_modes.h"
 
+#include <pent/simulator/ranks.h>
+
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +13,8 @@ namespace pent::simulator {
 
 /// Which blocks of a matrix over aggregates are stored: both triangles, so that rows of a product
 /// need nothing of one another.
+///
+/// There may be more columns than rows: those of other ranks, behind.
 struct AggregatePattern {
     std::vector<std::int64_t> row_start;  ///< rows + 1 entries.
     std::vector<std::uint32_t> columns;   ///< Increasing within a row, the row itself among them.
@@ -19,9 +23,12 @@ struct AggregatePattern {
     /// Rows [batches[i], batches[i + 1]) share no block: sweeps take them at the same time.
     std::vector<std::int64_t> batches;
 
+    std::uint32_t ghosts = 0;  ///< How many columns have no row.
+
     [[nodiscard]] std::int64_t rows() const {
         return static_cast<std::int64_t>(row_start.size()) - 1;
     }
+    [[nodiscard]] std::int64_t column_count() const { return rows() + ghosts; }
     /// Index of block (row, column), which must be there.
     [[nodiscard]] std::int64_t find(std::uint32_t row, std::uint32_t column) const;
 };
@@ -35,7 +42,7 @@ struct AggregatePattern {
 
 enum class BlockPart { Whole, BelowDiagonal, AboveDiagonal };
 
-/// Symmetric matrix over the rigid modes of aggregates.
+/// Symmetric matrix over the rigid modes of aggregates; rows of this rank.
 template <int Dim, typename Scalar>
 struct AggregateMatrix {
     static constexpr std::int64_t kEntries = std::int64_t{kModes<Dim>} * kModes<Dim>;
@@ -44,6 +51,7 @@ struct AggregateMatrix {
 
     const AggregatePattern* pattern = nullptr;
     std::vector<Scalar, LineAllocator<Scalar>> values;
+    GhostExchange* ghosts = nullptr;  ///< Of the columns; null where nothing is shared.
 
     [[nodiscard]] Eigen::Map<Block> block(std::int64_t index) {
         return Eigen::Map<Block>(values.data() + index * kEntries);
@@ -52,7 +60,14 @@ struct AggregateMatrix {
         return Eigen::Map<const Block>(values.data() + index * kEntries);
     }
 
-    /// y = A x, or the product with a part of A.
+    /// Gives the entries of other ranks in a vector over the columns what they are there.
+    void update_ghosts(Vector& x) const {
+        if (ghosts != nullptr) {
+            ghosts->update(x.data(), kModes<Dim>);
+        }
+    }
+
+    /// y = A x, or the product with a part of A; x over the columns, y over the rows.
     void multiply(const Workers& workers,
                   const BlockKernels& kernels,
                   BlockPart part,
@@ -72,9 +87,10 @@ struct AggregateMatrix {
 };
 
 /// The Galerkin product P^T A P, P being the rigid modes of the aggregates: a sum of T_i^T A_ij T_j
-/// over their children, in one order for any number of threads. Symmetric to the bit.
+/// over their children, in one order for any number of threads. Symmetric to the bit, but for
+/// blocks between ranks, which each of both adds up in an order of its own.
 ///
-/// @param arms     One a child.
+/// @param arms     One a child, of other ranks, too.
 /// @param pattern  Of the product; must outlive it.
 template <int Dim, typename Scalar>
 [[nodiscard]] AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,

@@ -362,30 +362,38 @@ Aggregates compose(const Aggregates& parts, const Aggregates& aggregates) {
 template <int Dim>
 std::vector<Aggregates> make_hierarchy(const BlockPattern& pattern,
                                        const std::vector<std::uint32_t>& column_start,
-                                       const Positions<Dim>& rest) {
-    std::vector<Aggregates> levels;
-    if (pattern.rows() == 0) {
-        return levels;
-    }
-    Nodes<Dim> nodes{link_dofs(pattern), rest, {}, std::vector<double>(rest.cols(), 1.0)};
+                                       const Positions<Dim>& rest,
+                                       const Sharing* sharing) {
+    const auto count_all = [&](const Aggregates& level) {
+        const std::int64_t own = level.count();
+        return sharing != nullptr ? sharing->sum(own) : own;
+    };
+    const auto dofs = static_cast<Eigen::Index>(pattern.rows());
+    Nodes<Dim> nodes{link_dofs(pattern),
+                     rest.leftCols(dofs),
+                     {},
+                     std::vector<double>(static_cast<std::size_t>(dofs), 1.0)};
     const std::vector<double> ratios = layer_ratios<Dim>(nodes.links, column_start, rest);
     const Aggregates pieces = cut_columns(ratios, column_start);
     const Nodes<Dim> piece_nodes = nodes_of_pieces(pieces, ratios, column_start, nodes);
-    levels.push_back(compose(pieces, Growth<Dim>(piece_nodes, kDofs).run()));
-    while (levels.back().count() > kCoarsestAggregates) {
+    std::vector<Aggregates> levels = {compose(pieces, Growth<Dim>(piece_nodes, kDofs).run())};
+    for (std::int64_t count = count_all(levels.back()); count > kCoarsestAggregates;) {
         nodes = nodes_of(levels.back(), nodes);
         Aggregates next = Growth<Dim>(nodes, kChildren).run();
-        if (next.count() == levels.back().count()) {
+        const std::int64_t fewer = count_all(next);
+        if (fewer == count) {
             break;
         }
         levels.push_back(std::move(next));
+        count = fewer;
     }
     return levels;
 }
 
-#define PENT_INSTANTIATE(Dim)                             \
-    template std::vector<Aggregates> make_hierarchy<Dim>( \
-        const BlockPattern&, const std::vector<std::uint32_t>&, const Positions<Dim>&);
+#define PENT_INSTANTIATE(Dim)                                                               \
+    template std::vector<Aggregates> make_hierarchy<Dim>(const BlockPattern&,               \
+                                                         const std::vector<std::uint32_t>&, \
+                                                         const Positions<Dim>&, const Sharing*);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "linear/block_pattern.h"
+#include "linear/sharing.h"
 
 #include <pent/simplex_mesh.h>
 
@@ -11,10 +12,15 @@ namespace pent::simulator {
 
 /// A partition of children (dofs, or the aggregates of the level below) into connected, compact
 /// pieces of about equal size.
+///
+/// Where dofs are shared those of other ranks may be numbered behind those of this one, children
+/// and aggregates alike.
 struct Aggregates {
     std::vector<std::uint32_t> of_child;              ///< Which aggregate a child belongs to.
     std::vector<std::vector<std::uint32_t>> members;  ///< Children of each, increasing.
+    std::uint32_t ghosts = 0;                         ///< Aggregates of others: without members.
 
+    /// Of this rank.
     [[nodiscard]] int count() const { return static_cast<int>(members.size()); }
 };
 
@@ -31,13 +37,17 @@ inline constexpr int kCoarsestAggregates = 24;
 /// them. What has no link to others stays alone. Those that share no link follow one another, by
 /// color.
 ///
-/// @param pattern       Links of the dofs.
+/// Where dofs are shared each rank has aggregates of its own dofs, and all have as many levels.
+///
+/// @param pattern       Links of the dofs that have rows; columns of others are left out.
 /// @param column_start  As DofMap::column_start().
 /// @param rest          Dim x dofs, rest positions, m.
-/// @return              The finest first; empty without dofs.
+/// @param sharing       Null where nothing is shared.
+/// @return              The finest first; at least one level, which is empty without dofs.
 template <int Dim>
 [[nodiscard]] std::vector<Aggregates> make_hierarchy(const BlockPattern& pattern,
                                                      const std::vector<std::uint32_t>& column_start,
-                                                     const Positions<Dim>& rest);
+                                                     const Positions<Dim>& rest,
+                                                     const Sharing* sharing = nullptr);
 
 }  // namespace pent::simulator

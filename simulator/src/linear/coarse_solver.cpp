@@ -10,17 +10,6 @@ namespace pent::simulator {
 
 namespace {
 
-// Well above the rounding of sums of blocks, well below what inertia must keep of the stiffness.
-template <typename Scalar>
-constexpr double kRelativeShift = sizeof(Scalar) == sizeof(float) ? 2e-6 : 1e-10;
-
-template <typename Scalar, typename Matrix>
-void make_definite(Matrix& A) {
-    for (Eigen::Index k = 0; k < A.rows(); ++k) {
-        A(k, k) = A(k, k) > 0 ? (1 + kRelativeShift<Scalar>)*A(k, k) : 1;
-    }
-}
-
 // Aggregates linked by blocks, directly or through others.
 std::vector<std::vector<std::uint32_t>> components_of(const AggregatePattern& pattern) {
     std::vector<std::vector<std::uint32_t>> components;

@@ -8,6 +8,21 @@
 
 namespace pent::simulator {
 
+/// Makes zero and dependent modes, those that an aggregate does not have (rotations of a single
+/// vertex) or that say the same twice (of vertices on a line), definite at the size of rounding:
+/// nothing they are given moves a vertex.
+///
+/// @tparam Scalar  That the matrix was added up in.
+template <typename Scalar, typename Matrix>
+void make_definite(Matrix& A) {
+    // Well above the rounding of sums of blocks, well below what inertia must keep of the
+    // stiffness.
+    constexpr double kRelativeShift = sizeof(Scalar) == sizeof(float) ? 2e-6 : 1e-10;
+    for (Eigen::Index k = 0; k < A.rows(); ++k) {
+        A(k, k) = A(k, k) > 0 ? (1 + kRelativeShift) * A(k, k) : 1;
+    }
+}
+
 /// Solves on the coarsest level: each component of linked aggregates by a dense factorization of
 /// its own.
 ///
@@ -36,9 +51,7 @@ private:
     std::vector<Component> components_;
 };
 
-/// The inverse of a diagonal block. Modes that an aggregate does not have (rotations of a single
-/// vertex), or that say the same twice (of vertices on a line), are made definite at the size of
-/// rounding: nothing they are given moves a vertex.
+/// The inverse of a diagonal block, made definite.
 template <int Dim, typename Scalar>
 [[nodiscard]] Eigen::Matrix<double, kModes<Dim>, kModes<Dim>> inverse_of_diagonal(
     const AggregateMatrix<Dim, Scalar>& A, std::uint32_t row);

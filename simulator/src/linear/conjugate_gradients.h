@@ -1,27 +1,11 @@
 #pragma once
 
 #include "linear/block_matrix.h"
+#include "linear/halo.h"
 #include "linear/linear_solve.h"
 #include "linear/preconditioner.h"
-#include "linear/sharing.h"
 
 namespace pent::simulator {
-
-/// What other ranks have to do with vectors over the dofs; nothing, where there are none.
-struct Halo {
-    const Sharing* sharing = nullptr;
-    GhostExchange* ghosts = nullptr;  ///< Of the columns of others that the matrix has.
-
-    [[nodiscard]] double sum(double value) const {
-        return sharing != nullptr ? sharing->sum(value) : value;
-    }
-    template <int Dim>
-    void update(BlockVector<Dim>& x) const {
-        if (ghosts != nullptr) {
-            ghosts->update(x.data(), Dim);
-        }
-    }
-};
 
 /// Preconditioned conjugate gradients for A x = b, A symmetric positive definite.
 ///

@@ -1,7 +1,6 @@
 #include "linear/conjugate_gradients.h"
 #include "linear/linear_solver.h"
 #include "linear/preconditioner.h"
-#include "linear/spread_modes.h"
 
 #include <pent/dimensions.h>
 
@@ -9,6 +8,7 @@
 #include <optional>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace pent::simulator {
 
@@ -38,76 +38,79 @@ public:
                               BlockVector<Dim> guess) override {
         return std::visit(
             [&](const auto& matrix) {
-                if (dofs_.owners.sharing != nullptr) {
-                    find_ghosts(matrix);
+                const BlockPattern* coupling =
+                    matrix.coupling() != nullptr ? &matrix.coupling()->pattern() : nullptr;
+                // Blocks of elements are always the same; what stencils couple changes.
+                const bool has_coupling = any(coupling != nullptr);
+                if (!has_coupling && !plain_) {
+                    plain_ = surroundings_of(matrix.pattern(), nullptr);
                 }
-                const std::unique_ptr<Preconditioner<Dim>> preconditioner =
-                    precondition(matrix, positions);
+                Surroundings coupled;
+                if (has_coupling) {
+                    coupled = surroundings_of(matrix.pattern(), coupling);
+                }
+                const Surroundings& around = has_coupling ? coupled : *plain_;
+                std::unique_ptr<Preconditioner<Dim>> preconditioner =
+                    column_jacobi(*workers_, matrix, dofs_.column_start);
+                if (around.hierarchy) {
+                    preconditioner = multilevel(*workers_, *kernels_, matrix, *around.hierarchy,
+                                                positions, std::move(preconditioner));
+                }
                 return iteration_.solve(matrix, *preconditioner, system.right(), options,
-                                        std::move(guess), {dofs_.owners.sharing, exchange_.get()});
+                                        std::move(guess),
+                                        {dofs_.owners.sharing, around.exchange.get()});
             },
             system.matrix());
     }
 
 private:
-    template <typename Scalar>
-    [[nodiscard]] std::unique_ptr<Preconditioner<Dim>> precondition(
-        const BlockMatrix<Dim, Scalar>& matrix, const BlockVector<Dim>& positions) {
-        std::unique_ptr<Preconditioner<Dim>> smoother =
-            column_jacobi(*workers_, matrix, dofs_.column_start);
-        if (kind_ != PreconditionerKind::RigidModes) {
-            return smoother;
-        }
-        const BlockPattern& pattern = matrix.pattern();
-        if (dofs_.owners.sharing != nullptr) {
-            if (!spread_modes_) {
-                spread_modes_.emplace(pattern, dofs_);
-            }
-            return spread_modes_->precondition(*workers_, matrix, positions, ghosts_, *exchange_,
-                                               std::move(smoother));
-        }
-        if (matrix.rows() == 0) {
-            return smoother;
-        }
-        if (!hierarchy_) {
-            hierarchy_.emplace(make_hierarchy<Dim>(pattern, dofs_.column_start, dofs_.rest),
-                               pattern);
-        }
-        return multilevel(*workers_, *kernels_, matrix, *hierarchy_, positions,
-                          std::move(smoother));
+    // What hangs on which blocks a matrix has.
+    struct Surroundings {
+        std::unique_ptr<GhostExchange> exchange;  // null where dofs are not shared
+        std::unique_ptr<Hierarchy> hierarchy;     // for rigid modes
+    };
+
+    [[nodiscard]] bool any(bool is_so) const {
+        return dofs_.owners.sharing != nullptr ? dofs_.owners.sharing->any(is_so) : is_so;
     }
 
-    // Those of elements are always the same; what stencils couple changes.
-    template <typename Scalar>
-    void find_ghosts(const BlockMatrix<Dim, Scalar>& matrix) {
-        const bool has_coupling = dofs_.owners.sharing->any(matrix.coupling() != nullptr);
-        if (exchange_ && !has_coupling && !had_coupling_) {
-            return;
-        }
-        had_coupling_ = has_coupling;
-        ghosts_ =
-            ghost_columns(matrix.pattern(),
-                          matrix.coupling() != nullptr ? &matrix.coupling()->pattern() : nullptr);
+    Surroundings surroundings_of(const BlockPattern& pattern, const BlockPattern* coupling) {
+        Surroundings around;
         Ghosts ghosts;
-        ghosts.own_columns = static_cast<std::uint32_t>(matrix.rows());
-        ghosts.columns = ghosts_;
-        for (const std::uint32_t ghost : ghosts_) {
+        if (dofs_.owners.sharing != nullptr) {
+            ghosts = ghosts_of(pattern, coupling);
+            around.exchange = dofs_.owners.sharing->ranks().make_exchange(ghosts);
+        }
+        if (kind_ == PreconditionerKind::RigidModes) {
+            if (aggregates_.empty()) {
+                aggregates_ = make_hierarchy<Dim>(pattern, dofs_.column_start, dofs_.rest,
+                                                  dofs_.owners.sharing);
+            }
+            around.hierarchy = std::make_unique<Hierarchy>(
+                aggregates_, pattern, coupling, Halo{dofs_.owners.sharing, around.exchange.get()},
+                ghosts);
+        }
+        return around;
+    }
+
+    [[nodiscard]] Ghosts ghosts_of(const BlockPattern& pattern,
+                                   const BlockPattern* coupling) const {
+        Ghosts ghosts;
+        ghosts.own_columns = static_cast<std::uint32_t>(pattern.rows());
+        ghosts.columns = ghost_columns(pattern, coupling);
+        for (const std::uint32_t ghost : ghosts.columns) {
             ghosts.owners.push_back(dofs_.owners.ranks[ghost]);
             ghosts.places.push_back(dofs_.owners.places[ghost]);
         }
-        exchange_ = dofs_.owners.sharing->ranks().make_exchange(ghosts);
+        return ghosts;
     }
 
     const Workers* workers_;
     const BlockKernels* kernels_;
     PreconditionerKind kind_;
-    DofGeometry<Dim> dofs_;  // with columns that are solved together
-    // From the first solve on:
-    std::optional<Hierarchy> hierarchy_;            // of the dofs
-    std::optional<SpreadModes<Dim>> spread_modes_;  // the same, where dofs are shared
-    std::vector<std::uint32_t> ghosts_;
-    std::unique_ptr<GhostExchange> exchange_;
-    bool had_coupling_ = false;
+    DofGeometry<Dim> dofs_;               // with columns that are solved together
+    std::vector<Aggregates> aggregates_;  // from the first solve on
+    std::optional<Surroundings> plain_;   // from the first without a coupling on
     ConjugateGradients<Dim> iteration_;
 };
 

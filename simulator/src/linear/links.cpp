@@ -40,7 +40,10 @@ Links link_dofs(const BlockPattern& pattern) {
     return link(static_cast<std::size_t>(pattern.rows()), [&](const auto& visit) {
         for (std::uint32_t row = 0; row < pattern.rows(); ++row) {
             for (std::int64_t k = pattern.row_start[row] + 1; k < pattern.row_start[row + 1]; ++k) {
-                visit(row, pattern.columns[static_cast<std::size_t>(k)]);
+                const std::uint32_t column = pattern.columns[static_cast<std::size_t>(k)];
+                if (column < pattern.rows()) {
+                    visit(row, column);
+                }
             }
         }
     });

@@ -23,7 +23,7 @@ struct Links {
     }
 };
 
-/// Of the dofs: those that share a block.
+/// Of the dofs that have rows: those that share a block.
 [[nodiscard]] Links link_dofs(const BlockPattern& pattern);
 
 /// Those of either of two graphs of the same nodes.

@@ -1,10 +1,11 @@
-#include "linear/coarse_solver.h"
+#include "linear/aggregate_places.h"
 #include "linear/gauss_seidel.h"
 #include "linear/preconditioner.h"
+#include "linear/shared_coarse_solver.h"
 
 #include <pent/dimensions.h>
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 
 namespace pent::simulator {
@@ -15,52 +16,6 @@ namespace {
 // below 2, see cycle().
 constexpr double kCorrection = 1.8;
 
-// Middles and sizes of aggregates; a vertex is its own, of no size.
-template <int Dim>
-struct Middles {
-    BlockVector<Dim> places;
-    std::vector<double> sizes;   // root mean square distance of the vertices from the middle, m
-    std::vector<double> counts;  // of vertices
-};
-
-template <int Dim>
-Middles<Dim> middles_of(const Aggregates& aggregates, const Middles<Dim>& children) {
-    const std::size_t count = aggregates.members.size();
-    Middles<Dim> middles{BlockVector<Dim>::Zero(Dim, aggregates.count()),
-                         std::vector<double>(count), std::vector<double>(count)};
-    for (std::size_t a = 0; a < count; ++a) {
-        auto place = middles.places.col(static_cast<Eigen::Index>(a));
-        for (const std::uint32_t child : aggregates.members[a]) {
-            place += children.counts[child] * children.places.col(child);
-            middles.counts[a] += children.counts[child];
-        }
-        place /= middles.counts[a];
-        double spread = 0;
-        for (const std::uint32_t child : aggregates.members[a]) {
-            spread += children.counts[child]
-                      * ((children.places.col(child) - place).squaredNorm()
-                         + children.sizes[child] * children.sizes[child]);
-        }
-        middles.sizes[a] = std::sqrt(spread / middles.counts[a]);
-    }
-    return middles;
-}
-
-template <int Dim>
-std::vector<Arm<Dim>> arms_of(const Aggregates& aggregates,
-                              const Middles<Dim>& children,
-                              const Middles<Dim>& middles) {
-    std::vector<Arm<Dim>> arms(aggregates.of_child.size());
-    for (std::size_t child = 0; child < arms.size(); ++child) {
-        const std::uint32_t a = aggregates.of_child[child];
-        const double size = middles.sizes[a] > 0 ? middles.sizes[a] : 1;
-        arms[child].x =
-            (children.places.col(static_cast<Eigen::Index>(child)) - middles.places.col(a)) / size;
-        arms[child].ratio = children.sizes[child] / size;
-    }
-    return arms;
-}
-
 template <int Dim, typename Scalar>
 class Multilevel final : public Preconditioner<Dim> {
 public:
@@ -70,29 +25,33 @@ public:
                const Hierarchy& hierarchy,
                const BlockVector<Dim>& positions,
                std::unique_ptr<Preconditioner<Dim>> smoother)
-        : kernels_(&kernels), smoother_(std::move(smoother)), levels_(hierarchy.levels.size()) {
-        if (matrix.coupling() != nullptr) {
-            own_patterns_ = hierarchy.patterns_with(matrix.coupling()->pattern());
-        }
-        const auto& patterns = own_patterns_.empty() ? hierarchy.patterns : own_patterns_;
+        : kernels_(&kernels),
+          halo_(hierarchy.halo),
+          smoother_(std::move(smoother)),
+          levels_(hierarchy.levels.size()) {
         const auto vertices = static_cast<std::size_t>(positions.cols());
-        Middles<Dim> children{positions, std::vector<double>(vertices, 0.0),
-                              std::vector<double>(vertices, 1.0)};
+        AggregatePlaces<Dim> children{positions, std::vector<double>(vertices, 0.0),
+                                      std::vector<double>(vertices, 1.0)};
+        GhostExchange* exchange = halo_.ghosts;  // of the children
         for (std::size_t l = 0; l < levels_.size(); ++l) {
+            const HierarchyLevel& made = hierarchy.levels[l];
             Level& level = levels_[l];
-            level.aggregates = &hierarchy.levels[l];
-            Middles<Dim> middles = middles_of(*level.aggregates, children);
-            level.arms = arms_of(*level.aggregates, children, middles);
-            level.matrix = l == 0 ? galerkin_product(workers, matrix, *level.aggregates, level.arms,
-                                                     patterns[l])
+            level.aggregates = &made.aggregates;
+            AggregatePlaces<Dim> places = places_of(made.aggregates, children);
+            level.arms = arms_of(made.aggregates, children, places, exchange);
+            level.matrix = l == 0 ? galerkin_product(workers, matrix, made.aggregates, level.arms,
+                                                     made.pattern)
                                   : galerkin_product(workers, levels_[l - 1].matrix,
-                                                     *level.aggregates, level.arms, patterns[l]);
-            children = std::move(middles);
+                                                     made.aggregates, level.arms, made.pattern);
+            exchange = made.exchange.get();
+            level.matrix.ghosts = exchange;
+            children = std::move(places);
             if (l + 1 < levels_.size()) {
                 level.smoother = GaussSeidel<Dim, Scalar>(workers, level.matrix);
             }
         }
-        coarsest_ = CoarseSolver<Dim, Scalar>(workers, levels_.back().matrix);
+        coarsest_ = SharedCoarseSolver<Dim, Scalar>(
+            workers, levels_.back().matrix, hierarchy.levels.back(), children, halo_.sharing);
     }
 
     // Additive: products with the matrix of the mesh are what an iteration costs most.
@@ -140,7 +99,7 @@ private:
 
     struct Level {
         const Aggregates* aggregates = nullptr;
-        std::vector<Arm<Dim>> arms;  // of the children
+        std::vector<Arm<Dim>> arms;  // of the children, of other ranks, too
         AggregateMatrix<Dim, Scalar> matrix;
         GaussSeidel<Dim, Scalar> smoother;  // but for the coarsest
     };
@@ -171,6 +130,7 @@ private:
             coarsest_.solve(workers, coarse, correction);
         } else {
             cycle(workers, l + 1, coarse, correction);
+            next.matrix.update_ghosts(correction);
             next.matrix.multiply(workers, *kernels_, BlockPart::Whole, correction, left);
             left = coarse - left;
             Vector again;
@@ -227,7 +187,7 @@ private:
             }
             forces.segment<kSize>(kSize * a) = sum;
         });
-        const double largest = forces.cwiseAbs().maxCoeff();
+        const double largest = halo_.max(forces.size() > 0 ? forces.cwiseAbs().maxCoeff() : 0);
         const double scale = largest > 0 ? largest : 1;
         coarse = (forces / scale).template cast<Scalar>();
         return scale;
@@ -248,27 +208,13 @@ private:
     }
 
     const BlockKernels* kernels_;
+    Halo halo_;
     std::unique_ptr<Preconditioner<Dim>> smoother_;
-    std::vector<AggregatePattern> own_patterns_;  // where there is a coupling
-    std::vector<Level> levels_;                   // the finest first
-    CoarseSolver<Dim, Scalar> coarsest_;
+    std::vector<Level> levels_;  // the finest first
+    SharedCoarseSolver<Dim, Scalar> coarsest_;
 };
 
 }  // namespace
-
-Hierarchy::Hierarchy(std::vector<Aggregates> aggregates, const BlockPattern& fine)
-    : levels(std::move(aggregates)), fine_(&fine) {
-    patterns = make_patterns(nullptr);
-}
-
-std::vector<AggregatePattern> Hierarchy::make_patterns(const BlockPattern* coupling) const {
-    std::vector<AggregatePattern> made;
-    for (const Aggregates& level : levels) {
-        made.push_back(made.empty() ? make_aggregate_pattern(level, *fine_, coupling)
-                                    : make_aggregate_pattern(level, made.back()));
-    }
-    return made;
-}
 
 template <int Dim, typename Scalar>
 std::unique_ptr<Preconditioner<Dim>> multilevel(const Workers& workers,

@@ -1,9 +1,8 @@
 #pragma once
 
-#include "linear/aggregate_matrix.h"
-#include "linear/aggregates.h"
 #include "linear/block_matrix.h"
 #include "linear/dof_map.h"
+#include "linear/hierarchy.h"
 
 #include <pent/simulator/solver_options.h>
 
@@ -51,27 +50,6 @@ template <int Dim, typename Scalar>
     const BlockMatrix<Dim, Scalar>& matrix,
     const std::vector<std::uint32_t>& column_start);
 
-/// Aggregates of a mesh over all levels, and which blocks their matrices have.
-class Hierarchy {
-public:
-    /// @param aggregates  The finest first; at least one level.
-    /// @param fine        Pattern of the dofs; must outlive this.
-    Hierarchy(std::vector<Aggregates> aggregates, const BlockPattern& fine);
-
-    std::vector<Aggregates> levels;
-    std::vector<AggregatePattern> patterns;  ///< One a level.
-
-    /// The patterns of a matrix that has a second part.
-    [[nodiscard]] std::vector<AggregatePattern> patterns_with(const BlockPattern& coupling) const {
-        return make_patterns(&coupling);
-    }
-
-private:
-    [[nodiscard]] std::vector<AggregatePattern> make_patterns(const BlockPattern* coupling) const;
-
-    const BlockPattern* fine_;
-};
-
 /// Adds rigid motions of aggregates, on several levels, to a smoother:
 ///
 ///     z = S r + P C P^T r,     C near (P^T A P)^-1 by multigrid
@@ -82,8 +60,11 @@ private:
 /// is enlarged by 1.8, in a W-cycle; the coarsest is solved exactly. Plain aggregation [notay2010]
 /// of rigid modes [vanek1996] with over-correction [braess1995].
 ///
+/// Where ranks share the dofs each has a part of every level, its own aggregates, and their
+/// vectors are exchanged beside the sweeps; the coarsest level is on all of them.
+///
 /// @param hierarchy  Must outlive the result.
-/// @param positions  Dim x dofs, where the vertices are now, m.
+/// @param positions  Dim x dofs, where the vertices are now, m; of this rank at least.
 template <int Dim, typename Scalar>
 [[nodiscard]] std::unique_ptr<Preconditioner<Dim>> multilevel(
     const Workers& workers,

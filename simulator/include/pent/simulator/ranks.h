@@ -30,6 +30,7 @@ public:
 
     /// @param values  Column-major, `rows` numbers a column.
     virtual void update(double* values, int rows) = 0;
+    virtual void update(float* values, int rows) = 0;
 };
 
 /// Where the columns of ghosts are: one entry a ghost.
