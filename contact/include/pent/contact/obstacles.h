@@ -14,7 +14,7 @@ using pent::Bowl;
 using pent::Cavity;
 using pent::Cuboid;
 using pent::HalfSpace;
-using pent::Obstacle;
+using pent::ObstacleShape;
 using pent::Repels;
 using pent::ShapeField;
 
