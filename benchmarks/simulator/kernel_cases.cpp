@@ -74,7 +74,7 @@ struct Bench {
         work.size.element_bytes = beam.elements->bytes();
         work.size.matrix_blocks = beam.pattern.blocks();
         work.flops = count_flops(kind);
-        work.aggregate_blocks = static_cast<double>(hierarchy->patterns[0].columns.size());
+        work.aggregate_blocks = static_cast<double>(hierarchy->levels[0].pattern.columns.size());
     }
 
     [[nodiscard]] std::unique_ptr<Preconditioner<4>> make_preconditioner(

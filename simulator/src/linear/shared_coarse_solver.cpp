@@ -130,7 +130,7 @@ Eigen::MatrixXd rigid_motions(const AggregatePlaces<Dim>& places, const Sharing&
         }
     }
     // By the eigenvectors of their products, columns in units of their lengths.
-    std::vector<double> sums(kSize * kSize);
+    std::vector<double> sums(std::size_t{kSize} * kSize);
     Eigen::Map<Eigen::MatrixXd> products(sums.data(), kSize, kSize);
     products = motions.transpose() * motions;
     sharing.sum(sums);
@@ -182,7 +182,7 @@ void SharedCoarseSolver<Dim, Scalar>::solve(const Workers& workers,
         whole_.solve(workers, r, z);
         return;
     }
-    const Eigen::VectorXd own = r.template cast<double>();
+    Eigen::VectorXd own = r.template cast<double>();
     if (spread_ != nullptr) {
         z = spread_->solve(own).template cast<Scalar>();
         return;
