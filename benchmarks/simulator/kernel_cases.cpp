@@ -79,8 +79,9 @@ struct Bench {
 
     [[nodiscard]] std::unique_ptr<Preconditioner<4>> make_preconditioner(
         const Workers& workers) const {
-        return multilevel(workers, kernels<4>(best_isa()).blocks, matrix, *hierarchy, dof_positions,
-                          column_jacobi(workers, matrix, beam.dofs.column_start()));
+        const BlockKernels& blocks = kernels<4>(best_isa()).blocks;
+        return multilevel(workers, blocks, matrix, *hierarchy, dof_positions,
+                          column_jacobi(workers, blocks, matrix, beam.dofs.column_start()));
     }
 };
 

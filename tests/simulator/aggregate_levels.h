@@ -97,7 +97,7 @@ struct TwoLevels {
     AggregateMatrix<4, Scalar> first;
     AggregateMatrix<4, Scalar> second;
 
-    explicit TwoLevels(Precision precision, int threads = 2)
+    explicit TwoLevels(Precision precision, int threads = 2, Isa isa = Isa::Baseline)
         : problem(precision),
           A(std::get<BlockMatrix<4, Scalar>>(problem.system.matrix())),
           fine(stripes(static_cast<std::uint32_t>(A.rows()), 9)),
@@ -105,8 +105,9 @@ struct TwoLevels {
           fine_pattern(make_aggregate_pattern(fine, A.pattern(), &A.coupling()->pattern())),
           coarse_pattern(make_aggregate_pattern(coarse, fine_pattern)) {
         const Workers workers(threads);
-        first = galerkin_product(workers, A, fine, fine_arms, fine_pattern);
-        second = galerkin_product(workers, first, coarse, coarse_arms, coarse_pattern);
+        const BlockKernels& blocks = kernels<4>(isa).blocks;
+        first = galerkin_product(workers, blocks, A, fine, fine_arms, fine_pattern);
+        second = galerkin_product(workers, blocks, first, coarse, coarse_arms, coarse_pattern);
     }
 };
 

@@ -14,25 +14,29 @@ using test::dense_modes;
 using test::kModeCount;
 using test::TwoLevels;
 
-TEST(GalerkinProduct, IsThatOfDenseMatricesOnEveryLevelSpringsIncluded) {
-    const TwoLevels<double> levels(Precision::Double);
-    const Eigen::MatrixXd P = dense_modes(levels.fine, levels.fine_arms, 4);
-    const Eigen::MatrixXd Q = dense_modes(levels.coarse, levels.coarse_arms, kModeCount);
-    const Eigen::MatrixXd first = P.transpose() * levels.problem.dense() * P;
-    const Eigen::MatrixXd second = Q.transpose() * first * Q;
-    // Sums of some hundred terms.
-    EXPECT_LT((dense(levels.first) - first).norm(), 1e-13 * first.norm());
-    EXPECT_LT((dense(levels.second) - second).norm(), 1e-13 * second.norm());
+TEST(GalerkinProduct, IsThatOfDenseMatricesOnEveryLevelSpringsIncludedOnEveryInstructionSet) {
+    for (const Isa isa : test::supported_isas()) {
+        const TwoLevels<double> levels(Precision::Double, 2, isa);
+        const Eigen::MatrixXd P = dense_modes(levels.fine, levels.fine_arms, 4);
+        const Eigen::MatrixXd Q = dense_modes(levels.coarse, levels.coarse_arms, kModeCount);
+        const Eigen::MatrixXd first = P.transpose() * levels.problem.dense() * P;
+        const Eigen::MatrixXd second = Q.transpose() * first * Q;
+        // Sums of some hundred terms.
+        EXPECT_LT((dense(levels.first) - first).norm(), 1e-13 * first.norm()) << isa_name(isa);
+        EXPECT_LT((dense(levels.second) - second).norm(), 1e-13 * second.norm()) << isa_name(isa);
+    }
 }
 
 TEST(GalerkinProduct, IsSymmetricToTheBitAndTheSameForAnyNumberOfThreads) {
-    const TwoLevels<float> one(Precision::Float, 1);
-    const Eigen::MatrixXd A = dense(one.second);
-    EXPECT_EQ(A, A.transpose());
-    for (const int threads : {2, 3}) {
-        const TwoLevels<float> more(Precision::Float, threads);
-        EXPECT_EQ(dense(more.first), dense(one.first));
-        EXPECT_EQ(dense(more.second), A);
+    for (const Isa isa : test::supported_isas()) {
+        const TwoLevels<float> one(Precision::Float, 1, isa);
+        const Eigen::MatrixXd A = dense(one.second);
+        EXPECT_EQ(A, A.transpose());
+        for (const int threads : {2, 3}) {
+            const TwoLevels<float> more(Precision::Float, threads, isa);
+            EXPECT_EQ(dense(more.first), dense(one.first));
+            EXPECT_EQ(dense(more.second), A);
+        }
     }
 }
 

@@ -52,8 +52,9 @@ int cold_iterations(const Scene& scene, const Simulation<4>& simulation) {
     }
     const Hierarchy hierarchy(
         make_hierarchy<4>(pattern, dofs.column_start(), at_dofs<4>(dofs, mesh.positions)), pattern);
-    const auto preconditioner = multilevel(workers, isa.blocks, A, hierarchy, positions,
-                                           column_jacobi(workers, A, dofs.column_start()));
+    const auto preconditioner =
+        multilevel(workers, isa.blocks, A, hierarchy, positions,
+                   column_jacobi(workers, isa.blocks, A, dofs.column_start()));
     const LinearSolveReport report =
         ConjugateGradients<4>(workers, isa.blocks)
             .solve(A, *preconditioner, b, {.tolerance = 1e-3},

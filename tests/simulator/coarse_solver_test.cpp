@@ -39,8 +39,8 @@ struct Chain {
             matrix.diagonal(row) *= 2.1;
         }
         coarse_pattern = make_aggregate_pattern(aggregates, pattern, nullptr);
-        A = galerkin_product(Workers(1), matrix, aggregates, std::vector<Arm<4>>(count),
-                             coarse_pattern);
+        A = galerkin_product(Workers(1), kernels<4>(Isa::Baseline).blocks, matrix, aggregates,
+                             std::vector<Arm<4>>(count), coarse_pattern);
     }
 
     // What the solver makes of A, on the translations, which are all that a vertex has.

@@ -49,11 +49,18 @@ LinearSolution<4> solve(const Problem& problem,
     return iteration.solve(A, preconditioner, problem.b, options, problem.guess);
 }
 
+template <typename Scalar>
+std::unique_ptr<Preconditioner<4>> columns_of(const Problem& problem,
+                                              const BlockMatrix<4, Scalar>& A) {
+    return column_jacobi(Workers(1), kernels<4>(best_isa()).blocks, A,
+                         problem.box.dofs.column_start());
+}
+
 TEST(ConjugateGradients, FindTheSolutionOfTheDenseFactorization) {
     Problem problem;
     const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
     const Workers workers(1);
-    const auto preconditioner = column_jacobi(workers, A, problem.box.dofs.column_start());
+    const auto preconditioner = columns_of(problem, A);
     const auto [x, report] = solve(problem, A, *preconditioner, {.tolerance = 1e-12});
     EXPECT_TRUE(report.has_converged);
     EXPECT_LE(report.residual, 1e-12);
@@ -67,9 +74,7 @@ TEST(ConjugateGradients, ReachOneMillionthWithAFloatMatrix) {
     Problem problem;
     const BlockMatrix<4, float> A = definite_matrix<float>(problem.box, 0.01);
     const Workers workers(1);
-    const auto [x, report] =
-        solve(problem, A, *column_jacobi(workers, A, problem.box.dofs.column_start()),
-              {.tolerance = 1e-6});
+    const auto [x, report] = solve(problem, A, *columns_of(problem, A), {.tolerance = 1e-6});
     EXPECT_TRUE(report.has_converged);
     const Eigen::VectorXd gap = problem.b.reshaped() - ElasticBox<4>::dense(A) * x.reshaped();
     EXPECT_NEAR(gap.norm() / problem.b.norm(), report.residual, 1e-12);
@@ -81,9 +86,7 @@ TEST(ConjugateGradients, ReportAMatrixThatIsNotPositiveDefinite) {
     A.diagonal(3).setZero();
     A.diagonal(3).diagonal().setConstant(-1);
     const Workers workers(1);
-    const auto [x, report] =
-        solve(problem, A, *column_jacobi(workers, A, problem.box.dofs.column_start()),
-              {.tolerance = 1e-8});
+    const auto [x, report] = solve(problem, A, *columns_of(problem, A), {.tolerance = 1e-8});
     EXPECT_TRUE(report.has_broken_down);
     EXPECT_FALSE(report.has_converged);
 }
@@ -93,8 +96,7 @@ TEST(ConjugateGradients, SayWhenIterationsRunOut) {
     const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
     const Workers workers(1);
     const auto [x, report] =
-        solve(problem, A, *column_jacobi(workers, A, problem.box.dofs.column_start()),
-              {.tolerance = 1e-12, .max_iterations = 3});
+        solve(problem, A, *columns_of(problem, A), {.tolerance = 1e-12, .max_iterations = 3});
     EXPECT_FALSE(report.has_converged);
     EXPECT_EQ(report.iterations, 3);
     EXPECT_GT(report.residual, 1e-12);
@@ -106,8 +108,7 @@ TEST(ConjugateGradients, GiveZeroForZeroWithoutIterating) {
     problem.b.setZero();
     problem.guess.setOnes();
     const Workers workers(1);
-    const auto [x, report] =
-        solve(problem, A, *column_jacobi(workers, A, problem.box.dofs.column_start()), {});
+    const auto [x, report] = solve(problem, A, *columns_of(problem, A), {});
     EXPECT_TRUE(report.has_converged);
     EXPECT_EQ(report.iterations, 0);
     EXPECT_EQ(x.norm(), 0);

@@ -27,8 +27,9 @@ std::unique_ptr<Preconditioner<4>> multilevel_of(const Fixture& f,
                                                  const Hierarchy& hierarchy,
                                                  const BlockVector<4>& positions,
                                                  const Workers& workers) {
-    return multilevel(workers, kernels<4>(Isa::Baseline).blocks, f.A, hierarchy, positions,
-                      column_jacobi(workers, f.A, f.box.dofs.column_start()));
+    const BlockKernels& blocks = kernels<4>(Isa::Baseline).blocks;
+    return multilevel(workers, blocks, f.A, hierarchy, positions,
+                      column_jacobi(workers, blocks, f.A, f.box.dofs.column_start()));
 }
 
 Eigen::MatrixXd dense_of(const Fixture& f, const Preconditioner<4>& preconditioner) {

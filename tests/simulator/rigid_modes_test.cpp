@@ -31,25 +31,50 @@ TEST(RigidModes, MoveVerticesAsTheMotionThatTheyAre) {
     EXPECT_LT((RigidModes<4, kModeCount>::motion(c, arms[0]) - child).norm(), 1e-14);
 }
 
-// Force is the transpose of motion, and the two products are those of the matrix of both.
 template <int Rows>
-void expect_products_of_the_matrix() {
+void expect_force_is_the_transpose_of_motion() {
     const OneChild<Rows> child;
-    using Modes = typename OneChild<Rows>::Modes;
     const Eigen::VectorXd r = Eigen::VectorXd::Random(Rows);
-    EXPECT_LT((Modes::force(r, child.arms[0]) - child.T.transpose() * r).norm(), 1e-14);
-    const Eigen::MatrixXd A = Eigen::MatrixXd::Random(Rows, Rows);
-    const typename Modes::Product product = Modes::times(A, child.arms[0]);
-    EXPECT_LT((product - A * child.T).norm(), 1e-13);
-    typename Modes::Square sum = Modes::Square::Ones();
-    Modes::add_transposed_times(product, child.arms[0], sum);
-    const Eigen::MatrixXd expected = child.T.transpose() * A * child.T;
-    EXPECT_LT((sum - Modes::Square::Ones() - expected).norm(), 1e-12);
+    const Eigen::VectorXd force = OneChild<Rows>::Modes::force(r, child.arms[0]);
+    EXPECT_LT((force - child.T.transpose() * r).norm(), 1e-14);
 }
 
-TEST(RigidModes, GiveTheProductsOfTheirMatrixForVerticesAndForAggregates) {
-    expect_products_of_the_matrix<kDim>();
-    expect_products_of_the_matrix<kModeCount>();
+TEST(RigidModes, HaveForcesThatAreTheTransposeOfMotionsForVerticesAndForAggregates) {
+    expect_force_is_the_transpose_of_motion<kDim>();
+    expect_force_is_the_transpose_of_motion<kModeCount>();
+}
+
+// Of an aggregate of every other one of nine vertices.
+template <int Dim>
+void expect_kernels_sum_over_children() {
+    using Modes = RigidModes<Dim, Dim>;
+    const std::vector<std::uint32_t> members = {1, 3, 5, 7};
+    std::vector<Arm<Dim>> arms(9);
+    for (Arm<Dim>& arm : arms) {
+        arm.x.setRandom();
+    }
+    const BlockVector<Dim> r = BlockVector<Dim>::Random(Dim, 9);
+    const typename Modes::Modes motion = Modes::Modes::Random();
+    typename Modes::Modes expected_force = Modes::Modes::Zero();
+    BlockVector<Dim> expected = r;
+    for (const std::uint32_t member : members) {
+        expected_force += Modes::force(r.col(member), arms[member]);
+        expected.col(member) += Modes::motion(motion, arms[member]);
+    }
+    for (const Isa isa : test::supported_isas()) {
+        const BlockKernels& blocks = kernels<Dim>(isa).blocks;
+        typename Modes::Modes force;
+        blocks.sum_forces(children_of<Dim>(members, arms), r.data(), force.data());
+        EXPECT_LT((force - expected_force).norm(), 1e-14) << isa_name(isa);
+        BlockVector<Dim> x = r;
+        blocks.add_motions(children_of<Dim>(members, arms), motion.data(), x.data());
+        EXPECT_LT((x - expected).norm(), 1e-14) << isa_name(isa);
+    }
+}
+
+TEST(RigidModes, AreSummedOverChildrenByKernelsOfEveryInstructionSet) {
+    expect_kernels_sum_over_children<3>();
+    expect_kernels_sum_over_children<4>();
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TEST(SharedCoarseSolver, SolvesForAllRanksHoweverManyRowsThereAre) {
             }
             const AggregatePlaces<4> places = places_of(level.aggregates, vertices);
             const auto A = galerkin_product(
-                Workers(1), *cut.A, level.aggregates,
+                Workers(1), kernels<4>(Isa::Baseline).blocks, *cut.A, level.aggregates,
                 arms_of(level.aggregates, vertices, places, cut.exchange.get()), level.pattern);
             const SharedCoarseSolver<4, double> solver(Workers(1), A, level, places, &cut.sharing);
             Eigen::VectorXd forces = Eigen::VectorXd::Zero(kModeCount * rows);

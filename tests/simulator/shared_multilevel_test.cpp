@@ -101,7 +101,7 @@ struct Part {
 
     [[nodiscard]] std::unique_ptr<Preconditioner<4>> preconditioner(const Workers& workers) const {
         return multilevel(workers, blocks(), *cut.A, hierarchy, positions,
-                          column_jacobi(workers, *cut.A, cut.column_start));
+                          column_jacobi(workers, blocks(), *cut.A, cut.column_start));
     }
 };
 
@@ -313,7 +313,8 @@ TEST(SharedMultilevel, IsOnOneRankToTheBitWhatItIsAlone) {
     BlockVector<4> expected(4, rows);
     std::vector<std::uint32_t> columns(rows + 1);
     std::iota(columns.begin(), columns.end(), 0U);
-    multilevel(workers, blocks(), of.A, alone, of.positions, column_jacobi(workers, of.A, columns))
+    multilevel(workers, blocks(), of.A, alone, of.positions,
+               column_jacobi(workers, blocks(), of.A, columns))
         ->apply(workers, r, expected);
     test::on_ranks(1, [&](const std::shared_ptr<const Ranks>& ranks) {
         SharedBox own(false);
@@ -359,7 +360,7 @@ TEST(SharedGaussSeidel, MakesNoErrorGrow) {
         const AggregatePlaces<4> vertices{part.positions, std::vector<double>(81, 0),
                                           std::vector<double>(81, 1)};
         auto A =
-            galerkin_product(Workers(1), *part.cut.A, made.aggregates,
+            galerkin_product(Workers(1), blocks(), *part.cut.A, made.aggregates,
                              arms_of(made.aggregates, vertices,
                                      places_of(made.aggregates, vertices), part.cut.exchange.get()),
                              made.pattern);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/kernel_vertices.h"
 #include "linear/block_kernels.h"
 
 // Products with symmetric block rows.
@@ -44,54 +45,42 @@ void multiply_rows(const BlockRows<Scalar>& rows, const double* x, double* y) {
     }
 }
 
-// The same for 4 x 4 blocks, a column of a block in one vector. Written with the vector types of
-// the compiler, for packs have no shuffles; a machine without vectors of four gets pairs.
-using Four [[gnu::vector_size(32)]] = double;
-
-template <typename Scalar>
-Four load_four(const Scalar* from) {
-    using Narrow [[gnu::vector_size(4 * sizeof(Scalar))]] = Scalar;
-    Narrow narrow;
-    __builtin_memcpy(&narrow, from, sizeof narrow);
-    return __builtin_convertvector(narrow, Four);
-}
-
-inline void add_four(const Four& value, double* to) {
-    const Four sum = load_four(to) + value;
-    __builtin_memcpy(to, &sum, sizeof sum);
-}
-
-// Sums of the entries of four vectors.
-inline Four sums_of(const Four& a, const Four& b, const Four& c, const Four& d) {
-    const Four ab =
-        __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
-    const Four cd =
-        __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
-    return __builtin_shufflevector(ab, cd, 0, 1, 4, 5)
-           + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
-}
-
+// The same for 4 x 4 blocks by their diagonals: entry j of diagonal k is in row j ^ k of column j. So
+// a product with the block takes what it is multiplied by as it lies in memory, one with its
+// transpose a part of x that is turned once a row, and neither needs a sum across a vector.
 template <typename Scalar>
 void multiply_rows_4(const BlockRows<Scalar>& rows, const double* x, double* y) {
-    for (std::int64_t row = rows.begin; row < rows.end; ++row) {
+    const std::int64_t* row_start = rows.row_start;
+    const std::uint32_t* columns = rows.columns;
+    for (std::int64_t row = rows.begin, end = rows.end; row < end; ++row) {
+        std::int64_t k = row_start[row];
+        const std::int64_t last = row_start[row + 1];
+        const Scalar* block = rows.values + 16 * k;
         const Four x_row = load_four(x + 4 * row);
-        const Scalar* block = rows.values + 16 * rows.row_start[row];
-        Four sum = load_four(block) * x_row[0] + load_four(block + 4) * x_row[1];
-        Four sum_2 = load_four(block + 8) * x_row[2] + load_four(block + 12) * x_row[3];
-        for (std::int64_t k = rows.row_start[row] + 1; k < rows.row_start[row + 1]; ++k) {
-            block += 16;
-            const std::int64_t at = std::int64_t{4} * rows.columns[k];
-            const Four c0 = load_four(block);
-            const Four c1 = load_four(block + 4);
-            const Four c2 = load_four(block + 8);
-            const Four c3 = load_four(block + 12);
-            sum += c0 * x[at];
-            sum_2 += c1 * x[at + 1];
-            sum += c2 * x[at + 2];
-            sum_2 += c3 * x[at + 3];
-            add_four(sums_of(c0 * x_row, c1 * x_row, c2 * x_row, c3 * x_row), y + at);
+        const Four x_1 = __builtin_shufflevector(x_row, x_row, 1, 0, 3, 2);
+        const Four x_2 = __builtin_shufflevector(x_row, x_row, 2, 3, 0, 1);
+        const Four x_3 = __builtin_shufflevector(x_row, x_row, 3, 2, 1, 0);
+        const Diagonals diagonal = diagonals_of(block);
+        Four sum_0 = diagonal.at[0] * x_row;
+        Four sum_1 = diagonal.at[1] * x_row;
+        Four sum_2 = diagonal.at[2] * x_row;
+        Four sum_3 = diagonal.at[3] * x_row;
+        for (++k, block += 16; k < last; ++k, block += 16) {
+            const std::int64_t at = std::int64_t{4} * columns[k];
+            const Four x_column = load_four(x + at);
+            const Diagonals of = diagonals_of(block);
+            sum_0 += of.at[0] * x_column;
+            sum_1 += of.at[1] * x_column;
+            sum_2 += of.at[2] * x_column;
+            sum_3 += of.at[3] * x_column;
+            const Four even = load_four(y + at) + of.at[0] * x_row + of.at[2] * x_2;
+            const Four odd = of.at[1] * x_1 + of.at[3] * x_3;
+            store(even + odd, y + at);
         }
-        add_four(sum + sum_2, y + 4 * row);
+        sum_0 += __builtin_shufflevector(sum_2, sum_2, 2, 3, 0, 1);
+        sum_1 += __builtin_shufflevector(sum_3, sum_3, 2, 3, 0, 1);
+        sum_0 += __builtin_shufflevector(sum_1, sum_1, 1, 0, 3, 2);
+        store(load_four(y + 4 * row) + sum_0, y + 4 * row);
     }
 }
 

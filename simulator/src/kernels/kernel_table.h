@@ -1,6 +1,8 @@
 #pragma once
 
+#include "kernels/kernel_columns.h"
 #include "kernels/kernel_hessian.h"
+#include "kernels/kernel_modes.h"
 #include "kernels/kernel_quadratic_hessian.h"
 #include "kernels/kernel_rows.h"
 #include "kernels/kernel_smoothed.h"
@@ -27,6 +29,24 @@ constexpr auto choose_multiply_modes() {
     } else {
         return &multiply_spans<kModes, Scalar>;
     }
+}
+
+template <int Dim, typename DoublePack>
+constexpr BlockKernels block_kernels() {
+    constexpr bool kIsVectorized = Lanes<DoublePack>::kCount > 1;
+    return {.multiply_float = choose_multiply<Dim, float, kIsVectorized>(),
+            .multiply_double = choose_multiply<Dim, double, kIsVectorized>(),
+            .multiply_modes_float = choose_multiply_modes<Dim, float, kIsVectorized>(),
+            .multiply_modes_double = choose_multiply_modes<Dim, double, kIsVectorized>(),
+            .factor_columns_float = &factor_columns<Dim, DoublePack, float>,
+            .factor_columns_double = &factor_columns<Dim, DoublePack, double>,
+            .solve_columns = &solve_columns<Dim, kIsVectorized>,
+            .sum_forces = &sum_forces<Dim, kIsVectorized>,
+            .add_motions = &add_motions<Dim, kIsVectorized>,
+            .galerkin_float = &galerkin<Dim, Dim, kIsVectorized, float>,
+            .galerkin_double = &galerkin<Dim, Dim, kIsVectorized, double>,
+            .galerkin_modes_float = &galerkin<Dim, kRigidModes<Dim>, kIsVectorized, float>,
+            .galerkin_modes_double = &galerkin<Dim, kRigidModes<Dim>, kIsVectorized, double>};
 }
 
 // A simplex is the case of Dim + 1 corners of the kernels for any number of them, which give the
@@ -56,15 +76,10 @@ std::int64_t add_hessian_of(const ElementRun& run,
 
 template <int Dim, typename FloatPack, typename DoublePack>
 constexpr Kernels<Dim> kernel_table() {
-    constexpr bool kIsVectorized = Lanes<DoublePack>::kCount > 1;
-    return {
-        .gradient = &add_gradient_of<Dim, DoublePack>,
-        .hessian_float = &add_hessian_of<Dim, FloatPack, float>,
-        .hessian_double = &add_hessian_of<Dim, DoublePack, double>,
-        .blocks = {.multiply_float = choose_multiply<Dim, float, kIsVectorized>(),
-                   .multiply_double = choose_multiply<Dim, double, kIsVectorized>(),
-                   .multiply_modes_float = choose_multiply_modes<Dim, float, kIsVectorized>(),
-                   .multiply_modes_double = choose_multiply_modes<Dim, double, kIsVectorized>()}};
+    return {.gradient = &add_gradient_of<Dim, DoublePack>,
+            .hessian_float = &add_hessian_of<Dim, FloatPack, float>,
+            .hessian_double = &add_hessian_of<Dim, DoublePack, double>,
+            .blocks = block_kernels<Dim, DoublePack>()};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <pent/dimensions.h>
 
 #include <algorithm>
+#include <span>
 
 namespace pent::simulator {
 
@@ -65,121 +66,109 @@ void for_each_block(const Pattern& pattern, const Visit& visit) {
     }
 }
 
-// One row of P^T H P, where A = H + H^T: the upper triangle of A with its diagonal halved, and all
-// blocks in columns of other ranks.
-template <int Dim, int Rows>
-class RowProduct {
-public:
-    RowProduct(const Aggregates& aggregates,
-               const std::vector<Arm<Dim>>& arms,
-               const AggregatePattern& pattern,
-               std::uint32_t row)
-        : aggregates_(&aggregates),
-          arms_(&arms),
-          columns_(pattern.columns.data() + pattern.row_start[row],
-                   pattern.columns.data() + pattern.row_start[row + 1]),
-          members_(&aggregates.members[row]),
-          blocks_(columns_.size(), Sum::Zero()),
-          parts_(columns_.size(), Product::Zero()) {}
+constexpr std::int64_t kChunkRows = 16;  // of a task
 
-    // Products of a row with all children of an aggregate are added up first.
-    template <typename Pattern, typename Matrix>
-    void add(const Pattern& pattern, const Matrix& A) {
-        for (const std::uint32_t row : *members_) {
-            touched_.clear();
-            for (std::int64_t k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k) {
-                const std::uint32_t column = pattern.columns[static_cast<std::size_t>(k)];
-                if (column < row) {
-                    continue;
-                }
-                Eigen::Matrix<double, Rows, Rows> block = A.block(k).template cast<double>();
-                if (column == row) {
-                    block *= 0.5;
-                }
-                const std::size_t at = place_of(aggregates_->of_child[column]);
-                if (std::find(touched_.begin(), touched_.end(), at) == touched_.end()) {
-                    touched_.push_back(at);
-                }
-                parts_[at] += RigidModes<Dim, Rows>::times(block, (*arms_)[column]);
-            }
-            for (const std::size_t at : touched_) {
-                RigidModes<Dim, Rows>::add_transposed_times(parts_[at], (*arms_)[row], blocks_[at]);
-                parts_[at].setZero();
-            }
+// Calls work(begin, end) for chunks of rows, at the same time.
+template <typename Work>
+void for_each_chunk(const Workers& workers, std::int64_t rows, const Work& work) {
+    workers.for_each((rows + kChunkRows - 1) / kChunkRows, [&](std::int64_t chunk) {
+        work(chunk * kChunkRows, std::min(rows, (chunk + 1) * kChunkRows));
+    });
+}
+
+// Rows of aggregates one after the other, with the room that kernels need.
+template <int Dim, int Rows>
+class GalerkinRows {
+public:
+    // Of the rows [begin, end) at most.
+    GalerkinRows(const Aggregates& aggregates,
+                 const std::vector<Arm<Dim>>& arms,
+                 const AggregatePattern& pattern,
+                 std::int64_t begin,
+                 std::int64_t end)
+        : aggregates_(&aggregates), arms_(&arms), pattern_(&pattern) {
+        std::size_t most = 0;
+        std::uint32_t last = 0;
+        for (std::int64_t row = begin; row < end; ++row) {
+            most = std::max(most, columns_of(row).size());
+            last = std::max(last, columns_of(row).back());
         }
+        places_.resize(last + std::size_t{1});
+        touched_.resize(most);
+        is_touched_.resize(most);
+        scratch_.resize(most * kGalerkinScratch<Dim, Rows>);
     }
 
-    template <typename Scalar>
-    void store(Scalar* values) const {
-        for (const Sum& block : blocks_) {
-            Eigen::Map<Eigen::Matrix<Scalar, kModes<Dim>, kModes<Dim>>>{values} =
-                block.template cast<Scalar>();
-            values += Sum::SizeAtCompileTime;
+    [[nodiscard]] GalerkinRow at(std::int64_t row) {
+        const std::span<const std::uint32_t> columns = columns_of(row);
+        for (std::uint32_t place = 0; place < columns.size(); ++place) {
+            places_[columns[place]] = place;
         }
+        const auto& members = aggregates_->members[static_cast<std::size_t>(row)];
+        return {children_of<Dim>(members, *arms_),
+                aggregates_->of_child.data(),
+                places_.data(),
+                columns.size(),
+                touched_.data(),
+                is_touched_.data(),
+                scratch_.data()};
     }
 
 private:
-    using Product = typename RigidModes<Dim, Rows>::Product;
-    using Sum = typename RigidModes<Dim, Rows>::Square;
-
-    [[nodiscard]] std::size_t place_of(std::uint32_t aggregate) const {
-        return static_cast<std::size_t>(
-            std::lower_bound(columns_.begin(), columns_.end(), aggregate) - columns_.begin());
+    [[nodiscard]] std::span<const std::uint32_t> columns_of(std::int64_t row) const {
+        const auto r = static_cast<std::size_t>(row);
+        return {pattern_->columns.data() + pattern_->row_start[r],
+                pattern_->columns.data() + pattern_->row_start[r + 1]};
     }
 
     const Aggregates* aggregates_;
     const std::vector<Arm<Dim>>* arms_;
-    std::vector<std::uint32_t> columns_;
-    const std::vector<std::uint32_t>* members_;
-    std::vector<Sum> blocks_;
-    std::vector<Product> parts_;
-    std::vector<std::size_t> touched_;
+    const AggregatePattern* pattern_;
+    std::vector<std::uint32_t> places_;
+    std::vector<std::uint32_t> touched_;
+    std::vector<std::uint8_t> is_touched_;
+    std::vector<double, LineAllocator<double>> scratch_;
 };
-
-template <typename Work>
-void for_each_row(const Workers& workers, std::int64_t rows, const Work& work) {
-    constexpr std::int64_t kChunk = 16;
-    workers.for_each((rows + kChunk - 1) / kChunk, [&](std::int64_t chunk) {
-        for (std::int64_t row = chunk * kChunk; row < std::min(rows, (chunk + 1) * kChunk); ++row) {
-            work(static_cast<std::uint32_t>(row));
-        }
-    });
-}
 
 // A = H + H^T, in place; what is between ranks is whole. Each pair of blocks is one thread's.
 template <int Dim, typename Scalar>
 void add_transposed(const Workers& workers, AggregateMatrix<Dim, Scalar>& A) {
     const AggregatePattern& pattern = *A.pattern;
-    for_each_row(workers, pattern.rows(), [&](std::uint32_t row) {
-        for (std::int64_t k = pattern.diagonal[row]; k < pattern.row_start[row + 1]; ++k) {
-            const std::uint32_t column = pattern.columns[static_cast<std::size_t>(k)];
-            if (column >= pattern.rows()) {
-                break;
+    for_each_chunk(workers, pattern.rows(), [&](std::int64_t begin, std::int64_t end) {
+        for (auto row = static_cast<std::uint32_t>(begin); row < end; ++row) {
+            for (std::int64_t k = pattern.diagonal[row]; k < pattern.row_start[row + 1]; ++k) {
+                const std::uint32_t column = pattern.columns[static_cast<std::size_t>(k)];
+                if (column >= pattern.rows()) {
+                    break;
+                }
+                auto upper = A.block(k);
+                auto lower = A.block(pattern.find(column, row));
+                const typename AggregateMatrix<Dim, Scalar>::Block sum = upper + lower.transpose();
+                upper = sum;
+                lower = sum.transpose();
             }
-            auto upper = A.block(k);
-            auto lower = A.block(pattern.find(column, row));
-            const typename AggregateMatrix<Dim, Scalar>::Block sum = upper + lower.transpose();
-            upper = sum;
-            lower = sum.transpose();
         }
     });
 }
 
-// @param add  Adds all there is to a RowProduct.
-template <int Dim, int Rows, typename Scalar, typename Add>
+// @param kernel  Of A and the Scalar, for children of so many Rows.
+template <int Dim, int Rows, typename Scalar, typename Kernel>
 AggregateMatrix<Dim, Scalar> product_of(const Workers& workers,
+                                        const Kernel& kernel,
+                                        const SymmetricParts<Scalar>& A,
                                         const Aggregates& aggregates,
                                         const std::vector<Arm<Dim>>& arms,
-                                        const AggregatePattern& pattern,
-                                        const Add& add) {
+                                        const AggregatePattern& pattern) {
     using Result = AggregateMatrix<Dim, Scalar>;
     Result result;
     result.pattern = &pattern;
     result.values.resize(pattern.columns.size() * Result::kEntries);
-    for_each_row(workers, pattern.rows(), [&](std::uint32_t row) {
-        RowProduct<Dim, Rows> product(aggregates, arms, pattern, row);
-        add(product);
-        product.store(result.values.data() + pattern.row_start[row] * Result::kEntries);
+    for_each_chunk(workers, pattern.rows(), [&](std::int64_t begin, std::int64_t end) {
+        GalerkinRows<Dim, Rows> rows(aggregates, arms, pattern, begin, end);
+        for (std::int64_t row = begin; row < end; ++row) {
+            const std::int64_t first = pattern.row_start[static_cast<std::size_t>(row)];
+            kernel(rows.at(row), A, result.values.data() + first * Result::kEntries);
+        }
     });
     add_transposed(workers, result);
     return result;
@@ -244,38 +233,49 @@ void AggregateMatrix<Dim, Scalar>::multiply_rows(
 
 template <int Dim, typename Scalar>
 AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,
+                                              const BlockKernels& kernels,
                                               const BlockMatrix<Dim, Scalar>& A,
                                               const Aggregates& aggregates,
                                               const std::vector<Arm<Dim>>& arms,
                                               const AggregatePattern& pattern) {
-    return product_of<Dim, Dim, Scalar>(workers, aggregates, arms, pattern,
-                                        [&](RowProduct<Dim, Dim>& product) {
-                                            product.add(A.pattern(), A);
-                                            if (A.coupling() != nullptr) {
-                                                product.add(A.coupling()->pattern(), *A.coupling());
-                                            }
-                                        });
+    SymmetricParts<Scalar> parts{A.all_rows(), {}};
+    if (A.coupling() != nullptr) {
+        parts.coupling = A.coupling()->all_rows();
+    }
+    if constexpr (sizeof(Scalar) == sizeof(float)) {
+        return product_of<Dim, Dim>(workers, kernels.galerkin_float, parts, aggregates, arms,
+                                    pattern);
+    } else {
+        return product_of<Dim, Dim>(workers, kernels.galerkin_double, parts, aggregates, arms,
+                                    pattern);
+    }
 }
 
 template <int Dim, typename Scalar>
 AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,
+                                              const BlockKernels& kernels,
                                               const AggregateMatrix<Dim, Scalar>& A,
                                               const Aggregates& aggregates,
                                               const std::vector<Arm<Dim>>& arms,
                                               const AggregatePattern& pattern) {
-    return product_of<Dim, kModes<Dim>, Scalar>(
-        workers, aggregates, arms, pattern,
-        [&](RowProduct<Dim, kModes<Dim>>& product) { product.add(*A.pattern, A); });
+    const SymmetricParts<Scalar> parts{A.all_rows(), {}};
+    if constexpr (sizeof(Scalar) == sizeof(float)) {
+        return product_of<Dim, kModes<Dim>>(workers, kernels.galerkin_modes_float, parts,
+                                            aggregates, arms, pattern);
+    } else {
+        return product_of<Dim, kModes<Dim>>(workers, kernels.galerkin_modes_double, parts,
+                                            aggregates, arms, pattern);
+    }
 }
 
-#define PENT_INSTANTIATE(Dim, Scalar)                                           \
-    template struct AggregateMatrix<Dim, Scalar>;                               \
-    template AggregateMatrix<Dim, Scalar> galerkin_product(                     \
-        const Workers&, const BlockMatrix<Dim, Scalar>&, const Aggregates&,     \
-        const std::vector<Arm<Dim>>&, const AggregatePattern&);                 \
-    template AggregateMatrix<Dim, Scalar> galerkin_product(                     \
-        const Workers&, const AggregateMatrix<Dim, Scalar>&, const Aggregates&, \
-        const std::vector<Arm<Dim>>&, const AggregatePattern&);
+#define PENT_INSTANTIATE(Dim, Scalar)                                                            \
+    template struct AggregateMatrix<Dim, Scalar>;                                                \
+    template AggregateMatrix<Dim, Scalar> galerkin_product(                                      \
+        const Workers&, const BlockKernels&, const BlockMatrix<Dim, Scalar>&, const Aggregates&, \
+        const std::vector<Arm<Dim>>&, const AggregatePattern&);                                  \
+    template AggregateMatrix<Dim, Scalar> galerkin_product(                                      \
+        const Workers&, const BlockKernels&, const AggregateMatrix<Dim, Scalar>&,                \
+        const Aggregates&, const std::vector<Arm<Dim>>&, const AggregatePattern&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, float)
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, double)
 #undef PENT_INSTANTIATE

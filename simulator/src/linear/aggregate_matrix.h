@@ -6,6 +6,7 @@
 
 #include <pent/simulator/ranks.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -40,6 +41,15 @@ struct AggregatePattern {
 [[nodiscard]] AggregatePattern make_aggregate_pattern(const Aggregates& aggregates,
                                                       const AggregatePattern& children);
 
+/// An aggregate and the arms of all children, as kernels take them.
+template <int Dim>
+[[nodiscard]] AggregateChildren children_of(const std::vector<std::uint32_t>& members,
+                                            const std::vector<Arm<Dim>>& arms) {
+    static_assert(offsetof(Arm<Dim>, ratio) == Dim * sizeof(double));
+    return {members.data(), members.size(), arms.data()->x.data(),
+            sizeof(Arm<Dim>) / sizeof(double)};
+}
+
 enum class BlockPart { Whole, BelowDiagonal, AboveDiagonal };
 
 /// Symmetric matrix over the rigid modes of aggregates; rows of this rank.
@@ -58,6 +68,12 @@ struct AggregateMatrix {
     }
     [[nodiscard]] Eigen::Map<const Block> block(std::int64_t index) const {
         return Eigen::Map<const Block>(values.data() + index * kEntries);
+    }
+
+    /// All rows as kernels take them.
+    [[nodiscard]] BlockRows<Scalar> all_rows() const {
+        return {values.data(), pattern->row_start.data(), pattern->columns.data(), 0,
+                pattern->rows()};
     }
 
     /// Gives the entries of other ranks in a vector over the columns what they are there.
@@ -94,12 +110,14 @@ struct AggregateMatrix {
 /// @param pattern  Of the product; must outlive it.
 template <int Dim, typename Scalar>
 [[nodiscard]] AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,
+                                                            const BlockKernels& kernels,
                                                             const BlockMatrix<Dim, Scalar>& A,
                                                             const Aggregates& aggregates,
                                                             const std::vector<Arm<Dim>>& arms,
                                                             const AggregatePattern& pattern);
 template <int Dim, typename Scalar>
 [[nodiscard]] AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,
+                                                            const BlockKernels& kernels,
                                                             const AggregateMatrix<Dim, Scalar>& A,
                                                             const Aggregates& aggregates,
                                                             const std::vector<Arm<Dim>>& arms,

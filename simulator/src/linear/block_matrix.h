@@ -54,6 +54,10 @@ public:
     [[nodiscard]] Scalar* values() { return values_.data(); }
     [[nodiscard]] const Scalar* values() const { return values_.data(); }
     [[nodiscard]] std::int64_t rows() const { return pattern_->rows(); }
+    /// All rows as kernels take them, without the second part.
+    [[nodiscard]] BlockRows<Scalar> all_rows() const {
+        return {values_.data(), pattern_->row_start.data(), pattern_->columns.data(), 0, rows()};
+    }
 
     [[nodiscard]] Eigen::Map<Block> block(std::int64_t index) {
         return Eigen::Map<Block>(values_.data() + index * kEntries);
@@ -137,9 +141,9 @@ private:
             workers.for_each(static_cast<int>(chunks.size()), [&](int i) {
                 const std::int64_t begin =
                     chunks[static_cast<std::size_t>(i)] * BlockPattern::kChunkRows;
-                const BlockRows<Scalar> rows{
-                    values_.data(), pattern_->row_start.data(), pattern_->columns.data(), begin,
-                    std::min(begin + BlockPattern::kChunkRows, this->rows())};
+                BlockRows<Scalar> rows = all_rows();
+                rows.begin = begin;
+                rows.end = std::min(begin + BlockPattern::kChunkRows, rows.end);
                 if constexpr (sizeof(Scalar) == sizeof(float)) {
                     kernels.multiply_float(rows, x.data(), result.data());
                 } else {

@@ -51,7 +51,7 @@ public:
                 }
                 const Surroundings& around = has_coupling ? coupled : *plain_;
                 std::unique_ptr<Preconditioner<Dim>> preconditioner =
-                    column_jacobi(*workers_, matrix, dofs_.column_start);
+                    column_jacobi(*workers_, *kernels_, matrix, dofs_.column_start);
                 if (around.hierarchy) {
                     preconditioner = multilevel(*workers_, *kernels_, matrix, *around.hierarchy,
                                                 positions, std::move(preconditioner));

@@ -39,9 +39,9 @@ public:
             level.aggregates = &made.aggregates;
             AggregatePlaces<Dim> places = places_of(made.aggregates, children);
             level.arms = arms_of(made.aggregates, children, places, exchange);
-            level.matrix = l == 0 ? galerkin_product(workers, matrix, made.aggregates, level.arms,
-                                                     made.pattern)
-                                  : galerkin_product(workers, levels_[l - 1].matrix,
+            level.matrix = l == 0 ? galerkin_product(workers, kernels, matrix, made.aggregates,
+                                                     level.arms, made.pattern)
+                                  : galerkin_product(workers, kernels, levels_[l - 1].matrix,
                                                      made.aggregates, level.arms, made.pattern);
             exchange = made.exchange.get();
             level.matrix.ghosts = exchange;
@@ -94,7 +94,6 @@ private:
     static constexpr int kSize = kModes<Dim>;
     static constexpr int kChunk = 64;  // aggregates of a task
     using Vector = typename AggregateMatrix<Dim, Scalar>::Vector;
-    using Finest = RigidModes<Dim, Dim>;
     using Coarse = RigidModes<Dim, kSize>;
 
     struct Level {
@@ -181,11 +180,8 @@ private:
         const Level& level = levels_[0];
         Eigen::VectorXd forces(kSize * level.aggregates->count());
         for_each_aggregate(workers, level, [&](std::uint32_t a) {
-            typename Finest::Modes sum = Finest::Modes::Zero();
-            for (const std::uint32_t dof : level.aggregates->members[a]) {
-                sum += Finest::force(r.col(dof), level.arms[dof]);
-            }
-            forces.segment<kSize>(kSize * a) = sum;
+            kernels_->sum_forces(children_of<Dim>(level.aggregates->members[a], level.arms),
+                                 r.data(), forces.data() + kSize * std::size_t{a});
         });
         const double largest = halo_.max(forces.size() > 0 ? forces.cwiseAbs().maxCoeff() : 0);
         const double scale = largest > 0 ? largest : 1;
@@ -199,11 +195,10 @@ private:
                         BlockVector<Dim>& x) const {
         const Level& level = levels_[0];
         for_each_aggregate(workers, level, [&](std::uint32_t a) {
-            const typename Finest::Modes modes =
+            const typename Coarse::Modes modes =
                 scale * coarse.template segment<kSize>(kSize * a).template cast<double>();
-            for (const std::uint32_t dof : level.aggregates->members[a]) {
-                x.col(dof) += Finest::motion(modes, level.arms[dof]);
-            }
+            kernels_->add_motions(children_of<Dim>(level.aggregates->members[a], level.arms),
+                                  modes.data(), x.data());
         });
     }
 

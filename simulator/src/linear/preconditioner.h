@@ -47,6 +47,7 @@ public:
 template <int Dim, typename Scalar>
 [[nodiscard]] std::unique_ptr<Preconditioner<Dim>> column_jacobi(
     const Workers& workers,
+    const BlockKernels& kernels,
     const BlockMatrix<Dim, Scalar>& matrix,
     const std::vector<std::uint32_t>& column_start);
 

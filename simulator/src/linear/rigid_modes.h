@@ -23,33 +23,6 @@ struct RigidModes {
     static_assert(Rows == Dim || Rows == kModes<Dim>);
     using Child = Eigen::Matrix<double, Rows, 1>;
     using Modes = Eigen::Matrix<double, kModes<Dim>, 1>;
-    using Product = Eigen::Matrix<double, Rows, kModes<Dim>>;
-    using Square = Eigen::Matrix<double, kModes<Dim>, kModes<Dim>, Eigen::RowMajor>;
-
-    /// A T.
-    static Product times(const Eigen::Matrix<double, Rows, Rows>& A, const Arm<Dim>& arm) {
-        Product product;
-        product.template leftCols<Dim>() = A.template leftCols<Dim>();
-        for_each_plane([&](int p, int q, int k) {
-            product.col(k) = arm.x[p] * A.col(q) - arm.x[q] * A.col(p);
-            if constexpr (Rows > Dim) {
-                product.col(k) += arm.ratio * A.col(k);
-            }
-        });
-        return product;
-    }
-
-    /// sum += T^T B, by rows, which are contiguous.
-    static void add_transposed_times(const Product& B, const Arm<Dim>& arm, Square& sum) {
-        const Eigen::Matrix<double, Rows, kModes<Dim>, Eigen::RowMajor> rows = B;
-        sum.template topRows<Dim>() += rows.template topRows<Dim>();
-        for_each_plane([&](int p, int q, int k) {
-            sum.row(k) += arm.x[p] * rows.row(q) - arm.x[q] * rows.row(p);
-            if constexpr (Rows > Dim) {
-                sum.row(k) += arm.ratio * rows.row(k);
-            }
-        });
-    }
 
     /// T^T r.
     static Modes force(const Child& r, const Arm<Dim>& arm) {
