@@ -192,6 +192,25 @@ TEST(SharedSimulation, HasLoadsActivationsAndAttachments) {
     expect_same_on_ranks(made, 2, 1e-7);
 }
 
+// Two materials and a load, by the labels of cells that ranks have in part.
+TEST(SharedSimulation, HasRegionsAndWhatLabelsSelect) {
+    Case<4> made = swing(Integrator::NewtonEuler);
+    for (Eigen::Index cell = 0; cell < made.meshes[0].cell_count(); ++cell) {
+        made.meshes[0].regions.push_back(static_cast<std::uint16_t>(cell / 24 % 3));
+    }
+    Region stiff{.name = "stiff",
+                 .select = {RegionSelection{.region = 2}},
+                 .material = made.scene.bodies[0].material};
+    stiff.material.lame.mu *= 5;
+    stiff.material.density *= 2;
+    made.scene.bodies[0].regions = {stiff};
+    made.scene.loads = {{.body = "box",
+                         .select = {RegionSelection{.region = 1}},
+                         .force = Eigen::Vector4d(0, 0, 3, 0)}};
+    ASSERT_TRUE(can_take_parts(made.scene));
+    expect_same_on_ranks(made, 2, 1e-7);
+}
+
 // Ranks have the cells of their own vertices alone.
 TEST(SharedSimulation, HasLoadsWhereRanksHaveTheirOwnCells) {
     Case<4> made = swing(Integrator::NewtonEuler);
