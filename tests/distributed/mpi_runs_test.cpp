@@ -79,7 +79,7 @@ TEST_F(MpiRuns, GoWherePentSimGoes) {
 TEST_F(MpiRuns, WriteTheFramesThatPentSimWrites) {
     std::string text = kBoxes;
     text.replace(text.find("frames = 4"), 10, "frames = 1");
-    write("start", text + "[output]\nvertex = [\"contact_force\", \"reaction\"]\n");
+    write("start", text + "[output]\nvertex = [\"contact_force\", \"reaction\", \"energy_density\"]\n");
     ASSERT_EQ(simulate(0, "start", "alone").exit_code, 0);
     for (const int ranks : {1, 2, 3, 4}) {
         const std::string run = "start" + std::to_string(ranks);
@@ -92,7 +92,7 @@ TEST_F(MpiRuns, WriteTheFramesThatPentSimWrites) {
             EXPECT_EQ(own.vertices, alone.vertices);
             const auto file = read_frame<3>(frame(run, body, 0));
             EXPECT_EQ(file.contact_forces.cols(), file.positions.cols());
-            EXPECT_EQ(file.fields.size(), 1U);
+            EXPECT_EQ(file.fields.size(), 2U);
         }
     }
 }

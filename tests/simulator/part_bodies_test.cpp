@@ -183,8 +183,13 @@ TEST(PartBodies, AreRefusedWhereAllCellsAreNeeded) {
         return !can_take_parts(scene);
     };
     EXPECT_TRUE(refuses([](Scene& scene) { scene.solver.elements = ElementKind::Smoothed; }));
-    EXPECT_TRUE(
-        refuses([](Scene& scene) { scene.output.vertex = {VertexQuantity::EnergyDensity}; }));
+    EXPECT_TRUE(refuses([](Scene& scene) {
+        scene.activations = {{.body = "box",
+                              .select = {EverythingSelection{}},
+                              .stretch = 1.1,
+                              .fibers = Fibers::Constant,
+                              .direction = Eigen::Vector4d(0, 1, 0, 0)}};
+    }));
 }
 
 // One rank finds it, all are told.

@@ -19,8 +19,8 @@ namespace pent::simulator {
 /// One entry a vertex: whether it is selected. A label selects the vertices of the cells that are
 /// here.
 ///
-/// @param where  Who selects, for messages. Throws an Error if it asks for layers that the mesh does
-///               not know.
+/// @param where  Who selects, for messages. Throws an Error if it asks for layers that the mesh
+///               does not know.
 template <int Dim>
 [[nodiscard]] std::vector<bool> mark_vertices(const SimplexMesh<Dim>& mesh,
                                               const std::vector<Selection>& select,
