@@ -79,7 +79,7 @@ TEST_F(MpiRuns, GoWherePentSimGoes) {
 TEST_F(MpiRuns, WriteTheFramesThatPentSimWrites) {
     std::string text = kBoxes;
     text.replace(text.find("frames = 4"), 10, "frames = 1");
-    write("start", text + "[output]\nvertex = [\"contact_force\", \"reaction\"]\n");
+    write("start", text + "[output]\nvertex = [\"contact_force\", \"reaction\", \"energy_density\"]\n");
     ASSERT_EQ(simulate(0, "start", "alone").exit_code, 0);
     for (const int ranks : {1, 2, 3, 4}) {
         const std::string run = "start" + std::to_string(ranks);
@@ -92,7 +92,7 @@ TEST_F(MpiRuns, WriteTheFramesThatPentSimWrites) {
             EXPECT_EQ(own.vertices, alone.vertices);
             const auto file = read_frame<3>(frame(run, body, 0));
             EXPECT_EQ(file.contact_forces.cols(), file.positions.cols());
-            EXPECT_EQ(file.fields.size(), 1U);
+            EXPECT_EQ(file.fields.size(), 2U);
         }
     }
 }
@@ -206,8 +206,8 @@ TEST_F(MpiRuns, OfBaseAndLayersAreThoseOfTheMesh) {
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
 }
 
-// Without regions no rank has a whole mesh: each reads slabs of a file and keeps the cells of its
-// vertices, or extrudes these, and writes a slab.
+// No rank has a whole mesh: each reads slabs of a file and keeps the cells of its vertices, or
+// extrudes these, with their labels, and writes a slab.
 TEST_F(MpiRuns, InWhichNoRankHasAWholeMeshAreThoseOfOne) {
     const Extrusion<4> made = extrusion();
     static_cast<void>(write_extrusion<4>(path("base.pent"), made));
@@ -215,11 +215,8 @@ TEST_F(MpiRuns, InWhichNoRankHasAWholeMeshAreThoseOfOne) {
                                  extrude<4>(made.base, made.ordered, made.layers, made.options)));
     static_cast<void>(write_mesh(path("text.pent"), read_mesh<4>(path("whole.pent")).mesh,
                                  {.encoding = Encoding::Ascii}));
-    std::string plain = kTwins;
-    const std::size_t region = plain.find("[[body.region]]");
-    plain.erase(region, plain.find("[[body]]", region) - region);
     for (const std::string mesh : {"base", "whole", "text"}) {
-        std::string scene = plain;
+        std::string scene = kTwins;
         for (std::size_t at = 0; (at = scene.find("MESH")) != std::string::npos;) {
             scene.replace(at, 4, mesh);
         }

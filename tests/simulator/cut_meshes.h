@@ -26,6 +26,9 @@ template <int Dim>
                     return static_cast<int>(owners[first + vertex]) == ranks.rank();
                 })) {
                 part.numbers.push_back(static_cast<std::uint32_t>(cell));
+                if (!mesh.regions.empty()) {
+                    part.mesh.regions.push_back(mesh.regions[static_cast<std::size_t>(cell)]);
+                }
             }
         }
         part.mesh.positions = mesh.positions;

@@ -32,7 +32,9 @@ public:
         farthest_ = std::max(farthest_, x(0, 0));
         return at;
     }
-    NewtonDirection<3> solve(const Positions<3>& displacement, double /*tolerance*/) override {
+    NewtonDirection<3> solve(const Positions<3>& /*gradient*/,
+                             const Positions<3>& displacement,
+                             double /*tolerance*/) override {
         // Where springs are at rest behind the first point, wherever that goes.
         Positions<3> step = displacement;
         step.col(1) = x_.col(0) + displacement.col(0) + Eigen::Vector3d::UnitX() - x_.col(1);

@@ -3,15 +3,21 @@
 #include "contact_scenes.h"
 #include "cut_meshes.h"
 #include "model/held_vertices.h"
+#include "model/near_cells.h"
+#include "model/part_selection.h"
 #include "scenes.h"
 #include "support/messages.h"
 #include "thread_ranks.h"
 
 #include <pent/facets.h>
+#include <pent/simulator/mesh_parts.h>
+#include <pent/simulator/placed_mesh.h>
 #include <pent/simulator/simulation.h>
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
+#include <string>
 #include <utility>
 
 namespace pent::simulator {
@@ -33,13 +39,38 @@ Scene two_bars() {
     return scene;
 }
 
+// With labels, two to a cube.
 std::vector<SimplexMesh<4>> meshes() {
-    return {test::bar(), test::bar()};
+    SimplexMesh<4> bar = test::bar();
+    for (Eigen::Index cell = 0; cell < bar.cell_count(); ++cell) {
+        bar.regions.push_back(static_cast<std::uint16_t>(cell / 24 + cell % 2));
+    }
+    return {bar, bar};
+}
+
+// The same with regions by all that selects, and with what takes hold of cells with a label.
+Scene bars_of_regions() {
+    Scene scene = two_bars();
+    const auto region = [&](const std::string& name, const Selection& select, double density) {
+        Region made{.name = name, .select = {select}, .material = scene.bodies[0].material};
+        made.material.density = density;
+        return made;
+    };
+    scene.bodies[0].regions = {
+        region("ball", BallSelection{.center = Eigen::Vector4d(0.4, 0.2, 0.2, 0.2), .radius = 0.3},
+               500),
+        region("label", RegionSelection{.region = 5}, 700)};
+    scene.bodies[1].regions = {region("layers", LayerSelection{.first = 0, .last = 1}, 300)};
+    scene.constraints.push_back(test::hold(RegionSelection{.region = 5}, test::still(4)));
+    scene.constraints.back().body = "second";
+    scene.loads = {{.body = "box",
+                    .select = {RegionSelection{.region = 5}, RegionSelection{.region = 2}},
+                    .force = Eigen::Vector4d(0, 0, 3, 0)}};
+    return scene;
 }
 
 // What is made of parts is what is made of whole meshes, but for the cells of the meshes.
-TEST(PartBodies, AreThoseOfWholeMeshes) {
-    const Scene scene = two_bars();
+void expect_those_of_whole_meshes(const Scene& scene) {
     const Bodies<4> all = make_bodies<4>(scene, meshes());
     ASSERT_FALSE(is_of_parts(all));
     for (const int count : {1, 2, 3, 5}) {
@@ -54,6 +85,23 @@ TEST(PartBodies, AreThoseOfWholeMeshes) {
             EXPECT_EQ(own.cell_count, all.cell_count);
             EXPECT_EQ(own.first_vertex, all.first_vertex);
             EXPECT_EQ(HeldVertices<4>(scene, own).now(), HeldVertices<4>(scene, all).now());
+            Bodies<4> near = all;
+            near.sharing = own.sharing;
+            keep_near_cells(near);
+            EXPECT_EQ(own.cells, near.cells);
+            EXPECT_EQ(own.mesh_cells, near.mesh_cells);
+            ASSERT_EQ(own.ranges.size(), near.ranges.size());
+            for (std::size_t range = 0; range < near.ranges.size(); ++range) {
+                EXPECT_EQ(own.ranges[range].begin, near.ranges[range].begin);
+                EXPECT_EQ(own.ranges[range].end, near.ranges[range].end);
+                EXPECT_EQ(own.ranges[range].body, near.ranges[range].body);
+                EXPECT_EQ(own.ranges[range].region, near.ranges[range].region);
+                EXPECT_EQ(own.ranges[range].material.density, near.ranges[range].material.density);
+            }
+            for (const Load& load : scene.loads) {
+                EXPECT_EQ(select_vertices(own, 0, load.select, ""),
+                          select_vertices(all.meshes[0], load.select, ""));
+            }
             EXPECT_EQ(own.columns.columns, all.columns.columns);
             EXPECT_EQ(own.meshes[1].positions, all.meshes[1].positions);
             EXPECT_EQ(own.meshes[1].cell_count(), 0);
@@ -64,6 +112,43 @@ TEST(PartBodies, AreThoseOfWholeMeshes) {
             }
         });
     }
+}
+
+TEST(PartBodies, AreThoseOfWholeMeshes) {
+    expect_those_of_whole_meshes(two_bars());
+}
+
+TEST(PartBodies, HaveTheRegionsOfWholeMeshesAndWhatLabelsSelect) {
+    const Scene scene = bars_of_regions();
+    EXPECT_TRUE(are_labels_asked_for(scene, scene.bodies[0]));
+    EXPECT_TRUE(are_labels_asked_for(scene, scene.bodies[1]));
+    EXPECT_FALSE(are_labels_asked_for(two_bars(), two_bars().bodies[0]));
+    expect_those_of_whole_meshes(scene);
+}
+
+// All ranks say so, whatever cells they have.
+TEST(PartBodies, RefuseSelectionsOfNothing) {
+    const auto refuses = [](const auto& change, std::initializer_list<std::string> words) {
+        Scene scene = bars_of_regions();
+        change(scene);
+        test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
+            expect_contains(error_of([&] {
+                                Simulation<4>(scene, test::cut_meshes<4>(scene, meshes(), *ranks),
+                                              {.ranks = ranks});
+                            }),
+                            words);
+        });
+    };
+    refuses(
+        [](Scene& scene) { scene.bodies[0].regions[1].select = {RegionSelection{.region = 99}}; },
+        {"region \"label\" selects no cell", "the body as placed reaches from"});
+    refuses([](Scene& scene) { scene.loads[0].select = {RegionSelection{.region = 99}}; },
+            {"load on \"box\" selects no vertex", "no cell has the label"});
+    refuses(
+        [](Scene& scene) {
+            scene.bodies[1].regions[0].select = {LayerSelection{.first = 7, .last = 9}};
+        },
+        {"region \"layers\" selects no cell"});
 }
 
 // Those with an even sum of corners, say.
@@ -99,14 +184,12 @@ TEST(PartBodies, AreRefusedWhereAllCellsAreNeeded) {
     };
     EXPECT_TRUE(refuses([](Scene& scene) { scene.solver.elements = ElementKind::Smoothed; }));
     EXPECT_TRUE(refuses([](Scene& scene) {
-        scene.bodies[1].regions = {{.name = "all",
-                                    .select = {EverythingSelection{}},
-                                    .material = scene.bodies[0].material}};
+        scene.activations = {{.body = "box",
+                              .select = {EverythingSelection{}},
+                              .stretch = 1.1,
+                              .fibers = Fibers::Constant,
+                              .direction = Eigen::Vector4d(0, 1, 0, 0)}};
     }));
-    EXPECT_TRUE(refuses(
-        [](Scene& scene) { scene.constraints[0].select = {RegionSelection{.region = 3}}; }));
-    EXPECT_TRUE(
-        refuses([](Scene& scene) { scene.output.vertex = {VertexQuantity::EnergyDensity}; }));
 }
 
 // One rank finds it, all are told.

@@ -49,7 +49,9 @@ public:
                 .gradient = gradient(x_).reshaped(3, x.cols())};
     }
 
-    NewtonDirection<3> solve(const Positions<3>& /*displacement*/, double /*tolerance*/) override {
+    NewtonDirection<3> solve(const Positions<3>& /*gradient*/,
+                             const Positions<3>& /*displacement*/,
+                             double /*tolerance*/) override {
         Matrix H = hessian(x_);
         if (curvature == Curvature::Absolute) {
             const Eigen::SelfAdjointEigenSolver<Matrix> parts(H);

@@ -25,6 +25,7 @@ template <int Dim>
 struct State {
     Positions<Dim> positions;
     Positions<Dim> forces;
+    Eigen::RowVectorXd densities;  // of energy, one a vertex
     std::vector<StepReport> steps;
     SimulationSize size;
 };
@@ -38,9 +39,13 @@ State<Dim> simulate(Simulation<Dim> simulation, int steps) {
     const Snapshot<Dim> end = simulation.save();
     state.positions = end.positions;
     state.forces.resize(Dim, end.positions.cols());
+    state.densities.resize(end.positions.cols());
     for (int body = 0; body < simulation.body_count(); ++body) {
-        state.forces.middleCols(simulation.first_vertex(body),
-                                simulation.mesh(body).vertex_count()) = simulation.forces(body);
+        const Eigen::Index first = simulation.first_vertex(body);
+        const Eigen::Index count = simulation.mesh(body).vertex_count();
+        state.forces.middleCols(first, count) = simulation.forces(body);
+        state.densities.middleCols(first, count) =
+            simulation.vertex_values(VertexQuantity::EnergyDensity, body);
     }
     state.size = simulation.size();
     return state;
@@ -94,6 +99,7 @@ void expect_same_on_ranks(const Case<Dim>& of, int steps, double tolerance) {
         for (const State<Dim>& state : all) {
             EXPECT_EQ(state.positions, all.front().positions);
             EXPECT_EQ(state.forces, all.front().forces);
+            EXPECT_EQ(state.densities, all.front().densities);
             EXPECT_EQ(state.steps.back().iterations, all.front().steps.back().iterations);
         }
         const State<Dim>& state = all.front();
@@ -102,11 +108,15 @@ void expect_same_on_ranks(const Case<Dim>& of, int steps, double tolerance) {
                 const State<Dim> of_parts = simulate_parts<Dim>(of, steps, ranks);
                 EXPECT_EQ(of_parts.positions, state.positions);
                 EXPECT_EQ(of_parts.forces, state.forces);
+                EXPECT_EQ(of_parts.densities, state.densities);
                 EXPECT_EQ(of_parts.size.elements, state.size.elements);
             });
         }
         EXPECT_LT((state.positions - alone.positions).norm(), tolerance * motion);
         EXPECT_LT((state.forces - alone.forces).norm(), 100 * tolerance * force);
+        // A joule is nothing beside a strain that anybody sees.
+        EXPECT_LT((state.densities - alone.densities).norm(),
+                  100 * tolerance * (alone.densities.norm() + 1));
         EXPECT_EQ(state.size.elements, alone.size.elements);
         EXPECT_EQ(state.size.free_vertices, alone.size.free_vertices);
         for (std::size_t i = 0; i < alone.steps.size(); ++i) {
@@ -189,6 +199,25 @@ TEST(SharedSimulation, HasLoadsActivationsAndAttachments) {
     attachment.stiffness = 20;
     attachment.damping = 0.1;
     scene.attachments = {attachment};
+    expect_same_on_ranks(made, 2, 1e-7);
+}
+
+// Two materials and a load, by the labels of cells that ranks have in part.
+TEST(SharedSimulation, HasRegionsAndWhatLabelsSelect) {
+    Case<4> made = swing(Integrator::NewtonEuler);
+    for (Eigen::Index cell = 0; cell < made.meshes[0].cell_count(); ++cell) {
+        made.meshes[0].regions.push_back(static_cast<std::uint16_t>(cell / 24 % 3));
+    }
+    Region stiff{.name = "stiff",
+                 .select = {RegionSelection{.region = 2}},
+                 .material = made.scene.bodies[0].material};
+    stiff.material.lame.mu *= 5;
+    stiff.material.density *= 2;
+    made.scene.bodies[0].regions = {stiff};
+    made.scene.loads = {{.body = "box",
+                         .select = {RegionSelection{.region = 1}},
+                         .force = Eigen::Vector4d(0, 0, 3, 0)}};
+    ASSERT_TRUE(can_take_parts(made.scene));
     expect_same_on_ranks(made, 2, 1e-7);
 }
 

@@ -36,6 +36,27 @@ TEST(Sharing, GivesEveryVertexWhatItsOwnerSays) {
     });
 }
 
+// So many that they do not go at a time.
+TEST(Sharing, GivesAsManyAsThereAre) {
+    constexpr std::uint32_t kVertices = 200000;
+    std::vector<std::uint32_t> owners(kVertices);
+    for (std::uint32_t v = 0; v < kVertices; ++v) {
+        owners[v] = v < 100000 ? 2 : v % 7 % 2;  // of the first ones two ranks have none
+    }
+    test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
+        const Sharing sharing(ranks, owners);
+        Positions<4> values = Positions<4>::Constant(4, kVertices, ranks->rank());
+        values.row(2).setLinSpaced(0, kVertices - 1);
+        sharing.gather(values);
+        std::int64_t wrong = 0;
+        for (std::uint32_t v = 0; v < kVertices; ++v) {
+            wrong +=
+                values(0, v) == owners[v] && values(2, v) == v && values(3, v) == owners[v] ? 0 : 1;
+        }
+        EXPECT_EQ(wrong, 0);
+    });
+}
+
 // 1 + 1e-16 is 1, but 1e-16 + 1e-16 + ... + 1 would not be.
 TEST(Sharing, AddsInTheOrderOfRanksOnAll) {
     test::on_ranks(4, [&](const std::shared_ptr<const Ranks>& ranks) {

@@ -55,27 +55,37 @@ bool is_near(const Simplices<Dim + 1>& cells, Eigen::Index cell, const Owners& o
     });
 }
 
-// Cells [first, last), of which each rank reads a slab.
+// Cells [first, last) with their labels, if there are any and they are wanted; of them each rank
+// reads a slab.
 template <int Dim>
-Simplices<Dim + 1> piece_of(const MeshSource<Dim>& source,
-                            Eigen::Index first,
-                            Eigen::Index last,
-                            const RunRanks& ranks) {
+SimplexMesh<Dim> piece_of(const MeshSource<Dim>& source,
+                          Eigen::Index first,
+                          Eigen::Index last,
+                          bool has_labels,
+                          const RunRanks& ranks) {
     const auto own_cells = ranks.slab_of(last - first);
     std::vector<double> own;
+    std::vector<double> own_labels;
     ranks.agree([&] {
         const SimplexMesh<Dim> slab =
             source.cells(first + own_cells.first, first + own_cells.second);
         own.assign(slab.cells.data(), slab.cells.data() + slab.cells.size());
+        own_labels.assign(slab.regions.begin(), slab.regions.end());
     });
     const std::vector<double> all = ranks.gather(own);
-    return Eigen::Map<const Eigen::Matrix<double, Dim + 1, Eigen::Dynamic>>(all.data(), Dim + 1,
-                                                                            last - first)
-        .template cast<std::uint32_t>();
+    SimplexMesh<Dim> piece;
+    piece.cells = Eigen::Map<const Eigen::Matrix<double, Dim + 1, Eigen::Dynamic>>(
+                      all.data(), Dim + 1, last - first)
+                      .template cast<std::uint32_t>();
+    for (const double label : has_labels ? ranks.gather(own_labels) : std::vector<double>()) {
+        piece.regions.push_back(static_cast<std::uint16_t>(label));
+    }
+    return piece;
 }
 
 template <int Dim>
 MeshPart<Dim> read_part(const MeshSource<Dim>& source,
+                        bool has_labels,
                         const Owners& owners,
                         const RunRanks& ranks) {
     MeshPart<Dim> part;
@@ -83,11 +93,16 @@ MeshPart<Dim> read_part(const MeshSource<Dim>& source,
     std::vector<std::uint32_t> corners;
     for (Eigen::Index first = 0; first < part.cell_count; first += kPiece) {
         const Eigen::Index last = std::min(first + kPiece, part.cell_count);
-        const Simplices<Dim + 1> cells = piece_of(source, first, last, ranks);
-        for (Eigen::Index cell = 0; cell < cells.cols(); ++cell) {
-            if (is_near<Dim>(cells, cell, owners)) {
-                part.numbers.push_back(static_cast<std::uint32_t>(first + cell));
-                corners.insert(corners.end(), cells.col(cell).begin(), cells.col(cell).end());
+        const SimplexMesh<Dim> piece = piece_of(source, first, last, has_labels, ranks);
+        for (Eigen::Index cell = 0; cell < piece.cell_count(); ++cell) {
+            if (!is_near<Dim>(piece.cells, cell, owners)) {
+                continue;
+            }
+            const auto own = piece.cells.col(cell);
+            part.numbers.push_back(static_cast<std::uint32_t>(first + cell));
+            corners.insert(corners.end(), own.begin(), own.end());
+            if (!piece.regions.empty()) {
+                part.mesh.regions.push_back(piece.regions[static_cast<std::size_t>(cell)]);
             }
         }
     }
@@ -160,10 +175,13 @@ private:
             const Owners owners = {std::span<const std::uint32_t>(owners_).subspan(first, count),
                                    static_cast<std::uint32_t>(ranks_.place())};
             const MeshSource<Dim>& source = result_.sources[i];
+            const bool has_labels = are_labels_asked_for(scene_, scene_.bodies[i]);
             MeshPart<Dim> part = source.is_extrusion()
                                      ? extruded_part(source, meshes_[i].columns, owners)
-                                     : read_part(source, owners, ranks_);
-            part.mesh.regions.clear();
+                                     : read_part(source, has_labels, owners, ranks_);
+            if (!has_labels) {
+                part.mesh.regions.clear();
+            }
             part.mesh.positions = std::move(meshes_[i].positions);
             part.mesh.columns = std::move(meshes_[i].columns);
             part.mesh.layers = std::move(meshes_[i].layers);
@@ -171,7 +189,9 @@ private:
                 with_place_of(scene_.bodies[i], [&] {
                     validate_part<Dim>(part.mesh, scene_.bodies[i].mesh, part.numbers);
                 });
-                check_constraints(scene_, scene_.bodies[i], part.mesh);
+                if (!has_labels) {  // else the simulation does, as all have to look together
+                    check_constraints(scene_, scene_.bodies[i], part.mesh);
+                }
             });
             result_.parts.push_back(std::move(part));
             first += count;

@@ -98,6 +98,7 @@ void NewtonSystem<Dim>::finish() {
         coupling_ = std::move(coupling);
     };
     std::visit(add, matrix_);
+    prescribed_displacement_.resize(Dim, 0);
 }
 
 #define PENT_INSTANTIATE(Dim) template class NewtonSystem<Dim>;

@@ -48,8 +48,8 @@ public:
     void add_stencil(const HessianStencil& stencil) { stencils_.push_back(stencil); }
     void reserve_stencils(std::size_t more) { stencils_.reserve(stencils_.size() + more); }
 
-    /// Sums up the stencils. Each row is summed by one thread in the order in which they were
-    /// added.
+    /// Sums up the stencils, each row by one thread in the order in which they were added. Lets go
+    /// of `displacement`.
     void finish();
 
     [[nodiscard]] bool has_lost_inertia() const { return has_lost_inertia_; }

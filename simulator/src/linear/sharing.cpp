@@ -2,9 +2,44 @@
 
 #include <pent/dimensions.h>
 
+#include <algorithm>
+#include <numeric>
+#include <span>
 #include <utility>
 
 namespace pent::simulator {
+
+namespace {
+
+// Vertices that ranks tell one another of at a time: copies of all would be as large as what they
+// are told.
+constexpr std::size_t kPiece = std::size_t{1} << 16;
+
+// Gives every column, one a vertex, what it is on the rank that owns the vertex.
+//
+// @param owners  Of these vertices.
+// @param values  Column-major, `Rows` numbers a column.
+template <int Rows>
+void gather_piece(const Ranks& ranks, std::span<const std::uint32_t> owners, double* values) {
+    std::vector<std::int64_t> sizes(static_cast<std::size_t>(ranks.count()), 0);
+    std::vector<double> own;
+    for (std::size_t vertex = 0; vertex < owners.size(); ++vertex) {
+        sizes[owners[vertex]] += Rows;
+        if (owners[vertex] == static_cast<std::uint32_t>(ranks.rank())) {
+            own.insert(own.end(), values + vertex * Rows, values + (vertex + 1) * Rows);
+        }
+    }
+    const std::vector<double> all = ranks.gather(own, sizes);
+    std::vector<std::int64_t> next(sizes.size(), 0);
+    std::exclusive_scan(sizes.begin(), sizes.end(), next.begin(), std::int64_t{0});
+    for (std::size_t vertex = 0; vertex < owners.size(); ++vertex) {
+        std::int64_t& at = next[owners[vertex]];
+        std::copy_n(all.data() + at, Rows, values + vertex * Rows);
+        at += Rows;
+    }
+}
+
+}  // namespace
 
 Sharing::Sharing(std::shared_ptr<const Ranks> ranks, std::vector<std::uint32_t> owners)
     : ranks_(std::move(ranks)),
@@ -62,26 +97,10 @@ void Sharing::gather(Eigen::Matrix<double, Rows, Eigen::Dynamic>& values) const 
     if (!is_shared()) {
         return;
     }
-    std::vector<std::int64_t> sizes;
-    for (const std::int64_t count : counts_) {
-        sizes.push_back(count * Rows);
-    }
-    std::vector<double> own;
-    own.reserve(static_cast<std::size_t>(sizes[rank_]));
-    for (std::uint32_t vertex = 0; vertex < owners_.size(); ++vertex) {
-        if (owners_[vertex] == rank_) {
-            own.insert(own.end(), values.col(vertex).begin(), values.col(vertex).end());
-        }
-    }
-    const std::vector<double> all = ranks_->gather(own, sizes);
-    std::vector<std::int64_t> next(sizes.size(), 0);
-    for (std::size_t rank = 1; rank < sizes.size(); ++rank) {
-        next[rank] = next[rank - 1] + sizes[rank - 1];
-    }
-    for (std::uint32_t vertex = 0; vertex < owners_.size(); ++vertex) {
-        std::int64_t& at = next[owners_[vertex]];
-        values.col(vertex) = Eigen::Map<const Eigen::Matrix<double, Rows, 1>>(all.data() + at);
-        at += Rows;
+    for (std::size_t first = 0; first < owners_.size(); first += kPiece) {
+        const std::span<const std::uint32_t> owners =
+            std::span(owners_).subspan(first, std::min(kPiece, owners_.size() - first));
+        gather_piece<Rows>(*ranks_, owners, values.col(static_cast<Eigen::Index>(first)).data());
     }
 }
 

@@ -9,16 +9,8 @@
 
 namespace pent::simulator {
 
-namespace {
-
-// Some things of a body, those of one material after those of another.
-struct Sorted {
-    std::vector<Eigen::Index> order;  // by material, else as they were
-    std::vector<Eigen::Index> first;  // materials + 1 entries
-};
-
-Sorted sort_by_material(const std::vector<std::uint16_t>& materials, std::size_t count) {
-    Sorted sorted;
+SortedByMaterial sort_by_material(const std::vector<std::uint16_t>& materials, std::size_t count) {
+    SortedByMaterial sorted;
     sorted.order.resize(materials.size());
     std::iota(sorted.order.begin(), sorted.order.end(), Eigen::Index{0});
     const auto of = [&](Eigen::Index i) { return materials[static_cast<std::size_t>(i)]; };
@@ -32,7 +24,6 @@ Sorted sort_by_material(const std::vector<std::uint16_t>& materials, std::size_t
     return sorted;
 }
 
-// Appends a range for each material of a body, of things that are behind `begin` ones of others.
 void append_ranges(const Body& body,
                    std::size_t place,
                    const std::vector<Eigen::Index>& first,
@@ -46,6 +37,8 @@ void append_ranges(const Body& body,
                           .region = region});
     }
 }
+
+namespace {
 
 // Appends the quadratic cells of a body by their materials; returns those of its cells, since a
 // quadratic cell is of one material.
@@ -66,7 +59,7 @@ std::vector<std::uint16_t> append_quadratic(const Body& body,
         straight.regions.push_back(mesh.regions[static_cast<std::size_t>(children[i])]);
     }
     const std::vector<std::uint16_t> materials = materials_of_cells(straight, body);
-    const Sorted sorted = sort_by_material(materials, body.regions.size() + 1);
+    const SortedByMaterial sorted = sort_by_material(materials, body.regions.size() + 1);
     QuadraticCells<Dim>& all = bodies.quadratic;
     const Eigen::Index begin = all.nodes.cols();
     append_ranges(body, place, sorted.first, begin, all.ranges);
@@ -108,7 +101,7 @@ void append_bodies(const Scene& scene, Bodies<Dim>& bodies) {
         const auto first = static_cast<std::uint32_t>(bodies.first_vertex[place]);
         bodies.rest.middleCols(first, mesh.vertex_count()) = mesh.positions;
         const bool is_quadratic = scene.solver.elements == ElementKind::Quadratic;
-        const Sorted sorted = sort_by_material(
+        const SortedByMaterial sorted = sort_by_material(
             is_quadratic ? append_quadratic(body, place, bodies) : materials_of_cells(mesh, body),
             body.regions.size() + 1);
         const auto range = bodies.cells_of(place);

@@ -1,5 +1,7 @@
 #include "model/held_vertices.h"
 
+#include "model/part_selection.h"
+
 #include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/simulator/placed_mesh.h>
@@ -61,7 +63,8 @@ DirichletSet<Dim> make_set(const Constraint& constraint,
     set.body = index_of(scene, constraint.body);
     set.first_step = first_step_from(constraint.from, scene.dt());
     set.end_step = first_step_from(constraint.to, scene.dt());
-    for (const std::uint32_t vertex : select_vertices(bodies.meshes[set.body], constraint)) {
+    for (const std::uint32_t vertex :
+         select_vertices(bodies, set.body, constraint.select, place_and_name(constraint))) {
         set.vertices.push_back(static_cast<std::uint32_t>(vertex + bodies.first_vertex[set.body]));
     }
     set.path = path_from(static_cast<double>(set.first_step) * scene.dt(), set.begins_later(),

@@ -8,11 +8,8 @@
 namespace pent::simulator {
 
 bool do_terms_need_all_cells(const Scene& scene) {
-    const auto& written = scene.output.vertex;
-    const bool has_densities =
-        std::find(written.begin(), written.end(), VertexQuantity::EnergyDensity) != written.end();
     return scene.solver.elements != ElementKind::Linear || !scene.activations.empty()
-           || !scene.attachments.empty() || has_densities;
+           || !scene.attachments.empty();
 }
 
 bool do_terms_couple_anything(const Scene& scene) {

@@ -1,7 +1,10 @@
 #include "model/part_bodies.h"
 
+#include "model/append_bodies.h"
 #include "model/near_cells.h"
+#include "model/part_selection.h"
 #include "model/partition.h"
+#include "model/selection_marks.h"
 
 #include <pent/crc32c.h>
 #include <pent/dimensions.h>
@@ -13,17 +16,10 @@
 #include <algorithm>
 #include <array>
 #include <utility>
-#include <variant>
 
 namespace pent::simulator {
 
 namespace {
-
-bool selects_by_region(const std::vector<Selection>& select) {
-    return std::any_of(select.begin(), select.end(), [](const Selection& selection) {
-        return std::holds_alternative<RegionSelection>(selection);
-    });
-}
 
 // Rows of numbers that begin with two that say where they belong: those of all ranks, in order.
 template <std::size_t Width>
@@ -43,34 +39,51 @@ std::vector<std::array<double, Width>> gather_in_order(
     return all;
 }
 
+// Cells by their materials, as append_bodies() has them; labels in the order of the cells.
 template <int Dim>
-void append_part(const Body& body, MeshPart<Dim> part, std::size_t place, Bodies<Dim>& bodies) {
+void append_part(const Body& body,
+                 MeshPart<Dim> part,
+                 const std::vector<std::uint16_t>& materials,
+                 Bodies<Dim>& bodies) {
+    const SortedByMaterial sorted = sort_by_material(materials, body.regions.size() + 1);
     const auto first = static_cast<std::uint32_t>(bodies.first_vertex.back());
     const Eigen::Index begin = bodies.first_cell.back();
     const Eigen::Index end = begin + part.mesh.cell_count();
-    bodies.cells.middleCols(begin, end - begin) = part.mesh.cells.array() + first;
-    bodies.mesh_cells.insert(bodies.mesh_cells.end(), part.numbers.begin(), part.numbers.end());
-    bodies.ranges.push_back(
-        {.begin = begin, .end = end, .material = material_of(body, 0), .body = place, .region = 0});
+    append_ranges(body, bodies.meshes.size(), sorted.first, begin, bodies.ranges);
+    std::vector<std::uint16_t> labels;
+    for (std::size_t i = 0; i < sorted.order.size(); ++i) {
+        const Eigen::Index own = sorted.order[i];
+        bodies.cells.col(begin + static_cast<Eigen::Index>(i)) =
+            part.mesh.cells.col(own).array() + first;
+        bodies.mesh_cells.push_back(part.numbers[static_cast<std::size_t>(own)]);
+        if (!part.mesh.regions.empty()) {
+            labels.push_back(part.mesh.regions[static_cast<std::size_t>(own)]);
+        }
+    }
     bodies.cell_count += part.cell_count;
     bodies.first_cell.push_back(end);
     bodies.first_vertex.push_back(first + part.mesh.vertex_count());
     bodies.rest.middleCols(first, part.mesh.vertex_count()) = part.mesh.positions;
     part.mesh.cells.resize(Eigen::NoChange, 0);
-    part.mesh.regions.clear();
+    part.mesh.regions = std::move(labels);
     bodies.meshes.push_back(std::move(part.mesh));
 }
 
 }  // namespace
 
 bool can_take_parts(const Scene& scene) {
-    const auto selects = [](const auto& list) {
-        return std::any_of(list.begin(), list.end(),
-                           [](const auto& part) { return selects_by_region(part.select); });
+    return !do_terms_need_all_cells(scene);
+}
+
+bool are_labels_asked_for(const Scene& scene, const Body& body) {
+    const auto selects = [&](const auto& list) {
+        return std::any_of(list.begin(), list.end(), [&](const auto& part) {
+            return part.body == body.name && selects_by_region(part.select);
+        });
     };
-    return !do_terms_need_all_cells(scene) && !selects(scene.constraints) && !selects(scene.loads)
-           && std::all_of(scene.bodies.begin(), scene.bodies.end(),
-                          [](const Body& body) { return body.regions.empty(); });
+    return selects(scene.constraints) || selects(scene.loads)
+           || std::any_of(body.regions.begin(), body.regions.end(),
+                          [](const Region& region) { return selects_by_region(region.select); });
 }
 
 template <int Dim>
@@ -112,12 +125,14 @@ Bodies<Dim> make_part_bodies(const Scene& scene,
     }
     bodies.rest.resize(Dim, vertices);
     bodies.cells.resize(Dim + 1, cells);
-    agree(ranks.get(), [&] {
-        for (std::size_t body = 0; body < parts.size(); ++body) {
-            append_part(scene.bodies[body], place(std::move(parts[body]), scene.bodies[body]), body,
-                        bodies);
-        }
-    });
+    bodies.mesh_cells.reserve(static_cast<std::size_t>(cells));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Body& body = scene.bodies[i];
+        MeshPart<Dim> part;
+        agree(ranks.get(), [&] { part = place(std::move(parts[i]), body); });
+        const std::vector<std::uint16_t> materials = materials_of_part(part.mesh, body, *ranks);
+        agree(ranks.get(), [&] { append_part(body, std::move(part), materials, bodies); });
+    }
     refuse_others(
         ranks.get(),
         crc32c(bodies.rest.data(), static_cast<std::size_t>(bodies.rest.size()) * sizeof(double)),

@@ -12,7 +12,8 @@
 
 namespace pent::simulator {
 
-/// Whether ranks have parts of meshes: all vertices, and of the cells none but those of `cells`.
+/// Whether ranks have parts of meshes: all vertices, and of the cells none but those of `cells`, in
+/// whose order labels of regions are.
 template <int Dim>
 [[nodiscard]] bool is_of_parts(const Bodies<Dim>& bodies) {
     return bodies.cell_count > 0 && bodies.meshes.front().cell_count() == 0;

@@ -1,4 +1,5 @@
 #include "model/rotation.h"
+#include "model/selection_marks.h"
 
 #include <pent/dimensions.h>
 #include <pent/error.h>
@@ -167,19 +168,17 @@ struct Nearest {
     }
 };
 
-// Throws unless something is marked.
+bool has_any(const Marks& marks) {
+    return std::find(marks.begin(), marks.end(), true) != marks.end();
+}
+
 template <int Dim>
-void require_some(const Marks& marks,
-                  const Nearest<Dim>& nearest,
-                  const std::vector<Selection>& select,
-                  const std::string& where) {
-    if (std::find(marks.begin(), marks.end(), true) == marks.end()) {
-        const Positions<Dim>& all = nearest.mesh.positions;
-        throw Error(where + " selects no " + std::string(nearest.what) + ": "
-                    + std::visit(nearest, select.front()) + "; the body as placed reaches from "
-                    + vector_text<Dim>(all.rowwise().minCoeff()) + " to "
-                    + vector_text<Dim>(all.rowwise().maxCoeff()));
-    }
+[[noreturn]] void refuse_none(const Nearest<Dim>& nearest,
+                              const std::vector<Selection>& select,
+                              const std::string& where) {
+    throw Error(where + " selects no " + std::string(nearest.what) + ": "
+                + std::visit(nearest, select.front()) + "; "
+                + extent_text<Dim>(nearest.mesh.positions));
 }
 
 template <int Dim>
@@ -219,14 +218,48 @@ std::string place_and_name(const Attachment& attachment) {
 }
 
 template <int Dim>
-std::vector<std::uint32_t> select_vertices(const SimplexMesh<Dim>& mesh,
-                                           const std::vector<Selection>& select,
-                                           const std::string& where) {
+std::string extent_text(const Positions<Dim>& positions) {
+    return "the body as placed reaches from " + vector_text<Dim>(positions.rowwise().minCoeff())
+           + " to " + vector_text<Dim>(positions.rowwise().maxCoeff());
+}
+
+bool selects_by_region(const std::vector<Selection>& select) {
+    return std::any_of(select.begin(), select.end(), [](const Selection& selection) {
+        return std::holds_alternative<RegionSelection>(selection);
+    });
+}
+
+template <int Dim>
+std::vector<bool> mark_vertices(const SimplexMesh<Dim>& mesh,
+                                const std::vector<Selection>& select,
+                                const std::string& where) {
     Marks marks(static_cast<std::size_t>(mesh.vertex_count()), false);
     for (const Selection& selection : select) {
         std::visit(VertexMarker<Dim>{{mesh, mesh.positions, where, marks}}, selection);
     }
-    require_some<Dim>(marks, {mesh, mesh.positions, "vertex"}, select, where);
+    return marks;
+}
+
+template <int Dim>
+std::vector<bool> mark_cells(const SimplexMesh<Dim>& mesh,
+                             const std::vector<Selection>& select,
+                             const std::string& where) {
+    const Positions<Dim> points = centers(mesh);
+    Marks marks(static_cast<std::size_t>(mesh.cell_count()), false);
+    for (const Selection& selection : select) {
+        std::visit(CellMarker<Dim>{{mesh, points, where, marks}}, selection);
+    }
+    return marks;
+}
+
+template <int Dim>
+std::vector<std::uint32_t> select_vertices(const SimplexMesh<Dim>& mesh,
+                                           const std::vector<Selection>& select,
+                                           const std::string& where) {
+    const Marks marks = mark_vertices(mesh, select, where);
+    if (!has_any(marks)) {
+        refuse_none<Dim>({mesh, mesh.positions, "vertex"}, select, where);
+    }
     std::vector<std::uint32_t> selected;
     for (std::size_t vertex = 0; vertex < marks.size(); ++vertex) {
         if (marks[vertex]) {
@@ -240,21 +273,21 @@ template <int Dim>
 std::vector<bool> select_cells(const SimplexMesh<Dim>& mesh,
                                const std::vector<Selection>& select,
                                const std::string& where) {
-    const Positions<Dim> points = centers(mesh);
-    Marks marks(static_cast<std::size_t>(mesh.cell_count()), false);
-    for (const Selection& selection : select) {
-        std::visit(CellMarker<Dim>{{mesh, points, where, marks}}, selection);
+    Marks marks = mark_cells(mesh, select, where);
+    if (!has_any(marks)) {
+        const Positions<Dim> points = centers(mesh);
+        refuse_none<Dim>({mesh, points, "cell"}, select, where);
     }
-    require_some<Dim>(marks, {mesh, points, "cell"}, select, where);
     return marks;
 }
 
-template <int Dim>
-std::vector<std::uint16_t> materials_of_cells(const SimplexMesh<Dim>& mesh, const Body& body) {
-    std::vector<std::uint16_t> numbers(static_cast<std::size_t>(mesh.cell_count()), 0);
+std::vector<std::uint16_t> materials_by_regions(
+    std::size_t cells,
+    const Body& body,
+    const std::function<std::vector<bool>(const Region&)>& mark) {
+    std::vector<std::uint16_t> numbers(cells, 0);
     for (std::size_t i = 0; i < body.regions.size(); ++i) {
-        const Region& region = body.regions[i];
-        const std::vector<bool> is_in = select_cells(mesh, region.select, place_and_name(region));
+        const std::vector<bool> is_in = mark(body.regions[i]);
         for (std::size_t cell = 0; cell < numbers.size(); ++cell) {
             numbers[cell] = is_in[cell] ? static_cast<std::uint16_t>(i + 1) : numbers[cell];
         }
@@ -262,16 +295,29 @@ std::vector<std::uint16_t> materials_of_cells(const SimplexMesh<Dim>& mesh, cons
     return numbers;
 }
 
+template <int Dim>
+std::vector<std::uint16_t> materials_of_cells(const SimplexMesh<Dim>& mesh, const Body& body) {
+    return materials_by_regions(
+        static_cast<std::size_t>(mesh.cell_count()), body, [&](const Region& region) {
+            return select_cells(mesh, region.select, place_and_name(region));
+        });
+}
+
 const Material& material_of(const Body& body, std::uint16_t number) {
     return number == 0 ? body.material : body.regions[number - 1U].material;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                            \
-    template std::vector<std::uint32_t> select_vertices<Dim>(                            \
-        const SimplexMesh<Dim>&, const std::vector<Selection>&, const std::string&);     \
-    template std::vector<bool> select_cells<Dim>(                                        \
-        const SimplexMesh<Dim>&, const std::vector<Selection>&, const std::string&);     \
-    template std::vector<std::uint16_t> materials_of_cells<Dim>(const SimplexMesh<Dim>&, \
+#define PENT_INSTANTIATE(Dim)                                                                      \
+    template std::string extent_text<Dim>(const Positions<Dim>&);                                  \
+    template std::vector<bool> mark_vertices<Dim>(                                                 \
+        const SimplexMesh<Dim>&, const std::vector<Selection>&, const std::string&);               \
+    template std::vector<bool> mark_cells<Dim>(const SimplexMesh<Dim>&,                            \
+                                               const std::vector<Selection>&, const std::string&); \
+    template std::vector<std::uint32_t> select_vertices<Dim>(                                      \
+        const SimplexMesh<Dim>&, const std::vector<Selection>&, const std::string&);               \
+    template std::vector<bool> select_cells<Dim>(                                                  \
+        const SimplexMesh<Dim>&, const std::vector<Selection>&, const std::string&);               \
+    template std::vector<std::uint16_t> materials_of_cells<Dim>(const SimplexMesh<Dim>&,           \
                                                                 const Body&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE

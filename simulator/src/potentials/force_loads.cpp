@@ -1,6 +1,7 @@
 #include "potentials/force_loads.h"
 
 #include "model/keyframes.h"
+#include "model/part_selection.h"
 
 #include <pent/dimensions.h>
 #include <pent/simulator/placed_mesh.h>
@@ -18,7 +19,7 @@ ForceLoads<Dim>::ForceLoads(const Scene& scene, const Bodies<Dim>& bodies) {
         VertexForces made;
         made.body = index_of(scene, load.body);
         made.keyframes = load.keyframes;
-        made.vertices = select_vertices(bodies.meshes[made.body], load);
+        made.vertices = select_vertices(bodies, made.body, load.select, place_and_name(load));
         double mass = 0;
         for (std::uint32_t& vertex : made.vertices) {
             vertex += static_cast<std::uint32_t>(bodies.first_vertex[made.body]);

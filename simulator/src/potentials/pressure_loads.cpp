@@ -2,6 +2,7 @@
 
 #include "model/keyframes.h"
 #include "model/part_bodies.h"
+#include "model/part_selection.h"
 
 #include <pent/dimensions.h>
 #include <pent/error.h>
@@ -123,7 +124,8 @@ template <int Dim>
 Simplices<Dim> select_facets(const Load& load, const Bodies<Dim>& bodies, std::size_t body) {
     const SimplexMesh<Dim>& mesh = bodies.meshes[body];
     std::vector<bool> is_selected(static_cast<std::size_t>(mesh.vertex_count()), false);
-    for (const std::uint32_t vertex : select_vertices(mesh, load)) {
+    for (const std::uint32_t vertex :
+         select_vertices(bodies, body, load.select, place_and_name(load))) {
         is_selected[vertex] = true;
     }
     const Simplices<Dim> boundary = boundary_of(bodies, body);

@@ -35,6 +35,22 @@ constexpr int kMaxBoundedIterations = 150;
 // Of a damped step: it brings a body back as surely as twice as many, which cost more in all.
 constexpr int kDampedIterations = 4;
 
+// Where what is held now is to be at a time.
+template <int Dim>
+PrescribedPlaces<Dim> prescribed_places(const HeldVertices<Dim>& held,
+                                        double time,
+                                        Positions<Dim> positions) {
+    held.place(time, positions, nullptr);
+    PrescribedPlaces<Dim> prescribed;
+    for (std::uint32_t vertex = 0; vertex < positions.cols(); ++vertex) {
+        if (held.is_held(vertex)) {
+            prescribed.vertices.push_back(vertex);
+        }
+    }
+    prescribed.places = positions(Eigen::all, prescribed.vertices);
+    return prescribed;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -43,8 +59,7 @@ StepProblem<Dim> Simulation<Dim>::Stepper::make_problem(double time, double h) c
     StepProblem<Dim> problem =
         step_problem(scene_.solver.integrator, current_, has_even_past ? &history_ : nullptr, h);
     problem.time = time + h;
-    problem.prescribed = current_.positions;
-    held_.place(time + h, problem.prescribed, nullptr);
+    problem.prescribed = prescribed_places<Dim>(held_, time + h, current_.positions);
     return problem;
 }
 
@@ -115,12 +130,19 @@ std::string Simulation<Dim>::Stepper::tunneling() const {
 // its energy is bounded, as they only ever lower what is minimized.
 template <int Dim>
 NewtonReport Simulation<Dim>::Stepper::minimize(Method method) {
-    Positions<Dim> begin =
-        current_.positions + potential_.prescribed_displacement(current_.positions);
-    const Evaluation<Dim> start = potential_.evaluate(begin);
+    const auto displaced = [&](const Positions<Dim>& x) -> Positions<Dim> {
+        return x + potential_.prescribed_displacement(x);
+    };
+    double start_value = 0;
+    double start_norm = 0;
+    {  // whose gradient is not to lie about while the others are found
+        const Evaluation<Dim> start = potential_.evaluate(displaced(current_.positions));
+        start_value = start.value;
+        start_norm = start.gradient.norm();
+    }
     const bool is_damped = method == Method::Damped;
     if (is_damped) {  // the linear step was taken, and thrown away
-        next_.positions += potential_.prescribed_displacement(next_.positions);
+        next_.positions = displaced(next_.positions);
     } else {
         next_.positions = current_.positions;
         NewtonReport first = newton_step(potential_, next_.positions);
@@ -128,8 +150,8 @@ NewtonReport Simulation<Dim>::Stepper::minimize(Method method) {
             return first;
         }
     }
-    if (!(potential_.evaluate(next_.positions).value <= start.value)) {
-        next_.positions = std::move(begin);
+    if (!(potential_.evaluate(next_.positions).value <= start_value)) {
+        next_.positions = displaced(current_.positions);
     }
     return newton(potential_,
                   {.tolerance = scene_.solver.newton_tolerance,
@@ -137,8 +159,8 @@ NewtonReport Simulation<Dim>::Stepper::minimize(Method method) {
                    .bound = kMaxExtents * extent_,
                    .max_iterations = is_damped ? kDampedIterations : kMaxIterations,
                    .may_stop_short = is_damped,
-                   .start_value = start.value,
-                   .start_norm = start.gradient.norm()},
+                   .start_value = start_value,
+                   .start_norm = start_norm},
                   next_.positions);
 }
 
@@ -198,11 +220,9 @@ void Simulation<Dim>::Stepper::begin(const std::shared_ptr<const StepProblem<Dim
                                      double h,
                                      Method method) {
     Positions<Dim> displacement = Positions<Dim>::Zero(Dim, current_.positions.cols());
-    for (std::uint32_t vertex = 0; vertex < displacement.cols(); ++vertex) {
-        if (held_.is_held(vertex)) {
-            displacement.col(vertex) =
-                problem->prescribed.col(vertex) - problem->origin.col(vertex);
-        }
+    problem->prescribed.put_into(displacement);
+    for (const std::uint32_t vertex : problem->prescribed.vertices) {
+        displacement.col(vertex) -= problem->origin.col(vertex);
     }
     potential_.begin_step(problem, {current_.positions, current_.velocities, problem->origin,
                                     displacement, h, problem->rate, method == Method::Linear});
@@ -234,6 +254,7 @@ typename Simulation<Dim>::Stepper::Attempts Simulation<Dim>::Stepper::attempt(do
                                                                               bool is_damped) {
     Attempts now;
     const auto problem = std::make_shared<const StepProblem<Dim>>(make_problem(time, h));
+    next_.velocities.resize(Dim, 0);  // of no use to the solve, which needs most
     energy_.sum.set_time({time, time + h});
     if (std::string reason = energy_.contact->obstacle_in_the_way(current_.positions);
         !reason.empty()) {
@@ -290,9 +311,17 @@ typename Simulation<Dim>::Stepper::Attempts Simulation<Dim>::Stepper::advance(do
     if (all.outcome == Outcome::Taken || depth >= scene_.solver.max_halvings) {
         return all;
     }
+    // The first part may be taken and the second not: then the step gives all of it back.
+    const bool is_whole = depth == 0;
+    const State<Dim> start = is_whole ? current_ : State<Dim>();
+    const State<Dim> history = is_whole ? history_ : State<Dim>();
     all.add(advance(time, h / 2, depth + 1));
     if (all.outcome == Outcome::Taken) {
         all.add(advance(time + h / 2, h / 2, depth + 1));
+    }
+    if (is_whole && all.outcome != Outcome::Taken) {
+        current_ = start;  // copied: hosts see the arrays where they lie
+        history_ = history;
     }
     return all;
 }

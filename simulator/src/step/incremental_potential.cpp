@@ -41,7 +41,6 @@ IncrementalPotential<Dim>::IncrementalPotential(const Workers& workers,
       damping_(scene.damping.value_or(Damping{})),
       energy_(&energy.sum),
       elasticity_(energy.elasticity),
-      is_held_(held.now()),
       dofs_(std::make_shared<const DofMap>(
           number_dofs_alike(bodies, held, std::vector<bool>(bodies.count(), true)))),
       rows_(rows_of(dofs_, bodies, held, std::vector<bool>(bodies.count(), true))),
@@ -77,7 +76,6 @@ void IncrementalPotential<Dim>::renumber(const HeldVertices<Dim>& held,
                                          const Positions<Dim>& positions) {
     std::vector<bool> awake = asleep;
     awake.flip();
-    is_held_ = held.now();
     dofs_ = std::make_shared<const DofMap>(number_dofs_alike(*bodies_, held, awake));
     rows_ = rows_of(dofs_, *bodies_, held, awake);
     elasticity_->set_dofs(*rows_, held, asleep, positions);
@@ -158,42 +156,40 @@ void IncrementalPotential<Dim>::balance(const Positions<Dim>& x) {
 
 template <int Dim>
 Evaluation<Dim> IncrementalPotential<Dim>::evaluate(const Positions<Dim>& x) {
-    x_ = x;
-    energy_->update(x_);
+    energy_->update(x);
     Evaluation<Dim> at;
     at.value = problem_->scale * energy_->value();
     at.rounding = problem_->scale * energy_->rounding();
     at.has_kink = energy_->has_kink();
-    gradient_.setZero(Dim, x.cols());
+    at.gradient.setZero(Dim, x.cols());
     Positions<Dim> part;
     const auto add = [&](double weight, Potential<Dim>& term) {
         if (weight != 0) {
             part.setZero(Dim, x.cols());
-            at.value += weight * term.evaluate(x_, part);
-            gradient_ += weight * part;
+            at.value += weight * term.evaluate(x, part);
+            at.gradient += weight * part;
         }
     };
     const double drag = problem_->scale * problem_->rate;
     add(problem_->inertia, inertia_);
     add(drag * damping_.mass, mass_drag_);
-    gradient_ += problem_->scale * energy_->gradient();
+    at.gradient += problem_->scale * energy_->gradient();
     add(drag * damping_.stiffness, stiffness_drag_);
     for (std::uint32_t vertex = 0; vertex < dofs_->vertex_count(); ++vertex) {
         if (!dofs_->has_dof(vertex)) {
-            gradient_.col(vertex).setZero();
+            at.gradient.col(vertex).setZero();
         }
     }
-    at.gradient = gradient_;
     return at;
 }
 
 template <int Dim>
 Positions<Dim> IncrementalPotential<Dim>::prescribed_displacement(const Positions<Dim>& x) const {
     Positions<Dim> displacement = Positions<Dim>::Zero(Dim, x.cols());
-    for (std::uint32_t vertex = 0; vertex < is_held_.size(); ++vertex) {
-        if (is_held_[vertex]) {
-            displacement.col(vertex) = problem_->prescribed.col(vertex) - x.col(vertex);
-        }
+    const PrescribedPlaces<Dim>& prescribed = problem_->prescribed;
+    prescribed.put_into(displacement);
+    for (const std::uint32_t vertex : prescribed.vertices) {
+        displacement.col(vertex) -= x.col(vertex);
     }
     return displacement;
 }
@@ -217,24 +213,26 @@ void IncrementalPotential<Dim>::tell_start(const Positions<Dim>& x) const {
 template <int Dim>
 bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
                                          Filter filter,
+                                         const Positions<Dim>& gradient,
                                          const Positions<Dim>& displacement) {
     const Stopwatch watch;
-    system.begin(-at_dofs(*rows_, gradient_), displacement);
+    const Positions<Dim>& x = energy_->positions();
+    system.begin(-at_dofs(*rows_, gradient), displacement);
     double others = 0;  // seconds, which terms count themselves
     for (const auto& term : energy_->terms()) {
         const Stopwatch own;
-        term->add_hessian(x_, problem_->scale, filter, system);
+        term->add_hessian(x, problem_->scale, filter, system);
         others += term.get() == elasticity_ ? 0 : own.seconds();
     }
     const double drag = problem_->scale * problem_->rate;
     if (problem_->inertia != 0) {
-        inertia_.add_hessian(x_, problem_->inertia, filter, system);
+        inertia_.add_hessian(x, problem_->inertia, filter, system);
     }
     if (drag * damping_.mass != 0) {
-        mass_drag_.add_hessian(x_, drag * damping_.mass, filter, system);
+        mass_drag_.add_hessian(x, drag * damping_.mass, filter, system);
     }
     if (drag * damping_.stiffness != 0) {
-        stiffness_drag_.add_hessian(x_, drag * damping_.stiffness, filter, system);
+        stiffness_drag_.add_hessian(x, drag * damping_.stiffness, filter, system);
     }
     work_.hessians += elasticity_->element_count();
     work_.assembly_seconds += watch.seconds() - others;
@@ -253,15 +251,17 @@ bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
 // too.
 template <int Dim>
 NewtonSystem<Dim>* IncrementalPotential<Dim>::assemble_somehow(Filter filter,
+                                                               const Positions<Dim>& gradient,
                                                                const Positions<Dim>& displacement) {
-    if (float_system_ && assemble(*float_system_, filter, displacement)) {
+    if (float_system_ && assemble(*float_system_, filter, gradient, displacement)) {
         return float_system_.get();
     }
     if (!double_system_) {
         double_system_ =
             std::make_unique<NewtonSystem<Dim>>(*workers_, *rows_, *pattern_, Precision::Double);
     }
-    return assemble(*double_system_, filter, displacement) ? double_system_.get() : nullptr;
+    return assemble(*double_system_, filter, gradient, displacement) ? double_system_.get()
+                                                                     : nullptr;
 }
 
 template <int Dim>
@@ -270,12 +270,13 @@ LinearSolution<Dim> IncrementalPotential<Dim>::solve_filtered(const NewtonSystem
     const Stopwatch watch;
     const LinearSolveOptions options{.tolerance = std::max(tolerance, options_.tolerance),
                                      .max_iterations = options_.max_iterations};
+    const Positions<Dim>& x = energy_->positions();
     // Where all is to be solved for at once, most of it is the motion that inertia alone leads to.
     BlockVector<Dim> guess = tolerance == 0
-                                 ? at_dofs<Dim>(*rows_, problem_->target - x_)
+                                 ? at_dofs<Dim>(*rows_, problem_->target - x)
                                  : BlockVector<Dim>(BlockVector<Dim>::Zero(Dim, rows_->count()));
     LinearSolution<Dim> solution =
-        solver_->solve(system, at_dofs(*rows_, x_), options, std::move(guess));
+        solver_->solve(system, at_dofs(*rows_, x), options, std::move(guess));
     work_.solve_seconds += watch.seconds();
     work_.iterations += solution.report.iterations;
     work_.residual = std::max(work_.residual, solution.report.residual);
@@ -283,16 +284,17 @@ LinearSolution<Dim> IncrementalPotential<Dim>::solve_filtered(const NewtonSystem
 }
 
 template <int Dim>
-NewtonDirection<Dim> IncrementalPotential<Dim>::solve(const Positions<Dim>& displacement,
+NewtonDirection<Dim> IncrementalPotential<Dim>::solve(const Positions<Dim>& gradient,
+                                                      const Positions<Dim>& displacement,
                                                       double tolerance) {
-    NewtonDirection<Dim> direction{displacement, ""};
     if (dofs_->count() == 0) {  // all bodies sleep, or move from outside alone
-        return direction;
+        return {displacement, ""};
     }
+    NewtonDirection<Dim> direction;
     LinearSolution<Dim> solution;
     // Clamped, the matrix is positive definite whatever the scene asks for.
     for (const Filter filter : {options_.filter, Filter::Clamp}) {
-        NewtonSystem<Dim>* system = assemble_somehow(filter, displacement);
+        NewtonSystem<Dim>* system = assemble_somehow(filter, gradient, displacement);
         if (system == nullptr) {
             direction.failure_reason =
                 "the stiffness drowns the inertia; take smaller steps, softer or denser bodies, or"
@@ -312,6 +314,7 @@ NewtonDirection<Dim> IncrementalPotential<Dim>::solve(const Positions<Dim>& disp
                                        : "the linear solver did not reach its tolerance";
         return direction;
     }
+    direction.step = displacement;
     for (std::uint32_t dof = 0; dof < rows_->row_count(); ++dof) {
         direction.step.col(rows_->vertex_of(dof)) = solution.x.col(dof);
     }

@@ -69,7 +69,8 @@ public:
     void balance(const Positions<Dim>& x);
 
     [[nodiscard]] Evaluation<Dim> evaluate(const Positions<Dim>& x) override;
-    [[nodiscard]] NewtonDirection<Dim> solve(const Positions<Dim>& displacement,
+    [[nodiscard]] NewtonDirection<Dim> solve(const Positions<Dim>& gradient,
+                                             const Positions<Dim>& displacement,
                                              double tolerance) override;
     [[nodiscard]] Positions<Dim> prescribed_displacement(const Positions<Dim>& x) const override;
     [[nodiscard]] double max_step(const Positions<Dim>& from, const Positions<Dim>& to) override {
@@ -96,8 +97,10 @@ private:
     void set_up_solver();
     [[nodiscard]] bool assemble(NewtonSystem<Dim>& system,
                                 Filter filter,
+                                const Positions<Dim>& gradient,
                                 const Positions<Dim>& displacement);
     [[nodiscard]] NewtonSystem<Dim>* assemble_somehow(Filter filter,
+                                                      const Positions<Dim>& gradient,
                                                       const Positions<Dim>& displacement);
     [[nodiscard]] LinearSolution<Dim> solve_filtered(const NewtonSystem<Dim>& system,
                                                      double tolerance);
@@ -109,7 +112,6 @@ private:
     Damping damping_;
     PotentialEnergy<Dim>* energy_;
     Elasticity<Dim>* elasticity_;
-    std::vector<bool> is_held_;  // one a vertex
     // Never rewritten, but replaced: those who were given one keep it as it was.
     std::shared_ptr<const DofMap> dofs_;           // alike on all ranks
     std::shared_ptr<const DofMap> rows_;           // the same as this rank has them in its matrix
@@ -123,8 +125,6 @@ private:
     std::unique_ptr<NewtonSystem<Dim>> double_system_;
     std::shared_ptr<const StepProblem<Dim>> problem_;
     bool may_be_rough_ = false;
-    Positions<Dim> x_;         // last evaluated
-    Positions<Dim> gradient_;  // there, of all vertices
     Observer observer_;
     SolveWork work_;
 };

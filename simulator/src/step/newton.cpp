@@ -91,7 +91,8 @@ private:
             is_current_ = true;
         }
         ++report_.iterations;
-        const NewtonDirection<Dim> direction = function_.solve(displacement_, kForcing);
+        const NewtonDirection<Dim> direction =
+            function_.solve(at_.gradient, displacement_, kForcing);
         if (!direction.failure_reason.empty()) {
             return fail(direction.failure_reason);
         }
@@ -144,13 +145,14 @@ private:
         if (!is_pending_ && !(slope < 0)) {
             return std::nullopt;  // it leads up
         }
-        const Positions<Dim> from = x_;
+        Positions<Dim> trial;
         for (int k = 0; k < kMaxBacktracks; ++k, factor /= 2) {
-            Evaluation<Dim> next = try_out(from, step, factor);
+            trial = x_ + factor * step;
+            Evaluation<Dim> next = function_.evaluate(trial);
             if (is_pending_ ? std::isfinite(next.value) : has_improved(next, factor, slope)) {
-                take(std::move(next));
+                take(trial, std::move(next));
                 if (factor == 1 && !is_pending_ && options_.extends_steps) {
-                    factor = extend(from, step, slope);
+                    factor = extend(trial, step, slope);
                 }
                 return factor;
             }
@@ -160,6 +162,8 @@ private:
     }
 
     // Goes on from a whole step while the value falls; returns how far in all.
+    //
+    // @param from  Where the step began.
     double extend(const Positions<Dim>& from, const Positions<Dim>& step, double first_slope) {
         double factor = 1;
         for (int k = 0; k < kMaxStretches; ++k) {
@@ -174,24 +178,21 @@ private:
             if (limit * wanted < kMinStretch * factor) {
                 break;
             }
-            Evaluation<Dim> next = try_out(from, step, limit * wanted);
+            Positions<Dim> trial = from + limit * wanted * step;
+            Evaluation<Dim> next = function_.evaluate(trial);
             if (!(next.value < at_.value)) {
                 is_current_ = false;
                 break;
             }
-            take(std::move(next));
+            take(trial, std::move(next));
             factor = limit * wanted;
         }
         return factor;
     }
 
-    Evaluation<Dim> try_out(const Positions<Dim>& from, const Positions<Dim>& step, double factor) {
-        trial_ = from + factor * step;
-        return function_.evaluate(trial_);
-    }
-
-    void take(Evaluation<Dim>&& next) {
-        std::swap(x_, trial_);
+    // Leaves the point that was there in the trial's place.
+    void take(Positions<Dim>& trial, Evaluation<Dim>&& next) {
+        std::swap(x_, trial);
         at_ = std::move(next);
         is_current_ = true;
     }
@@ -257,7 +258,6 @@ private:
     Objective<Dim>& function_;
     const NewtonOptions& options_;
     Positions<Dim>& x_;
-    Positions<Dim> trial_;
     Positions<Dim> start_;
     Evaluation<Dim> at_;           // at x
     bool is_current_ = true;       // whether the function was last evaluated there
@@ -282,8 +282,9 @@ NewtonReport newton(Objective<Dim>& function, const NewtonOptions& options, Posi
 template <int Dim>
 NewtonReport newton_step(Objective<Dim>& function, Positions<Dim>& x) {
     NewtonReport report;
-    static_cast<void>(function.evaluate(x));
-    const NewtonDirection<Dim> direction = function.solve(function.prescribed_displacement(x), 0);
+    const Evaluation<Dim> at = function.evaluate(x);
+    const NewtonDirection<Dim> direction =
+        function.solve(at.gradient, function.prescribed_displacement(x), 0);
     report.failure_reason = direction.failure_reason;
     report.has_converged = direction.failure_reason.empty();
     if (report.has_converged) {

@@ -40,9 +40,11 @@ public:
     /// -(Hessian)^-1 gradient at the point last evaluated, prescribed points moving by
     /// `displacement`.
     ///
+    /// @param gradient   There, as evaluate() gave it.
     /// @param tolerance  Residual of the linear solve over that at its start; 0 for the best there
     /// is.
-    [[nodiscard]] virtual NewtonDirection<Dim> solve(const Positions<Dim>& displacement,
+    [[nodiscard]] virtual NewtonDirection<Dim> solve(const Positions<Dim>& gradient,
+                                                     const Positions<Dim>& displacement,
                                                      double tolerance) = 0;
 
     /// How far prescribed points are from their places at x; 0 for all others.

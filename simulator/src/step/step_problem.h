@@ -4,6 +4,9 @@
 #include <pent/simulator/simulation.h>
 #include <pent/simulator/solver_options.h>
 
+#include <cstdint>
+#include <vector>
+
 namespace pent::simulator {
 
 /// Positions and velocities of all vertices, Dim x vertices.
@@ -11,6 +14,22 @@ template <int Dim>
 struct State {
     Positions<Dim> positions;   ///< m.
     Positions<Dim> velocities;  ///< m/s.
+};
+
+/// Where vertices are to be at the end of a step, whatever acts on them.
+template <int Dim>
+struct PrescribedPlaces {
+    std::vector<std::uint32_t> vertices;             ///< Each once.
+    Positions<Dim> places = Positions<Dim>(Dim, 0);  ///< A column for each, m.
+
+    /// Puts them there.
+    ///
+    /// @param positions  Dim x vertices, m.
+    void put_into(Positions<Dim>& positions) const {
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            positions.col(vertices[i]) = places.col(static_cast<Eigen::Index>(i));
+        }
+    }
 };
 
 /// What the end x of a time step minimizes, Dirichlet vertices being where their motion has them:
@@ -23,13 +42,13 @@ struct State {
 /// in the numbers alone.
 template <int Dim>
 struct StepProblem {
-    double inertia = 1;         ///< 0 for statics.
-    double scale = 0;           ///< s^2; m^0 for statics.
-    double rate = 0;            ///< 1/s.
-    double time = 0;            ///< At the end of the step, s.
-    Positions<Dim> target;      ///< Dim x vertices: where inertia alone would carry them, m.
-    Positions<Dim> origin;      ///< Dim x vertices, m.
-    Positions<Dim> prescribed;  ///< Dim x vertices: Dirichlet ones at the end of the step, m.
+    double inertia = 1;                ///< 0 for statics.
+    double scale = 0;                  ///< s^2; m^0 for statics.
+    double rate = 0;                   ///< 1/s.
+    double time = 0;                   ///< At the end of the step, s.
+    Positions<Dim> target;             ///< Dim x vertices: where inertia alone would carry them, m.
+    Positions<Dim> origin;             ///< Dim x vertices, m.
+    PrescribedPlaces<Dim> prescribed;  ///< Dirichlet vertices.
 };
 
 /// x_(n+1) - x_n = h v_(n+1), v_(n+1) - v_n = h a_(n+1).

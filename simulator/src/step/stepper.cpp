@@ -212,9 +212,13 @@ void Simulation<Dim>::Stepper::still(Positions<Dim>& velocities) const {
 // Wakes bodies that a step from the current state moves, or that something touches where the energy
 // was evaluated last.
 template <int Dim>
-bool Simulation<Dim>::Stepper::wake_for(const Positions<Dim>& prescribed) {
-    if (islands_.asleep_count() == 0
-        || !islands_.wake(energy_.sum.couplings(), current_.positions, prescribed)) {
+bool Simulation<Dim>::Stepper::wake_for(const PrescribedPlaces<Dim>& prescribed) {
+    if (islands_.asleep_count() == 0) {
+        return false;
+    }
+    Positions<Dim> to = current_.positions;
+    prescribed.put_into(to);
+    if (!islands_.wake(energy_.sum.couplings(), current_.positions, to)) {
         return false;
     }
     number_dofs_of_the_awake();
@@ -284,9 +288,11 @@ StepReport Simulation<Dim>::Stepper::step() {
     const Stopwatch watch;
     refuse_disagreement(bodies_.sharing, current_.positions, steps_);
     hold_and_release();
-    held_.begin_step_of_host(current_.positions, time(), time() + scene_.dt());
-    const State<Dim> before = current_;
-    const State<Dim> history_before = history_;
+    const TimeSpan span{time(), time() + scene_.dt()};
+    held_.begin_step_of_host(current_.positions, span.begin, span.end);
+    // Where the step began, if activations do work in it.
+    const bool is_driven = !strain().changing_bodies(span.begin, span.end).empty();
+    const Positions<Dim> start = is_driven ? current_.positions : Positions<Dim>(Dim, 0);
     const double stiffness_before = energy_.contact->stiffness();
     StepReport work_between;  // of looking at the state between steps: of nobody's step
     add_work(work_between);
@@ -300,16 +306,16 @@ StepReport Simulation<Dim>::Stepper::step() {
     report.newton_iterations = attempts.newton_iterations;
     report.unbalanced = attempts.unbalanced;
     if (report.is_accepted) {
-        report.activation_work = energy_.elasticity->activation_work(
-            before.positions, current_.positions, {time(), time() + scene_.dt()});
+        if (is_driven) {
+            report.activation_work =
+                energy_.elasticity->activation_work(start, current_.positions, span);
+        }
         ++steps_;
         energy_.grabs->arrive(time());
         evaluate_current();
         break_springs();
         put_to_sleep();
     } else {
-        current_ = before;
-        history_ = history_before;
         energy_.contact->set_stiffness(stiffness_before);
         energy_.sum.invalidate();
         evaluate_current();

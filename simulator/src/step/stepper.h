@@ -97,7 +97,7 @@ private:
     void set_velocities(const StepProblem<Dim>& problem, double time);
     [[nodiscard]] std::string excess(const Energies& before, Method method) const;
     [[nodiscard]] std::string tunneling() const;
-    [[nodiscard]] bool wake_for(const Positions<Dim>& prescribed);
+    [[nodiscard]] bool wake_for(const PrescribedPlaces<Dim>& prescribed);
     bool restore_host(const HostState<Dim>& host);
     void break_springs();
     void put_to_sleep();

@@ -11,7 +11,8 @@ namespace pent::simulator {
 
 namespace {
 
-// The mean over the cells at each vertex, weighted by their volumes at rest.
+// The mean over the cells at each vertex, weighted by their volumes at rest. A rank has all cells at
+// its own vertices, and tells the others of these.
 template <int Dim>
 Eigen::RowVectorXd energy_densities(const Bodies<Dim>& bodies,
                                     const ActiveStrain<Dim>& strain,
@@ -39,7 +40,11 @@ Eigen::RowVectorXd energy_densities(const Bodies<Dim>& bodies,
             }
         }
     }
-    return energy.cwiseQuotient(volume);  // every vertex belongs to a cell
+    Eigen::Matrix<double, 1, Eigen::Dynamic> all = Eigen::RowVectorXd::Zero(bodies.vertex_count());
+    all.middleCols(vertices.begin, vertices.size) =
+        energy.cwiseQuotient(volume);  // every vertex belongs to a cell
+    bodies.sharing.gather(all);
+    return all.middleCols(vertices.begin, vertices.size);
 }
 
 }  // namespace
