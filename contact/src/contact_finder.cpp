@@ -85,7 +85,6 @@ public:
         const Stopwatch watch;
         StepLimit limit = colliders_.with_cores(from, [&](const PositionsView<Dim>& start) {
             return colliders_.with_cores(to, [&](const PositionsView<Dim>& end) {
-                candidates_.cover(start, end);
                 return find_step_limit<Dim>(candidates_, obstacle_vertices_, start, end);
             });
         });
@@ -117,7 +116,6 @@ public:
         }
         const Positions<Dim> start = place(from);
         const Positions<Dim> end = place(now);
-        candidates_.cover(start, end);
         StepLimit limit = find_step_limit<Dim>(candidates_, {}, start, end);
         for (const Contact<Dim>& contact : find_obstacle_contacts<Dim>(
                  colliders_, obstacle_vertices_, positions, candidates_.shared())) {

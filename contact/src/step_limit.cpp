@@ -64,7 +64,7 @@ std::vector<std::uint32_t> named_corners(const Colliders<Dim>& colliders,
     return {corners.data(), corners.data() + Count};
 }
 
-// The same of all lists: those of candidates in their order, then one for each obstacle.
+// The same of several lists: those of candidates in their order, or one for each obstacle.
 struct LeastBound {
     Bound bound{1, 0, 0};
     std::uint32_t list = 0;
@@ -190,20 +190,23 @@ LeastBound least_of_all(const LeastBound& own, const SharedWork& shared) {
     return least;
 }
 
-}  // namespace
-
+// What pairs allow, if that is less than a part of the step; else that part, of no pair. They are
+// searched for on that part alone.
 template <int Dim>
-StepLimit find_step_limit(const Candidates<Dim>& candidates,
-                          const std::vector<std::uint32_t>& vertices,
-                          const PositionsView<Dim>& from,
-                          const PositionsView<Dim>& to) {
-    const Colliders<Dim>& colliders = candidates.colliders();
-    const ContactScene<Dim>& scene = colliders.scene();
-    const Step<Dim> step{from, to - from};
-    LeastBound least;
-    std::uint32_t lists = 0;
+LeastBound least_of_pairs(Candidates<Dim>& candidates,
+                          const Step<Dim>& step,
+                          const PositionsView<Dim>& to,
+                          double part) {
+    Positions<Dim> cut;
+    if (part < 1) {
+        cut = step.from + part * step.motion;
+    }
+    const PositionsView<Dim> end = part < 1 ? PositionsView<Dim>(cut) : to;
+    candidates.cover(step.from, end);
+    LeastBound least{.bound{part, 0, 0}};
     if (!candidates.pairs().empty()) {
-        const Displacements displacements = candidates.displacements(from, to);
+        const Displacements displacements = candidates.displacements(step.from, end);
+        std::uint32_t lists = 0;
         candidates.for_each_list(
             [&]<int K, int L>(const CandidateList& list, int first, int second) {
                 least.take(bound_of<Dim, K, L>(candidates, list, {first, second}, step,
@@ -211,24 +214,40 @@ StepLimit find_step_limit(const Candidates<Dim>& candidates,
                            lists++);
             });
     }
+    return least_of_all(least, candidates.shared());
+}
+
+}  // namespace
+
+template <int Dim>
+StepLimit find_step_limit(Candidates<Dim>& candidates,
+                          const std::vector<std::uint32_t>& vertices,
+                          const PositionsView<Dim>& from,
+                          const PositionsView<Dim>& to) {
+    const ContactScene<Dim>& scene = candidates.colliders().scene();
+    const Step<Dim> step{from, to - from};
+    LeastBound least;
     for (std::uint32_t o = 0; o < scene.obstacles.size(); ++o) {
-        if (meets_vertices(colliders, o)) {
-            least.take(bound_of<Dim>(candidates, o, vertices, step, least.fraction()), lists + o);
+        if (meets_vertices(candidates.colliders(), o)) {
+            least.take(bound_of<Dim>(candidates, o, vertices, step, least.fraction()), o);
         }
     }
-    least = least_of_all(least, candidates.shared());
+    // What is behind a surface of an obstacle need not be searched.
+    const LeastBound of_obstacles = least_of_all(least, candidates.shared());
+    least = least_of_pairs<Dim>(candidates, step, to, of_obstacles.fraction());
     StepLimit limit;
     limit.fraction = least.fraction();
-    if (limit.fraction < 1) {
-        limit.limiting = least.list < lists ? touching<Dim>(candidates, least)
-                                            : touching<Dim>(scene, least.list - lists,
-                                                            vertices[std::get<1>(least.bound)]);
+    if (limit.fraction < of_obstacles.fraction()) {
+        limit.limiting = touching<Dim>(candidates, least);
+    } else if (limit.fraction < 1) {
+        limit.limiting =
+            touching<Dim>(scene, of_obstacles.list, vertices[std::get<1>(of_obstacles.bound)]);
     }
     return limit;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                                     \
-    template StepLimit find_step_limit(const Candidates<Dim>&, const std::vector<std::uint32_t>&, \
+#define PENT_INSTANTIATE(Dim)                                                               \
+    template StepLimit find_step_limit(Candidates<Dim>&, const std::vector<std::uint32_t>&, \
                                        const PositionsView<Dim>&, const PositionsView<Dim>&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE

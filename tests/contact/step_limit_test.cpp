@@ -1,6 +1,7 @@
 #include "step_limit.h"
 
 #include "ccd.h"
+#include "obstacle_contacts.h"
 #include "support/host_tasks.h"
 #include "two_cubes.h"
 
@@ -112,6 +113,54 @@ TYPED_TEST(StepLimitTest, KeepsVerticesOutOfHalfSpaces) {
     EXPECT_EQ(limit.limiting.second, (Collider{Collider::Kind::Obstacle, 0}));
     const Positions<kDim> at = x + limit.fraction * (to - x);
     EXPECT_GT(at.row(1).minCoeff(), -0.1 + this->cubes_.options.separation);
+}
+
+// The first cube goes to the other and down to a half-space, which it meets first, or not.
+TYPED_TEST(StepLimitTest, IsTheLesserOfWhatPairsAndWhatSurfacesOfObstaclesAllow) {
+    constexpr int kDim = TypeParam::value;
+    const Positions<kDim>& x = this->cubes_.scene.positions;
+    Positions<kDim> to = this->cubes_.pushed(0.5);
+    to.row(1).array() -= 1;
+    const double of_pairs = ContactFinder<kDim>(this->cubes_.model()).limit_step(x, to).fraction;
+    int obstacles_first = 0;
+    int pairs_first = 0;
+    for (const double height : {-0.05, -0.1, -0.2, -0.4, -2.0}) {
+        ContactScene<kDim> scene =
+            this->cubes_.model({HalfSpace<kDim>{Vector<kDim>::Unit(1), height}});
+        ContactFinder<kDim> both(scene);
+        const StepLimit limit = both.limit_step(x, to);
+        scene.ignored.emplace_back(0, 1);
+        const double of_obstacle = ContactFinder<kDim>(scene).limit_step(x, to).fraction;
+        EXPECT_EQ(limit.fraction, std::min(of_pairs, of_obstacle)) << height;
+        EXPECT_EQ(limit.limiting.second.kind == Collider::Kind::Obstacle, of_obstacle <= of_pairs);
+        ++(of_obstacle < of_pairs ? obstacles_first : pairs_first);
+        // Whatever has been searched before.
+        EXPECT_EQ(both.limit_step(x, to).fraction, limit.fraction);
+    }
+    EXPECT_GE(obstacles_first, 2);  // the test is about something
+    EXPECT_GE(pairs_first, 1);
+}
+
+TYPED_TEST(StepLimitTest, SearchesNoFartherThanSurfacesOfObstaclesLetGo) {
+    constexpr int kDim = TypeParam::value;
+    this->cubes_.options.distance = 0.02;
+    const auto count_of = [&](const std::vector<ObstacleShape<kDim>>& obstacles) {
+        const ContactScene<kDim> scene = this->cubes_.model(obstacles);
+        const Colliders<kDim> colliders(scene);
+        Candidates<kDim> candidates(colliders);
+        const PositionsView<kDim> from = this->cubes_.scene.positions;
+        Positions<kDim> to = this->cubes_.pushed(0.07);
+        to.row(1).array() -= 1;
+        static_cast<void>(find_step_limit<kDim>(candidates, vertices_at_obstacles(colliders), from,
+                                                PositionsView<kDim>(to)));
+        std::size_t count = 0;
+        for (const CandidatePairs& pairs : candidates.pairs()) {
+            count += pairs.size();
+        }
+        return count;
+    };
+    EXPECT_GT(count_of({}), 0U);
+    EXPECT_EQ(count_of({HalfSpace<kDim>{Vector<kDim>::Unit(1), -0.1}}), 0U);
 }
 
 }  // namespace
