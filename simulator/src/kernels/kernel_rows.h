@@ -45,8 +45,8 @@ void multiply_rows(const BlockRows<Scalar>& rows, const double* x, double* y) {
     }
 }
 
-// The same for 4 x 4 blocks by their diagonals: entry j of diagonal k is in row j ^ k of column j. So
-// a product with the block takes what it is multiplied by as it lies in memory, one with its
+// The same for 4 x 4 blocks by their diagonals: entry j of diagonal k is in row j ^ k of column j.
+// So a product with the block takes what it is multiplied by as it lies in memory, one with its
 // transpose a part of x that is turned once a row, and neither needs a sum across a vector.
 template <typename Scalar>
 void multiply_rows_4(const BlockRows<Scalar>& rows, const double* x, double* y) {
