@@ -84,6 +84,24 @@ void multiply_rows_4(const BlockRows<Scalar>& rows, const double* x, double* y) 
     }
 }
 
+// The same by the columns of blocks, for registers of less than four numbers: what is between halves
+// of a vector is taken apart number by number there.
+template <typename Scalar>
+void multiply_rows_4_by_columns(const BlockRows<Scalar>& rows, const double* x, double* y) {
+    for (std::int64_t row = rows.begin; row < rows.end; ++row) {
+        const Four x_row = load_four(x + 4 * row);
+        const Scalar* block = rows.values + 16 * rows.row_start[row];
+        Four sum = block_times(block, x_row);
+        for (std::int64_t k = rows.row_start[row] + 1; k < rows.row_start[row + 1]; ++k) {
+            block += 16;
+            const std::int64_t at = std::int64_t{4} * rows.columns[k];
+            sum += block_times(block, load_four(x + at));
+            store(load_four(y + at) + transposed_times(block, x_row), y + at);
+        }
+        store(load_four(y + 4 * row) + sum, y + 4 * row);
+    }
+}
+
 // Parts of rows of Size x Size blocks: y = A x.
 template <int Size, typename Scalar>
 void multiply_spans(const BlockSpans<Scalar>& rows, const Scalar* x, Scalar* y) {
