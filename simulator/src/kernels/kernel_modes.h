@@ -66,9 +66,9 @@ void add_motions(const AggregateChildren& children, const double* modes, double*
     }
 }
 
-// One row of aggregates of T^T H T, see GalerkinRow. What a child has is in vectors of Dim rows: those
-// of the axes, then, where it has modes of its own, those of rotations, the last of which ends with
-// the rows: some may be in two, and computed twice.
+// One row of aggregates of T^T H T, see GalerkinRow. What a child has is in vectors of Dim rows:
+// those of the axes, then, where it has modes of its own, those of rotations, the last of which
+// ends with the rows: some may be in two, and computed twice.
 template <int Dim, int Rows, bool IsVectorized>
 struct Galerkin {
     using Vertex = typename VertexOf<Dim, IsVectorized>::Type;
@@ -153,8 +153,8 @@ struct Galerkin {
     }
 };
 
-// Products of a row with all children of an aggregate are added up first: neighbors in the row mostly
-// are of one aggregate, and their sum stays in registers.
+// Products of a row with all children of an aggregate are added up first: neighbors in the row
+// mostly are of one aggregate, and their sum stays in registers.
 template <int Dim, int Rows, bool IsVectorized, typename Scalar>
 class GalerkinSum {
 public:

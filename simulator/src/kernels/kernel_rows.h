@@ -45,8 +45,8 @@ void multiply_rows(const BlockRows<Scalar>& rows, const double* x, double* y) {
     }
 }
 
-// The same for 4 x 4 blocks by their diagonals: entry j of diagonal k is in row j ^ k of column j. So
-// a product with the block takes what it is multiplied by as it lies in memory, one with its
+// The same for 4 x 4 blocks by their diagonals: entry j of diagonal k is in row j ^ k of column j.
+// So a product with the block takes what it is multiplied by as it lies in memory, one with its
 // transpose a part of x that is turned once a row, and neither needs a sum across a vector.
 template <typename Scalar>
 void multiply_rows_4(const BlockRows<Scalar>& rows, const double* x, double* y) {
@@ -81,6 +81,24 @@ void multiply_rows_4(const BlockRows<Scalar>& rows, const double* x, double* y) 
         sum_1 += __builtin_shufflevector(sum_3, sum_3, 2, 3, 0, 1);
         sum_0 += __builtin_shufflevector(sum_1, sum_1, 1, 0, 3, 2);
         store(load_four(y + 4 * row) + sum_0, y + 4 * row);
+    }
+}
+
+// The same by the columns of blocks, for registers of less than four numbers: what is between halves
+// of a vector is taken apart number by number there.
+template <typename Scalar>
+void multiply_rows_4_by_columns(const BlockRows<Scalar>& rows, const double* x, double* y) {
+    for (std::int64_t row = rows.begin; row < rows.end; ++row) {
+        const Four x_row = load_four(x + 4 * row);
+        const Scalar* block = rows.values + 16 * rows.row_start[row];
+        Four sum = block_times(block, x_row);
+        for (std::int64_t k = rows.row_start[row] + 1; k < rows.row_start[row + 1]; ++k) {
+            block += 16;
+            const std::int64_t at = std::int64_t{4} * rows.columns[k];
+            sum += block_times(block, load_four(x + at));
+            store(load_four(y + at) + transposed_times(block, x_row), y + at);
+        }
+        store(load_four(y + 4 * row) + sum, y + 4 * row);
     }
 }
 

@@ -14,8 +14,11 @@ namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
 template <int Dim, typename Scalar, bool IsVectorized>
 constexpr auto choose_multiply() {
-    if constexpr (Dim == 4 && IsVectorized) {
+    constexpr bool kHasFours = kRegisterBytes >= 4 * static_cast<int>(sizeof(double));
+    if constexpr (Dim == 4 && IsVectorized && kHasFours) {
         return &multiply_rows_4<Scalar>;
+    } else if constexpr (Dim == 4 && IsVectorized) {
+        return &multiply_rows_4_by_columns<Scalar>;
     } else {
         return &multiply_rows<Dim, Scalar>;
     }

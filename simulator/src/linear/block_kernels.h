@@ -57,9 +57,9 @@ struct SymmetricParts {
     BlockRows<Scalar> coupling;  ///< Of no values where there is none.
 };
 
-/// One row of P^T H P, where A = H + H^T but for columns of other ranks: the upper triangle of A with
-/// its diagonal halved, and those columns whole. P is the rigid modes of aggregates, A a matrix over
-/// their children.
+/// One row of P^T H P, where A = H + H^T but for columns of other ranks: the upper triangle of A
+/// with its diagonal halved, and those columns whole. P is the rigid modes of aggregates, A a
+/// matrix over their children.
 struct GalerkinRow {
     AggregateChildren children;               ///< Of the aggregate whose row it is.
     const std::uint32_t* of_child = nullptr;  ///< Aggregates of all children.
