@@ -46,7 +46,6 @@ struct Step {
           displacement(0 * start),
           problem(
               std::make_shared<StepProblem<Dim>>(euler_problem<Dim>({start, velocities}, 0.01))) {
-        energy.sum.update(start);
         for (const DirichletSet<Dim>& set : setting.held.sets()) {
             for (const std::uint32_t vertex : set.vertices) {
                 displacement.col(vertex).setConstant(1e-3);
@@ -55,6 +54,11 @@ struct Step {
         }
         problem->prescribed.places =
             (start + displacement)(Eigen::all, problem->prescribed.vertices);
+        begin();
+    }
+
+    void begin() {
+        energy.sum.update(start);
         potential.begin_step(problem, {start, velocities, problem->origin, displacement, 0.01,
                                        problem->rate, false});
     }
@@ -110,6 +114,9 @@ TYPED_TEST(IncrementalPotentialTest, SolvesForTheDirectionThatItsGradientsAskFor
     const auto report =
         newton<kDim>(step.potential, {.tolerance = 1e-9, .min_correction = 0, .arrival = 1e-12}, x);
     ASSERT_TRUE(report.has_converged) << report.failure_reason;
+    // Friction of contacts whose slip turned around on the way there has a secant for its curvature
+    // in the next few solves, which is more than the true one; a step that begins knows of none.
+    step.begin();
     x = shaken<kDim>(x, 1e-9, 9);
     step.problem->prescribed.put_into(x);
     const Positions<kDim> gradient = step.potential.evaluate(x).gradient;
