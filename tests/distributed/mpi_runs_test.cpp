@@ -79,7 +79,8 @@ TEST_F(MpiRuns, GoWherePentSimGoes) {
 TEST_F(MpiRuns, WriteTheFramesThatPentSimWrites) {
     std::string text = kBoxes;
     text.replace(text.find("frames = 4"), 10, "frames = 1");
-    write("start", text + "[output]\nvertex = [\"contact_force\", \"reaction\", \"energy_density\"]\n");
+    write("start",
+          text + "[output]\nvertex = [\"contact_force\", \"reaction\", \"energy_density\"]\n");
     ASSERT_EQ(simulate(0, "start", "alone").exit_code, 0);
     for (const int ranks : {1, 2, 3, 4}) {
         const std::string run = "start" + std::to_string(ranks);

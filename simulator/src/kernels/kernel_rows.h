@@ -84,8 +84,8 @@ void multiply_rows_4(const BlockRows<Scalar>& rows, const double* x, double* y) 
     }
 }
 
-// The same by the columns of blocks, for registers of less than four numbers: what is between halves
-// of a vector is taken apart number by number there.
+// The same by the columns of blocks, for registers of less than four numbers: what is between
+// halves of a vector is taken apart number by number there.
 template <typename Scalar>
 void multiply_rows_4_by_columns(const BlockRows<Scalar>& rows, const double* x, double* y) {
     for (std::int64_t row = rows.begin; row < rows.end; ++row) {

@@ -11,8 +11,8 @@ namespace pent::simulator {
 
 namespace {
 
-// The mean over the cells at each vertex, weighted by their volumes at rest. A rank has all cells at
-// its own vertices, and tells the others of these.
+// The mean over the cells at each vertex, weighted by their volumes at rest. A rank has all cells
+// at its own vertices, and tells the others of these.
 template <int Dim>
 Eigen::RowVectorXd energy_densities(const Bodies<Dim>& bodies,
                                     const ActiveStrain<Dim>& strain,
