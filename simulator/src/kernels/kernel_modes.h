@@ -2,6 +2,7 @@
 
 #include "kernels/kernel_vertices.h"
 #include "linear/block_kernels.h"
+#include "linear/rigid_mode_order.h"
 
 // Rigid modes of aggregates: RigidModes has the formulas, one child at a time.
 //
@@ -11,22 +12,6 @@
 
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
-
-template <int Dim>
-inline constexpr int kRigidModes = Dim*(Dim + 1) / 2;
-
-// Calls visit(p, q, k): rotation of axis p to axis q is mode k.
-template <int Dim, typename Visit>
-void for_each_plane(const Visit& visit) {
-    int k = Dim;
-#pragma GCC unroll 4
-    for (int p = 0; p < Dim; ++p) {
-#pragma GCC unroll 4
-        for (int q = p + 1; q < Dim; ++q, ++k) {
-            visit(p, q, k);
-        }
-    }
-}
 
 template <int Dim, bool IsVectorized>
 void sum_forces(const AggregateChildren& children, const double* r, double* modes) {
@@ -72,7 +57,7 @@ void add_motions(const AggregateChildren& children, const double* modes, double*
 template <int Dim, int Rows, bool IsVectorized>
 struct Galerkin {
     using Vertex = typename VertexOf<Dim, IsVectorized>::Type;
-    static constexpr int kModes = kRigidModes<Dim>;
+    static constexpr int kModes = kModes<Dim>;
     static constexpr int kVectors = (Rows + Dim - 1) / Dim;
     static constexpr int row_of(int vector) {
         return vector + 1 < kVectors ? Dim * vector : Rows - Dim;

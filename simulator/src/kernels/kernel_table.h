@@ -48,8 +48,8 @@ constexpr BlockKernels block_kernels() {
             .add_motions = &add_motions<Dim, kIsVectorized>,
             .galerkin_float = &galerkin<Dim, Dim, kIsVectorized, float>,
             .galerkin_double = &galerkin<Dim, Dim, kIsVectorized, double>,
-            .galerkin_modes_float = &galerkin<Dim, kRigidModes<Dim>, kIsVectorized, float>,
-            .galerkin_modes_double = &galerkin<Dim, kRigidModes<Dim>, kIsVectorized, double>};
+            .galerkin_modes_float = &galerkin<Dim, kModes<Dim>, kIsVectorized, float>,
+            .galerkin_modes_double = &galerkin<Dim, kModes<Dim>, kIsVectorized, double>};
 }
 
 // A simplex is the case of Dim + 1 corners of the kernels for any number of them, which give the

@@ -1,13 +1,10 @@
 #pragma once
 
+#include "linear/rigid_mode_order.h"
+
 #include <Eigen/Core>
 
 namespace pent::simulator {
-
-/// The rigid modes of an aggregate: Dim translations, then for each plane p < q the rotation
-/// e_q x_p - e_p x_q about its middle, x in units of its size.
-template <int Dim>
-inline constexpr int kModes = Dim*(Dim + 1) / 2;
 
 /// Where a child lies in its aggregate.
 template <int Dim>
@@ -28,7 +25,7 @@ struct RigidModes {
     static Modes force(const Child& r, const Arm<Dim>& arm) {
         Modes modes;
         modes.template head<Dim>() = r.template head<Dim>();
-        for_each_plane([&](int p, int q, int k) {
+        for_each_plane<Dim>([&](int p, int q, int k) {
             modes[k] = arm.x[p] * r[q] - arm.x[q] * r[p];
             if constexpr (Rows > Dim) {
                 modes[k] += arm.ratio * r[k];
@@ -41,7 +38,7 @@ struct RigidModes {
     static Child motion(const Modes& c, const Arm<Dim>& arm) {
         Child child;
         child.template head<Dim>() = c.template head<Dim>();
-        for_each_plane([&](int p, int q, int k) {
+        for_each_plane<Dim>([&](int p, int q, int k) {
             child[q] += c[k] * arm.x[p];
             child[p] -= c[k] * arm.x[q];
             if constexpr (Rows > Dim) {
@@ -49,20 +46,6 @@ struct RigidModes {
             }
         });
         return child;
-    }
-
-private:
-    // Calls visit(p, q, k): rotation of axis p to axis q is mode k.
-    template <typename Visit>
-    static void for_each_plane(const Visit& visit) {
-        int k = Dim;
-#pragma GCC unroll 4
-        for (int p = 0; p < Dim; ++p) {
-#pragma GCC unroll 4
-            for (int q = p + 1; q < Dim; ++q, ++k) {
-                visit(p, q, k);
-            }
-        }
     }
 };
 
