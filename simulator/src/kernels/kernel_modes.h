@@ -57,7 +57,7 @@ void add_motions(const AggregateChildren& children, const double* modes, double*
 template <int Dim, int Rows, bool IsVectorized>
 struct Galerkin {
     using Vertex = typename VertexOf<Dim, IsVectorized>::Type;
-    static constexpr int kModes = kModes<Dim>;
+    static constexpr int kColumns = kModes<Dim>;
     static constexpr int kVectors = (Rows + Dim - 1) / Dim;
     static constexpr int row_of(int vector) {
         return vector + 1 < kVectors ? Dim * vector : Rows - Dim;
@@ -65,13 +65,13 @@ struct Galerkin {
 
     // H T of a child, added up over the children of one aggregate.
     struct Product {
-        Vertex at[kModes][kVectors];
+        Vertex at[kColumns][kVectors];
     };
 
     // T^T of that, but for the differences that rotations are. Of a column: the axes, those times
     // each coordinate of the arm, and rotations times its ratio.
     struct Sum {
-        Vertex at[kModes][Dim + kVectors];
+        Vertex at[kColumns][Dim + kVectors];
     };
 
     static_assert(sizeof(Product) + sizeof(Sum) == kGalerkinScratch<Dim, Rows> * sizeof(double));
@@ -107,7 +107,7 @@ struct Galerkin {
     }
 
     static void add_transposed_times(const Product& product, const double* arm, Sum& sum) {
-        for (int c = 0; c < kModes; ++c) {
+        for (int c = 0; c < kColumns; ++c) {
             const Vertex axes = product.at[c][0];
             sum.at[c][0] += axes;
             for (int p = 0; p < Dim; ++p) {
@@ -121,7 +121,7 @@ struct Galerkin {
 
     template <typename Scalar>
     static void store_block(const Sum& sum, Scalar* block) {
-        for (int c = 0; c < kModes; ++c, block += kModes) {
+        for (int c = 0; c < kColumns; ++c, block += kColumns) {
             const Vertex* of = sum.at[c];
             for (int i = 0; i < Dim; ++i) {
                 block[i] = static_cast<Scalar>(of[0][i]);
@@ -164,7 +164,7 @@ public:
 
     void store(Scalar* blocks) const {
         for (std::size_t block = 0; block < of_->blocks; ++block) {
-            Of::store_block(sums_[block], blocks + block * Of::kModes * Of::kModes);
+            Of::store_block(sums_[block], blocks + block * Of::kColumns * Of::kColumns);
         }
     }
 

@@ -26,11 +26,10 @@ constexpr auto choose_multiply() {
 
 template <int Dim, typename Scalar, bool IsVectorized>
 constexpr auto choose_multiply_modes() {
-    constexpr int kModes = Dim * (Dim + 1) / 2;
     if constexpr (IsVectorized) {
-        return &multiply_spans_by_vectors<kModes, Scalar>;
+        return &multiply_spans_by_vectors<kModes<Dim>, Scalar>;
     } else {
-        return &multiply_spans<kModes, Scalar>;
+        return &multiply_spans<kModes<Dim>, Scalar>;
     }
 }
 
