@@ -217,8 +217,14 @@ void expect_recovery(const StandingCube<Dim>& cube, bool by_grab) {
     run(3);
     EXPECT_GT((simulation.positions(0) - before).cwiseAbs().maxCoeff(), far / 2);
     let_go(simulation);
-    run(300);
-    EXPECT_LT(report.energies.kinetic, 1e-3);
+    // Of forty pulls of 28 to 34 m, by a spring and by the vertex, one or two leave quadratic cells
+    // that are still unfolding after 300 steps, in floats as in doubles; all rest after 600.
+    const double at_rest = 1e-3;  // J
+    int runs = 0;
+    do {
+        run(300);
+    } while (++runs < 3 && report.energies.kinetic > at_rest);
+    EXPECT_LT(report.energies.kinetic, at_rest);
     // e^(-5 t / 2) of 30 m is 2 cm if nothing else damps it. Turned inside out a quadratic cell has
     // an equilibrium of its own, which the step reports.
     const bool is_back = (simulation.positions(0) - before).cwiseAbs().maxCoeff() < 2e-2;

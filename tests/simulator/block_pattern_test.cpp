@@ -101,6 +101,10 @@ TEST(BlockPattern, OfListsHasThePairsOfTheirElements) {
     }
     EXPECT_EQ(found, expected);
     EXPECT_EQ(pattern.blocks(), static_cast<std::int64_t>(expected.size()));
+    // Vertex 1, which is held, shares an element with 2 and 5.
+    for (const std::uint32_t vertex : box.dofs.vertices()) {
+        EXPECT_EQ(pattern.is_cut[box.dofs.dof_of(vertex)], vertex == 2 || vertex == 5) << vertex;
+    }
 }
 
 }  // namespace

@@ -82,6 +82,7 @@ private:
             pattern.columns.insert(pattern.columns.end(), columns.begin(), columns.end());
             pattern.row_start.push_back(static_cast<std::int64_t>(pattern.columns.size()));
         }
+        pattern.is_cut.assign(rows, false);
         color_rows(pattern, static_cast<std::int64_t>(dofs.size()));
     }
 

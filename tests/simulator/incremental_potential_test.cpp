@@ -204,6 +204,37 @@ TYPED_TEST(IncrementalPotentialTest, SolvesInDoubleWhereFloatsWouldLoseTheMasses
     EXPECT_LT((direction - expected).norm(), 1e-4 * expected.norm());
 }
 
+// From soft to where doubles take over, centers of mass move as doubles move them, and so does all
+// else but for what the rounding of blocks adds to rotations.
+TYPED_TEST(IncrementalPotentialTest, MovesBodiesInFloatsAsInDoubles) {
+    constexpr int kDim = TypeParam::value;
+    double young = 1e5;
+    int in_floats = 0;
+    for (;; young *= 2) {
+        SCOPED_TRACE(young);
+        Step<kDim> step(free_scene<kDim>(young, Precision::Float));
+        Step<kDim> reference(free_scene<kDim>(young, Precision::Double));
+        const Positions<kDim> found = direction_of(step);
+        const Positions<kDim> expected = direction_of(reference);
+        if (found == expected) {
+            break;
+        }
+        ++in_floats;
+        const Bodies<kDim>& bodies = step.setting.bodies;
+        for (std::size_t body = 0; body < bodies.count(); ++body) {
+            const auto range = bodies.vertices(body);
+            const auto masses = bodies.masses.segment(range.begin, range.size);
+            const Eigen::Matrix<double, kDim, 1> by_float =
+                found.middleCols(range.begin, range.size) * masses;
+            const Eigen::Matrix<double, kDim, 1> by_double =
+                expected.middleCols(range.begin, range.size) * masses;
+            EXPECT_LT((by_float - by_double).norm(), 5e-3 * by_double.norm()) << body;
+        }
+        EXPECT_LT((found - expected).norm(), 1e-2 * expected.norm());
+    }
+    EXPECT_GT(in_floats, 5);
+}
+
 TYPED_TEST(IncrementalPotentialTest, LeavesOutBodiesThatSleep) {
     constexpr int kDim = TypeParam::value;
     Scene scene = busy_scene<kDim>();

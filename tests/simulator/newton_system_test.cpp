@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace pent::simulator {
 namespace {
 
@@ -51,6 +55,39 @@ TEST(NewtonSystem, IsTheSumOfItsPartsLessTheShareOfVerticesWithoutDofs) {
     }
     EXPECT_LT((problem.system.right() - right).norm(), 1e-13 * right.norm());
     EXPECT_GT((problem.b - right).norm(), 1e-2 * right.norm());
+}
+
+// A stiffness strains no translation; that of floats does by its rounding, here some hundredth of
+// the masses.
+TEST(NewtonSystem, MassesAloneResistTranslationsWhereFloatsRoundTheStiffness) {
+    ElasticBox<kDim> box({.lame = {.lambda = 2, .mu = 1}});
+    box.scramble(0.1, 1);
+    const Workers workers(2);
+    NewtonSystem<kDim> system(workers, box.dofs, box.pattern, Precision::Float);
+    system.begin(BlockVector<kDim>::Zero(kDim, box.pattern.rows()), 0 * box.positions);
+    auto& matrix = std::get<BlockMatrix<kDim, float>>(system.matrix());
+    box.elements->add_hessian(workers, kernels<kDim>(best_isa()), box.positions,
+                              target_in(matrix, 1, Filter::Clamp));
+    const double stiffness = ElasticBox<kDim>::dense(matrix).diagonal().maxCoeff();
+    const double mass =
+        stiffness * static_cast<double>(std::numeric_limits<float>::epsilon()) / 0.01;
+    system.add_masses(2, Eigen::VectorXd::Constant(box.mesh.vertex_count(), mass));
+    ASSERT_FALSE(system.has_lost_inertia());
+    system.finish();
+    const Eigen::MatrixXd rounded = ElasticBox<kDim>::dense(matrix);
+    const double total = 2 * mass * static_cast<double>(box.mesh.vertex_count());
+    double off = 0;  // by the rounded blocks alone
+    for (int axis = 0; axis < kDim; ++axis) {
+        BlockVector<kDim> shift = BlockVector<kDim>::Zero(kDim, box.pattern.rows());
+        shift.row(axis).setOnes();
+        BlockVector<kDim> force(kDim, box.pattern.rows());
+        matrix.multiply(workers, kernels<kDim>(best_isa()).blocks, shift, force);
+        const Eigen::Vector4d sum = force.rowwise().sum();
+        EXPECT_LT((sum - total * Eigen::Vector4d::Unit(axis)).norm(), 1e-9 * total);
+        const Eigen::VectorXd moved = shift.reshaped();
+        off = std::max(off, std::abs(moved.dot(rounded * moved) - total));
+    }
+    EXPECT_GT(off, 1e-4 * total);
 }
 
 TEST(NewtonSystem, SaysWhereMassesDrownInTheRoundingOfStiffness) {

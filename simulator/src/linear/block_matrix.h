@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 #include <vector>
 
 namespace pent::simulator {
@@ -40,7 +41,7 @@ using BlockVector = Positions<Dim>;
 /// Symmetric matrix of Dim x Dim blocks on a fixed pattern, upper triangle stored.
 ///
 /// There may be a second part on another pattern over the same dofs, which products include:
-/// what contact couples beyond elasticity.
+/// what contact couples beyond elasticity. They include what compensate() has found, too.
 template <int Dim, typename Scalar>
 class BlockMatrix {
 public:
@@ -78,6 +79,7 @@ public:
     void set_coupling(const BlockMatrix* coupling) { coupling_ = coupling; }
 
     void set_zero(const Workers& workers) {
+        compensation_.clear();
         for_each_row_chunk(workers, [&](std::int64_t begin, std::int64_t end) {
             const auto& start = pattern_->row_start;
             std::fill(values_.begin() + start[static_cast<std::size_t>(begin)] * kEntries,
@@ -97,6 +99,30 @@ public:
                     static_cast<Scalar>(factor * static_cast<double>(other.values()[k]));
             }
         });
+    }
+
+    /// Makes up for rounding by diagonal compensation [axelsson1994]: a stiffness strains no
+    /// translation, so what the blocks of a row add up to is its mass times the identity. What they
+    /// lack of it is kept beside them in double, where rounding cannot take it again. Rows that are
+    /// cut stay as they are, since nobody knows the rest of them.
+    ///
+    /// @param masses  One a row: what masses have added to its diagonal.
+    void compensate(const Workers& workers, const Eigen::VectorXd& masses) {
+        std::vector<DoubleBlock> sums(static_cast<std::size_t>(rows()), DoubleBlock::Zero());
+        for_each_colored_chunk(
+            workers, [&](std::int64_t begin, std::int64_t end) { add_row_sums(begin, end, sums); });
+        for_each_row_chunk(workers, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t row = begin; row < end; ++row) {
+                DoubleBlock& sum = sums[static_cast<std::size_t>(row)];
+                const DoubleBlock found = sum;
+                sum = -0.5 * (found + found.transpose());
+                sum.diagonal().array() += masses[row];
+                if (pattern_->is_cut[static_cast<std::size_t>(row)]) {
+                    sum.setZero();
+                }
+            }
+        });
+        compensation_ = std::move(sums);
     }
 
     /// result = A x.
@@ -132,30 +158,65 @@ public:
     }
 
 private:
+    using DoubleBlock = Eigen::Matrix<double, Dim, Dim>;
+
+    // Calls work(begin, end) for chunks of rows, those at the same time that touch no dof in common.
+    template <typename Work>
+    void for_each_colored_chunk(const Workers& workers, const Work& work) const {
+        for (const std::vector<int>& chunks : pattern_->coloring.colors) {
+            workers.for_each(static_cast<int>(chunks.size()), [&](int i) {
+                const std::int64_t begin =
+                    chunks[static_cast<std::size_t>(i)] * BlockPattern::kChunkRows;
+                work(begin, std::min(begin + BlockPattern::kChunkRows, rows()));
+            });
+        }
+    }
+
     // result += A x, without the second part.
     void add_product(const Workers& workers,
                      const BlockKernels& kernels,
                      const BlockVector<Dim>& x,
                      BlockVector<Dim>& result) const {
-        for (const std::vector<int>& chunks : pattern_->coloring.colors) {
-            workers.for_each(static_cast<int>(chunks.size()), [&](int i) {
-                const std::int64_t begin =
-                    chunks[static_cast<std::size_t>(i)] * BlockPattern::kChunkRows;
-                BlockRows<Scalar> rows = all_rows();
-                rows.begin = begin;
-                rows.end = std::min(begin + BlockPattern::kChunkRows, rows.end);
-                if constexpr (sizeof(Scalar) == sizeof(float)) {
-                    kernels.multiply_float(rows, x.data(), result.data());
-                } else {
-                    kernels.multiply_double(rows, x.data(), result.data());
+        for_each_colored_chunk(workers, [&](std::int64_t begin, std::int64_t end) {
+            BlockRows<Scalar> rows = all_rows();
+            rows.begin = begin;
+            rows.end = end;
+            if constexpr (sizeof(Scalar) == sizeof(float)) {
+                kernels.multiply_float(rows, x.data(), result.data());
+            } else {
+                kernels.multiply_double(rows, x.data(), result.data());
+            }
+            if (!compensation_.empty()) {
+                for (std::int64_t row = begin; row < end; ++row) {
+                    result.col(row) += compensation_[static_cast<std::size_t>(row)] * x.col(row);
                 }
-            });
+            }
+        });
+    }
+
+    // Adds the blocks of rows, and of the lower triangle, where these have rows here: as they are, as
+    // what counts is the symmetric part, which a transpose shares.
+    void add_row_sums(std::int64_t begin, std::int64_t end, std::vector<DoubleBlock>& sums) const {
+        const auto& start = pattern_->row_start;
+        for (std::int64_t row = begin; row < end; ++row) {
+            const std::int64_t diagonal = start[static_cast<std::size_t>(row)];
+            DoubleBlock sum = block(diagonal).template cast<double>();
+            for (std::int64_t k = diagonal + 1; k < start[static_cast<std::size_t>(row) + 1]; ++k) {
+                const DoubleBlock entry = block(k).template cast<double>();
+                const std::uint32_t column = pattern_->columns[static_cast<std::size_t>(k)];
+                sum += entry;
+                if (column < rows()) {
+                    sums[column] += entry;
+                }
+            }
+            sums[static_cast<std::size_t>(row)] += sum;
         }
     }
 
     const BlockPattern* pattern_;
     const BlockMatrix* coupling_ = nullptr;
     std::vector<Scalar, LineAllocator<Scalar>> values_;
+    std::vector<DoubleBlock> compensation_;  // of each row; empty for none
 };
 
 }  // namespace pent::simulator

@@ -51,12 +51,19 @@ namespace {
 template <typename ForEachPair>
 BlockPattern make_pattern_of(const DofMap& dofs, const ForEachPair& for_each_pair) {
     const std::uint32_t rows = dofs.row_count();
+    BlockPattern pattern;
+    pattern.is_cut.assign(rows, false);
     const auto for_each_block = [&](const auto& visit) {
         for_each_pair([&](std::uint32_t a, std::uint32_t b) {
             const std::uint32_t row = dofs.rank_of(a);
             const std::uint32_t column = dofs.rank_of(b);
-            if (row < column && row < rows && column < dofs.count()) {
+            if (row >= column || row >= rows) {
+                return;
+            }
+            if (column < dofs.count()) {
                 visit(row, column);
+            } else {
+                pattern.is_cut[row] = true;
             }
         });
     };
@@ -68,7 +75,6 @@ BlockPattern make_pattern_of(const DofMap& dofs, const ForEachPair& for_each_pai
     for_each_block([&](std::uint32_t row, std::uint32_t column) {
         found[static_cast<std::size_t>(next[row]++)] = column;
     });
-    BlockPattern pattern;
     pattern.row_start.push_back(0);
     for (std::uint32_t row = 0; row < rows; ++row) {
         const auto first = found.begin() + start[row];

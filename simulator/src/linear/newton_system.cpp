@@ -18,6 +18,27 @@ typename NewtonSystem<Dim>::Matrix make_matrix(const BlockPattern& pattern, Prec
                : Matrix(std::in_place_type<BlockMatrix<Dim, double>>, pattern);
 }
 
+// What rounding may take the place of, of inertia.
+constexpr double kMaxLost = 1e-2;
+
+template <typename Scalar>
+constexpr double kRounding = static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+
+// Rows whose masses are small beside the rounding of the stiffness to float; too small; and too
+// small beside the rounding that there is.
+struct RowCounts {
+    std::int64_t rounded = 0;
+    std::int64_t lost_in_float = 0;
+    std::int64_t lost = 0;
+
+    RowCounts& operator+=(const RowCounts& other) {
+        rounded += other.rounded;
+        lost_in_float += other.lost_in_float;
+        lost += other.lost;
+        return *this;
+    }
+};
+
 }  // namespace
 
 template <int Dim>
@@ -32,6 +53,9 @@ void NewtonSystem<Dim>::begin(BlockVector<Dim> right, Positions<Dim> displacemen
     right_ = std::move(right);
     prescribed_displacement_ = std::move(displacement);
     stencils_.clear();
+    masses_.setZero(dofs_->row_count());
+    is_rounded_ = false;
+    needs_double_ = false;
     has_lost_inertia_ = false;
     std::visit(
         [&](auto& matrix) {
@@ -41,28 +65,45 @@ void NewtonSystem<Dim>::begin(BlockVector<Dim> right, Positions<Dim> displacemen
         matrix_);
 }
 
-// In a free body the stiffness cancels for rigid motions, and the rounding that is left takes the
-// place of inertia: at most 2e-3 of it in floats, to which doubles are the remedy, and 1e-2, as
-// rounding is not all of one sign, in doubles, to which there is none.
 template <int Dim>
 void NewtonSystem<Dim>::add_masses(double weight, const Eigen::VectorXd& masses) {
-    const auto add = [&](auto& matrix) {
-        using Scalar = typename std::decay_t<decltype(matrix)>::Block::Scalar;
-        constexpr double kMaxRatio = (std::is_same_v<Scalar, float> ? 2e-3 : 1e-2)
-                                     / static_cast<double>(std::numeric_limits<Scalar>::epsilon());
-        return matrix.sum_row_chunks(*workers_, [&](std::int64_t begin, std::int64_t end) {
-            int lost = 0;
-            for (std::int64_t row = begin; row < end; ++row) {
-                const double mass =
-                    weight * masses[dofs_->vertex_of(static_cast<std::uint32_t>(row))];
-                auto diagonal = matrix.diagonal(row);
-                lost += static_cast<double>(diagonal.trace()) / Dim > kMaxRatio * mass ? 1 : 0;
-                diagonal.diagonal().array() += static_cast<Scalar>(mass);
-            }
-            return lost;
-        }) > 0 || do_stencils_drown(kMaxRatio, weight, masses);
-    };
-    has_lost_inertia_ = std::visit(add, matrix_) || has_lost_inertia_;
+    std::visit([&](auto& matrix) { add_masses(weight, masses, matrix); }, matrix_);
+}
+
+// In a free body the stiffness cancels for rigid motions, and the rounding that is left takes the
+// place of inertia. In floats 2e-3 of it are let pass; beyond that translations are compensated
+// for. Rotations, which rounding resists by how far apart the vertices of blocks are, and what is
+// soft beside what is stiff may lose up to 1e-2, as rounding is not all of one sign.
+template <int Dim>
+template <typename Scalar>
+void NewtonSystem<Dim>::add_masses(double weight,
+                                   const Eigen::VectorXd& masses,
+                                   BlockMatrix<Dim, Scalar>& matrix) {
+    constexpr double kUnseen = 2e-3 / kRounding<float>;
+    constexpr double kMaxInFloat = kMaxLost / kRounding<float>;
+    constexpr double kMax = kMaxLost / kRounding<Scalar>;
+    const auto counts = matrix.sum_row_chunks(*workers_, [&](std::int64_t begin, std::int64_t end) {
+        RowCounts found;
+        for (std::int64_t row = begin; row < end; ++row) {
+            const double mass = weight * masses[dofs_->vertex_of(static_cast<std::uint32_t>(row))];
+            auto diagonal = matrix.diagonal(row);
+            const double stiffness = static_cast<double>(diagonal.trace()) / Dim;
+            found.rounded += stiffness > kUnseen * mass ? 1 : 0;
+            found.lost_in_float += stiffness > kMaxInFloat * mass ? 1 : 0;
+            found.lost += stiffness > kMax * mass ? 1 : 0;
+            diagonal.diagonal().array() += static_cast<Scalar>(mass);
+            masses_[row] += mass;
+        }
+        return found;
+    });
+    is_rounded_ = is_rounded_ || counts.rounded > 0;
+    // Nothing makes up for what is rounded of stencils.
+    needs_double_ = needs_double_ || counts.lost_in_float > 0
+                    || do_stencils_drown(0.2 * kMaxInFloat, weight, masses);
+    has_lost_inertia_ =
+        has_lost_inertia_ || counts.lost > 0
+        || (std::is_same_v<Scalar, float> ? needs_double_
+                                          : do_stencils_drown(kMax, weight, masses));
 }
 
 // Of single stencils that are to be checked, by their largest diagonal entries.
@@ -92,6 +133,9 @@ template <int Dim>
 void NewtonSystem<Dim>::finish() {
     const auto add = [&](auto& matrix) {
         using Scalar = typename std::decay_t<decltype(matrix)>::Block::Scalar;
+        if (is_rounded_ && std::is_same_v<Scalar, float>) {
+            matrix.compensate(*workers_, masses_);
+        }
         auto coupling = assemble_stencils<Dim, Scalar>(*workers_, *dofs_, stencils_,
                                                        prescribed_displacement_, matrix, right_);
         matrix.set_coupling(coupling ? &coupling->matrix : nullptr);

@@ -37,7 +37,8 @@ public:
 
     /// Adds weight * masses to the diagonal. Elements must have been added, and stencils that are
     /// to be checked: where masses drown in the rounding of the stiffness that is there,
-    /// has_lost_inertia() says so.
+    /// has_lost_inertia() says so. What float rounds of elements is made up for where it matters,
+    /// which lets masses be lighter.
     ///
     /// @param masses  One a vertex, kg.
     void add_masses(double weight, const Eigen::VectorXd& masses);
@@ -53,6 +54,8 @@ public:
     void finish();
 
     [[nodiscard]] bool has_lost_inertia() const { return has_lost_inertia_; }
+    /// Whether masses drown, or would, in the rounding to float.
+    [[nodiscard]] bool needs_double() const { return needs_double_; }
     [[nodiscard]] bool has_stencils() const { return !stencils_.empty(); }
 
     [[nodiscard]] Matrix& matrix() { return matrix_; }
@@ -64,6 +67,8 @@ public:
     }
 
 private:
+    template <typename Scalar>
+    void add_masses(double weight, const Eigen::VectorXd& masses, BlockMatrix<Dim, Scalar>& matrix);
     [[nodiscard]] bool do_stencils_drown(double max_ratio,
                                          double weight,
                                          const Eigen::VectorXd& masses) const;
@@ -76,8 +81,11 @@ private:
                  std::unique_ptr<CouplingMatrix<Dim, double>>>
         coupling_;
     BlockVector<Dim> right_;
+    Eigen::VectorXd masses_;  // of rows: what add_masses() has added
     Positions<Dim> prescribed_displacement_;
     std::vector<HessianStencil> stencils_;
+    bool is_rounded_ = false;  // or would be in float, so that rigid motions would show it
+    bool needs_double_ = false;
     bool has_lost_inertia_ = false;
 };
 

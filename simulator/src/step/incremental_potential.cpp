@@ -248,20 +248,28 @@ bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
 }
 
 // In float, or where masses would be lost in its rounding in double; null if they are lost there,
-// too.
+// too. Which of both is assembled first saves time and tells nothing of what comes out.
 template <int Dim>
 NewtonSystem<Dim>* IncrementalPotential<Dim>::assemble_somehow(Filter filter,
                                                                const Positions<Dim>& gradient,
                                                                const Positions<Dim>& displacement) {
-    if (float_system_ && assemble(*float_system_, filter, gradient, displacement)) {
+    const auto is_float_enough = [&] {
+        return float_system_ && assemble(*float_system_, filter, gradient, displacement);
+    };
+    const bool is_float_first = !was_double_needed_;
+    if (is_float_first && is_float_enough()) {
         return float_system_.get();
     }
     if (!double_system_) {
         double_system_ =
             std::make_unique<NewtonSystem<Dim>>(*workers_, *rows_, *pattern_, Precision::Double);
     }
-    return assemble(*double_system_, filter, gradient, displacement) ? double_system_.get()
-                                                                     : nullptr;
+    const bool is_assembled = assemble(*double_system_, filter, gradient, displacement);
+    was_double_needed_ = bodies_->sharing.any(double_system_->needs_double());
+    if (!is_float_first && !was_double_needed_ && is_float_enough()) {
+        return float_system_.get();
+    }
+    return is_assembled ? double_system_.get() : nullptr;
 }
 
 template <int Dim>

@@ -123,6 +123,7 @@ private:
     // Where float has turned out too coarse there are both.
     std::unique_ptr<NewtonSystem<Dim>> float_system_;
     std::unique_ptr<NewtonSystem<Dim>> double_system_;
+    bool was_double_needed_ = false;  // by the last matrix
     std::shared_ptr<const StepProblem<Dim>> problem_;
     bool may_be_rough_ = false;
     Observer observer_;
