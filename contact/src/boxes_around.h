@@ -44,6 +44,15 @@ void fit_boxes(const Simplices<1>& vertices,
     });
 }
 
+/// The smallest box around those of some vertices; of none one that overlaps nothing.
+[[nodiscard]] inline Box hull_of(const Simplices<1>& vertices, const std::vector<Box>& of_vertex) {
+    Box all = kNowhere;
+    for (const std::uint32_t vertex : vertices.reshaped()) {
+        all = hull(all, of_vertex[vertex]);
+    }
+    return all;
+}
+
 /// The smallest boxes around those of the corners of each simplex. Parallel.
 ///
 /// @param of_vertex  Of each vertex of the scene; read for corners.

@@ -47,6 +47,7 @@ Candidates<Dim>::Candidates(const Colliders<Dim>& colliders, const SharedWork& s
       min_inflation_(colliders.scene().options.margin),
       longest_(static_cast<std::size_t>(colliders.count()), kNever),
       trees_(static_cast<std::size_t>(colliders.count())),
+      patches_(static_cast<std::size_t>(colliders.count())),
       proximity_(static_cast<std::size_t>(colliders.count())) {
     if (!is_penalty()) {
         const ContactOptions& options = colliders.scene().options;
@@ -155,9 +156,9 @@ Displacements Candidates<Dim>::displacements(const PositionsView<Dim>& from,
 template <int Dim>
 void Candidates<Dim>::search_between(const Paths<Dim>& paths) {
     between_.set(vertices_, paths.from, paths.to, min_inflation_, kInflationOfPath);
-    fit_trees(paths);
+    fit(paths);
     std::erase_if(pairs_, [](const CandidatePairs& pairs) { return !pairs.is_self(); });
-    find_pairs_between();
+    find_pairs_between(paths.is_still());
     ++work_.searches;
 }
 
@@ -187,28 +188,39 @@ void Candidates<Dim>::insert(CandidatePairs pairs) {
 }
 
 template <int Dim>
-bool Candidates<Dim>::do_overlap(int a, int b) const {
-    const BoxTree& first = trees(a).template tree<1>();
-    const BoxTree& second = trees(b).template tree<1>();
-    return !first.is_empty() && !second.is_empty() && overlap(first.root_box(), second.root_box());
+void Candidates<Dim>::fit_patches(int collider, const Paths<Dim>& paths) {
+    std::optional<SurfacePatches<Dim>>& patches = patches_[static_cast<std::size_t>(collider)];
+    if (!patches) {
+        patches.emplace(colliders_.surface(collider), PositionsView<Dim>(colliders_.rest()));
+    }
+    patches->fit(&between_.inflation(), boxes_);
+    patches->set_lanes(paths);
 }
 
-// Those of vertices tell which bodies may meet: the others need no more.
+// Boxes around all of a collider tell which may meet: the others need no more.
 template <int Dim>
-void Candidates<Dim>::fit_trees(const Paths<Dim>& paths) {
+void Candidates<Dim>::fit(const Paths<Dim>& paths) {
     const Stopwatch watch;
     const int count = colliders_.count();
     std::vector<bool> is_alone(static_cast<std::size_t>(count), true);
+    meeting_.clear();
     if (count > 1) {
-        boxes_.resize(static_cast<std::size_t>(paths.from.cols()));
+        std::vector<Box> around(static_cast<std::size_t>(count));
         for (int a = 0; a < count; ++a) {
-            fit_boxes(colliders_.surface(a).vertices, paths, &between_.inflation(),
+            const Surface<Dim>& surface = colliders_.surface(a);
+            fit_boxes(surface.vertices, paths, &between_.inflation(),
                       0.5 * activation_distance_ + colliders_.radius(a), boxes_);
-            trees_[static_cast<std::size_t>(a)].update_vertices(colliders_.surface(a), boxes_);
+            around[static_cast<std::size_t>(a)] = hull_of(surface.vertices, boxes_);
+            if (is_penalty()) {
+                trees_[static_cast<std::size_t>(a)].update_vertices(surface, boxes_);
+            }
         }
         for (int a = 0; a < count; ++a) {
             for (int b = a + 1; b < count; ++b) {
-                if (colliders_.can_meet(a, b) && do_overlap(a, b)) {
+                if (colliders_.can_meet(a, b)
+                    && overlap(around[static_cast<std::size_t>(a)],
+                               around[static_cast<std::size_t>(b)])) {
+                    meeting_.emplace_back(a, b);
                     is_alone[static_cast<std::size_t>(a)] = false;
                     is_alone[static_cast<std::size_t>(b)] = false;
                 }
@@ -217,54 +229,73 @@ void Candidates<Dim>::fit_trees(const Paths<Dim>& paths) {
     }
     for (int a = 0; a < count; ++a) {
         if (!is_alone[static_cast<std::size_t>(a)]) {
-            trees_[static_cast<std::size_t>(a)].update_faces(colliders_.surface(a), boxes_);
+            fit_patches(a, paths);
+            if (is_penalty()) {
+                trees_[static_cast<std::size_t>(a)].update_facets(colliders_.surface(a), boxes_);
+            }
         }
     }
     work_.tree_seconds += watch.seconds();
 }
 
 template <int Dim>
-void Candidates<Dim>::find_pairs_between() {
-    for (int a = 0; a < colliders_.count(); ++a) {
-        for (int b = a + 1; b < colliders_.count(); ++b) {
-            if (!colliders_.can_meet(a, b) || !do_overlap(a, b)) {
-                continue;
-            }
-            CandidatePairs pairs{.first = a, .second = b};
-            pairs.points_first = search<1, Dim>(a, b);
-            pairs.mixed_first = search<2, Dim - 1>(a, b);
-            pairs.points_second = search<1, Dim>(b, a);
-            if constexpr (Dim > 3) {
-                pairs.mixed_second = search<2, Dim - 1>(b, a);
-            }
-            work_.overlaps += pairs.overlaps();
-            insert(std::move(pairs));
+void Candidates<Dim>::find_pairs_between(bool is_still) {
+    for (const auto& [a, b] : meeting_) {
+        CandidatePairs pairs{.first = a, .second = b};
+        pairs.points_first = search<1, Dim>(a, b, is_still);
+        pairs.mixed_first = search<2, Dim - 1>(a, b, is_still);
+        pairs.points_second = search<1, Dim>(b, a, is_still);
+        if constexpr (Dim > 3) {
+            pairs.mixed_second = search<2, Dim - 1>(b, a, is_still);
         }
+        work_.overlaps += pairs.overlaps();
+        insert(std::move(pairs));
     }
 }
 
 template <int Dim>
 template <int K, int L>
-CandidateList Candidates<Dim>::search(int first, int second) const {
+CandidateList Candidates<Dim>::search(int first, int second, bool is_still) const {
     const Simplices<K>& a = colliders_.surface(first).template simplices<K>();
     const Simplices<L>& b = colliders_.surface(second).template simplices<L>();
-    const BoxTree& first_tree = trees(first).template tree<K>();
-    const BoxTree& second_tree = trees(second).template tree<L>();
     const double distance = activation_distance(first, second);
     if (!is_penalty()) {
-        return joined(walk_overlaps<FoundOnPaths>(
-            first_tree, second_tree,
-            NearOnPaths<Dim, K, L>{a, b, false, between_, distance, measured_within(distance)},
-            shared_));
+        return search<K, L>(
+            first, second, is_still,
+            NearOnPaths<Dim, K, L>{a, b, false, between_, distance, measured_within(distance)});
     }
     // Tests allow for rounding where candidates have to be a superset.
     const double limit = (distance + 2 * min_inflation_) * (is_exact() ? 1 : 1 + 1e-9);
     const PositionsView<Dim> end = between_.end();
-    return joined(walk_overlaps<CandidateList>(
-        first_tree, second_tree,
+    return search<K, L>(
+        first, second, is_still,
         NearTest<Dim, K, L>{a, b, false, end, limit * limit,
-                            is_exact() && K == 2 ? Closest::Interior : Closest::Anywhere},
-        shared_));
+                            is_exact() && K == 2 ? Closest::Interior : Closest::Anywhere});
+}
+
+template <int Dim>
+template <int K, int L, typename Test>
+CandidateList Candidates<Dim>::search(int first,
+                                      int second,
+                                      bool is_still,
+                                      const Test& test) const {
+    constexpr std::size_t kChunk = 4;
+    const auto& of_first = patches_[static_cast<std::size_t>(first)]->template of<K>();
+    const auto& of_second = patches_[static_cast<std::size_t>(second)]->template of<L>();
+    const double distance = activation_distance(first, second);
+    const std::size_t count = of_first.partition.size();
+    std::vector<typename Test::Found> found((count + kChunk - 1) / kChunk);
+    for_each_chunk(count, kChunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+        for (std::size_t a = begin; shared_.is_own(chunk) && a < end; ++a) {
+            of_second.tree.for_each_overlap(of_first.tree.box(a), [&](std::uint32_t b) {
+                for_each_near<Dim, K>(
+                    PatchOnPaths<Dim>{of_first, a}, PatchOnPaths<Dim>{of_second, b}, is_still,
+                    distance + of_first.inflation[a] + of_second.inflation[b],
+                    [&](std::uint32_t i, std::uint32_t j) { test(i, j, found[chunk]); });
+            });
+        }
+    });
+    return joined(found);
 }
 
 template <int Dim>
@@ -293,6 +324,9 @@ SearchWork Candidates<Dim>::work() const {
         work.trees_built += trees.built();
         work.trees_refit += trees.refit();
     }
+    for (const std::optional<SurfacePatches<Dim>>& patches : patches_) {
+        work.trees_refit += patches ? patches->refit() : 0;
+    }
     for (const std::optional<SelfProximity<Dim>>& proximity : proximity_) {
         work.trees_refit += proximity ? proximity->refit() : 0;
     }
@@ -307,6 +341,9 @@ std::int64_t Candidates<Dim>::bytes() const {
     }
     for (const SurfaceTrees<Dim>& trees : trees_) {
         sum += trees.bytes();
+    }
+    for (const std::optional<SurfacePatches<Dim>>& patches : patches_) {
+        sum += patches ? patches->bytes() : 0;
     }
     for (const std::optional<SelfProximity<Dim>>& proximity : proximity_) {
         sum += proximity ? proximity->bytes() : 0;

@@ -6,10 +6,12 @@
 #include "path_cover.h"
 #include "self_proximity.h"
 #include "shared_work.h"
+#include "surface_patches.h"
 #include "surface_trees.h"
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace pent::contact {
@@ -87,7 +89,8 @@ public:
     [[nodiscard]] const Colliders<Dim>& colliders() const { return colliders_; }
     [[nodiscard]] const SharedWork& shared() const { return shared_; }
 
-    /// Over boxes that hold what was covered between bodies.
+    /// Over boxes that hold the vertices and facets of what was covered between bodies, under a
+    /// penalty.
     [[nodiscard]] const SurfaceTrees<Dim>& trees(int collider) const {
         return trees_[static_cast<std::size_t>(collider)];
     }
@@ -104,14 +107,19 @@ private:
     [[nodiscard]] bool is_too_coarse(double searched, double measured_from, double asked) const;
     void search_between(const Paths<Dim>& paths);
     void search_within(int body, const Paths<Dim>& paths);
-    void fit_trees(const Paths<Dim>& paths);
-    [[nodiscard]] bool do_overlap(int a, int b) const;
-    void find_pairs_between();
+    void fit(const Paths<Dim>& paths);
+    void fit_patches(int collider, const Paths<Dim>& paths);
+    void find_pairs_between(bool is_still);
     void insert(CandidatePairs pairs);
     [[nodiscard]] SelfProximity<Dim>& proximity(int body);
     void insert_within(int body, CandidatePairs pairs);
     template <int K, int L>
-    [[nodiscard]] CandidateList search(int first, int second) const;
+    [[nodiscard]] CandidateList search(int first, int second, bool is_still) const;
+    template <int K, int L, typename Test>
+    [[nodiscard]] CandidateList search(int first,
+                                       int second,
+                                       bool is_still,
+                                       const Test& test) const;
 
     const Colliders<Dim>& colliders_;
     SharedWork shared_;
@@ -123,9 +131,11 @@ private:
     double longest_between_ = 0;   // motion that candidates were searched for, m
     std::vector<double> longest_;  // the same within each collider; below 0 where not searched
     std::vector<Box> boxes_;  // around the path of each vertex, its inflation and half a distance
-    std::vector<SurfaceTrees<Dim>> trees_;
+    std::vector<SurfaceTrees<Dim>> trees_;  // of vertices and facets, under a penalty
+    std::vector<std::optional<SurfacePatches<Dim>>> patches_;  // of colliders that were near others
     std::vector<std::optional<SelfProximity<Dim>>>
-        proximity_;  // of bodies that may meet themselves
+        proximity_;                             // of bodies that may meet themselves
+    std::vector<std::pair<int, int>> meeting_;  // colliders whose boxes overlap
     std::vector<CandidatePairs> pairs_;
     SearchWork work_;
 };

@@ -35,78 +35,25 @@ SelfProximity<Dim>::SelfProximity(const Surface<Dim>& surface,
       rest_(rest),
       distance_(distance),
       is_rest_left_out_(is_rest_left_out),
-      shared_(shared) {
+      shared_(shared),
+      on_paths_(surface, rest) {
     const double of_edge = kMaxOfEdge * mean_edge_length<Dim>(surface, rest);
     listed_distance_ = std::clamp(of_edge, kMinListed * distance, kListed * distance);
-    add_tree<1>(surface.vertices);
-    add_tree<2>(surface.edges);
-    add_tree<3>(surface.template simplices<3>());
+    patches_[0] = make_patches<1>(surface.vertices);
+    patches_[1] = make_patches<2>(surface.edges);
+    patches_[2] = make_patches<3>(surface.template simplices<3>());
     if constexpr (Dim > 3) {
-        add_tree<Dim>(surface.facets);
+        patches_[Dim - 1] = make_patches<Dim>(surface.facets);
     }
-    points_.resize(trees_[0].partition.size());
-    mixed_.resize(trees_[1].partition.size());
+    points_.resize(on_paths_.template of<1>().partition.size());
+    mixed_.resize(on_paths_.template of<2>().partition.size());
 }
 
 template <int Dim>
 template <int Count>
-void SelfProximity<Dim>::add_tree(const Simplices<Count>& simplices) {
-    const PositionsView<Dim> rest = rest_;
-    Tree& tree = trees_[Count - 1];
-    tree.partition = PatchPartition(boxes_around<Dim, Count>(simplices, rest, 0.5 * distance_));
-    if (tree.partition.size() > 0) {
-        patches_[Count - 1] = Patches<Dim>(simplices, tree.partition, rest);
-    }
-}
-
-template <int Dim>
-template <int Count>
-void SelfProximity<Dim>::fit_tree(const Simplices<Count>& simplices, const Asked& asked) {
-    constexpr int kPatches = 64;
-    Tree& tree = trees_[Count - 1];
-    const std::size_t size = tree.partition.size();
-    std::vector<Box> around(size);
-    tree.patch_inflation.resize(asked.inflation ? size : 0);
-    parallel_for(size, kPatches, [&](std::size_t patch) {
-        const std::span<const std::uint32_t> members = tree.partition[patch];
-        Box all = boxes_[simplices(0, members[0])];
-        double inflation = 0;
-        for (const std::uint32_t i : members) {
-            for (int corner = 0; corner < Count; ++corner) {
-                const std::uint32_t v = simplices(corner, i);
-                all = hull(all, boxes_[v]);
-                inflation = asked.inflation ? std::max(inflation, (*asked.inflation)[v]) : 0;
-            }
-        }
-        around[patch] = all;
-        if (asked.inflation) {
-            tree.patch_inflation[patch] = inflation;
-        }
-    });
-    tree.patches = PatchTree(around);
-    ++refit_;
-}
-
-template <int Dim>
-void SelfProximity<Dim>::fit_trees(const Asked& asked) {
-    fit_boxes<Dim>(surface_.vertices, asked.paths, asked.inflation, 0.5 * asked.activation_distance,
-                   boxes_);
-    fit_tree<1>(surface_.vertices, asked);
-    fit_tree<2>(surface_.edges, asked);
-    fit_tree<3>(surface_.template simplices<3>(), asked);
-    if constexpr (Dim > 3) {
-        fit_tree<Dim>(surface_.facets, asked);
-    }
-}
-
-template <int Dim>
-void SelfProximity<Dim>::set_lanes(Lanes& lanes, const PositionsView<Dim>& positions) const {
-    lanes[0].set(surface_.vertices, trees_[0].partition, positions);
-    lanes[1].set(surface_.edges, trees_[1].partition, positions);
-    lanes[2].set(surface_.template simplices<3>(), trees_[2].partition, positions);
-    if constexpr (Dim > 3) {
-        lanes[Dim - 1].set(surface_.facets, trees_[Dim - 1].partition, positions);
-    }
+Patches<Dim> SelfProximity<Dim>::make_patches(const Simplices<Count>& simplices) const {
+    const PatchPartition& partition = on_paths_.template of<Count>().partition;
+    return partition.size() > 0 ? Patches<Dim>(simplices, partition, rest_) : Patches<Dim>();
 }
 
 template <int Dim>
@@ -133,6 +80,9 @@ typename SelfProximity<Dim>::Places SelfProximity<Dim>::place(
 // Where paths begin is where the body was: where they end it may never be.
 template <int Dim>
 void SelfProximity<Dim>::move(const Asked& asked) {
+    fit_boxes<Dim>(surface_.vertices, asked.paths, asked.inflation, 0.5 * asked.activation_distance,
+                   boxes_);
+    on_paths_.fit(asked.inflation, boxes_);
     ++search_;
     Places now = place(asked.paths.from);
     const Places end = asked.paths.is_still() ? Places() : place(asked.paths.to);
@@ -152,10 +102,7 @@ void SelfProximity<Dim>::search(const Asked& asked, Points& points, Mixed& mixed
     if (points.look_at_lists() + mixed.look_at_lists() == 0) {
         return;
     }
-    set_lanes(lanes_at_start_, asked.paths.from);
-    if (!asked.paths.is_still()) {
-        set_lanes(lanes_at_end_, asked.paths.to);
-    }
+    on_paths_.set_lanes(asked.paths);
     points.look_at_others();
     mixed.look_at_others();
 }
@@ -163,7 +110,6 @@ void SelfProximity<Dim>::search(const Asked& asked, Points& points, Mixed& mixed
 template <int Dim>
 CandidatePairs SelfProximity<Dim>::find(const PositionsView<Dim>& positions) {
     const Asked asked{{positions, positions}, nullptr, distance_};
-    fit_trees(asked);
     move(asked);
     const double squared = distance_ * distance_;
     Search<NearTest<Dim, 1, Dim>, 1, Dim> points(
@@ -185,7 +131,6 @@ CandidatePairs SelfProximity<Dim>::find(const PathCover<Dim>& cover,
     const Asked asked{{start, end, mean_shift<Dim>(surface_.vertices, start, end)},
                       &cover.inflation(),
                       activation_distance};
-    fit_trees(asked);
     move(asked);
     Search<NearOnPaths<Dim, 1, Dim>, 1, Dim> points(
         *this, {surface_.vertices, surface_.facets, points_}, asked,
@@ -199,15 +144,7 @@ CandidatePairs SelfProximity<Dim>::find(const PathCover<Dim>& cover,
 
 template <int Dim>
 std::int64_t SelfProximity<Dim>::bytes() const {
-    auto sum = static_cast<std::int64_t>(boxes_.size() * sizeof(Box));
-    for (const Tree& tree : trees_) {
-        sum += tree.partition.bytes() + tree.patches.bytes();
-    }
-    for (const Lanes* all : {&lanes_at_start_, &lanes_at_end_}) {
-        for (const PatchLanes<Dim>& lanes : *all) {
-            sum += lanes.bytes();
-        }
-    }
+    auto sum = on_paths_.bytes() + static_cast<std::int64_t>(boxes_.size() * sizeof(Box));
     for (std::size_t i = 0; i < patches_.size(); ++i) {
         sum += patches_[i].bytes() + places_[i].bytes()
                + static_cast<std::int64_t>((since_[i].size() + ahead_[i].size())

@@ -1,13 +1,11 @@
 #pragma once
 
 #include "candidate.h"
-#include "patch_lanes.h"
-#include "patch_partition.h"
-#include "patch_tree.h"
 #include "patches.h"
 #include "path_cover.h"
 #include "paths.h"
 #include "shared_work.h"
+#include "surface_patches.h"
 
 #include <pent/contact/surface.h>
 
@@ -58,20 +56,10 @@ public:
                                       double measured);
 
     /// Trees fit so far.
-    [[nodiscard]] std::int64_t refit() const { return refit_; }
+    [[nodiscard]] std::int64_t refit() const { return on_paths_.refit(); }
     [[nodiscard]] std::int64_t bytes() const;
 
 private:
-    // Simplices of one kind, divided into patches by where they are at rest.
-    struct Tree {
-        PatchPartition partition;
-        std::vector<double> patch_inflation;  // the largest of a vertex, m; none without any
-        PatchTree patches;
-    };
-
-    // Simplices of all kinds at some positions, by corners, less one.
-    using Lanes = std::array<PatchLanes<Dim>, Dim>;
-
     // All patches at some moment, and how they have moved, by corners, less one.
     using Places = std::array<PatchPlaces<Dim>, Dim>;
     using Motions = std::array<std::vector<PatchMotion<Dim>>, Dim>;
@@ -109,11 +97,7 @@ private:
     class Search;
 
     template <int Count>
-    void add_tree(const Simplices<Count>& simplices);
-    template <int Count>
-    void fit_tree(const Simplices<Count>& simplices, const Asked& asked);
-    void fit_trees(const Asked& asked);
-    void set_lanes(Lanes& lanes, const PositionsView<Dim>& positions) const;
+    [[nodiscard]] Patches<Dim> make_patches(const Simplices<Count>& simplices) const;
     [[nodiscard]] Places place(const PositionsView<Dim>& positions) const;
     void move(const Asked& asked);
     template <typename Points, typename Mixed>
@@ -126,17 +110,14 @@ private:
     bool is_rest_left_out_;
     SharedWork shared_;
     std::vector<Box> boxes_;  // of all vertices of the scene
-    std::array<Tree, Dim> trees_;
+    SurfacePatches<Dim> on_paths_;
     std::array<Patches<Dim>, Dim> patches_;  // by corners, less one
     std::uint32_t search_ = 0;               // how many there have been
     Places places_;                          // where the paths of the last search began
     Motions since_;                          // from there; none in the first
     Motions ahead_;                          // along the paths; none where these are still
-    Lanes lanes_at_start_;                   // of the paths
-    Lanes lanes_at_end_;                     // not set where these are still
     std::vector<Row> points_;                // by patches of vertices
     std::vector<Row> mixed_;                 // by patches of edges
-    std::int64_t refit_ = 0;
 };
 
 }  // namespace pent::contact

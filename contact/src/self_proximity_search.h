@@ -1,14 +1,11 @@
 #pragma once
 
 #include "apart.h"
-#include "near_lanes.h"
 #include "near_on_paths.h"
 #include "overlaps.h"
 #include "self_proximity.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -78,7 +75,6 @@ public:
           start_(asked.paths.from),
           activation_distance_(asked.activation_distance),
           is_still_(asked.paths.is_still()),
-          find_near_(near_lanes_kernels<Dim>().template find<K>()),
           test_(test),
           found_(chunks()) {}
 
@@ -108,8 +104,12 @@ private:
 
     static constexpr bool is_same_list() { return K == L; }
     [[nodiscard]] std::size_t chunks() const { return (rows_.size() + kChunk - 1) / kChunk; }
-    [[nodiscard]] const Tree& first_tree() const { return all_.trees_[K - 1]; }
-    [[nodiscard]] const Tree& second_tree() const { return all_.trees_[L - 1]; }
+    [[nodiscard]] const PatchesOnPaths<Dim>& first_patches() const {
+        return all_.on_paths_.template of<K>();
+    }
+    [[nodiscard]] const PatchesOnPaths<Dim>& second_patches() const {
+        return all_.on_paths_.template of<L>();
+    }
 
     template <typename Work>
     void for_each_row(const Work& work) {
@@ -125,7 +125,7 @@ private:
         Row& row = rows_[a];
         row.unknown.clear();
         auto known = row.known.begin();
-        second_tree().patches.for_each_overlap(first_tree().patches.box(a), [&](std::uint32_t b) {
+        second_patches().tree.for_each_overlap(first_patches().tree.box(a), [&](std::uint32_t b) {
             if (is_same_list() && b < a) {
                 return;
             }
@@ -186,9 +186,7 @@ private:
     // How near simplices of two patches count as near, m: what vertices may leave their paths by
     // comes on top.
     [[nodiscard]] double near(std::size_t a, std::uint32_t b) const {
-        const std::vector<double>& of_a = first_tree().patch_inflation;
-        const std::vector<double>& of_b = second_tree().patch_inflation;
-        return activation_distance_ + (of_a.empty() ? 0 : of_a[a] + of_b[b]);
+        return activation_distance_ + first_patches().inflation[a] + second_patches().inflation[b];
     }
 
     void look_at(std::span<const Candidate> pairs,
@@ -203,55 +201,28 @@ private:
     }
 
     void look_at_all(std::size_t a, std::uint32_t b, Found& found) const {
-        const LanesView first = all_.lanes_at_start_[K - 1][a];
-        const LanesView second = all_.lanes_at_start_[L - 1][b];
-        const LanesOnPaths patches{first, is_still_ ? first : all_.lanes_at_end_[K - 1][a], second,
-                                   is_still_ ? second : all_.lanes_at_end_[L - 1][b]};
-        for_each_near(a, b, patches, near(a, b),
-                      [&](std::uint32_t i, std::uint32_t j) { test_(i, j, found); });
+        for_each_near<Dim, K>(PatchOnPaths<Dim>{first_patches(), a},
+                              PatchOnPaths<Dim>{second_patches(), b}, is_still_, near(a, b),
+                              [&](std::uint32_t i, std::uint32_t j) { test_(i, j, found); });
     }
 
     // The pairs of two patches that are within the listed distance where paths start, with a little
     // more for rounding, and can be contacts.
     [[nodiscard]] std::vector<Candidate> list(std::size_t a, std::uint32_t b, Found& found) const {
-        const LanesView first = all_.lanes_at_start_[K - 1][a];
-        const LanesView second = all_.lanes_at_start_[L - 1][b];
         std::vector<Candidate> pairs;
-        for_each_near(a, b, {first, first, second, second}, listed_limit(),
-                      [&](std::uint32_t i, std::uint32_t j) {
-                          Candidate pair{i, j};
-                          if (is_same_list() && j < i) {
-                              std::swap(pair.first, pair.second);
-                          }
-                          if (!share_a_vertex<K, L>(first_, pair.first, second_, pair.second)) {
-                              ++found.overlaps;
-                              add_if_near(pair, pairs);
-                          }
-                      });
+        for_each_near<Dim, K>(
+            PatchOnPaths<Dim>{first_patches(), a}, PatchOnPaths<Dim>{second_patches(), b}, true,
+            listed_limit(), [&](std::uint32_t i, std::uint32_t j) {
+                Candidate pair{i, j};
+                if (is_same_list() && j < i) {
+                    std::swap(pair.first, pair.second);
+                }
+                if (!share_a_vertex<K, L>(first_, pair.first, second_, pair.second)) {
+                    ++found.overlaps;
+                    add_if_near(pair, pairs);
+                }
+            });
         return pairs;
-    }
-
-    // Calls visit(i, j) for the pairs of two patches that may be nearer than a distance: each once.
-    template <typename Visit>
-    void for_each_near(std::size_t a,
-                       std::uint32_t b,
-                       const LanesOnPaths& patches,
-                       double distance,
-                       const Visit& visit) const {
-        std::array<std::uint16_t, kLanes> near;
-        find_near_(patches, distance, near.data());
-        const std::span<const std::uint32_t> of_a = first_tree().partition[a];
-        const std::span<const std::uint32_t> of_b = second_tree().partition[b];
-        const bool is_one = is_same_list() && a == b;
-        for (std::size_t m = 0; m < of_a.size(); ++m) {
-            unsigned bits = near[m];
-            if (is_one) {
-                bits &= ~0U << (m + 1);
-            }
-            for (; bits != 0; bits &= bits - 1) {
-                visit(of_a[m], of_b[static_cast<std::size_t>(std::countr_zero(bits))]);
-            }
-        }
     }
 
     [[nodiscard]] double listed_limit() const { return (1 + kRounding) * all_.listed_distance_; }
@@ -316,7 +287,6 @@ private:
     const PositionsView<Dim>& start_;
     double activation_distance_;
     bool is_still_;
-    FindNearLanes find_near_;
     Test test_;
     std::vector<Found> found_;
 };

@@ -25,6 +25,11 @@ void SurfaceTrees<Dim>::update_vertices(const Surface<Dim>& surface,
 }
 
 template <int Dim>
+void SurfaceTrees<Dim>::update_facets(const Surface<Dim>& surface, const std::vector<Box>& boxes) {
+    update<Dim>(surface, boxes);
+}
+
+template <int Dim>
 void SurfaceTrees<Dim>::update_faces(const Surface<Dim>& surface, const std::vector<Box>& boxes) {
     update<2>(surface, boxes);
     update<3>(surface, boxes);

@@ -20,6 +20,9 @@ public:
     ///               of the surface.
     void update_vertices(const Surface<Dim>& surface, const std::vector<Box>& boxes);
 
+    /// Fits that of the facets.
+    void update_facets(const Surface<Dim>& surface, const std::vector<Box>& boxes);
+
     /// Fits those of edges, ridges and facets.
     void update_faces(const Surface<Dim>& surface, const std::vector<Box>& boxes);
 

@@ -183,6 +183,17 @@ TEST(BoxAround, HoldsPointsThatFloatsCannotTell) {
     }
 }
 
+TEST(Box, NowhereOverlapsNothingAndAddsNothing) {
+    const Box box = box_around<4, 1>(Eigen::Matrix<double, 4, 1>(1, 2, 3, 4), 0.5);
+    EXPECT_FALSE(overlap(kNowhere, box));
+    EXPECT_FALSE(overlap(kNowhere, kNowhere));
+    const Box both = hull(kNowhere, box);
+    for (int axis = 0; axis < 4; ++axis) {
+        EXPECT_EQ(both.low[axis], box.low[axis]);
+        EXPECT_EQ(both.high[axis], box.high[axis]);
+    }
+}
+
 TEST(BoxAround, GrowsByTheMargin) {
     const Box box = box_around<3, 1>(Vector<3>(1, 2, 3), 0.5);
     EXPECT_NEAR(box.low[0], 0.5, 1e-6);   // float

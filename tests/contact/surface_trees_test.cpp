@@ -70,5 +70,15 @@ TYPED_TEST(SurfaceTreesTest, AreOverBoxesAroundAllKindsOfSimplicesAndFollowThem)
     EXPECT_GT(trees.bytes(), 0);
 }
 
+TYPED_TEST(SurfaceTreesTest, OfFacetsAreFitAlone) {
+    constexpr int kDim = TypeParam::value;
+    SurfaceTrees<kDim> trees;
+    trees.update_facets(this->scene_.surfaces[0], this->boxes(this->scene_.positions));
+    EXPECT_EQ(trees.built(), 1);
+    this->template expect_boxes_around<kDim>(trees, this->scene_.positions);
+    EXPECT_TRUE(trees.template tree<1>().is_empty());
+    EXPECT_TRUE(trees.template tree<2>().is_empty());
+}
+
 }  // namespace
 }  // namespace pent::contact

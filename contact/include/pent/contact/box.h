@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <limits>
 
 namespace pent::contact {
 
@@ -21,6 +22,12 @@ struct alignas(16) Box {
     return all(Four::load_aligned(a.low) <= Four::load_aligned(b.high)
                && Four::load_aligned(b.low) <= Four::load_aligned(a.high));
 }
+
+/// What overlaps nothing; around it and another box is the other.
+inline constexpr Box kNowhere = [] {
+    constexpr float kFar = std::numeric_limits<float>::infinity();
+    return Box{{kFar, kFar, kFar, kFar}, {-kFar, -kFar, -kFar, -kFar}};
+}();
 
 /// The smallest box around both.
 [[nodiscard]] Box hull(const Box& a, const Box& b);
