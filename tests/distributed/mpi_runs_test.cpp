@@ -246,6 +246,34 @@ TEST_F(MpiRuns, InWhichNoRankHasAWholeMeshAreThoseOfOne) {
     EXPECT_GT(report("base3").steps.back().contact.point_facet, 0);
 }
 
+// Of quadratic cells a rank keeps those that have a node of its own, with all of their children.
+TEST_F(MpiRuns, OfQuadraticElementsGoWherePentSimGoes) {
+    static_cast<void>(write_mesh(path("parents.pent"),
+                                 test::quadratic_kuhn_box<4>({3, 1, 1, 1}, {1.5, 0.5, 0.5, 0.5})));
+    std::string scene = kBar;
+    scene.replace(scene.find("bar.pent"), 3, "parents");
+    write("quadratic", scene + "elements = \"quadratic\"\n");
+    ASSERT_EQ(simulate(0, "quadratic", "alone").exit_code, 0);
+    for (const int ranks : {1, 2, 3, 4}) {
+        const std::string run = "of" + std::to_string(ranks);
+        const Outcome outcome = simulate(ranks, "quadratic", run);
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        expect_near<4>(run, "alone", "bar", 1, 1e-6);
+        expect_near<4>(run, "alone", "bar", 4, 1e-5);
+        EXPECT_EQ(read_info(path(run + "/meshes/bar.pent")).crc32c,
+                  read_info(path("alone/meshes/bar.pent")).crc32c);
+    }
+    // What is wrong with other meshes is said as pent-sim says it.
+    scene.replace(scene.find("parents"), 7, "bar");
+    write("linear_mesh", scene + "elements = \"quadratic\"\n");
+    const Outcome alone = simulate(0, "linear_mesh", "wrong");
+    EXPECT_EQ(alone.exit_code, 1);
+    const auto said = [](const Outcome& outcome) {
+        return outcome.err.substr(outcome.err.find(": "));
+    };
+    EXPECT_EQ(said(simulate(3, "linear_mesh", "wrong")), said(alone));
+}
+
 // By checksums, of which each rank finds a part.
 TEST_F(MpiRuns, GoOnWithTheSameMeshesAlone) {
     const std::string mesh = "run/meshes/bar.pent";

@@ -1,8 +1,10 @@
 #include "model/near_cells.h"
 
 #include "model/body_dofs.h"
+#include "model/quadratic_cells.h"
 #include "scenes.h"
 #include "step/rank_agreement.h"
+#include "support/kuhn_box.h"
 #include "thread_ranks.h"
 
 #include <pent/simulator/simulation.h>
@@ -74,6 +76,55 @@ TEST(NearCells, AreThoseThatTouchAVertexOfTheRank) {
             for (std::size_t body = 0; body < all.count(); ++body) {
                 EXPECT_EQ(near.cells_of(body).begin, near.ranges[2 * body].begin);
                 EXPECT_EQ(near.first_cell[body + 1], near.ranges[2 * body + 1].end);
+            }
+        });
+    }
+}
+
+// Of quadratic cells all that have a node of the rank, with all of their children, by parents and
+// where these follow one another.
+TEST(NearCells, AreAllChildrenOfQuadraticCellsOfTheRank) {
+    const SimplexMesh<4> with_parents =
+        pent::test::quadratic_kuhn_box<4>({3, 1, 1, 1}, {1.5, 0.5, 0.5, 0.5});
+    SimplexMesh<4> in_order = with_parents;
+    const std::vector<Eigen::Index> children = child_cells<4>(with_parents, "");
+    in_order.cells = with_parents.cells(Eigen::all, children);
+    in_order.parents.clear();
+    for (const SimplexMesh<4>& mesh : {with_parents, in_order}) {
+        Scene scene = two_bars();
+        scene.solver.elements = ElementKind::Quadratic;
+        const Bodies<4> all = make_bodies<4>(scene, {mesh, mesh});
+        test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
+            const Bodies<4> near = share(scene, make_bodies<4>(scene, {mesh, mesh}), ranks);
+            std::vector<Eigen::Index> simplices;
+            for (Eigen::Index i = 0; i < all.quadratic.nodes.cols(); ++i) {
+                const auto nodes = all.quadratic.nodes.col(i);
+                if (std::any_of(nodes.begin(), nodes.end(),
+                                [&](std::uint32_t vertex) { return near.sharing.owns(vertex); })) {
+                    simplices.push_back(i);
+                }
+            }
+            EXPECT_LT(simplices.size(), static_cast<std::size_t>(all.quadratic.nodes.cols()));
+            EXPECT_EQ(near.quadratic.nodes, all.quadratic.nodes(Eigen::all, simplices));
+            std::vector<Eigen::Index> cells;
+            std::vector<std::uint32_t> parents;
+            for (Eigen::Index cell = 0; cell < all.cells.cols(); ++cell) {
+                const std::uint32_t parent = all.quadratic.parents[static_cast<std::size_t>(cell)];
+                const auto place = std::lower_bound(simplices.begin(), simplices.end(), parent);
+                if (place != simplices.end() && *place == parent) {
+                    cells.push_back(cell);
+                    parents.push_back(static_cast<std::uint32_t>(place - simplices.begin()));
+                }
+            }
+            EXPECT_EQ(near.cells, all.cells(Eigen::all, cells));
+            EXPECT_EQ(near.quadratic.parents, parents);
+            for (std::size_t i = 0; i < all.ranges.size(); ++i) {
+                const auto before = [&](Eigen::Index end) {
+                    return std::lower_bound(simplices.begin(), simplices.end(), end)
+                           - simplices.begin();
+                };
+                EXPECT_EQ(near.quadratic.ranges[i].begin, before(all.quadratic.ranges[i].begin));
+                EXPECT_EQ(near.quadratic.ranges[i].end, before(all.quadratic.ranges[i].end));
             }
         });
     }

@@ -40,7 +40,7 @@ Scene two_bars() {
 }
 
 // With labels, two to a cube.
-std::vector<SimplexMesh<4>> meshes() {
+std::vector<SimplexMesh<4>> bars() {
     SimplexMesh<4> bar = test::bar();
     for (Eigen::Index cell = 0; cell < bar.cell_count(); ++cell) {
         bar.regions.push_back(static_cast<std::uint16_t>(cell / 24 + cell % 2));
@@ -49,8 +49,9 @@ std::vector<SimplexMesh<4>> meshes() {
 }
 
 // The same with regions by all that selects, and with what takes hold of cells with a label.
-Scene bars_of_regions() {
+Scene bars_of_regions(ElementKind kind = ElementKind::Linear) {
     Scene scene = two_bars();
+    scene.solver.elements = kind;
     const auto region = [&](const std::string& name, const Selection& select, double density) {
         Region made{.name = name, .select = {select}, .material = scene.bodies[0].material};
         made.material.density = density;
@@ -60,7 +61,9 @@ Scene bars_of_regions() {
         region("ball", BallSelection{.center = Eigen::Vector4d(0.4, 0.2, 0.2, 0.2), .radius = 0.3},
                500),
         region("label", RegionSelection{.region = 5}, 700)};
-    scene.bodies[1].regions = {region("layers", LayerSelection{.first = 0, .last = 1}, 300)};
+    scene.bodies[1].regions = {
+        region("layers",
+               LayerSelection{.first = 0, .last = kind == ElementKind::Quadratic ? 2U : 1U}, 300)};
     scene.constraints.push_back(test::hold(RegionSelection{.region = 5}, test::still(4)));
     scene.constraints.back().body = "second";
     scene.loads = {{.body = "box",
@@ -70,14 +73,15 @@ Scene bars_of_regions() {
 }
 
 // What is made of parts is what is made of whole meshes, but for the cells of the meshes.
-void expect_those_of_whole_meshes(const Scene& scene) {
-    const Bodies<4> all = make_bodies<4>(scene, meshes());
+void expect_those_of_whole_meshes(const Scene& scene,
+                                  const std::vector<SimplexMesh<4>>& meshes = bars()) {
+    const Bodies<4> all = make_bodies<4>(scene, meshes);
     ASSERT_FALSE(is_of_parts(all));
     for (const int count : {1, 2, 3, 5}) {
         SCOPED_TRACE(count);
         test::on_ranks(count, [&](const std::shared_ptr<const Ranks>& ranks) {
             const Bodies<4> own =
-                make_part_bodies<4>(scene, test::cut_meshes<4>(scene, meshes(), *ranks), ranks);
+                make_part_bodies<4>(scene, test::cut_meshes<4>(scene, meshes, *ranks), ranks);
             EXPECT_TRUE(is_of_parts(own));
             EXPECT_EQ(own.rest, all.rest);
             EXPECT_EQ(own.masses, all.masses);
@@ -87,7 +91,7 @@ void expect_those_of_whole_meshes(const Scene& scene) {
             EXPECT_EQ(HeldVertices<4>(scene, own).now(), HeldVertices<4>(scene, all).now());
             Bodies<4> near = all;
             near.sharing = own.sharing;
-            keep_near_cells(near);
+            keep_near_cells(scene.solver.elements, near);
             EXPECT_EQ(own.cells, near.cells);
             EXPECT_EQ(own.mesh_cells, near.mesh_cells);
             ASSERT_EQ(own.ranges.size(), near.ranges.size());
@@ -102,6 +106,8 @@ void expect_those_of_whole_meshes(const Scene& scene) {
                 EXPECT_EQ(select_vertices(own, 0, load.select, ""),
                           select_vertices(all.meshes[0], load.select, ""));
             }
+            EXPECT_EQ(own.quadratic.nodes, near.quadratic.nodes);
+            EXPECT_EQ(own.quadratic.parents, near.quadratic.parents);
             EXPECT_EQ(own.columns.columns, all.columns.columns);
             EXPECT_EQ(own.meshes[1].positions, all.meshes[1].positions);
             EXPECT_EQ(own.meshes[1].cell_count(), 0);
@@ -126,6 +132,30 @@ TEST(PartBodies, HaveTheRegionsOfWholeMeshesAndWhatLabelsSelect) {
     expect_those_of_whole_meshes(scene);
 }
 
+TEST(PartBodies, HaveTheQuadraticCellsOfWholeMeshesWithTheirRegions) {
+    const Scene scene = bars_of_regions(ElementKind::Quadratic);
+    SimplexMesh<4> bar = pent::test::quadratic_kuhn_box<4>({3, 1, 1, 1}, {1.5, 0.5, 0.5, 0.5});
+    const SimplexMesh<4> layered = test::bar();
+    ASSERT_EQ(layered.positions, bar.positions);
+    bar.layers = layered.layers;
+    bar.columns = layered.columns;
+    for (const std::uint32_t parent : bar.parents) {
+        bar.regions.push_back(static_cast<std::uint16_t>(parent % 7));
+    }
+    expect_those_of_whole_meshes(scene, {bar, bar});
+}
+
+TEST(PartBodies, KnowWhetherCellsMakeUpElements) {
+    Scene scene = two_bars();
+    SimplexMesh<4> mesh = pent::test::quadratic_kuhn_box<4>({3, 1, 1, 1}, {1.5, 0.5, 0.5, 0.5});
+    EXPECT_TRUE(do_cells_make_elements(scene, mesh));
+    scene.solver.elements = ElementKind::Quadratic;
+    EXPECT_TRUE(do_cells_make_elements(scene, mesh));
+    ++mesh.parents.back();
+    EXPECT_FALSE(do_cells_make_elements(scene, mesh));
+    EXPECT_FALSE(do_cells_make_elements(scene, test::bar()));
+}
+
 // All ranks say so, whatever cells they have.
 TEST(PartBodies, RefuseSelectionsOfNothing) {
     const auto refuses = [](const auto& change, std::initializer_list<std::string> words) {
@@ -133,7 +163,7 @@ TEST(PartBodies, RefuseSelectionsOfNothing) {
         change(scene);
         test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
             expect_contains(error_of([&] {
-                                Simulation<4>(scene, test::cut_meshes<4>(scene, meshes(), *ranks),
+                                Simulation<4>(scene, test::cut_meshes<4>(scene, bars(), *ranks),
                                               {.ranks = ranks});
                             }),
                             words);
@@ -157,11 +187,11 @@ TEST(PartBodies, ListCellsOfAllRanksInTheirOrder) {
     const auto is_wanted = [](const Eigen::Matrix<std::uint32_t, 5, 1>& cell) {
         return cell.sum() % 2 == 0;
     };
-    const CellList<4> expected = list_cells<4>(make_bodies<4>(scene, meshes()), is_wanted);
+    const CellList<4> expected = list_cells<4>(make_bodies<4>(scene, bars()), is_wanted);
     ASSERT_GT(expected.cells.size(), 10U);
     test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
         const CellList<4> found = list_cells<4>(
-            make_part_bodies<4>(scene, test::cut_meshes<4>(scene, meshes(), *ranks), ranks),
+            make_part_bodies<4>(scene, test::cut_meshes<4>(scene, bars(), *ranks), ranks),
             is_wanted);
         EXPECT_EQ(found.cells, expected.cells);
         EXPECT_EQ(found.bodies, expected.bodies);
@@ -175,7 +205,7 @@ TEST(PartBodies, AreRefusedWhereAllCellsAreNeeded) {
         change(scene);
         test::on_ranks(2, [&](const std::shared_ptr<const Ranks>& ranks) {
             expect_contains(error_of([&] {
-                                Simulation<4>(scene, test::cut_meshes<4>(scene, meshes(), *ranks),
+                                Simulation<4>(scene, test::cut_meshes<4>(scene, bars(), *ranks),
                                               {.ranks = ranks});
                             }),
                             {"needs whole ones"});
@@ -196,7 +226,7 @@ TEST(PartBodies, AreRefusedWhereAllCellsAreNeeded) {
 TEST(PartBodies, SayWhichCellOfTheWholeMeshIsWrong) {
     const Scene scene = two_bars();
     test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
-        std::vector<MeshPart<4>> parts = test::cut_meshes<4>(scene, meshes(), *ranks);
+        std::vector<MeshPart<4>> parts = test::cut_meshes<4>(scene, bars(), *ranks);
         const auto last = static_cast<std::uint32_t>(parts[1].cell_count - 1);
         if (!parts[1].numbers.empty() && parts[1].numbers.back() == last) {
             auto cell = parts[1].mesh.cells.rightCols(1);
@@ -211,7 +241,7 @@ TEST(PartBodies, SayWhichCellOfTheWholeMeshIsWrong) {
 TEST(PartBodies, RefuseOtherVerticesAndChangesOfTheScene) {
     const Scene scene = two_bars();
     test::on_ranks(2, [&](const std::shared_ptr<const Ranks>& ranks) {
-        std::vector<MeshPart<4>> parts = test::cut_meshes<4>(scene, meshes(), *ranks);
+        std::vector<MeshPart<4>> parts = test::cut_meshes<4>(scene, bars(), *ranks);
         Simulation<4> simulation(scene, parts, {.ranks = ranks});
         expect_contains(error_of([&] { simulation.remove_body(0); }), {"whole meshes"});
         expect_contains(error_of([&] { simulation.add_body(scene.bodies[0], test::bar()); }),

@@ -39,24 +39,21 @@ SimplexMesh<Dim> elements_of(const Bodies<Dim>& bodies, std::size_t body) {
     SimplexMesh<Dim> elements;
     elements.positions = mesh.positions;
     elements.layers = mesh.layers;
-    std::vector<std::uint32_t> labeled;  // cell of the mesh that has the labels of each
-    const auto add = [&](Eigen::Index begin, Eigen::Index end, const auto& corners,
-                         const auto& cell_of) {
-        elements.cells.resize(Dim + 1, end - begin);
-        for (Eigen::Index i = begin; i < end; ++i) {
-            elements.cells.col(i - begin) =
-                corners.col(i).template head<Dim + 1>().array() - first_vertex;
-            labeled.push_back(cell_of(i));
-        }
-    };
     const auto range = bodies.elements_of(body);
-    if (bodies.quadratic.nodes.cols() > 0) {
-        add(range.begin, range.begin + range.size, bodies.quadratic.nodes, [&](Eigen::Index i) {
-            return bodies.quadratic.first_child[static_cast<std::size_t>(i)];
-        });
-    } else {
-        add(range.begin, range.begin + range.size, bodies.cells,
-            [&](Eigen::Index i) { return bodies.mesh_cell(body, i); });
+    const auto cells = bodies.cells_of(body);
+    const bool is_quadratic = bodies.quadratic.nodes.cols() > 0;
+    elements.cells =
+        (is_quadratic ? Simplices<Dim + 1>(
+             bodies.quadratic.nodes.template topRows<Dim + 1>().middleCols(range.begin, range.size))
+                      : Simplices<Dim + 1>(bodies.cells.middleCols(range.begin, range.size)))
+            .array()
+        - first_vertex;
+    // Cell of the mesh that has the labels of each: of a quadratic one, the first of its children.
+    std::vector<std::uint32_t> labeled(static_cast<std::size_t>(range.size));
+    for (Eigen::Index i = cells.begin + cells.size; i-- > cells.begin;) {
+        const Eigen::Index element =
+            is_quadratic ? bodies.quadratic.parents[static_cast<std::size_t>(i)] : i;
+        labeled[static_cast<std::size_t>(element - range.begin)] = bodies.mesh_cell(body, i);
     }
     for (const std::uint32_t cell : labeled) {
         if (!mesh.regions.empty()) {
@@ -153,9 +150,7 @@ ActiveStrain<Dim>::ActiveStrain(const Workers& workers,
     }
     shapes_.resize(first_fiber_.size());
     first_fiber_.push_back(fibers_.size());
-    if (bodies.quadratic.nodes.cols() > 0) {
-        find_cells_of_elements(scene, bodies);
-    }
+    parent_of_ = bodies.quadratic.parents;
     static_cast<void>(set_time(workers, 0));
 }
 
@@ -196,37 +191,6 @@ void ActiveStrain<Dim>::append_fibers(std::size_t muscle,
             }
         }
         fibers_.push_back(fiber);
-    }
-}
-
-// Which quadratic cell each cell is a child of.
-template <int Dim>
-void ActiveStrain<Dim>::find_cells_of_elements(const Scene& scene, const Bodies<Dim>& bodies) {
-    constexpr Eigen::Index kChildren = Eigen::Index{1} << Dim;
-    parent_of_.resize(static_cast<std::size_t>(bodies.cells.cols()));
-    for (std::size_t body = 0; body < bodies.count(); ++body) {
-        const std::vector<Eigen::Index> children =
-            child_cells<Dim>(bodies.meshes[body], scene.bodies[body].mesh);
-        std::vector<std::uint32_t> of_mesh_cell(children.size());
-        std::vector<Eigen::Index> group_of(children.size());
-        for (std::size_t i = 0; i < children.size(); ++i) {
-            group_of[static_cast<std::size_t>(children[i])] =
-                static_cast<Eigen::Index>(i) / kChildren;
-        }
-        const auto range = bodies.elements_of(body);
-        for (Eigen::Index element = range.begin; element < range.begin + range.size; ++element) {
-            const std::uint32_t first =
-                bodies.quadratic.first_child[static_cast<std::size_t>(element)];
-            for (Eigen::Index k = 0; k < kChildren; ++k) {
-                const Eigen::Index child =
-                    children[static_cast<std::size_t>(group_of[first] * kChildren + k)];
-                of_mesh_cell[static_cast<std::size_t>(child)] = static_cast<std::uint32_t>(element);
-            }
-        }
-        const auto cells = bodies.cells_of(body);
-        for (Eigen::Index cell = cells.begin; cell < cells.begin + cells.size; ++cell) {
-            parent_of_[static_cast<std::size_t>(cell)] = of_mesh_cell[bodies.mesh_cell(body, cell)];
-        }
     }
 }
 

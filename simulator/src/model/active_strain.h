@@ -56,7 +56,6 @@ private:
     };
 
     void append_fibers(std::size_t muscle, const SimplexMesh<Dim>& elements, Eigen::Index first);
-    void find_cells_of_elements(const Scene& scene, const Bodies<Dim>& bodies);
     [[nodiscard]] double signal(const Fiber& fiber, double time) const;
     [[nodiscard]] Shape shape_at(std::size_t shape, double time) const;
 

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 namespace pent::simulator {
@@ -39,32 +40,28 @@ std::vector<std::array<double, Width>> gather_in_order(
     return all;
 }
 
-// Cells by their materials, as append_bodies() has them; labels in the order of the cells.
+// A part of the next body, which has been placed; labels in the order of the cells.
 template <int Dim>
 void append_part(const Body& body,
                  MeshPart<Dim> part,
+                 const MadeQuadratic<Dim>* quadratic,
                  const std::vector<std::uint16_t>& materials,
                  Bodies<Dim>& bodies) {
-    const SortedByMaterial sorted = sort_by_material(materials, body.regions.size() + 1);
-    const auto first = static_cast<std::uint32_t>(bodies.first_vertex.back());
-    const Eigen::Index begin = bodies.first_cell.back();
-    const Eigen::Index end = begin + part.mesh.cell_count();
-    append_ranges(body, bodies.meshes.size(), sorted.first, begin, bodies.ranges);
+    const Eigen::Index first = bodies.first_vertex.back();
     std::vector<std::uint16_t> labels;
-    for (std::size_t i = 0; i < sorted.order.size(); ++i) {
-        const Eigen::Index own = sorted.order[i];
-        bodies.cells.col(begin + static_cast<Eigen::Index>(i)) =
-            part.mesh.cells.col(own).array() + first;
-        bodies.mesh_cells.push_back(part.numbers[static_cast<std::size_t>(own)]);
+    for (const Eigen::Index cell :
+         append_cells(body, bodies.meshes.size(), part.mesh, quadratic, materials, bodies)) {
+        bodies.mesh_cells.push_back(part.numbers[static_cast<std::size_t>(cell)]);
         if (!part.mesh.regions.empty()) {
-            labels.push_back(part.mesh.regions[static_cast<std::size_t>(own)]);
+            labels.push_back(part.mesh.regions[static_cast<std::size_t>(cell)]);
         }
     }
     bodies.cell_count += part.cell_count;
-    bodies.first_cell.push_back(end);
+    bodies.first_cell.push_back(bodies.first_cell.back() + part.mesh.cell_count());
     bodies.first_vertex.push_back(first + part.mesh.vertex_count());
     bodies.rest.middleCols(first, part.mesh.vertex_count()) = part.mesh.positions;
     part.mesh.cells.resize(Eigen::NoChange, 0);
+    part.mesh.parents.clear();
     part.mesh.regions = std::move(labels);
     bodies.meshes.push_back(std::move(part.mesh));
 }
@@ -107,6 +104,18 @@ std::vector<std::uint32_t> share_vertices(const Scene& scene,
 }
 
 template <int Dim>
+bool do_cells_make_elements(const Scene& scene, const SimplexMesh<Dim>& part) {
+    if (scene.solver.elements == ElementKind::Quadratic) {
+        try {
+            static_cast<void>(quadratic_simplices<Dim>(part, ""));
+        } catch (const Error&) {
+            return false;
+        }
+    }
+    return true;
+}
+
+template <int Dim>
 Bodies<Dim> make_part_bodies(const Scene& scene,
                              std::vector<MeshPart<Dim>> parts,
                              const std::shared_ptr<const Ranks>& ranks) {
@@ -129,9 +138,19 @@ Bodies<Dim> make_part_bodies(const Scene& scene,
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const Body& body = scene.bodies[i];
         MeshPart<Dim> part;
-        agree(ranks.get(), [&] { part = place(std::move(parts[i]), body); });
-        const std::vector<std::uint16_t> materials = materials_of_part(part.mesh, body, *ranks);
-        agree(ranks.get(), [&] { append_part(body, std::move(part), materials, bodies); });
+        std::optional<MadeQuadratic<Dim>> quadratic;
+        agree(ranks.get(), [&] {
+            part = place(std::move(parts[i]), body);
+            if (scene.solver.elements == ElementKind::Quadratic) {
+                quadratic = make_quadratic(part.mesh, body);
+            }
+        });
+        const std::vector<std::uint16_t> materials =
+            materials_of_part(quadratic ? quadratic->straight : part.mesh, body, *ranks);
+        agree(ranks.get(), [&] {
+            append_part(body, std::move(part), quadratic ? &*quadratic : nullptr, materials,
+                        bodies);
+        });
     }
     refuse_others(
         ranks.get(),
@@ -225,6 +244,7 @@ CellList<Dim> list_cells(
 }
 
 #define PENT_INSTANTIATE(Dim)                                                            \
+    template bool do_cells_make_elements<Dim>(const Scene&, const SimplexMesh<Dim>&);    \
     template std::vector<std::uint32_t> share_vertices<Dim>(                             \
         const Scene&, const std::vector<SimplexMesh<Dim>>&, int);                        \
     template Bodies<Dim> make_part_bodies<Dim>(const Scene&, std::vector<MeshPart<Dim>>, \
