@@ -207,8 +207,8 @@ TEST_F(MpiRuns, OfBaseAndLayersAreThoseOfTheMesh) {
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
 }
 
-// No rank has a whole mesh: each reads slabs of a file and keeps the cells of its vertices, or
-// extrudes these, with their labels, and writes a slab.
+// No rank has a whole mesh: each reads slabs of a file and keeps the cells that it needs, or extrudes
+// these, with their labels, and writes a slab.
 TEST_F(MpiRuns, InWhichNoRankHasAWholeMeshAreThoseOfOne) {
     const Extrusion<4> made = extrusion();
     static_cast<void>(write_extrusion<4>(path("base.pent"), made));
@@ -244,6 +244,37 @@ TEST_F(MpiRuns, InWhichNoRankHasAWholeMeshAreThoseOfOne) {
         }
     }
     EXPECT_GT(report("base3").steps.back().contact.point_facet, 0);
+}
+
+// Cells around edges reach a cell farther, in a file and over the base of layers.
+TEST_F(MpiRuns, OfSmoothedElementsAreThoseOfTheMesh) {
+    const Extrusion<4> made = extrusion();
+    static_cast<void>(write_extrusion<4>(path("base.pent"), made));
+    static_cast<void>(write_mesh(path("whole.pent"),
+                                 extrude<4>(made.base, made.ordered, made.layers, made.options)));
+    for (const std::string mesh : {"base", "whole"}) {
+        std::string scene = kTwins;
+        for (std::size_t at = 0; (at = scene.find("MESH")) != std::string::npos;) {
+            scene.replace(at, 4, mesh);
+        }
+        scene.replace(scene.find("frames = 4"), 10, "frames = 1");
+        const std::size_t contact = scene.find("[contact]");  // penalties have kinks
+        scene.erase(contact, scene.find("[solver]") - contact);
+        write(mesh, scene + "newton_tolerance = 1e-7\nelements = \"smoothed\"\n");
+    }
+    ASSERT_EQ(simulate(0, "whole", "alone").exit_code, 0);
+    for (const int ranks : {2, 3}) {
+        const std::string number = std::to_string(ranks);
+        for (const std::string mesh : {"base", "whole"}) {
+            const Outcome run = simulate(ranks, mesh, mesh + number);
+            ASSERT_EQ(run.exit_code, 0) << run.err;
+        }
+        for (const std::string body : {"a", "b"}) {
+            EXPECT_EQ(text_of(frame("base" + number, body, 1)),
+                      text_of(frame("whole" + number, body, 1)));
+            expect_near<4>("whole" + number, "alone", body, 1, 1e-6);
+        }
+    }
 }
 
 // Of quadratic cells a rank keeps those that have a node of its own, with all of their children.

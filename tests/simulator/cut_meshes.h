@@ -18,9 +18,10 @@ template <int Dim>
     std::vector<MeshPart<Dim>> parts;
     std::size_t first = 0;
     for (const SimplexMesh<Dim>& mesh : meshes) {
-        NeededCells needed(scene.solver.elements, [&](std::uint32_t vertex) {
-            return static_cast<int>(owners[first + vertex]) == ranks.rank();
-        });
+        NeededCells needed(scene.solver.elements, static_cast<std::size_t>(mesh.vertex_count()),
+                           [&](std::uint32_t vertex) {
+                               return static_cast<int>(owners[first + vertex]) == ranks.rank();
+                           });
         const auto corners = [&](Eigen::Index cell) {
             return std::span<const std::uint32_t>(mesh.cells.col(cell).data(), Dim + 1);
         };

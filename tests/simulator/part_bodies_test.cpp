@@ -132,6 +132,10 @@ TEST(PartBodies, HaveTheRegionsOfWholeMeshesAndWhatLabelsSelect) {
     expect_those_of_whole_meshes(scene);
 }
 
+TEST(PartBodies, HaveTheCellsAroundTheirEdgesWhereElementsAreSmoothed) {
+    expect_those_of_whole_meshes(bars_of_regions(ElementKind::Smoothed));
+}
+
 TEST(PartBodies, HaveTheQuadraticCellsOfWholeMeshesWithTheirRegions) {
     const Scene scene = bars_of_regions(ElementKind::Quadratic);
     SimplexMesh<4> bar = pent::test::quadratic_kuhn_box<4>({3, 1, 1, 1}, {1.5, 0.5, 0.5, 0.5});
@@ -212,7 +216,6 @@ TEST(PartBodies, AreRefusedWhereAllCellsAreNeeded) {
         });
         return !can_take_parts(scene);
     };
-    EXPECT_TRUE(refuses([](Scene& scene) { scene.solver.elements = ElementKind::Smoothed; }));
     EXPECT_TRUE(refuses([](Scene& scene) {
         scene.activations = {{.body = "box",
                               .select = {EverythingSelection{}},

@@ -52,25 +52,6 @@ Wanted wanted_of(const Scene& scene, const Body& body, const MeshSource<Dim>& so
             .parents = scene.solver.elements == ElementKind::Quadratic && !one.parents.empty()};
 }
 
-template <int Dim>
-MeshPart<Dim> extruded_part(const MeshSource<Dim>& source,
-                            const Wanted& wanted,
-                            const std::vector<std::uint32_t>& columns,
-                            const Owners& owners) {
-    std::vector<bool> is_wanted(std::size_t{*std::max_element(columns.begin(), columns.end())} + 1,
-                                false);
-    for (std::size_t vertex = 0; vertex < columns.size(); ++vertex) {
-        if (owners.of_vertices[vertex] == owners.own) {
-            is_wanted[columns[vertex]] = true;
-        }
-    }
-    MeshPart<Dim> part = source.cells_over(is_wanted);
-    if (!wanted.labels) {
-        part.mesh.regions.clear();
-    }
-    return part;
-}
-
 // What is wanted of cells, a column of numbers each.
 template <int Dim>
 Eigen::MatrixXd packed(const SimplexMesh<Dim>& cells, const Wanted& wanted) {
@@ -142,6 +123,67 @@ void for_each_cell(const SimplexMesh<Dim>& piece, Eigen::Index first, const Visi
                                 : piece.parents[place];
         visit(std::span<const std::uint32_t>(piece.cells.col(cell).data(), Dim + 1), parent, place);
     }
+}
+
+// The cells of a part that are needed, with what is wanted of them.
+template <int Dim>
+MeshPart<Dim> needed_of(const MeshPart<Dim>& part,
+                        const NeededCells& needed,
+                        const Wanted& wanted) {
+    MeshPart<Dim> own;
+    own.cell_count = part.cell_count;
+    std::vector<Eigen::Index> kept;
+    for_each_cell<Dim>(part.mesh, 0,
+                       [&](const auto& corners, std::uint32_t parent, std::size_t place) {
+                           if (!needed.has(corners, parent)) {
+                               return;
+                           }
+                           kept.push_back(static_cast<Eigen::Index>(place));
+                           own.numbers.push_back(part.numbers[place]);
+                           if (wanted.labels) {
+                               own.mesh.regions.push_back(part.mesh.regions[place]);
+                           }
+                       });
+    own.mesh.cells = part.mesh.cells(Eigen::all, kept);
+    return own;
+}
+
+// Cells over base cells with a vertex whose column has one of these.
+template <int Dim, typename IsWanted>
+MeshPart<Dim> cells_over(const MeshSource<Dim>& source,
+                         const std::vector<std::uint32_t>& columns,
+                         const IsWanted& is_wanted) {
+    std::vector<bool> marks(std::size_t{*std::max_element(columns.begin(), columns.end())} + 1,
+                            false);
+    for (std::uint32_t vertex = 0; vertex < columns.size(); ++vertex) {
+        if (is_wanted(vertex)) {
+            marks[columns[vertex]] = true;
+        }
+    }
+    return source.cells_over(marks);
+}
+
+// Base cells at the columns of this rank, and where elements reach farther those around them.
+template <int Dim>
+MeshPart<Dim> extruded_part(const MeshSource<Dim>& source,
+                            const Wanted& wanted,
+                            NeededCells needed,
+                            const std::vector<std::uint32_t>& columns,
+                            const Owners& owners) {
+    MeshPart<Dim> part =
+        cells_over(source, columns, [&](std::uint32_t vertex) { return owners.has(vertex); });
+    if (needed.has_to_see_all()) {
+        std::vector<bool> is_near(columns.size(), false);
+        for_each_cell<Dim>(part.mesh, 0,
+                           [&](const auto& corners, std::uint32_t parent, std::size_t /*place*/) {
+                               needed.see(corners, parent);
+                               for (const std::uint32_t vertex : corners) {
+                                   is_near[vertex] = true;
+                               }
+                           });
+        part = cells_over(source, columns, [&](std::uint32_t vertex) { return is_near[vertex]; });
+    }
+    return needed_of(part, needed, wanted);
 }
 
 template <int Dim>
@@ -250,13 +292,12 @@ private:
             const Body& body = scene_.bodies[i];
             Wanted wanted;
             ranks_.agree([&] { wanted = wanted_of(scene_, body, source); });
+            const NeededCells needed(scene_.solver.elements, count,
+                                     [&](std::uint32_t vertex) { return owners.has(vertex); });
             MeshPart<Dim> part =
                 source.is_extrusion()
-                    ? extruded_part(source, wanted, meshes_[i].columns, owners)
-                    : read_part<Dim>(source, wanted,
-                                     {scene_.solver.elements,
-                                      [&](std::uint32_t vertex) { return owners.has(vertex); }},
-                                     ranks_);
+                    ? extruded_part(source, wanted, needed, meshes_[i].columns, owners)
+                    : read_part<Dim>(source, wanted, needed, ranks_);
             part.mesh.positions = std::move(meshes_[i].positions);
             part.mesh.columns = std::move(meshes_[i].columns);
             part.mesh.layers = std::move(meshes_[i].layers);

@@ -10,8 +10,7 @@
 namespace pent::simulator {
 
 bool do_terms_need_all_cells(const Scene& scene) {
-    return scene.solver.elements == ElementKind::Smoothed || !scene.activations.empty()
-           || !scene.attachments.empty();
+    return !scene.activations.empty() || !scene.attachments.empty();
 }
 
 bool do_terms_couple_anything(const Scene& scene) {
@@ -23,14 +22,35 @@ bool NeededCells::is_near(std::span<const std::uint32_t> corners) const {
 }
 
 void NeededCells::see(std::span<const std::uint32_t> corners, std::uint32_t parent) {
-    if (is_near(corners)) {
+    if (!is_near(corners)) {
+        return;
+    }
+    if (kind_ == ElementKind::Quadratic) {
         parents_.insert(parent);
+    } else if (kind_ == ElementKind::Smoothed) {
+        for (const std::uint32_t corner : corners) {
+            if (corner < is_near_vertex_.size()) {  // else the mesh is refused later
+                is_near_vertex_[corner] = true;
+            }
+        }
     }
 }
 
 bool NeededCells::has(std::span<const std::uint32_t> corners, std::uint32_t parent) const {
-    return kind_ == ElementKind::Quadratic ? parents_.find(parent) != parents_.end()
-                                           : is_near(corners);
+    switch (kind_) {
+        case ElementKind::Quadratic:
+            return parents_.find(parent) != parents_.end();
+        case ElementKind::Smoothed:
+            return std::count_if(corners.begin(), corners.end(),
+                                 [&](std::uint32_t corner) {
+                                     return corner < is_near_vertex_.size()
+                                            && is_near_vertex_[corner];
+                                 })
+                   > 1;
+        case ElementKind::Linear:
+            break;
+    }
+    return is_near(corners);
 }
 
 namespace {
@@ -76,7 +96,8 @@ void keep_parents(QuadraticCells<Dim>& quadratic) {
 
 template <int Dim>
 void keep_near_cells(ElementKind kind, Bodies<Dim>& bodies) {
-    NeededCells needed(kind, [&](std::uint32_t vertex) { return bodies.sharing.owns(vertex); });
+    NeededCells needed(kind, static_cast<std::size_t>(bodies.vertex_count()),
+                       [&](std::uint32_t vertex) { return bodies.sharing.owns(vertex); });
     for (Eigen::Index cell = 0; needed.has_to_see_all() && cell < bodies.cells.cols(); ++cell) {
         needed.see(corners_of(bodies, cell), parent_of(bodies, cell));
     }

@@ -20,18 +20,21 @@ namespace pent::simulator {
 /// missing is not checked. Simulation::mesh() has no cells then, all ask for vertex_values()
 /// together, and bodies and obstacles do not come and go.
 
-/// Whether it may be so for a scene. Not for terms that look farther: smoothed elements,
-/// activations and attachments.
+/// Whether it may be so for a scene. Not for terms that look farther: activations and attachments.
 [[nodiscard]] bool can_take_parts(const Scene& scene);
 
 /// The cells of a mesh that a rank needs: those that touch a vertex of its own, and those that make
-/// up an element with one of these. Whoever chooses shows all cells where one is not enough to tell,
+/// up an element with one of these. Of smoothed elements, which cells make up that share an edge,
+/// they have some more: all with two vertices of cells that touch one of its own. Whoever chooses shows all cells where one is not enough to tell,
 /// and then asks for each.
 class NeededCells {
 public:
-    /// @param is_own  Whether a vertex is of this rank.
-    NeededCells(ElementKind kind, std::function<bool(std::uint32_t)> is_own)
-        : kind_(kind), is_own_(std::move(is_own)) {}
+    /// @param vertices  Of the mesh.
+    /// @param is_own    Whether a vertex is of this rank.
+    NeededCells(ElementKind kind, std::size_t vertices, std::function<bool(std::uint32_t)> is_own)
+        : kind_(kind),
+          is_own_(std::move(is_own)),
+          is_near_vertex_(kind == ElementKind::Smoothed ? vertices : 0) {}
 
     /// Whether all cells have to be shown first.
     [[nodiscard]] bool has_to_see_all() const { return kind_ != ElementKind::Linear; }
@@ -46,7 +49,9 @@ private:
 
     ElementKind kind_;
     std::function<bool(std::uint32_t)> is_own_;
-    std::unordered_set<std::uint32_t> parents_;  // of cells that touch a vertex of this rank
+    // Of cells that touch a vertex of this rank.
+    std::unordered_set<std::uint32_t> parents_;
+    std::vector<bool> is_near_vertex_;
 };
 
 /// Whether cells of a part make up the elements of a scene, as those of whole meshes must.
