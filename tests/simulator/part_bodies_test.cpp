@@ -4,6 +4,7 @@
 #include "cut_meshes.h"
 #include "model/held_vertices.h"
 #include "model/near_cells.h"
+#include "model/nearest_in_body.h"
 #include "model/part_selection.h"
 #include "scenes.h"
 #include "support/messages.h"
@@ -17,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include <initializer_list>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -158,6 +160,37 @@ TEST(PartBodies, KnowWhetherCellsMakeUpElements) {
     ++mesh.parents.back();
     EXPECT_FALSE(do_cells_make_elements(scene, mesh));
     EXPECT_FALSE(do_cells_make_elements(scene, test::bar()));
+}
+
+// Vertices of one bar within another, at corners that many cells of several ranks share, and beyond
+// it: to the bit those of whole meshes.
+TEST(PartBodies, FindThePointsThatAreNearestToVertices) {
+    Scene scene = bars_of_regions();
+    scene.bodies[1].place.translate = Eigen::Vector4d(0.5, 0.25, 0, 0);
+    scene.bodies[1].place.rotate.clear();
+    const Bodies<4> all = make_bodies<4>(scene, bars());
+    const Workers workers(1);
+    std::vector<std::uint32_t> vertices(static_cast<std::size_t>(all.vertices(1).size));
+    std::iota(vertices.begin(), vertices.end(), static_cast<std::uint32_t>(all.vertices(1).begin));
+    const auto expected = nearest_in_body(workers, all, 0, vertices);
+    std::size_t inside = 0;
+    for (const MaterialPoint<4>& point : expected) {
+        inside += point.distance == 0 ? 1 : 0;
+    }
+    EXPECT_GT(inside, 10U);
+    EXPECT_LT(inside + 10, vertices.size());
+    for (const int count : {1, 2, 3, 4}) {
+        test::on_ranks(count, [&](const std::shared_ptr<const Ranks>& ranks) {
+            const Bodies<4> own =
+                make_part_bodies<4>(scene, test::cut_meshes<4>(scene, bars(), *ranks), ranks);
+            const auto found = nearest_in_body(workers, own, 0, vertices);
+            for (std::size_t i = 0; i < vertices.size(); ++i) {
+                EXPECT_EQ(found[i].vertices, expected[i].vertices) << i;
+                EXPECT_EQ(found[i].weights, expected[i].weights) << i;
+                EXPECT_EQ(found[i].distance, expected[i].distance) << i;
+            }
+        });
+    }
 }
 
 // All ranks say so, whatever cells they have.

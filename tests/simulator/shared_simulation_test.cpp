@@ -202,6 +202,25 @@ TEST(SharedSimulation, HasLoadsActivationsAndAttachments) {
     expect_same_on_ranks(made, 2, 1e-7);
 }
 
+// Vertices of one cube tied to the cells of another, wherever these are.
+TEST(SharedSimulation, HasAttachmentsOfOneBodyToAnother) {
+    Case<4> made{test::two_cubes<4>(0.1), {test::cube<4>(), test::cube<4>()}};
+    Scene& scene = made.scene;
+    scene.contact.reset();
+    scene.gravity[1] = -9.8;
+    scene.solver.precision = Precision::Double;
+    scene.solver.tolerance = 1e-10;
+    Attachment attachment;
+    attachment.body = scene.bodies[1].name;
+    attachment.target = scene.bodies[0].name;
+    attachment.select = {EverythingSelection{}};
+    attachment.stiffness = 20;
+    attachment.max_distance = 10;
+    scene.attachments = {attachment};
+    ASSERT_TRUE(can_take_parts(scene));
+    expect_same_on_ranks(made, 2, 1e-7);
+}
+
 // Two materials and a load, by the labels of cells that ranks have in part.
 TEST(SharedSimulation, HasRegionsAndWhatLabelsSelect) {
     Case<4> made = swing(Integrator::NewtonEuler);

@@ -10,7 +10,7 @@
 namespace pent::simulator {
 
 bool do_terms_need_all_cells(const Scene& scene) {
-    return !scene.activations.empty() || !scene.attachments.empty();
+    return !scene.activations.empty();
 }
 
 bool do_terms_couple_anything(const Scene& scene) {

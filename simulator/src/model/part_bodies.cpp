@@ -1,6 +1,7 @@
 #include "model/part_bodies.h"
 
 #include "model/append_bodies.h"
+#include "model/gather_in_order.h"
 #include "model/near_cells.h"
 #include "model/part_selection.h"
 #include "model/partition.h"
@@ -21,24 +22,6 @@
 namespace pent::simulator {
 
 namespace {
-
-// Rows of numbers that begin with two that say where they belong: those of all ranks, in order.
-template <std::size_t Width>
-std::vector<std::array<double, Width>> gather_in_order(
-    const Sharing& sharing, const std::vector<std::array<double, Width>>& own) {
-    std::vector<std::int64_t> sizes;
-    for (const double count : sharing.list(static_cast<double>(own.size() * Width))) {
-        sizes.push_back(static_cast<std::int64_t>(count));
-    }
-    const auto* numbers = own.empty() ? nullptr : own.front().data();
-    const std::vector<double> flat = sharing.ranks().gather({numbers, own.size() * Width}, sizes);
-    std::vector<std::array<double, Width>> all(flat.size() / Width);
-    for (std::size_t i = 0; i < flat.size(); ++i) {
-        all[i / Width][i % Width] = flat[i];
-    }
-    std::sort(all.begin(), all.end());
-    return all;
-}
 
 // A part of the next body, which has been placed; labels in the order of the cells.
 template <int Dim>
@@ -78,7 +61,7 @@ bool are_labels_asked_for(const Scene& scene, const Body& body) {
             return part.body == body.name && selects_by_region(part.select);
         });
     };
-    return selects(scene.constraints) || selects(scene.loads)
+    return selects(scene.constraints) || selects(scene.loads) || selects(scene.attachments)
            || std::any_of(body.regions.begin(), body.regions.end(),
                           [](const Region& region) { return selects_by_region(region.select); });
 }
@@ -193,7 +176,7 @@ Simplices<Dim> boundary_of(const Bodies<Dim>& bodies, std::size_t body) {
         row[1] = opposite;
         std::copy(facet.begin(), facet.end(), row.begin() + 2);
     }
-    const auto all = gather_in_order(bodies.sharing, own);
+    const auto all = gather_in_order(bodies.sharing.ranks(), own);
     Simplices<Dim> boundary(Dim, static_cast<Eigen::Index>(all.size()));
     for (std::size_t i = 0; i < all.size(); ++i) {
         for (int corner = 0; corner < Dim; ++corner) {
@@ -234,7 +217,7 @@ CellList<Dim> list_cells(
         }
     }
     if (is_of_parts(bodies)) {
-        for (const auto& row : gather_in_order(bodies.sharing, own)) {
+        for (const auto& row : gather_in_order(bodies.sharing.ranks(), own)) {
             list.bodies.push_back(static_cast<std::size_t>(row[0]));
             std::transform(row.begin() + 2, row.end(), list.cells.emplace_back().begin(),
                            [](double vertex) { return static_cast<std::uint32_t>(vertex); });

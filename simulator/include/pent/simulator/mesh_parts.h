@@ -20,7 +20,7 @@ namespace pent::simulator {
 /// missing is not checked. Simulation::mesh() has no cells then, all ask for vertex_values()
 /// together, and bodies and obstacles do not come and go.
 
-/// Whether it may be so for a scene. Not for terms that look farther: activations and attachments.
+/// Whether it may be so for a scene. Not for activations, which look farther.
 [[nodiscard]] bool can_take_parts(const Scene& scene);
 
 /// The cells of a mesh that a rank needs: those that touch a vertex of its own, and those that make
