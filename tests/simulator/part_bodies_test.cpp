@@ -50,6 +50,18 @@ std::vector<SimplexMesh<4>> bars() {
     return {bar, bar};
 }
 
+// The same cells as the children of quadratic ones.
+std::vector<SimplexMesh<4>> quadratic_bars() {
+    SimplexMesh<4> bar = pent::test::quadratic_kuhn_box<4>({3, 1, 1, 1}, {1.5, 0.5, 0.5, 0.5});
+    const SimplexMesh<4> layered = test::bar();
+    bar.layers = layered.layers;
+    bar.columns = layered.columns;
+    for (const std::uint32_t parent : bar.parents) {
+        bar.regions.push_back(static_cast<std::uint16_t>(parent % 7));
+    }
+    return {bar, bar};
+}
+
 // The same with regions by all that selects, and with what takes hold of cells with a label.
 Scene bars_of_regions(ElementKind kind = ElementKind::Linear) {
     Scene scene = two_bars();
@@ -140,15 +152,7 @@ TEST(PartBodies, HaveTheCellsAroundTheirEdgesWhereElementsAreSmoothed) {
 
 TEST(PartBodies, HaveTheQuadraticCellsOfWholeMeshesWithTheirRegions) {
     const Scene scene = bars_of_regions(ElementKind::Quadratic);
-    SimplexMesh<4> bar = pent::test::quadratic_kuhn_box<4>({3, 1, 1, 1}, {1.5, 0.5, 0.5, 0.5});
-    const SimplexMesh<4> layered = test::bar();
-    ASSERT_EQ(layered.positions, bar.positions);
-    bar.layers = layered.layers;
-    bar.columns = layered.columns;
-    for (const std::uint32_t parent : bar.parents) {
-        bar.regions.push_back(static_cast<std::uint16_t>(parent % 7));
-    }
-    expect_those_of_whole_meshes(scene, {bar, bar});
+    expect_those_of_whole_meshes(scene, quadratic_bars());
 }
 
 TEST(PartBodies, KnowWhetherCellsMakeUpElements) {
@@ -193,29 +197,45 @@ TEST(PartBodies, FindThePointsThatAreNearestToVertices) {
     }
 }
 
-// All ranks say so, whatever cells they have.
-TEST(PartBodies, RefuseSelectionsOfNothing) {
+// All ranks say what one with whole meshes says, whatever cells they have.
+TEST(PartBodies, RefuseSelectionsOfNothingInTheWordsOfWholeMeshes) {
     const auto refuses = [](const auto& change, std::initializer_list<std::string> words) {
-        Scene scene = bars_of_regions();
-        change(scene);
-        test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
-            expect_contains(error_of([&] {
-                                Simulation<4>(scene, test::cut_meshes<4>(scene, bars(), *ranks),
-                                              {.ranks = ranks});
-                            }),
-                            words);
-        });
+        for (const ElementKind kind : {ElementKind::Linear, ElementKind::Quadratic}) {
+            Scene scene = bars_of_regions(kind);
+            const std::vector<SimplexMesh<4>> meshes =
+                kind == ElementKind::Linear ? bars() : quadratic_bars();
+            change(scene);
+            const std::string alone = error_of([&] { Simulation<4>(scene, meshes); });
+            expect_contains(alone, words);
+            test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
+                EXPECT_EQ(error_of([&] {
+                              Simulation<4>(scene, test::cut_meshes<4>(scene, meshes, *ranks),
+                                            {.ranks = ranks});
+                          }),
+                          alone);
+            });
+        }
     };
-    refuses(
-        [](Scene& scene) { scene.bodies[0].regions[1].select = {RegionSelection{.region = 99}}; },
-        {"region \"label\" selects no cell", "the body as placed reaches from"});
+    const auto region_of = [&](const Selection& select) {
+        return [=](Scene& scene) { scene.bodies[0].regions[1].select = {select}; };
+    };
+    refuses(region_of(RegionSelection{.region = 99}),
+            {"region \"label\" selects no cell", "the mesh has the regions 0 to",
+             "the body as placed reaches from"});
+    refuses(region_of(BallSelection{.center = Eigen::Vector4d(1.7, 0.3, 0.2, 0.1), .radius = 0.01}),
+            {"region \"label\" selects no cell", "the nearest cell is", "m away"});
+    refuses(region_of(BoxSelection{.low = Eigen::Vector4d(-3, -3, -3, -3),
+                                   .high = Eigen::Vector4d(-1, -1, -1, -1)}),
+            {"region \"label\" selects no cell", "the nearest cell is", "m away"});
+    refuses(region_of(HalfSpaceSelection{.normal = Eigen::Vector4d(0, 0, 1, 0), .offset = -3}),
+            {"region \"label\" selects no cell", "the nearest cell is", "m away"});
     refuses([](Scene& scene) { scene.loads[0].select = {RegionSelection{.region = 99}}; },
-            {"load on \"box\" selects no vertex", "no cell has the label"});
+            {"load on \"box\" selects no vertex", "the mesh has the regions 0 to"});
     refuses(
         [](Scene& scene) {
             scene.bodies[1].regions[0].select = {LayerSelection{.first = 7, .last = 9}};
         },
-        {"region \"layers\" selects no cell"});
+        {"region \"layers\" selects no cell", "the mesh has the layers 0 to 2"});
 }
 
 // Those with an even sum of corners, say.

@@ -1,5 +1,7 @@
 #include "model/append_bodies.h"
 
+#include "model/part_selection.h"
+
 #include <pent/dimensions.h>
 #include <pent/simulator/placed_mesh.h>
 
@@ -87,8 +89,11 @@ MadeQuadratic<Dim> make_quadratic(const SimplexMesh<Dim>& mesh, const Body& body
     for (std::size_t i = 0; i < children.size(); ++i) {
         const auto child = static_cast<std::size_t>(children[i]);
         made.parents[child] = static_cast<std::uint32_t>(i / kChildren);
-        if (i % kChildren == 0 && !mesh.regions.empty()) {
-            made.straight.regions.push_back(mesh.regions[child]);
+        if (i % kChildren == 0) {
+            made.numbers.push_back(static_cast<std::uint32_t>(child));
+            if (!mesh.regions.empty()) {
+                made.straight.regions.push_back(mesh.regions[child]);
+            }
         }
     }
     return made;
@@ -150,7 +155,8 @@ void append_bodies(const Scene& scene, Bodies<Dim>& bodies) {
             quadratic = make_quadratic(mesh, body);
         }
         const std::vector<std::uint16_t> materials =
-            materials_of_cells(quadratic ? quadratic->straight : mesh, body);
+            quadratic ? materials_of_part(quadratic->straight, quadratic->numbers, body, nullptr)
+                      : materials_of_cells(mesh, body);
         for (const Eigen::Index cell : append_cells(
                  body, place, mesh, quadratic ? &*quadratic : nullptr, materials, bodies)) {
             if (has_regions) {

@@ -14,6 +14,7 @@ struct MadeQuadratic {
     std::vector<std::uint32_t>
         parents;                ///< One a cell of the mesh: which of them it is a child of.
     SimplexMesh<Dim> straight;  ///< As if edges were straight, with labels.
+    std::vector<std::uint32_t> numbers;  ///< Of each the first child, which stands for it.
 };
 
 /// @param mesh  As placed. Throws an Error unless its cells make up such.

@@ -126,10 +126,15 @@ Bodies<Dim> make_part_bodies(const Scene& scene,
             part = place(std::move(parts[i]), body);
             if (scene.solver.elements == ElementKind::Quadratic) {
                 quadratic = make_quadratic(part.mesh, body);
+                for (std::uint32_t& number : quadratic->numbers) {
+                    number = part.numbers[number];
+                }
             }
         });
         const std::vector<std::uint16_t> materials =
-            materials_of_part(quadratic ? quadratic->straight : part.mesh, body, *ranks);
+            quadratic
+                ? materials_of_part(quadratic->straight, quadratic->numbers, body, ranks.get())
+                : materials_of_part(part.mesh, part.numbers, body, ranks.get());
         agree(ranks.get(), [&] {
             append_part(body, std::move(part), quadratic ? &*quadratic : nullptr, materials,
                         bodies);
