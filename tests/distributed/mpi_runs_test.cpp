@@ -277,6 +277,49 @@ TEST_F(MpiRuns, OfSmoothedElementsAreThoseOfTheMesh) {
     }
 }
 
+// Fibers of cells that ranks have in part, and ties to cells that another rank has.
+TEST_F(MpiRuns, OfFibersAndAttachmentsGoWherePentSimGoes) {
+    SimplexMesh<4> mesh = kuhn_box<4>({4, 2, 1, 2}, {0.6, 0.4, 0.2, 0.4});
+    mesh.fibers.resize(4, mesh.cell_count());
+    for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+        mesh.regions.push_back(cell % 3 == 1 ? 7 : 3);
+        mesh.fibers.col(cell) << 1, 0.1 * static_cast<double>(cell % 7), 0, 0.2;
+    }
+    static_cast<void>(write_mesh(path("fibers.pent"), mesh));
+    std::string scene = kTwins;
+    for (std::size_t at = 0; (at = scene.find("MESH")) != std::string::npos;) {
+        scene.replace(at, 4, "fibers");
+    }
+    const std::size_t contact = scene.find("[contact]");
+    scene.replace(contact, scene.find("[solver]") - contact, R"([[activation]]
+body = "a"
+select = { region = 7 }
+stretch = 0.9
+fibers = "mesh"
+
+[[attachment]]
+body = "b"
+target = "a"
+select = { half_space = { normal = [0, 1, 0, 0], offset = 0.42 } }
+stiffness = 10
+max_distance = 0.5
+
+)");
+    scene.replace(scene.find("offset = -0.2"), 13, "offset = 1e-6");
+    write("muscle", scene + "newton_tolerance = 1e-7\n");
+    const Outcome alone = simulate(0, "muscle", "alone");
+    ASSERT_EQ(alone.exit_code, 0) << alone.err;
+    for (const int ranks : {1, 2, 3, 4}) {
+        const std::string run = "on" + std::to_string(ranks);
+        const Outcome outcome = simulate(ranks, "muscle", run);
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        for (const std::string body : {"a", "b"}) {
+            expect_near<4>(run, "alone", body, 1, 1e-6);
+            expect_near<4>(run, "alone", body, 4, 1e-5);
+        }
+    }
+}
+
 // Of quadratic cells a rank keeps those that have a node of its own, with all of their children.
 TEST_F(MpiRuns, OfQuadraticElementsGoWherePentSimGoes) {
     static_cast<void>(write_mesh(path("parents.pent"),

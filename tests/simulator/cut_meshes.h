@@ -50,6 +50,9 @@ template <int Dim>
         part.mesh.columns = mesh.columns;
         part.mesh.layers = mesh.layers;
         part.mesh.cells = mesh.cells(Eigen::all, part.numbers);
+        if (mesh.fibers.cols() > 0) {
+            part.mesh.fibers = mesh.fibers(Eigen::all, part.numbers);
+        }
         first += static_cast<std::size_t>(mesh.vertex_count());
     }
     return parts;

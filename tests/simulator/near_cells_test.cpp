@@ -185,7 +185,10 @@ TEST(NearCells, AreAllOfThemWhereATermAsksForMore) {
     tied.attachments.resize(1);
     EXPECT_TRUE(do_terms_couple_anything(tied));
     Scene active = scene;
-    active.activations.resize(1);
+    active.activations = {
+        {.body = "box", .select = {EverythingSelection{}}, .fibers = Fibers::Constant}};
+    EXPECT_FALSE(do_terms_need_all_cells(active));
+    active.activations[0].fibers = Fibers::Distance;
     EXPECT_FALSE(do_terms_need_all_cells(tied));  // ranks agree on the nearest of all
     EXPECT_TRUE(do_terms_need_all_cells(active));
     Scene dense = scene;  // each rank has those of its own vertices

@@ -229,6 +229,22 @@ TEST(PartBodies, RefuseSelectionsOfNothingInTheWordsOfWholeMeshes) {
             {"region \"label\" selects no cell", "the nearest cell is", "m away"});
     refuses(region_of(HalfSpaceSelection{.normal = Eigen::Vector4d(0, 0, 1, 0), .offset = -3}),
             {"region \"label\" selects no cell", "the nearest cell is", "m away"});
+    refuses(
+        [](Scene& scene) {
+            scene.activations = {
+                {.body = "second",
+                 .select = {BallSelection{.center = Eigen::Vector4d(9, 9, 9, 9), .radius = 1}},
+                 .stretch = 1.1}};
+        },
+        {"activation of \"second\" selects no cell", "the nearest cell is"});
+    refuses(
+        [](Scene& scene) {
+            scene.activations = {{.body = "second",
+                                  .select = {EverythingSelection{}},
+                                  .stretch = 1.1,
+                                  .fibers = Fibers::Mesh}};
+        },
+        {"activation of \"second\"", "the mesh has none"});
     refuses([](Scene& scene) { scene.loads[0].select = {RegionSelection{.region = 99}}; },
             {"load on \"box\" selects no vertex", "the mesh has the regions 0 to"});
     refuses(
@@ -273,8 +289,8 @@ TEST(PartBodies, AreRefusedWhereAllCellsAreNeeded) {
         scene.activations = {{.body = "box",
                               .select = {EverythingSelection{}},
                               .stretch = 1.1,
-                              .fibers = Fibers::Constant,
-                              .direction = Eigen::Vector4d(0, 1, 0, 0)}};
+                              .fibers = Fibers::Distance,
+                              .away_from = {LayerSelection{.first = 0, .last = 0}}}};
     }));
 }
 

@@ -43,19 +43,22 @@ struct Owners {
 struct Wanted {
     bool labels = false;
     bool parents = false;
+    bool fibers = false;
 };
 
 template <int Dim>
 Wanted wanted_of(const Scene& scene, const Body& body, const MeshSource<Dim>& source) {
     const SimplexMesh<Dim> one = source.cells(0, 1);
     return {.labels = are_labels_asked_for(scene, body) && !one.regions.empty(),
-            .parents = scene.solver.elements == ElementKind::Quadratic && !one.parents.empty()};
+            .parents = scene.solver.elements == ElementKind::Quadratic && !one.parents.empty(),
+            .fibers = are_fibers_asked_for(scene, body) && one.fibers.cols() > 0};
 }
 
 // What is wanted of cells, a column of numbers each.
 template <int Dim>
 Eigen::MatrixXd packed(const SimplexMesh<Dim>& cells, const Wanted& wanted) {
-    const int rows = Dim + 1 + (wanted.labels ? 1 : 0) + (wanted.parents ? 1 : 0);
+    const int rows =
+        Dim + 1 + (wanted.labels ? 1 : 0) + (wanted.parents ? 1 : 0) + (wanted.fibers ? Dim : 0);
     Eigen::MatrixXd all(rows, cells.cell_count());
     for (Eigen::Index cell = 0; cell < cells.cell_count(); ++cell) {
         const auto place = static_cast<std::size_t>(cell);
@@ -65,7 +68,10 @@ Eigen::MatrixXd packed(const SimplexMesh<Dim>& cells, const Wanted& wanted) {
             all(row++, cell) = cells.regions[place];
         }
         if (wanted.parents) {
-            all(row, cell) = cells.parents[place];
+            all(row++, cell) = cells.parents[place];
+        }
+        if (wanted.fibers) {
+            all.col(cell).template segment<Dim>(row) = cells.fibers.col(cell);
         }
     }
     return all;
@@ -83,6 +89,9 @@ SimplexMesh<Dim> unpacked(const Eigen::Ref<const Eigen::MatrixXd>& all, const Wa
         if (wanted.parents) {
             cells.parents.push_back(static_cast<std::uint32_t>(all(row, cell)));
         }
+    }
+    if (wanted.fibers) {
+        cells.fibers = all.template bottomRows<Dim>();
     }
     return cells;
 }
@@ -201,26 +210,33 @@ MeshPart<Dim> read_part(const MeshSource<Dim>& source,
     MeshPart<Dim> part;
     part.cell_count = static_cast<Eigen::Index>(source.info().cells);
     std::vector<std::uint32_t> all;
+    std::vector<double> fibers;
     for_each_piece(source, wanted, ranks, [&](const auto& piece, Eigen::Index first) {
-        for_each_cell<Dim>(piece, first,
-                           [&](const auto& corners, std::uint32_t parent, std::size_t place) {
-                               if (!needed.has(corners, parent)) {
-                                   return;
-                               }
-                               part.numbers.push_back(static_cast<std::uint32_t>(first)
-                                                      + static_cast<std::uint32_t>(place));
-                               all.insert(all.end(), corners.begin(), corners.end());
-                               if (wanted.labels) {
-                                   part.mesh.regions.push_back(piece.regions[place]);
-                               }
-                               if (wanted.parents) {
-                                   part.mesh.parents.push_back(parent);
-                               }
-                           });
+        for_each_cell<Dim>(
+            piece, first, [&](const auto& corners, std::uint32_t parent, std::size_t place) {
+                if (!needed.has(corners, parent)) {
+                    return;
+                }
+                part.numbers.push_back(static_cast<std::uint32_t>(first)
+                                       + static_cast<std::uint32_t>(place));
+                all.insert(all.end(), corners.begin(), corners.end());
+                if (wanted.labels) {
+                    part.mesh.regions.push_back(piece.regions[place]);
+                }
+                if (wanted.parents) {
+                    part.mesh.parents.push_back(parent);
+                }
+                if (wanted.fibers) {
+                    const auto fiber = piece.fibers.col(static_cast<Eigen::Index>(place));
+                    fibers.insert(fibers.end(), fiber.begin(), fiber.end());
+                }
+            });
     });
     part.numbers.shrink_to_fit();
     part.mesh.cells = Eigen::Map<const Simplices<Dim + 1>>(
         all.data(), Dim + 1, static_cast<Eigen::Index>(part.numbers.size()));
+    part.mesh.fibers = Eigen::Map<const Positions<Dim>>(
+        fibers.data(), Dim, static_cast<Eigen::Index>(fibers.size() / Dim));
     return part;
 }
 

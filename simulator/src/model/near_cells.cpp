@@ -10,7 +10,9 @@
 namespace pent::simulator {
 
 bool do_terms_need_all_cells(const Scene& scene) {
-    return !scene.activations.empty();
+    return std::any_of(
+        scene.activations.begin(), scene.activations.end(),
+        [](const Activation& activation) { return activation.fibers == Fibers::Distance; });
 }
 
 bool do_terms_couple_anything(const Scene& scene) {

@@ -23,7 +23,7 @@ namespace pent::simulator {
 
 namespace {
 
-// A part of the next body, which has been placed; labels in the order of the cells.
+// A part of the next body, which has been placed; labels and fibers in the order of the cells.
 template <int Dim>
 void append_part(const Body& body,
                  MeshPart<Dim> part,
@@ -31,13 +31,17 @@ void append_part(const Body& body,
                  const std::vector<std::uint16_t>& materials,
                  Bodies<Dim>& bodies) {
     const Eigen::Index first = bodies.first_vertex.back();
+    const std::vector<Eigen::Index> order =
+        append_cells(body, bodies.meshes.size(), part.mesh, quadratic, materials, bodies);
     std::vector<std::uint16_t> labels;
-    for (const Eigen::Index cell :
-         append_cells(body, bodies.meshes.size(), part.mesh, quadratic, materials, bodies)) {
+    for (const Eigen::Index cell : order) {
         bodies.mesh_cells.push_back(part.numbers[static_cast<std::size_t>(cell)]);
         if (!part.mesh.regions.empty()) {
             labels.push_back(part.mesh.regions[static_cast<std::size_t>(cell)]);
         }
+    }
+    if (part.mesh.fibers.cols() > 0) {
+        part.mesh.fibers = part.mesh.fibers(Eigen::all, order).eval();
     }
     bodies.cell_count += part.cell_count;
     bodies.first_cell.push_back(bodies.first_cell.back() + part.mesh.cell_count());
@@ -62,8 +66,16 @@ bool are_labels_asked_for(const Scene& scene, const Body& body) {
         });
     };
     return selects(scene.constraints) || selects(scene.loads) || selects(scene.attachments)
+           || selects(scene.activations)
            || std::any_of(body.regions.begin(), body.regions.end(),
                           [](const Region& region) { return selects_by_region(region.select); });
+}
+
+bool are_fibers_asked_for(const Scene& scene, const Body& body) {
+    return std::any_of(scene.activations.begin(), scene.activations.end(),
+                       [&](const Activation& activation) {
+                           return activation.body == body.name && activation.fibers == Fibers::Mesh;
+                       });
 }
 
 template <int Dim>

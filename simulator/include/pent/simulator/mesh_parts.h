@@ -14,13 +14,14 @@
 namespace pent::simulator {
 
 /// Ranks need not have whole meshes: a Simulation takes, for each body, a part as loaded: all
-/// vertices, and the NeededCells, with their labels of regions where the scene asks for these, and
-/// with their parents for quadratic elements. Its constructor then throws an Error for scenes that
+/// vertices, and the NeededCells, with their labels of regions and fibers where the scene asks for
+/// these, and with their parents for quadratic elements. Its constructor then throws an Error for scenes that
 /// can_take_parts() says no to, too, and for other vertices than on other ranks. Whether cells are
 /// missing is not checked. Simulation::mesh() has no cells then, all ask for vertex_values()
 /// together, and bodies and obstacles do not come and go.
 
-/// Whether it may be so for a scene. Not for activations, which look farther.
+/// Whether it may be so for a scene. Not where an activation finds fibers by distances
+/// along a body, which may lead anywhere.
 [[nodiscard]] bool can_take_parts(const Scene& scene);
 
 /// The cells of a mesh that a rank needs: those that touch a vertex of its own, and those that make
@@ -60,6 +61,9 @@ template <int Dim>
 
 /// Whether the scene selects something of a body by the labels of its cells.
 [[nodiscard]] bool are_labels_asked_for(const Scene& scene, const Body& body);
+
+/// Whether an activation takes the fibers that the mesh of a body has.
+[[nodiscard]] bool are_fibers_asked_for(const Scene& scene, const Body& body);
 
 /// Which rank each vertex is at home on, of all bodies counted through. Throws an Error where there
 /// are more ranks than columns of vertices.
