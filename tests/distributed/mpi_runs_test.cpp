@@ -207,8 +207,8 @@ TEST_F(MpiRuns, OfBaseAndLayersAreThoseOfTheMesh) {
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
 }
 
-// No rank has a whole mesh: each reads slabs of a file and keeps the cells that it needs, or extrudes
-// these, with their labels, and writes a slab.
+// No rank has a whole mesh: each reads slabs of a file and keeps the cells that it needs, or
+// extrudes these, with their labels, and writes a slab.
 TEST_F(MpiRuns, InWhichNoRankHasAWholeMeshAreThoseOfOne) {
     const Extrusion<4> made = extrusion();
     static_cast<void>(write_extrusion<4>(path("base.pent"), made));

@@ -96,8 +96,8 @@ SimplexMesh<Dim> unpacked(const Eigen::Ref<const Eigen::MatrixXd>& all, const Wa
     return cells;
 }
 
-// Calls visit(cells, number of the first) for pieces of all cells, each of which every rank sees and
-// reads a slab of.
+// Calls visit(cells, number of the first) for pieces of all cells. Every rank sees each of them,
+// and reads a slab of it.
 template <int Dim, typename Visit>
 void for_each_piece(const MeshSource<Dim>& source,
                     const Wanted& wanted,

@@ -11,8 +11,7 @@
 
 namespace pent::runs {
 
-/// The meshes of a scene, of which this rank has all vertices and the cells that touch one of its
-/// own.
+/// The meshes of a scene, of which this rank has all vertices and the cells that it needs.
 template <int Dim>
 struct SceneParts {
     std::vector<MeshPart<Dim>> parts;      ///< One a body, as their files have them.

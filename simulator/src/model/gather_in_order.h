@@ -10,8 +10,8 @@
 
 namespace pent::simulator {
 
-/// Rows of numbers of all ranks, those with the least first number first, and so on: they begin with
-/// what says where they belong.
+/// Rows of numbers of all ranks, sorted by their first numbers, then by their second ones, and so
+/// on: they begin with what says where they belong.
 template <std::size_t Width>
 [[nodiscard]] std::vector<std::array<double, Width>> gather_in_order(
     const Ranks& ranks, const std::vector<std::array<double, Width>>& own) {

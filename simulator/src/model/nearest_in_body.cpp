@@ -43,8 +43,8 @@ void take_least(const Sharing& sharing, std::vector<double>& values) {
     }
 }
 
-// A vertex, where the cell is in Bodies of all ranks (its range, and its place in the mesh), and the
-// point in it.
+// A vertex, where the cell would be if all were here (its range, and its place in the mesh), and
+// the point in it.
 template <int Dim>
 using Row = std::array<double, 4 + 2 * (Dim + 1)>;
 
@@ -112,13 +112,13 @@ void search(const Workers& workers,
 }  // namespace
 
 template <int Dim>
-std::vector<MaterialPoint<Dim>> nearest_in_body(const Workers& workers,
-                                                const Bodies<Dim>& bodies,
-                                                std::size_t body,
-                                                const std::vector<std::uint32_t>& vertices) {
+MaterialPoints<Dim> nearest_in_body(const Workers& workers,
+                                    const Bodies<Dim>& bodies,
+                                    std::size_t body,
+                                    const std::vector<std::uint32_t>& vertices) {
     const std::vector<Eigen::Index> cells = cells_here(bodies, body);
     const NearestPointSearch<Dim> tree(bodies.rest, bodies.cells(Eigen::all, cells));
-    std::vector<MaterialPoint<Dim>> found(vertices.size());
+    MaterialPoints<Dim> found(vertices.size());
     for (std::size_t first = 0; first < vertices.size(); first += kPiece) {
         const std::size_t size = std::min(kPiece, vertices.size() - first);
         search<Dim>(workers, bodies, cells, tree, std::span(vertices).subspan(first, size),
@@ -127,9 +127,9 @@ std::vector<MaterialPoint<Dim>> nearest_in_body(const Workers& workers,
     return found;
 }
 
-#define PENT_INSTANTIATE(Dim)                                 \
-    template std::vector<MaterialPoint<Dim>> nearest_in_body( \
-        const Workers&, const Bodies<Dim>&, std::size_t, const std::vector<std::uint32_t>&);
+#define PENT_INSTANTIATE(Dim)                                                                     \
+    template MaterialPoints<Dim> nearest_in_body(const Workers&, const Bodies<Dim>&, std::size_t, \
+                                                 const std::vector<std::uint32_t>&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 

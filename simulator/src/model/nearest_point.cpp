@@ -75,8 +75,8 @@ PointOfCell<Dim> nearest_of_cell(const Corners<Dim>& corners, const Vector<Dim>&
     return nearest;
 }
 
-// Cells share faces: which of them is nearer by rounding differs from build to build. Boxes round to
-// a hair beyond the cells that they hold, which is less.
+// Cells share faces: which of them is nearer by rounding differs from build to build. Boxes round
+// to a hair beyond the cells that they hold, which is less.
 constexpr double kSame = 1 + 1e-9;
 
 }  // namespace

@@ -22,8 +22,8 @@ struct MaterialPoint {
 };
 
 /// Finds the point of some cells that is nearest to a point in space: that point itself, inside of
-/// them. By a tree, so that a search takes about as long in a million cells as in a thousand; in two
-/// steps, as the cells may be on several ranks.
+/// them. By a tree, so that a search takes about as long in a million cells as in a thousand. In
+/// two steps, as cells may be on several ranks.
 template <int Dim>
 class NearestPointSearch {
 public:

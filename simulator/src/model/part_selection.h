@@ -10,8 +10,8 @@
 
 namespace pent::simulator {
 
-/// select_cells() of the cells, or the elements, that a rank has of a placed mesh. Throws an Error on
-/// all ranks, as select_cells() of the whole does, where none is selected on any of them.
+/// select_cells() of the cells, or the elements, that a rank has of a placed mesh. Throws an Error
+/// on all ranks, as select_cells() of the whole does, where none is selected on any of them.
 ///
 /// @param part     All vertices, and cells of this rank.
 /// @param numbers  What each cell is called in the whole mesh; empty if as they come.

@@ -54,7 +54,7 @@ void Attachments<Dim>::add_springs(const Workers& workers,
     }
     springs_.resize(bundle.begin + selected.size());
     std::vector<double> distances(selected.size(), 0);
-    std::vector<MaterialPoint<Dim>> nearest;
+    MaterialPoints<Dim> nearest;
     if (bundle.target != bundle.body) {
         nearest = nearest_in_body(workers, bodies, bundle.target, vertices);
     }
