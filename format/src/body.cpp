@@ -240,10 +240,10 @@ void BodyReader::check_checksum() const {
     }
 }
 
-void BodyReader::read(const std::vector<Column>& columns) {
+void BodyReader::read(const std::vector<Column>& columns, std::uint64_t in_front) {
     const PlyElement& element = header_.elements[next_element_++];
     if (header_.info.encoding == Encoding::Ascii) {
-        read_ascii(element, columns);
+        read_ascii(element, columns, in_front);
     } else {
         read_binary(element, columns);
     }
@@ -272,7 +272,9 @@ void BodyReader::read_binary(const PlyElement& element, const std::vector<Column
     }
 }
 
-void BodyReader::read_ascii(const PlyElement& element, const std::vector<Column>& columns) {
+void BodyReader::read_ascii(const PlyElement& element,
+                            const std::vector<Column>& columns,
+                            std::uint64_t in_front) {
     std::vector<const Column*> bound;
     for (const PlyProperty& property : element.properties) {
         bound.push_back(find_column(columns, property.name));
@@ -286,16 +288,16 @@ void BodyReader::read_ascii(const PlyElement& element, const std::vector<Column>
             }
             const PlyProperty& property = element.properties[i];
             if (at == end || *at == '\n') {
-                fail(row_name(element, row), std::string(at == end ? "the file" : "the line")
-                                                 + " ends before " + property.name + ", expected "
-                                                 + std::to_string(bound.size())
-                                                 + " numbers a line");
+                fail(row_name(element, in_front + row),
+                     std::string(at == end ? "the file" : "the line") + " ends before "
+                         + property.name + ", expected " + std::to_string(bound.size())
+                         + " numbers a line");
             }
             char* target = bound[i] == nullptr ? nullptr : bound[i]->data + row * bound[i]->stride;
             const char* next = parse_number(at, end, property.type, target);
             if (next == nullptr || (next != end && *next != ' ' && *next != '\n')) {
                 const std::string_view rest(at, static_cast<std::size_t>(end - at));
-                fail(row_name(element, row),
+                fail(row_name(element, in_front + row),
                      property.name + " is " + printable(rest.substr(0, rest.find_first_of(" \n")))
                          + ", expected a number of type " + std::string(name_of(property.type)));
             }
@@ -303,7 +305,7 @@ void BodyReader::read_ascii(const PlyElement& element, const std::vector<Column>
         }
         const std::size_t line_end = body_.find_first_not_of(' ', at_);
         if (line_end == std::string_view::npos || body_[line_end] != '\n') {
-            fail(row_name(element, row),
+            fail(row_name(element, in_front + row),
                  line_end == std::string_view::npos
                      ? "the file ends here, expected a newline"
                      : "more than " + std::to_string(bound.size()) + " numbers on the line");

@@ -44,7 +44,9 @@ public:
 
     /// Reads the next element. Properties without a column are skipped; columns without a property
     /// are left as they are.
-    void read(const std::vector<Column>& columns);
+    ///
+    /// @param in_front  Rows of the element that are not here, which messages count.
+    void read(const std::vector<Column>& columns, std::uint64_t in_front = 0);
 
     /// Skips the elements that are left and checks that nothing follows; the checksum of ascii.
     void finish();
@@ -53,7 +55,9 @@ private:
     [[noreturn]] void fail(const std::string& where, const std::string& what) const;
     void check_checksum() const;
     void read_binary(const PlyElement& element, const std::vector<Column>& columns);
-    void read_ascii(const PlyElement& element, const std::vector<Column>& columns);
+    void read_ascii(const PlyElement& element,
+                    const std::vector<Column>& columns,
+                    std::uint64_t in_front);
     void skip_binary(const PlyElement& element);
     void skip_ascii(const PlyElement& element);
 

@@ -13,6 +13,7 @@
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace pent {
@@ -67,16 +68,52 @@ std::vector<Value> cut(const std::vector<Value>& values, Eigen::Index first, Eig
                           : std::vector<Value>(values.begin() + first, values.begin() + last);
 }
 
-// The rows of one element alone, read as if they were a file.
+// Where the rows of one element are in a file.
+struct RowBytes {
+    std::uint64_t first = 0;
+    std::uint64_t last = 0;      // behind them
+    std::uint64_t in_front = 0;  // rows of the element
+};
+
+// They alone, read as if they were a file.
 void read_rows(const std::filesystem::path& path,
-               std::uint64_t offset,
+               Encoding encoding,
+               const RowBytes& bytes,
                const PlyElement& rows,
                const std::vector<Column>& columns) {
-    const std::size_t bytes = row_bytes(rows) * rows.count;
-    const InputFile file = read_input(path, bytes, offset);
+    const InputFile file = read_input(path, bytes.last - bytes.first, bytes.first);
     Header header;
+    header.info.encoding = encoding;
     header.elements = {rows};
-    BodyReader(header, file.view(), path).read(columns);
+    BodyReader(header, file.view(), path).read(columns, bytes.in_front);
+}
+
+// Lines of text: where every so many of them begin, since each is as long as its numbers.
+constexpr std::uint64_t kLines = 1024;
+
+// Goes through a text file behind its header. Calls visit(line, at) for every kLines-th line that
+// ends, with how many are in front of it and where it begins, and at the end; returns both.
+template <typename Visit>
+std::pair<std::uint64_t, std::uint64_t> for_each_line(const std::filesystem::path& path,
+                                                      std::uint64_t begin,
+                                                      const Visit& visit) {
+    constexpr std::size_t kPiece = std::size_t{1} << 20;
+    std::uint64_t at = begin;
+    std::uint64_t line = 0;
+    std::uint64_t line_begin = begin;
+    for (;;) {
+        const InputFile piece = read_input(path, kPiece, at);
+        if (piece.bytes == 0) {
+            return {line, line_begin};
+        }
+        const std::string_view text = piece.view();
+        for (std::size_t end = text.find('\n'); end != std::string_view::npos;
+             end = text.find('\n', end + 1)) {
+            visit(line++, line_begin);
+            line_begin = at + end + 1;
+        }
+        at += piece.bytes;
+    }
 }
 
 Header header_of(const std::filesystem::path& path) {
@@ -145,7 +182,7 @@ void check_checksum(const std::filesystem::path& path, const SlabWriters* reader
         header = header_of(path);
         bytes = std::filesystem::file_size(path) - header.body;
     });
-    if (!header.has_checksum || header.info.encoding != Encoding::Binary) {
+    if (!header.has_checksum) {
         return;
     }
     const std::uint64_t count = readers != nullptr ? readers->list(0).size() : 1;
@@ -172,11 +209,77 @@ struct MeshSource<Dim>::Content {
     Header header;
     FileInfo info;
     std::optional<Extrusion<Dim>> extrusion;
+    // Of text: where every kLines-th cell begins, and where the last ends.
+    std::vector<std::uint64_t> cell_lines;
+
+    void find_lines();
+    [[nodiscard]] RowBytes vertex_bytes() const;
+    [[nodiscard]] RowBytes cell_bytes(std::uint64_t first, std::uint64_t last) const;
 };
+
+// Lines that are missing, but for those of other elements, are missed where they are read.
+template <int Dim>
+void MeshSource<Dim>::Content::find_lines() {
+    const std::uint64_t vertices = header.elements[0].count;
+    const std::uint64_t cells = header.elements[1].count;
+    std::uint64_t expected = 0;
+    for (const PlyElement& element : header.elements) {
+        expected += element.count;
+    }
+    std::uint64_t end = 0;  // of the cells, and of all
+    std::uint64_t end_of_all = 0;
+    const auto [lines, last] =
+        for_each_line(path, header.body, [&](std::uint64_t line, std::uint64_t at) {
+            if (line >= vertices && line < vertices + cells && (line - vertices) % kLines == 0) {
+                cell_lines.push_back(at);
+            }
+            end = line == vertices + cells ? at : end;
+            end_of_all = line == expected ? at : end_of_all;
+        });
+    const std::uint64_t bytes = std::filesystem::file_size(path);
+    cell_lines.push_back(lines > vertices + cells ? end : bytes);
+    std::uint64_t in_front = vertices + cells;
+    for (std::size_t i = 2; i < header.elements.size(); in_front += header.elements[i++].count) {
+        const PlyElement& element = header.elements[i];
+        if (lines >= in_front && lines - in_front < element.count) {
+            throw Error(path.string() + ": " + element.name + " " + std::to_string(lines - in_front)
+                        + ": the file ends here: it is truncated");
+        }
+    }
+    const std::uint64_t behind = lines > expected ? bytes - end_of_all : bytes - last;
+    if (lines >= expected && behind > 0) {
+        throw Error(path.string() + ": end of file: " + std::to_string(behind)
+                    + " bytes follow the last element, expected none");
+    }
+}
+
+template <int Dim>
+RowBytes MeshSource<Dim>::Content::vertex_bytes() const {
+    const PlyElement& vertex = header.elements[0];
+    return {.first = header.body,
+            .last = cell_lines.empty() ? header.body + vertex.count * row_bytes(vertex)
+                                       : cell_lines.front()};
+}
+
+// In text some lines in front of the first cell, and some behind the last, are read, too.
+template <int Dim>
+RowBytes MeshSource<Dim>::Content::cell_bytes(std::uint64_t first, std::uint64_t last) const {
+    if (cell_lines.empty()) {
+        const std::uint64_t begin = vertex_bytes().last;
+        const std::uint64_t each = row_bytes(header.elements[1]);
+        return {.first = begin + first * each, .last = begin + last * each, .in_front = first};
+    }
+    const auto at = [&](std::uint64_t piece) {
+        return cell_lines[std::min<std::uint64_t>(piece, cell_lines.size() - 1)];
+    };
+    return {.first = at(first / kLines),
+            .last = at((last + kLines - 1) / kLines),
+            .in_front = first / kLines * kLines};
+}
 
 template <int Dim>
 bool MeshSource<Dim>::can_read(const FileInfo& info) {
-    return info.is_extrusion || (info.encoding == Encoding::Binary && !info.is_frame);
+    return !info.is_frame;
 }
 
 template <int Dim>
@@ -197,6 +300,9 @@ MeshSource<Dim>::MeshSource(const std::filesystem::path& path, int parts)
     if (header.info.cells == 0 || header.info.cells > kMaxRows) {
         throw Error(path.string() + ": " + std::to_string(header.info.cells) + " "
                     + std::string(cell_name_plural(Dim)) + ", expected 1 to 4294967295");
+    }
+    if (header.info.encoding == Encoding::Ascii) {
+        content_->find_lines();
     }
 }
 
@@ -225,7 +331,8 @@ SimplexMesh<Dim> MeshSource<Dim>::vertices() const {
     const PlyElement& vertex = content_->header.elements[0];
     SimplexMesh<Dim> mesh;
     size_vertices(vertex, content_->path, mesh);
-    read_rows(content_->path, content_->header.body, vertex, vertex_columns(mesh));
+    read_rows(content_->path, content_->header.info.encoding, content_->vertex_bytes(), vertex,
+              vertex_columns(mesh));
     return mesh;
 }
 
@@ -243,16 +350,17 @@ SimplexMesh<Dim> MeshSource<Dim>::cells(Eigen::Index first, Eigen::Index last) c
         return rows_of<Dim>(extrude_cells<Dim>(*content_->extrusion, base),
                             {.first_cell = first - before, .last_cell = last - before});
     }
-    const PlyElement& vertex = content_->header.elements[0];
+    const RowBytes bytes =
+        content_->cell_bytes(static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(last));
+    const auto in_front = static_cast<Eigen::Index>(bytes.in_front);
     PlyElement rows = content_->header.elements[1];
-    rows.count = static_cast<std::uint64_t>(last - first);
+    rows.count = static_cast<std::uint64_t>(last) - bytes.in_front;
     SimplexMesh<Dim> mesh;
     size_cells(rows, content_->path, mesh);
-    read_rows(content_->path,
-              content_->header.body + vertex.count * row_bytes(vertex)
-                  + static_cast<std::uint64_t>(first) * row_bytes(rows),
-              rows, cell_columns(mesh));
-    return mesh;
+    read_rows(content_->path, content_->header.info.encoding, bytes, rows, cell_columns(mesh));
+    return in_front == first
+               ? mesh
+               : rows_of(mesh, {.first_cell = first - in_front, .last_cell = last - in_front});
 }
 
 template <int Dim>

@@ -207,7 +207,7 @@ TEST_F(MpiRuns, OfBaseAndLayersAreThoseOfTheMesh) {
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
 }
 
-// No rank has a whole mesh: each reads slabs of a file and keeps the cells of its vertices, or
+// No rank has a whole mesh: each reads slabs of a file and keeps the cells that it needs, or
 // extrudes these, with their labels, and writes a slab.
 TEST_F(MpiRuns, InWhichNoRankHasAWholeMeshAreThoseOfOne) {
     const Extrusion<4> made = extrusion();
@@ -229,10 +229,7 @@ TEST_F(MpiRuns, InWhichNoRankHasAWholeMeshAreThoseOfOne) {
     };
     for (const int ranks : {2, 3}) {
         const std::string number = std::to_string(ranks);
-        for (const std::string mesh : {"base", "whole", "text"}) {  // of text each has all
-            if (mesh == "text" && ranks > 2) {
-                continue;
-            }
+        for (const std::string mesh : {"base", "whole", "text"}) {
             const Outcome run = simulate(ranks, mesh, mesh + number);
             ASSERT_EQ(run.exit_code, 0) << run.err;
             for (const std::string body : {"a", "b"}) {
@@ -244,6 +241,108 @@ TEST_F(MpiRuns, InWhichNoRankHasAWholeMeshAreThoseOfOne) {
         }
     }
     EXPECT_GT(report("base3").steps.back().contact.point_facet, 0);
+}
+
+// Cells around edges reach a cell farther, in a file and over the base of layers.
+TEST_F(MpiRuns, OfSmoothedElementsAreThoseOfTheMesh) {
+    const Extrusion<4> made = extrusion();
+    static_cast<void>(write_extrusion<4>(path("base.pent"), made));
+    static_cast<void>(write_mesh(path("whole.pent"),
+                                 extrude<4>(made.base, made.ordered, made.layers, made.options)));
+    for (const std::string mesh : {"base", "whole"}) {
+        std::string scene = kTwins;
+        for (std::size_t at = 0; (at = scene.find("MESH")) != std::string::npos;) {
+            scene.replace(at, 4, mesh);
+        }
+        scene.replace(scene.find("frames = 4"), 10, "frames = 1");
+        const std::size_t contact = scene.find("[contact]");  // penalties have kinks
+        scene.erase(contact, scene.find("[solver]") - contact);
+        write(mesh, scene + "newton_tolerance = 1e-7\nelements = \"smoothed\"\n");
+    }
+    ASSERT_EQ(simulate(0, "whole", "alone").exit_code, 0);
+    for (const int ranks : {2, 3}) {
+        const std::string number = std::to_string(ranks);
+        for (const std::string mesh : {"base", "whole"}) {
+            const Outcome run = simulate(ranks, mesh, mesh + number);
+            ASSERT_EQ(run.exit_code, 0) << run.err;
+        }
+        for (const std::string body : {"a", "b"}) {
+            EXPECT_EQ(text_of(frame("base" + number, body, 1)),
+                      text_of(frame("whole" + number, body, 1)));
+            expect_near<4>("whole" + number, "alone", body, 1, 1e-6);
+        }
+    }
+}
+
+// Fibers of cells that ranks have in part, and ties to cells that another rank has.
+TEST_F(MpiRuns, OfFibersAndAttachmentsGoWherePentSimGoes) {
+    SimplexMesh<4> mesh = kuhn_box<4>({4, 2, 1, 2}, {0.6, 0.4, 0.2, 0.4});
+    mesh.fibers.resize(4, mesh.cell_count());
+    for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+        mesh.regions.push_back(cell % 3 == 1 ? 7 : 3);
+        mesh.fibers.col(cell) << 1, 0.1 * static_cast<double>(cell % 7), 0, 0.2;
+    }
+    static_cast<void>(write_mesh(path("fibers.pent"), mesh));
+    std::string scene = kTwins;
+    for (std::size_t at = 0; (at = scene.find("MESH")) != std::string::npos;) {
+        scene.replace(at, 4, "fibers");
+    }
+    const std::size_t contact = scene.find("[contact]");
+    scene.replace(contact, scene.find("[solver]") - contact, R"([[activation]]
+body = "a"
+select = { region = 7 }
+stretch = 0.9
+fibers = "mesh"
+
+[[attachment]]
+body = "b"
+target = "a"
+select = { half_space = { normal = [0, 1, 0, 0], offset = 0.42 } }
+stiffness = 10
+max_distance = 0.5
+
+)");
+    scene.replace(scene.find("offset = -0.2"), 13, "offset = 1e-6");
+    write("muscle", scene + "newton_tolerance = 1e-7\n");
+    const Outcome alone = simulate(0, "muscle", "alone");
+    ASSERT_EQ(alone.exit_code, 0) << alone.err;
+    for (const int ranks : {1, 2, 3, 4}) {
+        const std::string run = "on" + std::to_string(ranks);
+        const Outcome outcome = simulate(ranks, "muscle", run);
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        for (const std::string body : {"a", "b"}) {
+            expect_near<4>(run, "alone", body, 1, 1e-6);
+            expect_near<4>(run, "alone", body, 4, 1e-5);
+        }
+    }
+}
+
+// Of quadratic cells a rank keeps those that have a node of its own, with all of their children.
+TEST_F(MpiRuns, OfQuadraticElementsGoWherePentSimGoes) {
+    static_cast<void>(write_mesh(path("parents.pent"),
+                                 test::quadratic_kuhn_box<4>({3, 1, 1, 1}, {1.5, 0.5, 0.5, 0.5})));
+    std::string scene = kBar;
+    scene.replace(scene.find("bar.pent"), 3, "parents");
+    write("quadratic", scene + "elements = \"quadratic\"\n");
+    ASSERT_EQ(simulate(0, "quadratic", "alone").exit_code, 0);
+    for (const int ranks : {1, 2, 3, 4}) {
+        const std::string run = "of" + std::to_string(ranks);
+        const Outcome outcome = simulate(ranks, "quadratic", run);
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        expect_near<4>(run, "alone", "bar", 1, 1e-6);
+        expect_near<4>(run, "alone", "bar", 4, 1e-5);
+        EXPECT_EQ(read_info(path(run + "/meshes/bar.pent")).crc32c,
+                  read_info(path("alone/meshes/bar.pent")).crc32c);
+    }
+    // What is wrong with other meshes is said as pent-sim says it.
+    scene.replace(scene.find("parents"), 7, "bar");
+    write("linear_mesh", scene + "elements = \"quadratic\"\n");
+    const Outcome alone = simulate(0, "linear_mesh", "wrong");
+    EXPECT_EQ(alone.exit_code, 1);
+    const auto said = [](const Outcome& outcome) {
+        return outcome.err.substr(outcome.err.find(": "));
+    };
+    EXPECT_EQ(said(simulate(3, "linear_mesh", "wrong")), said(alone));
 }
 
 // By checksums, of which each rank finds a part.

@@ -91,15 +91,22 @@ TEST(MeshSource, HasTheVerticesAndAnyCellsOfTheWholeMesh) {
     static_cast<void>(write_extrusion(folder / "prisms.pent", box_with_layers(false)));
     static_cast<void>(write_extrusion(folder / "cones.pent", box_with_layers(true),
                                       {.encoding = Encoding::Ascii}));
-    for (const char* name : {"rich.pent", "plain.pent", "prisms.pent", "cones.pent"}) {
+    static_cast<void>(
+        write_mesh(folder / "text.pent", rich_box(), {.encoding = Encoding::Ascii}, extras));
+    static_cast<void>(write_mesh(folder / "long.pent",
+                                 test::kuhn_box<4>({5, 4, 3, 2}, {1, 1, 1, 1}),
+                                 {.encoding = Encoding::Ascii}));  // more lines than one piece
+    for (const char* name :
+         {"rich.pent", "plain.pent", "prisms.pent", "cones.pent", "text.pent", "long.pent"}) {
         const SimplexMesh<4> whole = read_mesh<4>(folder / name).mesh;
         ASSERT_TRUE(MeshSource<4>::can_read(read_info(folder / name)));
         const MeshSource<4> source(folder / name, 1);
         EXPECT_EQ(source.info().cells, static_cast<std::uint64_t>(whole.cell_count()));
         SimplexMesh<4> vertices = source.vertices();
         EXPECT_EQ(vertices.cell_count(), 0);
-        for (Eigen::Index first = 0; first <= whole.cell_count(); first += 5) {
-            for (Eigen::Index last = first; last <= whole.cell_count(); last += 7) {
+        const Eigen::Index stride = whole.cell_count() / 17 + 1;
+        for (Eigen::Index first = 0; first <= whole.cell_count(); first += stride) {
+            for (Eigen::Index last = first; last <= whole.cell_count(); last += stride + 2) {
                 SimplexMesh<4> part = source.cells(first, last);
                 const SimplexMesh<4> expected = rows_of(whole, {0, 0, first, last});
                 EXPECT_EQ(part.cells, expected.cells);
@@ -205,6 +212,44 @@ TEST(MeshSource, SaysWhatIsWrongWithAFile) {
                     {"cut.pent", "the file is truncated"});
     expect_contains(error_of([&] { MeshSource<4>(folder / "none.pent", 2); }),
                     {"none.pent", "cannot be read"});
+    // Text, in the words of whoever reads all of it.
+    static_cast<void>(write_mesh(folder / "text.pent", rich_box(), {.encoding = Encoding::Ascii}));
+    const std::string text = bytes_of(folder / "text.pent");
+    const std::size_t body = text.find("end_header\n") + 11;
+    const auto line = [&](int number) {
+        std::size_t at = body;
+        while (number-- > 0) {
+            at = text.find('\n', at) + 1;
+        }
+        return at;
+    };
+    const auto says_the_same = [&](const std::string& bytes) {
+        std::ofstream(folder / "text.pent", std::ios::binary) << bytes;
+        const std::string expected =
+            error_of([&] { static_cast<void>(read_mesh<4>(folder / "text.pent")); });
+        EXPECT_NE(expected, "");
+        EXPECT_EQ(error_of([&] {
+                      const MeshSource<4> slabs(folder / "text.pent", 2);
+                      static_cast<void>(slabs.vertices());
+                      static_cast<void>(slabs.cells(0, 40));
+                      static_cast<void>(slabs.cells(40, 96));
+                      check_checksum(folder / "text.pent", nullptr);
+                  }),
+                  expected);
+    };
+    says_the_same(text + "1 2 3\n");
+    says_the_same(text + "7");
+    says_the_same(text.substr(0, text.size() - 3));
+    says_the_same(text.substr(0, line(36 + 94)));
+    std::string changed = text;
+    changed[line(36 + 50) + 1] = 'x';
+    says_the_same(changed);
+    changed = text;
+    changed[line(3)] = 'x';
+    says_the_same(changed);
+    changed = text;
+    changed[line(36 + 95) - 2] = changed[line(36 + 95) - 2] == '7' ? '8' : '7';
+    says_the_same(changed);
     // A file that is changed while it is open.
     const MeshSource<4> source(folder / "a.pent", 2);
     std::ofstream(folder / "a.pent", std::ios::binary) << good.substr(0, good.size() / 2);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <set>
+#include <vector>
 
 // Bodies by way of make_bodies(), which begins with appending them.
 
@@ -97,28 +98,33 @@ TYPED_TEST(AppendBodies, PutsCellsOfOneMaterialBehindOneAnother) {
     }
 }
 
-// Linear elements need no quadratic cells; of quadratic ones each has 2^d cells as children, and
-// the one that it names lies within it, of the same material.
-TYPED_TEST(AppendBodies, NamesAChildOfEveryQuadraticCell) {
+// Linear elements need no quadratic cells; of quadratic ones each has 2^d cells as children, which
+// lie within it and are of the same material.
+TYPED_TEST(AppendBodies, NamesTheParentOfEveryCell) {
     constexpr int kDim = TypeParam::value;
     EXPECT_EQ(half_heavy_bodies<kDim>(ElementKind::Linear).quadratic.nodes.cols(), 0);
+    EXPECT_TRUE(half_heavy_bodies<kDim>(ElementKind::Linear).quadratic.parents.empty());
     const Bodies<kDim> bodies = half_heavy_bodies<kDim>(ElementKind::Quadratic);
     const QuadraticCells<kDim>& quadratic = bodies.quadratic;
     EXPECT_EQ(quadratic.nodes.cols() << kDim, bodies.cells.cols());
     ASSERT_EQ(quadratic.ranges.size(), bodies.ranges.size());
+    ASSERT_EQ(static_cast<Eigen::Index>(quadratic.parents.size()), bodies.cells.cols());
+    std::vector<int> children(static_cast<std::size_t>(quadratic.nodes.cols()), 0);
     for (std::size_t i = 0; i < quadratic.ranges.size(); ++i) {
         const CellRange& range = quadratic.ranges[i];
-        EXPECT_EQ((range.end - range.begin) << kDim, bodies.ranges[i].end - bodies.ranges[i].begin);
         EXPECT_EQ(range.material.density, bodies.ranges[i].material.density);
-        for (Eigen::Index simplex = range.begin; simplex < range.end; ++simplex) {
-            const auto nodes = quadratic.nodes.col(simplex);
-            const auto child = quadratic.first_child[static_cast<std::size_t>(simplex)];
-            for (const std::uint32_t v : bodies.meshes[range.body].cells.col(child)) {
-                const auto vertex = v + static_cast<std::uint32_t>(bodies.first_vertex[range.body]);
+        for (Eigen::Index cell = bodies.ranges[i].begin; cell < bodies.ranges[i].end; ++cell) {
+            const std::uint32_t parent = quadratic.parents[static_cast<std::size_t>(cell)];
+            EXPECT_GE(parent, range.begin);
+            EXPECT_LT(parent, range.end);
+            ++children[parent];
+            const auto nodes = quadratic.nodes.col(parent);
+            for (const std::uint32_t vertex : bodies.cells.col(cell)) {
                 EXPECT_NE(std::find(nodes.begin(), nodes.end(), vertex), nodes.end());
             }
         }
     }
+    EXPECT_EQ(std::count(children.begin(), children.end(), 1 << kDim), quadratic.nodes.cols());
 }
 
 }  // namespace

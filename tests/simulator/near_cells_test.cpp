@@ -1,8 +1,10 @@
 #include "model/near_cells.h"
 
 #include "model/body_dofs.h"
+#include "model/quadratic_cells.h"
 #include "scenes.h"
 #include "step/rank_agreement.h"
+#include "support/kuhn_box.h"
 #include "thread_ranks.h"
 
 #include <pent/simulator/simulation.h>
@@ -11,6 +13,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace pent::simulator {
@@ -79,6 +83,96 @@ TEST(NearCells, AreThoseThatTouchAVertexOfTheRank) {
     }
 }
 
+// Of quadratic cells all that have a node of the rank, with all of their children, by parents and
+// where these follow one another.
+TEST(NearCells, AreAllChildrenOfQuadraticCellsOfTheRank) {
+    const SimplexMesh<4> with_parents =
+        pent::test::quadratic_kuhn_box<4>({3, 1, 1, 1}, {1.5, 0.5, 0.5, 0.5});
+    SimplexMesh<4> in_order = with_parents;
+    const std::vector<Eigen::Index> children = child_cells<4>(with_parents, "");
+    in_order.cells = with_parents.cells(Eigen::all, children);
+    in_order.parents.clear();
+    for (const SimplexMesh<4>& mesh : {with_parents, in_order}) {
+        Scene scene = two_bars();
+        scene.solver.elements = ElementKind::Quadratic;
+        const Bodies<4> all = make_bodies<4>(scene, {mesh, mesh});
+        test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
+            const Bodies<4> near = share(scene, make_bodies<4>(scene, {mesh, mesh}), ranks);
+            std::vector<Eigen::Index> simplices;
+            for (Eigen::Index i = 0; i < all.quadratic.nodes.cols(); ++i) {
+                const auto nodes = all.quadratic.nodes.col(i);
+                if (std::any_of(nodes.begin(), nodes.end(),
+                                [&](std::uint32_t vertex) { return near.sharing.owns(vertex); })) {
+                    simplices.push_back(i);
+                }
+            }
+            EXPECT_LT(simplices.size(), static_cast<std::size_t>(all.quadratic.nodes.cols()));
+            EXPECT_EQ(near.quadratic.nodes, all.quadratic.nodes(Eigen::all, simplices));
+            std::vector<Eigen::Index> cells;
+            std::vector<std::uint32_t> parents;
+            for (Eigen::Index cell = 0; cell < all.cells.cols(); ++cell) {
+                const std::uint32_t parent = all.quadratic.parents[static_cast<std::size_t>(cell)];
+                const auto place = std::lower_bound(simplices.begin(), simplices.end(), parent);
+                if (place != simplices.end() && *place == parent) {
+                    cells.push_back(cell);
+                    parents.push_back(static_cast<std::uint32_t>(place - simplices.begin()));
+                }
+            }
+            EXPECT_EQ(near.cells, all.cells(Eigen::all, cells));
+            EXPECT_EQ(near.quadratic.parents, parents);
+            for (std::size_t i = 0; i < all.ranges.size(); ++i) {
+                const auto before = [&](Eigen::Index end) {
+                    return std::lower_bound(simplices.begin(), simplices.end(), end)
+                           - simplices.begin();
+                };
+                EXPECT_EQ(near.quadratic.ranges[i].begin, before(all.quadratic.ranges[i].begin));
+                EXPECT_EQ(near.quadratic.ranges[i].end, before(all.quadratic.ranges[i].end));
+            }
+        });
+    }
+}
+
+// Of smoothed elements those of every edge of which a cell touches a vertex of the rank, complete:
+// all cells that share two vertices with such a cell are there.
+TEST(NearCells, AreAllAroundTheEdgesOfSmoothedElementsOfTheRank) {
+    Scene scene = two_bars();
+    scene.solver.elements = ElementKind::Smoothed;
+    const std::vector<SimplexMesh<4>> long_bars = {test::bar(12), test::bar(12)};
+    const Bodies<4> all = make_bodies<4>(scene, long_bars);
+    test::on_ranks(4, [&](const std::shared_ptr<const Ranks>& ranks) {
+        const Bodies<4> near = share(scene, make_bodies<4>(scene, long_bars), ranks);
+        std::set<std::pair<std::uint32_t, std::uint32_t>> edges;  // of cells that touch a vertex
+        const auto for_each_edge = [&](Eigen::Index cell, const auto& visit) {
+            for (const std::uint32_t a : all.cells.col(cell)) {
+                for (const std::uint32_t b : all.cells.col(cell)) {
+                    if (a < b) {
+                        visit(std::pair(a, b));
+                    }
+                }
+            }
+        };
+        for (Eigen::Index cell = 0; cell < all.cells.cols(); ++cell) {
+            const auto corners = all.cells.col(cell);
+            if (std::any_of(corners.begin(), corners.end(),
+                            [&](std::uint32_t vertex) { return near.sharing.owns(vertex); })) {
+                for_each_edge(cell, [&](const auto& edge) { edges.insert(edge); });
+            }
+        }
+        std::set<std::vector<std::uint32_t>> kept;
+        for (const auto cell : near.cells.colwise()) {
+            kept.emplace(cell.begin(), cell.end());
+        }
+        EXPECT_LT(near.cells.cols(), all.cells.cols());
+        for (Eigen::Index cell = 0; cell < all.cells.cols(); ++cell) {
+            bool is_needed = false;
+            for_each_edge(
+                cell, [&](const auto& edge) { is_needed = is_needed || edges.count(edge) > 0; });
+            const auto corners = all.cells.col(cell);
+            EXPECT_LE(is_needed, kept.count({corners.begin(), corners.end()}) > 0) << cell;
+        }
+    });
+}
+
 TEST(NearCells, AreAllOfThemWhereATermAsksForMore) {
     const Scene scene = two_bars();
     EXPECT_FALSE(do_terms_need_all_cells(scene));
@@ -90,19 +184,19 @@ TEST(NearCells, AreAllOfThemWhereATermAsksForMore) {
     Scene tied = scene;
     tied.attachments.resize(1);
     EXPECT_TRUE(do_terms_couple_anything(tied));
-    Scene smoothed = scene;
-    smoothed.solver.elements = ElementKind::Smoothed;
     Scene active = scene;
-    active.activations.resize(1);
-    for (const Scene& other : {tied, smoothed, active}) {
-        EXPECT_TRUE(do_terms_need_all_cells(other));
-    }
+    active.activations = {
+        {.body = "box", .select = {EverythingSelection{}}, .fibers = Fibers::Constant}};
+    EXPECT_FALSE(do_terms_need_all_cells(active));
+    active.activations[0].fibers = Fibers::Distance;
+    EXPECT_FALSE(do_terms_need_all_cells(tied));  // ranks agree on the nearest of all
+    EXPECT_TRUE(do_terms_need_all_cells(active));
     Scene dense = scene;  // each rank has those of its own vertices
     dense.output.vertex = {VertexQuantity::EnergyDensity};
     EXPECT_FALSE(do_terms_need_all_cells(dense));
     test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
-        EXPECT_EQ(share(smoothed, make_bodies<4>(smoothed, meshes()), ranks).cells.cols(),
-                  make_bodies<4>(smoothed, meshes()).cells.cols());
+        EXPECT_EQ(share(active, make_bodies<4>(scene, meshes()), ranks).cells.cols(),
+                  make_bodies<4>(scene, meshes()).cells.cols());
     });
 }
 

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -30,7 +32,10 @@ template <int Dim>
 MaterialPoint<Dim> nearest_point(const Positions<Dim>& positions,
                                  const Simplices<Dim + 1>& cells,
                                  const Vector<Dim>& point) {
-    return NearestPointSearch<Dim>(positions, cells).nearest(point);
+    const NearestPointSearch<Dim> search(positions, cells);
+    const std::optional<Eigen::Index> first = search.first_at(point, search.distance(point));
+    EXPECT_TRUE(first);
+    return search.nearest_in(first.value_or(0), point);
 }
 
 // q is the nearest point of a convex body to p just where no corner c has (p - q) . (c - q) > 0:
@@ -114,6 +119,17 @@ TYPED_TEST(NearestPoint, IsOfTheSameCellHoweverNumbersAreRounded) {
             EXPECT_EQ(nearest_point<kDim>(moved, mesh.cells, there).vertices, expected);
         }
     }
+}
+
+TYPED_TEST(NearestPoint, IsNoneWhereThereAreNoCellsOrAllAreFarther) {
+    constexpr int kDim = TypeParam::value;
+    const SimplexMesh<kDim> mesh = test::cube<kDim>(1);
+    const Vector<kDim> point = Vector<kDim>::Constant(1);
+    const NearestPointSearch<kDim> none(mesh.positions, Simplices<kDim + 1>(kDim + 1, 0));
+    EXPECT_TRUE(std::isinf(none.distance(point)));
+    EXPECT_FALSE(none.first_at(point, 10));
+    const NearestPointSearch<kDim> all(mesh.positions, mesh.cells);
+    EXPECT_FALSE(all.first_at(point, 0.999 * all.distance(point)));
 }
 
 TYPED_TEST(NearestPoint, HasNoWeightAtCornersThatTheNearestFaceLacks) {

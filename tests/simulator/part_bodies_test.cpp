@@ -4,6 +4,7 @@
 #include "cut_meshes.h"
 #include "model/held_vertices.h"
 #include "model/near_cells.h"
+#include "model/nearest_in_body.h"
 #include "model/part_selection.h"
 #include "scenes.h"
 #include "support/messages.h"
@@ -17,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include <initializer_list>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -40,7 +42,7 @@ Scene two_bars() {
 }
 
 // With labels, two to a cube.
-std::vector<SimplexMesh<4>> meshes() {
+std::vector<SimplexMesh<4>> bars() {
     SimplexMesh<4> bar = test::bar();
     for (Eigen::Index cell = 0; cell < bar.cell_count(); ++cell) {
         bar.regions.push_back(static_cast<std::uint16_t>(cell / 24 + cell % 2));
@@ -48,9 +50,22 @@ std::vector<SimplexMesh<4>> meshes() {
     return {bar, bar};
 }
 
+// The same cells as the children of quadratic ones.
+std::vector<SimplexMesh<4>> quadratic_bars() {
+    SimplexMesh<4> bar = pent::test::quadratic_kuhn_box<4>({3, 1, 1, 1}, {1.5, 0.5, 0.5, 0.5});
+    const SimplexMesh<4> layered = test::bar();
+    bar.layers = layered.layers;
+    bar.columns = layered.columns;
+    for (const std::uint32_t parent : bar.parents) {
+        bar.regions.push_back(static_cast<std::uint16_t>(parent % 7));
+    }
+    return {bar, bar};
+}
+
 // The same with regions by all that selects, and with what takes hold of cells with a label.
-Scene bars_of_regions() {
+Scene bars_of_regions(ElementKind kind = ElementKind::Linear) {
     Scene scene = two_bars();
+    scene.solver.elements = kind;
     const auto region = [&](const std::string& name, const Selection& select, double density) {
         Region made{.name = name, .select = {select}, .material = scene.bodies[0].material};
         made.material.density = density;
@@ -60,7 +75,9 @@ Scene bars_of_regions() {
         region("ball", BallSelection{.center = Eigen::Vector4d(0.4, 0.2, 0.2, 0.2), .radius = 0.3},
                500),
         region("label", RegionSelection{.region = 5}, 700)};
-    scene.bodies[1].regions = {region("layers", LayerSelection{.first = 0, .last = 1}, 300)};
+    scene.bodies[1].regions = {
+        region("layers",
+               LayerSelection{.first = 0, .last = kind == ElementKind::Quadratic ? 2U : 1U}, 300)};
     scene.constraints.push_back(test::hold(RegionSelection{.region = 5}, test::still(4)));
     scene.constraints.back().body = "second";
     scene.loads = {{.body = "box",
@@ -70,14 +87,15 @@ Scene bars_of_regions() {
 }
 
 // What is made of parts is what is made of whole meshes, but for the cells of the meshes.
-void expect_those_of_whole_meshes(const Scene& scene) {
-    const Bodies<4> all = make_bodies<4>(scene, meshes());
+void expect_those_of_whole_meshes(const Scene& scene,
+                                  const std::vector<SimplexMesh<4>>& meshes = bars()) {
+    const Bodies<4> all = make_bodies<4>(scene, meshes);
     ASSERT_FALSE(is_of_parts(all));
     for (const int count : {1, 2, 3, 5}) {
         SCOPED_TRACE(count);
         test::on_ranks(count, [&](const std::shared_ptr<const Ranks>& ranks) {
             const Bodies<4> own =
-                make_part_bodies<4>(scene, test::cut_meshes<4>(scene, meshes(), *ranks), ranks);
+                make_part_bodies<4>(scene, test::cut_meshes<4>(scene, meshes, *ranks), ranks);
             EXPECT_TRUE(is_of_parts(own));
             EXPECT_EQ(own.rest, all.rest);
             EXPECT_EQ(own.masses, all.masses);
@@ -87,7 +105,7 @@ void expect_those_of_whole_meshes(const Scene& scene) {
             EXPECT_EQ(HeldVertices<4>(scene, own).now(), HeldVertices<4>(scene, all).now());
             Bodies<4> near = all;
             near.sharing = own.sharing;
-            keep_near_cells(near);
+            keep_near_cells(scene.solver.elements, near);
             EXPECT_EQ(own.cells, near.cells);
             EXPECT_EQ(own.mesh_cells, near.mesh_cells);
             ASSERT_EQ(own.ranges.size(), near.ranges.size());
@@ -102,6 +120,8 @@ void expect_those_of_whole_meshes(const Scene& scene) {
                 EXPECT_EQ(select_vertices(own, 0, load.select, ""),
                           select_vertices(all.meshes[0], load.select, ""));
             }
+            EXPECT_EQ(own.quadratic.nodes, near.quadratic.nodes);
+            EXPECT_EQ(own.quadratic.parents, near.quadratic.parents);
             EXPECT_EQ(own.columns.columns, all.columns.columns);
             EXPECT_EQ(own.meshes[1].positions, all.meshes[1].positions);
             EXPECT_EQ(own.meshes[1].cell_count(), 0);
@@ -126,29 +146,112 @@ TEST(PartBodies, HaveTheRegionsOfWholeMeshesAndWhatLabelsSelect) {
     expect_those_of_whole_meshes(scene);
 }
 
-// All ranks say so, whatever cells they have.
-TEST(PartBodies, RefuseSelectionsOfNothing) {
-    const auto refuses = [](const auto& change, std::initializer_list<std::string> words) {
-        Scene scene = bars_of_regions();
-        change(scene);
-        test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
-            expect_contains(error_of([&] {
-                                Simulation<4>(scene, test::cut_meshes<4>(scene, meshes(), *ranks),
-                                              {.ranks = ranks});
-                            }),
-                            words);
+TEST(PartBodies, HaveTheCellsAroundTheirEdgesWhereElementsAreSmoothed) {
+    expect_those_of_whole_meshes(bars_of_regions(ElementKind::Smoothed));
+}
+
+TEST(PartBodies, HaveTheQuadraticCellsOfWholeMeshesWithTheirRegions) {
+    const Scene scene = bars_of_regions(ElementKind::Quadratic);
+    expect_those_of_whole_meshes(scene, quadratic_bars());
+}
+
+TEST(PartBodies, KnowWhetherCellsMakeUpElements) {
+    Scene scene = two_bars();
+    SimplexMesh<4> mesh = pent::test::quadratic_kuhn_box<4>({3, 1, 1, 1}, {1.5, 0.5, 0.5, 0.5});
+    EXPECT_TRUE(do_cells_make_elements(scene, mesh));
+    scene.solver.elements = ElementKind::Quadratic;
+    EXPECT_TRUE(do_cells_make_elements(scene, mesh));
+    ++mesh.parents.back();
+    EXPECT_FALSE(do_cells_make_elements(scene, mesh));
+    EXPECT_FALSE(do_cells_make_elements(scene, test::bar()));
+}
+
+// Vertices of one bar within another, at corners that many cells of several ranks share, and beyond
+// it: to the bit those of whole meshes.
+TEST(PartBodies, FindThePointsThatAreNearestToVertices) {
+    Scene scene = bars_of_regions();
+    scene.bodies[1].place.translate = Eigen::Vector4d(0.5, 0.25, 0, 0);
+    scene.bodies[1].place.rotate.clear();
+    const Bodies<4> all = make_bodies<4>(scene, bars());
+    const Workers workers(1);
+    std::vector<std::uint32_t> vertices(static_cast<std::size_t>(all.vertices(1).size));
+    std::iota(vertices.begin(), vertices.end(), static_cast<std::uint32_t>(all.vertices(1).begin));
+    const auto expected = nearest_in_body(workers, all, 0, vertices);
+    std::size_t inside = 0;
+    for (const MaterialPoint<4>& point : expected) {
+        inside += point.distance == 0 ? 1 : 0;
+    }
+    EXPECT_GT(inside, 10U);
+    EXPECT_LT(inside + 10, vertices.size());
+    for (const int count : {1, 2, 3, 4}) {
+        test::on_ranks(count, [&](const std::shared_ptr<const Ranks>& ranks) {
+            const Bodies<4> own =
+                make_part_bodies<4>(scene, test::cut_meshes<4>(scene, bars(), *ranks), ranks);
+            const auto found = nearest_in_body(workers, own, 0, vertices);
+            for (std::size_t i = 0; i < vertices.size(); ++i) {
+                EXPECT_EQ(found[i].vertices, expected[i].vertices) << i;
+                EXPECT_EQ(found[i].weights, expected[i].weights) << i;
+                EXPECT_EQ(found[i].distance, expected[i].distance) << i;
+            }
         });
+    }
+}
+
+// All ranks say what one with whole meshes says, whatever cells they have.
+TEST(PartBodies, RefuseSelectionsOfNothingInTheWordsOfWholeMeshes) {
+    const auto refuses = [](const auto& change, std::initializer_list<std::string> words) {
+        for (const ElementKind kind : {ElementKind::Linear, ElementKind::Quadratic}) {
+            Scene scene = bars_of_regions(kind);
+            const std::vector<SimplexMesh<4>> meshes =
+                kind == ElementKind::Linear ? bars() : quadratic_bars();
+            change(scene);
+            const std::string alone = error_of([&] { Simulation<4>(scene, meshes); });
+            expect_contains(alone, words);
+            test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
+                EXPECT_EQ(error_of([&] {
+                              Simulation<4>(scene, test::cut_meshes<4>(scene, meshes, *ranks),
+                                            {.ranks = ranks});
+                          }),
+                          alone);
+            });
+        }
     };
+    const auto region_of = [&](const Selection& select) {
+        return [=](Scene& scene) { scene.bodies[0].regions[1].select = {select}; };
+    };
+    refuses(region_of(RegionSelection{.region = 99}),
+            {"region \"label\" selects no cell", "the mesh has the regions 0 to",
+             "the body as placed reaches from"});
+    refuses(region_of(BallSelection{.center = Eigen::Vector4d(1.7, 0.3, 0.2, 0.1), .radius = 0.01}),
+            {"region \"label\" selects no cell", "the nearest cell is", "m away"});
+    refuses(region_of(BoxSelection{.low = Eigen::Vector4d(-3, -3, -3, -3),
+                                   .high = Eigen::Vector4d(-1, -1, -1, -1)}),
+            {"region \"label\" selects no cell", "the nearest cell is", "m away"});
+    refuses(region_of(HalfSpaceSelection{.normal = Eigen::Vector4d(0, 0, 1, 0), .offset = -3}),
+            {"region \"label\" selects no cell", "the nearest cell is", "m away"});
     refuses(
-        [](Scene& scene) { scene.bodies[0].regions[1].select = {RegionSelection{.region = 99}}; },
-        {"region \"label\" selects no cell", "the body as placed reaches from"});
+        [](Scene& scene) {
+            scene.activations = {
+                {.body = "second",
+                 .select = {BallSelection{.center = Eigen::Vector4d(9, 9, 9, 9), .radius = 1}},
+                 .stretch = 1.1}};
+        },
+        {"activation of \"second\" selects no cell", "the nearest cell is"});
+    refuses(
+        [](Scene& scene) {
+            scene.activations = {{.body = "second",
+                                  .select = {EverythingSelection{}},
+                                  .stretch = 1.1,
+                                  .fibers = Fibers::Mesh}};
+        },
+        {"activation of \"second\"", "the mesh has none"});
     refuses([](Scene& scene) { scene.loads[0].select = {RegionSelection{.region = 99}}; },
-            {"load on \"box\" selects no vertex", "no cell has the label"});
+            {"load on \"box\" selects no vertex", "the mesh has the regions 0 to"});
     refuses(
         [](Scene& scene) {
             scene.bodies[1].regions[0].select = {LayerSelection{.first = 7, .last = 9}};
         },
-        {"region \"layers\" selects no cell"});
+        {"region \"layers\" selects no cell", "the mesh has the layers 0 to 2"});
 }
 
 // Those with an even sum of corners, say.
@@ -157,11 +260,11 @@ TEST(PartBodies, ListCellsOfAllRanksInTheirOrder) {
     const auto is_wanted = [](const Eigen::Matrix<std::uint32_t, 5, 1>& cell) {
         return cell.sum() % 2 == 0;
     };
-    const CellList<4> expected = list_cells<4>(make_bodies<4>(scene, meshes()), is_wanted);
+    const CellList<4> expected = list_cells<4>(make_bodies<4>(scene, bars()), is_wanted);
     ASSERT_GT(expected.cells.size(), 10U);
     test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
         const CellList<4> found = list_cells<4>(
-            make_part_bodies<4>(scene, test::cut_meshes<4>(scene, meshes(), *ranks), ranks),
+            make_part_bodies<4>(scene, test::cut_meshes<4>(scene, bars(), *ranks), ranks),
             is_wanted);
         EXPECT_EQ(found.cells, expected.cells);
         EXPECT_EQ(found.bodies, expected.bodies);
@@ -175,20 +278,19 @@ TEST(PartBodies, AreRefusedWhereAllCellsAreNeeded) {
         change(scene);
         test::on_ranks(2, [&](const std::shared_ptr<const Ranks>& ranks) {
             expect_contains(error_of([&] {
-                                Simulation<4>(scene, test::cut_meshes<4>(scene, meshes(), *ranks),
+                                Simulation<4>(scene, test::cut_meshes<4>(scene, bars(), *ranks),
                                               {.ranks = ranks});
                             }),
                             {"needs whole ones"});
         });
         return !can_take_parts(scene);
     };
-    EXPECT_TRUE(refuses([](Scene& scene) { scene.solver.elements = ElementKind::Smoothed; }));
     EXPECT_TRUE(refuses([](Scene& scene) {
         scene.activations = {{.body = "box",
                               .select = {EverythingSelection{}},
                               .stretch = 1.1,
-                              .fibers = Fibers::Constant,
-                              .direction = Eigen::Vector4d(0, 1, 0, 0)}};
+                              .fibers = Fibers::Distance,
+                              .away_from = {LayerSelection{.first = 0, .last = 0}}}};
     }));
 }
 
@@ -196,7 +298,7 @@ TEST(PartBodies, AreRefusedWhereAllCellsAreNeeded) {
 TEST(PartBodies, SayWhichCellOfTheWholeMeshIsWrong) {
     const Scene scene = two_bars();
     test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
-        std::vector<MeshPart<4>> parts = test::cut_meshes<4>(scene, meshes(), *ranks);
+        std::vector<MeshPart<4>> parts = test::cut_meshes<4>(scene, bars(), *ranks);
         const auto last = static_cast<std::uint32_t>(parts[1].cell_count - 1);
         if (!parts[1].numbers.empty() && parts[1].numbers.back() == last) {
             auto cell = parts[1].mesh.cells.rightCols(1);
@@ -211,7 +313,7 @@ TEST(PartBodies, SayWhichCellOfTheWholeMeshIsWrong) {
 TEST(PartBodies, RefuseOtherVerticesAndChangesOfTheScene) {
     const Scene scene = two_bars();
     test::on_ranks(2, [&](const std::shared_ptr<const Ranks>& ranks) {
-        std::vector<MeshPart<4>> parts = test::cut_meshes<4>(scene, meshes(), *ranks);
+        std::vector<MeshPart<4>> parts = test::cut_meshes<4>(scene, bars(), *ranks);
         Simulation<4> simulation(scene, parts, {.ranks = ranks});
         expect_contains(error_of([&] { simulation.remove_body(0); }), {"whole meshes"});
         expect_contains(error_of([&] { simulation.add_body(scene.bodies[0], test::bar()); }),

@@ -202,6 +202,59 @@ TEST(SharedSimulation, HasLoadsActivationsAndAttachments) {
     expect_same_on_ranks(made, 2, 1e-7);
 }
 
+// By labels and fibers of cells that ranks have in part, in a wave that comes to a rank when it has
+// left another; sleep asks all which bodies change.
+TEST(SharedSimulation, HasActivationsAlongFibersOfTheMesh) {
+    for (const ElementKind kind : {ElementKind::Linear, ElementKind::Quadratic}) {
+        Case<4> made = swing(Integrator::NewtonEuler, kind);
+        SimplexMesh<4>& mesh = made.meshes[0];
+        if (kind == ElementKind::Quadratic) {
+            mesh = pent::test::quadratic_kuhn_box<4>({3, 1, 1, 1}, {1.5, 0.5, 0.5, 0.5});
+        }
+        mesh.fibers.resize(4, mesh.cell_count());
+        for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+            const auto parent = mesh.parents.empty() ? static_cast<std::uint32_t>(cell)
+                                                     : mesh.parents[static_cast<std::size_t>(cell)];
+            mesh.regions.push_back(static_cast<std::uint16_t>(parent % 3));
+            mesh.fibers.col(cell) << 1, 0.1 * (parent % 7), 0.2 * (parent % 5), 0;
+        }
+        made.scene.sleep = Sleep{.speed = 1e-9, .time = 1};
+        made.scene.activations = {
+            {.body = "box",
+             .select = {RegionSelection{.region = 1}},
+             .stretch = 1.1,
+             .fibers = Fibers::Mesh,
+             .signal = Signal::Pulses,
+             .frequency = 3,
+             .duty = 0.3,
+             .wave = Eigen::Vector4d(0.7, 0, 0, 0)},
+            {.body = "box",
+             .select = {HalfSpaceSelection{.normal = Eigen::Vector4d(1, 0, 0, 0), .offset = 0.8}},
+             .stretch = 0.95}};
+        ASSERT_TRUE(can_take_parts(made.scene));
+        expect_same_on_ranks(made, 2, 1e-7);
+    }
+}
+
+// Vertices of one cube tied to the cells of another, wherever these are.
+TEST(SharedSimulation, HasAttachmentsOfOneBodyToAnother) {
+    Case<4> made{test::two_cubes<4>(0.1), {test::cube<4>(), test::cube<4>()}};
+    Scene& scene = made.scene;
+    scene.contact.reset();
+    scene.gravity[1] = -9.8;
+    scene.solver.precision = Precision::Double;
+    scene.solver.tolerance = 1e-10;
+    Attachment attachment;
+    attachment.body = scene.bodies[1].name;
+    attachment.target = scene.bodies[0].name;
+    attachment.select = {EverythingSelection{}};
+    attachment.stiffness = 20;
+    attachment.max_distance = 10;
+    scene.attachments = {attachment};
+    ASSERT_TRUE(can_take_parts(scene));
+    expect_same_on_ranks(made, 2, 1e-7);
+}
+
 // Two materials and a load, by the labels of cells that ranks have in part.
 TEST(SharedSimulation, HasRegionsAndWhatLabelsSelect) {
     Case<4> made = swing(Integrator::NewtonEuler);

@@ -68,7 +68,7 @@ template <int Dim>
                                              const SlabWriters* writers);
 
 /// Checks that the data of a .pent file is what its header says, each process a slab of its bytes.
-/// Throws an Error on all of them where it is not; text is checked where it is read.
+/// Throws an Error on all of them where it is not.
 ///
 /// @param readers  Null for one alone.
 void check_checksum(const std::filesystem::path& path, const SlabWriters* readers);
@@ -78,10 +78,11 @@ void check_checksum(const std::filesystem::path& path, const SlabWriters* reader
 template <int Dim>
 class MeshSource {
 public:
-    /// Whether a file is one: a binary mesh, or base and layers.
+    /// Whether a file is one: a mesh, or base and layers; not a frame.
     [[nodiscard]] static bool can_read(const FileInfo& info);
 
-    /// Reads the header. Throws an Error as read_mesh() does.
+    /// Reads the header, and goes through text for where its lines begin. Throws an Error as
+    /// read_mesh() does.
     ///
     /// @param parts  As one of how many parts the cells will be asked for.
     MeshSource(const std::filesystem::path& path, int parts);

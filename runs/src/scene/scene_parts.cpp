@@ -16,6 +16,8 @@ namespace pent::runs {
 
 namespace {
 
+using simulator::NeededCells;
+
 // Cells that are read by all ranks together at a time.
 constexpr Eigen::Index kPiece = Eigen::Index{1} << 18;
 
@@ -30,85 +32,211 @@ std::uint32_t checksum(const FileInfo& info, std::uint32_t before) {
 struct Owners {
     std::span<const std::uint32_t> of_vertices;
     std::uint32_t own = 0;  // this rank
+
+    // A vertex that there is not is of this rank: validation will say so.
+    [[nodiscard]] bool has(std::uint32_t vertex) const {
+        return vertex >= of_vertices.size() || of_vertices[vertex] == own;
+    }
+};
+
+// What is read of cells beside their corners.
+struct Wanted {
+    bool labels = false;
+    bool parents = false;
+    bool fibers = false;
 };
 
 template <int Dim>
-MeshPart<Dim> extruded_part(const MeshSource<Dim>& source,
-                            const std::vector<std::uint32_t>& columns,
-                            const Owners& owners) {
-    std::vector<bool> is_wanted(std::size_t{*std::max_element(columns.begin(), columns.end())} + 1,
-                                false);
-    for (std::size_t vertex = 0; vertex < columns.size(); ++vertex) {
-        if (owners.of_vertices[vertex] == owners.own) {
-            is_wanted[columns[vertex]] = true;
+Wanted wanted_of(const Scene& scene, const Body& body, const MeshSource<Dim>& source) {
+    const SimplexMesh<Dim> one = source.cells(0, 1);
+    return {.labels = are_labels_asked_for(scene, body) && !one.regions.empty(),
+            .parents = scene.solver.elements == ElementKind::Quadratic && !one.parents.empty(),
+            .fibers = are_fibers_asked_for(scene, body) && one.fibers.cols() > 0};
+}
+
+// What is wanted of cells, a column of numbers each.
+template <int Dim>
+Eigen::MatrixXd packed(const SimplexMesh<Dim>& cells, const Wanted& wanted) {
+    const int rows =
+        Dim + 1 + (wanted.labels ? 1 : 0) + (wanted.parents ? 1 : 0) + (wanted.fibers ? Dim : 0);
+    Eigen::MatrixXd all(rows, cells.cell_count());
+    for (Eigen::Index cell = 0; cell < cells.cell_count(); ++cell) {
+        const auto place = static_cast<std::size_t>(cell);
+        int row = Dim + 1;
+        all.col(cell).template head<Dim + 1>() = cells.cells.col(cell).template cast<double>();
+        if (wanted.labels) {
+            all(row++, cell) = cells.regions[place];
+        }
+        if (wanted.parents) {
+            all(row++, cell) = cells.parents[place];
+        }
+        if (wanted.fibers) {
+            all.col(cell).template segment<Dim>(row) = cells.fibers.col(cell);
         }
     }
-    return source.cells_over(is_wanted);
+    return all;
 }
 
-// A vertex that there is not is near: validation will say so.
 template <int Dim>
-bool is_near(const Simplices<Dim + 1>& cells, Eigen::Index cell, const Owners& owners) {
-    const auto corners = cells.col(cell);
-    return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t vertex) {
-        return vertex >= owners.of_vertices.size() || owners.of_vertices[vertex] == owners.own;
-    });
-}
-
-// Cells [first, last) with their labels, if there are any and they are wanted; of them each rank
-// reads a slab.
-template <int Dim>
-SimplexMesh<Dim> piece_of(const MeshSource<Dim>& source,
-                          Eigen::Index first,
-                          Eigen::Index last,
-                          bool has_labels,
-                          const RunRanks& ranks) {
-    const auto own_cells = ranks.slab_of(last - first);
-    std::vector<double> own;
-    std::vector<double> own_labels;
-    ranks.agree([&] {
-        const SimplexMesh<Dim> slab =
-            source.cells(first + own_cells.first, first + own_cells.second);
-        own.assign(slab.cells.data(), slab.cells.data() + slab.cells.size());
-        own_labels.assign(slab.regions.begin(), slab.regions.end());
-    });
-    const std::vector<double> all = ranks.gather(own);
-    SimplexMesh<Dim> piece;
-    piece.cells = Eigen::Map<const Eigen::Matrix<double, Dim + 1, Eigen::Dynamic>>(
-                      all.data(), Dim + 1, last - first)
-                      .template cast<std::uint32_t>();
-    for (const double label : has_labels ? ranks.gather(own_labels) : std::vector<double>()) {
-        piece.regions.push_back(static_cast<std::uint16_t>(label));
+SimplexMesh<Dim> unpacked(const Eigen::Ref<const Eigen::MatrixXd>& all, const Wanted& wanted) {
+    SimplexMesh<Dim> cells;
+    cells.cells = all.template topRows<Dim + 1>().template cast<std::uint32_t>();
+    for (Eigen::Index cell = 0; cell < all.cols(); ++cell) {
+        int row = Dim + 1;
+        if (wanted.labels) {
+            cells.regions.push_back(static_cast<std::uint16_t>(all(row++, cell)));
+        }
+        if (wanted.parents) {
+            cells.parents.push_back(static_cast<std::uint32_t>(all(row, cell)));
+        }
     }
-    return piece;
+    if (wanted.fibers) {
+        cells.fibers = all.template bottomRows<Dim>();
+    }
+    return cells;
+}
+
+// Calls visit(cells, number of the first) for pieces of all cells. Every rank sees each of them,
+// and reads a slab of it.
+template <int Dim, typename Visit>
+void for_each_piece(const MeshSource<Dim>& source,
+                    const Wanted& wanted,
+                    const RunRanks& ranks,
+                    const Visit& visit) {
+    const auto count = static_cast<Eigen::Index>(source.info().cells);
+    for (Eigen::Index first = 0; first < count; first += kPiece) {
+        const Eigen::Index last = std::min(first + kPiece, count);
+        const auto slab = ranks.slab_of(last - first);
+        std::vector<double> own;
+        ranks.agree([&] {
+            const Eigen::MatrixXd rows =
+                packed(source.cells(first + slab.first, first + slab.second), wanted);
+            own.assign(rows.data(), rows.data() + rows.size());
+        });
+        const std::vector<double> all = ranks.gather(own);
+        const auto rows = static_cast<Eigen::Index>(all.size()) / (last - first);
+        visit(unpacked<Dim>(Eigen::Map<const Eigen::MatrixXd>(all.data(), rows, last - first),
+                            wanted),
+              first);
+    }
+}
+
+// Calls visit(corners, parent, place) for the cells of a piece, where `first` are in front of it.
+template <int Dim, typename Visit>
+void for_each_cell(const SimplexMesh<Dim>& piece, Eigen::Index first, const Visit& visit) {
+    constexpr Eigen::Index kChildren = Eigen::Index{1} << Dim;
+    for (Eigen::Index cell = 0; cell < piece.cell_count(); ++cell) {
+        const auto place = static_cast<std::size_t>(cell);
+        const auto parent = piece.parents.empty()
+                                ? static_cast<std::uint32_t>((first + cell) / kChildren)
+                                : piece.parents[place];
+        visit(std::span<const std::uint32_t>(piece.cells.col(cell).data(), Dim + 1), parent, place);
+    }
+}
+
+// The cells of a part that are needed, with what is wanted of them.
+template <int Dim>
+MeshPart<Dim> needed_of(const MeshPart<Dim>& part,
+                        const NeededCells& needed,
+                        const Wanted& wanted) {
+    MeshPart<Dim> own;
+    own.cell_count = part.cell_count;
+    std::vector<Eigen::Index> kept;
+    for_each_cell<Dim>(part.mesh, 0,
+                       [&](const auto& corners, std::uint32_t parent, std::size_t place) {
+                           if (!needed.has(corners, parent)) {
+                               return;
+                           }
+                           kept.push_back(static_cast<Eigen::Index>(place));
+                           own.numbers.push_back(part.numbers[place]);
+                           if (wanted.labels) {
+                               own.mesh.regions.push_back(part.mesh.regions[place]);
+                           }
+                       });
+    own.mesh.cells = part.mesh.cells(Eigen::all, kept);
+    return own;
+}
+
+// Cells over base cells with a vertex whose column has one of these.
+template <int Dim, typename IsWanted>
+MeshPart<Dim> cells_over(const MeshSource<Dim>& source,
+                         const std::vector<std::uint32_t>& columns,
+                         const IsWanted& is_wanted) {
+    std::vector<bool> marks(std::size_t{*std::max_element(columns.begin(), columns.end())} + 1,
+                            false);
+    for (std::uint32_t vertex = 0; vertex < columns.size(); ++vertex) {
+        if (is_wanted(vertex)) {
+            marks[columns[vertex]] = true;
+        }
+    }
+    return source.cells_over(marks);
+}
+
+// Base cells at the columns of this rank, and where elements reach farther those around them.
+template <int Dim>
+MeshPart<Dim> extruded_part(const MeshSource<Dim>& source,
+                            const Wanted& wanted,
+                            NeededCells needed,
+                            const std::vector<std::uint32_t>& columns,
+                            const Owners& owners) {
+    MeshPart<Dim> part =
+        cells_over(source, columns, [&](std::uint32_t vertex) { return owners.has(vertex); });
+    if (needed.has_to_see_all()) {
+        std::vector<bool> is_near(columns.size(), false);
+        for_each_cell<Dim>(part.mesh, 0,
+                           [&](const auto& corners, std::uint32_t parent, std::size_t /*place*/) {
+                               needed.see(corners, parent);
+                               for (const std::uint32_t vertex : corners) {
+                                   is_near[vertex] = true;
+                               }
+                           });
+        part = cells_over(source, columns, [&](std::uint32_t vertex) { return is_near[vertex]; });
+    }
+    return needed_of(part, needed, wanted);
 }
 
 template <int Dim>
 MeshPart<Dim> read_part(const MeshSource<Dim>& source,
-                        bool has_labels,
-                        const Owners& owners,
+                        const Wanted& wanted,
+                        NeededCells needed,
                         const RunRanks& ranks) {
+    if (needed.has_to_see_all()) {
+        for_each_piece(source, wanted, ranks, [&](const auto& piece, Eigen::Index first) {
+            for_each_cell<Dim>(piece, first,
+                               [&](const auto& corners, std::uint32_t parent,
+                                   std::size_t /*place*/) { needed.see(corners, parent); });
+        });
+    }
     MeshPart<Dim> part;
     part.cell_count = static_cast<Eigen::Index>(source.info().cells);
-    std::vector<std::uint32_t> corners;
-    for (Eigen::Index first = 0; first < part.cell_count; first += kPiece) {
-        const Eigen::Index last = std::min(first + kPiece, part.cell_count);
-        const SimplexMesh<Dim> piece = piece_of(source, first, last, has_labels, ranks);
-        for (Eigen::Index cell = 0; cell < piece.cell_count(); ++cell) {
-            if (!is_near<Dim>(piece.cells, cell, owners)) {
-                continue;
-            }
-            const auto own = piece.cells.col(cell);
-            part.numbers.push_back(static_cast<std::uint32_t>(first + cell));
-            corners.insert(corners.end(), own.begin(), own.end());
-            if (!piece.regions.empty()) {
-                part.mesh.regions.push_back(piece.regions[static_cast<std::size_t>(cell)]);
-            }
-        }
-    }
+    std::vector<std::uint32_t> all;
+    std::vector<double> fibers;
+    for_each_piece(source, wanted, ranks, [&](const auto& piece, Eigen::Index first) {
+        for_each_cell<Dim>(
+            piece, first, [&](const auto& corners, std::uint32_t parent, std::size_t place) {
+                if (!needed.has(corners, parent)) {
+                    return;
+                }
+                part.numbers.push_back(static_cast<std::uint32_t>(first)
+                                       + static_cast<std::uint32_t>(place));
+                all.insert(all.end(), corners.begin(), corners.end());
+                if (wanted.labels) {
+                    part.mesh.regions.push_back(piece.regions[place]);
+                }
+                if (wanted.parents) {
+                    part.mesh.parents.push_back(parent);
+                }
+                if (wanted.fibers) {
+                    const auto fiber = piece.fibers.col(static_cast<Eigen::Index>(place));
+                    fibers.insert(fibers.end(), fiber.begin(), fiber.end());
+                }
+            });
+    });
     part.numbers.shrink_to_fit();
     part.mesh.cells = Eigen::Map<const Simplices<Dim + 1>>(
-        corners.data(), Dim + 1, static_cast<Eigen::Index>(part.numbers.size()));
+        all.data(), Dim + 1, static_cast<Eigen::Index>(part.numbers.size()));
+    part.mesh.fibers = Eigen::Map<const Positions<Dim>>(
+        fibers.data(), Dim, static_cast<Eigen::Index>(fibers.size() / Dim));
     return part;
 }
 
@@ -124,9 +252,9 @@ public:
         read_vertices();
         read_cells();
         const bool is_misfit =
-            std::any_of(result_.parts.begin(), result_.parts.end(), [](const auto& part) {
-                return !match_facets<Dim>(part.mesh.cells, part.mesh.vertex_count())
-                            .is_conforming();
+            std::any_of(result_.parts.begin(), result_.parts.end(), [&](const auto& part) {
+                return !match_facets<Dim>(part.mesh.cells, part.mesh.vertex_count()).is_conforming()
+                       || !do_cells_make_elements<Dim>(scene_, part.mesh);
             });
         if (ranks_.any(is_misfit)) {
             return std::nullopt;
@@ -144,7 +272,9 @@ private:
         ranks_.agree([&] {
             for (const Body& body : scene_.bodies) {
                 const FileInfo info = info_of_mesh<Dim>(body);
-                can = can && MeshSource<Dim>::can_read(info);
+                // Cells that layers make are no children of quadratic ones.
+                can = can && MeshSource<Dim>::can_read(info)
+                      && !(info.is_extrusion && scene_.solver.elements == ElementKind::Quadratic);
                 sum = checksum(info, sum);
             }
         });
@@ -161,11 +291,22 @@ private:
                 });
                 check_size(meshes_.back(), body);
             });
-            if (!result_.sources.back().is_extrusion()) {
-                with_place_of(body, [&] { check_checksum(body.mesh, ranks_.writers()); });
+            if (!is_text(result_.sources.back())) {
+                check_sum_of(body, result_.sources.back());
             }
         }
         ranks_.agree([&] { owners_ = share_vertices(scene_, meshes_, ranks_.count()); });
+    }
+
+    [[nodiscard]] static bool is_text(const MeshSource<Dim>& source) {
+        return source.info().encoding == Encoding::Ascii;
+    }
+
+    // Of text behind what is wrong with its numbers, as read_mesh() has it.
+    void check_sum_of(const Body& body, const MeshSource<Dim>& source) const {
+        if (!source.is_extrusion()) {
+            with_place_of(body, [&] { check_checksum(body.mesh, ranks_.writers()); });
+        }
     }
 
     void read_cells() {
@@ -175,22 +316,27 @@ private:
             const Owners owners = {std::span<const std::uint32_t>(owners_).subspan(first, count),
                                    static_cast<std::uint32_t>(ranks_.place())};
             const MeshSource<Dim>& source = result_.sources[i];
-            const bool has_labels = are_labels_asked_for(scene_, scene_.bodies[i]);
-            MeshPart<Dim> part = source.is_extrusion()
-                                     ? extruded_part(source, meshes_[i].columns, owners)
-                                     : read_part(source, has_labels, owners, ranks_);
-            if (!has_labels) {
-                part.mesh.regions.clear();
+            const Body& body = scene_.bodies[i];
+            Wanted wanted;
+            ranks_.agree([&] { wanted = wanted_of(scene_, body, source); });
+            const NeededCells needed(scene_.solver.elements, count,
+                                     [&](std::uint32_t vertex) { return owners.has(vertex); });
+            MeshPart<Dim> part =
+                source.is_extrusion()
+                    ? extruded_part(source, wanted, needed, meshes_[i].columns, owners)
+                    : read_part<Dim>(source, wanted, needed, ranks_);
+            if (is_text(source)) {
+                check_sum_of(body, source);
             }
             part.mesh.positions = std::move(meshes_[i].positions);
             part.mesh.columns = std::move(meshes_[i].columns);
             part.mesh.layers = std::move(meshes_[i].layers);
             ranks_.agree([&] {
-                with_place_of(scene_.bodies[i], [&] {
-                    validate_part<Dim>(part.mesh, scene_.bodies[i].mesh, part.numbers);
-                });
-                if (!has_labels) {  // else the simulation does, as all have to look together
-                    check_constraints(scene_, scene_.bodies[i], part.mesh);
+                with_place_of(body,
+                              [&] { validate_part<Dim>(part.mesh, body.mesh, part.numbers); });
+                if (!are_labels_asked_for(scene_, body)) {
+                    // else the simulation does, as all have to look together
+                    check_constraints(scene_, body, part.mesh);
                 }
             });
             result_.parts.push_back(std::move(part));

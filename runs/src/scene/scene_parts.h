@@ -11,18 +11,17 @@
 
 namespace pent::runs {
 
-/// The meshes of a scene, of which this rank has all vertices and the cells that touch one of its
-/// own.
+/// The meshes of a scene, of which this rank has all vertices and the cells that it needs.
 template <int Dim>
 struct SceneParts {
     std::vector<MeshPart<Dim>> parts;      ///< One a body, as their files have them.
     std::vector<MeshSource<Dim>> sources;  ///< One a body, to read other parts from.
 };
 
-/// Reads them together and compares them with the scene, as read_meshes() does: a binary file by
-/// slabs, which all ranks see go by; of base and layers each makes what it needs. None where every
-/// rank is to read whole meshes: a program on its own, scenes that can_take_parts() says no to,
-/// files of text, and meshes whose cells do not fit together.
+/// Reads them together and compares them with the scene, as read_meshes() does: a file by slabs,
+/// which all ranks see go by; of base and layers each makes what it needs. None where every rank is
+/// to read whole meshes: a program on its own, scenes that can_take_parts() says no to, and meshes
+/// whose cells do not fit together.
 template <int Dim>
 [[nodiscard]] std::optional<SceneParts<Dim>> read_parts(const Scene& scene, const RunRanks& ranks);
 

@@ -2,6 +2,8 @@
 
 #include "model/distance_field.h"
 #include "model/keyframes.h"
+#include "model/part_bodies.h"
+#include "model/part_selection.h"
 
 #include <pent/dimensions.h>
 #include <pent/error.h>
@@ -30,44 +32,47 @@ double smooth(double s) {
     return t * t * (3 - 2 * t);
 }
 
-// The elements of a body as a mesh: its cells as Bodies has them, or its quadratic cells as if
-// their edges were straight.
+// The elements of a body that are here, as a mesh: its cells as Bodies has them, or its quadratic
+// cells as if their edges were straight.
 template <int Dim>
-SimplexMesh<Dim> elements_of(const Bodies<Dim>& bodies, std::size_t body) {
+struct BodyElements {
+    SimplexMesh<Dim> mesh;
+    std::vector<std::uint32_t> numbers;  // of cells of the body's mesh that stand for them
+};
+
+template <int Dim>
+BodyElements<Dim> elements_of(const Bodies<Dim>& bodies, std::size_t body) {
     const SimplexMesh<Dim>& mesh = bodies.meshes[body];
-    const auto first_vertex = static_cast<std::uint32_t>(bodies.first_vertex[body]);
-    SimplexMesh<Dim> elements;
-    elements.positions = mesh.positions;
-    elements.layers = mesh.layers;
-    std::vector<std::uint32_t> labeled;  // cell of the mesh that has the labels of each
-    const auto add = [&](Eigen::Index begin, Eigen::Index end, const auto& corners,
-                         const auto& cell_of) {
-        elements.cells.resize(Dim + 1, end - begin);
-        for (Eigen::Index i = begin; i < end; ++i) {
-            elements.cells.col(i - begin) =
-                corners.col(i).template head<Dim + 1>().array() - first_vertex;
-            labeled.push_back(cell_of(i));
-        }
-    };
     const auto range = bodies.elements_of(body);
-    if (bodies.quadratic.nodes.cols() > 0) {
-        add(range.begin, range.begin + range.size, bodies.quadratic.nodes, [&](Eigen::Index i) {
-            return bodies.quadratic.first_child[static_cast<std::size_t>(i)];
-        });
-    } else {
-        add(range.begin, range.begin + range.size, bodies.cells,
-            [&](Eigen::Index i) { return bodies.mesh_cell(body, i); });
+    const auto cells = bodies.cells_of(body);
+    const bool is_quadratic = bodies.quadratic.nodes.cols() > 0;
+    BodyElements<Dim> elements;
+    elements.mesh.positions = mesh.positions;
+    elements.mesh.layers = mesh.layers;
+    elements.mesh.cells =
+        is_quadratic ? Simplices<Dim + 1>(
+            bodies.quadratic.nodes.template topRows<Dim + 1>().middleCols(range.begin, range.size))
+                     : Simplices<Dim + 1>(bodies.cells.middleCols(range.begin, range.size));
+    elements.mesh.cells.array() -= static_cast<std::uint32_t>(bodies.first_vertex[body]);
+    // A cell stands for itself, the first child for a quadratic one; parts have what cells are
+    // labeled with in the order of Bodies.
+    elements.numbers.resize(static_cast<std::size_t>(range.size));
+    std::vector<std::uint32_t> labeled(elements.numbers.size());
+    for (Eigen::Index i = cells.begin + cells.size; i-- > cells.begin;) {
+        const Eigen::Index element =
+            is_quadratic ? bodies.quadratic.parents[static_cast<std::size_t>(i)] : i;
+        const auto place = static_cast<std::size_t>(element - range.begin);
+        elements.numbers[place] = bodies.mesh_cell(body, i);
+        labeled[place] = is_of_parts(bodies) ? static_cast<std::uint32_t>(i - cells.begin)
+                                             : elements.numbers[place];
     }
     for (const std::uint32_t cell : labeled) {
         if (!mesh.regions.empty()) {
-            elements.regions.push_back(mesh.regions[cell]);
+            elements.mesh.regions.push_back(mesh.regions[cell]);
         }
     }
     if (mesh.fibers.cols() > 0) {
-        elements.fibers.resize(Dim, elements.cell_count());
-        for (std::size_t i = 0; i < labeled.size(); ++i) {
-            elements.fibers.col(static_cast<Eigen::Index>(i)) = mesh.fibers.col(labeled[i]);
-        }
+        elements.mesh.fibers = mesh.fibers(Eigen::all, labeled);
     }
     return elements;
 }
@@ -132,12 +137,11 @@ Matrix<Dim> active_deformation(const Activation& activation,
 template <int Dim>
 ActiveStrain<Dim>::ActiveStrain(const Workers& workers,
                                 const Scene& scene,
-                                const Bodies<Dim>& bodies) {
+                                const Bodies<Dim>& bodies)
+    : sharing_(&bodies.sharing) {
     for (const Activation& activation : scene.activations) {
-        const std::size_t body = index_of(scene, activation.body);
-        muscles_.push_back({activation, body});
-        append_fibers(muscles_.size() - 1, elements_of(bodies, body),
-                      bodies.elements_of(body).begin);
+        muscles_.push_back({activation, index_of(scene, activation.body)});
+        append_fibers(muscles_.size() - 1, bodies);
     }
     if (muscles_.empty()) {
         return;
@@ -153,21 +157,22 @@ ActiveStrain<Dim>::ActiveStrain(const Workers& workers,
     }
     shapes_.resize(first_fiber_.size());
     first_fiber_.push_back(fibers_.size());
-    if (bodies.quadratic.nodes.cols() > 0) {
-        find_cells_of_elements(scene, bodies);
-    }
+    parent_of_ = bodies.quadratic.parents;
     static_cast<void>(set_time(workers, 0));
 }
 
-// @param first  Of the elements, counted through all bodies.
 template <int Dim>
-void ActiveStrain<Dim>::append_fibers(std::size_t muscle,
-                                      const SimplexMesh<Dim>& elements,
-                                      Eigen::Index first) {
+void ActiveStrain<Dim>::append_fibers(std::size_t muscle, const Bodies<Dim>& bodies) {
     const Activation& activation = muscles_[muscle].activation;
+    const std::size_t body = muscles_[muscle].body;
+    const auto first = bodies.elements_of(body).begin;
+    const BodyElements<Dim> here = elements_of(bodies, body);
+    const SimplexMesh<Dim>& elements = here.mesh;
     const std::string where = place_and_name(activation);
-    const std::vector<bool> is_in = select_cells(elements, activation.select, where);
-    if (activation.fibers == Fibers::Mesh && elements.fibers.cols() == 0) {
+    const std::vector<bool> is_in =
+        select_cells(elements, here.numbers, activation.select, where,
+                     sharing_->is_shared() ? &sharing_->ranks() : nullptr);
+    if (activation.fibers == Fibers::Mesh && !sharing_->any(elements.fibers.cols() > 0)) {
         throw Error(where + ": fibers = \"mesh\", but the mesh has none; expected the properties"
                             " fiber_x, fiber_y .. of its cells (docs/pent-format.md)");
     }
@@ -196,37 +201,6 @@ void ActiveStrain<Dim>::append_fibers(std::size_t muscle,
             }
         }
         fibers_.push_back(fiber);
-    }
-}
-
-// Which quadratic cell each cell is a child of.
-template <int Dim>
-void ActiveStrain<Dim>::find_cells_of_elements(const Scene& scene, const Bodies<Dim>& bodies) {
-    constexpr Eigen::Index kChildren = Eigen::Index{1} << Dim;
-    parent_of_.resize(static_cast<std::size_t>(bodies.cells.cols()));
-    for (std::size_t body = 0; body < bodies.count(); ++body) {
-        const std::vector<Eigen::Index> children =
-            child_cells<Dim>(bodies.meshes[body], scene.bodies[body].mesh);
-        std::vector<std::uint32_t> of_mesh_cell(children.size());
-        std::vector<Eigen::Index> group_of(children.size());
-        for (std::size_t i = 0; i < children.size(); ++i) {
-            group_of[static_cast<std::size_t>(children[i])] =
-                static_cast<Eigen::Index>(i) / kChildren;
-        }
-        const auto range = bodies.elements_of(body);
-        for (Eigen::Index element = range.begin; element < range.begin + range.size; ++element) {
-            const std::uint32_t first =
-                bodies.quadratic.first_child[static_cast<std::size_t>(element)];
-            for (Eigen::Index k = 0; k < kChildren; ++k) {
-                const Eigen::Index child =
-                    children[static_cast<std::size_t>(group_of[first] * kChildren + k)];
-                of_mesh_cell[static_cast<std::size_t>(child)] = static_cast<std::uint32_t>(element);
-            }
-        }
-        const auto cells = bodies.cells_of(body);
-        for (Eigen::Index cell = cells.begin; cell < cells.begin + cells.size; ++cell) {
-            parent_of_[static_cast<std::size_t>(cell)] = of_mesh_cell[bodies.mesh_cell(body, cell)];
-        }
     }
 }
 
@@ -267,7 +241,7 @@ bool ActiveStrain<Dim>::set_time(const Workers& workers, double time) {
             }
             return others;
         });
-    return changed > 0;
+    return sharing_->any(changed > 0);
 }
 
 template <int Dim>
@@ -286,15 +260,18 @@ const typename ActiveStrain<Dim>::Shape* ActiveStrain<Dim>::of_cell(Eigen::Index
 
 template <int Dim>
 std::vector<std::size_t> ActiveStrain<Dim>::changing_bodies(double from, double to) const {
-    std::vector<bool> is_changing(muscles_.size(), false);
-    for (const Fiber& fiber : fibers_) {
-        if (!is_changing[fiber.muscle]) {
-            is_changing[fiber.muscle] = signal(fiber, from) != signal(fiber, to);
-        }
+    if (muscles_.empty()) {
+        return {};
     }
+    std::vector<double> changing(muscles_.size(), 0);
+    for (const Fiber& fiber : fibers_) {
+        double& is_changing = changing[fiber.muscle];
+        is_changing = is_changing > 0 || signal(fiber, from) != signal(fiber, to) ? 1 : 0;
+    }
+    sharing_->sum(changing);
     std::vector<std::size_t> bodies;
     for (std::size_t muscle = 0; muscle < muscles_.size(); ++muscle) {
-        if (is_changing[muscle]) {
+        if (changing[muscle] > 0) {
             bodies.push_back(muscles_[muscle].body);
         }
     }

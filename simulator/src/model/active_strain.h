@@ -28,11 +28,13 @@ public:
     };
 
     /// Of time 0. Throws an Error if an activation selects nothing, or its fibers cannot be found.
+    ///
+    /// @param bodies  Must outlive this.
     ActiveStrain(const Workers& workers, const Scene& scene, const Bodies<Dim>& bodies);
 
     [[nodiscard]] bool is_empty() const { return muscles_.empty(); }
 
-    /// Shapes are those of a time, s, from now on. Returns whether any has changed.
+    /// Shapes are those of a time, s, from now on. Returns whether any has changed, on any rank.
     [[nodiscard]] bool set_time(const Workers& workers, double time);
 
     /// Null for an element that no activation selects.
@@ -55,11 +57,11 @@ private:
         double delay = 0;                             // periods
     };
 
-    void append_fibers(std::size_t muscle, const SimplexMesh<Dim>& elements, Eigen::Index first);
-    void find_cells_of_elements(const Scene& scene, const Bodies<Dim>& bodies);
+    void append_fibers(std::size_t muscle, const Bodies<Dim>& bodies);
     [[nodiscard]] double signal(const Fiber& fiber, double time) const;
     [[nodiscard]] Shape shape_at(std::size_t shape, double time) const;
 
+    const Sharing* sharing_;
     std::vector<Muscle> muscles_;
     std::vector<Fiber> fibers_;             // by element, those of one in the order of the scene
     std::vector<std::size_t> first_fiber_;  // of each shape, and their number

@@ -1,13 +1,25 @@
 #include "model/append_bodies.h"
 
+#include "model/part_selection.h"
+
 #include <pent/dimensions.h>
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace pent::simulator {
+
+namespace {
+
+// Some things of a body, those of one material after those of another.
+struct SortedByMaterial {
+    std::vector<Eigen::Index> order;  // else as they were
+    std::vector<Eigen::Index> first;  // materials + 1 entries
+};
 
 SortedByMaterial sort_by_material(const std::vector<std::uint16_t>& materials, std::size_t count) {
     SortedByMaterial sorted;
@@ -24,6 +36,7 @@ SortedByMaterial sort_by_material(const std::vector<std::uint16_t>& materials, s
     return sorted;
 }
 
+// Appends a range for each material of a body, of things that are behind `begin` ones of others.
 void append_ranges(const Body& body,
                    std::size_t place,
                    const std::vector<Eigen::Index>& first,
@@ -38,47 +51,85 @@ void append_ranges(const Body& body,
     }
 }
 
-namespace {
-
-// Appends the quadratic cells of a body by their materials; returns those of its cells, since a
-// quadratic cell is of one material.
+// Appends the quadratic cells of a body by their materials; returns where each is now.
 template <int Dim>
-std::vector<std::uint16_t> append_quadratic(const Body& body,
+std::vector<std::uint32_t> append_quadratic(const Body& body,
                                             std::size_t place,
+                                            const MadeQuadratic<Dim>& own,
+                                            const std::vector<std::uint16_t>& materials,
                                             Bodies<Dim>& bodies) {
-    const SimplexMesh<Dim>& mesh = bodies.meshes[place];
-    const std::string name = (body.source.empty() ? "" : body.source + ": ") + body.mesh;
-    const std::vector<Eigen::Index> children = child_cells<Dim>(mesh, name);
-    const QuadraticSimplices<Dim> own = quadratic_simplices<Dim>(mesh, children, name);
-    const std::size_t per_simplex = children.size() / static_cast<std::size_t>(own.cols());
-    SimplexMesh<Dim> straight;
-    straight.positions = mesh.positions;
-    straight.layers = mesh.layers;
-    straight.cells = own.template topRows<Dim + 1>();
-    for (std::size_t i = 0; i < children.size() && !mesh.regions.empty(); i += per_simplex) {
-        straight.regions.push_back(mesh.regions[static_cast<std::size_t>(children[i])]);
-    }
-    const std::vector<std::uint16_t> materials = materials_of_cells(straight, body);
     const SortedByMaterial sorted = sort_by_material(materials, body.regions.size() + 1);
     QuadraticCells<Dim>& all = bodies.quadratic;
     const Eigen::Index begin = all.nodes.cols();
     append_ranges(body, place, sorted.first, begin, all.ranges);
-    all.nodes.conservativeResize(Eigen::NoChange, begin + own.cols());
-    for (Eigen::Index i = 0; i < own.cols(); ++i) {
+    all.nodes.conservativeResize(Eigen::NoChange, begin + own.nodes.cols());
+    std::vector<std::uint32_t> places(sorted.order.size());
+    for (Eigen::Index i = 0; i < own.nodes.cols(); ++i) {
         const Eigen::Index simplex = sorted.order[static_cast<std::size_t>(i)];
         all.nodes.col(begin + i) =
-            own.col(simplex).array() + static_cast<std::uint32_t>(bodies.first_vertex[place]);
-        all.first_child.push_back(
-            static_cast<std::uint32_t>(children[static_cast<std::size_t>(simplex) * per_simplex]));
+            own.nodes.col(simplex).array() + static_cast<std::uint32_t>(bodies.first_vertex[place]);
+        places[static_cast<std::size_t>(simplex)] = static_cast<std::uint32_t>(begin + i);
     }
-    std::vector<std::uint16_t> of_cells(children.size());
-    for (std::size_t i = 0; i < children.size(); ++i) {
-        of_cells[static_cast<std::size_t>(children[i])] = materials[i / per_simplex];
-    }
-    return of_cells;
+    return places;
 }
 
 }  // namespace
+
+template <int Dim>
+MadeQuadratic<Dim> make_quadratic(const SimplexMesh<Dim>& mesh, const Body& body) {
+    const std::string name = (body.source.empty() ? "" : body.source + ": ") + body.mesh;
+    const std::vector<Eigen::Index> children = child_cells<Dim>(mesh, name);
+    MadeQuadratic<Dim> made;
+    made.nodes = quadratic_simplices<Dim>(mesh, children, name);
+    made.straight.positions = mesh.positions;
+    made.straight.layers = mesh.layers;
+    made.straight.cells = made.nodes.template topRows<Dim + 1>();
+    made.parents.resize(children.size());
+    constexpr std::size_t kChildren = std::size_t{1} << Dim;
+    for (std::size_t i = 0; i < children.size(); ++i) {
+        const auto child = static_cast<std::size_t>(children[i]);
+        made.parents[child] = static_cast<std::uint32_t>(i / kChildren);
+        if (i % kChildren == 0) {
+            made.numbers.push_back(static_cast<std::uint32_t>(child));
+            if (!mesh.regions.empty()) {
+                made.straight.regions.push_back(mesh.regions[child]);
+            }
+        }
+    }
+    return made;
+}
+
+template <int Dim>
+std::vector<Eigen::Index> append_cells(const Body& body,
+                                       std::size_t place,
+                                       const SimplexMesh<Dim>& mesh,
+                                       const MadeQuadratic<Dim>* quadratic,
+                                       const std::vector<std::uint16_t>& materials,
+                                       Bodies<Dim>& bodies) {
+    const auto first = static_cast<std::uint32_t>(bodies.first_vertex[place]);
+    std::vector<std::uint16_t> of_cells;
+    std::vector<std::uint32_t> places;
+    if (quadratic != nullptr) {  // a quadratic cell is of one material
+        places = append_quadratic(body, place, *quadratic, materials, bodies);
+        for (const std::uint32_t parent : quadratic->parents) {
+            of_cells.push_back(materials[parent]);
+        }
+    }
+    SortedByMaterial sorted =
+        sort_by_material(quadratic != nullptr ? of_cells : materials, body.regions.size() + 1);
+    const Eigen::Index begin = bodies.first_cell[place];
+    append_ranges(body, place, sorted.first, begin, bodies.ranges);
+    for (std::size_t i = 0; i < sorted.order.size(); ++i) {
+        const Eigen::Index own = sorted.order[i];
+        bodies.cells.col(begin + static_cast<Eigen::Index>(i)) =
+            mesh.cells.col(own).array() + first;
+        if (quadratic != nullptr) {
+            bodies.quadratic.parents.push_back(
+                places[quadratic->parents[static_cast<std::size_t>(own)]]);
+        }
+    }
+    return std::move(sorted.order);
+}
 
 template <int Dim>
 void append_bodies(const Scene& scene, Bodies<Dim>& bodies) {
@@ -98,25 +149,29 @@ void append_bodies(const Scene& scene, Bodies<Dim>& bodies) {
     for (std::size_t place = 0; place < scene.bodies.size(); ++place) {
         const Body& body = scene.bodies[place];
         const SimplexMesh<Dim>& mesh = bodies.meshes[place];
-        const auto first = static_cast<std::uint32_t>(bodies.first_vertex[place]);
-        bodies.rest.middleCols(first, mesh.vertex_count()) = mesh.positions;
-        const bool is_quadratic = scene.solver.elements == ElementKind::Quadratic;
-        const SortedByMaterial sorted = sort_by_material(
-            is_quadratic ? append_quadratic(body, place, bodies) : materials_of_cells(mesh, body),
-            body.regions.size() + 1);
-        const auto range = bodies.cells_of(place);
-        append_ranges(body, place, sorted.first, range.begin, bodies.ranges);
-        for (Eigen::Index cell = 0; cell < range.size; ++cell) {
-            const Eigen::Index own = sorted.order[static_cast<std::size_t>(cell)];
-            bodies.cells.col(range.begin + cell) = mesh.cells.col(own).array() + first;
+        bodies.rest.middleCols(bodies.first_vertex[place], mesh.vertex_count()) = mesh.positions;
+        std::optional<MadeQuadratic<Dim>> quadratic;
+        if (scene.solver.elements == ElementKind::Quadratic) {
+            quadratic = make_quadratic(mesh, body);
+        }
+        const std::vector<std::uint16_t> materials =
+            quadratic ? materials_of_part(quadratic->straight, quadratic->numbers, body, nullptr)
+                      : materials_of_cells(mesh, body);
+        for (const Eigen::Index cell : append_cells(
+                 body, place, mesh, quadratic ? &*quadratic : nullptr, materials, bodies)) {
             if (has_regions) {
-                bodies.mesh_cells.push_back(static_cast<std::uint32_t>(own));
+                bodies.mesh_cells.push_back(static_cast<std::uint32_t>(cell));
             }
         }
     }
 }
 
-#define PENT_INSTANTIATE(Dim) template void append_bodies(const Scene&, Bodies<Dim>&);
+#define PENT_INSTANTIATE(Dim)                                                         \
+    template MadeQuadratic<Dim> make_quadratic(const SimplexMesh<Dim>&, const Body&); \
+    template std::vector<Eigen::Index> append_cells(                                  \
+        const Body&, std::size_t, const SimplexMesh<Dim>&, const MadeQuadratic<Dim>*, \
+        const std::vector<std::uint16_t>&, Bodies<Dim>&);                             \
+    template void append_bodies(const Scene&, Bodies<Dim>&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 

@@ -7,26 +7,35 @@
 
 namespace pent::simulator {
 
-/// Some things of a body, those of one material after those of another.
-struct SortedByMaterial {
-    std::vector<Eigen::Index> order;  ///< Else as they were.
-    std::vector<Eigen::Index> first;  ///< Materials + 1 entries.
+/// The quadratic cells that the cells of a mesh, or of a part of one, make up.
+template <int Dim>
+struct MadeQuadratic {
+    QuadraticSimplices<Dim> nodes;  ///< Of the mesh.
+    std::vector<std::uint32_t>
+        parents;                ///< One a cell of the mesh: which of them it is a child of.
+    SimplexMesh<Dim> straight;  ///< As if edges were straight, with labels.
+    std::vector<std::uint32_t> numbers;  ///< Of each the first child, which stands for it.
 };
 
-/// @param materials  One a thing, below `count`.
-[[nodiscard]] SortedByMaterial sort_by_material(const std::vector<std::uint16_t>& materials,
-                                                std::size_t count);
+/// @param mesh  As placed. Throws an Error unless its cells make up such.
+template <int Dim>
+[[nodiscard]] MadeQuadratic<Dim> make_quadratic(const SimplexMesh<Dim>& mesh, const Body& body);
 
-/// Appends a range for each material of a body.
+/// Appends the cells of a body, and its quadratic cells, those of one material after those of
+/// another. There is room for them.
 ///
-/// @param place  Of the body in the scene.
-/// @param first  Of SortedByMaterial.
-/// @param begin  So many things of others are in front.
-void append_ranges(const Body& body,
-                   std::size_t place,
-                   const std::vector<Eigen::Index>& first,
-                   Eigen::Index begin,
-                   std::vector<CellRange>& ranges);
+/// @param place      Of the body in the scene.
+/// @param mesh       As placed, or a part of it.
+/// @param quadratic  Null for other elements.
+/// @param materials  One an element, see materials_of_cells().
+/// @return           The order in which the cells of the mesh are now.
+template <int Dim>
+std::vector<Eigen::Index> append_cells(const Body& body,
+                                       std::size_t place,
+                                       const SimplexMesh<Dim>& mesh,
+                                       const MadeQuadratic<Dim>* quadratic,
+                                       const std::vector<std::uint16_t>& materials,
+                                       Bodies<Dim>& bodies);
 
 /// Places the meshes of `bodies` and puts their vertices, cells and quadratic cells one after the
 /// other, those of a body by their materials.

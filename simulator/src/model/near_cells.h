@@ -4,16 +4,17 @@
 
 namespace pent::simulator {
 
-/// Whether a term of a scene looks at cells far from the vertices that it is asked for: elements of
-/// more than one cell, activations that spread along a body, and ties to the nearest cell.
+/// Whether a term of a scene looks at cells far from the vertices that it is asked for: activations
+/// whose fibers are found by distances along a body.
 [[nodiscard]] bool do_terms_need_all_cells(const Scene& scene);
 
 /// Whether a term of a scene couples vertices that share no element.
 [[nodiscard]] bool do_terms_couple_anything(const Scene& scene);
 
-/// Lets go of all cells but those that touch a vertex of this rank, which stay in their order: they
-/// are all that the rows of this rank and the elements that count here are made of.
+/// Lets go of all cells but the NeededCells of this rank, and of other quadratic cells than those
+/// that they are children of. What stays, stays in its order: it is all that the rows of this rank
+/// and the elements that count here are made of.
 template <int Dim>
-void keep_near_cells(Bodies<Dim>& bodies);
+void keep_near_cells(ElementKind kind, Bodies<Dim>& bodies);
 
 }  // namespace pent::simulator

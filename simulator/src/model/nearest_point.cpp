@@ -75,6 +75,10 @@ PointOfCell<Dim> nearest_of_cell(const Corners<Dim>& corners, const Vector<Dim>&
     return nearest;
 }
 
+// Cells share faces: which of them is nearer by rounding differs from build to build. Boxes round
+// to a hair beyond the cells that they hold, which is less.
+constexpr double kSame = 1 + 1e-9;
+
 }  // namespace
 
 template <int Dim>
@@ -99,33 +103,44 @@ Corners<Dim> NearestPointSearch<Dim>::corners(Eigen::Index cell) const {
 }
 
 template <int Dim>
-MaterialPoint<Dim> NearestPointSearch<Dim>::nearest(const Vector<Dim>& point) const {
-    // Cells share faces: which of them is nearer by rounding differs from build to build. Boxes
-    // round to a hair beyond the cells that they hold, which is less.
-    constexpr double kSame = 1 + 1e-9;
+double NearestPointSearch<Dim>::distance(const Vector<Dim>& point) const {
     double least = std::numeric_limits<double>::infinity();
-    tree_.for_each_near<Dim>(point, least, [&](std::uint32_t cell) {
-        least = std::min(least, nearest_of_cell<Dim>(corners(cell), point).distance);
-        return least * least * kSame;
-    });
-    const double most = least * kSame;
-    PointOfCell<Dim> best;
-    std::uint32_t first = std::numeric_limits<std::uint32_t>::max();
+    if (!tree_.is_empty()) {
+        tree_.for_each_near<Dim>(point, least, [&](std::uint32_t cell) {
+            least = std::min(least, nearest_of_cell<Dim>(corners(cell), point).distance);
+            return least * least * kSame;
+        });
+    }
+    return least;
+}
+
+template <int Dim>
+std::optional<Eigen::Index> NearestPointSearch<Dim>::first_at(const Vector<Dim>& point,
+                                                              double distance) const {
+    if (tree_.is_empty()) {
+        return std::nullopt;
+    }
+    const double most = distance * kSame;
+    std::optional<std::uint32_t> first;
     tree_.for_each_near<Dim>(point, most * most * kSame, [&](std::uint32_t cell) {
-        if (cell < first) {
-            const PointOfCell<Dim> of_cell = nearest_of_cell<Dim>(corners(cell), point);
-            if (of_cell.distance <= most) {
-                best = of_cell;
-                first = cell;
-            }
+        if ((!first || cell < *first)
+            && nearest_of_cell<Dim>(corners(cell), point).distance <= most) {
+            first = cell;
         }
         return most * most * kSame;
     });
+    return first;
+}
+
+template <int Dim>
+MaterialPoint<Dim> NearestPointSearch<Dim>::nearest_in(Eigen::Index cell,
+                                                       const Vector<Dim>& point) const {
+    const PointOfCell<Dim> best = nearest_of_cell<Dim>(corners(cell), point);
     MaterialPoint<Dim> nearest;
     nearest.weights = best.weights;
     nearest.distance = best.distance;
     for (int i = 0; i <= Dim; ++i) {
-        nearest.vertices[static_cast<std::size_t>(i)] = cells_(i, first);
+        nearest.vertices[static_cast<std::size_t>(i)] = cells_(i, cell);
     }
     return nearest;
 }

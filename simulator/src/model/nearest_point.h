@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace pent::simulator {
 
@@ -21,17 +22,26 @@ struct MaterialPoint {
 };
 
 /// Finds the point of some cells that is nearest to a point in space: that point itself, inside of
-/// them. By a tree, so that a search takes about as long in a million cells as in a thousand.
+/// them. By a tree, so that a search takes about as long in a million cells as in a thousand. In
+/// two steps, as cells may be on several ranks.
 template <int Dim>
 class NearestPointSearch {
 public:
     /// @param positions  Dim x vertices, m; kept by reference, and not to be changed.
-    /// @param cells      At least one; the volume of none is 0.
+    /// @param cells      The volume of none is 0.
     NearestPointSearch(const Positions<Dim>& positions, Simplices<Dim + 1> cells);
 
-    /// The weights are not negative, and exactly 0 for the corners that the nearest face lacks. Of
-    /// cells that are equally near but for rounding the first counts.
-    [[nodiscard]] MaterialPoint<Dim> nearest(const Vector<Dim>& point) const;
+    /// How far the nearest point is, m; infinite where there is no cell.
+    [[nodiscard]] double distance(const Vector<Dim>& point) const;
+
+    /// Of the cells that are as near as that, but for rounding, the first one; none where all are
+    /// farther.
+    [[nodiscard]] std::optional<Eigen::Index> first_at(const Vector<Dim>& point,
+                                                       double distance) const;
+
+    /// The nearest point of one cell. The weights are not negative, and exactly 0 for the corners
+    /// that the nearest face lacks.
+    [[nodiscard]] MaterialPoint<Dim> nearest_in(Eigen::Index cell, const Vector<Dim>& point) const;
 
 private:
     [[nodiscard]] Eigen::Matrix<double, Dim, Dim + 1> corners(Eigen::Index cell) const;

@@ -1,6 +1,7 @@
 #include "model/part_bodies.h"
 
 #include "model/append_bodies.h"
+#include "model/gather_in_order.h"
 #include "model/near_cells.h"
 #include "model/part_selection.h"
 #include "model/partition.h"
@@ -15,56 +16,39 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 namespace pent::simulator {
 
 namespace {
 
-// Rows of numbers that begin with two that say where they belong: those of all ranks, in order.
-template <std::size_t Width>
-std::vector<std::array<double, Width>> gather_in_order(
-    const Sharing& sharing, const std::vector<std::array<double, Width>>& own) {
-    std::vector<std::int64_t> sizes;
-    for (const double count : sharing.list(static_cast<double>(own.size() * Width))) {
-        sizes.push_back(static_cast<std::int64_t>(count));
-    }
-    const auto* numbers = own.empty() ? nullptr : own.front().data();
-    const std::vector<double> flat = sharing.ranks().gather({numbers, own.size() * Width}, sizes);
-    std::vector<std::array<double, Width>> all(flat.size() / Width);
-    for (std::size_t i = 0; i < flat.size(); ++i) {
-        all[i / Width][i % Width] = flat[i];
-    }
-    std::sort(all.begin(), all.end());
-    return all;
-}
-
-// Cells by their materials, as append_bodies() has them; labels in the order of the cells.
+// A part of the next body, which has been placed; labels and fibers in the order of the cells.
 template <int Dim>
 void append_part(const Body& body,
                  MeshPart<Dim> part,
+                 const MadeQuadratic<Dim>* quadratic,
                  const std::vector<std::uint16_t>& materials,
                  Bodies<Dim>& bodies) {
-    const SortedByMaterial sorted = sort_by_material(materials, body.regions.size() + 1);
-    const auto first = static_cast<std::uint32_t>(bodies.first_vertex.back());
-    const Eigen::Index begin = bodies.first_cell.back();
-    const Eigen::Index end = begin + part.mesh.cell_count();
-    append_ranges(body, bodies.meshes.size(), sorted.first, begin, bodies.ranges);
+    const Eigen::Index first = bodies.first_vertex.back();
+    const std::vector<Eigen::Index> order =
+        append_cells(body, bodies.meshes.size(), part.mesh, quadratic, materials, bodies);
     std::vector<std::uint16_t> labels;
-    for (std::size_t i = 0; i < sorted.order.size(); ++i) {
-        const Eigen::Index own = sorted.order[i];
-        bodies.cells.col(begin + static_cast<Eigen::Index>(i)) =
-            part.mesh.cells.col(own).array() + first;
-        bodies.mesh_cells.push_back(part.numbers[static_cast<std::size_t>(own)]);
+    for (const Eigen::Index cell : order) {
+        bodies.mesh_cells.push_back(part.numbers[static_cast<std::size_t>(cell)]);
         if (!part.mesh.regions.empty()) {
-            labels.push_back(part.mesh.regions[static_cast<std::size_t>(own)]);
+            labels.push_back(part.mesh.regions[static_cast<std::size_t>(cell)]);
         }
     }
+    if (part.mesh.fibers.cols() > 0) {
+        part.mesh.fibers = part.mesh.fibers(Eigen::all, order).eval();
+    }
     bodies.cell_count += part.cell_count;
-    bodies.first_cell.push_back(end);
+    bodies.first_cell.push_back(bodies.first_cell.back() + part.mesh.cell_count());
     bodies.first_vertex.push_back(first + part.mesh.vertex_count());
     bodies.rest.middleCols(first, part.mesh.vertex_count()) = part.mesh.positions;
     part.mesh.cells.resize(Eigen::NoChange, 0);
+    part.mesh.parents.clear();
     part.mesh.regions = std::move(labels);
     bodies.meshes.push_back(std::move(part.mesh));
 }
@@ -81,9 +65,17 @@ bool are_labels_asked_for(const Scene& scene, const Body& body) {
             return part.body == body.name && selects_by_region(part.select);
         });
     };
-    return selects(scene.constraints) || selects(scene.loads)
+    return selects(scene.constraints) || selects(scene.loads) || selects(scene.attachments)
+           || selects(scene.activations)
            || std::any_of(body.regions.begin(), body.regions.end(),
                           [](const Region& region) { return selects_by_region(region.select); });
+}
+
+bool are_fibers_asked_for(const Scene& scene, const Body& body) {
+    return std::any_of(scene.activations.begin(), scene.activations.end(),
+                       [&](const Activation& activation) {
+                           return activation.body == body.name && activation.fibers == Fibers::Mesh;
+                       });
 }
 
 template <int Dim>
@@ -104,6 +96,18 @@ std::vector<std::uint32_t> share_vertices(const Scene& scene,
         count += placed.vertex_count();
     }
     return partition_columns<Dim>(rest, number_columns(meshes), ranks);
+}
+
+template <int Dim>
+bool do_cells_make_elements(const Scene& scene, const SimplexMesh<Dim>& part) {
+    if (scene.solver.elements == ElementKind::Quadratic) {
+        try {
+            static_cast<void>(quadratic_simplices<Dim>(part, ""));
+        } catch (const Error&) {
+            return false;
+        }
+    }
+    return true;
 }
 
 template <int Dim>
@@ -129,9 +133,24 @@ Bodies<Dim> make_part_bodies(const Scene& scene,
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const Body& body = scene.bodies[i];
         MeshPart<Dim> part;
-        agree(ranks.get(), [&] { part = place(std::move(parts[i]), body); });
-        const std::vector<std::uint16_t> materials = materials_of_part(part.mesh, body, *ranks);
-        agree(ranks.get(), [&] { append_part(body, std::move(part), materials, bodies); });
+        std::optional<MadeQuadratic<Dim>> quadratic;
+        agree(ranks.get(), [&] {
+            part = place(std::move(parts[i]), body);
+            if (scene.solver.elements == ElementKind::Quadratic) {
+                quadratic = make_quadratic(part.mesh, body);
+                for (std::uint32_t& number : quadratic->numbers) {
+                    number = part.numbers[number];
+                }
+            }
+        });
+        const std::vector<std::uint16_t> materials =
+            quadratic
+                ? materials_of_part(quadratic->straight, quadratic->numbers, body, ranks.get())
+                : materials_of_part(part.mesh, part.numbers, body, ranks.get());
+        agree(ranks.get(), [&] {
+            append_part(body, std::move(part), quadratic ? &*quadratic : nullptr, materials,
+                        bodies);
+        });
     }
     refuse_others(
         ranks.get(),
@@ -174,7 +193,7 @@ Simplices<Dim> boundary_of(const Bodies<Dim>& bodies, std::size_t body) {
         row[1] = opposite;
         std::copy(facet.begin(), facet.end(), row.begin() + 2);
     }
-    const auto all = gather_in_order(bodies.sharing, own);
+    const auto all = gather_in_order(bodies.sharing.ranks(), own);
     Simplices<Dim> boundary(Dim, static_cast<Eigen::Index>(all.size()));
     for (std::size_t i = 0; i < all.size(); ++i) {
         for (int corner = 0; corner < Dim; ++corner) {
@@ -215,7 +234,7 @@ CellList<Dim> list_cells(
         }
     }
     if (is_of_parts(bodies)) {
-        for (const auto& row : gather_in_order(bodies.sharing, own)) {
+        for (const auto& row : gather_in_order(bodies.sharing.ranks(), own)) {
             list.bodies.push_back(static_cast<std::size_t>(row[0]));
             std::transform(row.begin() + 2, row.end(), list.cells.emplace_back().begin(),
                            [](double vertex) { return static_cast<std::uint32_t>(vertex); });
@@ -225,6 +244,7 @@ CellList<Dim> list_cells(
 }
 
 #define PENT_INSTANTIATE(Dim)                                                            \
+    template bool do_cells_make_elements<Dim>(const Scene&, const SimplexMesh<Dim>&);    \
     template std::vector<std::uint32_t> share_vertices<Dim>(                             \
         const Scene&, const std::vector<SimplexMesh<Dim>>&, int);                        \
     template Bodies<Dim> make_part_bodies<Dim>(const Scene&, std::vector<MeshPart<Dim>>, \

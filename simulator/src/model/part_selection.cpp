@@ -1,30 +1,66 @@
 #include "model/part_selection.h"
 
+#include "model/gather_in_order.h"
 #include "model/part_bodies.h"
 #include "model/selection_marks.h"
 
 #include <pent/dimensions.h>
-#include <pent/error.h>
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
+#include <array>
 
 namespace pent::simulator {
 
+namespace {
+
+// Of all ranks, where there are any.
+template <int Dim>
+NearMiss<Dim> nearest_of_all(const Ranks* ranks, const NearMiss<Dim>& own) {
+    if (ranks == nullptr) {
+        return own;
+    }
+    std::array<double, Dim + 4> row = {own.distance, own.number, own.least_label, own.most_label};
+    std::copy(own.point.begin(), own.point.end(), row.begin() + 4);
+    const auto rows = gather_in_order<Dim + 4>(*ranks, {row});
+    NearMiss<Dim> miss;
+    miss.distance = rows[0][0];
+    miss.number = rows[0][1];
+    std::copy(rows[0].begin() + 4, rows[0].end(), miss.point.begin());
+    for (const auto& of_rank : rows) {
+        miss.least_label = std::min(miss.least_label, of_rank[2]);
+        miss.most_label = std::max(miss.most_label, of_rank[3]);
+    }
+    return miss;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<bool> select_cells(const SimplexMesh<Dim>& part,
+                               const std::vector<std::uint32_t>& numbers,
+                               const std::vector<Selection>& select,
+                               const std::string& where,
+                               const Ranks* ranks) {
+    std::vector<bool> is_in;
+    agree(ranks, [&] { is_in = mark_cells(part, select, where); });
+    const bool has_any = std::find(is_in.begin(), is_in.end(), true) != is_in.end();
+    if (!(ranks == nullptr ? has_any : any(*ranks, has_any))) {
+        const NearMiss<Dim> own = near_miss(part, centers(part), numbers, select.front());
+        refuse_none(part, "cell", nearest_of_all(ranks, own), select, where);
+    }
+    return is_in;
+}
+
 template <int Dim>
 std::vector<std::uint16_t> materials_of_part(const SimplexMesh<Dim>& part,
+                                             const std::vector<std::uint32_t>& numbers,
                                              const Body& body,
-                                             const Ranks& ranks) {
-    const auto mark = [&](const Region& region) {
-        const std::string where = place_and_name(region);
-        std::vector<bool> is_in;
-        agree(&ranks, [&] { is_in = mark_cells(part, region.select, where); });
-        if (!any(ranks, std::find(is_in.begin(), is_in.end(), true) != is_in.end())) {
-            throw Error(where + " selects no cell; " + extent_text(part.positions));
-        }
-        return is_in;
-    };
-    return materials_by_regions(static_cast<std::size_t>(part.cell_count()), body, mark);
+                                             const Ranks* ranks) {
+    return materials_by_regions(
+        static_cast<std::size_t>(part.cell_count()), body, [&](const Region& region) {
+            return select_cells(part, numbers, region.select, place_and_name(region), ranks);
+        });
 }
 
 // A rank has all cells of its own vertices: of these it knows which have a label, and tells the
@@ -60,16 +96,19 @@ std::vector<std::uint32_t> select_vertices(const Bodies<Dim>& bodies,
         }
     }
     if (selected.empty()) {
-        throw Error(where + " selects no vertex: no cell has the label that it asks for; "
-                    + extent_text(mesh.positions));
+        const NearMiss<Dim> own = near_miss(part, part.positions, {}, select.front());
+        refuse_none(part, "vertex", nearest_of_all(&bodies.sharing.ranks(), own), select, where);
     }
     return selected;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                                   \
-    template std::vector<std::uint16_t> materials_of_part(const SimplexMesh<Dim>&, const Body&, \
-                                                          const Ranks&);                        \
-    template std::vector<std::uint32_t> select_vertices(                                        \
+#define PENT_INSTANTIATE(Dim)                                                                      \
+    template std::vector<bool> select_cells(                                                       \
+        const SimplexMesh<Dim>&, const std::vector<std::uint32_t>&, const std::vector<Selection>&, \
+        const std::string&, const Ranks*);                                                         \
+    template std::vector<std::uint16_t> materials_of_part(                                         \
+        const SimplexMesh<Dim>&, const std::vector<std::uint32_t>&, const Body&, const Ranks*);    \
+    template std::vector<std::uint32_t> select_vertices(                                           \
         const Bodies<Dim>&, std::size_t, const std::vector<Selection>&, const std::string&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE

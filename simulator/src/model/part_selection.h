@@ -10,14 +10,26 @@
 
 namespace pent::simulator {
 
-/// materials_of_cells() of the cells that a rank has of a placed mesh. Throws an Error on all ranks
-/// where a region has no cell on any of them.
+/// select_cells() of the cells, or the elements, that a rank has of a placed mesh. Throws an Error
+/// on all ranks, as select_cells() of the whole does, where none is selected on any of them.
 ///
-/// @param part  All vertices, and cells of this rank.
+/// @param part     All vertices, and cells of this rank.
+/// @param numbers  What each cell is called in the whole mesh; empty if as they come.
+/// @param ranks    Null for none.
 template <int Dim>
-[[nodiscard]] std::vector<std::uint16_t> materials_of_part(const SimplexMesh<Dim>& part,
-                                                           const Body& body,
-                                                           const Ranks& ranks);
+[[nodiscard]] std::vector<bool> select_cells(const SimplexMesh<Dim>& part,
+                                             const std::vector<std::uint32_t>& numbers,
+                                             const std::vector<Selection>& select,
+                                             const std::string& where,
+                                             const Ranks* ranks);
+
+/// materials_of_cells() of the same.
+template <int Dim>
+[[nodiscard]] std::vector<std::uint16_t> materials_of_part(
+    const SimplexMesh<Dim>& part,
+    const std::vector<std::uint32_t>& numbers,
+    const Body& body,
+    const Ranks* ranks);
 
 /// Vertices that are selected of a body, of its mesh, increasing, on all ranks alike, whether they
 /// have whole meshes or parts. Throws an Error as select_vertices() of a mesh does.

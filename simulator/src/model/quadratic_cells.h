@@ -19,9 +19,8 @@ using QuadraticSimplices = Eigen::Matrix<std::uint32_t, kQuadraticNodes<Dim>, Ei
 template <int Dim>
 struct QuadraticCells {
     QuadraticSimplices<Dim> nodes;
-    std::vector<CellRange> ranges;  ///< As of Bodies.
-    std::vector<std::uint32_t>
-        first_child;  ///< One a simplex: a cell of the mesh of its body, whose labels it has.
+    std::vector<CellRange> ranges;       ///< As of Bodies.
+    std::vector<std::uint32_t> parents;  ///< One a cell of Bodies: which of them it is a child of.
 };
 
 /// Corners of the linear simplex that a quadratic one deforms as, see QuadraticRule.

@@ -1,3 +1,4 @@
+#include "model/part_selection.h"
 #include "model/rotation.h"
 #include "model/selection_marks.h"
 
@@ -7,7 +8,6 @@
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
-#include <limits>
 #include <sstream>
 
 namespace pent::simulator {
@@ -116,80 +116,80 @@ std::string vector_text(const Vector<Dim>& vector) {
     return text.str();
 }
 
-template <typename Labels>
-std::string range_text(const Labels& labels) {
-    const auto [least, most] = std::minmax_element(labels.begin(), labels.end());
-    return std::to_string(*least) + " to " + std::to_string(*most);
-}
-
-// What a selection of no point came nearest to.
+// Looks for the point that is nearest to a place.
 template <int Dim>
-struct Nearest {
-    const SimplexMesh<Dim>& mesh;
+struct MissFinder {
     const Positions<Dim>& points;
-    std::string_view what;  // a point is
+    const std::vector<std::uint32_t>& numbers;
+    NearMiss<Dim>& miss;
 
-    // By a distance of points from the selected region.
     template <typename Distance>
-    std::string vertex(const Distance& distance) const {
-        double least = std::numeric_limits<double>::infinity();
-        Eigen::Index nearest = 0;
+    void find(const Distance& distance) const {
         for (Eigen::Index i = 0; i < points.cols(); ++i) {
             const double d = distance(Vector<Dim>(points.col(i)));
-            nearest = d < least ? i : nearest;
-            least = std::min(d, least);
+            if (d < miss.distance) {
+                miss.distance = d;
+                miss.number =
+                    numbers.empty() ? static_cast<double>(i) : numbers[static_cast<std::size_t>(i)];
+                miss.point = points.col(i);
+            }
         }
-        return "the nearest " + std::string(what) + " is " + std::to_string(nearest) + " at "
-               + vector_text<Dim>(points.col(nearest)) + formatted(", %.3g m away", least);
     }
-    std::string operator()(const BallSelection& ball) const {
+    void operator()(const BallSelection& ball) const {
         const Vector<Dim> center = ball.center;
-        return vertex([&](const Vector<Dim>& p) { return (p - center).norm() - ball.radius; });
+        find([&](const Vector<Dim>& p) { return (p - center).norm() - ball.radius; });
     }
-    std::string operator()(const BoxSelection& box) const {
+    void operator()(const BoxSelection& box) const {
         const Vector<Dim> low = box.low;
         const Vector<Dim> high = box.high;
-        return vertex(
-            [&](const Vector<Dim>& p) { return (low - p).cwiseMax(p - high).cwiseMax(0).norm(); });
+        find([&](const Vector<Dim>& p) { return (low - p).cwiseMax(p - high).cwiseMax(0).norm(); });
     }
-    std::string operator()(const HalfSpaceSelection& half_space) const {
+    void operator()(const HalfSpaceSelection& half_space) const {
         const Vector<Dim> normal = half_space.normal;
-        return vertex([&](const Vector<Dim>& p) { return normal.dot(p) - half_space.offset; });
+        find([&](const Vector<Dim>& p) { return normal.dot(p) - half_space.offset; });
+    }
+    template <typename Other>
+    void operator()(const Other& /*no place*/) const {}
+};
+
+std::string range_text(double least, double most) {
+    return formatted("%.0f to %.0f", least, most);
+}
+
+// What there is in place of what was selected.
+template <int Dim>
+struct MissText {
+    const SimplexMesh<Dim>& mesh;
+    const std::string& what;
+    const NearMiss<Dim>& miss;
+
+    template <typename Place>
+    std::string operator()(const Place& /*place*/) const {
+        return "the nearest " + what + " is " + formatted("%.0f", miss.number) + " at "
+               + vector_text<Dim>(miss.point) + formatted(", %.3g m away", miss.distance);
     }
     std::string operator()(const LayerSelection& /*layers*/) const {
-        return "the mesh has the layers " + range_text(mesh.layers);
+        const auto [least, most] = std::minmax_element(mesh.layers.begin(), mesh.layers.end());
+        return "the mesh has the layers " + range_text(*least, *most);
     }
     std::string operator()(const RegionSelection& /*region*/) const {
-        return mesh.regions.empty() ? "the mesh has no regions"
-                                    : "the mesh has the regions " + range_text(mesh.regions);
+        return miss.most_label < miss.least_label
+                   ? "the mesh has no regions"
+                   : "the mesh has the regions " + range_text(miss.least_label, miss.most_label);
     }
     std::string operator()(const EverythingSelection& /*everything*/) const {
         return "the mesh has no vertex";  // GCOVR_EXCL_LINE: none is without
     }
 };
 
+template <int Dim>
+std::string extent_text(const Positions<Dim>& positions) {
+    return "the body as placed reaches from " + vector_text<Dim>(positions.rowwise().minCoeff())
+           + " to " + vector_text<Dim>(positions.rowwise().maxCoeff());
+}
+
 bool has_any(const Marks& marks) {
     return std::find(marks.begin(), marks.end(), true) != marks.end();
-}
-
-template <int Dim>
-[[noreturn]] void refuse_none(const Nearest<Dim>& nearest,
-                              const std::vector<Selection>& select,
-                              const std::string& where) {
-    throw Error(where + " selects no " + std::string(nearest.what) + ": "
-                + std::visit(nearest, select.front()) + "; "
-                + extent_text<Dim>(nearest.mesh.positions));
-}
-
-template <int Dim>
-Positions<Dim> centers(const SimplexMesh<Dim>& mesh) {
-    Positions<Dim> all = Positions<Dim>::Zero(Dim, mesh.cell_count());
-    for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
-        for (const std::uint32_t vertex : mesh.cells.col(cell)) {
-            all.col(cell) += mesh.positions.col(vertex) / (Dim + 1);
-        }
-    }
-    return all;
 }
 
 }  // namespace
@@ -218,9 +218,39 @@ std::string place_and_name(const Attachment& attachment) {
 }
 
 template <int Dim>
-std::string extent_text(const Positions<Dim>& positions) {
-    return "the body as placed reaches from " + vector_text<Dim>(positions.rowwise().minCoeff())
-           + " to " + vector_text<Dim>(positions.rowwise().maxCoeff());
+Positions<Dim> centers(const SimplexMesh<Dim>& mesh) {
+    Positions<Dim> all = Positions<Dim>::Zero(Dim, mesh.cell_count());
+    for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+        for (const std::uint32_t vertex : mesh.cells.col(cell)) {
+            all.col(cell) += mesh.positions.col(vertex) / (Dim + 1);
+        }
+    }
+    return all;
+}
+
+template <int Dim>
+NearMiss<Dim> near_miss(const SimplexMesh<Dim>& mesh,
+                        const Positions<Dim>& points,
+                        const std::vector<std::uint32_t>& numbers,
+                        const Selection& selection) {
+    NearMiss<Dim> miss;
+    std::visit(MissFinder<Dim>{points, numbers, miss}, selection);
+    for (const std::uint16_t label : mesh.regions) {
+        miss.least_label = std::min<double>(miss.least_label, label);
+        miss.most_label = std::max<double>(miss.most_label, label);
+    }
+    return miss;
+}
+
+template <int Dim>
+void refuse_none(const SimplexMesh<Dim>& mesh,
+                 const std::string& what,
+                 const NearMiss<Dim>& miss,
+                 const std::vector<Selection>& select,
+                 const std::string& where) {
+    throw Error(where + " selects no " + what + ": "
+                + std::visit(MissText<Dim>{mesh, what, miss}, select.front()) + "; "
+                + extent_text<Dim>(mesh.positions));
 }
 
 bool selects_by_region(const std::vector<Selection>& select) {
@@ -258,7 +288,8 @@ std::vector<std::uint32_t> select_vertices(const SimplexMesh<Dim>& mesh,
                                            const std::string& where) {
     const Marks marks = mark_vertices(mesh, select, where);
     if (!has_any(marks)) {
-        refuse_none<Dim>({mesh, mesh.positions, "vertex"}, select, where);
+        refuse_none(mesh, "vertex", near_miss(mesh, mesh.positions, {}, select.front()), select,
+                    where);
     }
     std::vector<std::uint32_t> selected;
     for (std::size_t vertex = 0; vertex < marks.size(); ++vertex) {
@@ -273,12 +304,7 @@ template <int Dim>
 std::vector<bool> select_cells(const SimplexMesh<Dim>& mesh,
                                const std::vector<Selection>& select,
                                const std::string& where) {
-    Marks marks = mark_cells(mesh, select, where);
-    if (!has_any(marks)) {
-        const Positions<Dim> points = centers(mesh);
-        refuse_none<Dim>({mesh, points, "cell"}, select, where);
-    }
-    return marks;
+    return select_cells(mesh, {}, select, where, nullptr);
 }
 
 std::vector<std::uint16_t> materials_by_regions(
@@ -308,7 +334,12 @@ const Material& material_of(const Body& body, std::uint16_t number) {
 }
 
 #define PENT_INSTANTIATE(Dim)                                                                      \
-    template std::string extent_text<Dim>(const Positions<Dim>&);                                  \
+    template Positions<Dim> centers<Dim>(const SimplexMesh<Dim>&);                                 \
+    template NearMiss<Dim> near_miss<Dim>(const SimplexMesh<Dim>&, const Positions<Dim>&,          \
+                                          const std::vector<std::uint32_t>&, const Selection&);    \
+    template void refuse_none<Dim>(const SimplexMesh<Dim>&, const std::string&,                    \
+                                   const NearMiss<Dim>&, const std::vector<Selection>&,            \
+                                   const std::string&);                                            \
     template std::vector<bool> mark_vertices<Dim>(                                                 \
         const SimplexMesh<Dim>&, const std::vector<Selection>&, const std::string&);               \
     template std::vector<bool> mark_cells<Dim>(const SimplexMesh<Dim>&,                            \

@@ -1,10 +1,13 @@
 #pragma once
 
+#include "model/rotation.h"
+
 #include <pent/simplex_mesh.h>
 #include <pent/simulator/scene.h>
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -40,8 +43,34 @@ template <int Dim>
     const Body& body,
     const std::function<std::vector<bool>(const Region&)>& mark);
 
-/// "the body as placed reaches from [0, 0] to [1, 1]".
+/// The middles of cells: the mean of their corners.
 template <int Dim>
-[[nodiscard]] std::string extent_text(const Positions<Dim>& positions);
+[[nodiscard]] Positions<Dim> centers(const SimplexMesh<Dim>& mesh);
+
+/// What a selection of nothing came nearest to.
+template <int Dim>
+struct NearMiss {
+    double distance = std::numeric_limits<double>::infinity();  ///< From the place, m.
+    double number = 0;                                          ///< What that point is called.
+    Vector<Dim> point = Vector<Dim>::Zero();
+    double least_label = std::numeric_limits<double>::infinity();  ///< Of regions.
+    double most_label = -std::numeric_limits<double>::infinity();
+};
+
+/// @param points   Vertices, or middles of cells; the first of equally near ones counts.
+/// @param numbers  What each is called; empty if as they come.
+template <int Dim>
+[[nodiscard]] NearMiss<Dim> near_miss(const SimplexMesh<Dim>& mesh,
+                                      const Positions<Dim>& points,
+                                      const std::vector<std::uint32_t>& numbers,
+                                      const Selection& selection);
+
+/// Throws an Error: "WHERE selects no WHAT: the nearest one is ...".
+template <int Dim>
+[[noreturn]] void refuse_none(const SimplexMesh<Dim>& mesh,
+                              const std::string& what,
+                              const NearMiss<Dim>& miss,
+                              const std::vector<Selection>& select,
+                              const std::string& where);
 
 }  // namespace pent::simulator

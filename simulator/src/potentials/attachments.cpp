@@ -1,5 +1,8 @@
 #include "potentials/attachments.h"
 
+#include "model/nearest_in_body.h"
+#include "model/part_selection.h"
+
 #include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
@@ -7,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace pent::simulator {
 
@@ -45,21 +47,25 @@ void Attachments<Dim>::add_springs(const Workers& workers,
                                    Bundle& bundle) {
     const Attachment& attachment = *bundle.attachment;
     const std::vector<std::uint32_t> selected =
-        select_vertices(bodies.meshes[bundle.body], attachment);
+        select_vertices(bodies, bundle.body, attachment.select, place_and_name(attachment));
+    std::vector<std::uint32_t> vertices = selected;
+    for (std::uint32_t& vertex : vertices) {
+        vertex += static_cast<std::uint32_t>(bodies.first_vertex[bundle.body]);
+    }
     springs_.resize(bundle.begin + selected.size());
     std::vector<double> distances(selected.size(), 0);
-    const auto first = static_cast<std::uint32_t>(bodies.first_vertex[bundle.body]);
-    std::optional<NearestPointSearch<Dim>> target;
+    MaterialPoints<Dim> nearest;
     if (bundle.target != bundle.body) {
-        const auto cells = bodies.cells_of(bundle.target);
-        target.emplace(bodies.rest, bodies.cells.middleCols(cells.begin, cells.size));
+        nearest = nearest_in_body(workers, bodies, bundle.target, vertices);
     }
-    workers.for_each(selected.size(), [&](std::size_t i) {
-        const std::uint32_t vertex = first + selected[i];
-        springs_[bundle.begin + i] =
-            target ? tie_to_body(bodies, bundle, *target, vertex, distances[i])
-                   : tie_to_space(bodies, attachment, vertex);
-    });
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (nearest.empty()) {
+            springs_[bundle.begin + i] = tie_to_space(bodies, attachment, vertices[i]);
+        } else {
+            springs_[bundle.begin + i] = tie_to_body(bodies, bundle, vertices[i], nearest[i]);
+            distances[i] = nearest[i].distance;
+        }
+    }
     bundle.end = springs_.size();
     const auto farthest = std::max_element(distances.begin(), distances.end());
     if (*farthest > attachment.max_distance) {
@@ -96,24 +102,23 @@ typename Attachments<Dim>::Tie Attachments<Dim>::tie_to_space(const Bodies<Dim>&
 template <int Dim>
 typename Attachments<Dim>::Tie Attachments<Dim>::tie_to_body(const Bodies<Dim>& bodies,
                                                              const Bundle& bundle,
-                                                             const NearestPointSearch<Dim>& target,
                                                              std::uint32_t vertex,
-                                                             double& distance) {
-    const Vector<Dim> point = bodies.rest.col(vertex);
-    MaterialPoint<Dim> nearest = target.nearest(point);
-    distance = nearest.distance;
-    if (bundle.attachment->offset == RestOffset::Keep && distance > 0) {
+                                                             const MaterialPoint<Dim>& nearest) {
+    typename MaterialPoint<Dim>::Weights weights = nearest.weights;
+    if (bundle.attachment->offset == RestOffset::Keep && nearest.distance > 0) {
+        const Vector<Dim> point = bodies.rest.col(vertex);
         Eigen::Matrix<double, Dim, Dim + 1> corners;
         for (std::size_t i = 0; i <= Dim; ++i) {
             corners.col(static_cast<Eigen::Index>(i)) = bodies.rest.col(nearest.vertices[i]);
         }
-        nearest.weights = barycentric<Dim>(corners, point);
-        const double most = nearest.weights.cwiseAbs().maxCoeff();
+        weights = barycentric<Dim>(corners, point);
+        const double most = weights.cwiseAbs().maxCoeff();
         if (!(most <= kMaxCoordinate)) {
             throw Error(place_and_name(*bundle.attachment) + ": the cell of \""
                         + bundle.attachment->target + "\" that is nearest to vertex "
                         + std::to_string(vertex - bodies.first_vertex[bundle.body])
-                        + " is too flat to carry an offset of " + formatted("%.3g m", distance)
+                        + " is too flat to carry an offset of "
+                        + formatted("%.3g m", nearest.distance)
                         + formatted(" (coordinates up to %.3g; expected at most %.0f)", most,
                                     kMaxCoordinate)
                         + "; use offset = \"zero\", or mend the mesh");
@@ -122,7 +127,7 @@ typename Attachments<Dim>::Tie Attachments<Dim>::tie_to_body(const Bodies<Dim>& 
     Tie spring;
     spring.add(vertex, 1);
     for (std::size_t i = 0; i <= Dim; ++i) {
-        spring.add(nearest.vertices[i], -nearest.weights[static_cast<Eigen::Index>(i)]);
+        spring.add(nearest.vertices[i], -weights[static_cast<Eigen::Index>(i)]);
     }
     return spring;
 }

@@ -75,9 +75,8 @@ private:
                                           std::uint32_t vertex);
     [[nodiscard]] static Tie tie_to_body(const Bodies<Dim>& bodies,
                                          const Bundle& bundle,
-                                         const NearestPointSearch<Dim>& target,
                                          std::uint32_t vertex,
-                                         double& distance);
+                                         const MaterialPoint<Dim>& nearest);
     [[nodiscard]] bool is_there(const Attachment& attachment, double begin) const;
     template <typename Visit>
     void for_each_spring(const Visit& visit) const;

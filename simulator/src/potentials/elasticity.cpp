@@ -186,16 +186,18 @@ std::int64_t Elasticity<Dim>::inverted_cells(const Positions<Dim>& x) const {
         return energy_.inverted;
     }
     const Simplices<Dim + 1>& cells = bodies_->cells;
+    const Sharing& sharing = bodies_->sharing;
     const auto chunks = static_cast<int>((cells.cols() + kChunkCells - 1) / kChunkCells);
-    return workers_->sum(chunks, [&](int chunk) {
+    return sharing.sum(workers_->sum(chunks, [&](int chunk) {
         const Eigen::Index begin = chunk * kChunkCells;
         const Eigen::Index end = std::min(begin + kChunkCells, cells.cols());
         std::int64_t inverted = 0;
         for (Eigen::Index cell = begin; cell < end; ++cell) {
-            inverted += cell_volume<Dim>(x, cells, cell) > 0 ? 0 : 1;
+            const bool counts = sharing.owns(cells(0, cell));
+            inverted += !counts || cell_volume<Dim>(x, cells, cell) > 0 ? 0 : 1;
         }
         return inverted;
-    });
+    }));
 }
 
 template <int Dim>

@@ -66,7 +66,7 @@ Bodies<Dim> share(const Scene& scene,
                       "let all of them read the same files");
         bodies.may_couple_anything = do_terms_couple_anything(scene);
         if (!do_terms_need_all_cells(scene)) {
-            keep_near_cells(bodies);
+            keep_near_cells(scene.solver.elements, bodies);
         }
     }
     return bodies;
