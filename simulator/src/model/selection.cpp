@@ -1,4 +1,3 @@
-#include "model/part_selection.h"
 #include "model/rotation.h"
 #include "model/selection_marks.h"
 
@@ -304,7 +303,12 @@ template <int Dim>
 std::vector<bool> select_cells(const SimplexMesh<Dim>& mesh,
                                const std::vector<Selection>& select,
                                const std::string& where) {
-    return select_cells(mesh, {}, select, where, nullptr);
+    Marks marks = mark_cells(mesh, select, where);
+    if (!has_any(marks)) {
+        refuse_none(mesh, "cell", near_miss(mesh, centers(mesh), {}, select.front()), select,
+                    where);
+    }
+    return marks;
 }
 
 std::vector<std::uint16_t> materials_by_regions(
