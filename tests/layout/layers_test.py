@@ -65,7 +65,7 @@ CONTACT = [
                   " surface friction"),
     ("trees", "box_tree boxes_around chunks near_lanes near_lanes_avx2 near_lanes_avx512"
               " near_lanes_baseline near_lanes_isa near_lanes_kernel patch_lanes patch_partition"
-              " patch_tree patches path_cover refit_tree surface_trees winding_number"),
+              " patch_tree patches path_cover refit_tree surface_patches surface_trees winding_number"),
     ("search", "candidate colliders near_on_paths near_pairs overlaps self_proximity"
                " self_proximity_search shared_work"),
     ("crossings", "crossings obstacle_contacts"),
