@@ -18,23 +18,20 @@ typename NewtonSystem<Dim>::Matrix make_matrix(const BlockPattern& pattern, Prec
                : Matrix(std::in_place_type<BlockMatrix<Dim, double>>, pattern);
 }
 
-// What rounding may take the place of, of inertia.
-constexpr double kMaxLost = 1e-2;
-
 template <typename Scalar>
 constexpr double kRounding = static_cast<double>(std::numeric_limits<Scalar>::epsilon());
 
-// Rows whose masses are small beside the rounding of the stiffness to float; too small; and too
-// small beside the rounding that there is.
+// Rows whose masses are small beside the rounding of the stiffness to float; too small for that;
+// and too small for that to double.
 struct RowCounts {
     std::int64_t rounded = 0;
     std::int64_t lost_in_float = 0;
-    std::int64_t lost = 0;
+    std::int64_t lost_in_double = 0;
 
     RowCounts& operator+=(const RowCounts& other) {
         rounded += other.rounded;
         lost_in_float += other.lost_in_float;
-        lost += other.lost;
+        lost_in_double += other.lost_in_double;
         return *this;
     }
 };
@@ -56,7 +53,7 @@ void NewtonSystem<Dim>::begin(BlockVector<Dim> right, Positions<Dim> displacemen
     masses_.setZero(dofs_->row_count());
     is_rounded_ = false;
     needs_double_ = false;
-    has_lost_inertia_ = false;
+    is_lost_in_double_ = false;
     std::visit(
         [&](auto& matrix) {
             matrix.set_coupling(nullptr);
@@ -72,16 +69,17 @@ void NewtonSystem<Dim>::add_masses(double weight, const Eigen::VectorXd& masses)
 
 // In a free body the stiffness cancels for rigid motions, and the rounding that is left takes the
 // place of inertia. In floats 2e-3 of it are let pass; beyond that translations are compensated
-// for. Rotations, which rounding resists by how far apart the vertices of blocks are, and what is
-// soft beside what is stiff may lose up to 1e-2, as rounding is not all of one sign.
+// for, up to 4e-3: rotations, which rounding resists by how far apart the vertices of blocks are,
+// and what is soft beside what is stiff still lose some. In doubles, than which nothing is more
+// exact, it may be 1e-2, as rounding is not all of one sign.
 template <int Dim>
 template <typename Scalar>
 void NewtonSystem<Dim>::add_masses(double weight,
                                    const Eigen::VectorXd& masses,
                                    BlockMatrix<Dim, Scalar>& matrix) {
     constexpr double kUnseen = 2e-3 / kRounding<float>;
-    constexpr double kMaxInFloat = kMaxLost / kRounding<float>;
-    constexpr double kMax = kMaxLost / kRounding<Scalar>;
+    constexpr double kMaxInFloat = 4e-3 / kRounding<float>;
+    constexpr double kMaxInDouble = 1e-2 / kRounding<double>;
     const auto counts = matrix.sum_row_chunks(*workers_, [&](std::int64_t begin, std::int64_t end) {
         RowCounts found;
         for (std::int64_t row = begin; row < end; ++row) {
@@ -90,7 +88,7 @@ void NewtonSystem<Dim>::add_masses(double weight,
             const double stiffness = static_cast<double>(diagonal.trace()) / Dim;
             found.rounded += stiffness > kUnseen * mass ? 1 : 0;
             found.lost_in_float += stiffness > kMaxInFloat * mass ? 1 : 0;
-            found.lost += stiffness > kMax * mass ? 1 : 0;
+            found.lost_in_double += stiffness > kMaxInDouble * mass ? 1 : 0;
             diagonal.diagonal().array() += static_cast<Scalar>(mass);
             masses_[row] += mass;
         }
@@ -98,12 +96,16 @@ void NewtonSystem<Dim>::add_masses(double weight,
     });
     is_rounded_ = is_rounded_ || counts.rounded > 0;
     // Nothing makes up for what is rounded of stencils.
-    needs_double_ = needs_double_ || counts.lost_in_float > 0
-                    || do_stencils_drown(0.2 * kMaxInFloat, weight, masses);
-    has_lost_inertia_ =
-        has_lost_inertia_ || counts.lost > 0
-        || (std::is_same_v<Scalar, float> ? needs_double_
-                                          : do_stencils_drown(kMax, weight, masses));
+    needs_double_ =
+        needs_double_ || counts.lost_in_float > 0 || do_stencils_drown(kUnseen, weight, masses);
+    is_lost_in_double_ = is_lost_in_double_ || counts.lost_in_double > 0
+                         || do_stencils_drown(kMaxInDouble, weight, masses);
+}
+
+template <int Dim>
+bool NewtonSystem<Dim>::has_lost_inertia() const {
+    return std::holds_alternative<BlockMatrix<Dim, float>>(matrix_) ? needs_double_
+                                                                    : is_lost_in_double_;
 }
 
 // Of single stencils that are to be checked, by their largest diagonal entries.

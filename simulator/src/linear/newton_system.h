@@ -53,7 +53,7 @@ public:
     /// of `displacement`.
     void finish();
 
-    [[nodiscard]] bool has_lost_inertia() const { return has_lost_inertia_; }
+    [[nodiscard]] bool has_lost_inertia() const;
     /// Whether masses drown, or would, in the rounding to float.
     [[nodiscard]] bool needs_double() const { return needs_double_; }
     [[nodiscard]] bool has_stencils() const { return !stencils_.empty(); }
@@ -86,7 +86,7 @@ private:
     std::vector<HessianStencil> stencils_;
     bool is_rounded_ = false;  // or would be in float, so that rigid motions would show it
     bool needs_double_ = false;
-    bool has_lost_inertia_ = false;
+    bool is_lost_in_double_ = false;
 };
 
 }  // namespace pent::simulator
