@@ -160,7 +160,7 @@ public:
 private:
     using DoubleBlock = Eigen::Matrix<double, Dim, Dim>;
 
-    // Calls work(begin, end) for chunks of rows, those at the same time that touch no dof in common.
+    // Calls work(begin, end) for chunks of rows, at the same time for those that share no dof.
     template <typename Work>
     void for_each_colored_chunk(const Workers& workers, const Work& work) const {
         for (const std::vector<int>& chunks : pattern_->coloring.colors) {
@@ -194,7 +194,7 @@ private:
         });
     }
 
-    // Adds the blocks of rows, and of the lower triangle, where these have rows here: as they are, as
+    // Adds the blocks of rows, and those of the lower triangle that have rows here, as they are:
     // what counts is the symmetric part, which a transpose shares.
     void add_row_sums(std::int64_t begin, std::int64_t end, std::vector<DoubleBlock>& sums) const {
         const auto& start = pattern_->row_start;

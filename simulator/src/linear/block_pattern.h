@@ -18,8 +18,8 @@ struct BlockPattern {
     std::vector<std::int64_t> row_start;  ///< rows + 1 entries.
     std::vector<std::uint32_t> columns;
     std::vector<bool> is_cut;  ///< Rows of vertices that share an element with one without a dof.
-    int chunks = 0;     ///< Chunks of kChunkRows rows, for products in parallel.
-    Coloring coloring;  ///< Of the chunks, by the rows and columns they touch.
+    int chunks = 0;            ///< Chunks of kChunkRows rows, for products in parallel.
+    Coloring coloring;         ///< Of the chunks, by the rows and columns they touch.
 
     static constexpr std::int64_t kChunkRows = 512;
 
