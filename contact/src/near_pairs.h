@@ -1,6 +1,7 @@
 #pragma once
 
 #include "overlaps.h"
+#include "shared_work.h"
 
 #include <cstdint>
 #include <vector>

@@ -4,7 +4,6 @@
 #include "chunks.h"
 #include "closest_point_search.h"
 #include "gather.h"
-#include "shared_work.h"
 
 #include <pent/contact/box_tree.h>
 
@@ -25,21 +24,15 @@ inline constexpr std::size_t kBoxesInPiece = 64;
 /// Calls visit(i, j, found) for all boxes i and j of two trees that overlap, or of one tree with
 /// itself: each pair of different boxes once. Each piece of work finds into a list of its own;
 /// their order depends on the trees alone. Pairs of boxes are not stored. Parallel.
-///
-/// @param shared  The trees are the same for all of a team; lists of others stay empty.
 template <typename Found, typename Visit>
 [[nodiscard]] std::vector<Found> walk_overlaps(const BoxTree& first,
                                                const BoxTree& second,
-                                               const Visit& visit,
-                                               const SharedWork& shared = {}) {
+                                               const Visit& visit) {
     const std::size_t pieces =
         std::clamp<std::size_t>((first.size() + second.size()) / kBoxesInPiece, 1, kPieces);
     const std::vector<BoxTree::Work> work = BoxTree::split(first, second, pieces);
     std::vector<Found> found(work.size());
     parallel_for(work.size(), [&](std::size_t piece) {
-        if (!shared.is_own(piece)) {
-            return;
-        }
         Found& here = found[piece];
         BoxTree::for_each_overlap(first, second, work[piece],
                                   [&](std::uint32_t i, std::uint32_t j) { visit(i, j, here); });

@@ -182,11 +182,7 @@ TEST_F(MpiRuns, OfBaseAndLayersAreThoseOfTheMesh) {
     static_cast<void>(write_mesh(path("whole.pent"),
                                  extrude<4>(made.base, made.ordered, made.layers, made.options)));
     for (const std::string mesh : {"base", "whole"}) {
-        std::string scene = kTwins;
-        for (std::size_t at = 0; (at = scene.find("MESH")) != std::string::npos;) {
-            scene.replace(at, 4, mesh);
-        }
-        write(mesh, scene);
+        write(mesh, twins(mesh));
     }
     for (const int ranks : {0, 1, 2, 3}) {
         for (const std::string mesh : {"base", "whole"}) {
@@ -217,11 +213,7 @@ TEST_F(MpiRuns, InWhichNoRankHasAWholeMeshAreThoseOfOne) {
     static_cast<void>(write_mesh(path("text.pent"), read_mesh<4>(path("whole.pent")).mesh,
                                  {.encoding = Encoding::Ascii}));
     for (const std::string mesh : {"base", "whole", "text"}) {
-        std::string scene = kTwins;
-        for (std::size_t at = 0; (at = scene.find("MESH")) != std::string::npos;) {
-            scene.replace(at, 4, mesh);
-        }
-        write(mesh, scene);
+        write(mesh, twins(mesh));
     }
     ASSERT_EQ(simulate(0, "whole", "alone").exit_code, 0);
     const auto data_of = [](const std::string& bytes) {
@@ -250,10 +242,7 @@ TEST_F(MpiRuns, OfSmoothedElementsAreThoseOfTheMesh) {
     static_cast<void>(write_mesh(path("whole.pent"),
                                  extrude<4>(made.base, made.ordered, made.layers, made.options)));
     for (const std::string mesh : {"base", "whole"}) {
-        std::string scene = kTwins;
-        for (std::size_t at = 0; (at = scene.find("MESH")) != std::string::npos;) {
-            scene.replace(at, 4, mesh);
-        }
+        std::string scene = twins(mesh);
         scene.replace(scene.find("frames = 4"), 10, "frames = 1");
         const std::size_t contact = scene.find("[contact]");  // penalties have kinks
         scene.erase(contact, scene.find("[solver]") - contact);
@@ -283,10 +272,7 @@ TEST_F(MpiRuns, OfFibersAndAttachmentsGoWherePentSimGoes) {
         mesh.fibers.col(cell) << 1, 0.1 * static_cast<double>(cell % 7), 0, 0.2;
     }
     static_cast<void>(write_mesh(path("fibers.pent"), mesh));
-    std::string scene = kTwins;
-    for (std::size_t at = 0; (at = scene.find("MESH")) != std::string::npos;) {
-        scene.replace(at, 4, "fibers");
-    }
+    std::string scene = twins("fibers");
     const std::size_t contact = scene.find("[contact]");
     scene.replace(contact, scene.find("[solver]") - contact, R"([[activation]]
 body = "a"

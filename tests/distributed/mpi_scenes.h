@@ -109,7 +109,16 @@ protected:
         return made;
     }
 
-    // Two bodies of regions in R^4, of which one is held at an end and the other falls on it.
+    // Two bodies of one mesh with regions in R^4, of which one is held at an end and the other falls
+    // on it.
+    static std::string twins(const std::string& mesh) {
+        std::string scene = kTwins;
+        for (std::size_t at = 0; (at = scene.find("MESH")) != std::string::npos;) {
+            scene.replace(at, 4, mesh);
+        }
+        return scene;
+    }
+
     static constexpr const char* kTwins = R"([scene]
 gravity = [0, -9.8, 0, 0]
 frames = 4
