@@ -82,6 +82,11 @@ public:
     void tell_start(const Positions<Dim>& x) const;
 
     [[nodiscard]] const DofMap& dofs() const { return *dofs_; }
+    /// Whether the last matrix was needed in double. The next one is then assembled so at once,
+    /// which saves time and changes no bit of what comes out, but the work that reports count.
+    [[nodiscard]] bool was_double_needed() const { return was_double_needed_; }
+    void set_was_double_needed(bool was_needed) { was_double_needed_ = was_needed; }
+
     [[nodiscard]] SolveWork take_work() { return std::exchange(work_, {}); }
     [[nodiscard]] std::int64_t take_damping_hessians() { return stiffness_drag_.take_hessians(); }
 

@@ -101,6 +101,7 @@ Snapshot<Dim> Simulation<Dim>::Stepper::save() const {
             .contact_stiffness = energy_.contact->stiffness(),
             .hold_places = held_.places(),
             .broken_springs = broken_springs(),
+            .was_matrix_double = potential_.was_double_needed(),
             .host = host()};
 }
 
@@ -125,6 +126,7 @@ void Simulation<Dim>::Stepper::restore(const Snapshot<Dim>& snapshot) {
     history_ = {snapshot.previous_positions, snapshot.previous_velocities};
     islands_.set_states(snapshot.sleep);
     steps_ = snapshot.steps;
+    potential_.set_was_double_needed(snapshot.was_matrix_double);
     if (energy_.contact->stiffness() != snapshot.contact_stiffness) {
         energy_.contact->set_stiffness(snapshot.contact_stiffness);
         energy_.sum.invalidate();
