@@ -264,7 +264,7 @@ public:
 
 private:
     [[nodiscard]] bool can_read() const {
-        if (ranks_.count() == 0 || !can_take_parts(scene_)) {
+        if (ranks_.count() == 0) {
             return false;
         }
         bool can = true;

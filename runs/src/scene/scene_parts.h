@@ -20,8 +20,7 @@ struct SceneParts {
 
 /// Reads them together and compares them with the scene, as read_meshes() does: a file by slabs,
 /// which all ranks see go by; of base and layers each makes what it needs. None where every rank is
-/// to read whole meshes: a program on its own, scenes that can_take_parts() says no to, and meshes
-/// whose cells do not fit together.
+/// to read whole meshes: a program on its own, and meshes whose cells do not fit together.
 template <int Dim>
 [[nodiscard]] std::optional<SceneParts<Dim>> read_parts(const Scene& scene, const RunRanks& ranks);
 
