@@ -325,15 +325,6 @@ TEST_F(MpiRuns, GoOnWithTheSameMeshesAlone) {
     }
 }
 
-TEST_F(MpiRuns, AreExplainedWithWhatRanksHaveAndSay) {
-    const Outcome told =
-        test::run_program("pent-sim-mpi --explain " + path("bar.toml"), test::mpirun(3));
-    EXPECT_EQ(told.exit_code, 0) << told.err;
-    expect_contains(told.out, {"ranks", "ghosts", "MB in memory", "messages", "all wait for all"});
-    const Outcome alone = test::run_program("pent-sim --explain " + path("bar.toml"));
-    EXPECT_EQ(alone.out.find("ghosts"), std::string::npos);
-}
-
 TEST_F(MpiRuns, SayTheirHelpOnce) {
     const Outcome help = test::run_program("pent-sim-mpi --help", test::mpirun(3));
     EXPECT_EQ(help.exit_code, 0);

@@ -5,6 +5,7 @@
 
 #include <pent/mesh_part.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ template <int Dim>
 struct SceneParts {
     std::vector<MeshPart<Dim>> parts;      ///< One a body, as their files have them.
     std::vector<MeshSource<Dim>> sources;  ///< One a body, to read other parts from.
+    std::vector<std::uint32_t> owners;     ///< The rank of each vertex, of all bodies.
 };
 
 /// Reads them together and compares them with the scene, as read_meshes() does: a file by slabs,
