@@ -44,10 +44,10 @@ public:
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
     /// Writes a mesh, each rank a slab. Gives its checksum.
-    std::uint32_t write(const std::filesystem::path& file,
-                        const Simulation<Dim>& simulation,
-                        int body,
-                        const std::string& created_by) const;
+    [[nodiscard]] std::uint32_t write(const std::filesystem::path& file,
+                                      const Simulation<Dim>& simulation,
+                                      int body,
+                                      const std::string& created_by) const;
 
     /// Compares a mesh with a file, see check_same_mesh().
     [[nodiscard]] std::uint32_t compare(const std::filesystem::path& file,

@@ -35,7 +35,7 @@ private:
                   std::span<const std::uint32_t> owners,
                   std::span<const std::uint32_t> corners);
 
-    const Ranks* ranks_;
+    const Ranks* ranks_ = nullptr;
     std::vector<std::uint32_t> own_;     // vertices of this rank
     std::vector<std::uint32_t> ghosts_;  // corners here of others
     std::unique_ptr<GhostExchange> exchange_;
