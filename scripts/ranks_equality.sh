@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Whether pent-sim-mpi is pent-sim: every scene of data/scenes and data/study whose models are there, on meshes
-# some times as coarse as its own, for four steps, and the barrier's stress scenes for twelve, to tolerance 1e-8, by
-# pent-sim and on 1, 2, 3, 4 and 7 ranks. Prints a table: how far positions differ after the first step, over how far they
+# some times as coarse as its own, and muscles with fibers by distances for four steps, and the barrier's stress scenes for
+# twelve, to tolerance 1e-8, by pent-sim and on 1, 2, 3, 4 and 7 ranks. Prints a table: how far positions differ after the first step, over how far they
 # have gone, for each number of ranks, and for pent-sim itself where the last body starts 1e-13 m away (nudged): what a
 # scene makes of rounding; the most after the last step; the most that energies and momenta differ
 # after the first; contacts in the first step in which they hold energy; and whether all is the same: the first step to 1e-6, its

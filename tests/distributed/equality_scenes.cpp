@@ -1,6 +1,8 @@
 #include "equality_scenes.h"
 
+#include "simulator/scenes.h"
 #include "simulator/stress_scenes.h"
+#include "support/fork.h"
 
 #include <pent/error.h>
 #include <pent/pent_file.h>
@@ -154,6 +156,30 @@ void add_stress(const Places& places, std::vector<QuickScene>& scenes) {
     scenes.push_back(stress<Dim>(places, "thin_sheets", hard::thin_sheets<Dim>(1)));
 }
 
+// A wave along both arms of a fork, away from the end of one of them, which is held.
+template <int Dim>
+QuickScene muscle(const Places& places) {
+    const std::string name = "muscle_" + std::to_string(Dim) + "d";
+    Scene scene = simulator::test::box_scene<Dim>();
+    scene.bodies[0].mesh = (places.work / (name + ".pent")).string();
+    static_cast<void>(write_mesh(scene.bodies[0].mesh, fork<Dim>()));
+    simulator::BoxSelection end_of_arm{.low = Eigen::VectorXd::Constant(Dim, -1),
+                                       .high = Eigen::VectorXd::Constant(Dim, 1.1)};
+    end_of_arm.low[0] = 5.9;
+    end_of_arm.high[0] = 7;
+    scene.constraints = {simulator::test::hold(end_of_arm, simulator::test::still(Dim))};
+    scene.activations = {{.body = "box",
+                          .select = {simulator::EverythingSelection{}},
+                          .stretch = 0.8,
+                          .fibers = simulator::Fibers::Distance,
+                          .away_from = {end_of_arm},
+                          .preserves_volume = true,
+                          .signal = simulator::Signal::Sine,
+                          .frequency = 2,
+                          .distance_wave = 0.1}};
+    return quick(places, name, std::move(scene), kSteps);
+}
+
 }  // namespace
 
 std::vector<QuickScene> data_scenes(const Places& places) {
@@ -189,6 +215,10 @@ std::vector<QuickScene> data_scenes(const Places& places) {
         }
     }
     return scenes;
+}
+
+std::vector<QuickScene> muscle_scenes(const Places& places) {
+    return {muscle<3>(places), muscle<4>(places)};
 }
 
 std::vector<QuickScene> stress_scenes(const Places& places) {

@@ -27,6 +27,9 @@ struct Places {
 /// few times as coarse.
 [[nodiscard]] std::vector<QuickScene> data_scenes(const Places& places);
 
+/// Activations along fibers that are found by distances, in R^3 and R^4.
+[[nodiscard]] std::vector<QuickScene> muscle_scenes(const Places& places);
+
 /// The scenes that are hard on a barrier, in R^3 and R^4, as coarse as the tests have them, but not
 /// the same when z and w are exchanged, and solved until what is left moves nothing.
 [[nodiscard]] std::vector<QuickScene> stress_scenes(const Places& places);

@@ -11,36 +11,7 @@ using test::kuhn_box;
 using test::Outcome;
 using test::text_of;
 
-class MpiRuns : public test::MpiScenes {
-protected:
-    // Positions differ by this part of how far the body has gone since frame 0, at most.
-    template <int Dim>
-    void expect_near(const std::string& run,
-                     const std::string& other,
-                     const std::string& body,
-                     int number,
-                     double tolerance) const {
-        const auto a = read_frame<Dim>(frame(run, body, number));
-        const auto b = read_frame<Dim>(frame(other, body, number));
-        const auto start = read_frame<Dim>(frame(other, body, 0));
-        EXPECT_EQ(a.mesh_crc, b.mesh_crc);
-        EXPECT_EQ(a.step, b.step);
-        EXPECT_EQ(a.time, b.time);
-        EXPECT_LT((a.positions - b.positions).norm(),
-                  tolerance * (b.positions - start.positions).norm())
-            << run << " " << body << " " << number;
-    }
-
-    void expect_same_bytes(const std::string& run,
-                           const std::string& other,
-                           const std::string& body) const {
-        for (int number = 0; number <= 4; ++number) {
-            const std::string bytes = text_of(frame(run, body, number));
-            ASSERT_FALSE(bytes.empty()) << run << " " << number;
-            EXPECT_EQ(bytes, text_of(frame(other, body, number))) << run << " " << number;
-        }
-    }
-};
+using MpiRuns = test::MpiScenes;
 
 TEST_F(MpiRuns, GoWherePentSimGoes) {
     ASSERT_EQ(simulate(0, "bar", "alone").exit_code, 0);
@@ -352,15 +323,6 @@ TEST_F(MpiRuns, GoOnWithTheSameMeshesAlone) {
         std::ofstream(path(mesh), std::ios::binary) << good;
         EXPECT_EQ(simulate(ranks, "bar", "run", "--resume").exit_code, 0);
     }
-}
-
-TEST_F(MpiRuns, AreExplainedWithWhatRanksHaveAndSay) {
-    const Outcome told =
-        test::run_program("pent-sim-mpi --explain " + path("bar.toml"), test::mpirun(3));
-    EXPECT_EQ(told.exit_code, 0) << told.err;
-    expect_contains(told.out, {"ranks", "ghosts", "MB in memory", "messages", "all wait for all"});
-    const Outcome alone = test::run_program("pent-sim --explain " + path("bar.toml"));
-    EXPECT_EQ(alone.out.find("ghosts"), std::string::npos);
 }
 
 TEST_F(MpiRuns, SayTheirHelpOnce) {

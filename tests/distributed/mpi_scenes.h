@@ -75,6 +75,34 @@ protected:
         return runs::read_report(path(run + "/report.json"));
     }
 
+    /// Positions differ by this part of how far the body has gone since frame 0, at most.
+    template <int Dim>
+    void expect_near(const std::string& run,
+                     const std::string& other,
+                     const std::string& body,
+                     int number,
+                     double tolerance) const {
+        const auto a = read_frame<Dim>(frame(run, body, number));
+        const auto b = read_frame<Dim>(frame(other, body, number));
+        const auto start = read_frame<Dim>(frame(other, body, 0));
+        EXPECT_EQ(a.mesh_crc, b.mesh_crc);
+        EXPECT_EQ(a.step, b.step);
+        EXPECT_EQ(a.time, b.time);
+        EXPECT_LT((a.positions - b.positions).norm(),
+                  tolerance * (b.positions - start.positions).norm())
+            << run << " " << body << " " << number;
+    }
+
+    void expect_same_bytes(const std::string& run,
+                           const std::string& other,
+                           const std::string& body) const {
+        for (int number = 0; number <= 4; ++number) {
+            const std::string bytes = text_of(frame(run, body, number));
+            ASSERT_FALSE(bytes.empty()) << run << " " << number;
+            EXPECT_EQ(bytes, text_of(frame(other, body, number))) << run << " " << number;
+        }
+    }
+
     /// A box of tetrahedra through five layers, each turned and smaller than the one below.
     [[nodiscard]] static Extrusion<4> extrusion() {
         Extrusion<4> made;
@@ -109,8 +137,8 @@ protected:
         return made;
     }
 
-    // Two bodies of one mesh with regions in R^4, of which one is held at an end and the other falls
-    // on it.
+    /// Two bodies of one mesh with regions in R^4, of which one is held at an end and the other
+    /// falls on it.
     static std::string twins(const std::string& mesh) {
         std::string scene = kTwins;
         for (std::size_t at = 0; (at = scene.find("MESH")) != std::string::npos;) {

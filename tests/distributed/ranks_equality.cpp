@@ -1,6 +1,6 @@
-// The scenes of data/scenes, the study scenes and the barrier's stress scenes by pent-sim-mpi on
-// several numbers of ranks beside pent-sim: scripts/ranks_equality.sh runs it and says what it
-// prints.
+// The scenes of data/scenes, the study scenes, muscles with fibers by distances and the barrier's
+// stress scenes by pent-sim-mpi on several numbers of ranks beside pent-sim:
+// scripts/ranks_equality.sh runs it and says what it prints.
 //
 //     ranks_equality PROGRAMS DATA WORK [SCENE...]
 //
@@ -225,8 +225,8 @@ bool compare(const Places& places, const QuickScene& scene) {
 
 int compare_all(const Places& places, const std::vector<std::string>& wanted) {
     std::vector<QuickScene> scenes = data_scenes(places);
-    for (QuickScene& scene : stress_scenes(places)) {
-        scenes.push_back(std::move(scene));
+    for (const auto& more : {muscle_scenes(places), stress_scenes(places)}) {
+        scenes.insert(scenes.end(), more.begin(), more.end());
     }
     std::printf("| scene | elements |");
     for (const int ranks : kRanks) {

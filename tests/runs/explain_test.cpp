@@ -403,12 +403,5 @@ TEST(Explain, SaysWhichStiffnessWouldDo) {
     }
 }
 
-TEST(CellsAcross, AreTwiceTheEdgesFromTheMiddleToTheBoundary) {
-    EXPECT_EQ(cells_across(kuhn_box<4>({3, 1, 1, 1}, {3, 1, 1, 1})), 1);
-    EXPECT_EQ(cells_across(kuhn_box<4>({3, 2, 2, 2}, {3, 1, 1, 1})), 2);
-    EXPECT_EQ(cells_across(kuhn_box<3>({4, 4, 4}, {1, 1, 1})), 4);
-    EXPECT_EQ(cells_across(kuhn_box<3>({8, 6, 6}, {1, 1, 1})), 6);
-}
-
 }  // namespace
 }  // namespace pent::runs

@@ -173,31 +173,15 @@ TEST(NearCells, AreAllAroundTheEdgesOfSmoothedElementsOfTheRank) {
     });
 }
 
-TEST(NearCells, AreAllOfThemWhereATermAsksForMore) {
+TEST(NearCells, CoupleAnythingWhereATermDoes) {
     const Scene scene = two_bars();
-    EXPECT_FALSE(do_terms_need_all_cells(scene));
     EXPECT_FALSE(do_terms_couple_anything(scene));
     Scene touching = scene;
     touching.contact.emplace();
-    EXPECT_FALSE(do_terms_need_all_cells(touching));
     EXPECT_TRUE(do_terms_couple_anything(touching));
     Scene tied = scene;
     tied.attachments.resize(1);
     EXPECT_TRUE(do_terms_couple_anything(tied));
-    Scene active = scene;
-    active.activations = {
-        {.body = "box", .select = {EverythingSelection{}}, .fibers = Fibers::Constant}};
-    EXPECT_FALSE(do_terms_need_all_cells(active));
-    active.activations[0].fibers = Fibers::Distance;
-    EXPECT_FALSE(do_terms_need_all_cells(tied));  // ranks agree on the nearest of all
-    EXPECT_TRUE(do_terms_need_all_cells(active));
-    Scene dense = scene;  // each rank has those of its own vertices
-    dense.output.vertex = {VertexQuantity::EnergyDensity};
-    EXPECT_FALSE(do_terms_need_all_cells(dense));
-    test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
-        EXPECT_EQ(share(active, make_bodies<4>(scene, meshes()), ranks).cells.cols(),
-                  make_bodies<4>(scene, meshes()).cells.cols());
-    });
 }
 
 // Rows of a rank have columns of the vertices that share a cell with one of its own, and no others.

@@ -245,6 +245,20 @@ TEST(PartBodies, RefuseSelectionsOfNothingInTheWordsOfWholeMeshes) {
                                   .fibers = Fibers::Mesh}};
         },
         {"activation of \"second\"", "the mesh has none"});
+    const auto by_distance = [](const Selection& from) {
+        return [=](Scene& scene) {
+            scene.activations = {{.body = "box",
+                                  .select = {EverythingSelection{}},
+                                  .stretch = 1.1,
+                                  .fibers = Fibers::Distance,
+                                  .away_from = {from}}};
+        };
+    };
+    refuses(
+        by_distance(RegionSelection{.region = 99}),
+        {"activation of \"box\" (away_from) selects no vertex", "the mesh has the regions 0 to"});
+    refuses(by_distance(BallSelection{.center = Eigen::Vector4d(9, 9, 9, 9), .radius = 1}),
+            {"activation of \"box\" (away_from) selects no vertex", "the nearest vertex is"});
     refuses([](Scene& scene) { scene.loads[0].select = {RegionSelection{.region = 99}}; },
             {"load on \"box\" selects no vertex", "the mesh has the regions 0 to"});
     refuses(
@@ -252,6 +266,33 @@ TEST(PartBodies, RefuseSelectionsOfNothingInTheWordsOfWholeMeshes) {
             scene.bodies[1].regions[0].select = {LayerSelection{.first = 7, .last = 9}};
         },
         {"region \"layers\" selects no cell", "the mesh has the layers 0 to 2"});
+}
+
+// A body in two pieces, of which no way leads from one to the other: all ranks name one vertex.
+TEST(PartBodies, SayWhichVertexNoWayLeadsTo) {
+    Scene scene = test::swinging_bar();
+    const SimplexMesh<4> one = test::bar();
+    const Eigen::Index count = one.vertex_count();
+    SimplexMesh<4> mesh;
+    mesh.positions.resize(4, 2 * count);
+    mesh.positions << one.positions, (one.positions.colwise() + Eigen::Vector4d(9, 0, 0, 0));
+    mesh.cells.resize(5, 2 * one.cell_count());
+    mesh.cells << (one.cells.array() + static_cast<std::uint32_t>(count)).matrix(), one.cells;
+    scene.activations = {{.body = "box",
+                          .select = {EverythingSelection{}},
+                          .stretch = 0.9,
+                          .fibers = Fibers::Distance,
+                          .away_from = {test::left_end()}}};
+    const std::string alone = error_of([&] { Simulation<4>(scene, {mesh}); });
+    expect_contains(alone, {"no way within the body leads from \"away_from\" to vertex "
+                            + std::to_string(count) + "; select a vertex of each of its parts"});
+    test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
+        EXPECT_EQ(error_of([&] {
+                      Simulation<4>(scene, test::cut_meshes<4>(scene, {mesh}, *ranks),
+                                    {.ranks = ranks});
+                  }),
+                  alone);
+    });
 }
 
 // Those with an even sum of corners, say.
@@ -271,27 +312,13 @@ TEST(PartBodies, ListCellsOfAllRanksInTheirOrder) {
     });
 }
 
-TEST(PartBodies, AreRefusedWhereAllCellsAreNeeded) {
-    EXPECT_TRUE(can_take_parts(two_bars()));
-    const auto refuses = [](const auto& change) {
-        Scene scene = two_bars();
-        change(scene);
-        test::on_ranks(2, [&](const std::shared_ptr<const Ranks>& ranks) {
-            expect_contains(error_of([&] {
-                                Simulation<4>(scene, test::cut_meshes<4>(scene, bars(), *ranks),
-                                              {.ranks = ranks});
-                            }),
-                            {"needs whole ones"});
-        });
-        return !can_take_parts(scene);
-    };
-    EXPECT_TRUE(refuses([](Scene& scene) {
-        scene.activations = {{.body = "box",
-                              .select = {EverythingSelection{}},
-                              .stretch = 1.1,
-                              .fibers = Fibers::Distance,
-                              .away_from = {LayerSelection{.first = 0, .last = 0}}}};
-    }));
+TEST(PartBodies, AreRefusedWithoutRanks) {
+    const Scene scene = two_bars();
+    test::on_ranks(2, [&](const std::shared_ptr<const Ranks>& ranks) {
+        expect_contains(
+            error_of([&] { Simulation<4>(scene, test::cut_meshes<4>(scene, bars(), *ranks), {}); }),
+            {"without ranks"});
+    });
 }
 
 // One rank finds it, all are told.

@@ -2,7 +2,6 @@
 
 #include <pent/contact/contact.h>
 #include <pent/contact/obstacles.h>
-#include <pent/facets.h>
 #include <pent/formatted.h>
 #include <pent/simulator/placed_mesh.h>
 
@@ -56,18 +55,6 @@ double gap(const Scene& scene,
         least = other == body ? least : std::min(least, box(body).exteriorDistance(box(other)));
     }
     return least;
-}
-
-// Vertices of one of the 2 Dim sides of a body, as if it were a box.
-template <int Dim>
-double vertices_of_a_side(const SimplexMesh<Dim>& mesh) {
-    const FacetMatch<Dim> facets = match_facets<Dim>(mesh.cells, mesh.vertex_count());
-    std::vector<bool> is_on(static_cast<std::size_t>(mesh.vertex_count()), false);
-    for (const std::uint32_t vertex : facets.boundary.reshaped()) {
-        is_on[vertex] = true;
-    }
-    const auto count = static_cast<double>(std::count(is_on.begin(), is_on.end(), true));
-    return std::max(1.0, count / (2 * Dim));
 }
 
 double speed_of(const Eigen::VectorXd& velocity) {
@@ -181,7 +168,9 @@ std::vector<std::string> overlaps_at_start(const Scene& scene, const Simulation<
 }
 
 template <int Dim>
-std::vector<std::string> soft_contacts(const Scene& scene, const Simulation<Dim>& simulation) {
+std::vector<std::string> soft_contacts(const Scene& scene,
+                                       const Simulation<Dim>& simulation,
+                                       const std::vector<std::int64_t>& boundary_vertices) {
     std::vector<std::string> lines;
     const bool has_barrier = scene.contact && scene.contact->model == ContactModel::Barrier;
     const double g = scene.gravity.norm();
@@ -196,7 +185,8 @@ std::vector<std::string> soft_contacts(const Scene& scene, const Simulation<Dim>
             return;  // they do not meet
         }
         const double mass = simulation.masses(body).sum();
-        const double count = vertices_of_a_side(simulation.mesh(body));
+        // On one of the 2 Dim sides of the body, as if it were a box.
+        const double count = std::max(1.0, static_cast<double>(boundary_vertices[i]) / (2 * Dim));
         const double arrival = std::sqrt(speed * speed + 2 * g * fall);
         const double deepest = kDeep * sides(simulation, body).minCoeff();
         const double by_weight = mass * g / (2 * count * deepest);
@@ -267,7 +257,8 @@ std::string remedy(const std::string& failure, const std::vector<std::string>& d
     template std::vector<std::string> doubts_of_units<Dim>(const Scene&, const Simulation<Dim>&); \
     template std::vector<std::string> overlaps_at_start<Dim>(const Scene&,                        \
                                                              const Simulation<Dim>&);             \
-    template std::vector<std::string> soft_contacts<Dim>(const Scene&, const Simulation<Dim>&);
+    template std::vector<std::string> soft_contacts<Dim>(const Scene&, const Simulation<Dim>&,    \
+                                                         const std::vector<std::int64_t>&);
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE

@@ -4,6 +4,7 @@
 
 #include <pent/runs/run.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -36,9 +37,13 @@ template <int Dim>
 /// Bodies that penalties are too soft for: by weight, or by the speed with which they arrive after
 /// the fall that gravity gives them, they would go deep. With the stiffness that would do;
 /// docs/contact.md has the formulas. Nothing for a barrier.
+///
+/// @param boundary_vertices  One a body: how many of its vertices are on its boundary.
 template <int Dim>
-[[nodiscard]] std::vector<std::string> soft_contacts(const Scene& scene,
-                                                     const Simulation<Dim>& simulation);
+[[nodiscard]] std::vector<std::string> soft_contacts(
+    const Scene& scene,
+    const Simulation<Dim>& simulation,
+    const std::vector<std::int64_t>& boundary_vertices);
 
 /// Of a run in which something went deep: how deep, and the stiffness that would do; else empty.
 [[nodiscard]] std::string deep_penetration(const Scene& scene, const RunReport& report);

@@ -14,9 +14,10 @@ namespace pent::runs {
 struct TrialBody {
     std::int64_t cells = 0;
     int cells_across = 1;
-    bool has_parents = false;                       ///< Its mesh is one for quadratic elements.
-    std::int64_t free_vertices = 0;                 ///< Those that are not held.
-    Eigen::AlignedBox<double, Eigen::Dynamic> box;  ///< Around it at the start.
+    std::int64_t boundary_vertices = 0;
+    bool has_parents = false;        ///< Its mesh is one for quadratic elements.
+    std::int64_t free_vertices = 0;  ///< Those that are not held.
+    Eigen::AlignedBox<double, Eigen::Dynamic> box = {};  ///< Around it at the start.
 
     /// Held everywhere: nothing of it is solved for.
     [[nodiscard]] bool is_kinematic() const { return free_vertices == 0; }

@@ -2,26 +2,54 @@
 
 #include "run/resume.h"
 #include "scene/scene_meshes.h"
-#include "scene/scene_parts.h"
 
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace pent::runs {
 
 template <int Dim>
-Simulation<Dim> RunMeshes<Dim>::simulate(const simulator::SimulationOptions& options) {
+Simulation<Dim> RunMeshes<Dim>::simulate(const simulator::SimulationOptions& options,
+                                         const Look& look) {
     if (std::optional<SceneParts<Dim>> parts = read_parts<Dim>(scene_, ranks_)) {
+        if (look) {
+            show(*parts, options.ranks.get(), look);
+        }
         sources_ = std::move(parts->sources);
         return {scene_, std::move(parts->parts), options};
     }
     SceneMeshes<Dim> meshes;
     ranks_.agree([&] { meshes = read_meshes<Dim>(scene_); });
     warnings_ = std::move(meshes.warnings);
+    for (std::size_t body = 0; look && body < meshes.meshes.size(); ++body) {
+        const SimplexMesh<Dim>& mesh = meshes.meshes[body];
+        look(body,
+             {.share = {mesh}, .cells = mesh.cell_count(), .has_parents = !mesh.parents.empty()});
+    }
     return {scene_, std::move(meshes.meshes), options};
+}
+
+template <int Dim>
+void RunMeshes<Dim>::show(const SceneParts<Dim>& parts,
+                          const simulator::Ranks* ranks,
+                          const Look& look) const {
+    std::size_t first = 0;
+    for (std::size_t body = 0; body < parts.parts.size(); ++body) {
+        const MeshPart<Dim>& part = parts.parts[body];
+        const auto count = static_cast<std::size_t>(part.mesh.vertex_count());
+        bool has_parents = false;
+        ranks_.agree([&] { has_parents = !parts.sources[body].cells(0, 1).parents.empty(); });
+        look(body,
+             {.share = {part.mesh,
+                        std::span<const std::uint32_t>(parts.owners).subspan(first, count), ranks},
+              .cells = part.cell_count,
+              .has_parents = has_parents});
+        first += count;
+    }
 }
 
 // The rows that this rank writes or compares.

@@ -1,37 +1,53 @@
 #pragma once
 
 #include "run/run_ranks.h"
+#include "scene/scene_parts.h"
 #include "simulator_names.h"
 
 #include <pent/mesh_part.h>
+#include <pent/simulator/mesh_share.h>
 #include <pent/simulator/simulation.h>
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace pent::runs {
+
+/// The mesh of a body as loaded, whole or in part.
+template <int Dim>
+struct LoadedMesh {
+    simulator::MeshShare<Dim> share;
+    std::int64_t cells = 0;    ///< Of the whole.
+    bool has_parents = false;  ///< Whether its file has them, for quadratic elements.
+};
 
 /// The meshes of a run: from their files into a simulation, and from there, as placed, into the
 /// run's folder. Where ranks have parts of them none has more than that, and a slab of a file.
 template <int Dim>
 class RunMeshes {
 public:
+    using Look = std::function<void(std::size_t body, const LoadedMesh<Dim>& mesh)>;
+
     /// Both must outlive this.
     RunMeshes(const Scene& scene, const RunRanks& ranks) : scene_(scene), ranks_(ranks) {}
 
     /// Reads them, as read_parts() or else read_meshes().
-    [[nodiscard]] Simulation<Dim> simulate(const simulator::SimulationOptions& options);
+    ///
+    /// @param look  Sees each of them before the simulation has them, on all ranks together.
+    [[nodiscard]] Simulation<Dim> simulate(const simulator::SimulationOptions& options,
+                                           const Look& look = {});
 
     /// What was found to be said of them.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
     /// Writes a mesh, each rank a slab. Gives its checksum.
-    std::uint32_t write(const std::filesystem::path& file,
-                        const Simulation<Dim>& simulation,
-                        int body,
-                        const std::string& created_by) const;
+    [[nodiscard]] std::uint32_t write(const std::filesystem::path& file,
+                                      const Simulation<Dim>& simulation,
+                                      int body,
+                                      const std::string& created_by) const;
 
     /// Compares a mesh with a file, see check_same_mesh().
     [[nodiscard]] std::uint32_t compare(const std::filesystem::path& file,
@@ -42,6 +58,7 @@ public:
     void let_go() { sources_.clear(); }
 
 private:
+    void show(const SceneParts<Dim>& parts, const simulator::Ranks* ranks, const Look& look) const;
     [[nodiscard]] SimplexMesh<Dim> slab_of_mesh(const SimplexMesh<Dim>& mesh, int body) const;
 
     const Scene& scene_;

@@ -264,7 +264,7 @@ public:
 
 private:
     [[nodiscard]] bool can_read() const {
-        if (ranks_.count() == 0 || !can_take_parts(scene_)) {
+        if (ranks_.count() == 0) {
             return false;
         }
         bool can = true;
@@ -295,7 +295,7 @@ private:
                 check_sum_of(body, result_.sources.back());
             }
         }
-        ranks_.agree([&] { owners_ = share_vertices(scene_, meshes_, ranks_.count()); });
+        ranks_.agree([&] { result_.owners = share_vertices(scene_, meshes_, ranks_.count()); });
     }
 
     [[nodiscard]] static bool is_text(const MeshSource<Dim>& source) {
@@ -313,8 +313,9 @@ private:
         std::size_t first = 0;
         for (std::size_t i = 0; i < meshes_.size(); ++i) {
             const auto count = static_cast<std::size_t>(meshes_[i].vertex_count());
-            const Owners owners = {std::span<const std::uint32_t>(owners_).subspan(first, count),
-                                   static_cast<std::uint32_t>(ranks_.place())};
+            const Owners owners = {
+                std::span<const std::uint32_t>(result_.owners).subspan(first, count),
+                static_cast<std::uint32_t>(ranks_.place())};
             const MeshSource<Dim>& source = result_.sources[i];
             const Body& body = scene_.bodies[i];
             Wanted wanted;
@@ -347,7 +348,6 @@ private:
     const Scene& scene_;
     const RunRanks& ranks_;
     std::vector<SimplexMesh<Dim>> meshes_;  // vertices alone, until they are in parts
-    std::vector<std::uint32_t> owners_;
     SceneParts<Dim> result_;
 };
 

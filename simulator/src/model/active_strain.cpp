@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace pent::simulator {
@@ -77,17 +78,34 @@ BodyElements<Dim> elements_of(const Bodies<Dim>& bodies, std::size_t body) {
     return elements;
 }
 
-// The distance of every vertex from what an activation says.
+// The distance of every vertex at elements from what an activation says.
 template <int Dim>
-Eigen::VectorXd distances(const Activation& activation, const SimplexMesh<Dim>& elements) {
+Eigen::VectorXd distances(const Activation& activation,
+                          const Bodies<Dim>& bodies,
+                          std::size_t body,
+                          const SimplexMesh<Dim>& elements) {
     const std::string where = place_and_name(activation);
+    const Sharing& sharing = bodies.sharing;
+    const auto vertices = bodies.vertices(body);
+    std::vector<std::uint32_t> owners;
+    for (Eigen::Index i = 0; sharing.is_shared() && i < vertices.size; ++i) {
+        owners.push_back(sharing.owner(static_cast<std::uint32_t>(vertices.begin + i)));
+    }
     const Eigen::VectorXd all = distance_within<Dim>(
-        elements, select_vertices(elements, activation.away_from, where + " (away_from)"));
+        {elements, owners, sharing.is_shared() ? &sharing.ranks() : nullptr},
+        select_vertices(bodies, body, activation.away_from, where + " (away_from)"));
+    double first_without = std::numeric_limits<double>::infinity();
     for (const std::uint32_t vertex : elements.cells.reshaped()) {
         if (!std::isfinite(all[vertex])) {
-            throw Error(where + ": no way within the body leads from \"away_from\" to vertex "
-                        + std::to_string(vertex) + "; select a vertex of each of its parts");
+            first_without = std::min<double>(first_without, vertex);
         }
+    }
+    const std::vector<double> of_ranks = sharing.list(first_without);
+    first_without = *std::min_element(of_ranks.begin(), of_ranks.end());
+    if (std::isfinite(first_without)) {
+        throw Error(where + ": no way within the body leads from \"away_from\" to vertex "
+                    + std::to_string(static_cast<std::uint32_t>(first_without))
+                    + "; select a vertex of each of its parts");
     }
     return all;
 }
@@ -178,7 +196,7 @@ void ActiveStrain<Dim>::append_fibers(std::size_t muscle, const Bodies<Dim>& bod
     }
     const bool has_distance = activation.fibers == Fibers::Distance;
     const Eigen::VectorXd distance =
-        has_distance ? distances(activation, elements) : Eigen::VectorXd();
+        has_distance ? distances(activation, bodies, body, elements) : Eigen::VectorXd();
     for (Eigen::Index i = 0; i < elements.cell_count(); ++i) {
         if (!is_in[static_cast<std::size_t>(i)]) {
             continue;

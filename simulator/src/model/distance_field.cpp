@@ -1,5 +1,7 @@
 #include "model/distance_field.h"
 
+#include "model/falling_values.h"
+
 #include <pent/dimensions.h>
 #include <pent/geometry.h>
 
@@ -46,7 +48,9 @@ CellsAtVertices cells_at_vertices(const SimplexMesh<Dim>& mesh) {
 // When a plane wave that passes some points at given times arrives at another; infinite if it does
 // not come from between them.
 //
-// Its gradient g, of length 1, lies in the span of V, the ways from the points: V^T g = T - t.
+// Its gradient g, of length 1, lies in the span of V, the ways from the points: V^T g = T - t. It
+// comes through the point between them that the weights of g = V w say, which is where the way to
+// it and from there is shortest: an error in the weights counts to second order alone.
 template <int Dim>
 double arrival(const Eigen::Matrix<double, Dim, Eigen::Dynamic, 0, Dim, Dim>& ways,
                const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Dim, 1>& times) {
@@ -62,86 +66,128 @@ double arrival(const Eigen::Matrix<double, Dim, Eigen::Dynamic, 0, Dim, Dim>& wa
     const double a = ones.dot(q_ones);
     const double b = ones.dot(q_t);
     const double root = b * b - a * (t.dot(q_t) - 1);
-    if (!(a > 0 && root >= 0)) {
+    if (!(a > 0 && root > 0)) {
         return kUnknown;
     }
-    const double T = (b + std::sqrt(root)) / a;
-    const Column weights = T * q_ones - q_t;
-    return (weights.array() >= 0).all() ? first + T : kUnknown;
+    const Column weights = (b + std::sqrt(root)) / a * q_ones - q_t;
+    if (!(weights.array() >= 0).all()) {
+        return kUnknown;
+    }
+    const Column parts = weights / weights.sum();
+    return first + parts.dot(t) + (ways * parts).norm();
 }
 
-// The earliest arrival at a corner of a cell of waves that come through another, whose time has
-// just become known, and any others with known ones.
+// Distances as they fall. A vertex that has fallen is settled when it has been gone through: it is
+// in no arrival before that, and counts in one with whatever is settled later.
 template <int Dim>
-double earliest_arrival(const SimplexMesh<Dim>& mesh,
-                        Eigen::Index cell,
-                        std::uint32_t vertex,
-                        std::uint32_t through,
-                        const Eigen::VectorXd& times,
-                        const std::vector<bool>& is_known) {
-    std::vector<std::uint32_t> others;
-    for (const std::uint32_t corner : mesh.cells.col(cell)) {
-        if (corner != vertex && corner != through && is_known[corner]) {
-            others.push_back(corner);
-        }
+class Front {
+public:
+    explicit Front(const MeshShare<Dim>& share)
+        : share_(share),
+          at_(cells_at_vertices(share.mesh)),
+          times_(Eigen::VectorXd::Constant(share.mesh.vertex_count(), kUnknown)),
+          is_settled_(static_cast<std::size_t>(share.mesh.vertex_count()), false) {}
+
+    [[nodiscard]] Eigen::VectorXd& times() { return times_; }
+
+    void lower(std::uint32_t vertex, double time) {
+        times_[vertex] = time;
+        is_settled_[vertex] = false;
+        queue_.emplace(time, vertex);
     }
-    double earliest = kUnknown;
-    for (std::uint32_t chosen = 0; chosen < (1U << others.size()); ++chosen) {
-        Eigen::Matrix<double, Dim, Eigen::Dynamic, 0, Dim, Dim> ways(Dim, 1);
-        Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Dim, 1> known(1);
-        const auto add = [&](Eigen::Index i, std::uint32_t corner) {
-            ways.conservativeResize(Dim, i + 1);
-            known.conservativeResize(i + 1);
-            ways.col(i) = mesh.positions.col(vertex) - mesh.positions.col(corner);
-            known[i] = times[corner];
-        };
-        add(0, through);
-        for (std::size_t k = 0; k < others.size(); ++k) {
-            if ((chosen >> k & 1U) != 0) {
-                add(ways.cols(), others[k]);
+
+    // Until all is settled.
+    void march() {
+        while (!queue_.empty()) {
+            const auto [time, next] = queue_.top();
+            queue_.pop();
+            if (time > times_[next] || is_settled_[next]) {
+                continue;
+            }
+            is_settled_[next] = true;
+            for (std::size_t i = at_.start[next]; i < at_.start[next + 1U]; ++i) {
+                for (const std::uint32_t vertex : share_.mesh.cells.col(at_.cells[i])) {
+                    if (vertex == next || !share_.owns(vertex)) {
+                        continue;
+                    }
+                    const double earliest = earliest_arrival(at_.cells[i], vertex, next);
+                    if (earliest < times_[vertex]) {
+                        lower(vertex, earliest);
+                    }
+                }
             }
         }
-        earliest = std::min(earliest, arrival<Dim>(ways, known));
     }
-    return earliest;
-}
+
+private:
+    using Way = Eigen::Matrix<double, Dim, 1>;
+    using Entry = std::pair<double, std::uint32_t>;
+
+    // The earliest arrival at a corner of a cell of waves that come through another and any others
+    // that are settled.
+    [[nodiscard]] double earliest_arrival(Eigen::Index cell,
+                                          std::uint32_t vertex,
+                                          std::uint32_t through) const {
+        const Positions<Dim>& x = share_.mesh.positions;
+        const Way way = x.col(vertex) - x.col(through);
+        std::vector<std::uint32_t> others;
+        bool is_obtuse = false;
+        for (const std::uint32_t corner : share_.mesh.cells.col(cell)) {
+            if (corner != vertex && corner != through && is_settled_[corner]) {
+                others.push_back(corner);
+                is_obtuse = is_obtuse || way.dot(x.col(vertex) - x.col(corner)) < 0;
+            }
+        }
+        // Ways that meet at no obtuse angle lead to nothing that is earlier than where they begin.
+        if (!is_obtuse && times_[vertex] <= times_[through]) {
+            return kUnknown;
+        }
+        double earliest = kUnknown;
+        for (std::uint32_t chosen = 0; chosen < (1U << others.size()); ++chosen) {
+            Eigen::Matrix<double, Dim, Eigen::Dynamic, 0, Dim, Dim> ways(Dim, 1);
+            Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Dim, 1> known(1);
+            ways.col(0) = way;
+            known[0] = times_[through];
+            for (std::size_t k = 0; k < others.size(); ++k) {
+                if ((chosen >> k & 1U) != 0) {
+                    const Eigen::Index column = ways.cols();
+                    ways.conservativeResize(Dim, column + 1);
+                    known.conservativeResize(column + 1);
+                    ways.col(column) = x.col(vertex) - x.col(others[k]);
+                    known[column] = times_[others[k]];
+                }
+            }
+            earliest = std::min(earliest, arrival<Dim>(ways, known));
+        }
+        return earliest;
+    }
+
+    const MeshShare<Dim>& share_;
+    CellsAtVertices at_;
+    Eigen::VectorXd times_;
+    std::vector<bool> is_settled_;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+};
 
 }  // namespace
 
 template <int Dim>
-Eigen::VectorXd distance_within(const SimplexMesh<Dim>& mesh,
+Eigen::VectorXd distance_within(const MeshShare<Dim>& share,
                                 const std::vector<std::uint32_t>& sources) {
-    const CellsAtVertices at = cells_at_vertices(mesh);
-    Eigen::VectorXd times = Eigen::VectorXd::Constant(mesh.vertex_count(), kUnknown);
-    std::vector<bool> is_known(static_cast<std::size_t>(mesh.vertex_count()), false);
-    using Entry = std::pair<double, std::uint32_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+    Front<Dim> front(share);
     for (const std::uint32_t source : sources) {
-        times[source] = 0;
-        front.emplace(0, source);
+        front.lower(source, 0);
     }
-    while (!front.empty()) {
-        const std::uint32_t next = front.top().second;
-        front.pop();
-        if (is_known[next]) {
-            continue;
+    FallingValues others(share);
+    for (bool has_fallen = true; has_fallen;) {
+        front.march();
+        const std::vector<std::uint32_t> fallen = others.take_over(front.times());
+        for (const std::uint32_t vertex : fallen) {
+            front.lower(vertex, front.times()[vertex]);
         }
-        is_known[next] = true;
-        for (std::size_t i = at.start[next]; i < at.start[next + 1U]; ++i) {
-            for (const std::uint32_t vertex : mesh.cells.col(at.cells[i])) {
-                if (is_known[vertex]) {
-                    continue;
-                }
-                const double time =
-                    earliest_arrival(mesh, at.cells[i], vertex, next, times, is_known);
-                if (time < times[vertex]) {
-                    times[vertex] = time;
-                    front.emplace(time, vertex);
-                }
-            }
-        }
+        has_fallen = others.any(!fallen.empty());
     }
-    return times;
+    return front.times();
 }
 
 template <int Dim>
@@ -159,7 +205,7 @@ Eigen::Matrix<double, Dim, 1> gradient_in_cell(const SimplexMesh<Dim>& mesh,
 }
 
 #define PENT_INSTANTIATE(Dim)                                                                      \
-    template Eigen::VectorXd distance_within(const SimplexMesh<Dim>&,                              \
+    template Eigen::VectorXd distance_within(const MeshShare<Dim>&,                                \
                                              const std::vector<std::uint32_t>&);                   \
     template Eigen::Matrix<double, Dim, 1> gradient_in_cell(const SimplexMesh<Dim>&, Eigen::Index, \
                                                             const Eigen::VectorXd&);

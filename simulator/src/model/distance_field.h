@@ -1,6 +1,7 @@
 #pragma once
 
 #include <pent/simplex_mesh.h>
+#include <pent/simulator/mesh_share.h>
 
 #include <Eigen/Core>
 
@@ -10,14 +11,18 @@
 namespace pent::simulator {
 
 /// How far every vertex of a mesh is from some of them by ways within the mesh, m; infinite where
-/// there is none.
+/// there is none. Of ranks each knows it of the corners of its own cells, wherever ways lead.
 ///
-/// By fast marching: vertices get their values in increasing order, each from the plane wave that
-/// passes the corners of a cell that have theirs [kimmel1998], here in cells of any dimension.
+/// Every vertex has the least of what waves through the facets opposite to it, in its cells, bring
+/// it: the way to a point of a facet, linear between its corners, and the straight line from there
+/// [bornemann2006], here by the plane waves of [kimmel1998] in cells of any dimension. That has one
+/// solution, in whatever order vertices are taken. By fast marching they are in increasing order;
+/// one that falls behind the front, as it may where angles are obtuse, or by what another rank has
+/// found, is gone through again, until nothing falls.
 ///
-/// @param sources  At least one.
+/// @param sources  At least one, on all ranks the same.
 template <int Dim>
-[[nodiscard]] Eigen::VectorXd distance_within(const SimplexMesh<Dim>& mesh,
+[[nodiscard]] Eigen::VectorXd distance_within(const MeshShare<Dim>& share,
                                               const std::vector<std::uint32_t>& sources);
 
 /// The gradient of a function that is linear in a cell, given at its corners, 1/m of its unit.

@@ -9,12 +9,6 @@
 
 namespace pent::simulator {
 
-bool do_terms_need_all_cells(const Scene& scene) {
-    return std::any_of(
-        scene.activations.begin(), scene.activations.end(),
-        [](const Activation& activation) { return activation.fibers == Fibers::Distance; });
-}
-
 bool do_terms_couple_anything(const Scene& scene) {
     return scene.contact.has_value() || !scene.attachments.empty();
 }

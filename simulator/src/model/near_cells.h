@@ -4,10 +4,6 @@
 
 namespace pent::simulator {
 
-/// Whether a term of a scene looks at cells far from the vertices that it is asked for: activations
-/// whose fibers are found by distances along a body.
-[[nodiscard]] bool do_terms_need_all_cells(const Scene& scene);
-
 /// Whether a term of a scene couples vertices that share no element.
 [[nodiscard]] bool do_terms_couple_anything(const Scene& scene);
 

@@ -55,10 +55,6 @@ void append_part(const Body& body,
 
 }  // namespace
 
-bool can_take_parts(const Scene& scene) {
-    return !do_terms_need_all_cells(scene);
-}
-
 bool are_labels_asked_for(const Scene& scene, const Body& body) {
     const auto selects = [&](const auto& list) {
         return std::any_of(list.begin(), list.end(), [&](const auto& part) {
@@ -115,8 +111,8 @@ Bodies<Dim> make_part_bodies(const Scene& scene,
                              std::vector<MeshPart<Dim>> parts,
                              const std::shared_ptr<const Ranks>& ranks) {
     check_meshes<Dim>(scene, parts.size());
-    if (ranks == nullptr || !can_take_parts(scene)) {
-        throw Error("parts of meshes were given for a scene that needs whole ones");
+    if (ranks == nullptr) {
+        throw Error("parts of meshes were given without ranks that have the others");
     }
     Bodies<Dim> bodies;
     bodies.first_vertex = {0};

@@ -36,7 +36,7 @@ void lump_masses(const Scene& scene, Bodies<Dim>& bodies);
 
 /// What make_bodies() and keep_near_cells() make of whole meshes, from the parts that this rank
 /// has, shared out. Throws an Error on all ranks as make_bodies() does, for other vertices than on
-/// other ranks, and for a scene that can_take_parts() says no to.
+/// other ranks, and without ranks.
 template <int Dim>
 [[nodiscard]] Bodies<Dim> make_part_bodies(const Scene& scene,
                                            std::vector<MeshPart<Dim>> parts,

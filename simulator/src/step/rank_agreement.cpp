@@ -65,9 +65,7 @@ Bodies<Dim> share(const Scene& scene,
         refuse_others(ranks.get(), checksum(bodies.cells, checksum(bodies.rest, 0)), "other meshes",
                       "let all of them read the same files");
         bodies.may_couple_anything = do_terms_couple_anything(scene);
-        if (!do_terms_need_all_cells(scene)) {
-            keep_near_cells(scene.solver.elements, bodies);
-        }
+        keep_near_cells(scene.solver.elements, bodies);
     }
     return bodies;
 }

@@ -18,9 +18,8 @@ namespace pent::simulator {
 /// @param ranks  Null for none.
 [[nodiscard]] Isa choose_isa(const std::string& name, const Ranks* ranks);
 
-/// Shares the bodies out to ranks, which keep those of their cells that touch a vertex of theirs
-/// where no term of the scene asks for others. Throws an Error on all ranks where they have other
-/// meshes, or where there are more of them than columns.
+/// Shares the bodies out to ranks, which keep the NeededCells of their vertices. Throws an Error on
+/// all ranks where they have other meshes, or where there are more of them than columns.
 ///
 /// @param ranks  Null for none: nothing is shared then.
 template <int Dim>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <pent/simplex_mesh.h>
 #include <pent/simulator/ranks.h>
 #include <pent/simulator/scene.h>
 
@@ -44,12 +43,5 @@ struct Explanation {
 
 /// The explanation as a table and lines, for people.
 [[nodiscard]] std::string explanation_text(const Explanation& explanation);
-
-/// How many cells a body is thick where it is thickest, or one less: twice the edges from there to
-/// its boundary, or 1 where every vertex is on the boundary.
-///
-/// Linear simplices bend too little: the fewer cells across, the less.
-template <int Dim>
-[[nodiscard]] int cells_across(const SimplexMesh<Dim>& mesh);
 
 }  // namespace pent::runs

@@ -15,14 +15,10 @@ namespace pent::simulator {
 
 /// Ranks need not have whole meshes: a Simulation takes, for each body, a part as loaded: all
 /// vertices, and the NeededCells, with their labels of regions and fibers where the scene asks for
-/// these, and with their parents for quadratic elements. Its constructor then throws an Error for
-/// scenes that can_take_parts() says no to, too, and for other vertices than on other ranks.
-/// Whether cells are missing is not checked. Simulation::mesh() has no cells then, all ask for
-/// vertex_values() together, and bodies and obstacles do not come and go.
-
-/// Whether it may be so for a scene. Not where an activation finds fibers by distances along a
-/// body, which may lead anywhere.
-[[nodiscard]] bool can_take_parts(const Scene& scene);
+/// these, and with their parents for quadratic elements. Its constructor then throws an Error
+/// without ranks and for other vertices than on other ranks, too. Whether cells are missing is not
+/// checked. Simulation::mesh() has no cells then, all ask for vertex_values() together, and bodies
+/// and obstacles do not come and go.
 
 /// The cells of a mesh that a rank needs: those that touch a vertex of its own, and those that make
 /// up an element with one of these. Of smoothed elements, which cells make up that share an edge,
