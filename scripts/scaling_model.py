@@ -21,6 +21,7 @@ from pathlib import Path
 CELLS = (14, 14, 15, 16)  # so many that there are four levels of aggregates
 ALONE = 2  # times that one rank is timed, of which the fastest counts
 BYTES_OF_VECTOR = 32  # of a vertex
+BYTES_OF_LIBRARIES = 35e6  # of a rank, whatever it runs
 CELLS_OF_VERTEX = 24  # inside a Kuhn box
 SCENE = """[scene]
 gravity = [0, -9.8, 0, 0]
@@ -109,6 +110,21 @@ def fitted(runs, vertices):
     return (bb * ac - ab * bc) / det, (aa * bc - ab * ac) / det
 
 
+def part_of(vertices, ghosts, ranks):
+    """Of all vertices, those that a rank has matrix and elements of."""
+    return 1 / ranks + ghosts / vertices
+
+
+def memory_of(runs):
+    """Bytes a pentachoron that are divided and that every rank has: a line by least squares, over the part of a rank."""
+    parts = [part_of(vertices_of(run["cells"]), run["ghosts"], run["ranks"]) for run in runs]
+    bytes_of_one = [(run["memory"] - BYTES_OF_LIBRARIES) / (24 * math.prod(run["cells"])) for run in runs]
+    part, mean = sum(parts) / len(runs), sum(bytes_of_one) / len(runs)
+    divided = (sum((x - part) * (y - mean) for x, y in zip(parts, bytes_of_one, strict=True))
+               / sum((x - part) ** 2 for x in parts))
+    return divided, mean - divided * part
+
+
 class Model:
     def __init__(self, runs, cluster):
         self.cluster = cluster
@@ -120,6 +136,7 @@ class Model:
         self.reductions = max(run["reductions"] / run["iterations"] for run in runs)
         self.assembly = min(run["assembly"] for run in alone) / self.cells  # s a pentachoron and core
         self.iteration = min(run["solve"] / run["iterations"] for run in alone) / self.cells
+        self.bytes_divided, self.bytes_whole = memory_of(runs)
 
     def bytes_of_step(self, vertices, ghosts, ranks, iterations):
         return BYTES_OF_VECTOR * (self.gathers * vertices * (ranks - 1) + self.updates * iterations * ranks * ghosts)
@@ -145,10 +162,10 @@ class Model:
             "ghosts": self.iterations * update,
             "waiting": self.iterations * (coarse + waits),
             "gathers": gather,
-        }, self.bytes_of_rank(cells, ranks) * c.ranks
+        }, self.bytes_of_rank(cells, part_of(vertices, ghosts, ranks)) * c.ranks
 
-    def bytes_of_rank(self, cells, ranks):
-        return self.cluster.bytes_divided * cells / ranks + self.cluster.bytes_whole * cells
+    def bytes_of_rank(self, cells, part):
+        return (self.bytes_divided * part + self.bytes_whole) * cells + BYTES_OF_LIBRARIES
 
 
 def counts_table(runs, model):
@@ -160,7 +177,7 @@ def counts_table(runs, model):
             vertices = vertices_of(run["cells"])
             ghosts = ghosts_of(vertices, run["cells"][3] + 1, run["ranks"])
             sent = model.bytes_of_step(vertices, ghosts, run["ranks"], run["iterations"])
-            memory = model.bytes_of_rank(cells, run["ranks"])
+            memory = model.bytes_of_rank(cells, part_of(vertices, ghosts, run["ranks"]))
             yield (f"| {cells} | {run['ranks']} | {run['iterations']} | {run['ghosts']:.0f} | {ghosts:.0f} | {run['bytes'] / 1e6:.1f} MB "
                    f"| {sent / 1e6:.1f} MB | {run['memory'] / 1e6:.0f} MB | {memory / 1e6:.0f} MB |")
 
@@ -179,7 +196,8 @@ def report(runs, large, model):
     strong = [(cells, nodes) for cells in (1e7, 1e8, 1e9) for nodes in (1, 4, 16, 64)]
     weak = [(1e7 * nodes, nodes) for nodes in (1, 10, 100)]
     lines = ["Counted on boxes that are solved to 1e-3, beside the formulas: by those fitted to the smaller box all vectors go to all"
-             f" {model.gathers:.1f} times a step, columns to ghosts {model.updates:.2f} times an iteration. Memory has some 35 MB of libraries, too.", "",
+             f" {model.gathers:.1f} times a step, columns to ghosts {model.updates:.2f} times an iteration. Of memory {model.bytes_divided:.0f} bytes a"
+             f" pentachoron are divided, with ghosts, and {model.bytes_whole:.0f} are on every rank, beside {BYTES_OF_LIBRARIES / 1e6:.0f} MB of libraries.", "",
              *counts_table(runs + large, model), "",
              f"Measured here, one thread: {1e9 * model.assembly:.0f} ns a pentachoron for forces and matrix, {1e9 * model.iteration:.1f} ns for an iteration."
              f" Assumed: nodes of {c.cores} cores and {c.ranks} ranks, {c.memory / 1e9:.0f} GB/s of memory and {c.network / 1e9:.0f} GB/s of network,"
@@ -199,7 +217,7 @@ def write(text):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("--programs", type=Path, default=Path("build/release/bin"), help="folder of pent-mesh and pent-sim-mpi")
-    parser.add_argument("--large", help="cells of a box to be run by 4 ranks: of 20,20,20,53 they take 7.5 GB")
+    parser.add_argument("--large", help="cells of a box to be run by 4 ranks: of 20,20,20,53 they take 5 GB")
     parser.add_argument("--write", action="store_true", help="put the tables into docs/distributed.md")
     parser.add_argument("--cores", type=int, default=64, help="of a node")
     parser.add_argument("--ranks", type=int, default=2, help="of a node: one a socket")
@@ -208,8 +226,6 @@ def main():
     parser.add_argument("--latency", type=float, default=2e-6, help="of a message, s")
     parser.add_argument("--layers", type=int, default=12, help="of vertices along w, kept together")
     parser.add_argument("--bytes-iteration", type=float, default=90, help="read and written a pentachoron and iteration")
-    parser.add_argument("--bytes-divided", type=float, default=450, help="in memory, of a pentachoron, on its rank, at the most")
-    parser.add_argument("--bytes-whole", type=float, default=100, help="in memory, of a pentachoron, on every rank, at the most")
     cluster = parser.parse_args()
     cluster.programs = cluster.programs.absolute()
     os.chdir(Path(__file__).resolve().parent.parent)
