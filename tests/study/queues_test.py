@@ -200,7 +200,7 @@ def logs(folder):
 
 
 def test_slurm(folder):
-    scene = write_scene(folder, 60)
+    scene = write_scene(folder, 600)  # the finest level takes seconds: it is there when it is told
     whole, parts, broken = folder / "whole", folder / "parts", folder / "broken"
     study(scene, "-o", whole, *VARY)
     (folder / "slurm").mkdir()
