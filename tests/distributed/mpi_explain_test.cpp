@@ -66,10 +66,7 @@ TEST_F(MpiExplain, TellsWhatRanksHaveAndSay) {
 
 // Numbers of meshes, of what labels select and of boundaries, whatever files they are in.
 TEST_F(MpiExplain, IsThatOfPentSimButForCosts) {
-    const Extrusion<4> made = extrusion();
-    static_cast<void>(write_extrusion<4>(path("base.pent"), made));
-    static_cast<void>(write_mesh(path("whole.pent"),
-                                 extrude<4>(made.base, made.ordered, made.layers, made.options)));
+    write_extrusion_and_mesh();
     for (const std::string mesh : {"base", "whole"}) {
         std::string scene = twins(mesh);
         scene.replace(scene.find("stiffness = 1000"), 16, "stiffness = 1e-3");

@@ -148,10 +148,7 @@ TEST_F(MpiRuns, GoOnByAsManyRanksByOthersAndByPentSim) {
 
 // A mesh, and base and layers that make it: with regions, holds, contact and layers that turn.
 TEST_F(MpiRuns, OfBaseAndLayersAreThoseOfTheMesh) {
-    const Extrusion<4> made = extrusion();
-    static_cast<void>(write_extrusion<4>(path("base.pent"), made));
-    static_cast<void>(write_mesh(path("whole.pent"),
-                                 extrude<4>(made.base, made.ordered, made.layers, made.options)));
+    write_extrusion_and_mesh();
     for (const std::string mesh : {"base", "whole"}) {
         write(mesh, twins(mesh));
     }
@@ -177,10 +174,7 @@ TEST_F(MpiRuns, OfBaseAndLayersAreThoseOfTheMesh) {
 // No rank has a whole mesh: each reads slabs of a file and keeps the cells that it needs, or
 // extrudes these, with their labels, and writes a slab.
 TEST_F(MpiRuns, InWhichNoRankHasAWholeMeshAreThoseOfOne) {
-    const Extrusion<4> made = extrusion();
-    static_cast<void>(write_extrusion<4>(path("base.pent"), made));
-    static_cast<void>(write_mesh(path("whole.pent"),
-                                 extrude<4>(made.base, made.ordered, made.layers, made.options)));
+    write_extrusion_and_mesh();
     static_cast<void>(write_mesh(path("text.pent"), read_mesh<4>(path("whole.pent")).mesh,
                                  {.encoding = Encoding::Ascii}));
     for (const std::string mesh : {"base", "whole", "text"}) {
@@ -208,10 +202,7 @@ TEST_F(MpiRuns, InWhichNoRankHasAWholeMeshAreThoseOfOne) {
 
 // Cells around edges reach a cell farther, in a file and over the base of layers.
 TEST_F(MpiRuns, OfSmoothedElementsAreThoseOfTheMesh) {
-    const Extrusion<4> made = extrusion();
-    static_cast<void>(write_extrusion<4>(path("base.pent"), made));
-    static_cast<void>(write_mesh(path("whole.pent"),
-                                 extrude<4>(made.base, made.ordered, made.layers, made.options)));
+    write_extrusion_and_mesh();
     for (const std::string mesh : {"base", "whole"}) {
         std::string scene = twins(mesh);
         scene.replace(scene.find("frames = 4"), 10, "frames = 1");

@@ -103,6 +103,14 @@ protected:
         }
     }
 
+    /// The extrusion() as base and layers, base.pent, and as the mesh that they make, whole.pent.
+    void write_extrusion_and_mesh() const {
+        const Extrusion<4> made = extrusion();
+        static_cast<void>(write_extrusion<4>(path("base.pent"), made));
+        static_cast<void>(write_mesh(
+            path("whole.pent"), extrude<4>(made.base, made.ordered, made.layers, made.options)));
+    }
+
     /// A box of tetrahedra through five layers, each turned and smaller than the one below.
     [[nodiscard]] static Extrusion<4> extrusion() {
         Extrusion<4> made;

@@ -166,7 +166,6 @@ void put_positions(StateBlocks& blocks,
 constexpr const char* kStiffnessBlock = "contact stiffness";
 constexpr const char* kSpringsBlock = "broken springs";
 constexpr const char* kPlacesBlock = "hold places";
-constexpr const char* kDoubleBlock = "matrix in double";
 
 std::string sleep_block(const std::string& body) {
     return "sleep/" + body;
@@ -213,10 +212,6 @@ StateBlocks carried_state(const Simulation<Dim>& simulation,
         put_positions<Dim>(blocks, kPlacesBlock, snapshot.hold_places, 0,
                            snapshot.hold_places.cols());
     }
-    if (snapshot.was_matrix_double) {
-        const std::uint8_t is_double[] = {1};
-        blocks.put<std::uint8_t>(kDoubleBlock, is_double);
-    }
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const int body = static_cast<int>(i);
         if (snapshot.sleep[i] != SleepState()) {
@@ -250,7 +245,6 @@ void read_carried_state(const StateBlocks& blocks,
     if (blocks.has(kPlacesBlock)) {
         snapshot.hold_places = positions_of<Dim>(blocks, kPlacesBlock, snapshot.hold_places.cols());
     }
-    snapshot.was_matrix_double = blocks.has(kDoubleBlock);
     snapshot.sleep.assign(bodies.size(), {});
     const bool has_history = blocks.has(positions_block(bodies.front()));
     const Eigen::Index total = has_history ? snapshot.positions.cols() : 0;

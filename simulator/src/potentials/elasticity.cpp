@@ -120,7 +120,7 @@ void Elasticity<Dim>::add_hessian(const Positions<Dim>& x,
             auto target = target_in(matrix, weight * hessian_factor_, filter);
             target.prescribed_displacement = system.prescribed_displacement().data();
             target.right = system.right().data();
-            filtered_ += elements_->add_hessian(*workers_, *kernels_, x, target);
+            filtered_ = elements_->add_hessian(*workers_, *kernels_, x, target);
         },
         system.matrix());
 }
@@ -198,11 +198,6 @@ std::int64_t Elasticity<Dim>::inverted_cells(const Positions<Dim>& x) const {
         }
         return inverted;
     }));
-}
-
-template <int Dim>
-std::int64_t Elasticity<Dim>::take_filtered() {
-    return bodies_->sharing.sum(std::exchange(filtered_, 0));
 }
 
 #define PENT_INSTANTIATE(Dim) template class Elasticity<Dim>;

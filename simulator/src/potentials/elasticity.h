@@ -87,8 +87,8 @@ public:
     /// Vertices of other ranks that the matrix has columns of.
     [[nodiscard]] std::int64_t ghost_count() const { return ghost_count_; }
 
-    /// Elements whose Hessian the filter has changed, since this was last asked.
-    [[nodiscard]] std::int64_t take_filtered();
+    /// Elements of this rank whose Hessian the filter has changed, the last time it was added.
+    [[nodiscard]] std::int64_t filtered() const { return filtered_; }
 
 private:
     [[nodiscard]] ElementLayout<Dim> lay_out(const DofMap& dofs) const;

@@ -234,13 +234,11 @@ bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
     if (drag * damping_.stiffness != 0) {
         stiffness_drag_.add_hessian(x, drag * damping_.stiffness, filter, system);
     }
-    work_.hessians += elasticity_->element_count();
     work_.assembly_seconds += watch.seconds() - others;
     const bool has_lost_inertia = bodies_->sharing.any(system.has_lost_inertia());
     if (has_lost_inertia && !(may_be_rough_ && &system == double_system_.get())) {
         return false;
     }
-    work_.unknowns += std::int64_t{Dim} * dofs_->count();
     const Stopwatch summing;
     system.finish();
     work_.stencil_seconds += summing.seconds();
@@ -309,6 +307,10 @@ NewtonDirection<Dim> IncrementalPotential<Dim>::solve(const Positions<Dim>& grad
                 " thicker cells";
             return direction;
         }
+        // Of the matrix that is solved with: whether another was tried first is nobody's business.
+        work_.hessians += elasticity_->element_count();
+        work_.filtered += elasticity_->filtered();
+        work_.unknowns += std::int64_t{Dim} * dofs_->count();
         solution = solve_filtered(*system, tolerance);
         if (!solution.report.has_broken_down || filter == Filter::Clamp) {
             break;

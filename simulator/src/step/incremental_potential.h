@@ -19,7 +19,8 @@ struct SolveWork {
     int iterations = 0;           ///< Of the linear solver.
     double residual = 0;          ///< Largest |b - A x| / |b|.
     std::int64_t unknowns = 0;    ///< Scalars solved for.
-    std::int64_t hessians = 0;    ///< Of elements that were assembled.
+    std::int64_t hessians = 0;    ///< Of elements in the matrices that were solved with,
+    std::int64_t filtered = 0;    ///< and of these, on this rank, those that the filter changed.
     double assembly_seconds = 0;  ///< Without stencils.
     double stencil_seconds = 0;   ///< Summing up stencils, of which contact makes most.
     double solve_seconds = 0;
@@ -82,11 +83,6 @@ public:
     void tell_start(const Positions<Dim>& x) const;
 
     [[nodiscard]] const DofMap& dofs() const { return *dofs_; }
-    /// Whether the last matrix was needed in double. The next one is then assembled so at once,
-    /// which saves time and changes no bit of what comes out, but the work that reports count.
-    [[nodiscard]] bool was_double_needed() const { return was_double_needed_; }
-    void set_was_double_needed(bool was_needed) { was_double_needed_ = was_needed; }
-
     [[nodiscard]] SolveWork take_work() { return std::exchange(work_, {}); }
     [[nodiscard]] std::int64_t take_damping_hessians() { return stiffness_drag_.take_hessians(); }
 

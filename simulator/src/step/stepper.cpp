@@ -101,7 +101,6 @@ Snapshot<Dim> Simulation<Dim>::Stepper::save() const {
             .contact_stiffness = energy_.contact->stiffness(),
             .hold_places = held_.places(),
             .broken_springs = broken_springs(),
-            .was_matrix_double = potential_.was_double_needed(),
             .host = host()};
 }
 
@@ -126,7 +125,6 @@ void Simulation<Dim>::Stepper::restore(const Snapshot<Dim>& snapshot) {
     history_ = {snapshot.previous_positions, snapshot.previous_velocities};
     islands_.set_states(snapshot.sleep);
     steps_ = snapshot.steps;
-    potential_.set_was_double_needed(snapshot.was_matrix_double);
     if (energy_.contact->stiffness() != snapshot.contact_stiffness) {
         energy_.contact->set_stiffness(snapshot.contact_stiffness);
         energy_.sum.invalidate();
@@ -274,7 +272,7 @@ void Simulation<Dim>::Stepper::add_work(StepReport& report) {
     report.residual = work.residual;
     report.unknowns = work.unknowns;
     report.hessians = work.hessians;
-    report.filtered = energy_.elasticity->take_filtered();
+    report.filtered = bodies_.sharing.sum(work.filtered);
     report.damping_hessians = potential_.take_damping_hessians();
     report.assembly_seconds = work.assembly_seconds;
     report.solve_seconds = work.solve_seconds;

@@ -36,7 +36,6 @@ struct Snapshot {
     Positions<Dim> hold_places;
     /// One for each spring of all attachments: 1 if it is broken, else 0.
     std::vector<std::uint8_t> broken_springs;
-    bool was_matrix_double = false;  ///< Float would have lost masses: the next begins in double.
     HostState<Dim> host;
 };
 
