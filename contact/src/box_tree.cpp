@@ -1,12 +1,15 @@
-#include <pent/contact/box_tree.h>
+#include "pent/contact/box_tree.h"
+
+#include "halving.h"
+
 #include <pent/dimensions.h>
 #include <pent/parallel.h>
 
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <numeric>
 
 namespace pent::contact {
 
@@ -31,6 +34,23 @@ double side_sum(const Box& box) {
         sum += static_cast<double>(box.high[axis]) - static_cast<double>(box.low[axis]);
     }
     return sum;
+}
+
+// Into the order of leaves.
+void sort(std::span<CenteredBox> boxes) {
+    if (boxes.size() < 2) {
+        return;
+    }
+    const std::size_t in_left = (boxes.size() + 1) / 2;
+    halve(boxes, in_left);
+    const std::span<CenteredBox> left = boxes.first(in_left);
+    const std::span<CenteredBox> right = boxes.subspan(in_left);
+    if (boxes.size() < kSerial) {
+        sort(left);
+        sort(right);
+    } else {
+        parallel_invoke([&] { sort(left); }, [&] { sort(right); });
+    }
 }
 
 // Breadth first, so that pieces are of like size.
@@ -119,57 +139,23 @@ Box box_around(const Eigen::Matrix<double, Dim, Count>& points, double margin) {
 }
 
 BoxTree::BoxTree(std::span<const Box> boxes) {
-    std::vector<Item> items(boxes.size());
-    parallel_for(boxes.size(), kSerial, [&](std::size_t i) {
-        for (int axis = 0; axis < 4; ++axis) {
-            items[i].center[axis] = boxes[i].low[axis] + boxes[i].high[axis];
-        }
-        items[i].index = static_cast<std::uint32_t>(i);
-    });
-    sort_items(items);
+    std::vector<CenteredBox> sorted = centered(boxes);
+    sort(sorted);
     leaves_.resize(boxes.size());
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        leaves_[i] = items[i].index;
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        leaves_[i] = sorted[i].index;
     }
     nodes_.resize(boxes.empty() ? 0 : boxes.size() - 1);
     refit(boxes);
 }
 
-void BoxTree::sort_items(std::span<Item> items) {
-    if (items.size() < 2) {
-        return;
-    }
-    std::array<float, 4> low{};
-    std::array<float, 4> high{};
-    low.fill(std::numeric_limits<float>::infinity());
-    high.fill(-std::numeric_limits<float>::infinity());
-    for (const Item& item : items) {
-        for (int axis = 0; axis < 4; ++axis) {
-            low[axis] = std::min(low[axis], item.center[axis]);
-            high[axis] = std::max(high[axis], item.center[axis]);
-        }
-    }
-    int longest = 0;
-    for (int axis = 1; axis < 4; ++axis) {
-        if (high[axis] - low[axis] > high[longest] - low[longest]) {
-            longest = axis;
-        }
-    }
-    const std::size_t in_left = (items.size() + 1) / 2;
-    std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(in_left),
-                     items.end(), [longest](const Item& a, const Item& b) {
-                         return a.center[longest] != b.center[longest]
-                                    ? a.center[longest] < b.center[longest]
-                                    : a.index < b.index;
-                     });
-    const std::span<Item> left = items.first(in_left);
-    const std::span<Item> right = items.subspan(in_left);
-    if (items.size() < kSerial) {
-        sort_items(left);
-        sort_items(right);
-    } else {
-        parallel_invoke([&] { sort_items(left); }, [&] { sort_items(right); });
-    }
+BoxTree BoxTree::in_order(std::span<const Box> boxes) {
+    BoxTree tree;
+    tree.leaves_.resize(boxes.size());
+    std::iota(tree.leaves_.begin(), tree.leaves_.end(), 0U);
+    tree.nodes_.resize(boxes.empty() ? 0 : boxes.size() - 1);
+    tree.refit(boxes);
+    return tree;
 }
 
 void BoxTree::refit(std::span<const Box> boxes) {

@@ -287,7 +287,7 @@ CandidateList Candidates<Dim>::search(int first,
     std::vector<typename Test::Found> found((count + kChunk - 1) / kChunk);
     for_each_chunk(count, kChunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
         for (std::size_t a = begin; shared_.is_own(chunk) && a < end; ++a) {
-            of_second.tree.for_each_overlap(of_first.tree.box(a), [&](std::uint32_t b) {
+            of_second.tree.for_each_overlap(of_first.around[a], [&](std::uint32_t b) {
                 for_each_near<Dim, K>(
                     PatchOnPaths<Dim>{of_first, a}, PatchOnPaths<Dim>{of_second, b}, is_still,
                     distance + of_first.inflation[a] + of_second.inflation[b],

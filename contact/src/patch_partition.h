@@ -8,13 +8,13 @@
 
 namespace pent::contact {
 
-/// Simplices of a surface divided into patches of neighbors: a power of two of them, of sizes that
-/// differ by one at most and are no more than kLanes.
+/// Simplices of a surface divided into patches of neighbors, as few of them as there can be of at
+/// most kLanes; sizes differ by one at most. Patches that follow each other are neighbors, too.
 class PatchPartition {
 public:
     PatchPartition() = default;
 
-    /// By halving along the longest side, as a BoxTree does; no patches of no boxes.
+    /// By halving along the longest side, as a BoxTree does; no patches of no boxes. Parallel.
     explicit PatchPartition(std::span<const Box> boxes);
 
     /// Of patches.

@@ -125,7 +125,7 @@ private:
         Row& row = rows_[a];
         row.unknown.clear();
         auto known = row.known.begin();
-        second_patches().tree.for_each_overlap(first_patches().tree.box(a), [&](std::uint32_t b) {
+        second_patches().tree.for_each_overlap(first_patches().around[a], [&](std::uint32_t b) {
             if (is_same_list() && b < a) {
                 return;
             }

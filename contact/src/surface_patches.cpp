@@ -30,7 +30,7 @@ void SurfacePatches<Dim>::fit(const Eigen::VectorXd* inflation, const std::vecto
     constexpr int kPatches = 64;
     for_each_kind([&]<int Count>(const Simplices<Count>& simplices, PatchesOnPaths<Dim>& patches) {
         const std::size_t size = patches.partition.size();
-        std::vector<Box> around(size);
+        patches.around.resize(size);
         patches.inflation.assign(size, 0);
         parallel_for(size, kPatches, [&](std::size_t patch) {
             const std::span<const std::uint32_t> members = patches.partition[patch];
@@ -43,10 +43,10 @@ void SurfacePatches<Dim>::fit(const Eigen::VectorXd* inflation, const std::vecto
                     most = inflation != nullptr ? std::max(most, (*inflation)[v]) : 0;
                 }
             }
-            around[patch] = all;
+            patches.around[patch] = all;
             patches.inflation[patch] = most;
         });
-        patches.tree = PatchTree(around);
+        patches.tree = BoxTree::in_order(patches.around);
         ++refit_;
     });
 }
@@ -67,7 +67,8 @@ std::int64_t SurfacePatches<Dim>::bytes() const {
     for (const PatchesOnPaths<Dim>& patches : kinds_) {
         sum += patches.partition.bytes() + patches.tree.bytes() + patches.at_start.bytes()
                + patches.at_end.bytes()
-               + static_cast<std::int64_t>(patches.inflation.size() * sizeof(double));
+               + static_cast<std::int64_t>(patches.around.size() * sizeof(Box)
+                                           + patches.inflation.size() * sizeof(double));
     }
     return sum;
 }

@@ -3,9 +3,9 @@
 #include "near_lanes.h"
 #include "patch_lanes.h"
 #include "patch_partition.h"
-#include "patch_tree.h"
 #include "paths.h"
 
+#include <pent/contact/box_tree.h>
 #include <pent/contact/surface.h>
 
 #include <algorithm>
@@ -21,7 +21,8 @@ namespace pent::contact {
 template <int Dim>
 struct PatchesOnPaths {
     PatchPartition partition;
-    PatchTree tree;                 ///< Over boxes around the paths of each patch.
+    std::vector<Box> around;        ///< The paths of each patch.
+    BoxTree tree;                   ///< Over these, in the order of patches.
     std::vector<double> inflation;  ///< How far a vertex of each may leave its path, m.
     PatchLanes<Dim> at_start;       ///< Of the paths.
     PatchLanes<Dim> at_end;         ///< Not set where paths are still.

@@ -118,6 +118,16 @@ TEST_P(BoxTreeTest, FindsWhatOneBoxOverlaps) {
     EXPECT_EQ(sorted(found), brute_force(boxes, boxes));
 }
 
+TEST_P(BoxTreeTest, InOrderFindsThemAscending) {
+    const std::vector<Box> boxes = first();
+    const BoxTree tree = BoxTree::in_order(boxes);
+    Pairs found;
+    for (std::uint32_t j = 0; j < boxes.size(); ++j) {
+        tree.for_each_overlap(boxes[j], [&](std::uint32_t i) { found.emplace_back(j, i); });
+    }
+    EXPECT_EQ(found, brute_force(boxes, boxes));
+}
+
 TEST_P(BoxTreeTest, IsRightAfterARefit) {
     BoxTree tree(second());  // a tree of unrelated boxes of the same number
     const std::vector<Box> other = make_boxes(Kind::Random, std::get<2>(GetParam()), 3);

@@ -58,10 +58,10 @@ protected:
                 ++seen[i];
                 for (const std::uint32_t corner : simplices.col(i)) {
                     most = std::max(most, inflation_[corner]);
-                    const Box both = hull(of.tree.box(patch), of_vertex[corner]);
+                    const Box both = hull(of.around[patch], of_vertex[corner]);
                     for (int axis = 0; axis < 4; ++axis) {
-                        EXPECT_EQ(both.low[axis], of.tree.box(patch).low[axis]);
-                        EXPECT_EQ(both.high[axis], of.tree.box(patch).high[axis]);
+                        EXPECT_EQ(both.low[axis], of.around[patch].low[axis]);
+                        EXPECT_EQ(both.high[axis], of.around[patch].high[axis]);
                     }
                 }
             }
@@ -79,7 +79,7 @@ protected:
         const PatchesOnPaths<kSpace>& of_first = first.template of<K>();
         const PatchesOnPaths<kSpace>& of_second = second.template of<L>();
         for (std::size_t a = 0; a < of_first.partition.size(); ++a) {
-            of_second.tree.for_each_overlap(of_first.tree.box(a), [&](std::uint32_t b) {
+            of_second.tree.for_each_overlap(of_first.around[a], [&](std::uint32_t b) {
                 if (&of_first == &of_second && b < a) {
                     return;
                 }

@@ -63,9 +63,9 @@ CONTACT = [
     ("simplices", "apart ccd closest_point_search distance_energy distance_hessian filter gather"
                   " normals obstacles pair_contact paths simplex_crossing spanned_volume stencil"
                   " surface friction"),
-    ("trees", "box_tree boxes_around chunks near_lanes near_lanes_avx2 near_lanes_avx512"
+    ("trees", "box_tree boxes_around chunks halving near_lanes near_lanes_avx2 near_lanes_avx512"
               " near_lanes_baseline near_lanes_isa near_lanes_kernel patch_lanes patch_partition"
-              " patch_tree patches path_cover refit_tree surface_patches surface_trees winding_number"),
+              " patches path_cover refit_tree surface_patches surface_trees winding_number"),
     ("search", "candidate colliders near_on_paths near_pairs overlaps self_proximity"
                " self_proximity_search shared_work"),
     ("crossings", "crossings obstacle_contacts"),

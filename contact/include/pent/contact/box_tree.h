@@ -42,6 +42,9 @@ public:
     /// Splits at the median along the longest side of the centers, in time n log n.
     explicit BoxTree(std::span<const Box> boxes);
 
+    /// Over boxes of which neighbors follow each other, as its leaves: visits are ascending.
+    [[nodiscard]] static BoxTree in_order(std::span<const Box> boxes);
+
     /// Fits the same tree around moved boxes, of the same number and order; asserted. Linear time.
     void refit(std::span<const Box> boxes);
 
@@ -100,12 +103,6 @@ private:
         Box right;
     };
 
-    struct Item {
-        float center[4];  // NOLINT(modernize-avoid-c-arrays)
-        std::uint32_t index;
-    };
-
-    static void sort_items(std::span<Item> items);
     Box fit(const Range& range, std::span<const Box> boxes, double& cost);
 
     [[nodiscard]] bool has_overlap(const Range& range, const Box& box) const;
