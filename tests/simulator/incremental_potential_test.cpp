@@ -235,6 +235,21 @@ TYPED_TEST(IncrementalPotentialTest, MovesBodiesInFloatsAsInDoubles) {
     EXPECT_GT(in_floats, 5);
 }
 
+// Damping by masses that are next to nothing is next to nothing beside inertia, too.
+TYPED_TEST(IncrementalPotentialTest, TakesFloatsHoweverSmallMassesDamp) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = free_scene<kDim>(1e7, Precision::Float);
+    Step<kDim> undamped(scene);
+    scene.damping = Damping{.mass = 1e-9};
+    Step<kDim> damped(scene);
+    scene.solver.precision = Precision::Double;
+    Step<kDim> in_doubles(scene);
+    const Positions<kDim> expected = direction_of(undamped);
+    const Positions<kDim> found = direction_of(damped);
+    EXPECT_LT((found - expected).norm(), 1e-6 * expected.norm());
+    EXPECT_NE(found, direction_of(in_doubles));
+}
+
 TYPED_TEST(IncrementalPotentialTest, LeavesOutBodiesThatSleep) {
     constexpr int kDim = TypeParam::value;
     Scene scene = busy_scene<kDim>();

@@ -69,6 +69,7 @@ struct LightBox {
             },
             system.matrix());
         system.add_masses(1, Eigen::VectorXd::Constant(box.positions.cols(), kMass));
+        system.weigh_masses();
         system.finish();
     }
 

@@ -72,6 +72,7 @@ TEST(NewtonSystem, MassesAloneResistTranslationsWhereFloatsRoundTheStiffness) {
     const double mass =
         stiffness * static_cast<double>(std::numeric_limits<float>::epsilon()) / 0.01;
     system.add_masses(2, Eigen::VectorXd::Constant(box.mesh.vertex_count(), mass));
+    system.weigh_masses();
     ASSERT_FALSE(system.has_lost_inertia());
     system.finish();
     const Eigen::MatrixXd rounded = ElasticBox<kDim>::dense(matrix);
@@ -94,6 +95,16 @@ TEST(NewtonSystem, SaysWhereMassesDrownInTheRoundingOfStiffness) {
     EXPECT_FALSE(SpringyBox(Precision::Float, 1e-3).system.has_lost_inertia());
     EXPECT_TRUE(SpringyBox(Precision::Float, 1e-9).system.has_lost_inertia());
     EXPECT_FALSE(SpringyBox(Precision::Double, 1e-9).system.has_lost_inertia());
+}
+
+TEST(NewtonSystem, WeighsTheSumOfAllMassesHoweverTheyAreAdded) {
+    for (const double mass : {1e-3, 1e-9}) {
+        SpringyBox problem(Precision::Float, mass);
+        const bool has_lost_inertia = problem.system.has_lost_inertia();
+        problem.system.add_masses(1e-9, problem.masses);
+        problem.system.weigh_masses();
+        EXPECT_EQ(problem.system.has_lost_inertia(), has_lost_inertia) << mass;
+    }
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ struct SpringyBox {
                             .matrix = spring.data(),
                             .count = 2,
                             .stride = kBoxDim});
+        system.weigh_masses();
         system.finish();
     }
 

@@ -20,7 +20,8 @@ struct HessianStencil {
     std::int32_t count = 0;
     std::int32_t stride = 0;  ///< Numbers from one column of `matrix` to the next.
     double scale = 1;
-    bool is_checked = false;  ///< Whether masses must not be lost next to it, see add_masses().
+    bool is_checked = false;  ///< Whether masses must not be lost next to it, see
+                              ///< NewtonSystem::weigh_masses().
 };
 
 }  // namespace pent::simulator

@@ -50,7 +50,7 @@ void NewtonSystem<Dim>::begin(BlockVector<Dim> right, Positions<Dim> displacemen
     right_ = std::move(right);
     prescribed_displacement_ = std::move(displacement);
     stencils_.clear();
-    masses_.setZero(dofs_->row_count());
+    masses_.setZero(dofs_->count());
     is_rounded_ = false;
     needs_double_ = false;
     is_lost_in_double_ = false;
@@ -64,42 +64,52 @@ void NewtonSystem<Dim>::begin(BlockVector<Dim> right, Positions<Dim> displacemen
 
 template <int Dim>
 void NewtonSystem<Dim>::add_masses(double weight, const Eigen::VectorXd& masses) {
-    std::visit([&](auto& matrix) { add_masses(weight, masses, matrix); }, matrix_);
+    for (std::uint32_t dof = 0; dof < dofs_->count(); ++dof) {
+        masses_[dof] += weight * masses[dofs_->vertex_of(dof)];
+    }
+    std::visit(
+        [&](auto& matrix) {
+            using Scalar = typename std::decay_t<decltype(matrix)>::Block::Scalar;
+            matrix.for_each_row_chunk(*workers_, [&](std::int64_t begin, std::int64_t end) {
+                for (std::int64_t row = begin; row < end; ++row) {
+                    const double mass =
+                        weight * masses[dofs_->vertex_of(static_cast<std::uint32_t>(row))];
+                    matrix.diagonal(row).diagonal().array() += static_cast<Scalar>(mass);
+                }
+            });
+        },
+        matrix_);
 }
 
 // In a free body the stiffness cancels for rigid motions, and the rounding that is left takes the
 // place of inertia. In floats 2e-3 of it are let pass; beyond that translations are compensated
 // for, up to 4e-3: rotations, which rounding resists by how far apart the vertices of blocks are,
 // and what is soft beside what is stiff still lose some. In doubles, than which nothing is more
-// exact, it may be 1e-2, as rounding is not all of one sign.
+// exact, it may be 1e-2, as rounding is not all of one sign. Without inertia there is none to lose.
 template <int Dim>
-template <typename Scalar>
-void NewtonSystem<Dim>::add_masses(double weight,
-                                   const Eigen::VectorXd& masses,
-                                   BlockMatrix<Dim, Scalar>& matrix) {
+void NewtonSystem<Dim>::weigh_masses() {
     constexpr double kUnseen = 2e-3 / kRounding<float>;
     constexpr double kMaxInFloat = 4e-3 / kRounding<float>;
     constexpr double kMaxInDouble = 1e-2 / kRounding<double>;
-    const auto counts = matrix.sum_row_chunks(*workers_, [&](std::int64_t begin, std::int64_t end) {
-        RowCounts found;
-        for (std::int64_t row = begin; row < end; ++row) {
-            const double mass = weight * masses[dofs_->vertex_of(static_cast<std::uint32_t>(row))];
-            auto diagonal = matrix.diagonal(row);
-            const double stiffness = static_cast<double>(diagonal.trace()) / Dim;
-            found.rounded += stiffness > kUnseen * mass ? 1 : 0;
-            found.lost_in_float += stiffness > kMaxInFloat * mass ? 1 : 0;
-            found.lost_in_double += stiffness > kMaxInDouble * mass ? 1 : 0;
-            diagonal.diagonal().array() += static_cast<Scalar>(mass);
-            masses_[row] += mass;
-        }
-        return found;
-    });
-    is_rounded_ = is_rounded_ || counts.rounded > 0;
+    const RowCounts counts = std::visit(
+        [&](const auto& matrix) {
+            return matrix.sum_row_chunks(*workers_, [&](std::int64_t begin, std::int64_t end) {
+                RowCounts found;
+                for (std::int64_t row = begin; row < end; ++row) {
+                    const double all = static_cast<double>(matrix.diagonal(row).trace()) / Dim;
+                    const double mass = masses_[row];
+                    found.rounded += mass > 0 && all > kUnseen * mass ? 1 : 0;
+                    found.lost_in_float += mass > 0 && all > kMaxInFloat * mass ? 1 : 0;
+                    found.lost_in_double += mass > 0 && all > kMaxInDouble * mass ? 1 : 0;
+                }
+                return found;
+            });
+        },
+        matrix_);
+    is_rounded_ = counts.rounded > 0;
     // Nothing makes up for what is rounded of stencils.
-    needs_double_ =
-        needs_double_ || counts.lost_in_float > 0 || do_stencils_drown(kUnseen, weight, masses);
-    is_lost_in_double_ = is_lost_in_double_ || counts.lost_in_double > 0
-                         || do_stencils_drown(kMaxInDouble, weight, masses);
+    needs_double_ = counts.lost_in_float > 0 || do_stencils_drown(kUnseen);
+    is_lost_in_double_ = counts.lost_in_double > 0 || do_stencils_drown(kMaxInDouble);
 }
 
 template <int Dim>
@@ -110,15 +120,14 @@ bool NewtonSystem<Dim>::has_lost_inertia() const {
 
 // Of single stencils that are to be checked, by their largest diagonal entries.
 template <int Dim>
-bool NewtonSystem<Dim>::do_stencils_drown(double max_ratio,
-                                          double weight,
-                                          const Eigen::VectorXd& masses) const {
+bool NewtonSystem<Dim>::do_stencils_drown(double max_ratio) const {
     for (const HessianStencil& stencil : stencils_) {
         for (std::int32_t i = 0; stencil.is_checked && i < stencil.count; ++i) {
             const std::uint32_t vertex = stencil.vertices[i];
             const double stiffness =
                 stencil.scale * stencil.weights[i] * stencil.weights[i] * stencil.matrix[0];
-            if (dofs_->has_dof(vertex) && stiffness > max_ratio * weight * masses[vertex]) {
+            const double mass = dofs_->has_dof(vertex) ? masses_[dofs_->dof_of(vertex)] : 0;
+            if (mass > 0 && stiffness > max_ratio * mass) {
                 return true;
             }
         }

@@ -35,10 +35,7 @@ public:
     /// @param displacement  Dim x vertices: how far vertices without a dof move, m; 0 for others.
     void begin(BlockVector<Dim> right, Positions<Dim> displacement);
 
-    /// Adds weight * masses to the diagonal. Elements must have been added, and stencils that are
-    /// to be checked: where masses drown in the rounding of the stiffness that is there,
-    /// has_lost_inertia() says so. What float rounds of elements is made up for where it matters,
-    /// which lets masses be lighter.
+    /// Adds weight * masses to the diagonal.
     ///
     /// @param masses  One a vertex, kg.
     void add_masses(double weight, const Eigen::VectorXd& masses);
@@ -49,8 +46,13 @@ public:
     void add_stencil(const HessianStencil& stencil) { stencils_.push_back(stencil); }
     void reserve_stencils(std::size_t more) { stencils_.reserve(stencils_.size() + more); }
 
-    /// Sums up the stencils, each row by one thread in the order in which they were added. Lets go
-    /// of `displacement`.
+    /// Weighs all masses against all stiffness, once everything has been added: where masses drown
+    /// in the rounding of what is there, has_lost_inertia() says so. What float rounds of elements
+    /// is made up for where it matters, which lets masses be lighter.
+    void weigh_masses();
+
+    /// Sums up the stencils, each row by one thread in the order in which they were added, once
+    /// masses have been weighed. Lets go of `displacement`.
     void finish();
 
     [[nodiscard]] bool has_lost_inertia() const;
@@ -67,11 +69,7 @@ public:
     }
 
 private:
-    template <typename Scalar>
-    void add_masses(double weight, const Eigen::VectorXd& masses, BlockMatrix<Dim, Scalar>& matrix);
-    [[nodiscard]] bool do_stencils_drown(double max_ratio,
-                                         double weight,
-                                         const Eigen::VectorXd& masses) const;
+    [[nodiscard]] bool do_stencils_drown(double max_ratio) const;
 
     const Workers* workers_;
     const DofMap* dofs_;
@@ -81,7 +79,7 @@ private:
                  std::unique_ptr<CouplingMatrix<Dim, double>>>
         coupling_;
     BlockVector<Dim> right_;
-    Eigen::VectorXd masses_;  // of rows: what add_masses() has added
+    Eigen::VectorXd masses_;  // of dofs: what add_masses() has added, kg
     Positions<Dim> prescribed_displacement_;
     std::vector<HessianStencil> stencils_;
     bool is_rounded_ = false;  // or would be in float, so that rigid motions would show it

@@ -234,6 +234,7 @@ bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
     if (drag * damping_.stiffness != 0) {
         stiffness_drag_.add_hessian(x, drag * damping_.stiffness, filter, system);
     }
+    system.weigh_masses();
     work_.assembly_seconds += watch.seconds() - others;
     const bool has_lost_inertia = bodies_->sharing.any(system.has_lost_inertia());
     if (has_lost_inertia && !(may_be_rough_ && &system == double_system_.get())) {
