@@ -183,7 +183,9 @@ void copy_boundary(const Simplices<Dim + 1>& cells,
 }  // namespace
 
 template <int Dim>
-FacetMatch<Dim> match_facets(const Simplices<Dim + 1>& cells, Eigen::Index vertices) {
+FacetMatch<Dim> match_facets(const Simplices<Dim + 1>& cells,
+                             Eigen::Index vertices,
+                             const std::function<bool(std::uint32_t)>& is_counted) {
     const CellsByLowestCorner<Dim> by_corner(cells, vertices);
     FacetTable<Dim> table;
     FacetMatch<Dim> match;
@@ -191,6 +193,9 @@ FacetMatch<Dim> match_facets(const Simplices<Dim + 1>& cells, Eigen::Index verti
     for (std::uint32_t vertex = 0; vertex + 1 < by_corner.begin.size(); ++vertex) {
         const std::size_t begin = by_corner.begin[vertex];
         const std::size_t end = by_corner.begin[vertex + 1];
+        if (is_counted && !is_counted(vertex)) {
+            continue;
+        }
         table.clear(Dim * (end - begin));
         for (std::size_t i = begin; i < end; ++i) {
             add_facets<Dim>(cells, by_corner.cells[i], vertex, table);
@@ -217,8 +222,12 @@ FacetMatch<Dim> match_facets(const Simplices<Dim + 1>& cells, Eigen::Index verti
     return match;
 }
 
-template FacetMatch<2> match_facets<2>(const Simplices<3>&, Eigen::Index);
-template FacetMatch<3> match_facets<3>(const Simplices<4>&, Eigen::Index);
-template FacetMatch<4> match_facets<4>(const Simplices<5>&, Eigen::Index);
+#define PENT_INSTANTIATE(Dim)                                                           \
+    template FacetMatch<Dim> match_facets<Dim>(const Simplices<Dim + 1>&, Eigen::Index, \
+                                               const std::function<bool(std::uint32_t)>&);
+PENT_INSTANTIATE(2)
+PENT_INSTANTIATE(3)
+PENT_INSTANTIATE(4)
+#undef PENT_INSTANTIATE
 
 }  // namespace pent

@@ -62,18 +62,85 @@ TEST(MatchFacets, FindsTheBoundaryOfABoxOfTesseracts) {
     EXPECT_EQ(2 * match.interior + match.boundary.cols(), 5 * mesh.cell_count());
 }
 
+// Cells of few vertices, so that many share a facet.
+template <int Dim>
+Simplices<Dim + 1> random_cells(std::mt19937& random, std::uint32_t vertices) {
+    Simplices<Dim + 1> cells(Dim + 1, 30);
+    for (Eigen::Index cell = 0; cell < cells.cols(); ++cell) {
+        std::set<std::uint32_t> corners;
+        while (corners.size() < Dim + 1) {
+            corners.insert(static_cast<std::uint32_t>(random() % vertices));
+        }
+        std::copy(corners.begin(), corners.end(), cells.col(cell).data());
+        std::shuffle(cells.col(cell).data(), cells.col(cell).data() + Dim + 1, random);
+    }
+    return cells;
+}
+
+// Of the cells that touch some vertices, and of facets of which the lowest corner is one of these.
+template <int Dim>
+void expect_counted_as_by_brute_force(std::mt19937& random) {
+    constexpr std::uint32_t kVertices = Dim + 4;
+    const Simplices<Dim + 1> cells = random_cells<Dim>(random, kVertices);
+    const FacetMatch<Dim> all = match_facets<Dim>(cells, kVertices);
+    std::vector<std::uint32_t> owner;
+    for (std::uint32_t vertex = 0; vertex < kVertices; ++vertex) {
+        owner.push_back(static_cast<std::uint32_t>(random() % 3));
+    }
+    FacetMatch<Dim> sum;
+    std::size_t boundary = 0;
+    for (const std::uint32_t part : {0U, 1U, 2U}) {
+        std::vector<Eigen::Index> numbers;
+        for (Eigen::Index cell = 0; cell < cells.cols(); ++cell) {
+            const auto corners = cells.col(cell);
+            if (std::any_of(corners.begin(), corners.end(),
+                            [&](std::uint32_t vertex) { return owner[vertex] == part; })) {
+                numbers.push_back(cell);
+            }
+        }
+        const FacetMatch<Dim> own =
+            match_facets<Dim>(cells(Eigen::all, numbers), kVertices,
+                              [&](std::uint32_t vertex) { return owner[vertex] == part; });
+        std::int64_t single = 0;
+        std::int64_t pairs = 0;
+        std::int64_t more = 0;
+        for (const auto& [facet, count] : count_facets<Dim>(cells)) {
+            if (owner[facet[0]] == part) {
+                single += count == 1 ? 1 : 0;
+                pairs += count == 2 ? 1 : 0;
+                more += count > 2 ? 1 : 0;
+            }
+        }
+        EXPECT_EQ(own.boundary.cols(), single);
+        EXPECT_EQ(own.interior + own.one_sided, pairs);
+        EXPECT_EQ(own.overfull, more);
+        EXPECT_EQ(own.is_conforming(), own.first_fault < 0);
+        sum.interior += own.interior;
+        sum.one_sided += own.one_sided;
+        boundary += own.boundary_cells.size();
+        if (own.first_fault >= 0) {
+            const std::int64_t first = numbers[static_cast<std::size_t>(own.first_fault)];
+            sum.first_fault = sum.first_fault < 0 ? first : std::min(first, sum.first_fault);
+        }
+    }
+    EXPECT_EQ(sum.interior, all.interior);
+    EXPECT_EQ(sum.one_sided, all.one_sided);
+    EXPECT_EQ(sum.first_fault, all.first_fault);
+    EXPECT_EQ(boundary, all.boundary_cells.size());
+}
+
+TEST(MatchFacets, CountsTheFacetsOfSomeLowestCornersAsBruteForceDoes) {
+    std::mt19937 random(3);
+    for (int trial = 0; trial < 50; ++trial) {
+        expect_counted_as_by_brute_force<3>(random);
+        expect_counted_as_by_brute_force<4>(random);
+    }
+}
+
 TEST(MatchFacets, EqualsBruteForceOnRandomCells) {
     std::mt19937 random(7);
     for (int trial = 0; trial < 50; ++trial) {
-        Simplices<5> cells(5, 30);
-        for (Eigen::Index cell = 0; cell < cells.cols(); ++cell) {
-            std::set<std::uint32_t> corners;
-            while (corners.size() < 5) {
-                corners.insert(static_cast<std::uint32_t>(random() % 7));
-            }
-            std::copy(corners.begin(), corners.end(), cells.col(cell).data());
-            std::shuffle(cells.col(cell).data(), cells.col(cell).data() + 5, random);
-        }
+        const Simplices<5> cells = random_cells<4>(random, 7);
         const FacetMatch<4> match = match_facets<4>(cells, 7);
         std::int64_t single = 0;
         std::int64_t pairs = 0;

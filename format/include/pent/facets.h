@@ -3,6 +3,7 @@
 #include <pent/simplex_mesh.h>
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace pent {
@@ -26,8 +27,13 @@ struct FacetMatch {
 /// Finds the boundary and checks that neighbors agree, by hashing facets in groups of one
 /// lowest corner: linear time, and 8 bytes a cell beside the boundary itself.
 ///
-/// @param vertices  Number of vertices; indices are below it, not checked.
+/// @param vertices    Number of vertices; indices are below it, not checked.
+/// @param is_counted  Of the lowest corner of a facet, whether the facet counts; empty for all.
+///                    Where only a part of the cells is here, all that touch these vertices are.
 template <int Dim>
-[[nodiscard]] FacetMatch<Dim> match_facets(const Simplices<Dim + 1>& cells, Eigen::Index vertices);
+[[nodiscard]] FacetMatch<Dim> match_facets(
+    const Simplices<Dim + 1>& cells,
+    Eigen::Index vertices,
+    const std::function<bool(std::uint32_t)>& is_counted = {});
 
 }  // namespace pent
