@@ -368,6 +368,13 @@ Header parse_header(std::string_view bytes, const std::filesystem::path& path) {
     return header;
 }
 
+void refuse_frame(const Header& header, const std::filesystem::path& path) {
+    if (header.info.is_frame) {
+        throw Error(path.string() + ": header: this is a frame of the mesh " + header.mesh_name
+                    + ", expected a mesh");
+    }
+}
+
 std::string format_header(const Header& header) {
     std::string created_by = header.info.created_by;
     std::replace_if(

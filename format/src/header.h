@@ -34,6 +34,9 @@ struct Header {
 /// Throws an Error that names the file, the line, what was found and what was expected.
 [[nodiscard]] Header parse_header(std::string_view bytes, const std::filesystem::path& path);
 
+/// Throws an Error where the file is a frame.
+void refuse_frame(const Header& header, const std::filesystem::path& path);
+
 /// The text of a header up to and with end_header's newline.
 [[nodiscard]] std::string format_header(const Header& header);
 

@@ -184,10 +184,7 @@ MeshFile<Dim> read_mesh(const std::filesystem::path& path) {
             return extrude_file<Dim>(header, file.view(), path);
         }
     }
-    if (header.info.is_frame) {
-        throw Error(path.string() + ": header: this is a frame of the mesh " + header.mesh_name
-                    + ", expected a mesh");
-    }
+    refuse_frame(header, path);
     BodyReader reader(header, file.view(), path);
     const PlyElement& vertex = header.elements[0];
     const PlyElement& cell = header.elements[1];

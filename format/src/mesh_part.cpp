@@ -278,11 +278,6 @@ RowBytes MeshSource<Dim>::Content::cell_bytes(std::uint64_t first, std::uint64_t
 }
 
 template <int Dim>
-bool MeshSource<Dim>::can_read(const FileInfo& info) {
-    return !info.is_frame;
-}
-
-template <int Dim>
 MeshSource<Dim>::MeshSource(const std::filesystem::path& path, int parts)
     : content_(std::make_unique<Content>()) {
     constexpr std::uint64_t kMaxRows = 0xffffffff;
@@ -296,6 +291,7 @@ MeshSource<Dim>::MeshSource(const std::filesystem::path& path, int parts)
         content_->info = info_in_memory<Dim>(header, *content_->extrusion, parts, path);
         return;
     }
+    refuse_frame(header, path);
     check_counts(header, std::filesystem::file_size(path) - header.body, path);
     if (header.info.cells == 0 || header.info.cells > kMaxRows) {
         throw Error(path.string() + ": " + std::to_string(header.info.cells) + " "

@@ -100,7 +100,6 @@ TEST_F(MpiExplain, KnowsOfParentsThatNobodyUses) {
     expect_same_on_ranks("quadratic", {"quadratic, filter"});
 }
 
-// Such a mesh is read as a whole, which says so.
 TEST_F(MpiExplain, WarnsOfCellsThatDoNotFit) {
     SimplexMesh<4> mesh = read_mesh<4>(path("bar.pent")).mesh;
     mesh.cells.conservativeResize(Eigen::NoChange, mesh.cell_count() + 1);

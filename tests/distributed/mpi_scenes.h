@@ -26,6 +26,11 @@ namespace pent::test {
            + options + " -n " + std::to_string(ranks);
 }
 
+/// What a program said, without its name.
+[[nodiscard]] inline std::string said(const Outcome& outcome) {
+    return outcome.err.substr(outcome.err.find(": "));
+}
+
 /// A folder with a bar, two boxes and scenes of them.
 class MpiScenes : public testing::Test {
 protected:

@@ -99,7 +99,6 @@ TEST(MeshSource, HasTheVerticesAndAnyCellsOfTheWholeMesh) {
     for (const char* name :
          {"rich.pent", "plain.pent", "prisms.pent", "cones.pent", "text.pent", "long.pent"}) {
         const SimplexMesh<4> whole = read_mesh<4>(folder / name).mesh;
-        ASSERT_TRUE(MeshSource<4>::can_read(read_info(folder / name)));
         const MeshSource<4> source(folder / name, 1);
         EXPECT_EQ(source.info().cells, static_cast<std::uint64_t>(whole.cell_count()));
         SimplexMesh<4> vertices = source.vertices();
@@ -212,6 +211,12 @@ TEST(MeshSource, SaysWhatIsWrongWithAFile) {
                     {"cut.pent", "the file is truncated"});
     expect_contains(error_of([&] { MeshSource<4>(folder / "none.pent", 2); }),
                     {"none.pent", "cannot be read"});
+    Frame<4> frame;
+    frame.positions = rich_box().positions;
+    frame.mesh_name = "a.pent";
+    write_frame(folder / "frame.pent", frame);
+    EXPECT_EQ(error_of([&] { MeshSource<4>(folder / "frame.pent", 2); }),
+              error_of([&] { static_cast<void>(read_mesh<4>(folder / "frame.pent")); }));
     // Text, in the words of whoever reads all of it.
     static_cast<void>(write_mesh(folder / "text.pent", rich_box(), {.encoding = Encoding::Ascii}));
     const std::string text = bytes_of(folder / "text.pent");

@@ -4,6 +4,8 @@
 #include "simulator/scenes.h"
 #include "simulator/thread_ranks.h"
 #include "support/fork.h"
+#include "support/messages.h"
+#include "support/misfits.h"
 #include "support/temp_folder.h"
 
 #include <pent/pent_file.h>
@@ -12,10 +14,15 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
+#include <vector>
+
 namespace pent::runs {
 namespace {
 
 namespace test = simulator::test;
+using pent::test::expect_contains;
 using pent::test::TempFolder;
 
 // Held at x = 0, with fibers away from there, tied to where it is, by labels of its cells.
@@ -76,6 +83,140 @@ TEST(RunMeshes, AreWholeForAProgramOnItsOwn) {
             EXPECT_EQ(mesh.cells, mesh.share.mesh.cell_count());
         });
     EXPECT_GT(simulation.mesh(0).cell_count(), 0);
+}
+
+// What reading meshes into a simulation leads to. No rank but one alone has all cells of any.
+template <int Dim>
+std::string outcome_of(const Scene& scene, const std::shared_ptr<const simulator::Ranks>& ranks) {
+    const RunRanks together(ranks.get());
+    RunMeshes<Dim> meshes(scene, together);
+    try {
+        const Simulation<Dim> simulation = meshes.simulate(
+            {.ranks = ranks}, [&](std::size_t /*body*/, const LoadedMesh<Dim>& mesh) {
+                if (together.count() > 1) {
+                    EXPECT_LT(mesh.share.mesh.cell_count(), mesh.cells);
+                }
+            });
+    } catch (const Error& error) {
+        return error.what();
+    }
+    std::string lines = "warnings:";
+    for (const std::string& line : meshes.warnings()) {
+        lines += " " + line;
+    }
+    return lines;
+}
+
+template <int Dim>
+std::string outcome_of_all(const Scene& scene) {
+    const std::string alone = outcome_of<Dim>(scene, nullptr);
+    for (const int count : {1, 2, 3, 4}) {
+        test::on_ranks(count, [&](const std::shared_ptr<const simulator::Ranks>& ranks) {
+            EXPECT_EQ(outcome_of<Dim>(scene, ranks), alone);
+        });
+    }
+    return alone;
+}
+
+// A scene of a sound mesh and one that is not, in both kinds of files, and with contact.
+template <int Dim>
+void expect_misfit(const SimplexMesh<Dim>& mesh, const std::string& what) {
+    const TempFolder folder;
+    static_cast<void>(write_mesh(folder / "sound.pent", pent::test::fork<Dim>()));
+    static_cast<void>(write_mesh(folder / "misfit.pent", mesh));
+    static_cast<void>(write_mesh(folder / "text.pent", mesh, {.encoding = Encoding::Ascii}));
+    Scene scene = test::box_scene<Dim>();
+    scene.bodies[0].mesh = (folder / "sound.pent").string();
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies[1].name = "second";
+    for (const char* name : {"misfit.pent", "text.pent"}) {
+        scene.bodies[1].mesh = (folder / name).string();
+        scene.contact = ContactSettings{};
+        const std::string error = outcome_of_all<Dim>(scene);
+        scene.contact.reset();
+        const std::string warning = outcome_of_all<Dim>(scene);
+        const std::string line =
+            "warnings: " + scene.bodies[1].mesh + ": its cells do not fit together: ";
+        EXPECT_EQ(warning.substr(0, line.size()), line);
+        expect_contains(warning, {what});
+        expect_contains(error, {what, "contact needs a closed surface"});
+    }
+}
+
+template <int Dim>
+void expect_misfits() {
+    const std::string overfull = " of its facets have more than two cells";
+    const SimplexMesh<Dim> fork = pent::test::fork<Dim>();
+    const Eigen::Index cells = fork.cell_count();
+    const Eigen::Index facets = match_facets<Dim>(fork.cells, fork.vertex_count()).boundary.cols();
+    for (const double place : {0.0, 0.5, 1.0}) {
+        const auto cell = static_cast<Eigen::Index>(place * static_cast<double>(cells - 1));
+        const auto facet = static_cast<Eigen::Index>(place * static_cast<double>(facets - 1));
+        expect_misfit(pent::test::with_cells_twice(fork, {cell}), overfull);
+        expect_misfit(pent::test::with_cells_on_one_side(fork, {facet}),
+                      "1 of its facets have both cells on one side");
+    }
+    std::vector<Eigen::Index> many;
+    for (Eigen::Index cell = cells / 3; cell < cells; cell += 5) {
+        many.push_back(cell);
+    }
+    expect_misfit(pent::test::with_cells_twice(fork, many), overfull);
+    expect_misfit(pent::test::with_cells_on_one_side(
+                      pent::test::with_cells_twice(fork, {cells / 2}), {facets / 3, facets / 2}),
+                  overfull);
+}
+
+TEST(RunMeshes, OfCellsThatDoNotFitAreJudgedByRanksAsByOne) {
+    expect_misfits<3>();
+    expect_misfits<4>();
+}
+
+// Before what is held twice, of all bodies.
+TEST(RunMeshes, AreJudgedInTheOrderOfOneProcess) {
+    const TempFolder folder;
+    Scene scene = muscle(folder);
+    scene.activations.clear();
+    scene.attachments.clear();
+    scene.constraints.push_back(scene.constraints[0]);
+    const std::string held = "is held by two constraints at one time";
+    expect_contains(outcome_of_all<4>(scene), {held});
+    static_cast<void>(write_mesh(folder / "twice.pent",
+                                 pent::test::with_cells_twice(pent::test::fork<4>(), {0})));
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies[1].name = "second";
+    scene.bodies[1].mesh = (folder / "twice.pent").string();
+    expect_contains(outcome_of_all<4>(scene), {held});
+    scene.contact = ContactSettings{};
+    expect_contains(outcome_of_all<4>(scene), {"twice.pent: its cells do not fit together"});
+}
+
+TEST(RunMeshes, ThatMakeNoQuadraticElementsAreRefusedByRanksAsByOne) {
+    const TempFolder folder;
+    Scene scene = test::box_scene<4>();
+    scene.solver.elements = simulator::ElementKind::Quadratic;
+    scene.bodies[0].mesh = (folder / "a.pent").string();
+    const auto outcome = [&](const SimplexMesh<4>& mesh) {
+        static_cast<void>(write_mesh(folder / "a.pent", mesh));
+        return outcome_of_all<4>(scene);
+    };
+    SimplexMesh<4> mesh = pent::test::quadratic_kuhn_box<4>({5, 1, 1, 1}, {2.5, 0.5, 0.5, 0.5});
+    EXPECT_EQ(outcome(mesh), "warnings:");
+    expect_contains(outcome(pent::test::fork<4>()), {"no multiple of 16"});
+    expect_contains(outcome(test::bar(10)), {"cell 0 and 15 more"});
+    mesh.parents.back() = 4000;
+    expect_contains(outcome(mesh), {"parent ", "with 15 cells"});
+    mesh.parents.clear();
+    expect_contains(outcome(mesh), {"cell 0 and 15 more"});
+}
+
+TEST(RunMeshes, OfAFrameAreRefusedByRanksAsByOne) {
+    const TempFolder folder;
+    Scene scene = muscle(folder);
+    Frame<4> frame;
+    frame.positions = pent::test::fork<4>().positions;
+    frame.mesh_name = "fork.pent";
+    write_frame(folder / "fork.pent", frame);
+    expect_contains(outcome_of_all<4>(scene), {"this is a frame of the mesh fork.pent"});
 }
 
 TEST(Explain, IsTheSameOnRanksButForCosts) {

@@ -155,17 +155,6 @@ TEST(PartBodies, HaveTheQuadraticCellsOfWholeMeshesWithTheirRegions) {
     expect_those_of_whole_meshes(scene, quadratic_bars());
 }
 
-TEST(PartBodies, KnowWhetherCellsMakeUpElements) {
-    Scene scene = two_bars();
-    SimplexMesh<4> mesh = pent::test::quadratic_kuhn_box<4>({3, 1, 1, 1}, {1.5, 0.5, 0.5, 0.5});
-    EXPECT_TRUE(do_cells_make_elements(scene, mesh));
-    scene.solver.elements = ElementKind::Quadratic;
-    EXPECT_TRUE(do_cells_make_elements(scene, mesh));
-    ++mesh.parents.back();
-    EXPECT_FALSE(do_cells_make_elements(scene, mesh));
-    EXPECT_FALSE(do_cells_make_elements(scene, test::bar()));
-}
-
 // Vertices of one bar within another, at corners that many cells of several ranks share, and beyond
 // it: to the bit those of whole meshes.
 TEST(PartBodies, FindThePointsThatAreNearestToVertices) {

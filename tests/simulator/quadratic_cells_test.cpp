@@ -1,12 +1,21 @@
 #include "model/quadratic_cells.h"
 
+#include "cut_meshes.h"
+#include "model/part_bodies.h"
 #include "potential_laws.h"
+#include "scenes.h"
 #include "support/messages.h"
+#include "thread_ranks.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace pent::simulator {
 namespace {
@@ -100,6 +109,87 @@ TYPED_TEST(QuadraticCellsTest, AreRefusedWithHowToMakeThem) {
         0.76 * mesh.positions.col(simplices(0, 0)) + 0.24 * mesh.positions.col(simplices(1, 0));
     expect_contains(message(folded), {"a.pent: ", " quadratic cells are folded at rest, the worst",
                                       " that of cell ", " m, expected none"});
+}
+
+// A bar of which several ranks have parts.
+template <int Dim>
+SimplexMesh<Dim> quadratic_bar() {
+    std::array<int, Dim> count{};
+    count.fill(1);
+    count[0] = 4;
+    std::array<double, Dim> size{};
+    size.fill(0.5);
+    size[0] = 2;
+    return pent::test::quadratic_kuhn_box<Dim>(count, size);
+}
+
+// What ranks with parts of the mesh say, in the words of one process that has the whole.
+template <int Dim>
+std::string refused_by_all(const SimplexMesh<Dim>& mesh) {
+    Scene scene = test::box_scene<Dim>();
+    scene.solver.elements = ElementKind::Quadratic;
+    const std::string alone = error_of([&] { (void)make_bodies<Dim>(scene, {mesh}); });
+    for (const int count : {1, 2, 3, 4}) {
+        test::on_ranks(count, [&](const std::shared_ptr<const Ranks>& ranks) {
+            EXPECT_EQ(error_of([&] {
+                          (void)make_part_bodies<Dim>(
+                              scene, test::cut_meshes<Dim>(scene, {mesh}, *ranks), ranks);
+                      }),
+                      alone);
+        });
+    }
+    return alone;
+}
+
+// Of several faults the lowest one, whichever ranks have found them.
+TYPED_TEST(QuadraticCellsTest, AreRefusedByRanksInTheWordsOfOne) {
+    constexpr int kDim = TypeParam::value;
+    const SimplexMesh<kDim> mesh = quadratic_bar<kDim>();
+    SimplexMesh<kDim> few = mesh;
+    few.cells.conservativeResize(Eigen::NoChange, mesh.cell_count() - 1);
+    few.parents.pop_back();
+    expect_contains(refused_by_all<kDim>(few), {"no multiple of"});
+    SimplexMesh<kDim> unlabeled = mesh;
+    unlabeled.parents.clear();
+    expect_contains(refused_by_all<kDim>(unlabeled), {"cell 0 and", "do not make up"});
+    std::vector<std::uint32_t> parents = mesh.parents;
+    std::sort(parents.begin(), parents.end());
+    parents.erase(std::unique(parents.begin(), parents.end()), parents.end());
+    const auto child_of = [](SimplexMesh<kDim>& changed, std::uint32_t parent) -> std::uint32_t& {
+        return *std::find(changed.parents.begin(), changed.parents.end(), parent);
+    };
+    SimplexMesh<kDim> mislabeled = mesh;
+    SimplexMesh<kDim> swapped = mesh;
+    for (const double place : {1.0, 0.6, 0.3, 0.0}) {
+        const auto at = static_cast<std::size_t>(place * static_cast<double>(parents.size() - 2));
+        child_of(mislabeled, parents[at]) = 4000;
+        expect_contains(refused_by_all<kDim>(mislabeled),
+                        {"parent " + std::to_string(parents[at]) + " with "
+                         + std::to_string((1 << kDim) - 1) + " cells"});
+        std::uint32_t& one = child_of(swapped, parents[at]);
+        std::swap(one, child_of(swapped, parents[at + 1]));
+        expect_contains(refused_by_all<kDim>(swapped), {"cell ", "do not make up"});
+    }
+}
+
+// As many as all ranks have found, and the worst of all.
+TYPED_TEST(QuadraticCellsTest, AreFoldedForRanksAsForOne) {
+    constexpr int kDim = TypeParam::value;
+    SimplexMesh<kDim> mesh = quadratic_bar<kDim>();
+    const QuadraticSimplices<kDim> simplices = quadratic_simplices<kDim>(mesh, "bar");
+    std::string said;
+    for (const auto& [place, share] :
+         {std::pair(0.0, 0.235), {0.3, 0.22}, {0.6, 0.23}, {1.0, 0.21}}) {
+        const auto at =
+            static_cast<Eigen::Index>(place * static_cast<double>(simplices.cols() - 1));
+        mesh.positions.col(simplices(kDim + 1, at)) =
+            (1 - share) * mesh.positions.col(simplices(0, at))
+            + share * mesh.positions.col(simplices(1, at));
+        const std::string now = refused_by_all<kDim>(mesh);
+        expect_contains(now, {" quadratic cells are folded at rest, the worst", " that of cell "});
+        EXPECT_NE(now, said);
+        said = now;
+    }
 }
 
 }  // namespace

@@ -78,9 +78,6 @@ void check_checksum(const std::filesystem::path& path, const SlabWriters* reader
 template <int Dim>
 class MeshSource {
 public:
-    /// Whether a file is one: a mesh, or base and layers; not a frame.
-    [[nodiscard]] static bool can_read(const FileInfo& info);
-
     /// Reads the header, and goes through text for where its lines begin. Throws an Error as
     /// read_mesh() does.
     ///

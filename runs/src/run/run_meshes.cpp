@@ -6,7 +6,6 @@
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -15,15 +14,16 @@ namespace pent::runs {
 template <int Dim>
 Simulation<Dim> RunMeshes<Dim>::simulate(const simulator::SimulationOptions& options,
                                          const Look& look) {
-    if (std::optional<SceneParts<Dim>> parts = read_parts<Dim>(scene_, ranks_)) {
+    if (ranks_.count() > 0) {
+        SceneParts<Dim> parts = read_parts<Dim>(scene_, ranks_);
+        warnings_ = std::move(parts.warnings);
         if (look) {
-            show(*parts, options.ranks.get(), look);
+            show(parts, options.ranks.get(), look);
         }
-        sources_ = std::move(parts->sources);
-        return {scene_, std::move(parts->parts), options};
+        sources_ = std::move(parts.sources);
+        return {scene_, std::move(parts.parts), options};
     }
-    SceneMeshes<Dim> meshes;
-    ranks_.agree([&] { meshes = read_meshes<Dim>(scene_); });
+    SceneMeshes<Dim> meshes = read_meshes<Dim>(scene_);
     warnings_ = std::move(meshes.warnings);
     for (std::size_t body = 0; look && body < meshes.meshes.size(); ++body) {
         const SimplexMesh<Dim>& mesh = meshes.meshes[body];
@@ -56,10 +56,6 @@ void RunMeshes<Dim>::show(const SceneParts<Dim>& parts,
 template <int Dim>
 SimplexMesh<Dim> RunMeshes<Dim>::slab_of_mesh(const SimplexMesh<Dim>& mesh, int body) const {
     const int count = ranks_.count();
-    if (sources_.empty()) {
-        return rows_of(mesh,
-                       slab_of(mesh.vertex_count(), mesh.cell_count(), ranks_.place(), count));
-    }
     const auto index = static_cast<std::size_t>(body);
     const auto cells = static_cast<Eigen::Index>(sources_[index].info().cells);
     const MeshSlab slab = slab_of(mesh.vertex_count(), cells, ranks_.place(), count);

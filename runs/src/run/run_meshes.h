@@ -25,7 +25,7 @@ struct LoadedMesh {
 };
 
 /// The meshes of a run: from their files into a simulation, and from there, as placed, into the
-/// run's folder. Where ranks have parts of them none has more than that, and a slab of a file.
+/// run's folder. Ranks have parts of them, and slabs of a file while they read and write.
 template <int Dim>
 class RunMeshes {
 public:
@@ -34,7 +34,7 @@ public:
     /// Both must outlive this.
     RunMeshes(const Scene& scene, const RunRanks& ranks) : scene_(scene), ranks_(ranks) {}
 
-    /// Reads them, as read_parts() or else read_meshes().
+    /// Reads them: ranks as read_parts(), a program on its own as read_meshes().
     ///
     /// @param look  Sees each of them before the simulation has them, on all ranks together.
     [[nodiscard]] Simulation<Dim> simulate(const simulator::SimulationOptions& options,
@@ -63,7 +63,7 @@ private:
 
     const Scene& scene_;
     const RunRanks& ranks_;
-    std::vector<MeshSource<Dim>> sources_;  // of ranks that have parts
+    std::vector<MeshSource<Dim>> sources_;  // of ranks
     std::vector<std::string> warnings_;
 };
 

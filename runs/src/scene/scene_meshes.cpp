@@ -1,7 +1,6 @@
 #include "scene/scene_meshes.h"
 
 #include <pent/error.h>
-#include <pent/facets.h>
 #include <pent/formatted.h>
 #include <pent/number_bounds.h>
 #include <pent/simulator/placed_mesh.h>
@@ -16,21 +15,6 @@ namespace {
 
 std::string at(const std::string& source) {
     return source.empty() ? "" : source + ": ";
-}
-
-// What is wrong with how cells meet; "" if nothing is.
-template <int Dim>
-std::string misfit(const SimplexMesh<Dim>& mesh) {
-    const FacetMatch<Dim> facets = match_facets<Dim>(mesh.cells, mesh.vertex_count());
-    if (facets.is_conforming()) {
-        return "";
-    }
-    const std::string what =
-        facets.overfull > 0
-            ? std::to_string(facets.overfull) + " of its facets have more than two cells"
-            : std::to_string(facets.one_sided) + " of its facets have both cells on one side";
-    return what + ", first at " + std::string(cell_name(Dim)) + " "
-           + std::to_string(facets.first_fault) + " (pent-check says more)";
 }
 
 bool do_overlap(const Constraint& a, const Constraint& b) {
@@ -74,6 +58,28 @@ void check_size(const SimplexMesh<Dim>& mesh, const Body& body) {
 }
 
 template <int Dim>
+void judge_facets(const Scene& scene,
+                  const Body& body,
+                  const FacetMatch<Dim>& facets,
+                  std::vector<std::string>& warnings) {
+    if (facets.is_conforming()) {
+        return;
+    }
+    const std::string line =
+        body.mesh + ": its cells do not fit together: "
+        + (facets.overfull > 0
+               ? std::to_string(facets.overfull) + " of its facets have more than two cells"
+               : std::to_string(facets.one_sided) + " of its facets have both cells on one side")
+        + ", first at " + std::string(cell_name(Dim)) + " " + std::to_string(facets.first_fault)
+        + " (pent-check says more)";
+    if (scene.contact) {
+        throw Error(at(body.source) + line
+                    + "; contact needs a closed surface: mend the mesh or leave out [contact]");
+    }
+    warnings.push_back(line);
+}
+
+template <int Dim>
 void check_constraints(const Scene& scene, const Body& body, const SimplexMesh<Dim>& mesh) {
     if (std::none_of(scene.constraints.begin(), scene.constraints.end(),
                      [&](const Constraint& constraint) { return constraint.body == body.name; })) {
@@ -114,15 +120,8 @@ SceneMeshes<Dim> read_meshes(const Scene& scene) {
         SimplexMesh<Dim> mesh;
         with_place_of(body, [&] { mesh = read_mesh<Dim>(body.mesh).mesh; });
         check_size(mesh, body);
-        if (const std::string what = misfit(mesh); !what.empty()) {
-            const std::string line = body.mesh + ": its cells do not fit together: " + what;
-            if (scene.contact) {
-                throw Error(at(body.source) + line
-                            + "; contact needs a closed surface: mend the mesh or leave out"
-                              " [contact]");
-            }
-            result.warnings.push_back(line);
-        }
+        judge_facets<Dim>(scene, body, match_facets<Dim>(mesh.cells, mesh.vertex_count()),
+                          result.warnings);
         result.meshes.push_back(std::move(mesh));
     }
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -131,10 +130,12 @@ SceneMeshes<Dim> read_meshes(const Scene& scene) {
     return result;
 }
 
-#define PENT_INSTANTIATE(Dim)                                            \
-    template SceneMeshes<Dim> read_meshes<Dim>(const Scene&);            \
-    template FileInfo info_of_mesh<Dim>(const Body&);                    \
-    template void check_size<Dim>(const SimplexMesh<Dim>&, const Body&); \
+#define PENT_INSTANTIATE(Dim)                                                          \
+    template SceneMeshes<Dim> read_meshes<Dim>(const Scene&);                          \
+    template FileInfo info_of_mesh<Dim>(const Body&);                                  \
+    template void check_size<Dim>(const SimplexMesh<Dim>&, const Body&);               \
+    template void judge_facets<Dim>(const Scene&, const Body&, const FacetMatch<Dim>&, \
+                                    std::vector<std::string>&);                        \
     template void check_constraints<Dim>(const Scene&, const Body&, const SimplexMesh<Dim>&);
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)

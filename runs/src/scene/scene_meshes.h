@@ -2,6 +2,7 @@
 
 #include "simulator_names.h"
 
+#include <pent/facets.h>
 #include <pent/pent_file.h>
 #include <pent/simplex_mesh.h>
 
@@ -18,7 +19,8 @@ struct SceneMeshes {
     std::vector<std::string> warnings;  ///< What pent-check would refuse of them, a line each.
 };
 
-/// Reads them and compares them with the scene.
+/// Reads them as a whole, for a program on its own, and compares them with the scene. Ranks have
+/// read_parts().
 ///
 /// Throws an Error that begins with the place in the scene file if one cannot be read, is of
 /// another dimension, is placed so small or large that its volumes leave the range of double, has
@@ -39,6 +41,16 @@ void with_place_of(const Body& body, const std::function<void()>& work);
 /// Throws an Error where the body is placed so small or large that volumes leave the range.
 template <int Dim>
 void check_size(const SimplexMesh<Dim>& mesh, const Body& body);
+
+/// Adds a warning where the cells of a mesh do not fit together, or throws an Error where contact
+/// needs a closed surface.
+///
+/// @param facets  Of the whole mesh; boundaries do not count.
+template <int Dim>
+void judge_facets(const Scene& scene,
+                  const Body& body,
+                  const FacetMatch<Dim>& facets,
+                  std::vector<std::string>& warnings);
 
 /// Throws an Error where a vertex of a body is held by two constraints at one time.
 ///

@@ -4,11 +4,12 @@
 
 #include <pent/crc32c.h>
 #include <pent/error.h>
-#include <pent/facets.h>
 #include <pent/simulator/mesh_parts.h>
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -245,41 +246,31 @@ class PartReader {
 public:
     PartReader(const Scene& scene, const RunRanks& ranks) : scene_(scene), ranks_(ranks) {}
 
-    std::optional<SceneParts<Dim>> operator()() {
-        if (!can_read()) {
-            return std::nullopt;
-        }
+    SceneParts<Dim> operator()() {
+        check_infos();
         read_vertices();
         read_cells();
-        const bool is_misfit =
-            std::any_of(result_.parts.begin(), result_.parts.end(), [&](const auto& part) {
-                return !match_facets<Dim>(part.mesh.cells, part.mesh.vertex_count()).is_conforming()
-                       || !do_cells_make_elements<Dim>(scene_, part.mesh);
-            });
-        if (ranks_.any(is_misfit)) {
-            return std::nullopt;
-        }
+        ranks_.agree([&] {
+            for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+                const Body& body = scene_.bodies[i];
+                if (!are_labels_asked_for(scene_, body)) {
+                    // else the simulation does, as all have to look together
+                    check_constraints(scene_, body, result_.parts[i].mesh);
+                }
+            }
+        });
         return std::move(result_);
     }
 
 private:
-    [[nodiscard]] bool can_read() const {
-        if (ranks_.count() == 0) {
-            return false;
-        }
-        bool can = true;
+    void check_infos() const {
         std::uint32_t sum = 0;
         ranks_.agree([&] {
             for (const Body& body : scene_.bodies) {
-                const FileInfo info = info_of_mesh<Dim>(body);
-                // Cells that layers make are no children of quadratic ones.
-                can = can && MeshSource<Dim>::can_read(info)
-                      && !(info.is_extrusion && scene_.solver.elements == ElementKind::Quadratic);
-                sum = checksum(info, sum);
+                sum = checksum(info_of_mesh<Dim>(body), sum);
             }
         });
         ranks_.refuse_others(sum, "other meshes", "let all of them read the same files");
-        return !ranks_.any(!can);
     }
 
     void read_vertices() {
@@ -309,6 +300,33 @@ private:
         }
     }
 
+    [[nodiscard]] std::int64_t sum(std::int64_t own) const {
+        const std::vector<double> all = ranks_.list(static_cast<double>(own));
+        return static_cast<std::int64_t>(std::accumulate(all.begin(), all.end(), 0.0));
+    }
+
+    // How the facets of a whole mesh meet. One is judged by the rank that has its lowest corner,
+    // and with that all of its cells.
+    FacetMatch<Dim> facets_of_all(const MeshPart<Dim>& part, const Owners& owners) const {
+        FacetMatch<Dim> own;
+        ranks_.agree([&] {
+            own = match_facets<Dim>(part.mesh.cells, part.mesh.vertex_count(),
+                                    [&](std::uint32_t vertex) { return owners.has(vertex); });
+        });
+        const double first = own.is_conforming()
+                                 ? std::numeric_limits<double>::infinity()
+                                 : part.numbers[static_cast<std::size_t>(own.first_fault)];
+        const std::vector<double> firsts = ranks_.list(first);
+        FacetMatch<Dim> all;
+        all.one_sided = sum(own.one_sided);
+        all.overfull = sum(own.overfull);
+        if (!all.is_conforming()) {
+            all.first_fault =
+                static_cast<std::int64_t>(*std::min_element(firsts.begin(), firsts.end()));
+        }
+        return all;
+    }
+
     void read_cells() {
         std::size_t first = 0;
         for (std::size_t i = 0; i < meshes_.size(); ++i) {
@@ -322,8 +340,9 @@ private:
             ranks_.agree([&] { wanted = wanted_of(scene_, body, source); });
             const NeededCells needed(scene_.solver.elements, count,
                                      [&](std::uint32_t vertex) { return owners.has(vertex); });
+            // The cells that make a quadratic one, if any do, need not be at neighboring columns.
             MeshPart<Dim> part =
-                source.is_extrusion()
+                source.is_extrusion() && scene_.solver.elements != ElementKind::Quadratic
                     ? extruded_part(source, wanted, needed, meshes_[i].columns, owners)
                     : read_part<Dim>(source, wanted, needed, ranks_);
             if (is_text(source)) {
@@ -335,11 +354,8 @@ private:
             ranks_.agree([&] {
                 with_place_of(body,
                               [&] { validate_part<Dim>(part.mesh, body.mesh, part.numbers); });
-                if (!are_labels_asked_for(scene_, body)) {
-                    // else the simulation does, as all have to look together
-                    check_constraints(scene_, body, part.mesh);
-                }
             });
+            judge_facets<Dim>(scene_, body, facets_of_all(part, owners), result_.warnings);
             result_.parts.push_back(std::move(part));
             first += count;
         }
@@ -354,11 +370,11 @@ private:
 }  // namespace
 
 template <int Dim>
-std::optional<SceneParts<Dim>> read_parts(const Scene& scene, const RunRanks& ranks) {
+SceneParts<Dim> read_parts(const Scene& scene, const RunRanks& ranks) {
     return PartReader<Dim>(scene, ranks)();
 }
 
-template std::optional<SceneParts<3>> read_parts<3>(const Scene&, const RunRanks&);
-template std::optional<SceneParts<4>> read_parts<4>(const Scene&, const RunRanks&);
+template SceneParts<3> read_parts<3>(const Scene&, const RunRanks&);
+template SceneParts<4> read_parts<4>(const Scene&, const RunRanks&);
 
 }  // namespace pent::runs

@@ -6,7 +6,6 @@
 #include <pent/mesh_part.h>
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,12 +17,15 @@ struct SceneParts {
     std::vector<MeshPart<Dim>> parts;      ///< One a body, as their files have them.
     std::vector<MeshSource<Dim>> sources;  ///< One a body, to read other parts from.
     std::vector<std::uint32_t> owners;     ///< The rank of each vertex, of all bodies.
+    std::vector<std::string> warnings;     ///< As of SceneMeshes.
 };
 
-/// Reads them together and compares them with the scene, as read_meshes() does: a file by slabs,
-/// which all ranks see go by; of base and layers each makes what it needs. None where every rank is
-/// to read whole meshes: a program on its own, and meshes whose cells do not fit together.
+/// Reads them together and compares them with the scene, as read_meshes() does, with the same
+/// Errors and warnings: a file by slabs, which all ranks see go by; of base and layers each makes
+/// what it needs.
+///
+/// @param ranks  At least one.
 template <int Dim>
-[[nodiscard]] std::optional<SceneParts<Dim>> read_parts(const Scene& scene, const RunRanks& ranks);
+[[nodiscard]] SceneParts<Dim> read_parts(const Scene& scene, const RunRanks& ranks);
 
 }  // namespace pent::runs

@@ -76,11 +76,13 @@ std::vector<std::uint32_t> append_quadratic(const Body& body,
 }  // namespace
 
 template <int Dim>
-MadeQuadratic<Dim> make_quadratic(const SimplexMesh<Dim>& mesh, const Body& body) {
+MadeQuadratic<Dim> make_quadratic(const SimplexMesh<Dim>& mesh,
+                                  const Body& body,
+                                  const CellsOfRank& whole) {
     const std::string name = (body.source.empty() ? "" : body.source + ": ") + body.mesh;
-    const std::vector<Eigen::Index> children = child_cells<Dim>(mesh, name);
+    const std::vector<Eigen::Index> children = child_cells<Dim>(mesh, name, whole);
     MadeQuadratic<Dim> made;
-    made.nodes = quadratic_simplices<Dim>(mesh, children, name);
+    made.nodes = quadratic_simplices<Dim>(mesh, children, name, whole);
     made.straight.positions = mesh.positions;
     made.straight.layers = mesh.layers;
     made.straight.cells = made.nodes.template topRows<Dim + 1>();
@@ -90,7 +92,7 @@ MadeQuadratic<Dim> make_quadratic(const SimplexMesh<Dim>& mesh, const Body& body
         const auto child = static_cast<std::size_t>(children[i]);
         made.parents[child] = static_cast<std::uint32_t>(i / kChildren);
         if (i % kChildren == 0) {
-            made.numbers.push_back(static_cast<std::uint32_t>(child));
+            made.numbers.push_back(whole.number(children[i]));
             if (!mesh.regions.empty()) {
                 made.straight.regions.push_back(mesh.regions[child]);
             }
@@ -167,7 +169,8 @@ void append_bodies(const Scene& scene, Bodies<Dim>& bodies) {
 }
 
 #define PENT_INSTANTIATE(Dim)                                                         \
-    template MadeQuadratic<Dim> make_quadratic(const SimplexMesh<Dim>&, const Body&); \
+    template MadeQuadratic<Dim> make_quadratic(const SimplexMesh<Dim>&, const Body&,  \
+                                               const CellsOfRank&);                   \
     template std::vector<Eigen::Index> append_cells(                                  \
         const Body&, std::size_t, const SimplexMesh<Dim>&, const MadeQuadratic<Dim>*, \
         const std::vector<std::uint16_t>&, Bodies<Dim>&);                             \

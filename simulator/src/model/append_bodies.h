@@ -14,12 +14,17 @@ struct MadeQuadratic {
     std::vector<std::uint32_t>
         parents;                ///< One a cell of the mesh: which of them it is a child of.
     SimplexMesh<Dim> straight;  ///< As if edges were straight, with labels.
-    std::vector<std::uint32_t> numbers;  ///< Of each the first child, which stands for it.
+    std::vector<std::uint32_t> numbers;  ///< Of each the first child, which stands for it, in the
+                                         ///< whole mesh.
 };
 
-/// @param mesh  As placed. Throws an Error unless its cells make up such.
+/// @param mesh   As placed.
+/// @param whole  All ranks ask together.
+/// Throws an Error unless its cells make up such: on all ranks that of the whole mesh.
 template <int Dim>
-[[nodiscard]] MadeQuadratic<Dim> make_quadratic(const SimplexMesh<Dim>& mesh, const Body& body);
+[[nodiscard]] MadeQuadratic<Dim> make_quadratic(const SimplexMesh<Dim>& mesh,
+                                                const Body& body,
+                                                const CellsOfRank& whole = {});
 
 /// Appends the cells of a body, and its quadratic cells, those of one material after those of
 /// another. There is room for them.

@@ -23,34 +23,63 @@ namespace pent::simulator {
 
 namespace {
 
-// A part of the next body, which has been placed; labels and fibers in the order of the cells.
+// Places the parts and shares their vertices out. The meshes have their cells still.
+template <int Dim>
+void place_parts(const Scene& scene,
+                 std::vector<MeshPart<Dim>>& parts,
+                 const std::shared_ptr<const Ranks>& ranks,
+                 Bodies<Dim>& bodies) {
+    Eigen::Index cells = 0;
+    bodies.first_vertex = {0};
+    bodies.first_cell = {0};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        agree(ranks.get(), [&] { parts[i] = place(std::move(parts[i]), scene.bodies[i]); });
+        cells += parts[i].mesh.cell_count();
+        bodies.cell_count += parts[i].cell_count;
+        bodies.first_vertex.push_back(bodies.first_vertex.back() + parts[i].mesh.vertex_count());
+        bodies.first_cell.push_back(cells);
+        bodies.meshes.push_back(std::move(parts[i].mesh));
+    }
+    bodies.rest.resize(Dim, bodies.first_vertex.back());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const SimplexMesh<Dim>& mesh = bodies.meshes[i];
+        bodies.rest.middleCols(bodies.first_vertex[i], mesh.vertex_count()) = mesh.positions;
+    }
+    bodies.cells.resize(Dim + 1, cells);
+    bodies.mesh_cells.reserve(static_cast<std::size_t>(cells));
+    refuse_others(
+        ranks.get(),
+        crc32c(bodies.rest.data(), static_cast<std::size_t>(bodies.rest.size()) * sizeof(double)),
+        "other meshes", "let all of them read the same files");
+    bodies.columns = number_columns(bodies.meshes);
+    bodies.sharing =
+        Sharing(ranks, partition_columns<Dim>(bodies.rest, bodies.columns, ranks->count()));
+}
+
+// Appends the cells of a body, of whose mesh nothing but labels and fibers in their order stays.
 template <int Dim>
 void append_part(const Body& body,
-                 MeshPart<Dim> part,
+                 std::size_t place,
+                 const std::vector<std::uint32_t>& numbers,
                  const MadeQuadratic<Dim>* quadratic,
                  const std::vector<std::uint16_t>& materials,
                  Bodies<Dim>& bodies) {
-    const Eigen::Index first = bodies.first_vertex.back();
+    SimplexMesh<Dim>& mesh = bodies.meshes[place];
     const std::vector<Eigen::Index> order =
-        append_cells(body, bodies.meshes.size(), part.mesh, quadratic, materials, bodies);
+        append_cells(body, place, mesh, quadratic, materials, bodies);
     std::vector<std::uint16_t> labels;
     for (const Eigen::Index cell : order) {
-        bodies.mesh_cells.push_back(part.numbers[static_cast<std::size_t>(cell)]);
-        if (!part.mesh.regions.empty()) {
-            labels.push_back(part.mesh.regions[static_cast<std::size_t>(cell)]);
+        bodies.mesh_cells.push_back(numbers[static_cast<std::size_t>(cell)]);
+        if (!mesh.regions.empty()) {
+            labels.push_back(mesh.regions[static_cast<std::size_t>(cell)]);
         }
     }
-    if (part.mesh.fibers.cols() > 0) {
-        part.mesh.fibers = part.mesh.fibers(Eigen::all, order).eval();
+    if (mesh.fibers.cols() > 0) {
+        mesh.fibers = mesh.fibers(Eigen::all, order).eval();
     }
-    bodies.cell_count += part.cell_count;
-    bodies.first_cell.push_back(bodies.first_cell.back() + part.mesh.cell_count());
-    bodies.first_vertex.push_back(first + part.mesh.vertex_count());
-    bodies.rest.middleCols(first, part.mesh.vertex_count()) = part.mesh.positions;
-    part.mesh.cells.resize(Eigen::NoChange, 0);
-    part.mesh.parents.clear();
-    part.mesh.regions = std::move(labels);
-    bodies.meshes.push_back(std::move(part.mesh));
+    mesh.cells.resize(Eigen::NoChange, 0);
+    mesh.parents.clear();
+    mesh.regions = std::move(labels);
 }
 
 }  // namespace
@@ -95,18 +124,6 @@ std::vector<std::uint32_t> share_vertices(const Scene& scene,
 }
 
 template <int Dim>
-bool do_cells_make_elements(const Scene& scene, const SimplexMesh<Dim>& part) {
-    if (scene.solver.elements == ElementKind::Quadratic) {
-        try {
-            static_cast<void>(quadratic_simplices<Dim>(part, ""));
-        } catch (const Error&) {
-            return false;
-        }
-    }
-    return true;
-}
-
-template <int Dim>
 Bodies<Dim> make_part_bodies(const Scene& scene,
                              std::vector<MeshPart<Dim>> parts,
                              const std::shared_ptr<const Ranks>& ranks) {
@@ -115,52 +132,36 @@ Bodies<Dim> make_part_bodies(const Scene& scene,
         throw Error("parts of meshes were given without ranks that have the others");
     }
     Bodies<Dim> bodies;
-    bodies.first_vertex = {0};
-    bodies.first_cell = {0};
-    Eigen::Index vertices = 0;
-    Eigen::Index cells = 0;
-    for (const MeshPart<Dim>& part : parts) {
-        vertices += part.mesh.vertex_count();
-        cells += part.mesh.cell_count();
-    }
-    bodies.rest.resize(Dim, vertices);
-    bodies.cells.resize(Dim + 1, cells);
-    bodies.mesh_cells.reserve(static_cast<std::size_t>(cells));
+    place_parts(scene, parts, ranks, bodies);
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const Body& body = scene.bodies[i];
-        MeshPart<Dim> part;
+        const SimplexMesh<Dim>& mesh = bodies.meshes[i];
+        const auto first = static_cast<std::uint32_t>(bodies.first_vertex[i]);
         std::optional<MadeQuadratic<Dim>> quadratic;
-        agree(ranks.get(), [&] {
-            part = place(std::move(parts[i]), body);
-            if (scene.solver.elements == ElementKind::Quadratic) {
-                quadratic = make_quadratic(part.mesh, body);
-                for (std::uint32_t& number : quadratic->numbers) {
-                    number = part.numbers[number];
-                }
-            }
-        });
+        if (scene.solver.elements == ElementKind::Quadratic) {
+            quadratic = make_quadratic<Dim>(
+                mesh, body,
+                {.ranks = ranks.get(),
+                 .count = parts[i].cell_count,
+                 .numbers = parts[i].numbers,
+                 .owns = [&](std::uint32_t v) { return bodies.sharing.owns(first + v); }});
+        }
         const std::vector<std::uint16_t> materials =
             quadratic
                 ? materials_of_part(quadratic->straight, quadratic->numbers, body, ranks.get())
-                : materials_of_part(part.mesh, part.numbers, body, ranks.get());
+                : materials_of_part(mesh, parts[i].numbers, body, ranks.get());
         agree(ranks.get(), [&] {
-            append_part(body, std::move(part), quadratic ? &*quadratic : nullptr, materials,
+            append_part(body, i, parts[i].numbers, quadratic ? &*quadratic : nullptr, materials,
                         bodies);
+            parts[i] = MeshPart<Dim>();
         });
     }
-    refuse_others(
-        ranks.get(),
-        crc32c(bodies.rest.data(), static_cast<std::size_t>(bodies.rest.size()) * sizeof(double)),
-        "other meshes", "let all of them read the same files");
-    bodies.columns = number_columns(bodies.meshes);
     bodies.may_couple_anything = do_terms_couple_anything(scene);
-    bodies.sharing =
-        Sharing(ranks, partition_columns<Dim>(bodies.rest, bodies.columns, ranks->count()));
     lump_masses(scene, bodies);
     return bodies;
 }
 
-// A facet is of the rank that has its lowest corner at home, and with that both of its cells.
+// A facet is of the rank that has its lowest corner at home, and with that all of its cells.
 template <int Dim>
 Simplices<Dim> boundary_of(const Bodies<Dim>& bodies, std::size_t body) {
     if (!is_of_parts(bodies)) {
@@ -171,14 +172,13 @@ Simplices<Dim> boundary_of(const Bodies<Dim>& bodies, std::size_t body) {
     const auto first = static_cast<std::uint32_t>(bodies.first_vertex[body]);
     const Simplices<Dim + 1> cells =
         bodies.cells.middleCols(range.begin, range.size).array() - first;
-    const FacetMatch<Dim> match = match_facets<Dim>(cells, bodies.meshes[body].vertex_count());
+    const FacetMatch<Dim> match = match_facets<Dim>(
+        cells, bodies.meshes[body].vertex_count(),
+        [&](std::uint32_t vertex) { return bodies.sharing.owns(vertex + first); });
     std::vector<std::array<double, Dim + 2>> own;
     for (std::size_t i = 0; i < match.boundary_cells.size(); ++i) {
         const auto facet = match.boundary.col(static_cast<Eigen::Index>(i));
         const std::uint32_t cell = match.boundary_cells[i];
-        if (!bodies.sharing.owns(facet.minCoeff() + first)) {
-            continue;
-        }
         const auto corners = cells.col(cell);
         int opposite = 0;
         while ((facet.array() == corners[opposite]).any()) {
@@ -240,7 +240,6 @@ CellList<Dim> list_cells(
 }
 
 #define PENT_INSTANTIATE(Dim)                                                            \
-    template bool do_cells_make_elements<Dim>(const Scene&, const SimplexMesh<Dim>&);    \
     template std::vector<std::uint32_t> share_vertices<Dim>(                             \
         const Scene&, const std::vector<SimplexMesh<Dim>>&, int);                        \
     template Bodies<Dim> make_part_bodies<Dim>(const Scene&, std::vector<MeshPart<Dim>>, \

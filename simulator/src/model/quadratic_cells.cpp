@@ -1,5 +1,7 @@
 #include "model/quadratic_cells.h"
 
+#include "model/gather_in_order.h"
+
 #include <pent/dimensions.h>
 #include <pent/equal_runs.h>
 #include <pent/error.h>
@@ -9,6 +11,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 namespace pent::simulator {
 
@@ -21,6 +24,51 @@ constexpr Eigen::Index kChildren = Eigen::Index{1} << Dim;
     throw Error(name + ": " + found
                 + ", expected cells that are the children of quadratic ones; make the mesh by"
                   " pent-mesh --quadratic, or take other elements");
+}
+
+// Of all ranks in order, or of one process alone, which has one row at most.
+template <std::size_t Width>
+std::vector<std::array<double, Width>> rows_of_all(
+    const CellsOfRank& whole, const std::vector<std::array<double, Width>>& own) {
+    return whole.ranks != nullptr ? gather_in_order(*whole.ranks, own) : own;
+}
+
+// Cells of the whole mesh.
+template <int Dim>
+Eigen::Index count_of(const SimplexMesh<Dim>& mesh, const CellsOfRank& whole) {
+    return whole.ranks != nullptr ? whole.count : mesh.cell_count();
+}
+
+// The quadratic simplex that a cell is a child of: they are in the order of these.
+template <int Dim>
+std::uint32_t parent_of(const SimplexMesh<Dim>& mesh, const CellsOfRank& whole, Eigen::Index cell) {
+    return mesh.parents.empty() ? whole.number(cell) / static_cast<std::uint32_t>(kChildren<Dim>)
+                                : mesh.parents[static_cast<std::size_t>(cell)];
+}
+
+// Cells that are no children of a quadratic one. Every rank that has one of them has all.
+struct Fault {
+    std::uint32_t parent;
+    std::string found;
+};
+
+// All refuse the first one that any rank has found.
+void refuse_first(const std::string& name,
+                  const std::optional<Fault>& own,
+                  const CellsOfRank& whole) {
+    std::vector<std::array<double, 1>> parents;
+    if (own) {
+        parents.push_back({static_cast<double>(own->parent)});
+    }
+    parents = rows_of_all(whole, parents);
+    if (parents.empty()) {
+        return;
+    }
+    agree(whole.ranks, [&] {
+        if (own && own->parent == parents.front()[0]) {
+            refuse(name, own->found);
+        }
+    });
 }
 
 // The corners that cells have alone, each with its cell.
@@ -127,35 +175,58 @@ double least_jacobian(const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>& pl
     return least;
 }
 
+// A quadratic simplex is judged by the rank that has its first corner.
 template <int Dim>
-void check_whole(const Positions<Dim>& positions,
+void check_whole(const SimplexMesh<Dim>& mesh,
                  const QuadraticSimplices<Dim>& simplices,
                  const std::vector<Eigen::Index>& cells,
-                 const std::string& name) {
-    std::int64_t folded = 0;
+                 const std::string& name,
+                 const CellsOfRank& whole) {
+    double folded = 0;
     Eigen::Index worst = 0;
     double least = 0;
     for (Eigen::Index simplex = 0; simplex < simplices.cols(); ++simplex) {
+        if (whole.ranks != nullptr && !whole.owns(simplices(0, simplex))) {
+            continue;
+        }
         const double jacobian =
-            least_jacobian<Dim>(places_of_nodes<Dim>(positions, simplices, simplex));
+            least_jacobian<Dim>(places_of_nodes<Dim>(mesh.positions, simplices, simplex));
         if (!(jacobian > 0)) {
             worst = folded == 0 || jacobian < least ? simplex : worst;
             least = folded == 0 ? jacobian : std::min(least, jacobian);
             ++folded;
         }
     }
-    if (folded == 0) {
+    std::vector<std::array<double, 3>> found;  // least, its parent, how many
+    if (folded > 0) {
+        const Eigen::Index child = cells[static_cast<std::size_t>(worst * kChildren<Dim>)];
+        found.push_back({least, static_cast<double>(parent_of(mesh, whole, child)), folded});
+    }
+    const std::vector<std::array<double, 3>> all = rows_of_all(whole, found);
+    if (all.empty()) {
         return;
     }
-    std::string place;
-    for (int axis = 0; axis < Dim; ++axis) {
-        place += (axis == 0 ? "" : ", ") + formatted("%.4g", positions(axis, simplices(0, worst)));
+    std::int64_t sum = 0;
+    for (const auto& of_rank : all) {
+        sum += static_cast<std::int64_t>(of_rank[2]);
     }
-    throw Error(name + ": " + std::to_string(folded) + " of " + std::to_string(simplices.cols())
-                + " quadratic cells are folded at rest, the worst (a Jacobian of "
-                + formatted("%.3g", least) + " of that of straight edges) that of cell "
-                + std::to_string(cells[static_cast<std::size_t>(worst * kChildren<Dim>)]) + " at ("
-                + place + ") m, expected none; move the middles of their edges less");
+    agree(whole.ranks, [&] {
+        if (found.empty() || found.front() != all.front()) {
+            return;
+        }
+        std::string place;
+        for (int axis = 0; axis < Dim; ++axis) {
+            place += (axis == 0 ? "" : ", ")
+                     + formatted("%.4g", mesh.positions(axis, simplices(0, worst)));
+        }
+        const Eigen::Index child = cells[static_cast<std::size_t>(worst * kChildren<Dim>)];
+        throw Error(name + ": " + std::to_string(sum) + " of "
+                    + std::to_string(count_of(mesh, whole) / kChildren<Dim>)
+                    + " quadratic cells are folded at rest, the worst (a Jacobian of "
+                    + formatted("%.3g", least) + " of that of straight edges) that of cell "
+                    + std::to_string(whole.number(child)) + " at (" + place
+                    + ") m, expected none; move the middles of their edges less");
+    });
 }
 
 }  // namespace
@@ -208,63 +279,70 @@ QuadraticRest<Dim> quadratic_rest(const Eigen::Matrix<double, Dim, kQuadraticNod
 }
 
 template <int Dim>
-std::vector<Eigen::Index> child_cells(const SimplexMesh<Dim>& mesh, const std::string& name) {
-    if (mesh.cell_count() % kChildren<Dim> != 0) {
-        refuse(name, std::to_string(mesh.cell_count()) + " cells, no multiple of "
-                         + std::to_string(kChildren<Dim>));
+std::vector<Eigen::Index> child_cells(const SimplexMesh<Dim>& mesh,
+                                      const std::string& name,
+                                      const CellsOfRank& whole) {
+    const Eigen::Index count = count_of(mesh, whole);
+    if (count % kChildren<Dim> != 0) {
+        refuse(name,
+               std::to_string(count) + " cells, no multiple of " + std::to_string(kChildren<Dim>));
     }
     std::vector<Eigen::Index> cells(static_cast<std::size_t>(mesh.cell_count()));
     std::iota(cells.begin(), cells.end(), Eigen::Index{0});
-    if (mesh.parents.empty()) {
-        return cells;
-    }
-    const auto parent = [&](Eigen::Index cell) {
-        return mesh.parents[static_cast<std::size_t>(cell)];
-    };
+    const auto parent = [&](Eigen::Index cell) { return parent_of(mesh, whole, cell); };
     std::stable_sort(cells.begin(), cells.end(),
                      [&](Eigen::Index a, Eigen::Index b) { return parent(a) < parent(b); });
+    std::optional<Fault> fault;
     for_each_equal_run(
         cells, [&](Eigen::Index a, Eigen::Index b) { return parent(a) == parent(b); },
-        [&](std::size_t first, std::size_t count) {
-            if (count != static_cast<std::size_t>(kChildren<Dim>)) {
-                refuse(name, "parent " + std::to_string(parent(cells[first])) + " with "
-                                 + std::to_string(count) + " cells");
+        [&](std::size_t first, std::size_t children) {
+            if (!fault && children != static_cast<std::size_t>(kChildren<Dim>)) {
+                const std::uint32_t number = parent(cells[first]);
+                fault = {number, "parent " + std::to_string(number) + " with "
+                                     + std::to_string(children) + " cells"};
             }
         });
+    refuse_first(name, fault, whole);
     return cells;
 }
 
 template <int Dim>
 QuadraticSimplices<Dim> quadratic_simplices(const SimplexMesh<Dim>& mesh,
                                             const std::vector<Eigen::Index>& cells,
-                                            const std::string& name) {
+                                            const std::string& name,
+                                            const CellsOfRank& whole) {
     QuadraticSimplices<Dim> simplices(kQuadraticNodes<Dim>, mesh.cell_count() / kChildren<Dim>);
-    for (Eigen::Index simplex = 0; simplex < simplices.cols(); ++simplex) {
+    std::optional<Fault> fault;
+    for (Eigen::Index simplex = 0; !fault && simplex < simplices.cols(); ++simplex) {
         const Eigen::Index* children = cells.data() + simplex * kChildren<Dim>;
         Eigen::Matrix<std::uint32_t, kQuadraticNodes<Dim>, 1> nodes;
-        if (!find_nodes<Dim>(mesh, children, nodes)) {
-            refuse(name, "cell " + std::to_string(children[0]) + " and "
-                             + std::to_string(kChildren<Dim> - 1)
-                             + " more that do not make up one simplex with its edges cut in two");
+        if (find_nodes<Dim>(mesh, children, nodes)) {
+            simplices.col(simplex) = nodes;
+        } else {
+            fault = {parent_of(mesh, whole, children[0]),
+                     "cell " + std::to_string(whole.number(children[0])) + " and "
+                         + std::to_string(kChildren<Dim> - 1)
+                         + " more that do not make up one simplex with its edges cut in two"};
         }
-        simplices.col(simplex) = nodes;
     }
-    check_whole<Dim>(mesh.positions, simplices, cells, name);
+    refuse_first(name, fault, whole);
+    check_whole<Dim>(mesh, simplices, cells, name, whole);
     return simplices;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                       \
-    template Eigen::Matrix<double, Dim, Dim + 1> tangent_corners<Dim>(              \
-        const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>&,                    \
-        const Eigen::Matrix<double, Dim + 1, 1>&);                                  \
-    template Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>> places_of_nodes<Dim>( \
-        const Positions<Dim>&, const QuadraticSimplices<Dim>&, Eigen::Index);       \
-    template QuadraticRest<Dim> quadratic_rest<Dim>(                                \
-        const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>&);                   \
-    template std::vector<Eigen::Index> child_cells<Dim>(const SimplexMesh<Dim>&,    \
-                                                        const std::string&);        \
-    template QuadraticSimplices<Dim> quadratic_simplices<Dim>(                      \
-        const SimplexMesh<Dim>&, const std::vector<Eigen::Index>&, const std::string&);
+#define PENT_INSTANTIATE(Dim)                                                                    \
+    template Eigen::Matrix<double, Dim, Dim + 1> tangent_corners<Dim>(                           \
+        const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>&,                                 \
+        const Eigen::Matrix<double, Dim + 1, 1>&);                                               \
+    template Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>> places_of_nodes<Dim>(              \
+        const Positions<Dim>&, const QuadraticSimplices<Dim>&, Eigen::Index);                    \
+    template QuadraticRest<Dim> quadratic_rest<Dim>(                                             \
+        const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>&);                                \
+    template std::vector<Eigen::Index> child_cells<Dim>(const SimplexMesh<Dim>&,                 \
+                                                        const std::string&, const CellsOfRank&); \
+    template QuadraticSimplices<Dim> quadratic_simplices<Dim>(                                   \
+        const SimplexMesh<Dim>&, const std::vector<Eigen::Index>&, const std::string&,           \
+        const CellsOfRank&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 

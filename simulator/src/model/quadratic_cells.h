@@ -4,8 +4,12 @@
 #include "model/cell_range.h"
 
 #include <pent/simplex_mesh.h>
+#include <pent/simulator/ranks.h>
 
 #include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,15 +55,31 @@ template <int Dim>
 [[nodiscard]] QuadraticRest<Dim> quadratic_rest(
     const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>& places);
 
+/// Where a mesh has the cells of one rank alone, the NeededCells: what they are of the whole. As it
+/// stands, it is of a mesh that is here as a whole.
+struct CellsOfRank {
+    const Ranks* ranks = nullptr;
+    Eigen::Index count = 0;                       ///< Cells of the whole.
+    std::span<const std::uint32_t> numbers = {};  ///< Of these cells in the whole.
+    std::function<bool(std::uint32_t)> owns;      ///< Whether a vertex is at home on this rank.
+
+    [[nodiscard]] std::uint32_t number(Eigen::Index cell) const {
+        return ranks != nullptr ? numbers[static_cast<std::size_t>(cell)]
+                                : static_cast<std::uint32_t>(cell);
+    }
+};
+
 /// The cells of a mesh by the quadratic simplices that they are the children of, 2^Dim each: by
 /// their parents, or, where it has none, every 2^Dim cells that follow one another, as subdivision
 /// leaves them.
 ///
-/// @param name  Of the mesh, for messages.
-/// Throws an Error unless each has as many.
+/// @param name   Of the mesh, for messages.
+/// @param whole  All ranks ask together.
+/// Throws an Error unless each has as many: on all ranks that of the whole.
 template <int Dim>
 [[nodiscard]] std::vector<Eigen::Index> child_cells(const SimplexMesh<Dim>& mesh,
-                                                    const std::string& name);
+                                                    const std::string& name,
+                                                    const CellsOfRank& whole = {});
 
 /// The quadratic simplices that the cells of a mesh are the children of.
 ///
@@ -69,11 +89,13 @@ template <int Dim>
 ///
 /// @param cells  By their parents, as child_cells() has them.
 /// @param name   Of the mesh, for messages.
-/// Throws an Error if the cells are no such children.
+/// @param whole  All ranks ask together.
+/// Throws an Error if the cells are no such children: on all ranks that of the whole.
 template <int Dim>
 [[nodiscard]] QuadraticSimplices<Dim> quadratic_simplices(const SimplexMesh<Dim>& mesh,
                                                           const std::vector<Eigen::Index>& cells,
-                                                          const std::string& name);
+                                                          const std::string& name,
+                                                          const CellsOfRank& whole = {});
 
 template <int Dim>
 [[nodiscard]] QuadraticSimplices<Dim> quadratic_simplices(const SimplexMesh<Dim>& mesh,

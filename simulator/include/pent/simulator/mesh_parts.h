@@ -51,10 +51,6 @@ private:
     std::vector<bool> is_near_vertex_;
 };
 
-/// Whether cells of a part make up the elements of a scene, as those of whole meshes must.
-template <int Dim>
-[[nodiscard]] bool do_cells_make_elements(const Scene& scene, const SimplexMesh<Dim>& part);
-
 /// Whether the scene selects something of a body by the labels of its cells.
 [[nodiscard]] bool are_labels_asked_for(const Scene& scene, const Body& body);
 
