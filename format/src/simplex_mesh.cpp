@@ -3,12 +3,16 @@
 #include <pent/error.h>
 #include <pent/geometry.h>
 #include <pent/mesh_part.h>
+#include <pent/validate_parts.h>
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <vector>
 
 namespace pent {
 
@@ -40,15 +44,14 @@ void validate_finite(const Positions<Dim>& vectors,
                      std::string_view what,
                      std::span<const std::uint32_t> numbers,
                      const std::string& prefix,
-                     std::string_view name) {
+                     std::string_view name,
+                     Eigen::Index column) {
     constexpr std::array<char, 4> kAxes = {'x', 'y', 'z', 'w'};
-    for (Eigen::Index i = 0; i < vectors.cols(); ++i) {
-        for (int axis = 0; axis < Dim; ++axis) {
-            const double value = vectors(axis, i);
-            if (!std::isfinite(value)) {
-                throw Error(where(name, what, numbers, i) + prefix + kAxes[axis] + " is "
-                            + std::to_string(value) + ", expected a finite number");
-            }
+    for (int axis = 0; axis < Dim; ++axis) {
+        const double value = vectors(axis, column);
+        if (!std::isfinite(value)) {
+            throw Error(where(name, what, numbers, column) + prefix + kAxes[axis] + " is "
+                        + std::to_string(value) + ", expected a finite number");
         }
     }
 }
@@ -112,6 +115,66 @@ void validate_length(std::size_t found,
     }
 }
 
+// Calls validate_cell(cell) for the cells of one process, or of several together: then all throw
+// what it throws of the lowest cell of the whole.
+template <typename Validate>
+void validate_each(Eigen::Index cells,
+                   std::span<const std::uint32_t> numbers,
+                   const SlabWriters* processes,
+                   const Validate& validate_cell) {
+    Eigen::Index cell = 0;
+    const auto validate_own = [&] {
+        for (; cell < cells; ++cell) {
+            validate_cell(cell);
+        }
+    };
+    if (processes == nullptr) {
+        validate_own();
+        return;
+    }
+    double own = std::numeric_limits<double>::infinity();
+    std::string found;
+    try {
+        validate_own();
+    } catch (const Error& error) {
+        own = numbers[static_cast<std::size_t>(cell)];
+        found = error.what();
+    }
+    const std::vector<double> all = processes->list(own);
+    const bool is_first = own == *std::min_element(all.begin(), all.end());
+    processes->agree([&] {
+        if (is_first && !found.empty()) {
+            throw Error(found);
+        }
+    });
+}
+
+template <int Dim>
+void validate_by(const SlabWriters* processes,
+                 const SimplexMesh<Dim>& mesh,
+                 std::string_view name,
+                 std::span<const std::uint32_t> numbers) {
+    const auto validate_vertices = [&] {
+        validate_length(mesh.regions.size(), mesh.cell_count(), "regions", name);
+        validate_length(mesh.parents.size(), mesh.cell_count(), "parents", name);
+        validate_length(static_cast<std::size_t>(mesh.fibers.cols()), mesh.cell_count(), "fibers",
+                        name);
+        validate_length(mesh.columns.size(), mesh.vertex_count(), "columns", name);
+        validate_length(mesh.layers.size(), mesh.vertex_count(), "layers", name);
+        for (Eigen::Index vertex = 0; vertex < mesh.vertex_count(); ++vertex) {
+            validate_finite<Dim>(mesh.positions, "vertex", {}, "", name, vertex);
+        }
+    };
+    processes != nullptr ? processes->agree(validate_vertices) : validate_vertices();
+    validate_each(mesh.fibers.cols(), numbers, processes, [&](Eigen::Index cell) {
+        validate_finite<Dim>(mesh.fibers, cell_name(Dim), numbers, "fiber_", name, cell);
+    });
+    validate_each(mesh.cell_count(), numbers, processes, [&](Eigen::Index cell) {
+        validate_indices(mesh, name, numbers, cell);
+        validate_orientation(mesh, name, numbers, cell);
+    });
+}
+
 }  // namespace
 
 std::string_view cell_name(int dim) {
@@ -160,18 +223,15 @@ template <int Dim>
 void validate_part(const SimplexMesh<Dim>& mesh,
                    std::string_view name,
                    std::span<const std::uint32_t> numbers) {
-    validate_length(mesh.regions.size(), mesh.cell_count(), "regions", name);
-    validate_length(mesh.parents.size(), mesh.cell_count(), "parents", name);
-    validate_length(static_cast<std::size_t>(mesh.fibers.cols()), mesh.cell_count(), "fibers",
-                    name);
-    validate_length(mesh.columns.size(), mesh.vertex_count(), "columns", name);
-    validate_length(mesh.layers.size(), mesh.vertex_count(), "layers", name);
-    validate_finite<Dim>(mesh.positions, "vertex", {}, "", name);
-    validate_finite<Dim>(mesh.fibers, cell_name(Dim), numbers, "fiber_", name);
-    for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
-        validate_indices(mesh, name, numbers, cell);
-        validate_orientation(mesh, name, numbers, cell);
-    }
+    validate_by(nullptr, mesh, name, numbers);
+}
+
+template <int Dim>
+void validate_parts(const SimplexMesh<Dim>& mesh,
+                    std::string_view name,
+                    std::span<const std::uint32_t> numbers,
+                    const SlabWriters& processes) {
+    validate_by(&processes, mesh, name, numbers);
 }
 
 #define PENT_INSTANTIATE(Dim)                                                          \
@@ -181,7 +241,9 @@ void validate_part(const SimplexMesh<Dim>& mesh,
     template double total_volume<Dim>(const SimplexMesh<Dim>&);                        \
     template void validate<Dim>(const SimplexMesh<Dim>&, std::string_view);            \
     template void validate_part<Dim>(const SimplexMesh<Dim>&, std::string_view,        \
-                                     std::span<const std::uint32_t>);
+                                     std::span<const std::uint32_t>);                  \
+    template void validate_parts<Dim>(const SimplexMesh<Dim>&, std::string_view,       \
+                                      std::span<const std::uint32_t>, const SlabWriters&);
 PENT_INSTANTIATE(2)
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)

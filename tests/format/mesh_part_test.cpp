@@ -5,6 +5,7 @@
 
 #include <pent/extrusion.h>
 #include <pent/mesh_part.h>
+#include <pent/validate_parts.h>
 
 #include <gtest/gtest.h>
 
@@ -273,6 +274,40 @@ TEST(ValidatePart, CallsCellsByTheirNumbersInTheWhole) {
     expect_contains(error_of([&] { validate_part<4>(part, "a", numbers); }),
                     {"a: pentachoron 13: fiber_y is nan"});
     EXPECT_NO_THROW(validate_part<4>(rows_of(rich_box(), {0, 36, 5, 5}), "a", {}));
+}
+
+// Of several faults the one that is found in the whole, whoever has which cells.
+TEST(ValidateParts, SaysOnAllWhatIsSaidOfTheWhole) {
+    SimplexMesh<4> mesh = rich_box();
+    const auto expect_said_by_all = [&](const std::string& words) {
+        const std::string alone = error_of([&] { validate(mesh, "a"); });
+        expect_contains(alone, {words});
+        for (const int count : {1, 2, 3, 5}) {
+            // From the last cells to the first ones, as whose they are is in no order.
+            const auto said = by_writers(count, [&](const test::ThreadWriters& writers) {
+                const MeshSlab rows = slab_of(0, 96, count - 1 - writers.place(), count);
+                std::vector<std::uint32_t> numbers;
+                for (Eigen::Index cell = rows.first_cell; cell < rows.last_cell; ++cell) {
+                    numbers.push_back(static_cast<std::uint32_t>(cell));
+                }
+                validate_parts<4>(rows_of(mesh, {0, 36, rows.first_cell, rows.last_cell}), "a",
+                                  numbers, writers);
+            });
+            EXPECT_EQ(said, std::vector<std::string>(said.size(), alone));
+        }
+    };
+    for (const Eigen::Index cell : {90, 40, 5}) {
+        std::swap(mesh.cells(0, cell), mesh.cells(1, cell));
+        expect_said_by_all("pentachoron " + std::to_string(cell) + ": inverted");
+    }
+    mesh.cells(2, 3) = 36;
+    expect_said_by_all("pentachoron 3: vertex 36 of 36");
+    for (const Eigen::Index cell : {80, 20}) {
+        mesh.fibers(1, cell) = std::numeric_limits<double>::quiet_NaN();
+        expect_said_by_all("pentachoron " + std::to_string(cell) + ": fiber_y is nan");
+    }
+    mesh.positions(0, 7) = std::numeric_limits<double>::infinity();
+    expect_said_by_all("vertex 7: x is inf");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "support/misfits.h"
 #include "support/temp_folder.h"
 
+#include <pent/mesh_part.h>
 #include <pent/pent_file.h>
 #include <pent/runs/explain.h>
 #include <pent/simulator/mesh_parts.h>
@@ -16,6 +17,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pent::runs {
@@ -207,6 +209,20 @@ TEST(RunMeshes, ThatMakeNoQuadraticElementsAreRefusedByRanksAsByOne) {
     expect_contains(outcome(mesh), {"parent ", "with 15 cells"});
     mesh.parents.clear();
     expect_contains(outcome(mesh), {"cell 0 and 15 more"});
+}
+
+// Inverted cells: the lowest of the mesh is named, whichever ranks have them.
+TEST(RunMeshes, ThatAreNoneAreRefusedByRanksAsByOne) {
+    const TempFolder folder;
+    const Scene scene = muscle(folder);
+    SimplexMesh<4> mesh = pent::test::fork<4>();
+    for (const Eigen::Index cell :
+         {mesh.cell_count() - 1, mesh.cell_count() / 2, Eigen::Index{1}}) {
+        std::swap(mesh.cells(0, cell), mesh.cells(1, cell));
+        static_cast<void>(write_mesh_slab(folder / "fork.pent", mesh, {}));
+        expect_contains(outcome_of_all<4>(scene),
+                        {"pentachoron " + std::to_string(cell) + ": inverted"});
+    }
 }
 
 TEST(RunMeshes, OfAFrameAreRefusedByRanksAsByOne) {

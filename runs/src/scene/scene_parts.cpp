@@ -6,6 +6,7 @@
 #include <pent/error.h>
 #include <pent/simulator/mesh_parts.h>
 #include <pent/simulator/placed_mesh.h>
+#include <pent/validate_parts.h>
 
 #include <algorithm>
 #include <limits>
@@ -351,10 +352,8 @@ private:
             part.mesh.positions = std::move(meshes_[i].positions);
             part.mesh.columns = std::move(meshes_[i].columns);
             part.mesh.layers = std::move(meshes_[i].layers);
-            ranks_.agree([&] {
-                with_place_of(body,
-                              [&] { validate_part<Dim>(part.mesh, body.mesh, part.numbers); });
-            });
+            with_place_of(body,
+                          [&] { validate_parts<Dim>(part.mesh, body.mesh, part.numbers, ranks_); });
             judge_facets<Dim>(scene_, body, facets_of_all(part, owners), result_.warnings);
             result_.parts.push_back(std::move(part));
             first += count;
