@@ -15,7 +15,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <limits>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +31,12 @@ namespace test = simulator::test;
 using pent::test::expect_contains;
 using pent::test::TempFolder;
 
+std::string text_of(const std::filesystem::path& path) {
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    return text.str();
+}
+
 // Held at x = 0, with fibers away from there, tied to where it is, by labels of its cells.
 Scene muscle(const TempFolder& folder) {
     SimplexMesh<4> mesh = pent::test::fork<4>();
@@ -36,6 +46,7 @@ Scene muscle(const TempFolder& folder) {
     static_cast<void>(write_mesh(folder / "fork.pent", mesh));
     Scene scene = test::box_scene<4>();
     scene.bodies[0].mesh = (folder / "fork.pent").string();
+    scene.bodies[0].source = "scene.toml:3:1";
     scene.constraints = {test::hold(test::left_end(), test::still(4))};
     scene.activations = {{.body = "box",
                           .select = {simulator::RegionSelection{.region = 2}},
@@ -111,7 +122,7 @@ std::string outcome_of(const Scene& scene, const std::shared_ptr<const simulator
 
 template <int Dim>
 std::string outcome_of_all(const Scene& scene) {
-    const std::string alone = outcome_of<Dim>(scene, nullptr);
+    std::string alone = outcome_of<Dim>(scene, nullptr);
     for (const int count : {1, 2, 3, 4}) {
         test::on_ranks(count, [&](const std::shared_ptr<const simulator::Ranks>& ranks) {
             EXPECT_EQ(outcome_of<Dim>(scene, ranks), alone);
@@ -129,6 +140,7 @@ void expect_misfit(const SimplexMesh<Dim>& mesh, const std::string& what) {
     static_cast<void>(write_mesh(folder / "text.pent", mesh, {.encoding = Encoding::Ascii}));
     Scene scene = test::box_scene<Dim>();
     scene.bodies[0].mesh = (folder / "sound.pent").string();
+    scene.bodies[0].source = "scene.toml:3:1";
     scene.bodies.push_back(scene.bodies[0]);
     scene.bodies[1].name = "second";
     for (const char* name : {"misfit.pent", "text.pent"}) {
@@ -197,6 +209,7 @@ TEST(RunMeshes, ThatMakeNoQuadraticElementsAreRefusedByRanksAsByOne) {
     Scene scene = test::box_scene<4>();
     scene.solver.elements = simulator::ElementKind::Quadratic;
     scene.bodies[0].mesh = (folder / "a.pent").string();
+    scene.bodies[0].source = "scene.toml:3:1";
     const auto outcome = [&](const SimplexMesh<4>& mesh) {
         static_cast<void>(write_mesh(folder / "a.pent", mesh));
         return outcome_of_all<4>(scene);
@@ -223,6 +236,32 @@ TEST(RunMeshes, ThatAreNoneAreRefusedByRanksAsByOne) {
         expect_contains(outcome_of_all<4>(scene),
                         {"pentachoron " + std::to_string(cell) + ": inverted"});
     }
+}
+
+// Files that are not as they were written, or that cannot have been.
+TEST(RunMeshes, OfFilesWithFaultsAreRefusedByRanksAsByOne) {
+    const TempFolder folder;
+    const Scene scene = muscle(folder);
+    const SimplexMesh<4> mesh = pent::test::fork<4>();
+    const std::string file = folder / "fork.pent";
+    SimplexMesh<4> endless = mesh;
+    endless.positions(2, 7) = std::numeric_limits<double>::infinity();
+    for (const Encoding encoding : {Encoding::Binary, Encoding::Ascii}) {
+        static_cast<void>(write_mesh_slab(file, endless, {.encoding = encoding}));
+        expect_contains(outcome_of_all<4>(scene), {"fork.pent: vertex 7: z is inf"});
+        static_cast<void>(write_mesh(file, mesh, {.encoding = encoding}));
+        std::string bytes = text_of(file);
+        bytes[bytes.size() - 4] ^= 1;
+        std::ofstream(file, std::ios::binary) << bytes;
+        expect_contains(outcome_of_all<4>(scene), {"checksum"});
+        bytes.resize(bytes.size() - 9);
+        std::ofstream(file, std::ios::binary) << bytes;
+        expect_contains(outcome_of_all<4>(scene), {"scene.toml:3:1: ", "fork.pent: "});
+    }
+    std::string text = text_of(file);
+    text[text.size() - 40] = 'x';
+    std::ofstream(file, std::ios::binary) << text;
+    expect_contains(outcome_of_all<4>(scene), {"fork.pent: pentachoron "});
 }
 
 TEST(RunMeshes, OfAFrameAreRefusedByRanksAsByOne) {

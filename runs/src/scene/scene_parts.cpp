@@ -276,28 +276,43 @@ private:
 
     void read_vertices() {
         for (const Body& body : scene_.bodies) {
-            ranks_.agree([&] {
-                with_place_of(body, [&] {
-                    result_.sources.emplace_back(body.mesh, ranks_.count());
-                    meshes_.push_back(result_.sources.back().vertices());
-                });
-                check_size(meshes_.back(), body);
-            });
-            if (!is_text(result_.sources.back())) {
-                check_sum_of(body, result_.sources.back());
-            }
+            with_place_of(body, [&] { read_vertices(body); });
+            ranks_.agree([&] { check_size(meshes_.back(), body); });
         }
         ranks_.agree([&] { result_.owners = share_vertices(scene_, meshes_, ranks_.count()); });
+    }
+
+    void read_vertices(const Body& body) {
+        ranks_.agree([&] {
+            result_.sources.emplace_back(body.mesh, ranks_.count());
+            meshes_.push_back(result_.sources.back().vertices());
+        });
+        const MeshSource<Dim>& source = result_.sources.back();
+        if (!is_text(source)) {
+            check_sum_of(body, source);
+        }
+        if (!meshes_.back().positions.allFinite()) {
+            refuse_vertices(body, source);
+        }
     }
 
     [[nodiscard]] static bool is_text(const MeshSource<Dim>& source) {
         return source.info().encoding == Encoding::Ascii;
     }
 
+    // Behind all else that is wrong with the file, as read_mesh() has it.
+    void refuse_vertices(const Body& body, const MeshSource<Dim>& source) const {
+        if (is_text(source)) {
+            for_each_piece(source, {}, ranks_, [](const auto&, Eigen::Index /*first*/) {});
+            check_sum_of(body, source);
+        }
+        validate_part<Dim>(meshes_.back(), body.mesh, {});
+    }
+
     // Of text behind what is wrong with its numbers, as read_mesh() has it.
     void check_sum_of(const Body& body, const MeshSource<Dim>& source) const {
         if (!source.is_extrusion()) {
-            with_place_of(body, [&] { check_checksum(body.mesh, ranks_.writers()); });
+            check_checksum(body.mesh, ranks_.writers());
         }
     }
 
@@ -308,7 +323,8 @@ private:
 
     // How the facets of a whole mesh meet. One is judged by the rank that has its lowest corner,
     // and with that all of its cells.
-    FacetMatch<Dim> facets_of_all(const MeshPart<Dim>& part, const Owners& owners) const {
+    [[nodiscard]] FacetMatch<Dim> facets_of_all(const MeshPart<Dim>& part,
+                                                const Owners& owners) const {
         FacetMatch<Dim> own;
         ranks_.agree([&] {
             own = match_facets<Dim>(part.mesh.cells, part.mesh.vertex_count(),
@@ -335,29 +351,35 @@ private:
             const Owners owners = {
                 std::span<const std::uint32_t>(result_.owners).subspan(first, count),
                 static_cast<std::uint32_t>(ranks_.place())};
-            const MeshSource<Dim>& source = result_.sources[i];
             const Body& body = scene_.bodies[i];
-            Wanted wanted;
-            ranks_.agree([&] { wanted = wanted_of(scene_, body, source); });
-            const NeededCells needed(scene_.solver.elements, count,
-                                     [&](std::uint32_t vertex) { return owners.has(vertex); });
-            // The cells that make a quadratic one, if any do, need not be at neighboring columns.
-            MeshPart<Dim> part =
-                source.is_extrusion() && scene_.solver.elements != ElementKind::Quadratic
-                    ? extruded_part(source, wanted, needed, meshes_[i].columns, owners)
-                    : read_part<Dim>(source, wanted, needed, ranks_);
-            if (is_text(source)) {
-                check_sum_of(body, source);
-            }
-            part.mesh.positions = std::move(meshes_[i].positions);
-            part.mesh.columns = std::move(meshes_[i].columns);
-            part.mesh.layers = std::move(meshes_[i].layers);
-            with_place_of(body,
-                          [&] { validate_parts<Dim>(part.mesh, body.mesh, part.numbers, ranks_); });
-            judge_facets<Dim>(scene_, body, facets_of_all(part, owners), result_.warnings);
-            result_.parts.push_back(std::move(part));
+            with_place_of(body, [&] { result_.parts.push_back(read_cells(i, owners)); });
+            judge_facets<Dim>(scene_, body, facets_of_all(result_.parts[i], owners),
+                              result_.warnings);
             first += count;
         }
+    }
+
+    // Takes the vertices over.
+    MeshPart<Dim> read_cells(std::size_t i, const Owners& owners) {
+        const MeshSource<Dim>& source = result_.sources[i];
+        const Body& body = scene_.bodies[i];
+        Wanted wanted;
+        ranks_.agree([&] { wanted = wanted_of(scene_, body, source); });
+        const NeededCells needed(scene_.solver.elements, owners.of_vertices.size(),
+                                 [&](std::uint32_t vertex) { return owners.has(vertex); });
+        // The cells that make a quadratic one, if any do, need not be at neighboring columns.
+        MeshPart<Dim> part =
+            source.is_extrusion() && scene_.solver.elements != ElementKind::Quadratic
+                ? extruded_part(source, wanted, needed, meshes_[i].columns, owners)
+                : read_part<Dim>(source, wanted, needed, ranks_);
+        if (is_text(source)) {
+            check_sum_of(body, source);
+        }
+        part.mesh.positions = std::move(meshes_[i].positions);
+        part.mesh.columns = std::move(meshes_[i].columns);
+        part.mesh.layers = std::move(meshes_[i].layers);
+        validate_parts<Dim>(part.mesh, body.mesh, part.numbers, ranks_);
+        return part;
     }
 
     const Scene& scene_;
