@@ -73,6 +73,7 @@ TEST_P(PaperScene, HasTheStepAndTheContactOfTheTable) {
     if (scene.contact) {
         EXPECT_EQ(scene.contact->distance, GetParam().distance);
         EXPECT_EQ(scene.contact->stiffness, GetParam().stiffness);
+        EXPECT_TRUE(scene.contact->self);
     }
 }
 

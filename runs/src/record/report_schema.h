@@ -72,7 +72,7 @@ void fields(Part& step, const Visit& visit) {
     visit(key("iterations", "", "of the linear solver, in all"), step.iterations);
     visit(key("asleep", "", "bodies that sleep at the end"), step.asleep);
     visit(key("unknowns", "", "scalars solved for, in all linear solves"), step.unknowns);
-    visit(key("hessians", "", "of elements that were assembled"), step.hessians);
+    visit(key("hessians", "", "of elements, in the matrices that were solved with"), step.hessians);
     visit(key("filtered", "", "of those, the ones that `filter` changed"), step.filtered);
     visit(key("damping_hessians", "", "of damping with a tangent of its own"),
           step.damping_hessians);

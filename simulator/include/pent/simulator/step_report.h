@@ -82,7 +82,7 @@ struct StepReport {
     int iterations = 0;         ///< Of the linear solver, in all.
     int asleep = 0;             ///< Bodies that sleep at the end.
     std::int64_t unknowns = 0;  ///< Scalars solved for, in all linear solves.
-    std::int64_t hessians = 0;  ///< Of elements that were assembled, in all.
+    std::int64_t hessians = 0;  ///< Of elements, in all matrices solved with.
     std::int64_t filtered = 0;  ///< Of those, the ones that Filter changed: none with Filter::None.
     std::int64_t damping_hessians =
         0;                  ///< The same for Rayleigh damping with a tangent of its own.
