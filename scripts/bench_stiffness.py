@@ -46,14 +46,22 @@ def vector(dimension, y):
     return "[" + ", ".join(f"{y if axis == 1 else 0:.17g}" for axis in range(dimension)) + "]"
 
 
+def told_by(*command):
+    """What a program prints; ends with its message if it fails."""
+    done = subprocess.run(command, check=False, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"bench_stiffness: {command[0].name} ended with {done.returncode}: {done.stderr.strip()}")
+    return done.stdout
+
+
 def make_body(programs, options, folder):
     """Makes body.pent; returns its dimension, cells and extent along y."""
     body = folder / "body.pent"
     if options.mesh.suffix == ".pent":
         body.write_bytes(options.mesh.read_bytes())
     else:
-        subprocess.run([programs / "pent-mesh", options.mesh, "--dim", "3", "--scale", str(options.scale), "-o", body, "--quiet"], check=True)
-    told = subprocess.run([programs / "pent-check", body], check=True, capture_output=True, text=True).stdout
+        told_by(programs / "pent-mesh", options.mesh, "--dim", "3", "--scale", str(options.scale), "-o", body, "--quiet")
+    told = told_by(programs / "pent-check", body)
     dimension = int(re.search(r"dimension (\d)", told).group(1))
     cells = re.search(r"(\d+) (?:pentachora|tetrahedra)", told).group(1)
     low, high = re.search(r"\by (\S+) to ([^\s,]+)", told).groups()
@@ -63,9 +71,7 @@ def make_body(programs, options, folder):
 def steps_of(program, scene, folder, threads):
     """The steps of a run, as report.json has them."""
     run = folder / "run"
-    done = subprocess.run([program, scene, "-o", run, "--force", "--quiet", "--threads", str(threads)], check=False, capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"bench_stiffness: {program} ended with {done.returncode}: {done.stderr.strip()}")
+    told_by(program, scene, "-o", run, "--force", "--quiet", "--threads", str(threads))
     return json.loads((run / "report.json").read_text(encoding="utf-8"))["steps"]
 
 
@@ -87,7 +93,7 @@ def rows_of(options, folder):
     programs = [(options.programs / "pent-sim").resolve()] + ([options.before.resolve()] if options.before else [])
     yield "| body | cells | E | iterations | ms a step |" + (" before: iterations | ms a step | faster by |" if options.before else "")
     yield "| --- " * (8 if options.before else 5) + "|"
-    for young in options.young.split(","):
+    for young in options.young:
         text = SCENE.format(dimension=dimension, gravity=vector(dimension, -9.8), steps=options.steps, rate=options.rate, tolerance=options.tolerance,
                             young=young, poisson=options.poisson, density=options.density)
         if options.held > 0:
@@ -101,12 +107,19 @@ def rows_of(options, folder):
         yield line
 
 
+def moduli(text):
+    """Numbers above 0, as they are written."""
+    if not all(float(number) > 0 for number in text.split(",")):
+        raise ValueError(text)
+    return text.split(",")
+
+
 def parsed():
     """The options of the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mesh", type=Path)
     parser.add_argument("--scale", type=float, default=1, help="of a mesh that is made, default 1")
-    parser.add_argument("--young", default="1e4,1e5,1e6,1e7,1e8", help="Young's moduli, Pa; default %(default)s")
+    parser.add_argument("--young", type=moduli, default="1e4,1e5,1e6,1e7,1e8", help="Young's moduli, Pa; default %(default)s")
     parser.add_argument("--poisson", type=float, default=0.28, help="Poisson's ratio, default %(default)s")
     parser.add_argument("--density", type=float, default=1000, help="kg/m^dimension, default %(default)s")
     parser.add_argument("--rate", type=int, default=30, help="steps a second, default %(default)s")

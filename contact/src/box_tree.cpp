@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace pent::contact {
 
@@ -36,21 +37,11 @@ double side_sum(const Box& box) {
     return sum;
 }
 
-// Into the order of leaves.
-void sort(std::span<CenteredBox> boxes) {
-    if (boxes.size() < 2) {
-        return;
-    }
-    const std::size_t in_left = (boxes.size() + 1) / 2;
-    halve(boxes, in_left);
-    const std::span<CenteredBox> left = boxes.first(in_left);
-    const std::span<CenteredBox> right = boxes.subspan(in_left);
-    if (boxes.size() < kSerial) {
-        sort(left);
-        sort(right);
-    } else {
-        parallel_invoke([&] { sort(left); }, [&] { sort(right); });
-    }
+// 0, 1, 2 and so on.
+std::vector<std::uint32_t> counted(std::size_t count) {
+    std::vector<std::uint32_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    return numbers;
 }
 
 // Breadth first, so that pieces are of like size.
@@ -138,24 +129,16 @@ Box box_around(const Eigen::Matrix<double, Dim, Count>& points, double margin) {
     return box;
 }
 
-BoxTree::BoxTree(std::span<const Box> boxes) {
-    std::vector<CenteredBox> sorted = centered(boxes);
-    sort(sorted);
-    leaves_.resize(boxes.size());
-    for (std::size_t i = 0; i < sorted.size(); ++i) {
-        leaves_[i] = sorted[i].index;
-    }
-    nodes_.resize(boxes.empty() ? 0 : boxes.size() - 1);
+BoxTree::BoxTree(std::span<const Box> boxes, std::vector<std::uint32_t> leaves)
+    : nodes_(boxes.empty() ? 0 : boxes.size() - 1), leaves_(std::move(leaves)) {
     refit(boxes);
 }
 
+BoxTree::BoxTree(std::span<const Box> boxes)
+    : BoxTree(boxes, order_by_halving(boxes, counted(boxes.size() + 1))) {}
+
 BoxTree BoxTree::in_order(std::span<const Box> boxes) {
-    BoxTree tree;
-    tree.leaves_.resize(boxes.size());
-    std::iota(tree.leaves_.begin(), tree.leaves_.end(), 0U);
-    tree.nodes_.resize(boxes.empty() ? 0 : boxes.size() - 1);
-    tree.refit(boxes);
-    return tree;
+    return {boxes, counted(boxes.size())};
 }
 
 void BoxTree::refit(std::span<const Box> boxes) {

@@ -2,25 +2,19 @@
 
 #include <pent/contact/box.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace pent::contact {
 
-/// A box of a list, to be put beside its neighbors.
-struct CenteredBox {
-    float center[4];          // NOLINT(modernize-avoid-c-arrays): twice, m
-    std::uint32_t index = 0;  ///< In the list.
-};
-
-/// Parallel.
-[[nodiscard]] std::vector<CenteredBox> centered(std::span<const Box> boxes);
-
-/// Puts the first half in front, along the longest side of the centers.
+/// Boxes, by their places in the list, in an order in which neighbors follow each other: halved
+/// along the longest side of their centers, and each half again, down to groups. Of an odd number
+/// of groups the first half has one more. Parallel.
 ///
-/// @param in_first  How many boxes that has.
-void halve(std::span<CenteredBox> boxes, std::size_t in_first);
+/// @param begin  Where each group begins in that order, ascending from 0, and how many boxes there
+///               are.
+[[nodiscard]] std::vector<std::uint32_t> order_by_halving(std::span<const Box> boxes,
+                                                          std::span<const std::uint32_t> begin);
 
 }  // namespace pent::contact

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <random>
-#include <utility>
 #include <vector>
 
 namespace pent::contact {
@@ -24,38 +23,58 @@ std::vector<Box> boxes_in_block(int longest, std::size_t count) {
     return boxes;
 }
 
-TEST(Centered, HasTheCenterOfEachBoxTwice) {
-    const std::vector<Box> boxes = boxes_in_block(0, 5000);
-    const std::vector<CenteredBox> all = centered(boxes);
-    ASSERT_EQ(all.size(), boxes.size());
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        ASSERT_EQ(all[i].index, i);
-        for (int axis = 0; axis < 4; ++axis) {
-            ASSERT_EQ(all[i].center[axis], boxes[i].low[axis] + boxes[i].high[axis]);
+TEST(OrderByHalving, PutsTheLeastAlongTheLongestSideInFront) {
+    for (int longest = 0; longest < 4; ++longest) {
+        const std::vector<Box> boxes = boxes_in_block(longest, 5000);
+        const auto center = [&](std::uint32_t i) {
+            return boxes[i].low[longest] + boxes[i].high[longest];
+        };
+        for (const std::uint32_t in_first : {1U, 13U, 2500U, 4999U}) {
+            std::vector<std::uint32_t> order =
+                order_by_halving(boxes, std::vector<std::uint32_t>{0, in_first, 5000});
+            std::vector<std::uint32_t> expected = order;
+            std::sort(expected.begin(), expected.end(), [&](std::uint32_t a, std::uint32_t b) {
+                return center(a) != center(b) ? center(a) < center(b) : a < b;
+            });
+            for (std::vector<std::uint32_t>* list : {&order, &expected}) {
+                std::sort(list->begin(), list->begin() + in_first);
+                std::sort(list->begin() + in_first, list->end());
+            }
+            EXPECT_EQ(order, expected) << longest << " " << in_first;
         }
     }
 }
 
-TEST(Halve, PutsTheLeastAlongTheLongestSideInFront) {
-    for (int longest = 0; longest < 4; ++longest) {
-        for (const std::size_t in_first : {1, 13, 99, 100}) {
-            std::vector<CenteredBox> all = centered(boxes_in_block(longest, 100));
-            std::vector<std::pair<float, std::uint32_t>> expected;
-            for (const CenteredBox& box : all) {
-                expected.emplace_back(box.center[longest], box.index);
-            }
-            std::sort(expected.begin(), expected.end());
-            halve(all, in_first);
-            std::vector<std::pair<float, std::uint32_t>> found;
-            for (const CenteredBox& box : all) {
-                found.emplace_back(box.center[longest], box.index);
-            }
-            const auto middle = found.begin() + static_cast<std::ptrdiff_t>(in_first);
-            std::sort(found.begin(), middle);
-            std::sort(middle, found.end());
-            EXPECT_EQ(found, expected) << longest << " " << in_first;
+// Five groups fall into three and two, and three into two and one.
+TEST(OrderByHalving, HalvesEachHalfAsIfItWereAlone) {
+    const std::vector<Box> boxes = boxes_in_block(2, 100);
+    const std::vector<std::uint32_t> whole =
+        order_by_halving(boxes, std::vector<std::uint32_t>{0, 20, 40, 60, 80, 100});
+    const std::vector<std::uint32_t> halves =
+        order_by_halving(boxes, std::vector<std::uint32_t>{0, 60, 100});
+    const auto in_groups = [&](std::uint32_t first, const std::vector<std::uint32_t>& begin) {
+        std::vector<std::uint32_t> numbers(halves.begin() + first,
+                                           halves.begin() + first + begin.back());
+        std::sort(numbers.begin(), numbers.end());
+        std::vector<Box> own;
+        for (const std::uint32_t i : numbers) {
+            own.push_back(boxes[i]);
         }
-    }
+        const std::vector<std::uint32_t> order = order_by_halving(own, begin);
+        for (std::size_t group = 1; group < begin.size(); ++group) {
+            std::vector<std::uint32_t> expected;
+            for (std::uint32_t k = begin[group - 1]; k < begin[group]; ++k) {
+                expected.push_back(numbers[order[k]]);
+            }
+            const auto at = whole.begin() + first;
+            std::vector<std::uint32_t> found(at + begin[group - 1], at + begin[group]);
+            std::sort(expected.begin(), expected.end());
+            std::sort(found.begin(), found.end());
+            EXPECT_EQ(found, expected) << first << " " << group;
+        }
+    };
+    in_groups(0, {0, 20, 40, 60});
+    in_groups(60, {0, 20, 40});
 }
 
 }  // namespace

@@ -103,6 +103,7 @@ private:
         Box right;
     };
 
+    BoxTree(std::span<const Box> boxes, std::vector<std::uint32_t> leaves);
     Box fit(const Range& range, std::span<const Box> boxes, double& cost);
 
     [[nodiscard]] bool has_overlap(const Range& range, const Box& box) const;
