@@ -37,7 +37,10 @@ std::int64_t chains(std::int64_t rounds, Scalar* result) {
     using Vector [[gnu::vector_size(Bytes)]] = Scalar;
     constexpr int kChains = 12;
     constexpr int kLanes = Bytes / static_cast<int>(sizeof(Scalar));
-    Vector sums[kChains] = {};
+    Vector sums[kChains];
+    for (int i = 0; i < kChains; ++i) {
+        sums[i] = Vector{} + Scalar(i);  // alike, a compiler would keep one of them
+    }
     const Vector factor = Vector{} + Scalar(0.999);
     const Vector term = Vector{} + Scalar(0.001);
     for (std::int64_t round = 0; round < rounds; ++round) {
