@@ -18,7 +18,7 @@ struct Touching {
     const Bodies<4> bodies = make_bodies<4>(scene, {bench::hug_body(1), bench::hug_body(2)});
     const HeldVertices<4> held{scene, bodies};
     const DofMap dofs = number_dofs(bodies, held, {true, true});
-    BlockPattern pattern = make_pattern<4>(bodies.cells, dofs);
+    BlockPattern pattern = make_pattern<4>(bodies.cells(), dofs);
     ContactPotential<4> contact{workers, scene, bodies, held};
     NewtonSystem<4> system{workers, dofs, pattern, Precision::Float};
     Positions<4> gradient = Positions<4>::Zero(4, bodies.vertex_count());

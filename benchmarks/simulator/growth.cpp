@@ -53,22 +53,25 @@ Size measure(const std::array<int, 4>& count, int threads) {
 
 std::string growth(int threads) {
     std::string table =
-        "| pentachora | time per step | memory | iterations | exponent of time | of memory |\n"
+        "| pentachora | time per step | memory | of each | iterations | exponent of time |\n"
         "| --- | --- | --- | --- | --- | --- |\n";
     Size first;
-    for (const std::array<int, 4>& count :
-         {std::array{8, 8, 7, 7}, {11, 10, 10, 10}, {15, 15, 15, 14}, {21, 20, 20, 20}}) {
+    for (const std::array<int, 4>& count : {std::array{8, 8, 7, 7},
+                                            {11, 10, 10, 10},
+                                            {15, 15, 15, 14},
+                                            {21, 20, 20, 20},
+                                            {26, 26, 25, 25}}) {
         const Size size = measure(count, threads);
-        table += formatted("| %.0f | %.0f ms | %.0f MB | %d |", size.cells, 1e3 * size.seconds,
-                           1e-6 * size.bytes, size.iterations);
+        table +=
+            formatted("| %.0f | %.0f ms | %.0f MB | %.0f B | %d |", size.cells, 1e3 * size.seconds,
+                      1e-6 * size.bytes, size.bytes / size.cells, size.iterations);
         if (first.cells == 0) {
             first = size;
-            table += " | |\n";
+            table += " |\n";
             continue;
         }
-        const double growth = std::log(size.cells / first.cells);
-        table += formatted(" %.2f | %.2f |\n", std::log(size.seconds / first.seconds) / growth,
-                           std::log(size.bytes / first.bytes) / growth);
+        table += formatted(" %.2f |\n", std::log(size.seconds / first.seconds)
+                                            / std::log(size.cells / first.cells));
     }
     return table;
 }

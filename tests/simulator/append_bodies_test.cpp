@@ -59,7 +59,7 @@ TYPED_TEST(AppendBodies, HasEveryCellOfEveryMeshOnce) {
                 const std::uint32_t own = bodies.mesh_cell(body, cell);
                 seen.insert(own);
                 const auto first = static_cast<std::uint32_t>(bodies.first_vertex[body]);
-                EXPECT_TRUE((bodies.cells.col(cell).array() - first
+                EXPECT_TRUE((bodies.cells().col(cell).array() - first
                              == bodies.meshes[body].cells.col(own).array())
                                 .all());
             }
@@ -81,7 +81,7 @@ TYPED_TEST(AppendBodies, PutsCellsOfOneMaterialBehindOneAnother) {
             end = range.end;
             EXPECT_GT(range.end, range.begin);
         }
-        EXPECT_EQ(end, bodies.cells.cols());
+        EXPECT_EQ(end, bodies.cells().cols());
         const double low = bodies.meshes[1].positions.row(1).minCoeff();
         for (const CellRange& range : {bodies.ranges[1], bodies.ranges[2]}) {
             EXPECT_EQ(range.body, 1U);
@@ -89,7 +89,7 @@ TYPED_TEST(AppendBodies, PutsCellsOfOneMaterialBehindOneAnother) {
             EXPECT_EQ(range.material.density == 3000, is_heavy);
             for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
                 double height = 0;
-                for (const std::uint32_t v : bodies.cells.col(cell)) {
+                for (const std::uint32_t v : bodies.cells().col(cell)) {
                     height += (bodies.rest(1, v) - low) / (kDim + 1);
                 }
                 EXPECT_EQ(height > 0.25, is_heavy);
@@ -106,9 +106,9 @@ TYPED_TEST(AppendBodies, NamesTheParentOfEveryCell) {
     EXPECT_TRUE(half_heavy_bodies<kDim>(ElementKind::Linear).quadratic.parents.empty());
     const Bodies<kDim> bodies = half_heavy_bodies<kDim>(ElementKind::Quadratic);
     const QuadraticCells<kDim>& quadratic = bodies.quadratic;
-    EXPECT_EQ(quadratic.nodes.cols() << kDim, bodies.cells.cols());
+    EXPECT_EQ(quadratic.nodes.cols() << kDim, bodies.cells().cols());
     ASSERT_EQ(quadratic.ranges.size(), bodies.ranges.size());
-    ASSERT_EQ(static_cast<Eigen::Index>(quadratic.parents.size()), bodies.cells.cols());
+    ASSERT_EQ(static_cast<Eigen::Index>(quadratic.parents.size()), bodies.cells().cols());
     std::vector<int> children(static_cast<std::size_t>(quadratic.nodes.cols()), 0);
     for (std::size_t i = 0; i < quadratic.ranges.size(); ++i) {
         const CellRange& range = quadratic.ranges[i];
@@ -119,7 +119,7 @@ TYPED_TEST(AppendBodies, NamesTheParentOfEveryCell) {
             EXPECT_LT(parent, range.end);
             ++children[parent];
             const auto nodes = quadratic.nodes.col(parent);
-            for (const std::uint32_t vertex : bodies.cells.col(cell)) {
+            for (const std::uint32_t vertex : bodies.cells().col(cell)) {
                 EXPECT_NE(std::find(nodes.begin(), nodes.end(), vertex), nodes.end());
             }
         }

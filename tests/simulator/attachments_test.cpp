@@ -104,7 +104,7 @@ TYPED_TEST(AttachmentsTest, HaveTheirDerivativesWhereSpringsHaveNoLength) {
         const Positions<kDim>& rest = setting.bodies.rest;
         // 300 N/m and some roundings of a meter, each.
         EXPECT_LT(gradient_of<kDim>(attachments, rest).norm(), 300 * 1e-14);
-        const BlockPattern pattern = make_pattern<kDim>(setting.bodies.cells, setting.dofs);
+        const BlockPattern pattern = make_pattern<kDim>(setting.bodies.cells(), setting.dofs);
         EXPECT_EQ(hessian_of<kDim>(setting, pattern, attachments, rest),
                   hessian_of<kDim>(setting, pattern, attachments, shaken<kDim>(rest, 0.05, 5)));
         // One spring is stretched, the others are not.

@@ -28,11 +28,11 @@ TEST(Bodies, AreOneMeshOneAfterTheOther) {
     EXPECT_EQ(bodies.vertices(0).begin, 0);
     EXPECT_EQ(bodies.vertices(1).begin, bar(2).vertex_count());
     EXPECT_EQ(bodies.vertex_count(), bar(2).vertex_count() + bar(3).vertex_count());
-    EXPECT_EQ(bodies.cells.cols(), bar(2).cell_count() + bar(3).cell_count());
+    EXPECT_EQ(bodies.cells().cols(), bar(2).cell_count() + bar(3).cell_count());
     for (std::size_t body = 0; body < 2; ++body) {
         const auto [begin, size] = bodies.vertices(body);
         const CellRange& range = bodies.ranges[body];
-        const auto own = bodies.cells.middleCols(range.begin, range.end - range.begin);
+        const auto own = bodies.cells().middleCols(range.begin, range.end - range.begin);
         EXPECT_GE(own.minCoeff(), begin);
         EXPECT_LT(own.maxCoeff(), begin + size);
         for (const Eigen::Index vertex : {begin, begin + size - 1}) {

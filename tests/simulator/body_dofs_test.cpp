@@ -126,7 +126,7 @@ void expect_maps_of_ranks(int count, const std::vector<bool>& is_in) {
         const Vertices free = free_vertices(bodies, held, is_in);
         Vertices own_or_coupled;
         for (const std::uint32_t v : free) {
-            const bool is_in_a_cell = (bodies.cells.array() == v).any();
+            const bool is_in_a_cell = (bodies.cells().array() == v).any();
             if (bodies.sharing.owns(v) || is_in_a_cell || bodies.may_couple_anything) {
                 own_or_coupled.insert(v);
             }

@@ -53,19 +53,19 @@ TEST(NearCells, AreThoseThatTouchAVertexOfTheRank) {
         SCOPED_TRACE(count);
         test::on_ranks(count, [&](const std::shared_ptr<const Ranks>& ranks) {
             const Bodies<4> near = share(scene, make_bodies<4>(scene, meshes()), ranks);
-            EXPECT_EQ(near.cell_count, all.cells.cols());
+            EXPECT_EQ(near.cell_count, all.cells().cols());
             ASSERT_EQ(near.ranges.size(), all.ranges.size());
             Eigen::Index next = 0;
             for (std::size_t i = 0; i < all.ranges.size(); ++i) {
                 const CellRange& range = all.ranges[i];
                 EXPECT_EQ(near.ranges[i].begin, next);
                 for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
-                    const auto corners = all.cells.col(cell);
+                    const auto corners = all.cells().col(cell);
                     if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t vertex) {
                             return near.sharing.owns(vertex);
                         })) {
-                        ASSERT_LT(next, near.cells.cols());
-                        EXPECT_EQ(near.cells.col(next), corners);
+                        ASSERT_LT(next, near.cells().cols());
+                        EXPECT_EQ(near.cells().col(next), corners);
                         EXPECT_EQ(near.mesh_cell(range.body, next),
                                   all.mesh_cell(range.body, cell));
                         ++next;
@@ -74,7 +74,7 @@ TEST(NearCells, AreThoseThatTouchAVertexOfTheRank) {
                 EXPECT_EQ(near.ranges[i].end, next);
                 EXPECT_EQ(near.ranges[i].material.density, range.material.density);
             }
-            EXPECT_EQ(near.cells.cols(), next);
+            EXPECT_EQ(near.cells().cols(), next);
             for (std::size_t body = 0; body < all.count(); ++body) {
                 EXPECT_EQ(near.cells_of(body).begin, near.ranges[2 * body].begin);
                 EXPECT_EQ(near.first_cell[body + 1], near.ranges[2 * body + 1].end);
@@ -110,7 +110,7 @@ TEST(NearCells, AreAllChildrenOfQuadraticCellsOfTheRank) {
             EXPECT_EQ(near.quadratic.nodes, all.quadratic.nodes(Eigen::all, simplices));
             std::vector<Eigen::Index> cells;
             std::vector<std::uint32_t> parents;
-            for (Eigen::Index cell = 0; cell < all.cells.cols(); ++cell) {
+            for (Eigen::Index cell = 0; cell < all.cells().cols(); ++cell) {
                 const std::uint32_t parent = all.quadratic.parents[static_cast<std::size_t>(cell)];
                 const auto place = std::lower_bound(simplices.begin(), simplices.end(), parent);
                 if (place != simplices.end() && *place == parent) {
@@ -118,7 +118,7 @@ TEST(NearCells, AreAllChildrenOfQuadraticCellsOfTheRank) {
                     parents.push_back(static_cast<std::uint32_t>(place - simplices.begin()));
                 }
             }
-            EXPECT_EQ(near.cells, all.cells(Eigen::all, cells));
+            EXPECT_EQ(near.cells(), all.cells()(Eigen::all, cells));
             EXPECT_EQ(near.quadratic.parents, parents);
             for (std::size_t i = 0; i < all.ranges.size(); ++i) {
                 const auto before = [&](Eigen::Index end) {
@@ -143,31 +143,31 @@ TEST(NearCells, AreAllAroundTheEdgesOfSmoothedElementsOfTheRank) {
         const Bodies<4> near = share(scene, make_bodies<4>(scene, long_bars), ranks);
         std::set<std::pair<std::uint32_t, std::uint32_t>> edges;  // of cells that touch a vertex
         const auto for_each_edge = [&](Eigen::Index cell, const auto& visit) {
-            for (const std::uint32_t a : all.cells.col(cell)) {
-                for (const std::uint32_t b : all.cells.col(cell)) {
+            for (const std::uint32_t a : all.cells().col(cell)) {
+                for (const std::uint32_t b : all.cells().col(cell)) {
                     if (a < b) {
                         visit(std::pair(a, b));
                     }
                 }
             }
         };
-        for (Eigen::Index cell = 0; cell < all.cells.cols(); ++cell) {
-            const auto corners = all.cells.col(cell);
+        for (Eigen::Index cell = 0; cell < all.cells().cols(); ++cell) {
+            const auto corners = all.cells().col(cell);
             if (std::any_of(corners.begin(), corners.end(),
                             [&](std::uint32_t vertex) { return near.sharing.owns(vertex); })) {
                 for_each_edge(cell, [&](const auto& edge) { edges.insert(edge); });
             }
         }
         std::set<std::vector<std::uint32_t>> kept;
-        for (const auto cell : near.cells.colwise()) {
+        for (const auto cell : near.cells().colwise()) {
             kept.emplace(cell.begin(), cell.end());
         }
-        EXPECT_LT(near.cells.cols(), all.cells.cols());
-        for (Eigen::Index cell = 0; cell < all.cells.cols(); ++cell) {
+        EXPECT_LT(near.cells().cols(), all.cells().cols());
+        for (Eigen::Index cell = 0; cell < all.cells().cols(); ++cell) {
             bool is_needed = false;
             for_each_edge(
                 cell, [&](const auto& edge) { is_needed = is_needed || edges.count(edge) > 0; });
-            const auto corners = all.cells.col(cell);
+            const auto corners = all.cells().col(cell);
             EXPECT_LE(is_needed, kept.count({corners.begin(), corners.end()}) > 0) << cell;
         }
     });
@@ -191,7 +191,7 @@ TEST(NearCells, HaveAllVerticesThatRowsCouple) {
     test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
         const Bodies<4> near = share(scene, make_bodies<4>(scene, meshes()), ranks);
         std::vector<bool> is_coupled(static_cast<std::size_t>(all.vertex_count()), false);
-        for (const auto cell : all.cells.colwise()) {
+        for (const auto cell : all.cells().colwise()) {
             const bool is_near = std::any_of(cell.begin(), cell.end(), [&](std::uint32_t vertex) {
                 return near.sharing.owns(vertex);
             });

@@ -106,7 +106,7 @@ void expect_those_of_whole_meshes(const Scene& scene,
             Bodies<4> near = all;
             near.sharing = own.sharing;
             keep_near_cells(scene.solver.elements, near);
-            EXPECT_EQ(own.cells, near.cells);
+            EXPECT_EQ(own.cells(), near.cells());
             EXPECT_EQ(own.mesh_cells, near.mesh_cells);
             ASSERT_EQ(own.ranges.size(), near.ranges.size());
             for (std::size_t range = 0; range < near.ranges.size(); ++range) {

@@ -134,8 +134,8 @@ void expect_derivatives(const Setting<Dim>& setting,
                         Potential<Dim>& term,
                         const Positions<Dim>& x,
                         double step = 1e-5) {
-    expect_derivatives<Dim>(setting, make_pattern<Dim>(setting.bodies.cells, setting.dofs), term, x,
-                            step);
+    expect_derivatives<Dim>(setting, make_pattern<Dim>(setting.bodies.cells(), setting.dofs), term,
+                            x, step);
 }
 
 template <int Dim>

@@ -90,8 +90,8 @@ Positions<Dim> expected_forces(const Setting<Dim>& setting,
 template <int Dim>
 double volume_of(const Setting<Dim>& setting, const Positions<Dim>& x) {
     double volume = 0;
-    for (Eigen::Index cell = 0; cell < setting.bodies.cells.cols(); ++cell) {
-        volume += cell_volume<Dim>(x, setting.bodies.cells, cell);
+    for (Eigen::Index cell = 0; cell < setting.bodies.cells().cols(); ++cell) {
+        volume += cell_volume<Dim>(x, setting.bodies.cells(), cell);
     }
     return volume;
 }
@@ -130,7 +130,7 @@ TYPED_TEST(PressureLoadsTest, HasItsDerivativesWhereTheBodyIsFlatInsideOutOrAPoi
         const Positions<kDim> point = Positions<kDim>::Zero(kDim, flat.cols());
         begin<kDim>(loads, point);
         for (const Filter filter : {Filter::None, Filter::Clamp, Filter::Absolute}) {
-            const auto pattern = make_pattern<kDim>(setting.bodies.cells, setting.dofs);
+            const auto pattern = make_pattern<kDim>(setting.bodies.cells(), setting.dofs);
             EXPECT_TRUE(hessian_of<kDim>(setting, pattern, loads, point, filter).allFinite());
         }
     }
@@ -193,7 +193,7 @@ TYPED_TEST(PressureLoadsTest, HasAHessianThatLetsABodyMoveAsAWholeAndNoneWhereIt
     constexpr int kDim = TypeParam::value;
     const Setting<kDim> setting(pressed_scene<kDim>(EverythingSelection{}), 2);
     PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies, setting.held);
-    const auto pattern = make_pattern<kDim>(setting.bodies.cells, setting.dofs);
+    const auto pattern = make_pattern<kDim>(setting.bodies.cells(), setting.dofs);
     const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.05, 9);
     const Eigen::MatrixXd exact = hessian_of<kDim>(setting, pattern, loads, x);
     const Eigen::VectorXd values =

@@ -71,7 +71,7 @@ TYPED_TEST(RegionTest, HaveTheirDensityAndOfTwoTheLaterOneCounts) {
             EXPECT_EQ(range.begin, cells);
             cells = range.end;
         }
-        EXPECT_EQ(cells, setting.bodies.cells.cols());
+        EXPECT_EQ(cells, setting.bodies.cells().cols());
     }
 }
 
@@ -86,7 +86,7 @@ TYPED_TEST(RegionTest, KeepTheCellsOfTheMeshAndKnowWhichIsWhich) {
             std::vector<bool> is_there(static_cast<std::size_t>(range.size), false);
             for (Eigen::Index cell = range.begin; cell < range.begin + range.size; ++cell) {
                 const std::uint32_t own = bodies.mesh_cell(body, cell);
-                EXPECT_EQ((bodies.cells.col(cell).array()
+                EXPECT_EQ((bodies.cells().col(cell).array()
                            - static_cast<std::uint32_t>(bodies.first_vertex[body]))
                               .matrix(),
                           bodies.meshes[body].cells.col(own));

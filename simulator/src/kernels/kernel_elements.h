@@ -19,11 +19,16 @@ struct Group {
     const double* rest;
     const double* volume;
     const std::uint32_t* vertices;
-    const std::uint32_t* dofs;
+    const std::uint32_t* dofs;  // one a vertex
     const std::int32_t* blocks;
     int corners;   // of every element
     int elements;  // lanes in use
     std::uint32_t dof_count;
+
+    // Of a corner of an element, dof_count or more where it is held.
+    [[nodiscard]] std::uint32_t dof(int corner, int lane) const {
+        return dofs[vertices[corner * kGroup + lane]];
+    }
 };
 
 template <int Dim>
@@ -38,7 +43,7 @@ Group<Dim> group_at(const ElementRun& run, int group) {
     return {rest,
             rest + gradient_rows * kGroup,
             run.vertices + first * run.corners,
-            run.dofs + first * run.corners,
+            run.dofs,
             run.blocks + first * pairs,
             run.corners,
             left < kGroup ? left : kGroup,

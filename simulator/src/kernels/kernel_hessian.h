@@ -199,13 +199,13 @@ void scatter_held(const BlockPack<Real, Dim>& pack,
     for (int l = 0; l < Lanes<Real>::kCount && first_lane + l < group.elements; ++l) {
         const int lane = first_lane + l;
         for (int b = 1; b <= Dim; ++b) {
-            if (group.dofs[b * kGroup + lane] < group.dof_count) {
+            if (group.dof(b, lane) < group.dof_count) {
                 continue;
             }
             const double* displacement = target.prescribed_displacement
                                          + std::int64_t{Dim} * group.vertices[b * kGroup + lane];
             for (int a = 0; a < b; ++a) {
-                const std::uint32_t row = group.dofs[a * kGroup + lane];
+                const std::uint32_t row = group.dof(a, lane);
                 if (row >= group.dof_count) {
                     continue;
                 }
@@ -263,7 +263,7 @@ std::int64_t add_hessian(const ElementRun& run,
         gather_edges(group, positions, edges);
         bool has_held = false;
         for (int lane = 0; lane < group.elements; ++lane) {  // the last corner is held if any is
-            has_held = has_held || group.dofs[Dim * kGroup + lane] >= group.dof_count;
+            has_held = has_held || group.dof(Dim, lane) >= group.dof_count;
         }
         for (int lane = 0; lane < group.elements; lane += kWidth) {
             const Tensor<Real, Dim> rest = load_rest<Real>(group, lane);

@@ -147,17 +147,18 @@ void scatter_block(const Scalar (&entries)[Dim * Dim], std::int32_t place, Scala
 template <int Dim, typename Scalar>
 void scatter_held_block(const Scalar (&entries)[Dim * Dim],
                         const Group<Dim>& group,
+                        int lane,
                         int row,
                         int column,
                         const HessianTarget<Scalar>& target) {
-    const bool is_turned = group.dofs[row] >= group.dof_count;
+    const bool is_turned = group.dof(row, lane) >= group.dof_count;
     const int known = is_turned ? row : column;
-    const std::uint32_t dof = group.dofs[is_turned ? column : row];
+    const std::uint32_t dof = group.dof(is_turned ? column : row, lane);
     if (target.prescribed_displacement == nullptr || dof >= group.dof_count) {
         return;
     }
     const double* displacement =
-        target.prescribed_displacement + std::int64_t{Dim} * group.vertices[known];
+        target.prescribed_displacement + std::int64_t{Dim} * group.vertices[known * kGroup + lane];
     double* right = target.right + std::int64_t{Dim} * dof;
     for (int i = 0; i < Dim; ++i) {
         for (int j = 0; j < Dim; ++j) {
@@ -196,8 +197,7 @@ void scatter_quadratic(const QuadraticHessian<Real, Dim>& hessian,
                 if (places[l] != kNoBlock) {
                     scatter_block<Dim, kWidth>(tile.entries[0][l], places[l], target.values);
                 } else {
-                    scatter_held_block(tile.entries[0][l], group, n * kGroup + first_lane + l,
-                                       m * kGroup + first_lane + l, target);
+                    scatter_held_block(tile.entries[0][l], group, first_lane + l, n, m, target);
                 }
             }
         }

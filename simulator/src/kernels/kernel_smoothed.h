@@ -232,14 +232,15 @@ void scatter_tile(const BlockTile<Real, Scalar, Dim>& tile,
                                          target.values + std::int64_t{block} * kEntries);
                 continue;
             }
-            const std::uint32_t row = group.dofs[tile.row * kGroup + lane];
-            const int column = (tile.first + k) * kGroup + lane;
+            const std::uint32_t row = group.dof(tile.row, lane);
+            const int column = tile.first + k;
             if (target.prescribed_displacement == nullptr || row >= group.dof_count
-                || group.dofs[column] < group.dof_count) {
+                || group.dof(column, lane) < group.dof_count) {
                 continue;
             }
             const double* displacement =
-                target.prescribed_displacement + std::int64_t{Dim} * group.vertices[column];
+                target.prescribed_displacement
+                + std::int64_t{Dim} * group.vertices[column * kGroup + lane];
             double* right = target.right + std::int64_t{Dim} * row;
             for (int i = 0; i < Dim; ++i) {
                 for (int j = 0; j < Dim; ++j) {

@@ -58,7 +58,7 @@ struct ElementRun {
                   ///< simplex for each of its points: the inverse of Dm of the linear simplex it
                   ///< deforms as, share of the volume; then the volume.
     const std::uint32_t* vertices = nullptr;  ///< `corners` rows.
-    const std::uint32_t* dofs = nullptr;      ///< `corners` rows; >= dof_count where held.
+    const std::uint32_t* dofs = nullptr;      ///< One a vertex; >= dof_count where it is held.
     const std::int32_t* blocks =
         nullptr;  ///< pairs_of(corners) rows: index of the matrix block, kNoBlock, or
                   ///< kTurnedBlock - index.

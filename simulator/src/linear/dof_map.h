@@ -54,6 +54,9 @@ public:
     /// which those come last.
     [[nodiscard]] std::uint32_t rank_of(std::uint32_t vertex) const { return rank_[vertex]; }
 
+    /// The same, one a vertex.
+    [[nodiscard]] const std::vector<std::uint32_t>& ranks() const { return rank_; }
+
     /// Dofs of column c: [start[c], start[c + 1]); those that have rows.
     [[nodiscard]] const std::vector<std::uint32_t>& column_start() const { return column_start_; }
 

@@ -53,7 +53,7 @@ BodyElements<Dim> elements_of(const Bodies<Dim>& bodies, std::size_t body) {
     elements.mesh.cells =
         is_quadratic ? Simplices<Dim + 1>(
             bodies.quadratic.nodes.template topRows<Dim + 1>().middleCols(range.begin, range.size))
-                     : Simplices<Dim + 1>(bodies.cells.middleCols(range.begin, range.size));
+                     : Simplices<Dim + 1>(bodies.cells().middleCols(range.begin, range.size));
     elements.mesh.cells.array() -= static_cast<std::uint32_t>(bodies.first_vertex[body]);
     // A cell stands for itself, the first child for a quadratic one; parts have what cells are
     // labeled with in the order of Bodies.

@@ -123,8 +123,10 @@ std::vector<Eigen::Index> append_cells(const Body& body,
     append_ranges(body, place, sorted.first, begin, bodies.ranges);
     for (std::size_t i = 0; i < sorted.order.size(); ++i) {
         const Eigen::Index own = sorted.order[i];
-        bodies.cells.col(begin + static_cast<Eigen::Index>(i)) =
-            mesh.cells.col(own).array() + first;
+        if (bodies.joined_cells) {
+            bodies.joined_cells->col(begin + static_cast<Eigen::Index>(i)) =
+                mesh.cells.col(own).array() + first;
+        }
         if (quadratic != nullptr) {
             bodies.quadratic.parents.push_back(
                 places[quadratic->parents[static_cast<std::size_t>(own)]]);
@@ -145,9 +147,11 @@ void append_bodies(const Scene& scene, Bodies<Dim>& bodies) {
     }
     bodies.rest.resize(Dim, bodies.first_vertex.back());
     bodies.cell_count = bodies.first_cell.back();
-    bodies.cells.resize(Dim + 1, bodies.cell_count);
     const bool has_regions = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                          [](const Body& body) { return !body.regions.empty(); });
+    if (has_regions || scene.bodies.size() != 1) {
+        bodies.joined_cells.emplace(Dim + 1, bodies.cell_count);
+    }
     for (std::size_t place = 0; place < scene.bodies.size(); ++place) {
         const Body& body = scene.bodies[place];
         const SimplexMesh<Dim>& mesh = bodies.meshes[place];

@@ -21,13 +21,13 @@ void lump_masses(const Scene& scene, Bodies<Dim>& bodies) {
     for (const CellRange& range : bodies.ranges) {
         const Lame& lame = range.material.lame;
         for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
-            const double volume = cell_volume<Dim>(bodies.rest, bodies.cells, cell);
+            const double volume = cell_volume<Dim>(bodies.rest, bodies.cells(), cell);
             const double share = range.material.density * volume / (Dim + 1);
-            if (bodies.sharing.owns(bodies.cells(0, cell))) {
+            if (bodies.sharing.owns(bodies.cells()(0, cell))) {
                 bodies.large_energy += (lame.mu + std::abs(lame.lambda)) * volume;
             }
             for (int corner = 0; corner <= Dim; ++corner) {
-                masses[bodies.cells(corner, cell)] += share;
+                masses[bodies.cells()(corner, cell)] += share;
             }
         }
     }

@@ -9,6 +9,7 @@
 #include <pent/simulator/scene.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pent::simulator {
@@ -21,8 +22,8 @@ struct Bodies {
     std::vector<Eigen::Index> first_vertex;  ///< Bodies + 1 entries.
     Positions<Dim> rest;                     ///< Dim x vertices, m.
     std::vector<Eigen::Index> first_cell;    ///< Bodies + 1 entries.
-    Simplices<Dim + 1> cells;  ///< Of a body with regions those of each one after the other. Ranks
-                               ///< may have those of their vertices alone: see keep_near_cells().
+    std::optional<Simplices<Dim + 1>>
+        joined_cells;  ///< What cells() gives; empty where the one mesh has that already.
     Eigen::Index cell_count = 0;  ///< Of all ranks.
     std::vector<std::uint32_t>
         mesh_cells;  ///< Which cell of its mesh each is; empty if all are and no body has regions.
@@ -36,6 +37,12 @@ struct Bodies {
 
     [[nodiscard]] Eigen::Index vertex_count() const { return rest.cols(); }
     [[nodiscard]] std::size_t count() const { return meshes.size(); }
+
+    /// Vertices counted through; of a body with regions those of each one after the other. Ranks may
+    /// have those of their vertices alone: see keep_near_cells().
+    [[nodiscard]] const Simplices<Dim + 1>& cells() const {
+        return joined_cells ? *joined_cells : meshes.front().cells;
+    }
 
     struct Range {
         Eigen::Index begin = 0;
@@ -54,7 +61,7 @@ struct Bodies {
     /// Elements of a body: its quadratic cells, or its cells where there are none.
     [[nodiscard]] Range elements_of(std::size_t body) const;
     [[nodiscard]] Eigen::Index element_count() const {
-        return quadratic.nodes.cols() > 0 ? quadratic.nodes.cols() : cells.cols();
+        return quadratic.nodes.cols() > 0 ? quadratic.nodes.cols() : cells().cols();
     }
 
     /// Which cell of its mesh a cell is.

@@ -29,7 +29,7 @@ template <int Dim>
 std::vector<bool> coupled_vertices(const Bodies<Dim>& bodies) {
     std::vector<bool> is_coupled(static_cast<std::size_t>(bodies.vertex_count()),
                                  bodies.may_couple_anything);
-    for (const std::uint32_t vertex : bodies.cells.reshaped()) {
+    for (const std::uint32_t vertex : bodies.cells().reshaped()) {
         is_coupled[vertex] = true;
     }
     return is_coupled;
@@ -43,7 +43,7 @@ DofMap number_dofs(const Bodies<Dim>& bodies,
                    const std::vector<bool>& is_in) {
     const std::vector<bool> is_fixed = fixed_vertices(bodies, held, is_in);
     if (!bodies.sharing.is_shared()) {
-        return number_dofs<Dim>(bodies.cells, is_fixed, bodies.columns);
+        return number_dofs<Dim>(bodies.cells(), is_fixed, bodies.columns);
     }
     const std::vector<bool> is_coupled = coupled_vertices(bodies);
     std::vector<bool> is_own(is_fixed.size());
@@ -56,7 +56,7 @@ DofMap number_dofs(const Bodies<Dim>& bodies,
             others.push_back(vertex);
         }
     }
-    const DofMap own = number_dofs<Dim>(bodies.cells, has_no_row, bodies.columns);
+    const DofMap own = number_dofs<Dim>(bodies.cells(), has_no_row, bodies.columns);
     std::vector<std::uint32_t> vertex_of_dof = own.vertices();
     vertex_of_dof.insert(vertex_of_dof.end(), others.begin(), others.end());
     return {is_fixed.size(), std::move(vertex_of_dof), own.column_start(), std::move(is_own)};

@@ -53,7 +53,7 @@ namespace {
 
 template <int Dim>
 std::span<const std::uint32_t> corners_of(const Bodies<Dim>& bodies, Eigen::Index cell) {
-    return {bodies.cells.col(cell).data(), Dim + 1};
+    return {bodies.cells().col(cell).data(), Dim + 1};
 }
 
 template <int Dim>
@@ -94,9 +94,13 @@ template <int Dim>
 void keep_near_cells(ElementKind kind, Bodies<Dim>& bodies) {
     NeededCells needed(kind, static_cast<std::size_t>(bodies.vertex_count()),
                        [&](std::uint32_t vertex) { return bodies.sharing.owns(vertex); });
-    for (Eigen::Index cell = 0; needed.has_to_see_all() && cell < bodies.cells.cols(); ++cell) {
+    for (Eigen::Index cell = 0; needed.has_to_see_all() && cell < bodies.cells().cols(); ++cell) {
         needed.see(corners_of(bodies, cell), parent_of(bodies, cell));
     }
+    if (!bodies.joined_cells) {
+        bodies.joined_cells = bodies.meshes.front().cells;
+    }
+    Simplices<Dim + 1>& cells = *bodies.joined_cells;
     std::vector<std::uint32_t> mesh_cells;
     std::vector<Eigen::Index> first_cell(bodies.first_cell.size(), 0);
     std::vector<std::uint32_t>& parents = bodies.quadratic.parents;
@@ -112,13 +116,13 @@ void keep_near_cells(ElementKind kind, Bodies<Dim>& bodies) {
             if (!parents.empty()) {
                 parents[static_cast<std::size_t>(next)] = parent;
             }
-            bodies.cells.col(next++) = bodies.cells.col(cell);
+            cells.col(next++) = cells.col(cell);
         }
         range.begin = begin;
         range.end = next;
         first_cell[range.body + 1] = next;
     }
-    bodies.cells.conservativeResize(Eigen::NoChange, next);
+    cells.conservativeResize(Eigen::NoChange, next);
     mesh_cells.shrink_to_fit();
     bodies.mesh_cells = std::move(mesh_cells);
     bodies.first_cell = std::move(first_cell);

@@ -22,7 +22,7 @@ std::vector<Eigen::Index> cells_here(const Bodies<Dim>& bodies, std::size_t body
     const auto range = bodies.cells_of(body);
     std::vector<Eigen::Index> cells;
     for (Eigen::Index cell = range.begin; cell < range.begin + range.size; ++cell) {
-        if (bodies.sharing.owns(bodies.cells(0, cell))) {
+        if (bodies.sharing.owns(bodies.cells()(0, cell))) {
             cells.push_back(cell);
         }
     }
@@ -117,7 +117,7 @@ MaterialPoints<Dim> nearest_in_body(const Workers& workers,
                                     std::size_t body,
                                     const std::vector<std::uint32_t>& vertices) {
     const std::vector<Eigen::Index> cells = cells_here(bodies, body);
-    const NearestPointSearch<Dim> tree(bodies.rest, bodies.cells(Eigen::all, cells));
+    const NearestPointSearch<Dim> tree(bodies.rest, bodies.cells()(Eigen::all, cells));
     MaterialPoints<Dim> found(vertices.size());
     for (std::size_t first = 0; first < vertices.size(); first += kPiece) {
         const std::size_t size = std::min(kPiece, vertices.size() - first);

@@ -45,7 +45,7 @@ void place_parts(const Scene& scene,
         const SimplexMesh<Dim>& mesh = bodies.meshes[i];
         bodies.rest.middleCols(bodies.first_vertex[i], mesh.vertex_count()) = mesh.positions;
     }
-    bodies.cells.resize(Dim + 1, cells);
+    bodies.joined_cells.emplace(Dim + 1, cells);
     bodies.mesh_cells.reserve(static_cast<std::size_t>(cells));
     refuse_others(
         ranks.get(),
@@ -171,7 +171,7 @@ Simplices<Dim> boundary_of(const Bodies<Dim>& bodies, std::size_t body) {
     const auto range = bodies.cells_of(body);
     const auto first = static_cast<std::uint32_t>(bodies.first_vertex[body]);
     const Simplices<Dim + 1> cells =
-        bodies.cells.middleCols(range.begin, range.size).array() - first;
+        bodies.cells().middleCols(range.begin, range.size).array() - first;
     const FacetMatch<Dim> match = match_facets<Dim>(
         cells, bodies.meshes[body].vertex_count(),
         [&](std::uint32_t vertex) { return bodies.sharing.owns(vertex + first); });
@@ -220,7 +220,7 @@ CellList<Dim> list_cells(
         const auto range = bodies.cells_of(body);
         for (Eigen::Index i = range.begin; is_of_parts(bodies) && i < range.begin + range.size;
              ++i) {
-            const Cell cell = bodies.cells.col(i);
+            const Cell cell = bodies.cells().col(i);
             if (bodies.sharing.owns(cell[0]) && is_wanted(cell)) {
                 std::array<double, Dim + 3>& row = own.emplace_back();
                 row[0] = static_cast<double>(body);

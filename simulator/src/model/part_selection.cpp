@@ -80,7 +80,7 @@ std::vector<std::uint32_t> select_vertices(const Bodies<Dim>& bodies,
     part.positions = mesh.positions;
     part.layers = mesh.layers;
     part.regions = mesh.regions;
-    part.cells = bodies.cells.middleCols(cells.begin, cells.size).array()
+    part.cells = bodies.cells().middleCols(cells.begin, cells.size).array()
                  - static_cast<std::uint32_t>(vertices.begin);
     const std::vector<bool> marks = mark_vertices(part, select, where);
     Eigen::Matrix<double, 1, Eigen::Dynamic> is_in =

@@ -48,7 +48,7 @@ ElementLayout<Dim> Elasticity<Dim>::lay_out(const DofMap& dofs) const {
     ElementLayout<Dim> layout =
         kind_ == ElementKind::Quadratic
             ? lay_out_elements<Dim>(bodies_->rest, bodies_->quadratic, dofs, strain)
-            : lay_out_elements<Dim>(bodies_->rest, bodies_->cells, bodies_->ranges, dofs, kind_,
+            : lay_out_elements<Dim>(bodies_->rest, bodies_->cells(), bodies_->ranges, dofs, kind_,
                                     strain);
     layout.elements.activate(*workers_, strain_);
     return layout;
@@ -185,7 +185,7 @@ std::int64_t Elasticity<Dim>::inverted_cells(const Positions<Dim>& x) const {
     if (kind_ == ElementKind::Linear) {
         return energy_.inverted;
     }
-    const Simplices<Dim + 1>& cells = bodies_->cells;
+    const Simplices<Dim + 1>& cells = bodies_->cells();
     const Sharing& sharing = bodies_->sharing;
     const auto chunks = static_cast<int>((cells.cols() + kChunkCells - 1) / kChunkCells);
     return sharing.sum(workers_->sum(chunks, [&](int chunk) {

@@ -54,7 +54,7 @@ void ElasticEnergy::add(const ElasticEnergy& other) {
 
 template <int Dim>
 Elements<Dim>::Elements(std::size_t ranges, const DofMap& dofs, const BlockPattern& pattern)
-    : ranges_(ranges), dof_count_(dofs.count()) {
+    : ranks_(dofs.ranks()), ranges_(ranges), dof_count_(dofs.count()) {
     if (pattern.blocks() > kMaxBlocks) {
         // GCOVR_EXCL_START: 137 GB of blocks
         throw Error("the mesh has " + std::to_string(pattern.blocks()) + " matrix blocks; at most "
@@ -217,7 +217,6 @@ void Elements<Dim>::reserve(const std::vector<Plan>& plans) {
     }
     rest_.reserve(rest);
     vertices_.reserve(corners);
-    dofs_.reserve(corners);
     blocks_.reserve(blocks);
 }
 
@@ -253,7 +252,6 @@ void Elements<Dim>::append(const Plan& plan,
     const auto n = static_cast<std::size_t>(chunk.corners);
     rest_.resize(rest_.size() + rest_rows(chunk) * lanes);
     vertices_.resize(vertices_.size() + n * lanes);
-    dofs_.resize(dofs_.size() + n * lanes);
     blocks_.resize(blocks_.size() + static_cast<std::size_t>(pairs_of(chunk.corners)) * lanes,
                    kNoBlock);
     Element element;
@@ -292,7 +290,6 @@ void Elements<Dim>::set_lane(const Element& element,
         const std::uint32_t vertex = element.corners[a < element.corners.size() ? a : 0];
         const std::uint32_t row = dofs.rank_of(vertex);
         vertices_[at(chunk.first_corner, n, a)] = vertex;
-        dofs_[at(chunk.first_corner, n, a)] = row;
         for (std::size_t b = a; b < n; ++b, ++pair) {
             if (b >= element.corners.size()) {
                 continue;
@@ -339,7 +336,7 @@ ElementRun Elements<Dim>::run(int chunk) const {
             .corners = c.corners,
             .rest = rest_.data() + c.first_rest,
             .vertices = vertices_.data() + c.first_corner,
-            .dofs = dofs_.data() + c.first_corner,
+            .dofs = ranks_.data(),
             .blocks = blocks_.data() + c.first_block,
             .dof_count = dof_count_};
 }
@@ -402,7 +399,7 @@ std::int64_t Elements<Dim>::bytes() const {
             chunk.rest.size() * sizeof(double) + chunk.elements.size() * sizeof(Eigen::Index);
     }
     return static_cast<std::int64_t>(passive + rest_.size() * sizeof(double)
-                                     + (vertices_.size() + dofs_.size() + blocks_.size())
+                                     + (vertices_.size() + ranks_.size() + blocks_.size())
                                            * sizeof(std::uint32_t));
 }
 

@@ -161,9 +161,9 @@ private:
     void color(std::size_t vertices);
     [[nodiscard]] ElementRun run(int chunk) const;
 
+    std::vector<std::uint32_t> ranks_;  // DofMap::rank_of of every vertex
     std::vector<double> rest_;
     std::vector<std::uint32_t> vertices_;
-    std::vector<std::uint32_t> dofs_;
     std::vector<std::int32_t> blocks_;
     std::vector<Chunk> chunks_;
     std::vector<Passive> passive_;

@@ -24,9 +24,9 @@ Eigen::RowVectorXd energy_densities(const Bodies<Dim>& bodies,
     for (const CellRange& range : bodies.ranges) {
         for (Eigen::Index cell = range.begin; range.body == body && cell < range.end; ++cell) {
             const Eigen::Matrix<double, Dim, Dim> rest =
-                edge_matrix<Dim>(bodies.rest, bodies.cells, cell);
+                edge_matrix<Dim>(bodies.rest, bodies.cells(), cell);
             const Eigen::Matrix<double, Dim, Dim> F =
-                edge_matrix<Dim>(x, bodies.cells, cell) * rest.inverse();
+                edge_matrix<Dim>(x, bodies.cells(), cell) * rest.inverse();
             const double weight = rest.determinant();
             const auto* shape = strain.of_cell(cell);
             const double density =
@@ -34,7 +34,7 @@ Eigen::RowVectorXd energy_densities(const Bodies<Dim>& bodies,
                     ? energy_density(range.material, F)
                     : shape->growth * energy_density(range.material, F * shape->inverse);
             for (int a = 0; a <= Dim; ++a) {
-                const Eigen::Index vertex = bodies.cells(a, cell) - vertices.begin;
+                const Eigen::Index vertex = bodies.cells()(a, cell) - vertices.begin;
                 energy[vertex] += weight * density;
                 volume[vertex] += weight;
             }
