@@ -41,6 +41,29 @@ TEST(Bodies, AreOneMeshOneAfterTheOther) {
     }
 }
 
+// Twenty bytes a pentachoron: cells are there once where a mesh has them in their order already.
+TEST(Bodies, HaveTheCellsOfASingleMeshOnce) {
+    const SimplexMesh<4> mesh = bar(3);
+    Scene scene = box_scene<4>();
+    const Bodies<4> one = make_bodies<4>(scene, {mesh});
+    EXPECT_EQ(one.cells().data(), one.meshes[0].cells.data());
+    EXPECT_EQ(one.cells(), mesh.cells);
+    const Bodies<4> copy = one;
+    EXPECT_EQ(copy.cells().data(), copy.meshes[0].cells.data());
+    EXPECT_EQ(make_bodies<4>(two_bars(), {bar(2), mesh}).cells().rightCols(mesh.cell_count()),
+              (mesh.cells.array() + static_cast<std::uint32_t>(bar(2).vertex_count())).matrix());
+    // Cells of a region come last.
+    const HalfSpaceSelection front{.normal = Eigen::Vector4d(-1, 0, 0, 0),
+                                   .offset = -mesh.positions.row(0).mean()};
+    scene.bodies[0].regions = {
+        {.name = "front", .select = {front}, .material = scene.bodies[0].material}};
+    const Bodies<4> parts = make_bodies<4>(scene, {mesh});
+    EXPECT_NE(parts.cells(), mesh.cells);
+    for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+        EXPECT_EQ(parts.cells().col(cell), mesh.cells.col(parts.mesh_cell(0, cell)));
+    }
+}
+
 // Scaled, then turned, then moved: x to w where a quarter turn takes it.
 TEST(Bodies, AreWhereTheSceneHasThem) {
     const Bodies<4> bodies = make_bodies<4>(two_bars(), {bar(2), bar(3)});
