@@ -178,7 +178,7 @@ TEST(Solid, HasNoBoundsWhereWhatIsIntersectedLiesApart) {
     for (const Solid& solid : {nothing, moved}) {
         EXPECT_LT((solid.bounds().high - solid.bounds().low).minCoeff(), 0);
     }
-    const Box4& box = unite(ball_solid(1), moved).bounds();
+    const Box4 box = unite(ball_solid(1), moved).bounds();
     EXPECT_EQ(box.low, -Vector4d::Ones());
     EXPECT_EQ(box.high, Vector4d::Ones());
 }
