@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the benchmarks of the simulator for release and measures them: kernels, steps and growth, beside
 # the memory and arithmetic ceilings of the machine in the same minute. The table goes to the screen and
-# to benchmarks/results/simulator.md, with commit and machine. Takes about four minutes; leave the
+# to benchmarks/results/simulator.md, with commit and machine. Takes one minute once it is built; leave the
 # machine alone meanwhile.
 #
 #   scripts/bench.sh [--rounds N] [--threads N] [--no-growth]
