@@ -36,11 +36,15 @@ struct Step {
     Positions<Dim> displacement;
     std::shared_ptr<StepProblem<Dim>> problem;
 
-    explicit Step(const Scene& scene)
+    explicit Step(const Scene& scene, Isa isa = best_isa())
         : setting(scene, 2),
-          energy(setting.workers, setting.isa, setting.bodies, setting.held, setting.scene),
-          potential(
-              setting.workers, setting.isa, setting.bodies, setting.held, setting.scene, energy),
+          energy(setting.workers, kernels<Dim>(isa), setting.bodies, setting.held, setting.scene),
+          potential(setting.workers,
+                    kernels<Dim>(isa),
+                    setting.bodies,
+                    setting.held,
+                    setting.scene,
+                    energy),
           start(shaken<Dim>(setting.bodies.rest, 0.006, 1)),
           velocities(shaken<Dim>(0 * start, 0.3, 2)),
           displacement(0 * start),
@@ -208,35 +212,43 @@ TYPED_TEST(IncrementalPotentialTest, SolvesInDoubleWhereFloatsWouldLoseTheMasses
 // else but for what the rounding of blocks adds to rotations. What floats are let round of a mass is
 // 2e-3 of it, counted as one rounding of the whole stiffness. A vertex inside has the sum of
 // (Dim + 1)! cells: so many roundings by half a digit, of sums that grow evenly, and of either sign.
-TYPED_TEST(IncrementalPotentialTest, MovesBodiesInFloatsAsInDoubles) {
-    constexpr int kDim = TypeParam::value;
-    const double cells = std::tgamma(kDim + 2);
+template <int Dim>
+void expect_motion_in_floats(Isa isa) {
+    const double cells = std::tgamma(Dim + 2);
     const double rounded = 2e-3 * std::sqrt(cells / 3) / 2;
     double young = 1e5;
     int in_floats = 0;
     for (;; young *= 2) {
         SCOPED_TRACE(young);
-        Step<kDim> step(free_scene<kDim>(young, Precision::Float));
-        Step<kDim> reference(free_scene<kDim>(young, Precision::Double));
-        const Positions<kDim> found = direction_of(step);
-        const Positions<kDim> expected = direction_of(reference);
+        Step<Dim> step(free_scene<Dim>(young, Precision::Float), isa);
+        Step<Dim> reference(free_scene<Dim>(young, Precision::Double), isa);
+        const Positions<Dim> found = direction_of(step);
+        const Positions<Dim> expected = direction_of(reference);
         if (found == expected) {
             break;
         }
         ++in_floats;
-        const Bodies<kDim>& bodies = step.setting.bodies;
+        const Bodies<Dim>& bodies = step.setting.bodies;
         for (std::size_t body = 0; body < bodies.count(); ++body) {
             const auto range = bodies.vertices(body);
             const auto masses = bodies.masses.segment(range.begin, range.size);
-            const Eigen::Matrix<double, kDim, 1> by_float =
+            const Eigen::Matrix<double, Dim, 1> by_float =
                 found.middleCols(range.begin, range.size) * masses;
-            const Eigen::Matrix<double, kDim, 1> by_double =
+            const Eigen::Matrix<double, Dim, 1> by_double =
                 expected.middleCols(range.begin, range.size) * masses;
             EXPECT_LT((by_float - by_double).norm(), rounded * by_double.norm()) << body;
         }
         EXPECT_LT((found - expected).norm(), 1e-2 * expected.norm());
     }
     EXPECT_GT(in_floats, 5);
+}
+
+// Kernels with fused multiply-add round in other places than those without.
+TYPED_TEST(IncrementalPotentialTest, MovesBodiesInFloatsAsInDoubles) {
+    for (const Isa isa : {Isa::Baseline, best_isa()}) {
+        SCOPED_TRACE(isa_name(isa));
+        expect_motion_in_floats<TypeParam::value>(isa);
+    }
 }
 
 // Damping by masses that are next to nothing is next to nothing beside inertia, too.
