@@ -16,6 +16,7 @@ cmake --build "$build" --target bench_simulator
 commit=$(git describe --always --dirty 2> /dev/null || echo "no commit")
 mkdir -p benchmarks/results
 results=benchmarks/results/simulator.md
+trap 'rm -f "$results.part"' EXIT  # what a run that failed or was stopped had written
 "$build/bin/bench_simulator" --threads "$(nproc)" --title "Simulator, $commit, $(date +%F)" "$@" | tee "$results.part"
 mv "$results.part" "$results"
 echo "written to $results"
