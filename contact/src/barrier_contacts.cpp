@@ -212,17 +212,14 @@ BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
                                            const Candidates<Dim>& candidates,
                                            const PositionsView<Dim>& positions) {
     BarrierContacts<Dim> contacts;
-    if (candidates.pairs().empty()) {
-        return contacts;
-    }
-    const Displacements displacements = candidates.displacements(positions, positions);
     std::vector<Found<Dim>> all;
     std::uint32_t lists = 0;
-    candidates.for_each_list([&]<int K, int L>(const CandidateList& list, int first, int second) {
+    const auto find = [&]<int K, int L>(const CandidateList& list, int first, int second,
+                                        const Displacement& displacement) {
         const double distance = candidates.activation_distance(first, second);
         const DistanceCull<K, L> cull(list, colliders.surface(first).template simplices<K>(),
                                       colliders.surface(second).template simplices<L>(),
-                                      displacements.of(first, second), distance);
+                                      displacement, distance);
         const std::vector<Found<Dim>> found = collect<Found<Dim>>(
             cull.size(), kChunk, [&](std::size_t k, std::vector<Found<Dim>>& here) {
                 if (!cull.passes(k)) {
@@ -237,7 +234,14 @@ BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
         all.insert(all.end(), found.begin(), found.end());
         contacts.candidates += static_cast<std::int64_t>(cull.size());
         ++lists;
-    });
+    };
+    candidates.for_each_meeting(
+        positions, positions, [&](const CandidatePairs& pairs, const Displacement& displacement) {
+            for_each_list<Dim>(
+                pairs, [&]<int K, int L>(const CandidateList& list, int first, int second) {
+                    find.template operator()<K, L>(list, first, second, displacement);
+                });
+        });
     all = merged(all, {0});
     const SharedWork& shared = candidates.shared();
     if (shared.is_shared()) {

@@ -24,14 +24,13 @@ template <int Dim, int Count>
     return boxes;
 }
 
-/// Fits boxes of some vertices around their paths, less the drift, within `margin` (m). Parallel.
+/// Fits boxes of some vertices around their paths, less the drift, within their inflation and
+/// `margin` (m). Parallel.
 ///
-/// @param inflation  Of each vertex of the scene, added to the margin, m; may be null.
-/// @param boxes      Of each vertex of the scene; others stay what they were.
+/// @param boxes  Of each vertex of the scene; others stay what they were.
 template <int Dim>
 void fit_boxes(const Simplices<1>& vertices,
                const Paths<Dim>& paths,
-               const Eigen::VectorXd* inflation,
                double margin,
                std::vector<Box>& boxes) {
     constexpr int kChunk = 4096;
@@ -40,7 +39,7 @@ void fit_boxes(const Simplices<1>& vertices,
         const std::uint32_t v = vertices(0, static_cast<Eigen::Index>(k));
         Eigen::Matrix<double, Dim, 2> path;
         path << paths.from.col(v), paths.to.col(v) - paths.drift;
-        boxes[v] = box_around<Dim, 2>(path, margin + (inflation ? (*inflation)[v] : 0));
+        boxes[v] = box_around<Dim, 2>(path, margin + paths.inflation_of(v));
     });
 }
 

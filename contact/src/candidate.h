@@ -54,10 +54,19 @@ struct CandidatePairs {
     }
 };
 
-/// How far each vertex gets, at most, from where distances were measured, but for a common shift,
-/// in m.
+/// Calls visit<K, L>(list, first, second) for each list, K and L being the corners of its simplices
+/// and first and second the colliders that these belong to.
+template <int Dim, typename Visit>
+void for_each_list(const CandidatePairs& pairs, const Visit& visit) {
+    visit.template operator()<1, Dim>(pairs.points_first, pairs.first, pairs.second);
+    visit.template operator()<1, Dim>(pairs.points_second, pairs.second, pairs.first);
+    visit.template operator()<2, Dim - 1>(pairs.mixed_first, pairs.first, pairs.second);
+    visit.template operator()<2, Dim - 1>(pairs.mixed_second, pairs.second, pairs.first);
+}
+
+/// How far vertices get, at most, from where distances were measured, but for a common shift, in m.
 struct Displacement {
-    Eigen::VectorXf of_vertex;
+    Eigen::VectorXf of_vertex;  ///< Of the scene; set for those of the pairs that it is of.
     float max = 0;
 
     template <int Count>
@@ -67,16 +76,6 @@ struct Displacement {
             of_corner = std::max(of_corner, of_vertex[simplices(corner, i)]);
         }
         return of_corner;
-    }
-};
-
-/// The same for pairs of two colliders and for those within one.
-struct Displacements {
-    Displacement between;
-    Displacement within;
-
-    [[nodiscard]] const Displacement& of(int first, int second) const {
-        return first == second ? within : between;
     }
 };
 

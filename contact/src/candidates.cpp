@@ -4,10 +4,11 @@
 #include "near_on_paths.h"
 
 #include <pent/dimensions.h>
+#include <pent/parallel.h>
 #include <pent/stopwatch.h>
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace pent::contact {
@@ -27,15 +28,17 @@ constexpr double kTooCoarse = 3;
 // iteration to the next, so candidates of the first hold for some that follow.
 constexpr double kInflationOfPath = 0.25;
 
-// Instead of how far a search went where there was none.
-constexpr double kNever = -1;
-
 // Distances are measured up to this many times the activation distance: while no vertex has gone
 // farther than 0.3 times that from there, no other pair can be within it.
 constexpr double kMeasured = 1.6;
 
 // Pairs of a penalty kept for another evaluation, at most: 96 MB.
 constexpr std::size_t kMaxKept = 8'000'000;
+
+template <int Dim>
+std::pair<int, int> colliders_of(const Meeting<Dim>& meeting) {
+    return {meeting.pairs.first, meeting.pairs.second};
+}
 
 }  // namespace
 
@@ -45,7 +48,6 @@ Candidates<Dim>::Candidates(const Colliders<Dim>& colliders, const SharedWork& s
       shared_(shared),
       activation_distance_(colliders.scene().options.distance),
       min_inflation_(colliders.scene().options.margin),
-      longest_(static_cast<std::size_t>(colliders.count()), kNever),
       trees_(static_cast<std::size_t>(colliders.count())),
       patches_(static_cast<std::size_t>(colliders.count())),
       proximity_(static_cast<std::size_t>(colliders.count())) {
@@ -54,20 +56,271 @@ Candidates<Dim>::Candidates(const Colliders<Dim>& colliders, const SharedWork& s
         activation_distance_ = options.distance + options.separation;
         min_inflation_ = kInflation * options.distance;
     }
-    Eigen::Index count = 0;
-    for (int i = 0; i < colliders.count(); ++i) {
-        const Simplices<1>& vertices = colliders.surface(i).vertices;
-        vertices_.conservativeResize(1, count + vertices.cols());
-        vertices_.rightCols(vertices.cols()) = vertices;
-        count += vertices.cols();
+}
+
+template <int Dim>
+void Candidates<Dim>::cover(const PositionsView<Dim>& from, const PositionsView<Dim>& to) {
+    const Paths<Dim> paths{from, to};
+    cover_between(paths);
+    cover_within(paths);
+    if (is_penalty()) {
+        fit_trees(to);
     }
 }
 
-// Whether a motion needs few of the candidates, and distances measured elsewhere do not tell which.
 template <int Dim>
-bool Candidates<Dim>::is_too_coarse(double searched, double measured_from, double asked) const {
+void Candidates<Dim>::cover(const PositionsView<Dim>& positions) {
+    cover(positions, positions);
+}
+
+template <int Dim>
+void Candidates<Dim>::drop_what_is_not_kept() {
+    if (!is_penalty()) {
+        return;
+    }
+    std::size_t count = 0;
+    for (const Meeting<Dim>& meeting : meetings_) {
+        count += meeting.pairs.is_self() ? 0 : meeting.pairs.size();
+    }
+    // All of a team drop them, or none: all have to have the same meetings.
+    if (min_inflation_ == 0
+        || shared_.sum(static_cast<std::int64_t>(count)) > static_cast<std::int64_t>(kMaxKept)) {
+        std::vector<Meeting<Dim>>().swap(meetings_);
+    }
+}
+
+template <int Dim>
+typename std::vector<Meeting<Dim>>::const_iterator Candidates<Dim>::place_of(
+    const Pair& pair) const {
+    return std::lower_bound(
+        meetings_.begin(), meetings_.end(), pair,
+        [](const Meeting<Dim>& meeting, const Pair& of) { return colliders_of(meeting) < of; });
+}
+
+template <int Dim>
+bool Candidates<Dim>::is_covered(const Pair& pair, const Paths<Dim>& paths) const {
+    const auto place = place_of(pair);
+    return place != meetings_.end() && colliders_of(*place) == pair && does_cover(*place, paths);
+}
+
+// Not where a motion needs few of the candidates, and distances measured elsewhere do not tell
+// which.
+template <int Dim>
+bool Candidates<Dim>::does_cover(const Meeting<Dim>& meeting, const Paths<Dim>& paths) const {
+    const PathCover<Dim>& cover = meeting.cover;
+    if (!cover.covers(paths.from)) {
+        return false;
+    }
+    if (paths.is_still()) {
+        return true;
+    }
+    const double asked = longest_path<Dim>(cover.vertices(), paths.from, paths.to);
+    const bool are_many = kTooCoarse * std::max(asked, min_inflation_)
+                          < std::max(cover.longest_path(), min_inflation_);
     const double unmeasured = 0.5 * (kMeasured - 1) * activation_distance_;
-    return kTooCoarse * std::max(asked, min_inflation_) < searched && measured_from > unmeasured;
+    return cover.covers(paths.to)
+           && !(are_many && cover.farthest_from_end(paths.from) > unmeasured);
+}
+
+// In the place of what is there of the same two.
+template <int Dim>
+void Candidates<Dim>::insert(const Pair& pair, Meeting<Dim> meeting) {
+    meeting.pairs.first = pair.first;
+    meeting.pairs.second = pair.second;
+    work_.overlaps += meeting.pairs.overlaps();
+    ++work_.searches;
+    const auto place = meetings_.begin() + (place_of(pair) - meetings_.cbegin());
+    if (place == meetings_.end() || colliders_of(*place) != pair) {
+        meetings_.insert(place, std::move(meeting));
+    } else {
+        *place = std::move(meeting);
+    }
+}
+
+// Bodies side by side: small ones are not worth several threads each.
+template <int Dim>
+void Candidates<Dim>::cover_within(const Paths<Dim>& paths) {
+    std::vector<int> bodies;
+    for (int body = 0; body < colliders_.count(); ++body) {
+        if (!colliders_.can_meet(body, body)
+            || (!is_penalty() && is_covered({body, body}, paths))) {
+            continue;
+        }
+        bodies.push_back(body);
+        std::optional<SelfProximity<Dim>>& proximity = proximity_[static_cast<std::size_t>(body)];
+        if (!proximity) {
+            proximity.emplace(colliders_.surface(body), colliders_.rest(),
+                              activation_distance_ + (is_penalty() ? 0 : 2 * min_inflation_),
+                              is_penalty(), shared_);
+        }
+    }
+    inflation_.conservativeResize(paths.to.cols());
+    std::vector<Meeting<Dim>> found(bodies.size());
+    parallel_for(bodies.size(), [&](std::size_t k) {
+        SelfProximity<Dim>& proximity = *proximity_[static_cast<std::size_t>(bodies[k])];
+        if (is_penalty()) {
+            found[k].pairs = proximity.find(paths.to);
+        } else {
+            found[k] = search_within(bodies[k], proximity, paths);
+        }
+    });
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        insert({bodies[k], bodies[k]}, std::move(found[k]));
+    }
+}
+
+template <int Dim>
+Meeting<Dim> Candidates<Dim>::search_within(int body,
+                                            SelfProximity<Dim>& proximity,
+                                            Paths<Dim> paths) {
+    const Simplices<1>& vertices = colliders_.surface(body).vertices;
+    paths.drift = mean_shift<Dim>(vertices, paths.from, paths.to);
+    set_inflation<Dim>(vertices, paths, min_inflation_, kInflationOfPath, inflation_);
+    paths.inflation = &inflation_;
+    const double distance = activation_distance(body, body);
+    return {proximity.find(paths, distance, measured_within(distance)),
+            PathCover<Dim>(vertices, paths)};
+}
+
+// What lies still beside what moves is not searched, and what is far off is forgotten once it moves.
+template <int Dim>
+void Candidates<Dim>::cover_between(const Paths<Dim>& paths) {
+    const std::vector<Pair> near = overlapping(paths);
+    std::vector<Pair> unknown;
+    std::copy_if(near.begin(), near.end(), std::back_inserter(unknown),
+                 [&](const Pair& pair) { return !is_covered(pair, paths); });
+    std::erase_if(meetings_, [&](const Meeting<Dim>& meeting) {
+        return !meeting.pairs.is_self()
+               && !std::binary_search(near.begin(), near.end(), colliders_of(meeting))
+               && !does_cover(meeting, paths);
+    });
+    if (!unknown.empty()) {
+        search_between(unknown, paths);
+    }
+}
+
+// Colliders that may meet and whose boxes overlap, ascending: the others need no more.
+template <int Dim>
+std::vector<typename Candidates<Dim>::Pair> Candidates<Dim>::overlapping(Paths<Dim> paths) {
+    const Stopwatch watch;
+    paths.drift = paths.is_still() ? Vector<Dim>::Zero().eval()
+                                   : (paths.to - paths.from).rowwise().mean().eval();
+    std::vector<int> which;
+    std::vector<Box> around;
+    for (int i = 0; colliders_.count() > 1 && i < colliders_.count(); ++i) {
+        const Simplices<1>& vertices = colliders_.surface(i).vertices;
+        if (vertices.cols() > 0) {
+            fit_boxes<Dim>(vertices, paths, 0.5 * activation_distance_ + colliders_.radius(i),
+                           boxes_);
+            which.push_back(i);
+            around.push_back(hull_of(vertices, boxes_));
+        }
+    }
+    std::vector<Pair> pairs;
+    if (which.size() > 1) {
+        const BoxTree tree(around);
+        for (const BoxTree::Work& work : BoxTree::split(tree, tree, 1)) {
+            BoxTree::for_each_overlap(tree, tree, work, [&](std::uint32_t i, std::uint32_t j) {
+                const Pair pair = std::minmax(which[i], which[j]);
+                if (colliders_.can_meet(pair.first, pair.second)) {
+                    pairs.push_back(pair);
+                }
+            });
+        }
+        std::sort(pairs.begin(), pairs.end());
+    }
+    work_.tree_seconds += watch.seconds();
+    return pairs;
+}
+
+template <int Dim>
+void Candidates<Dim>::search_between(const std::vector<Pair>& pairs, Paths<Dim> paths) {
+    std::vector<int> colliders;
+    for (const Pair& pair : pairs) {
+        colliders.push_back(pair.first);
+        colliders.push_back(pair.second);
+    }
+    std::sort(colliders.begin(), colliders.end());
+    colliders.erase(std::unique(colliders.begin(), colliders.end()), colliders.end());
+    const Simplices<1> vertices = vertices_of(colliders);
+    paths.drift = mean_shift<Dim>(vertices, paths.from, paths.to);
+    set_inflation<Dim>(vertices, paths, min_inflation_, kInflationOfPath, inflation_);
+    paths.inflation = &inflation_;
+    boxes_.resize(static_cast<std::size_t>(paths.to.cols()));
+    const Stopwatch watch;
+    parallel_for(colliders.size(), [&](std::size_t k) { fit_patches(colliders[k], paths); });
+    work_.tree_seconds += watch.seconds();
+    std::vector<Meeting<Dim>> found(pairs.size());
+    parallel_for(pairs.size(), [&](std::size_t k) {
+        found[k] = {find_between(pairs[k], paths),
+                    PathCover<Dim>(vertices_of({pairs[k].first, pairs[k].second}), paths)};
+    });
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        insert(pairs[k], std::move(found[k]));
+    }
+}
+
+template <int Dim>
+Simplices<1> Candidates<Dim>::vertices_of(const std::vector<int>& colliders) const {
+    Eigen::Index count = 0;
+    for (const int i : colliders) {
+        count += colliders_.surface(i).vertices.cols();
+    }
+    Simplices<1> all(1, count);
+    Eigen::Index begin = 0;
+    for (const int i : colliders) {
+        const Simplices<1>& vertices = colliders_.surface(i).vertices;
+        all.middleCols(begin, vertices.cols()) = vertices;
+        begin += vertices.cols();
+    }
+    return all;
+}
+
+template <int Dim>
+void Candidates<Dim>::fit_patches(int collider, const Paths<Dim>& paths) {
+    const Surface<Dim>& surface = colliders_.surface(collider);
+    std::optional<SurfacePatches<Dim>>& patches = patches_[static_cast<std::size_t>(collider)];
+    if (!patches) {
+        patches.emplace(surface, PositionsView<Dim>(colliders_.rest()));
+    }
+    fit_boxes<Dim>(surface.vertices, paths,
+                   0.5 * activation_distance_ + colliders_.radius(collider), boxes_);
+    patches->fit(paths, boxes_);
+    patches->set_lanes(paths);
+}
+
+// Pairs hold for a shift of both colliders, trees do not: they are where these are now.
+template <int Dim>
+void Candidates<Dim>::fit_trees(const PositionsView<Dim>& positions) {
+    const Stopwatch watch;
+    std::vector<bool> are_met(trees_.size(), false);
+    for (const Meeting<Dim>& meeting : meetings_) {
+        for (const int i : {meeting.pairs.first, meeting.pairs.second}) {
+            const auto place = static_cast<std::size_t>(i);
+            if (meeting.pairs.is_self() || are_met[place]) {
+                continue;
+            }
+            are_met[place] = true;
+            const Surface<Dim>& surface = colliders_.surface(i);
+            fit_boxes<Dim>(surface.vertices, {positions, positions}, 0, boxes_);
+            trees_[place].update_vertices(surface, boxes_);
+            trees_[place].update_facets(surface, boxes_);
+        }
+    }
+    work_.tree_seconds += watch.seconds();
+}
+
+template <int Dim>
+CandidatePairs Candidates<Dim>::find_between(const Pair& pair, const Paths<Dim>& paths) const {
+    const auto [a, b] = pair;
+    CandidatePairs pairs;
+    pairs.points_first = search<1, Dim>(a, b, paths);
+    pairs.mixed_first = search<2, Dim - 1>(a, b, paths);
+    pairs.points_second = search<1, Dim>(b, a, paths);
+    if constexpr (Dim > 3) {
+        pairs.mixed_second = search<2, Dim - 1>(b, a, paths);
+    }
+    return pairs;
 }
 
 template <int Dim>
@@ -76,200 +329,21 @@ double Candidates<Dim>::measured_within(double distance) const {
 }
 
 template <int Dim>
-void Candidates<Dim>::cover(const PositionsView<Dim>& from, const PositionsView<Dim>& to) {
-    const double path_length = longest_path<Dim>(vertices_, from, to);
-    if (!between_.covers(vertices_, from) || !between_.covers(vertices_, to)
-        || is_too_coarse(longest_between_, longest_path<Dim>(vertices_, between_.end(), from),
-                         path_length)) {
-        longest_between_ = std::max(path_length, min_inflation_);
-        search_between({from, to, mean_shift<Dim>(vertices_, from, to)});
-    }
-    for (int body = 0; body < colliders_.count(); ++body) {
-        if (colliders_.can_meet(body, body) && !does_cover(body, {from, to})) {
-            search_within(body, {from, to});
-        }
-    }
-}
-
-template <int Dim>
-bool Candidates<Dim>::does_cover(int body, const Paths<Dim>& paths) const {
-    const Simplices<1>& vertices = colliders_.surface(body).vertices;
-    const double searched = longest_[static_cast<std::size_t>(body)];
-    return searched >= 0 && within_.covers(vertices, paths.from)
-           && within_.covers(vertices, paths.to)
-           && !is_too_coarse(searched, longest_path<Dim>(vertices, within_.end(), paths.from),
-                             longest_path<Dim>(vertices, paths.from, paths.to));
-}
-
-template <int Dim>
-void Candidates<Dim>::cover(const PositionsView<Dim>& positions) {
-    if (!between_.covers(vertices_, positions)) {
-        longest_between_ = min_inflation_;
-        search_between({positions, positions});
-    }
-    for (int body = 0; body < colliders_.count(); ++body) {
-        if (!colliders_.can_meet(body, body)) {
-            continue;
-        }
-        if (is_penalty()) {
-            insert_within(body, proximity(body).find(positions));
-        } else if (longest_[static_cast<std::size_t>(body)] < 0
-                   || !within_.covers(colliders_.surface(body).vertices, positions)) {
-            search_within(body, {positions, positions});
-        }
-    }
-}
-template <int Dim>
-void Candidates<Dim>::drop_what_is_not_kept() {
-    std::size_t count = 0;
-    for (const CandidatePairs& pairs : pairs_) {
-        count += pairs.is_self() ? 0 : pairs.size();
-    }
-    if (!is_penalty()) {
-        return;
-    }
-    // All of a team drop them, or none: trees have to stay the same.
-    if (min_inflation_ == 0
-        || shared_.sum(static_cast<std::int64_t>(count)) > static_cast<std::int64_t>(kMaxKept)) {
-        between_.clear();
-        std::vector<CandidatePairs>().swap(pairs_);
-    }
-}
-
-template <int Dim>
-Displacements Candidates<Dim>::displacements(const PositionsView<Dim>& from,
-                                             const PositionsView<Dim>& to) const {
-    Displacements all;
-    all.between.of_vertex.resize(from.cols());
-    all.between.max = between_.displacement(vertices_, from, to, all.between.of_vertex);
-    for (int body = 0; body < colliders_.count(); ++body) {
-        if (longest_[static_cast<std::size_t>(body)] >= 0) {
-            all.within.of_vertex.resize(from.cols());
-            all.within.max =
-                std::max(all.within.max, within_.displacement(colliders_.surface(body).vertices,
-                                                              from, to, all.within.of_vertex));
-        }
-    }
-    return all;
-}
-
-template <int Dim>
-void Candidates<Dim>::search_between(const Paths<Dim>& paths) {
-    between_.set(vertices_, paths.from, paths.to, min_inflation_, kInflationOfPath);
-    fit(paths);
-    std::erase_if(pairs_, [](const CandidatePairs& pairs) { return !pairs.is_self(); });
-    find_pairs_between(paths.is_still());
-    ++work_.searches;
-}
-
-template <int Dim>
-void Candidates<Dim>::search_within(int body, const Paths<Dim>& paths) {
-    const Simplices<1>& vertices = colliders_.surface(body).vertices;
-    longest_[static_cast<std::size_t>(body)] =
-        std::max(longest_path<Dim>(vertices, paths.from, paths.to), min_inflation_);
-    within_.set(vertices, paths.from, paths.to, min_inflation_, kInflationOfPath);
-    const double distance = activation_distance(body, body);
-    ++work_.searches;
-    insert_within(body, proximity(body).find(within_, distance, measured_within(distance)));
-}
-
-// In the place of what is there of the same colliders; lists are by these.
-template <int Dim>
-void Candidates<Dim>::insert(CandidatePairs pairs) {
-    const auto key = [](const CandidatePairs& p) { return std::pair(p.first, p.second); };
-    const auto place = std::lower_bound(
-        pairs_.begin(), pairs_.end(), pairs,
-        [&](const CandidatePairs& a, const CandidatePairs& b) { return key(a) < key(b); });
-    if (place != pairs_.end() && key(*place) == key(pairs)) {
-        *place = std::move(pairs);
-    } else {
-        pairs_.insert(place, std::move(pairs));
-    }
-}
-
-template <int Dim>
-void Candidates<Dim>::fit_patches(int collider, const Paths<Dim>& paths) {
-    std::optional<SurfacePatches<Dim>>& patches = patches_[static_cast<std::size_t>(collider)];
-    if (!patches) {
-        patches.emplace(colliders_.surface(collider), PositionsView<Dim>(colliders_.rest()));
-    }
-    patches->fit(&between_.inflation(), boxes_);
-    patches->set_lanes(paths);
-}
-
-// Boxes around all of a collider tell which may meet: the others need no more.
-template <int Dim>
-void Candidates<Dim>::fit(const Paths<Dim>& paths) {
-    const Stopwatch watch;
-    const int count = colliders_.count();
-    std::vector<bool> is_alone(static_cast<std::size_t>(count), true);
-    meeting_.clear();
-    if (count > 1) {
-        std::vector<Box> around(static_cast<std::size_t>(count));
-        for (int a = 0; a < count; ++a) {
-            const Surface<Dim>& surface = colliders_.surface(a);
-            fit_boxes(surface.vertices, paths, &between_.inflation(),
-                      0.5 * activation_distance_ + colliders_.radius(a), boxes_);
-            around[static_cast<std::size_t>(a)] = hull_of(surface.vertices, boxes_);
-            if (is_penalty()) {
-                trees_[static_cast<std::size_t>(a)].update_vertices(surface, boxes_);
-            }
-        }
-        for (int a = 0; a < count; ++a) {
-            for (int b = a + 1; b < count; ++b) {
-                if (colliders_.can_meet(a, b)
-                    && overlap(around[static_cast<std::size_t>(a)],
-                               around[static_cast<std::size_t>(b)])) {
-                    meeting_.emplace_back(a, b);
-                    is_alone[static_cast<std::size_t>(a)] = false;
-                    is_alone[static_cast<std::size_t>(b)] = false;
-                }
-            }
-        }
-    }
-    for (int a = 0; a < count; ++a) {
-        if (!is_alone[static_cast<std::size_t>(a)]) {
-            fit_patches(a, paths);
-            if (is_penalty()) {
-                trees_[static_cast<std::size_t>(a)].update_facets(colliders_.surface(a), boxes_);
-            }
-        }
-    }
-    work_.tree_seconds += watch.seconds();
-}
-
-template <int Dim>
-void Candidates<Dim>::find_pairs_between(bool is_still) {
-    for (const auto& [a, b] : meeting_) {
-        CandidatePairs pairs{.first = a, .second = b};
-        pairs.points_first = search<1, Dim>(a, b, is_still);
-        pairs.mixed_first = search<2, Dim - 1>(a, b, is_still);
-        pairs.points_second = search<1, Dim>(b, a, is_still);
-        if constexpr (Dim > 3) {
-            pairs.mixed_second = search<2, Dim - 1>(b, a, is_still);
-        }
-        work_.overlaps += pairs.overlaps();
-        insert(std::move(pairs));
-    }
-}
-
-template <int Dim>
 template <int K, int L>
-CandidateList Candidates<Dim>::search(int first, int second, bool is_still) const {
+CandidateList Candidates<Dim>::search(int first, int second, const Paths<Dim>& paths) const {
     const Simplices<K>& a = colliders_.surface(first).template simplices<K>();
     const Simplices<L>& b = colliders_.surface(second).template simplices<L>();
     const double distance = activation_distance(first, second);
     if (!is_penalty()) {
         return search<K, L>(
-            first, second, is_still,
-            NearOnPaths<Dim, K, L>{a, b, false, between_, distance, measured_within(distance)});
+            first, second, paths.is_still(),
+            NearOnPaths<Dim, K, L>{a, b, false, paths, distance, measured_within(distance)});
     }
     // Tests allow for rounding where candidates have to be a superset.
     const double limit = (distance + 2 * min_inflation_) * (is_exact() ? 1 : 1 + 1e-9);
-    const PositionsView<Dim> end = between_.end();
     return search<K, L>(
-        first, second, is_still,
-        NearTest<Dim, K, L>{a, b, false, end, limit * limit,
+        first, second, paths.is_still(),
+        NearTest<Dim, K, L>{a, b, false, paths.to, limit * limit,
                             is_exact() && K == 2 ? Closest::Interior : Closest::Anywhere});
 }
 
@@ -299,25 +373,6 @@ CandidateList Candidates<Dim>::search(int first,
 }
 
 template <int Dim>
-SelfProximity<Dim>& Candidates<Dim>::proximity(int body) {
-    std::optional<SelfProximity<Dim>>& proximity = proximity_[static_cast<std::size_t>(body)];
-    if (!proximity) {
-        proximity.emplace(colliders_.surface(body), colliders_.rest(),
-                          activation_distance_ + (is_penalty() ? 0 : 2 * min_inflation_),
-                          is_penalty(), shared_);
-    }
-    return *proximity;
-}
-
-template <int Dim>
-void Candidates<Dim>::insert_within(int body, CandidatePairs pairs) {
-    pairs.first = body;
-    pairs.second = body;
-    work_.overlaps += pairs.overlaps();
-    insert(std::move(pairs));
-}
-
-template <int Dim>
 SearchWork Candidates<Dim>::work() const {
     SearchWork work = work_;
     for (const SurfaceTrees<Dim>& trees : trees_) {
@@ -336,8 +391,9 @@ SearchWork Candidates<Dim>::work() const {
 template <int Dim>
 std::int64_t Candidates<Dim>::bytes() const {
     std::int64_t sum = 0;
-    for (const CandidatePairs& pairs : pairs_) {
-        sum += static_cast<std::int64_t>(pairs.size() * sizeof(Candidate));
+    for (const Meeting<Dim>& meeting : meetings_) {
+        sum += static_cast<std::int64_t>(meeting.pairs.size() * sizeof(Candidate))
+               + meeting.cover.bytes();
     }
     for (const SurfaceTrees<Dim>& trees : trees_) {
         sum += trees.bytes();
@@ -348,8 +404,10 @@ std::int64_t Candidates<Dim>::bytes() const {
     for (const std::optional<SelfProximity<Dim>>& proximity : proximity_) {
         sum += proximity ? proximity->bytes() : 0;
     }
-    return sum + between_.bytes() + within_.bytes()
-           + static_cast<std::int64_t>(boxes_.size() * sizeof(Box));
+    return sum
+           + static_cast<std::int64_t>(boxes_.size() * sizeof(Box)
+                                       + static_cast<std::size_t>(inflation_.size())
+                                             * sizeof(double));
 }
 
 #define PENT_INSTANTIATE(Dim) template class Candidates<Dim>;

@@ -18,22 +18,30 @@ namespace pent::contact {
 
 /// What the search for candidates took so far.
 struct SearchWork {
-    std::int64_t searches = 0;
+    std::int64_t searches = 0;  ///< Of two colliders each, or within one.
     std::int64_t overlaps = 0;  ///< As those of a CandidateList.
     std::int64_t trees_built = 0;
     std::int64_t trees_refit = 0;
     double tree_seconds = 0;
 };
 
+/// What of two colliders, or of one and itself, can come near, and where that holds.
+template <int Dim>
+struct Meeting {
+    CandidatePairs pairs;
+    PathCover<Dim>
+        cover;  ///< Of the vertices of both; of none where pairs are found anew each time.
+};
+
 /// The pairs of simplices of a scene that can come within the activation distance (with the
 /// separation) of each other while vertices move along straight paths; a single position is a path
 /// of no length. Pairs that share a vertex are left out.
 ///
-/// Vertices may leave their paths by an inflation: candidates hold for all positions that have
-/// every vertex that near to where its path is at one and the same time, but for a shift of all.
-/// Only for others are they searched again, or when much shorter motions are asked for elsewhere.
-/// Pairs within a body under a barrier have a cover of their own: only how its vertices move
-/// against each other matters to them.
+/// Vertices may leave their paths by an inflation: pairs of two colliders hold for all positions
+/// that have every vertex of the two that near to where its path is at one and the same time, but
+/// for a shift of both. Only for others are they searched again, or when much shorter motions are
+/// asked for elsewhere: so what lies still is searched once, whatever goes on beside it, and what
+/// flies with another is not.
 ///
 /// Each candidate knows how far apart it was where the paths end, which is where Newton's method
 /// goes on: a DistanceCull holds most of them back there.
@@ -49,28 +57,30 @@ public:
     ///                   lists, if empty ones.
     explicit Candidates(const Colliders<Dim>& colliders, const SharedWork& shared = {});
 
-    /// Sees to it that pairs() hold for everything on the way between two positions, and are not
-    /// many more than that needs.
+    /// Sees to it that there is what can come near on the way between two positions, and not much
+    /// more.
     void cover(const PositionsView<Dim>& from, const PositionsView<Dim>& to);
 
-    /// Sees to it that pairs() hold at these positions.
+    /// Sees to it that there is what can be near at these positions.
     void cover(const PositionsView<Dim>& positions);
 
     /// Drops pairs that would not be of use again, or that are too many to keep for penalties.
     void drop_what_is_not_kept();
 
-    /// By colliders.
-    [[nodiscard]] const std::vector<CandidatePairs>& pairs() const { return pairs_; }
+    /// Ascending by colliders.
+    [[nodiscard]] const std::vector<Meeting<Dim>>& meetings() const { return meetings_; }
 
-    /// Calls visit<K, L>(list, first, second) for each list, K and L being the corners of its
-    /// simplices and first and second the colliders that these belong to.
+    /// Calls visit(pairs, displacement) for each meeting, with how far its vertices get from where
+    /// distances were measured on the way between two positions.
     template <typename Visit>
-    void for_each_list(const Visit& visit) const {
-        for (const CandidatePairs& pairs : pairs_) {
-            visit.template operator()<1, Dim>(pairs.points_first, pairs.first, pairs.second);
-            visit.template operator()<1, Dim>(pairs.points_second, pairs.second, pairs.first);
-            visit.template operator()<2, Dim - 1>(pairs.mixed_first, pairs.first, pairs.second);
-            visit.template operator()<2, Dim - 1>(pairs.mixed_second, pairs.second, pairs.first);
+    void for_each_meeting(const PositionsView<Dim>& from,
+                          const PositionsView<Dim>& to,
+                          const Visit& visit) const {
+        Displacement displacement;
+        displacement.of_vertex.setZero(from.cols());
+        for (const Meeting<Dim>& meeting : meetings_) {
+            displacement.max = meeting.cover.displacement(from, to, displacement.of_vertex);
+            visit(meeting.pairs, displacement);
         }
     }
 
@@ -82,15 +92,11 @@ public:
     /// Whether mixed pairs are all that are near now, inside both, and no other.
     [[nodiscard]] bool is_exact() const { return is_penalty() && min_inflation_ == 0; }
 
-    /// Of the vertices on the way between two positions, from where distances were measured.
-    [[nodiscard]] Displacements displacements(const PositionsView<Dim>& from,
-                                              const PositionsView<Dim>& to) const;
-
     [[nodiscard]] const Colliders<Dim>& colliders() const { return colliders_; }
     [[nodiscard]] const SharedWork& shared() const { return shared_; }
 
-    /// Over boxes that hold the vertices and facets of what was covered between bodies, under a
-    /// penalty.
+    /// Over boxes that hold the vertices and the facets of a collider that meets others where they
+    /// are now, under a penalty.
     [[nodiscard]] const SurfaceTrees<Dim>& trees(int collider) const {
         return trees_[static_cast<std::size_t>(collider)];
     }
@@ -99,22 +105,30 @@ public:
     [[nodiscard]] std::int64_t bytes() const;
 
 private:
+    using Pair = std::pair<int, int>;
+
     [[nodiscard]] bool is_penalty() const { return !colliders_.is_barrier(); }
 
+    [[nodiscard]] typename std::vector<Meeting<Dim>>::const_iterator place_of(
+        const Pair& pair) const;
+    [[nodiscard]] bool is_covered(const Pair& pair, const Paths<Dim>& paths) const;
+    [[nodiscard]] bool does_cover(const Meeting<Dim>& meeting, const Paths<Dim>& paths) const;
+    void insert(const Pair& pair, Meeting<Dim> meeting);
+    void cover_within(const Paths<Dim>& paths);
+    [[nodiscard]] Meeting<Dim> search_within(int body,
+                                             SelfProximity<Dim>& proximity,
+                                             Paths<Dim> paths);
+    void cover_between(const Paths<Dim>& paths);
+    [[nodiscard]] std::vector<Pair> overlapping(Paths<Dim> paths);
+    void search_between(const std::vector<Pair>& pairs, Paths<Dim> paths);
+    [[nodiscard]] Simplices<1> vertices_of(const std::vector<int>& colliders) const;
+    void fit_patches(int collider, const Paths<Dim>& paths);
+    void fit_trees(const PositionsView<Dim>& positions);
+    [[nodiscard]] CandidatePairs find_between(const Pair& pair, const Paths<Dim>& paths) const;
     // Up to where distances are measured under a barrier, m.
     [[nodiscard]] double measured_within(double distance) const;
-    [[nodiscard]] bool does_cover(int body, const Paths<Dim>& paths) const;
-    [[nodiscard]] bool is_too_coarse(double searched, double measured_from, double asked) const;
-    void search_between(const Paths<Dim>& paths);
-    void search_within(int body, const Paths<Dim>& paths);
-    void fit(const Paths<Dim>& paths);
-    void fit_patches(int collider, const Paths<Dim>& paths);
-    void find_pairs_between(bool is_still);
-    void insert(CandidatePairs pairs);
-    [[nodiscard]] SelfProximity<Dim>& proximity(int body);
-    void insert_within(int body, CandidatePairs pairs);
     template <int K, int L>
-    [[nodiscard]] CandidateList search(int first, int second, bool is_still) const;
+    [[nodiscard]] CandidateList search(int first, int second, const Paths<Dim>& paths) const;
     template <int K, int L, typename Test>
     [[nodiscard]] CandidateList search(int first,
                                        int second,
@@ -123,20 +137,15 @@ private:
 
     const Colliders<Dim>& colliders_;
     SharedWork shared_;
-    double activation_distance_;   // m, with the separation
-    double min_inflation_;         // m
-    Simplices<1> vertices_;        // of all surfaces
-    PathCover<Dim> between_;       // what pairs of two colliders hold for
-    PathCover<Dim> within_;        // the same of pairs within a body, under a barrier
-    double longest_between_ = 0;   // motion that candidates were searched for, m
-    std::vector<double> longest_;  // the same within each collider; below 0 where not searched
-    std::vector<Box> boxes_;  // around the path of each vertex, its inflation and half a distance
+    double activation_distance_;  // m, with the separation
+    double min_inflation_;        // m
+    std::vector<Meeting<Dim>> meetings_;
     std::vector<SurfaceTrees<Dim>> trees_;  // of vertices and facets, under a penalty
     std::vector<std::optional<SurfacePatches<Dim>>> patches_;  // of colliders that were near others
     std::vector<std::optional<SelfProximity<Dim>>>
-        proximity_;                             // of bodies that may meet themselves
-    std::vector<std::pair<int, int>> meeting_;  // colliders whose boxes overlap
-    std::vector<CandidatePairs> pairs_;
+        proximity_;              // of bodies that may meet themselves
+    std::vector<Box> boxes_;     // around the path of each vertex, while it is searched
+    Eigen::VectorXd inflation_;  // of each path, m, while it is searched
     SearchWork work_;
 };
 

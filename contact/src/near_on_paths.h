@@ -2,7 +2,7 @@
 
 #include "apart.h"
 #include "overlaps.h"
-#include "path_cover.h"
+#include "paths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,7 @@ struct NearOnPaths {
     const Simplices<K>& first;
     const Simplices<L>& second;
     bool is_same_list = false;
-    const PathCover<Dim>& cover;
+    const Paths<Dim>& paths;         ///< With their inflation.
     double activation_distance = 0;  ///< m.
     double measured = 0;             ///< Up to this distances are measured, m.
 
@@ -61,16 +61,14 @@ struct NearOnPaths {
         if (is_same_list && j < i) {
             std::swap(i, j);
         }
-        const PositionsView<Dim> start = cover.start();
-        const PositionsView<Dim> end = cover.end();
         // Boxes around whole paths are crude: what counts is how near the two come at any one time.
-        const double near = (activation_distance + cover.template inflation_of<K>(first, i)
-                             + cover.template inflation_of<L>(second, j))
+        const double near = (activation_distance + paths.template inflation_of<K>(first, i)
+                             + paths.template inflation_of<L>(second, j))
                             * kRoundUp;
-        const Corners<Dim, K> p_start = gather<Dim, K>(first, i, start);
-        const Corners<Dim, L> q_start = gather<Dim, L>(second, j, start);
-        const Corners<Dim, K> p = gather<Dim, K>(first, i, end);
-        const Corners<Dim, L> q = gather<Dim, L>(second, j, end);
+        const Corners<Dim, K> p_start = gather<Dim, K>(first, i, paths.from);
+        const Corners<Dim, L> q_start = gather<Dim, L>(second, j, paths.from);
+        const Corners<Dim, K> p = gather<Dim, K>(first, i, paths.to);
+        const Corners<Dim, L> q = gather<Dim, L>(second, j, paths.to);
         if (are_paths_apart<Dim, K, L>(p_start, p, q_start, q, near * near)
             || are_paths_apart_along_middles<Dim, K, L>(p_start, p, q_start, q, near)) {
             return;

@@ -21,7 +21,7 @@ void PatchLanes<Dim>::set(const Simplices<Count>& simplices,
         const std::span<const std::uint32_t> members = partition[which];
         Patch& patch = patches_[which];
         patch.origin = positions.col(simplices(0, members[0]));
-        patch.extent = 0;
+        float extent = 0;
         patch.count = static_cast<int>(members.size());
         float* corners = corners_.data() + which * stride_;
         for (int lane = 0; lane < patch.count; ++lane) {
@@ -31,10 +31,11 @@ void PatchLanes<Dim>::set(const Simplices<Count>& simplices,
                 for (int axis = 0; axis < Dim; ++axis) {
                     const auto x = static_cast<float>(at[axis]);
                     corners[(corner * Dim + axis) * kLanes + lane] = x;
-                    patch.extent = std::max(patch.extent, std::abs(x));
+                    extent = std::max(extent, std::abs(x));
                 }
             }
         }
+        patch.extent = extent;
     });
 }
 

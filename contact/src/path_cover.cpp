@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pent::contact {
 
@@ -16,102 +17,99 @@ float rounded_up(double value) {
 }  // namespace
 
 template <int Dim>
-Vector<Dim> mean_shift(const Simplices<1>& vertices,
-                       const PositionsView<Dim>& a,
-                       const PositionsView<Dim>& b) {
-    Vector<Dim> sum = Vector<Dim>::Zero();
-    for (const std::uint32_t v : vertices.reshaped()) {
-        sum += b.col(v) - a.col(v);
-    }
-    return sum / std::max<double>(1, static_cast<double>(vertices.cols()));
-}
-
-template <int Dim>
-double longest_path(const Simplices<1>& vertices,
-                    const PositionsView<Dim>& from,
-                    const PositionsView<Dim>& to) {
-    const Vector<Dim> drift = mean_shift<Dim>(vertices, from, to);
+PathCover<Dim>::PathCover(Simplices<1> vertices, const Paths<Dim>& paths)
+    : vertices_(std::move(vertices)),
+      start_(Dim, vertices_.cols()),
+      way_(Dim, vertices_.cols()),
+      inflation_(vertices_.cols()) {
+    const Vector<Dim> from = mean(paths.from);
+    const Vector<Dim> to = mean(paths.to);
     double squared = 0;
-    for (const std::uint32_t v : vertices.reshaped()) {
-        squared = std::max(squared, (to.col(v) - from.col(v) - drift).squaredNorm());
+    for (Eigen::Index k = 0; k < vertices_.cols(); ++k) {
+        const std::uint32_t v = vertices_(0, k);
+        start_.col(k) = paths.from.col(v) - from;
+        way_.col(k) = paths.to.col(v) - to - start_.col(k);
+        inflation_[k] = paths.inflation_of(v);
+        squared = std::max(squared, way_.col(k).squaredNorm());
     }
-    return std::sqrt(squared);
+    longest_path_ = std::sqrt(squared);
 }
 
 template <int Dim>
-void PathCover<Dim>::clear() {
-    *this = {};
-}
-
-template <int Dim>
-void PathCover<Dim>::set(const Vertices& vertices,
-                         const PositionsView<Dim>& from,
-                         const PositionsView<Dim>& to,
-                         double inflation,
-                         double of_path) {
-    start_.conservativeResize(Dim, from.cols());
-    end_.conservativeResize(Dim, from.cols());
-    inflation_.conservativeResize(from.cols());
-    const Vector<Dim> drift = mean_shift<Dim>(vertices, from, to);
-    for (const std::uint32_t v : vertices.reshaped()) {
-        start_.col(v) = from.col(v);
-        end_.col(v) = to.col(v);
-        inflation_[v] = std::max(inflation, of_path * (to.col(v) - from.col(v) - drift).norm());
+Vector<Dim> PathCover<Dim>::mean(const PositionsView<Dim>& positions) const {
+    Vector<Dim> sum = Vector<Dim>::Zero();
+    for (const std::uint32_t v : vertices_.reshaped()) {
+        sum += positions.col(v);
     }
+    return sum / std::max<double>(1, static_cast<double>(vertices_.cols()));
 }
 
 // The time at which the paths are next to the positions in the sense of least squares is as good as
 // any.
 template <int Dim>
-bool PathCover<Dim>::covers(const Vertices& vertices, const PositionsView<Dim>& positions) const {
-    if (positions.cols() != start_.cols()) {
-        return false;
-    }
-    const PositionsView<Dim> start = start_;
-    const Vector<Dim> drift = mean_shift<Dim>(vertices, start, end_);
-    const Vector<Dim> shift = mean_shift<Dim>(vertices, start, positions);
+bool PathCover<Dim>::covers(const PositionsView<Dim>& positions) const {
+    const Vector<Dim> middle = mean(positions);
+    const auto aside = [&](Eigen::Index k, double t) -> Vector<Dim> {
+        return positions.col(vertices_(0, k)) - middle - start_.col(k) - t * way_.col(k);
+    };
     double squared = 0;
     double along = 0;
-    for (const std::uint32_t v : vertices.reshaped()) {
-        const Vector<Dim> path = end_.col(v) - start_.col(v) - drift;
-        squared += path.squaredNorm();
-        along += path.dot(positions.col(v) - start_.col(v) - shift);
+    for (Eigen::Index k = 0; k < vertices_.cols(); ++k) {
+        squared += way_.col(k).squaredNorm();
+        along += way_.col(k).dot(aside(k, 0));
     }
     const double t = squared > 0 ? std::clamp(along / squared, 0.0, 1.0) : 0;
-    const auto is_near = [&](std::uint32_t v) {
-        const Vector<Dim> path = end_.col(v) - start_.col(v) - drift;
-        const Vector<Dim> aside = positions.col(v) - start_.col(v) - shift - t * path;
-        return aside.squaredNorm() <= inflation_[v] * inflation_[v];
-    };
-    const auto all = vertices.reshaped();
-    return std::all_of(all.begin(), all.end(), is_near);
+    for (Eigen::Index k = 0; k < vertices_.cols(); ++k) {
+        if (!(aside(k, t).squaredNorm() <= inflation_[k] * inflation_[k])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+template <int Dim>
+double PathCover<Dim>::squared_from_end(const PositionsView<Dim>& positions,
+                                        const Vector<Dim>& mean,
+                                        Eigen::Index k) const {
+    return (positions.col(vertices_(0, k)) - mean - start_.col(k) - way_.col(k)).squaredNorm();
 }
 
 // How far it is along a straight way is convex, whatever the shift on it: most at one of its ends.
 template <int Dim>
-float PathCover<Dim>::displacement(const Vertices& vertices,
-                                   const PositionsView<Dim>& from,
+float PathCover<Dim>::displacement(const PositionsView<Dim>& from,
                                    const PositionsView<Dim>& to,
                                    Eigen::VectorXf& of_vertex) const {
-    const PositionsView<Dim> end = end_;
-    const Vector<Dim> at_start = mean_shift<Dim>(vertices, end, from);
-    const Vector<Dim> at_end = mean_shift<Dim>(vertices, end, to);
-    float max = 0;
-    for (const std::uint32_t v : vertices.reshaped()) {
-        const double squared = std::max((from.col(v) - end_.col(v) - at_start).squaredNorm(),
-                                        (to.col(v) - end_.col(v) - at_end).squaredNorm());
-        of_vertex[v] = rounded_up(std::sqrt(squared));
-        max = std::max(max, of_vertex[v]);
+    const Vector<Dim> mean_from = mean(from);
+    const Vector<Dim> mean_to = mean(to);
+    float most = 0;
+    for (Eigen::Index k = 0; k < vertices_.cols(); ++k) {
+        const double squared =
+            std::max(squared_from_end(from, mean_from, k), squared_from_end(to, mean_to, k));
+        const float displacement = rounded_up(std::sqrt(squared));
+        of_vertex[vertices_(0, k)] = displacement;
+        most = std::max(most, displacement);
     }
-    return max;
+    return most;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                       \
-    template Vector<Dim> mean_shift(const Simplices<1>&, const PositionsView<Dim>&, \
-                                    const PositionsView<Dim>&);                     \
-    template double longest_path(const Simplices<1>&, const PositionsView<Dim>&,    \
-                                 const PositionsView<Dim>&);                        \
-    template class PathCover<Dim>;
+template <int Dim>
+double PathCover<Dim>::farthest_from_end(const PositionsView<Dim>& positions) const {
+    const Vector<Dim> middle = mean(positions);
+    double squared = 0;
+    for (Eigen::Index k = 0; k < vertices_.cols(); ++k) {
+        squared = std::max(squared, squared_from_end(positions, middle, k));
+    }
+    return std::sqrt(squared);
+}
+
+template <int Dim>
+std::int64_t PathCover<Dim>::bytes() const {
+    return static_cast<std::int64_t>(sizeof(double))
+               * (start_.size() + way_.size() + inflation_.size())
+           + static_cast<std::int64_t>(sizeof(std::uint32_t)) * vertices_.size();
+}
+
+#define PENT_INSTANTIATE(Dim) template class PathCover<Dim>;
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "paths.h"
+
 #include <pent/contact/surface.h>
 
 #include <Eigen/Core>
-
-#include <algorithm>
 
 namespace pent::contact {
 
@@ -17,69 +17,45 @@ namespace pent::contact {
 template <int Dim>
 class PathCover {
 public:
-    using Vertices = Simplices<1>;
+    /// Of no vertex: covers all.
+    PathCover() = default;
 
-    /// Forgets all; nothing is covered then.
-    void clear();
-
-    /// Sets the paths of these vertices; others stay what they were.
-    ///
-    /// @param from, to       Of all vertices.
-    /// @param inflation      How far any may leave its path, m.
-    /// @param of_path        The same as a part of its path, where that is more.
-    void set(const Vertices& vertices,
-             const PositionsView<Dim>& from,
-             const PositionsView<Dim>& to,
-             double inflation,
-             double of_path);
+    /// @param vertices  Those of the scene that count.
+    /// @param paths     With their inflation.
+    PathCover(Simplices<1> vertices, const Paths<Dim>& paths);
 
     /// Whether there is one time at which each of the vertices, but for a common shift, is within
     /// its inflation of where its path is.
-    [[nodiscard]] bool covers(const Vertices& vertices, const PositionsView<Dim>& positions) const;
+    [[nodiscard]] bool covers(const PositionsView<Dim>& positions) const;
 
     /// How far any of the vertices gets from the ends of the paths, but for a common shift, on a
-    /// straight way between two positions. Written to `of_vertex`; returns the largest.
-    float displacement(const Vertices& vertices,
-                       const PositionsView<Dim>& from,
+    /// straight way between two positions, m. Written to `of_vertex`, of all of the scene; returns
+    /// the largest.
+    float displacement(const PositionsView<Dim>& from,
                        const PositionsView<Dim>& to,
                        Eigen::VectorXf& of_vertex) const;
 
-    [[nodiscard]] const Positions<Dim>& start() const { return start_; }
-    [[nodiscard]] const Positions<Dim>& end() const { return end_; }
-    [[nodiscard]] const Eigen::VectorXd& inflation() const { return inflation_; }
+    /// The longest path, m.
+    [[nodiscard]] double longest_path() const { return longest_path_; }
 
-    /// The largest of the corners of a simplex.
-    template <int Count>
-    [[nodiscard]] double inflation_of(const Simplices<Count>& simplices, Eigen::Index i) const {
-        double max = 0;
-        for (int corner = 0; corner < Count; ++corner) {
-            max = std::max(max, inflation_[simplices(corner, i)]);
-        }
-        return max;
-    }
+    /// How far the farthest of the vertices is from the end of its path, m.
+    [[nodiscard]] double farthest_from_end(const PositionsView<Dim>& positions) const;
 
-    [[nodiscard]] bool is_empty() const { return start_.cols() == 0; }
-    [[nodiscard]] std::int64_t bytes() const {
-        return static_cast<std::int64_t>(sizeof(double))
-               * (start_.size() + end_.size() + inflation_.size());
-    }
+    [[nodiscard]] const Simplices<1>& vertices() const { return vertices_; }
+    [[nodiscard]] std::int64_t bytes() const;
 
 private:
-    Positions<Dim> start_;
-    Positions<Dim> end_;
+    [[nodiscard]] Vector<Dim> mean(const PositionsView<Dim>& positions) const;
+    [[nodiscard]] double squared_from_end(const PositionsView<Dim>& positions,
+                                          const Vector<Dim>& mean,
+                                          Eigen::Index k) const;
+
+    // By their places among the vertices, and less the mean of all:
+    Simplices<1> vertices_;
+    Positions<Dim> start_;       // of the paths
+    Positions<Dim> way_;         // from start to end
     Eigen::VectorXd inflation_;  // m
+    double longest_path_ = 0;    // m
 };
-
-/// Mean of b - a over some vertices; 0 of none.
-template <int Dim>
-[[nodiscard]] Vector<Dim> mean_shift(const Simplices<1>& vertices,
-                                     const PositionsView<Dim>& a,
-                                     const PositionsView<Dim>& b);
-
-/// The longest way of any of the vertices from one place to another, less the mean of all, m.
-template <int Dim>
-[[nodiscard]] double longest_path(const Simplices<1>& vertices,
-                                  const PositionsView<Dim>& from,
-                                  const PositionsView<Dim>& to);
 
 }  // namespace pent::contact

@@ -37,7 +37,6 @@ struct Setting {
     const Colliders<Dim>& colliders;
     const Candidates<Dim>& candidates;
     const PositionsView<Dim>& positions;
-    const Displacements displacements;
     Positions<Dim> normals;  // of vertices of bodies that are judged by them
 
     [[nodiscard]] const SharedWork& shared() const { return candidates.shared(); }
@@ -52,11 +51,11 @@ struct Setting {
 template <int Dim>
 std::vector<NearPoint> near_points(const Setting<Dim>& setting,
                                    const CandidateList& list,
+                                   const Displacement& displacement,
                                    const Simplices<1>& vertices,
                                    const Simplices<Dim>& facets) {
     const double limit = setting.distance() * setting.distance();
-    const DistanceCull<1, Dim> cull(list, vertices, facets, setting.displacements.between,
-                                    setting.distance());
+    const DistanceCull<1, Dim> cull(list, vertices, facets, displacement, setting.distance());
     std::vector<NearPoint> near =
         collect<NearPoint>(cull.size(), kChunk, [&](std::size_t k, std::vector<NearPoint>& found) {
             if (!cull.passes(k)) {
@@ -80,6 +79,7 @@ std::vector<NearPoint> near_points(const Setting<Dim>& setting,
 template <int Dim>
 std::vector<Candidate> near_mixed(const Setting<Dim>& setting,
                                   const CandidateList& list,
+                                  const Displacement& displacement,
                                   const Simplices<2>& edges,
                                   const Simplices<Dim - 1>& ridges,
                                   bool is_exact) {
@@ -89,8 +89,7 @@ std::vector<Candidate> near_mixed(const Setting<Dim>& setting,
         return sorted(std::move(all)).pairs;
     }
     const double limit = setting.distance() * setting.distance();
-    const DistanceCull<2, Dim - 1> cull(list, edges, ridges, setting.displacements.between,
-                                        setting.distance());
+    const DistanceCull<2, Dim - 1> cull(list, edges, ridges, displacement, setting.distance());
     std::vector<Candidate> near =
         collect<Candidate>(cull.size(), kChunk, [&](std::size_t k, std::vector<Candidate>& found) {
             if (!cull.passes(k)) {
@@ -110,15 +109,17 @@ std::vector<Candidate> near_mixed(const Setting<Dim>& setting,
 }
 
 template <int Dim>
-NearNow near_now(const Setting<Dim>& setting, const CandidatePairs& pairs) {
+NearNow near_now(const Setting<Dim>& setting,
+                 const CandidatePairs& pairs,
+                 const Displacement& gone) {
     const Surface<Dim>& a = setting.surface(pairs.first);
     const Surface<Dim>& b = setting.surface(pairs.second);
     // Within a body what was near at rest is among them, which has not been looked at.
     const bool is_exact = setting.candidates.is_exact() && !pairs.is_self();
-    return {&pairs, near_points<Dim>(setting, pairs.points_first, a.vertices, b.facets),
-            near_points<Dim>(setting, pairs.points_second, b.vertices, a.facets),
-            near_mixed<Dim>(setting, pairs.mixed_first, a.edges, b.ridges, is_exact),
-            near_mixed<Dim>(setting, pairs.mixed_second, b.edges, a.ridges, is_exact)};
+    return {&pairs, near_points<Dim>(setting, pairs.points_first, gone, a.vertices, b.facets),
+            near_points<Dim>(setting, pairs.points_second, gone, b.vertices, a.facets),
+            near_mixed<Dim>(setting, pairs.mixed_first, gone, a.edges, b.ridges, is_exact),
+            near_mixed<Dim>(setting, pairs.mixed_second, gone, b.edges, a.ridges, is_exact)};
 }
 
 // Computes normals of bodies that have pairs judged by them.
@@ -249,15 +250,12 @@ template <int Dim>
 std::vector<Contact<Dim>> find_penalty_contacts(const Colliders<Dim>& colliders,
                                                 const Candidates<Dim>& candidates,
                                                 const PositionsView<Dim>& positions) {
-    if (candidates.pairs().empty()) {
-        return {};
-    }
-    Setting<Dim> setting{colliders, candidates, positions,
-                         candidates.displacements(positions, positions), Positions<Dim>()};
+    Setting<Dim> setting{colliders, candidates, positions, Positions<Dim>()};
     std::vector<NearNow> all;
-    for (const CandidatePairs& pairs : candidates.pairs()) {
-        all.push_back(near_now<Dim>(setting, pairs));
-    }
+    candidates.for_each_meeting(positions, positions,
+                                [&](const CandidatePairs& pairs, const Displacement& gone) {
+                                    all.push_back(near_now<Dim>(setting, pairs, gone));
+                                });
     find_normals<Dim>(all, setting);
     std::vector<Contact<Dim>> contacts;
     for (const NearNow& near : all) {

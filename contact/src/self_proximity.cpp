@@ -80,9 +80,8 @@ typename SelfProximity<Dim>::Places SelfProximity<Dim>::place(
 // Where paths begin is where the body was: where they end it may never be.
 template <int Dim>
 void SelfProximity<Dim>::move(const Asked& asked) {
-    fit_boxes<Dim>(surface_.vertices, asked.paths, asked.inflation, 0.5 * asked.activation_distance,
-                   boxes_);
-    on_paths_.fit(asked.inflation, boxes_);
+    fit_boxes<Dim>(surface_.vertices, asked.paths, 0.5 * asked.activation_distance, boxes_);
+    on_paths_.fit(asked.paths, boxes_);
     ++search_;
     Places now = place(asked.paths.from);
     const Places end = asked.paths.is_still() ? Places() : place(asked.paths.to);
@@ -109,7 +108,8 @@ void SelfProximity<Dim>::search(const Asked& asked, Points& points, Mixed& mixed
 
 template <int Dim>
 CandidatePairs SelfProximity<Dim>::find(const PositionsView<Dim>& positions) {
-    const Asked asked{{positions, positions}, nullptr, distance_};
+    const Paths<Dim> paths{positions, positions};
+    const Asked asked{paths, distance_};
     move(asked);
     const double squared = distance_ * distance_;
     Search<NearTest<Dim, 1, Dim>, 1, Dim> points(
@@ -123,21 +123,17 @@ CandidatePairs SelfProximity<Dim>::find(const PositionsView<Dim>& positions) {
 }
 
 template <int Dim>
-CandidatePairs SelfProximity<Dim>::find(const PathCover<Dim>& cover,
+CandidatePairs SelfProximity<Dim>::find(const Paths<Dim>& paths,
                                         double activation_distance,
                                         double measured) {
-    const PositionsView<Dim> start = cover.start();
-    const PositionsView<Dim> end = cover.end();
-    const Asked asked{{start, end, mean_shift<Dim>(surface_.vertices, start, end)},
-                      &cover.inflation(),
-                      activation_distance};
+    const Asked asked{paths, activation_distance};
     move(asked);
     Search<NearOnPaths<Dim, 1, Dim>, 1, Dim> points(
         *this, {surface_.vertices, surface_.facets, points_}, asked,
-        {surface_.vertices, surface_.facets, false, cover, activation_distance, measured});
+        {surface_.vertices, surface_.facets, false, paths, activation_distance, measured});
     Search<NearOnPaths<Dim, 2, Dim - 1>, 2, Dim - 1> mixed(
         *this, {surface_.edges, surface_.ridges, mixed_}, asked,
-        {surface_.edges, surface_.ridges, Dim == 3, cover, activation_distance, measured});
+        {surface_.edges, surface_.ridges, Dim == 3, paths, activation_distance, measured});
     search(asked, points, mixed);
     return {.points_first = joined(points.found()), .mixed_first = joined(mixed.found())};
 }

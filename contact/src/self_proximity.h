@@ -2,7 +2,6 @@
 
 #include "candidate.h"
 #include "patches.h"
-#include "path_cover.h"
 #include "paths.h"
 #include "shared_work.h"
 #include "surface_patches.h"
@@ -49,9 +48,10 @@ public:
     /// The pairs that may come within the activation distance while their vertices are near their
     /// paths. Parallel.
     ///
+    /// @param paths                With their inflation.
     /// @param activation_distance  m.
     /// @param measured             Up to this distances at the end are measured, m.
-    [[nodiscard]] CandidatePairs find(const PathCover<Dim>& cover,
+    [[nodiscard]] CandidatePairs find(const Paths<Dim>& paths,
                                       double activation_distance,
                                       double measured);
 
@@ -85,11 +85,9 @@ private:
         std::vector<std::uint32_t> unknown;  // near now, ascending, and no list tells all
     };
 
-    // Where what is searched goes: paths, what vertices may leave them by (null if they do not),
-    // and how near is near, m.
+    // Where what is searched goes, and how near is near, m.
     struct Asked {
-        Paths<Dim> paths;
-        const Eigen::VectorXd* inflation = nullptr;
+        const Paths<Dim>& paths;
         double activation_distance = 0;
     };
 

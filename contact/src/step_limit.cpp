@@ -132,7 +132,7 @@ Crossing touching(const Candidates<Dim>& candidates, const LeastBound& least) {
     const Colliders<Dim>& colliders = candidates.colliders();
     Crossing crossing;
     std::uint32_t lists = 0;
-    candidates.for_each_list([&]<int K, int L>(const CandidateList&, int first, int second) {
+    const auto tell = [&]<int K, int L>(const CandidateList&, int first, int second) {
         if (lists++ != least.list) {
             return;
         }
@@ -146,7 +146,10 @@ Crossing touching(const Candidates<Dim>& candidates, const LeastBound& least) {
             std::swap(crossing.first, crossing.second);
             std::swap(crossing.first_corners, crossing.second_corners);
         }
-    });
+    };
+    for (const Meeting<Dim>& meeting : candidates.meetings()) {
+        for_each_list<Dim>(meeting.pairs, tell);
+    }
     return crossing;
 }
 
@@ -204,16 +207,16 @@ LeastBound least_of_pairs(Candidates<Dim>& candidates,
     const PositionsView<Dim> end = part < 1 ? PositionsView<Dim>(cut) : to;
     candidates.cover(step.from, end);
     LeastBound least{.bound{part, 0, 0}};
-    if (!candidates.pairs().empty()) {
-        const Displacements displacements = candidates.displacements(step.from, end);
-        std::uint32_t lists = 0;
-        candidates.for_each_list(
-            [&]<int K, int L>(const CandidateList& list, int first, int second) {
-                least.take(bound_of<Dim, K, L>(candidates, list, {first, second}, step,
-                                               displacements.of(first, second), least.fraction()),
-                           lists++);
-            });
-    }
+    std::uint32_t lists = 0;
+    candidates.for_each_meeting(
+        step.from, end, [&](const CandidatePairs& pairs, const Displacement& displacement) {
+            for_each_list<Dim>(
+                pairs, [&]<int K, int L>(const CandidateList& list, int first, int second) {
+                    least.take(bound_of<Dim, K, L>(candidates, list, {first, second}, step,
+                                                   displacement, least.fraction()),
+                               lists++);
+                });
+        });
     return least_of_all(least, candidates.shared());
 }
 

@@ -26,7 +26,7 @@ SurfacePatches<Dim>::SurfacePatches(const Surface<Dim>& surface, const Positions
 }
 
 template <int Dim>
-void SurfacePatches<Dim>::fit(const Eigen::VectorXd* inflation, const std::vector<Box>& of_vertex) {
+void SurfacePatches<Dim>::fit(const Paths<Dim>& paths, const std::vector<Box>& of_vertex) {
     constexpr int kPatches = 64;
     for_each_kind([&]<int Count>(const Simplices<Count>& simplices, PatchesOnPaths<Dim>& patches) {
         const std::size_t size = patches.partition.size();
@@ -40,7 +40,7 @@ void SurfacePatches<Dim>::fit(const Eigen::VectorXd* inflation, const std::vecto
                 for (int corner = 0; corner < Count; ++corner) {
                     const std::uint32_t v = simplices(corner, i);
                     all = hull(all, of_vertex[v]);
-                    most = inflation != nullptr ? std::max(most, (*inflation)[v]) : 0;
+                    most = std::max(most, paths.inflation_of(v));
                 }
             }
             patches.around[patch] = all;

@@ -41,10 +41,9 @@ public:
 
     /// Fits boxes to paths. Parallel.
     ///
-    /// @param inflation  How far each vertex of the scene may leave its path, m; null if none does.
     /// @param of_vertex  Boxes around all that is to be near each vertex; read for those of the
     ///                   surface.
-    void fit(const Eigen::VectorXd* inflation, const std::vector<Box>& of_vertex);
+    void fit(const Paths<Dim>& paths, const std::vector<Box>& of_vertex);
 
     /// Sets where simplices are at the ends of paths. Parallel.
     void set_lanes(const Paths<Dim>& paths);

@@ -27,7 +27,7 @@ protected:
     void SetUp() override {
         scene_.add(test::cube<kSpace>(1), Vector<kSpace>::Zero());
         Vector<kSpace> aside = Vector<kSpace>::Constant(0.13);
-        aside[0] = 1.3;
+        aside[0] = 1.15;
         scene_.add(test::cube<kSpace>(1), aside);
         test::shake<kSpace>(scene_.positions, 0.02, 4);
         options_ = {.model = ContactModel::Barrier, .distance = kDistance};
@@ -85,15 +85,34 @@ protected:
         held_back_ += list.pairs.size() - passing.size();
     }
 
+    // Of what goes from one position to another and may be at x then.
     void expect_complete(const Candidates<kSpace>& candidates,
+                         const Positions<kSpace>& from,
+                         const Positions<kSpace>& to,
+                         const Positions<kSpace>& x,
+                         double distance) {
+        std::set<std::pair<int, int>> met;
+        candidates.for_each_meeting(
+            from, to, [&](const CandidatePairs& pairs, const Displacement& displacement) {
+                expect_complete(pairs, displacement, x, distance);
+                met.insert({pairs.first, pairs.second});
+            });
+        const int count = static_cast<int>(scene_.surfaces.size());
+        for (int a = 0; a < count; ++a) {
+            for (int b = a + 1; b < count; ++b) {
+                if (!met.contains({a, b})) {
+                    expect_complete({.first = a, .second = b}, {}, x, distance);
+                }
+            }
+        }
+    }
+
+    void expect_complete(const CandidatePairs& pairs,
                          const Displacement& displacement,
                          const Positions<kSpace>& x,
                          double distance) {
-        ASSERT_LE(candidates.pairs().size(), 1U);
-        const CandidatePairs pairs =  // none where the bodies are apart
-            candidates.pairs().empty() ? CandidatePairs() : candidates.pairs()[0];
-        const Surface<kSpace>& a = scene_.surfaces[0];
-        const Surface<kSpace>& b = scene_.surfaces[1];
+        const Surface<kSpace>& a = scene_.surfaces[static_cast<std::size_t>(pairs.first)];
+        const Surface<kSpace>& b = scene_.surfaces[static_cast<std::size_t>(pairs.second)];
         expect_passing<1, kSpace>(pairs.points_first, a.vertices, b.facets, displacement, x,
                                   distance);
         expect_passing<1, kSpace>(pairs.points_second, b.vertices, a.facets, displacement, x,
@@ -128,10 +147,8 @@ TYPED_TEST(CandidatesTest, HoldAllThatComesNearOnTheWay) {
             const Positions<kDim> x = from + 0.1 * k * (to - from);
             candidates.cover(x);
             EXPECT_EQ(candidates.work().searches, 1);  // the way is covered
-            this->expect_complete(candidates, candidates.displacements(x, x).between, x,
-                                  this->kDistance);
-            this->expect_complete(candidates, candidates.displacements(from, to).between, x,
-                                  0.1 * this->kDistance);
+            this->expect_complete(candidates, x, x, x, this->kDistance);
+            this->expect_complete(candidates, from, to, x, 0.1 * this->kDistance);
         }
     }
     EXPECT_GT(this->near_, 100U);  // the test is about something
@@ -150,16 +167,14 @@ TYPED_TEST(CandidatesTest, HoldWhileVerticesStayNearTheirPaths) {
         test::shake<kDim>(x, 0.9 * this->kInflation / std::sqrt(kDim), seed);
         candidates.cover(x);
         EXPECT_EQ(candidates.work().searches, 1);
-        this->expect_complete(candidates, candidates.displacements(x, x).between, x,
-                              this->kDistance);
+        this->expect_complete(candidates, x, x, x, this->kDistance);
     }
     EXPECT_GT(this->held_back_, 100U);  // the cull is of use
-    Positions<kDim> away = to;
+    Positions<kDim> away = from;
     away(1, 0) += 1;
     candidates.cover(away);
     EXPECT_EQ(candidates.work().searches, 2);
-    this->expect_complete(candidates, candidates.displacements(away, away).between, away,
-                          this->kDistance);
+    this->expect_complete(candidates, away, away, away, this->kDistance);
 }
 
 TYPED_TEST(CandidatesTest, AreSearchedAnewForMotionsThatAreMuchShorterElsewhere) {
@@ -169,20 +184,57 @@ TYPED_TEST(CandidatesTest, AreSearchedAnewForMotionsThatAreMuchShorterElsewhere)
     const Positions<kDim>& from = this->scene_.positions;
     const Positions<kDim> to = this->target(3);
     candidates.cover(from, to);
-    const std::size_t of_flight = candidates.pairs()[0].points_first.pairs.size();
+    const std::size_t of_flight = candidates.meetings()[0].pairs.points_first.pairs.size();
     const Positions<kDim> near = from + 0.01 * (to - from);
     candidates.cover(from, near);
     EXPECT_EQ(candidates.work().searches, 2);
-    EXPECT_LT(candidates.pairs()[0].points_first.pairs.size(), of_flight);
+    ASSERT_EQ(candidates.meetings().size(), 1U);
+    EXPECT_LT(candidates.meetings()[0].pairs.points_first.pairs.size(), of_flight);
     candidates.cover(near, from);  // short, and where distances are known
     EXPECT_EQ(candidates.work().searches, 2);
+}
+
+// Of three bodies in a row the last comes, shakes and goes, while the others lie still, or fly: what
+// is searched is what it meets.
+TYPED_TEST(CandidatesTest, AreSearchedOfBodiesThatMoveAgainstOneAnotherAlone) {
+    constexpr int kDim = TypeParam::value;
+    Vector<kDim> aside = Vector<kDim>::Constant(0.1);
+    aside[0] = 2.6;
+    this->scene_.add(test::cube<kDim>(1), aside);
+    this->scene_.body(1).row(0).array() -= 0.05;
+    this->scene_.body(2).row(0).array() -= 0.35;
+    for (const bool is_penalty : {false, true}) {
+        ContactOptions options = this->options_;
+        if (is_penalty) {
+            options = {.distance = this->kDistance, .margin = this->kInflation};
+        }
+        const ContactScene<kDim> model = test::contact_scene<kDim>(this->scene_, options);
+        const Colliders<kDim> colliders(model);
+        Candidates<kDim> candidates(colliders);
+        Positions<kDim> x = this->scene_.positions;
+        const auto move = [&](int first, int last, double way) {
+            const Eigen::Index begin = this->scene_.begin[first];
+            x.row(0).segment(begin, this->scene_.begin[last] - begin).array() += way;
+            candidates.cover(x);
+            this->expect_complete(candidates, x, x, x, this->kDistance);
+            return candidates.work().searches;
+        };
+        EXPECT_EQ(move(0, 3, 0), 2);
+        EXPECT_EQ(move(0, 3, 9), 2);
+        EXPECT_EQ(move(2, 3, -0.12), 3);
+        EXPECT_EQ(move(2, 3, 5), 3);  // out of reach
+        EXPECT_EQ(candidates.meetings().size(), 1U);
+        EXPECT_EQ(move(2, 3, -5), 4);
+        EXPECT_EQ(move(0, 1, 0.12), 5);
+        EXPECT_EQ(candidates.meetings().size(), 2U);
+    }
 }
 
 // A margin of a penalty is a path of no length: what it keeps holds until a vertex has moved that
 // far.
 TYPED_TEST(CandidatesTest, OfAMarginHoldWhileNoVertexMovesFarther) {
     constexpr int kDim = TypeParam::value;
-    this->scene_.body(1).row(0).array() -= 0.25;  // near one another
+    this->scene_.body(1).row(0).array() -= 0.1;  // near one another
     const ContactOptions options{.distance = this->kDistance, .margin = 0.1};
     const ContactScene<kDim> model = test::contact_scene<kDim>(this->scene_, options);
     const Colliders<kDim> colliders(model);
@@ -195,8 +247,7 @@ TYPED_TEST(CandidatesTest, OfAMarginHoldWhileNoVertexMovesFarther) {
         candidates.cover(x);
         candidates.drop_what_is_not_kept();
         EXPECT_EQ(candidates.work().searches, 1);
-        this->expect_complete(candidates, candidates.displacements(x, x).between, x,
-                              this->kDistance);
+        this->expect_complete(candidates, x, x, x, this->kDistance);
     }
     EXPECT_GT(this->near_, 100U);
     Positions<kDim> away = this->scene_.positions;
@@ -207,7 +258,7 @@ TYPED_TEST(CandidatesTest, OfAMarginHoldWhileNoVertexMovesFarther) {
 
 TYPED_TEST(CandidatesTest, WithoutAMarginAreExactAndNotKept) {
     constexpr int kDim = TypeParam::value;
-    this->scene_.body(1).row(0).array() -= 0.25;
+    this->scene_.body(1).row(0).array() -= 0.1;
     const ContactScene<kDim> model =
         test::contact_scene<kDim>(this->scene_, {.distance = this->kDistance});
     const Colliders<kDim> colliders(model);
@@ -215,10 +266,10 @@ TYPED_TEST(CandidatesTest, WithoutAMarginAreExactAndNotKept) {
     const Positions<kDim>& x = this->scene_.positions;
     candidates.cover(x);
     EXPECT_TRUE(candidates.is_exact());
-    ASSERT_EQ(candidates.pairs().size(), 1U);
+    ASSERT_EQ(candidates.meetings().size(), 1U);
     const Surface<kDim>& a = this->scene_.surfaces[0];
     const Surface<kDim>& b = this->scene_.surfaces[1];
-    EXPECT_EQ(candidates.pairs()[0].points_first.pairs.size(),
+    EXPECT_EQ(candidates.meetings()[0].pairs.points_first.pairs.size(),
               (this->template near<1, kDim>(a.vertices, b.facets, x, this->kDistance).size()));
     int inside = 0;
     for (std::uint32_t i = 0; i < a.edges.cols(); ++i) {
@@ -232,9 +283,10 @@ TYPED_TEST(CandidatesTest, WithoutAMarginAreExactAndNotKept) {
                           : 0;
         }
     }
-    EXPECT_EQ(candidates.pairs()[0].mixed_first.pairs.size(), static_cast<std::size_t>(inside));
+    EXPECT_EQ(candidates.meetings()[0].pairs.mixed_first.pairs.size(),
+              static_cast<std::size_t>(inside));
     candidates.drop_what_is_not_kept();
-    EXPECT_TRUE(candidates.pairs().empty());
+    EXPECT_TRUE(candidates.meetings().empty());
     candidates.cover(x);
     EXPECT_EQ(candidates.work().searches, 2);
 }

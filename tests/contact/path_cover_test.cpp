@@ -17,7 +17,10 @@ protected:
         from_ = scene_.positions;
         to_ = test::tilt<kD>() * from_;
         to_.row(0).array() += 5;  // mostly a shift
-        cover_.set(vertices(), from_, to_, kInflation, 0);
+        inflation_.setConstant(from_.cols(), kInflation);
+        const PositionsView<kD> from = from_;
+        const PositionsView<kD> to = to_;
+        cover_ = PathCover<kD>(vertices(), {.from = from, .to = to, .inflation = &inflation_});
     }
 
     static constexpr double kInflation = 0.05;
@@ -26,6 +29,7 @@ protected:
     test::Scene<kD> scene_;
     Positions<kD> from_;
     Positions<kD> to_;
+    Eigen::VectorXd inflation_;
     PathCover<kD> cover_;
 };
 
@@ -37,11 +41,10 @@ TYPED_TEST(PathCoverTest, HoldsAllThatIsOnTheWayButForAShiftOfAll) {
     for (const double t : {0.0, 0.3, 1.0}) {
         Positions<kDim> x = (1 - t) * this->from_ + t * this->to_;
         x.colwise() += 100 * Vector<kDim>::Ones();
-        EXPECT_TRUE(this->cover_.covers(this->vertices(), x));
+        EXPECT_TRUE(this->cover_.covers(x));
         x(0, 0) += 2 * TestFixture::kInflation;  // less what moves the mean and the time
-        EXPECT_FALSE(this->cover_.covers(this->vertices(), x));
+        EXPECT_FALSE(this->cover_.covers(x));
     }
-    EXPECT_FALSE(PathCover<kDim>().covers(this->vertices(), this->from_));
 }
 
 // Two vertices come nearer by no more than their displacements together.
@@ -51,7 +54,7 @@ TYPED_TEST(PathCoverTest, DisplacementsBoundHowDistancesChange) {
     test::shake<kDim>(x, 0.1, 4);
     x.row(1).array() -= 3;
     Eigen::VectorXf of_vertex(x.cols());
-    const float max = this->cover_.displacement(this->vertices(), this->to_, x, of_vertex);
+    const float max = this->cover_.displacement(this->to_, x, of_vertex);
     EXPECT_EQ(max, of_vertex.maxCoeff());
     EXPECT_LT(max, 0.5F);  // the shift is no part of them
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
@@ -64,13 +67,17 @@ TYPED_TEST(PathCoverTest, DisplacementsBoundHowDistancesChange) {
     }
 }
 
-TYPED_TEST(PathCoverTest, InflationGrowsWithPathsLessTheirShift) {
+// Of the paths themselves, where others are wanted than those of the scene.
+TYPED_TEST(PathCoverTest, KnowsTheLongestPathAndWhatIsFarthestFromItsEnd) {
     constexpr int kDim = TypeParam::value;
-    PathCover<kDim> cover;
-    cover.set(this->vertices(), this->from_, this->to_, 1e-9, 0.25);
     const double longest = longest_path<kDim>(this->vertices(), this->from_, this->to_);
-    EXPECT_NEAR(cover.inflation().maxCoeff(), 0.25 * longest, 1e-12);
-    EXPECT_LT(longest, 2);
+    EXPECT_NEAR(this->cover_.longest_path(), longest, 1e-12);
+    EXPECT_NEAR(this->cover_.farthest_from_end(this->from_), longest, 1e-12);
+    EXPECT_NEAR(this->cover_.farthest_from_end(this->to_), 0, 1e-12);
+    Positions<kDim> shifted = this->to_;
+    shifted.row(1).array() += 7;
+    EXPECT_NEAR(this->cover_.farthest_from_end(shifted), 0, 1e-12);
+    EXPECT_TRUE(this->cover_.vertices() == this->vertices());
 }
 
 }  // namespace

@@ -151,9 +151,13 @@ TYPED_TEST(SelfProximityTest, FindsAllThatComesNearOnPathsWhateverHappenedBefore
         ++seed;
         const Positions<kDim> start = this->bent(from, seed % 3 == 0 ? 0.1 : 0, seed);
         const Positions<kDim> end = this->bent(to, 0.005, seed + 1);
-        PathCover<kDim> cover;
-        cover.set(surface.vertices, start, end, kInflation, 0.1);
-        const CandidatePairs pairs = kept.find(cover, kActivationDistance, kMeasured);
+        const PositionsView<kDim> first_place = start;
+        const PositionsView<kDim> last_place = end;
+        Paths<kDim> paths{first_place, last_place, mean_shift<kDim>(surface.vertices, start, end)};
+        Eigen::VectorXd inflation;
+        set_inflation<kDim>(surface.vertices, paths, kInflation, 0.1, inflation);
+        paths.inflation = &inflation;
+        const CandidatePairs pairs = kept.find(paths, kActivationDistance, kMeasured);
         const auto expect_all = [&]<int K, int L>(const CandidateList& list,
                                                   const Simplices<K>& first,
                                                   const Simplices<L>& second) {
@@ -168,8 +172,8 @@ TYPED_TEST(SelfProximityTest, FindsAllThatComesNearOnPathsWhateverHappenedBefore
                     }
                     // Whatever point is nearest may come nearer by this.
                     const double near_enough = kActivationDistance
-                                               + cover.inflation()(first.col(i)).minCoeff()
-                                               + cover.inflation()(second.col(j)).minCoeff();
+                                               + inflation(first.col(i)).minCoeff()
+                                               + inflation(second.col(j)).minCoeff();
                     double at_end = 0;
                     double least = near_enough;
                     for (const double t : {0.0, 0.5, 1.0}) {

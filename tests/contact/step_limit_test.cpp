@@ -154,8 +154,8 @@ TYPED_TEST(StepLimitTest, SearchesNoFartherThanSurfacesOfObstaclesLetGo) {
         static_cast<void>(find_step_limit<kDim>(candidates, vertices_at_obstacles(colliders), from,
                                                 PositionsView<kDim>(to)));
         std::size_t count = 0;
-        for (const CandidatePairs& pairs : candidates.pairs()) {
-            count += pairs.size();
+        for (const Meeting<kDim>& meeting : candidates.meetings()) {
+            count += meeting.pairs.size();
         }
         return count;
     };

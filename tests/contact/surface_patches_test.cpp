@@ -39,7 +39,7 @@ protected:
     [[nodiscard]] std::vector<Box> boxes(const Paths<kSpace>& paths) const {
         std::vector<Box> boxes;
         for (const Surface<kSpace>& surface : scene_.surfaces) {
-            fit_boxes<kSpace>(surface.vertices, paths, &inflation_, 0.5 * kDistance, boxes);
+            fit_boxes<kSpace>(surface.vertices, paths, 0.5 * kDistance, boxes);
         }
         return boxes;
     }
@@ -135,15 +135,16 @@ TYPED_TEST(SurfacePatchesTest, HaveEachSimplexOnceInBoxesAroundItsPath) {
     constexpr int kDim = TypeParam::value;
     const PositionsView<kDim> from = this->from_;
     const PositionsView<kDim> to = this->to_;
-    const std::vector<Box> boxes = this->boxes({from, to});
+    const std::vector<Box> boxes =
+        this->boxes({.from = from, .to = to, .inflation = &this->inflation_});
     SurfacePatches<kDim> patches(this->scene_.surfaces[0], this->rest_);
-    patches.fit(&this->inflation_, boxes);
+    patches.fit({.from = from, .to = to, .inflation = &this->inflation_}, boxes);
     EXPECT_EQ(patches.refit(), kDim);
     this->template expect_all_simplices<1>(patches, boxes);
     this->template expect_all_simplices<2>(patches, boxes);
     this->template expect_all_simplices<3>(patches, boxes);
     this->template expect_all_simplices<kDim>(patches, boxes);
-    patches.fit(nullptr, boxes);
+    patches.fit({from, to}, boxes);
     for (const double inflation : patches.template of<kDim>().inflation) {
         EXPECT_EQ(inflation, 0);
     }
@@ -154,12 +155,12 @@ TYPED_TEST(SurfacePatchesTest, FindAllThatComesNearOfTwoSurfacesAndOfOne) {
     for (const bool is_still : {false, true}) {
         const PositionsView<kDim> from = this->from_;
         const PositionsView<kDim> to = is_still ? from : PositionsView<kDim>(this->to_);
-        const Paths<kDim> paths{from, to};
+        const Paths<kDim> paths{.from = from, .to = to, .inflation = &this->inflation_};
         const std::vector<Box> boxes = this->boxes(paths);
         std::vector<SurfacePatches<kDim>> patches;
         for (const Surface<kDim>& surface : this->scene_.surfaces) {
             patches.emplace_back(surface, this->rest_);
-            patches.back().fit(&this->inflation_, boxes);
+            patches.back().fit(paths, boxes);
             patches.back().set_lanes(paths);
         }
         for (const int second : {0, 1}) {
