@@ -87,7 +87,7 @@ SimplexMesh<3> read_base(const BodyRequest& request, BodyReport& report, StageCl
         return read_tetrahedra(std::get<std::filesystem::path>(request.input), request.format);
     });
     file.mesh.positions *= request.scale;
-    require_usual_size(file.mesh.positions, name_of_input(request) + ": the mesh");
+    require_usual_size<3>(file.mesh.positions, name_of_input(request) + ": the mesh");
     const Proof proof = prove(file.mesh);
     if (!proof.holds()) {
         throw Error(name_of_input(request)

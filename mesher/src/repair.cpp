@@ -120,7 +120,7 @@ Repaired try_wrap(const Surface& closed,
 }  // namespace
 
 Repaired repair(const Surface& surface, const RepairOptions& options) {
-    require_usual_size(surface.points, "the surface");
+    require_usual_size<3>(surface.points, "the surface");
     if (is_flat(surface.points)) {
         throw Error(
             "all points of the surface lie in a plane; it encloses no volume (with one z for all,"

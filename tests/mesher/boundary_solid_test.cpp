@@ -320,6 +320,24 @@ TEST(BoundarySolid, SaysWhyAndWhereItEnclosesNothing) {
     test::expect_contains(refusal(degenerate), {"no tetrahedron of four different points"});
 }
 
+// Hypervolumes of what is larger are no numbers, of what is smaller they are 0.
+TEST(BoundarySolid, RefusesWhatIsTooLargeOrTooSmallToMeasure) {
+    const TetSurface sound = boundary_of_stuffed(ball_solid(1), 0.6);
+    for (const double scale : {1e68, 1e200, 1e-60}) {
+        TetSurface scaled = sound;
+        scaled.points *= scale;
+        test::expect_contains(refusal(scaled), {"x.4off: the boundary is ", " m across",
+                                                "1e-30 to 1e+30 m", "scale it first"});
+    }
+    for (const double scale : {1e-25, 1e25}) {
+        TetSurface scaled = sound;
+        scaled.points *= scale;
+        const BoundarySolid body = boundary_solid(scaled, "x.4off");
+        EXPECT_NEAR(body.solid.value({0, 0, 0, 0}) / scale,
+                    boundary_solid(sound, "").solid.value({0, 0, 0, 0}), 1e-9);
+    }
+}
+
 TEST(BoundarySolid, ReadsTheFilesThatHoldBoundaries) {
     const test::TempFolder folder;
     const SimplexMesh<4> mesh = stuff(ball_solid(1), 0.6).mesh;

@@ -1,5 +1,6 @@
 #include "closed_boundary.h"
 
+#include "../size_limits.h"
 #include "../union_find.h"
 
 #include <pent/equal_runs.h>
@@ -309,6 +310,7 @@ exchange::TetSurface closed_boundary(const exchange::TetSurface& surface,
     if (distinct.first_of_each.empty()) {
         throw Error(name + ": no tetrahedron of four different points; expected a boundary");
     }
+    require_usual_size<4>(surface.points, name + ": the boundary");
     exchange::TetSurface closed{surface.points, {}};
     std::vector<Tetrahedron>& tetrahedra = distinct.balanced;
     if (tetrahedra.empty() || !rim_of(tetrahedra).empty()) {

@@ -96,7 +96,7 @@ struct RecordReader {
         const auto& word = entry.get_ref<const std::string&>();
         const std::optional<Value> known = simulator::value_of<Value>(word);
         if (!known) {
-            throw Error("unknown word \"" + word + "\"");
+            throw Error("unknown word " + entry.dump());  // on one line, whatever is in it
         }
         value = *known;
     }

@@ -50,7 +50,8 @@ struct BoundarySolid {
 /// @param surface   Any; tetrahedra of finite points.
 /// @param may_mend  If not, one that is not closed and embedded is refused.
 /// Throws an Error that begins with `name` for one that may not be mended, that encloses nothing,
-/// or with a hole of a quarter of it, with what, how many and where.
+/// with a hole of a quarter of it, with what, how many and where, or that is not within 1e-30 to
+/// 1e30 m across.
 [[nodiscard]] BoundarySolid boundary_solid(const exchange::TetSurface& surface,
                                            const std::string& name,
                                            bool may_mend = true);
