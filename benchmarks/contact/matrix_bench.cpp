@@ -23,12 +23,12 @@ struct Touching {
     NewtonSystem<4> system{workers, dofs, pattern, Precision::Float};
     Positions<4> gradient = Positions<4>::Zero(4, bodies.vertex_count());
 
-    Touching() { static_cast<void>(contact.evaluate(bodies.rest, gradient)); }
+    Touching() { static_cast<void>(contact.evaluate(bodies.rest(), gradient)); }
 
     void assemble() {
         system.begin(BlockVector<4>::Zero(4, dofs.count()),
                      Positions<4>::Zero(4, bodies.vertex_count()));
-        contact.add_hessian(bodies.rest, 1, Filter::Clamp, system);
+        contact.add_hessian(bodies.rest(), 1, Filter::Clamp, system);
         system.finish();
     }
 

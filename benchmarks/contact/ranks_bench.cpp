@@ -54,7 +54,7 @@ Positions<4> place(const Bodies<4>& bodies, int step, int iteration) {
     std::mt19937 random(static_cast<unsigned>(step));
     std::uniform_real_distribution<double> way(-1, 1);
     const double left = 0.02 * bench::kEps / (1 + iteration * iteration);
-    Positions<4> x = bodies.rest.unaryExpr([&](double at) { return at + left * way(random); });
+    Positions<4> x = bodies.rest().unaryExpr([&](double at) { return at + left * way(random); });
     x.rightCols(bodies.vertices(1).size).row(0).array() += 0.4 * bench::kEps * step;
     return x;
 }
@@ -72,7 +72,7 @@ Cost cost_of(const Scene& scene, const std::shared_ptr<const Ranks>& ranks) {
     const auto evaluate = [&](const Positions<4>& x) {
         static_cast<void>(contact.evaluate(x, gradient));
     };
-    evaluate(bodies.rest);  // builds the trees
+    evaluate(bodies.rest());  // builds the trees
     static_cast<void>(contact.take_work());
     Cost cost;
     for (int step = 1; step <= kSteps; ++step) {

@@ -103,7 +103,7 @@ TYPED_TEST(ActiveStrainTest, GivesEveryCellTheEnergyOfWhatIsLeftOfItsDeformation
         const Setting<kDim> setting(scene, 2);
         Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, setting.held,
                                     scene);
-        const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.03, 11);
+        const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.03, 11);
         double expected = 0;
         int both = 0;
         const SimplexMesh<kDim>& mesh = setting.bodies.meshes[0];
@@ -147,7 +147,7 @@ TYPED_TEST(ActiveStrainTest, KeepsTheDerivativesThoseOfTheEnergy) {
                                         scene);
             EXPECT_TRUE(elasticity.set_time({0.1, 0.2}));
             expect_derivatives<kDim>(setting, *elasticity.pattern(), elasticity,
-                                     shaken<kDim>(setting.bodies.rest, 0.02, 12));
+                                     shaken<kDim>(setting.bodies.rest(), 0.02, 12));
         }
     }
 }
@@ -166,8 +166,8 @@ TYPED_TEST(ActiveStrainTest, OfAllAlikeHasNoEnergyInTheExactShape) {
                                         scene);
             const Positions<kDim> shape =
                 active_deformation<kDim>(scene.activations[0], 1, scene.activations[0].direction)
-                * setting.bodies.rest;
-            const double at_rest = value_of<kDim>(elasticity, setting.bodies.rest);
+                * setting.bodies.rest();
+            const double at_rest = value_of<kDim>(elasticity, setting.bodies.rest());
             EXPECT_GT(at_rest, 1);
             EXPECT_LT(std::abs(value_of<kDim>(elasticity, shape)), 1e-12 * at_rest);
             EXPECT_LT(gradient_of<kDim>(elasticity, shape).norm(), 1e-10 * at_rest);
@@ -197,7 +197,7 @@ TYPED_TEST(ActiveStrainTest, HasFibersByDistanceAndOfTheMeshAsByADirection) {
             Elasticity<kDim> elasticity(workers, kernels<kDim>(Isa::Scalar), bodies,
                                         HeldVertices<kDim>(changed, bodies), changed);
             static_cast<void>(elasticity.set_time({0, 0.1}));
-            return value_of<kDim>(elasticity, shaken<kDim>(bodies.rest, 0.02, 13));
+            return value_of<kDim>(elasticity, shaken<kDim>(bodies.rest(), 0.02, 13));
         };
         const double expected = energy([](Activation&) {});
         EXPECT_NEAR(energy([](Activation& a) { a.fibers = Fibers::Mesh; }), expected,

@@ -90,7 +90,7 @@ TYPED_TEST(AppendBodies, PutsCellsOfOneMaterialBehindOneAnother) {
             for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
                 double height = 0;
                 for (const std::uint32_t v : bodies.cells().col(cell)) {
-                    height += (bodies.rest(1, v) - low) / (kDim + 1);
+                    height += (bodies.rest()(1, v) - low) / (kDim + 1);
                 }
                 EXPECT_EQ(height > 0.25, is_heavy);
             }

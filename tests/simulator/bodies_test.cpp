@@ -42,13 +42,15 @@ TEST(Bodies, AreOneMeshOneAfterTheOther) {
 }
 
 // Twenty bytes a pentachoron: cells are there once where a mesh has them in their order already.
-TEST(Bodies, HaveTheCellsOfASingleMeshOnce) {
+TEST(Bodies, HaveTheVerticesAndCellsOfASingleMeshOnce) {
     const SimplexMesh<4> mesh = bar(3);
     Scene scene = box_scene<4>();
     const Bodies<4> one = make_bodies<4>(scene, {mesh});
     EXPECT_EQ(one.cells().data(), one.meshes[0].cells.data());
     EXPECT_EQ(one.cells(), mesh.cells);
+    EXPECT_EQ(one.rest().data(), one.meshes[0].positions.data());
     const Bodies<4> copy = one;
+    EXPECT_EQ(copy.rest().data(), copy.meshes[0].positions.data());
     EXPECT_EQ(copy.cells().data(), copy.meshes[0].cells.data());
     EXPECT_EQ(make_bodies<4>(two_bars(), {bar(2), mesh}).cells().rightCols(mesh.cell_count()),
               (mesh.cells.array() + static_cast<std::uint32_t>(bar(2).vertex_count())).matrix());
@@ -59,6 +61,7 @@ TEST(Bodies, HaveTheCellsOfASingleMeshOnce) {
         {.name = "front", .select = {front}, .material = scene.bodies[0].material}};
     const Bodies<4> parts = make_bodies<4>(scene, {mesh});
     EXPECT_NE(parts.cells(), mesh.cells);
+    EXPECT_EQ(parts.rest().data(), parts.meshes[0].positions.data());
     for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
         EXPECT_EQ(parts.cells().col(cell), mesh.cells.col(parts.mesh_cell(0, cell)));
     }
@@ -68,7 +71,7 @@ TEST(Bodies, HaveTheCellsOfASingleMeshOnce) {
 TEST(Bodies, AreWhereTheSceneHasThem) {
     const Bodies<4> bodies = make_bodies<4>(two_bars(), {bar(2), bar(3)});
     const auto [begin, size] = bodies.vertices(1);
-    const auto placed = bodies.rest.middleCols(begin, size);
+    const auto placed = bodies.rest().middleCols(begin, size);
     const SimplexMesh<4> mesh = bar(3);
     EXPECT_LT((placed.row(3) - 2 * mesh.positions.row(0)).norm(), 1e-14);
     EXPECT_LT((placed.row(0).array() - 10 + 2 * mesh.positions.row(3).array()).matrix().norm(),

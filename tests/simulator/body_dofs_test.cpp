@@ -72,9 +72,9 @@ void expect_map_of(const DofMap& dofs, const Bodies<4>& bodies, const Vertices& 
         ranks.insert(dofs.rank_of(v));
     }
     EXPECT_EQ(ranks.size(), dofs.vertex_count());
-    const Positions<4> values = at_dofs<4>(dofs, bodies.rest);
+    const Positions<4> values = at_dofs<4>(dofs, bodies.rest());
     for (std::uint32_t dof = 0; dof < dofs.count(); ++dof) {
-        EXPECT_EQ(values.col(dof), bodies.rest.col(dofs.vertex_of(dof)));
+        EXPECT_EQ(values.col(dof), bodies.rest().col(dofs.vertex_of(dof)));
     }
 }
 
@@ -84,7 +84,7 @@ TEST(BodyDofs, AreTheFreeVerticesOfTheBodiesThatAreIn) {
     const Bodies<4> bodies = make_bars(scene);
     HeldVertices<4> held(scene, bodies);
     for (const std::uint64_t step : {0U, 5U}) {
-        static_cast<void>(held.hold(step, bodies.rest));
+        static_cast<void>(held.hold(step, bodies.rest()));
         for (unsigned set = 0; set < 8; ++set) {
             SCOPED_TRACE(set);
             const std::vector<bool> is_in = {(set & 1U) != 0, (set & 2U) != 0, (set & 4U) != 0};
@@ -106,7 +106,7 @@ TEST(BodyDofs, AreNotThoseThatAHostHolds) {
     const auto third = static_cast<std::uint32_t>(bodies.first_vertex[2]);
     const std::vector<bool> is_in(3, true);
     const Vertices before = free_vertices(bodies, held, is_in);
-    static_cast<void>(held.hold_for_host({third, third + 2}, bodies.rest(Eigen::all, {0, 1})));
+    static_cast<void>(held.hold_for_host({third, third + 2}, bodies.rest()(Eigen::all, {0, 1})));
     Vertices without = before;
     EXPECT_EQ(without.erase(third) + without.erase(third + 2), 2U);
     expect_map_of(number_dofs(bodies, held, is_in), bodies, without);

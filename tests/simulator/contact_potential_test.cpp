@@ -23,7 +23,7 @@ TYPED_TEST(ContactPotentialTest, ABarrierHasTheDerivativesOfItsEnergy) {
     constexpr int kDim = TypeParam::value;
     const Setting<kDim> setting(barrier_scene<kDim>(), 2);
     ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies, setting.held);
-    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.006, 12);
+    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.006, 12);
     ASSERT_GT(value_of<kDim>(contact, x), 0);
     ASSERT_GT(contact.contacts().pair_count, 0U);
     ASSERT_GT(contact.summary().obstacle, 0);
@@ -36,7 +36,7 @@ TYPED_TEST(ContactPotentialTest, ABarrierBetweenBodiesPushesBothAlike) {
     scene.obstacles.clear();
     const Setting<kDim> setting(scene, 2);
     ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies, setting.held);
-    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.006, 13);
+    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.006, 13);
     ASSERT_GT(value_of<kDim>(contact, x), 0);
     expect_invariance_under_rigid_motion<kDim>(contact, x);
 }
@@ -45,7 +45,7 @@ TYPED_TEST(ContactPotentialTest, ABarrierBetweenBodiesPushesBothAlike) {
 // contact.
 template <int Dim>
 Positions<Dim> on_a_corner(const Bodies<Dim>& bodies) {
-    Positions<Dim> x = bodies.rest;
+    Positions<Dim> x = bodies.rest();
     auto second = x.rightCols(bodies.vertices(1).size);
     const Eigen::Matrix<double, Dim, 1> middle = second.rowwise().mean();
     Eigen::Matrix<double, Dim, 1> diagonal = Eigen::Matrix<double, Dim, 1>::Ones().normalized();
@@ -106,7 +106,7 @@ TYPED_TEST(ContactPotentialTest, APenaltyPushesBothBodiesAlikeAndDoesNotSeeRigid
     constexpr int kDim = TypeParam::value;
     const Setting<kDim> setting(two_cubes<kDim>(0.03), 2);
     ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies, setting.held);
-    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.006, 14);
+    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.006, 14);
     ASSERT_GT(value_of<kDim>(contact, x), 0);
     ASSERT_GT(contact.summary().mixed, 0);
     expect_invariance_under_rigid_motion<kDim>(contact, x);
@@ -129,7 +129,7 @@ TYPED_TEST(ContactPotentialTest, AnObstacleHasTheDerivativesOfItsEnergy) {
         const Setting<kDim> setting(scene, 1);
         ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies,
                                        setting.held);
-        const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.02, 16);
+        const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.02, 16);
         ASSERT_GT(value_of<kDim>(contact, x), 0);
         expect_derivatives<kDim>(setting, contact, x, 1e-6);
     }

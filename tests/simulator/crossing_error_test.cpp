@@ -25,7 +25,7 @@ TYPED_TEST(CrossingErrorTest, HasTheCellsThatCrossWithTheirBodies) {
     const Setting<kDim> setting(barrier_scene<kDim>(), 1);
     const Bodies<kDim>& bodies = setting.bodies;
     ContactPotential<kDim> contacts(setting.workers, setting.scene, setting.bodies, setting.held);
-    Positions<kDim> x = bodies.rest;
+    Positions<kDim> x = bodies.rest();
     EXPECT_TRUE(contacts.find_crossings(x).empty());
     const auto [begin, size] = bodies.vertices(1);
     // Each vertex by 0.7 of the way to the same one of the other cube.

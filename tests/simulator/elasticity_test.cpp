@@ -45,7 +45,7 @@ TYPED_TEST(ElasticityTest, HasTheDerivativesOfItsEnergyAlsoWhereElementsAreDegen
             const Setting<kDim> setting(scene, 2);
             Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, setting.held,
                                         scene);
-            for (const Positions<kDim>& x : hard_states<kDim>(setting.bodies.rest)) {
+            for (const Positions<kDim>& x : hard_states<kDim>(setting.bodies.rest())) {
                 if (law == Model::Arap && x.row(1).isConstant(x(1, 0))) {
                     continue;  // its rotation jumps where an element is flat
                 }
@@ -69,8 +69,8 @@ TYPED_TEST(ElasticityTest, DoesNotSeeRigidMotions) {
             const Setting<kDim> setting(scene, 2);
             Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, setting.held,
                                         scene);
-            expect_invariance_under_rigid_motion<kDim>(elasticity,
-                                                       shaken<kDim>(setting.bodies.rest, 0.05, 8));
+            expect_invariance_under_rigid_motion<kDim>(
+                elasticity, shaken<kDim>(setting.bodies.rest(), 0.05, 8));
         }
     }
 }
@@ -87,7 +87,7 @@ TYPED_TEST(ElasticityTest, OfSleepingBodiesIsThatWithWhichTheyFellAsleep) {
         Setting<kDim> setting(scene, 1);
         Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, setting.held,
                                     scene);
-        const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.05, 9);
+        const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.05, 9);
         const double awake = value_of<kDim>(elasticity, x);
         const Positions<kDim> gradient = gradient_of<kDim>(elasticity, x);
         setting.dofs = number_dofs(setting.bodies, setting.held, {false, true});

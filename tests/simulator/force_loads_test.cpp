@@ -31,7 +31,7 @@ TYPED_TEST(ForceLoadsTest, AddUpToTheForceThroughTheCenterOfMassOfTheSelection) 
     constexpr int kDim = TypeParam::value;
     const Setting<kDim> setting(pushed_scene<kDim>(), 2);
     ForceLoads<kDim> loads(setting.scene, setting.bodies);
-    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.1, 3);
+    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.1, 3);
     expect_derivatives<kDim>(setting, loads, x);
     const Positions<kDim> forces = -gradient_of<kDim>(loads, x);
     const Eigen::Matrix<double, kDim, 1> force = setting.scene.loads[0].force;
@@ -39,7 +39,7 @@ TYPED_TEST(ForceLoadsTest, AddUpToTheForceThroughTheCenterOfMassOfTheSelection) 
     double mass = 0;
     Eigen::Matrix<double, kDim, 1> center = Eigen::Matrix<double, kDim, 1>::Zero();
     for (Eigen::Index v = 0; v < x.cols(); ++v) {
-        const bool is_selected = setting.bodies.rest(0, v) <= 0.3;
+        const bool is_selected = setting.bodies.rest()(0, v) <= 0.3;
         EXPECT_EQ(forces.col(v).norm() > 0, is_selected);
         mass += is_selected ? setting.bodies.masses[v] : 0;
         if (is_selected) {
@@ -55,7 +55,7 @@ TYPED_TEST(ForceLoadsTest, FollowTheirKeyframesAndSayThatTheBodyIsDriven) {
     constexpr int kDim = TypeParam::value;
     const Setting<kDim> setting(pushed_scene<kDim>(), 2);
     ForceLoads<kDim> loads(setting.scene, setting.bodies);
-    const Positions<kDim>& x = setting.bodies.rest;
+    const Positions<kDim>& x = setting.bodies.rest();
     const Positions<kDim> full = gradient_of<kDim>(loads, x);
     EXPECT_FALSE(loads.set_time({0, 0}));
     EXPECT_TRUE(loads.set_time({0.9, 1.1}));

@@ -21,7 +21,7 @@ TYPED_TEST(FrictionPotentialTest, HasTheDerivativesOfItsEnergyAndNeverPushesAlon
     constexpr int kDim = TypeParam::value;
     const Setting<kDim> setting(barrier_scene<kDim>(), 2);
     ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies, setting.held);
-    const Positions<kDim> start = shaken<kDim>(setting.bodies.rest, 0.006, 17);
+    const Positions<kDim> start = shaken<kDim>(setting.bodies.rest(), 0.006, 17);
     ASSERT_GT(value_of<kDim>(contact, start), 0);
     const Positions<kDim> still = Positions<kDim>::Zero(kDim, start.cols());
     for (const double slip_speed : {1e-3, 1.0}) {  // sliding, and sticking
@@ -42,7 +42,7 @@ TYPED_TEST(FrictionPotentialTest, BetweenBodiesKeepsTheirMomentum) {
     scene.obstacles.clear();
     const Setting<kDim> setting(scene, 2);
     ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies, setting.held);
-    const Positions<kDim> start = shaken<kDim>(setting.bodies.rest, 0.006, 19);
+    const Positions<kDim> start = shaken<kDim>(setting.bodies.rest(), 0.006, 19);
     ASSERT_GT(value_of<kDim>(contact, start), 0);
     FrictionPotential<kDim> friction(contact, {.coefficient = 0.4, .slip_speed = 1e-3});
     const Positions<kDim> still = Positions<kDim>::Zero(kDim, start.cols());

@@ -36,7 +36,7 @@ typename HostState<Dim>::Holding holding(const Bodies<Dim>& bodies, double max_f
     made.grab.anchor = Vector<Dim>::Constant(0.3 / std::sqrt(Dim));
     for (int i = 0; i <= Dim; ++i) {
         made.grab.anchor += made.grab.point.weights[i]
-                            * bodies.rest.col(range.begin + bodies.meshes[1].cells(i, 5));
+                            * bodies.rest().col(range.begin + bodies.meshes[1].cells(i, 5));
     }
     made.from = made.grab.anchor + 0.1 * Vector<Dim>::Unit(0);
     return made;
@@ -62,7 +62,7 @@ TYPED_TEST(GrabsTest, HaveTheirDerivativesInAStepAndBetweenSteps) {
         const Setting<kDim> setting = two_bodies<kDim>();
         Grabs<kDim> grabs(setting.scene, setting.bodies);
         grabs.set({holding<kDim>(setting.bodies, max_force)}, 0);
-        const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.05, 1);
+        const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.05, 1);
         begin<kDim>(grabs, x);
         expect_derivatives<kDim>(setting, grabs, shaken<kDim>(x, 0.02, 2));
         // Between steps there are forces alone.
@@ -79,7 +79,7 @@ TYPED_TEST(GrabsTest, HaveTheirDerivativesWhereASpringHasNoLength) {
     constexpr int kDim = TypeParam::value;
     for (const double max_force : {1e9, 20.0}) {
         const Setting<kDim> setting = two_bodies<kDim>();
-        const Positions<kDim>& x = setting.bodies.rest;
+        const Positions<kDim>& x = setting.bodies.rest();
         auto slack = holding<kDim>(setting.bodies, max_force);
         slack.grab.anchor.array() -= 0.3 / std::sqrt(kDim);
         slack.grab.damping = 0;
@@ -114,7 +114,7 @@ TYPED_TEST(GrabsTest, PullAtTheirPointAndTurnNothingAboutIt) {
     held.grab.damping = 0;
     Grabs<kDim> grabs(setting.scene, setting.bodies);
     grabs.set({held}, 0);
-    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.05, 1);
+    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.05, 1);
     begin<kDim>(grabs, x);
     Vector<kDim> point = Vector<kDim>::Zero();
     for (int i = 0; i <= kDim; ++i) {
@@ -146,7 +146,7 @@ TYPED_TEST(GrabsTest, PullAtTheirPointAndTurnNothingAboutIt) {
 TYPED_TEST(GrabsTest, PullNoHarderThanTheyMayHoweverFarAndFastTheirAnchorGoes) {
     constexpr int kDim = TypeParam::value;
     const Setting<kDim> setting = two_bodies<kDim>();
-    const Positions<kDim>& x = setting.bodies.rest;
+    const Positions<kDim>& x = setting.bodies.rest();
     for (const double far : {0.0, 1.0, 1e6}) {
         auto held = holding<kDim>(setting.bodies, 20);
         held.grab.anchor[1] += far;
@@ -170,7 +170,7 @@ TYPED_TEST(GrabsTest, TakeTheirAnchorStraightToItsPlaceAndWakeMeanwhile) {
     grabs.set({held}, 7 * dt);
     const auto pull = [&](double end) {
         static_cast<void>(grabs.set_time({7 * dt, end}));
-        return Vector<kDim>(gradient_of<kDim>(grabs, setting.bodies.rest).rowwise().sum() / 300);
+        return Vector<kDim>(gradient_of<kDim>(grabs, setting.bodies.rest()).rowwise().sum() / 300);
     };
     const auto driven = [&] {
         Couplings couplings;
@@ -219,7 +219,7 @@ TYPED_TEST(GrabsTest, DoNothingWithoutAny) {
     const Setting<kDim> setting = two_bodies<kDim>();
     Grabs<kDim> grabs(setting.scene, setting.bodies);
     EXPECT_FALSE(grabs.set_time({1, 2}));
-    EXPECT_EQ(value_of<kDim>(grabs, setting.bodies.rest), 0);
+    EXPECT_EQ(value_of<kDim>(grabs, setting.bodies.rest()), 0);
     EXPECT_TRUE(grabs.energies().empty());
 }
 

@@ -20,7 +20,7 @@ TYPED_TEST(GravityTest, IsMassTimesHeight) {
     const Setting<kDim> setting(test::box_scene<kDim>(), 1);
     const Eigen::Matrix<double, kDim, 1> g = Eigen::Matrix<double, kDim, 1>::LinSpaced(-3, 1);
     Gravity<kDim> gravity(setting.workers, setting.bodies.masses, g);
-    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.1, 1);
+    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.1, 1);
     expect_derivatives<kDim>(setting, gravity, x);
     EXPECT_NEAR(value_of<kDim>(gravity, x), -g.dot(x * setting.bodies.masses), 1e-10);
     const Positions<kDim> up = x.colwise() + 0.3 * g;

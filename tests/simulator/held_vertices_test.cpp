@@ -53,7 +53,7 @@ Vertices held_in(std::uint64_t step, const Bodies<4>& bodies) {
     Vertices held;
     for (Eigen::Index v = 0; v < bodies.vertex_count(); ++v) {
         const bool is_first = v < bodies.first_vertex[1];
-        const double x = bodies.rest(0, v);
+        const double x = bodies.rest()(0, v);
         if (is_first ? x < 1e-6 || (x > 0.5 - 1e-6 && 3 <= step && step < 7) : step < 5) {
             held.insert(static_cast<std::uint32_t>(v));
         }
@@ -87,8 +87,8 @@ TEST(HeldVertices, AreThoseOfTheConstraintsOfAStepWhateverWasBefore) {
         for (std::uint64_t to = 0; to < 9; ++to) {
             HeldVertices<4> held(scene, bodies);
             expect_held(held, held_in(0, bodies));
-            static_cast<void>(held.hold(from, bodies.rest));
-            const std::vector<std::size_t> changed = held.hold(to, bodies.rest);
+            static_cast<void>(held.hold(from, bodies.rest()));
+            const std::vector<std::size_t> changed = held.hold(to, bodies.rest());
             expect_held(held, held_in(to, bodies));
             const auto is_changed = [&](std::size_t body) {
                 return std::find(changed.begin(), changed.end(), body) != changed.end();
@@ -129,7 +129,7 @@ TEST(HeldVertices, MoveWithTheVelocityOfTheirMotion) {
     const double time = 0.3;
     const double step = 1e-6;
     const auto at = [&](double moment, Positions<4>* velocities) {
-        Positions<4> positions = bodies.rest;
+        Positions<4> positions = bodies.rest();
         held.place(moment, positions, velocities);
         return positions;
     };
@@ -140,7 +140,7 @@ TEST(HeldVertices, MoveWithTheVelocityOfTheirMotion) {
     EXPECT_GT(slope.norm(), 1);
     for (std::uint32_t v = 0; v < now.cols(); ++v) {
         if (!held.is_held(v)) {
-            EXPECT_EQ(now.col(v), bodies.rest.col(v));
+            EXPECT_EQ(now.col(v), bodies.rest().col(v));
             EXPECT_EQ(velocities.col(v).norm(), 0);
         }
     }
@@ -153,7 +153,7 @@ TEST(HeldVertices, StayWhereTheyAreTakenUp) {
     scene.constraints[1].motion[0].rotate = {{{0, 1}, 90}};  // about where it is taken up
     const Bodies<4> bodies = make_bars(scene);
     HeldVertices<4> held(scene, bodies);
-    Positions<4> moved = bodies.rest;
+    Positions<4> moved = bodies.rest();
     moved.row(0).array() += 0.3;
     moved.row(3).array() += moved.row(1).array().square() + 0.7;
     static_cast<void>(held.hold(3, moved));
@@ -175,7 +175,7 @@ TEST(HeldVertices, StayWhereTheyAreTakenUp) {
 
     EXPECT_EQ(held.places(), Positions<4>(moved(Eigen::all, vertices)));
     HeldVertices<4> other(scene, bodies);
-    static_cast<void>(other.hold(3, bodies.rest));
+    static_cast<void>(other.hold(3, bodies.rest()));
     EXPECT_NE(later(other), later(held));
     other.set_places(held.places());
     EXPECT_EQ(later(other), later(held));
@@ -186,25 +186,25 @@ TEST(HeldVertices, AreThoseOfAHostTooUntilItLetsGo) {
     const Scene scene = two_bars();
     const Bodies<4> bodies = make_bars(scene);
     HeldVertices<4> held(scene, bodies);
-    static_cast<void>(held.hold(1, bodies.rest));
+    static_cast<void>(held.hold(1, bodies.rest()));
     Vertices expected = held_in(1, bodies);
     const std::uint32_t both = *expected.begin();
     const std::vector<std::uint32_t> vertices = {both, both + 1, both + 2};
     const Positions<4> targets =
-        bodies.rest(Eigen::all, vertices).colwise() + Eigen::Vector4d(1, 2, 3, 4);
+        bodies.rest()(Eigen::all, vertices).colwise() + Eigen::Vector4d(1, 2, 3, 4);
     EXPECT_TRUE(held.hold_for_host(vertices, targets));
     EXPECT_FALSE(held.hold_for_host(vertices, targets));
     expected.insert(vertices.begin(), vertices.end());
     EXPECT_GT(expected.size(), held_in(1, bodies).size());
     expect_held(held, expected);
 
-    held.begin_step_of_host(bodies.rest, 2, 2.5);
+    held.begin_step_of_host(bodies.rest(), 2, 2.5);
     for (const double part : {0.0, 0.25, 1.0}) {
-        Positions<4> positions = bodies.rest;
+        Positions<4> positions = bodies.rest();
         Positions<4> velocities = Positions<4>::Zero(4, positions.cols());
         held.place(2 + 0.5 * part, positions, &velocities);
         for (const std::uint32_t vertex : vertices) {
-            const Eigen::Vector4d way = positions.col(vertex) - bodies.rest.col(vertex);
+            const Eigen::Vector4d way = positions.col(vertex) - bodies.rest().col(vertex);
             EXPECT_LT((way - part * Eigen::Vector4d(1, 2, 3, 4)).norm(), 1e-14) << part;
             EXPECT_LT((velocities.col(vertex) - Eigen::Vector4d(2, 4, 6, 8)).norm(), 1e-14);
         }

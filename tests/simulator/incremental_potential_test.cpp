@@ -45,7 +45,7 @@ struct Step {
                     setting.held,
                     setting.scene,
                     energy),
-          start(shaken<Dim>(setting.bodies.rest, 0.006, 1)),
+          start(shaken<Dim>(setting.bodies.rest(), 0.006, 1)),
           velocities(shaken<Dim>(0 * start, 0.3, 2)),
           displacement(0 * start),
           problem(

@@ -25,9 +25,9 @@ TYPED_TEST(MassDistanceTest, IsHalfTheSquaredDistanceOfWhatIsSolvedFor) {
     ASSERT_LT(setting.dofs.count(), setting.dofs.vertex_count());
     MassDistance<kDim> inertia(setting.workers, std::make_shared<const DofMap>(setting.dofs),
                                setting.bodies.masses);
-    const Positions<kDim> anchor = shaken<kDim>(setting.bodies.rest, 0.2, 2);
+    const Positions<kDim> anchor = shaken<kDim>(setting.bodies.rest(), 0.2, 2);
     inertia.set_anchor(std::make_shared<const Positions<kDim>>(anchor));
-    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.2, 3);
+    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.2, 3);
     expect_derivatives<kDim>(setting, inertia, x);
     double expected = 0;
     for (const std::uint32_t vertex : setting.dofs.vertices()) {

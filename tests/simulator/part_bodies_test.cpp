@@ -97,7 +97,7 @@ void expect_those_of_whole_meshes(const Scene& scene,
             const Bodies<4> own =
                 make_part_bodies<4>(scene, test::cut_meshes<4>(scene, meshes, *ranks), ranks);
             EXPECT_TRUE(is_of_parts(own));
-            EXPECT_EQ(own.rest, all.rest);
+            EXPECT_EQ(own.rest(), all.rest());
             EXPECT_EQ(own.masses, all.masses);
             EXPECT_NEAR(own.large_energy, all.large_energy, 1e-12 * all.large_energy);
             EXPECT_EQ(own.cell_count, all.cell_count);

@@ -100,7 +100,7 @@ TYPED_TEST(PressureLoadsTest, OnAClosedSurfaceIsPressureTimesVolumeAndNeitherPus
     constexpr int kDim = TypeParam::value;
     const Setting<kDim> setting(pressed_scene<kDim>(EverythingSelection{}), 2);
     PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies, setting.held);
-    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.05, 1);
+    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.05, 1);
     const double expected = kPressure * volume_of<kDim>(setting, x);
     EXPECT_NEAR(value_of<kDim>(loads, x), expected, 1e-13 * expected);
     expect_derivatives<kDim>(setting, loads, x);
@@ -119,9 +119,9 @@ TYPED_TEST(PressureLoadsTest, HasItsDerivativesWhereTheBodyIsFlatInsideOutOrAPoi
     for (const Selection& selection : selections) {
         const Setting<kDim> setting(pressed_scene<kDim>(selection), 2);
         PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies, setting.held);
-        Positions<kDim> flat = shaken<kDim>(setting.bodies.rest, 0.02, 4);
+        Positions<kDim> flat = shaken<kDim>(setting.bodies.rest(), 0.02, 4);
         flat.row(1).setConstant(0.25);
-        Positions<kDim> inside_out = shaken<kDim>(setting.bodies.rest, 0.02, 5);
+        Positions<kDim> inside_out = shaken<kDim>(setting.bodies.rest(), 0.02, 5);
         inside_out.row(0) *= -1;
         const std::vector<Positions<kDim>> states = {flat, inside_out};
         for (const Positions<kDim>& x : states) {
@@ -143,11 +143,11 @@ TYPED_TEST(PressureLoadsTest, OnAnOpenSurfaceIsNormalToEachFacetAsItIsAtTheStart
         const Setting<kDim> setting(pressed_scene<kDim>(selection), 2);
         PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies, setting.held);
         const auto is_selected = [&](std::uint32_t v) {
-            return setting.bodies.rest(0, v) <= offset;
+            return setting.bodies.rest()(0, v) <= offset;
         };
-        const std::vector<Positions<kDim>> states = {setting.bodies.rest,
-                                                     shaken<kDim>(setting.bodies.rest, 0.05, 2),
-                                                     any_rotation<kDim>() * setting.bodies.rest};
+        const std::vector<Positions<kDim>> states = {setting.bodies.rest(),
+                                                     shaken<kDim>(setting.bodies.rest(), 0.05, 2),
+                                                     any_rotation<kDim>() * setting.bodies.rest()};
         for (const Positions<kDim>& x : states) {
             begin<kDim>(loads, x);
             const Positions<kDim> forces = expected_forces<kDim>(setting, x, is_selected);
@@ -171,19 +171,19 @@ TYPED_TEST(PressureLoadsTest, WithinAFixedRimFollowsTheSurfaceExactly) {
     const Setting<kDim> setting(scene, 2);
     PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies, setting.held);
     EXPECT_TRUE(loads.energies().at(0).is_stored);
-    Positions<kDim> x = setting.bodies.rest;
+    Positions<kDim> x = setting.bodies.rest();
     for (const std::uint32_t vertex : setting.dofs.vertices()) {
         x.col(vertex) = shaken<kDim>(x.col(vertex), 0.1, 7 + vertex);
     }
     const Positions<kDim> forces = expected_forces<kDim>(
-        setting, x, [&](std::uint32_t v) { return setting.bodies.rest(0, v) <= 0.3; });
+        setting, x, [&](std::uint32_t v) { return setting.bodies.rest()(0, v) <= 0.3; });
     const Positions<kDim> gradient = gradient_of<kDim>(loads, x);
     for (const std::uint32_t vertex : setting.dofs.vertices()) {
         EXPECT_LT((gradient.col(vertex) + forces.col(vertex)).norm(), 1e-13 * forces.norm());
     }
     begin<kDim>(loads, x);
     const double value = value_of<kDim>(loads, x);
-    begin<kDim>(loads, setting.bodies.rest);
+    begin<kDim>(loads, setting.bodies.rest());
     EXPECT_NEAR(value_of<kDim>(loads, x), value, 1e-13 * std::abs(value));
 }
 
@@ -194,7 +194,7 @@ TYPED_TEST(PressureLoadsTest, HasAHessianThatLetsABodyMoveAsAWholeAndNoneWhereIt
     const Setting<kDim> setting(pressed_scene<kDim>(EverythingSelection{}), 2);
     PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies, setting.held);
     const auto pattern = make_pattern<kDim>(setting.bodies.cells(), setting.dofs);
-    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.05, 9);
+    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.05, 9);
     const Eigen::MatrixXd exact = hessian_of<kDim>(setting, pattern, loads, x);
     const Eigen::VectorXd values =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(exact).eigenvalues();

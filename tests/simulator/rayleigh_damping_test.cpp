@@ -26,7 +26,7 @@ TYPED_TEST(RayleighDampingTest, IsAQuadraticOfTheTangentThatPullsBack) {
     RayleighDamping<kDim> damping(setting.workers, setting.isa.blocks, elasticity,
                                   std::make_shared<const DofMap>(setting.dofs),
                                   setting.bodies.sharing, Filter::Clamp);
-    const Positions<kDim> start = shaken<kDim>(setting.bodies.rest, 0.05, 10);
+    const Positions<kDim> start = shaken<kDim>(setting.bodies.rest(), 0.05, 10);
     const Positions<kDim> still = Positions<kDim>::Zero(kDim, start.cols());
     static_cast<void>(value_of<kDim>(elasticity, start));
     static_cast<void>(damping.begin_step({start, still, start, still, 0.01, 100, false}));
@@ -56,7 +56,7 @@ TYPED_TEST(RayleighDampingTest, HasTheDerivativesOfItsEnergyWithElementsOfEveryK
         RayleighDamping<kDim> damping(setting.workers, setting.isa.blocks, elasticity,
                                       std::make_shared<const DofMap>(setting.dofs),
                                       setting.bodies.sharing, Filter::Clamp);
-        const Positions<kDim> start = shaken<kDim>(setting.bodies.rest, 0.05, 12);
+        const Positions<kDim> start = shaken<kDim>(setting.bodies.rest(), 0.05, 12);
         const Positions<kDim> still = Positions<kDim>::Zero(kDim, start.cols());
         static_cast<void>(value_of<kDim>(elasticity, start));
         static_cast<void>(damping.begin_step({start, still, start, still, 0.01, 100, false}));
@@ -76,7 +76,7 @@ struct Damped {
     Elasticity<Dim> elasticity{setting.workers, setting.isa, setting.bodies, setting.held, scene};
     RayleighDamping<Dim> damping;
     Positions<Dim> start;
-    Positions<Dim> still = 0 * setting.bodies.rest;
+    Positions<Dim> still = 0 * setting.bodies.rest();
 
     Damped(Filter filter, const Matrix<Dim>& map, double shake)
         : damping(setting.workers,
@@ -85,7 +85,7 @@ struct Damped {
                   std::make_shared<const DofMap>(setting.dofs),
                   setting.bodies.sharing,
                   filter),
-          start(map * shaken<Dim>(setting.bodies.rest, shake, 12)) {
+          start(map * shaken<Dim>(setting.bodies.rest(), shake, 12)) {
         static_cast<void>(value_of<Dim>(elasticity, start));
         static_cast<void>(damping.begin_step({start, still, start, still, 0.01, 100, false}));
     }

@@ -104,7 +104,7 @@ TYPED_TEST(RegionTest, HaveTheDerivativesOfTheirEnergyAndAddUpToAll) {
         const Setting<kDim> setting(scene, 3);
         Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, setting.held,
                                     scene);
-        const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.02, 3);
+        const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.02, 3);
         const double energy = value_of<kDim>(elasticity, x);
         const std::vector<double> parts = elasticity.energy_of_ranges();
         ASSERT_EQ(parts.size(), 4);
@@ -128,7 +128,7 @@ TYPED_TEST(RegionTest, OfTheSameMaterialChangeNothing) {
             const Setting<kDim> setting(of, 2);
             Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, setting.held,
                                         of);
-            return value_of<kDim>(elasticity, shaken<kDim>(setting.bodies.rest, 0.02, 4));
+            return value_of<kDim>(elasticity, shaken<kDim>(setting.bodies.rest(), 0.02, 4));
         };
         EXPECT_NEAR(energy(scene), energy(plain), 1e-12 * energy(plain));
     }

@@ -29,7 +29,7 @@ TYPED_TEST(SceneEnergyTest, TheSumHasTheTermsOfTheSceneAndNoOthers) {
         const Setting<kDim> setting(scene, 1);
         SceneEnergy<kDim> energy(setting.workers, setting.isa, setting.bodies, setting.held,
                                  setting.scene);
-        energy.sum.update(setting.bodies.rest);
+        energy.sum.update(setting.bodies.rest());
         std::vector<std::string> list;
         for (const TermEnergy& term : energy.sum.energies()) {
             list.emplace_back(term.name);
@@ -57,7 +57,7 @@ TYPED_TEST(SceneEnergyTest, TheSumIsThatOfItsTerms) {
     const Setting<kDim> setting(scene, 1);
     SceneEnergy<kDim> energy(setting.workers, setting.isa, setting.bodies, setting.held,
                              setting.scene);
-    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest, 0.006, 21);
+    const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.006, 21);
     energy.sum.update(x);
     double value = 0;
     Positions<kDim> gradient = Positions<kDim>::Zero(kDim, x.cols());

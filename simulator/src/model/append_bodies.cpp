@@ -136,6 +136,18 @@ std::vector<Eigen::Index> append_cells(const Body& body,
 }
 
 template <int Dim>
+void join_rest(Bodies<Dim>& bodies) {
+    if (bodies.count() == 1) {
+        return;
+    }
+    Positions<Dim>& rest = bodies.joined_rest.emplace(Dim, bodies.vertex_count());
+    for (std::size_t body = 0; body < bodies.count(); ++body) {
+        const auto range = bodies.vertices(body);
+        rest.middleCols(range.begin, range.size) = bodies.meshes[body].positions;
+    }
+}
+
+template <int Dim>
 void append_bodies(const Scene& scene, Bodies<Dim>& bodies) {
     bodies.first_vertex.push_back(0);
     bodies.first_cell.push_back(0);
@@ -145,7 +157,7 @@ void append_bodies(const Scene& scene, Bodies<Dim>& bodies) {
         bodies.first_vertex.push_back(bodies.first_vertex.back() + mesh.vertex_count());
         bodies.first_cell.push_back(bodies.first_cell.back() + mesh.cell_count());
     }
-    bodies.rest.resize(Dim, bodies.first_vertex.back());
+    join_rest(bodies);
     bodies.cell_count = bodies.first_cell.back();
     const bool has_regions = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                          [](const Body& body) { return !body.regions.empty(); });
@@ -155,7 +167,6 @@ void append_bodies(const Scene& scene, Bodies<Dim>& bodies) {
     for (std::size_t place = 0; place < scene.bodies.size(); ++place) {
         const Body& body = scene.bodies[place];
         const SimplexMesh<Dim>& mesh = bodies.meshes[place];
-        bodies.rest.middleCols(bodies.first_vertex[place], mesh.vertex_count()) = mesh.positions;
         std::optional<MadeQuadratic<Dim>> quadratic;
         if (scene.solver.elements == ElementKind::Quadratic) {
             quadratic = make_quadratic(mesh, body);
@@ -178,6 +189,7 @@ void append_bodies(const Scene& scene, Bodies<Dim>& bodies) {
     template std::vector<Eigen::Index> append_cells(                                  \
         const Body&, std::size_t, const SimplexMesh<Dim>&, const MadeQuadratic<Dim>*, \
         const std::vector<std::uint16_t>&, Bodies<Dim>&);                             \
+    template void join_rest(Bodies<Dim>&);                                            \
     template void append_bodies(const Scene&, Bodies<Dim>&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE

@@ -42,6 +42,10 @@ std::vector<Eigen::Index> append_cells(const Body& body,
                                        const std::vector<std::uint16_t>& materials,
                                        Bodies<Dim>& bodies);
 
+/// Puts the vertices of the placed meshes one after the other, if there is not one mesh alone.
+template <int Dim>
+void join_rest(Bodies<Dim>& bodies);
+
 /// Places the meshes of `bodies` and puts their vertices, cells and quadratic cells one after the
 /// other, those of a body by their materials.
 template <int Dim>

@@ -21,7 +21,7 @@ void lump_masses(const Scene& scene, Bodies<Dim>& bodies) {
     for (const CellRange& range : bodies.ranges) {
         const Lame& lame = range.material.lame;
         for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
-            const double volume = cell_volume<Dim>(bodies.rest, bodies.cells(), cell);
+            const double volume = cell_volume<Dim>(bodies.rest(), bodies.cells(), cell);
             const double share = range.material.density * volume / (Dim + 1);
             if (bodies.sharing.owns(bodies.cells()(0, cell))) {
                 bodies.large_energy += (lame.mu + std::abs(lame.lambda)) * volume;
@@ -127,7 +127,7 @@ Positions<Dim> start_velocities(const Scene& scene, const Bodies<Dim>& bodies) {
     for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
         const Eigen::Index first = bodies.first_vertex[body];
         const Eigen::Index count = bodies.first_vertex[body + 1] - first;
-        const auto rest = bodies.rest.middleCols(first, count);
+        const auto rest = bodies.rest().middleCols(first, count);
         const auto masses = bodies.masses.segment(first, count);
         const Vector<Dim> center = rest * masses / masses.sum();
         const Motion motion{

@@ -20,10 +20,10 @@ template <int Dim>
 struct Bodies {
     std::vector<SimplexMesh<Dim>> meshes;    ///< As placed.
     std::vector<Eigen::Index> first_vertex;  ///< Bodies + 1 entries.
-    Positions<Dim> rest;                     ///< Dim x vertices, m.
     std::vector<Eigen::Index> first_cell;    ///< Bodies + 1 entries.
-    std::optional<Simplices<Dim + 1>>
-        joined_cells;  ///< What cells() gives; empty where the one mesh has that already.
+    /// What rest() and cells() give; empty where the one mesh has that already.
+    std::optional<Positions<Dim>> joined_rest;
+    std::optional<Simplices<Dim + 1>> joined_cells;
     Eigen::Index cell_count = 0;  ///< Of all ranks.
     std::vector<std::uint32_t>
         mesh_cells;  ///< Which cell of its mesh each is; empty if all are and no body has regions.
@@ -35,8 +35,13 @@ struct Bodies {
     Sharing sharing;                  ///< By ranks.
     bool may_couple_anything = true;  ///< Whether a matrix may couple vertices that share no cell.
 
-    [[nodiscard]] Eigen::Index vertex_count() const { return rest.cols(); }
+    [[nodiscard]] Eigen::Index vertex_count() const { return first_vertex.back(); }
     [[nodiscard]] std::size_t count() const { return meshes.size(); }
+
+    /// Where all vertices are at rest, Dim x vertices, m.
+    [[nodiscard]] const Positions<Dim>& rest() const {
+        return joined_rest ? *joined_rest : meshes.front().positions;
+    }
 
     /// Vertices counted through; of a body with regions those of each one after the other. Ranks may
     /// have those of their vertices alone: see keep_near_cells().

@@ -71,7 +71,7 @@ DirichletSet<Dim> make_set(const Constraint& constraint,
                          constraint.motion);
     set.places = Positions<Dim>::Zero(Dim, static_cast<Eigen::Index>(set.vertices.size()));
     if (!set.begins_later()) {
-        take_up<Dim>(bodies.rest, set);
+        take_up<Dim>(bodies.rest(), set);
     }
     return set;
 }

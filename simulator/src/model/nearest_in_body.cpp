@@ -83,12 +83,12 @@ void search(const Workers& workers,
             std::span<MaterialPoint<Dim>> found) {
     std::vector<double> distances(vertices.size());
     workers.for_each(vertices.size(), [&](std::size_t i) {
-        distances[i] = search.distance(bodies.rest.col(vertices[i]));
+        distances[i] = search.distance(bodies.rest().col(vertices[i]));
     });
     take_least(bodies.sharing, distances);
     std::vector<std::optional<Eigen::Index>> here(vertices.size());
     workers.for_each(vertices.size(), [&](std::size_t i) {
-        const Vector<Dim> point = bodies.rest.col(vertices[i]);
+        const Vector<Dim> point = bodies.rest().col(vertices[i]);
         here[i] = search.first_at(point, distances[i]);
         if (here[i]) {
             found[i] = search.nearest_in(*here[i], point);
@@ -117,7 +117,7 @@ MaterialPoints<Dim> nearest_in_body(const Workers& workers,
                                     std::size_t body,
                                     const std::vector<std::uint32_t>& vertices) {
     const std::vector<Eigen::Index> cells = cells_here(bodies, body);
-    const NearestPointSearch<Dim> tree(bodies.rest, bodies.cells()(Eigen::all, cells));
+    const NearestPointSearch<Dim> tree(bodies.rest(), bodies.cells()(Eigen::all, cells));
     MaterialPoints<Dim> found(vertices.size());
     for (std::size_t first = 0; first < vertices.size(); first += kPiece) {
         const std::size_t size = std::min(kPiece, vertices.size() - first);

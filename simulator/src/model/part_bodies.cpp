@@ -40,20 +40,16 @@ void place_parts(const Scene& scene,
         bodies.first_cell.push_back(cells);
         bodies.meshes.push_back(std::move(parts[i].mesh));
     }
-    bodies.rest.resize(Dim, bodies.first_vertex.back());
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const SimplexMesh<Dim>& mesh = bodies.meshes[i];
-        bodies.rest.middleCols(bodies.first_vertex[i], mesh.vertex_count()) = mesh.positions;
-    }
+    join_rest(bodies);
     bodies.joined_cells.emplace(Dim + 1, cells);
     bodies.mesh_cells.reserve(static_cast<std::size_t>(cells));
-    refuse_others(
-        ranks.get(),
-        crc32c(bodies.rest.data(), static_cast<std::size_t>(bodies.rest.size()) * sizeof(double)),
-        "other meshes", "let all of them read the same files");
+    refuse_others(ranks.get(),
+                  crc32c(bodies.rest().data(),
+                         static_cast<std::size_t>(bodies.rest().size()) * sizeof(double)),
+                  "other meshes", "let all of them read the same files");
     bodies.columns = number_columns(bodies.meshes);
     bodies.sharing =
-        Sharing(ranks, partition_columns<Dim>(bodies.rest, bodies.columns, ranks->count()));
+        Sharing(ranks, partition_columns<Dim>(bodies.rest(), bodies.columns, ranks->count()));
 }
 
 // Appends the cells of a body, of whose mesh nothing but labels and fibers in their order stays.

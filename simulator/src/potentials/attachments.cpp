@@ -92,7 +92,7 @@ typename Attachments<Dim>::Tie Attachments<Dim>::tie_to_space(const Bodies<Dim>&
                                                               std::uint32_t vertex) {
     Tie spring;
     spring.add(vertex, 1);
-    spring.place = bodies.rest.col(vertex);
+    spring.place = bodies.rest().col(vertex);
     if (attachment.point && attachment.offset == RestOffset::Zero) {
         spring.place = *attachment.point;
     }
@@ -106,10 +106,10 @@ typename Attachments<Dim>::Tie Attachments<Dim>::tie_to_body(const Bodies<Dim>& 
                                                              const MaterialPoint<Dim>& nearest) {
     typename MaterialPoint<Dim>::Weights weights = nearest.weights;
     if (bundle.attachment->offset == RestOffset::Keep && nearest.distance > 0) {
-        const Vector<Dim> point = bodies.rest.col(vertex);
+        const Vector<Dim> point = bodies.rest().col(vertex);
         Eigen::Matrix<double, Dim, Dim + 1> corners;
         for (std::size_t i = 0; i <= Dim; ++i) {
-            corners.col(static_cast<Eigen::Index>(i)) = bodies.rest.col(nearest.vertices[i]);
+            corners.col(static_cast<Eigen::Index>(i)) = bodies.rest().col(nearest.vertices[i]);
         }
         weights = barycentric<Dim>(corners, point);
         const double most = weights.cwiseAbs().maxCoeff();

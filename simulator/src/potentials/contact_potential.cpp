@@ -63,7 +63,7 @@ contact::ContactScene<Dim> contact_scene(const Scene& scene,
     }
     result.is_fixed = held.now();
     result.is_always_fixed = held.always();
-    result.rest = bodies.rest;
+    result.rest = bodies.rest();
     return result;
 }
 

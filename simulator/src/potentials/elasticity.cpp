@@ -47,8 +47,8 @@ ElementLayout<Dim> Elasticity<Dim>::lay_out(const DofMap& dofs) const {
     const ActiveStrain<Dim>* strain = strain_.is_empty() ? nullptr : &strain_;
     ElementLayout<Dim> layout =
         kind_ == ElementKind::Quadratic
-            ? lay_out_elements<Dim>(bodies_->rest, bodies_->quadratic, dofs, strain)
-            : lay_out_elements<Dim>(bodies_->rest, bodies_->cells(), bodies_->ranges, dofs, kind_,
+            ? lay_out_elements<Dim>(bodies_->rest(), bodies_->quadratic, dofs, strain)
+            : lay_out_elements<Dim>(bodies_->rest(), bodies_->cells(), bodies_->ranges, dofs, kind_,
                                     strain);
     layout.elements.activate(*workers_, strain_);
     return layout;

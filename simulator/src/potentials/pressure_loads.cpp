@@ -171,7 +171,7 @@ PressureLoads<Dim>::PressureLoads(const Workers& workers,
     for (const Load& load : scene.loads) {
         if (load.pressure != 0) {
             pressed_.push_back(make_pressed(load, scene, bodies, held));
-            hold_walls(pressed_.back(), bodies.rest);
+            hold_walls(pressed_.back(), bodies.rest());
         }
     }
 }

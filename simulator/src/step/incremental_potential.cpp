@@ -111,11 +111,12 @@ DofOwners IncrementalPotential<Dim>::find_owners() const {
 template <int Dim>
 void IncrementalPotential<Dim>::set_up_solver() {
     if (options_.linear == LinearSolverKind::Direct) {
-        solver_ = make_direct_solver<Dim>(at_dofs(*rows_, bodies_->rest));
+        solver_ = make_direct_solver<Dim>(at_dofs(*rows_, bodies_->rest()));
     } else {
         solver_ = make_iterative_solver<Dim>(
             *workers_, kernels_->blocks, options_.preconditioner,
-            DofGeometry<Dim>{rows_->column_start(), at_dofs(*rows_, bodies_->rest), find_owners()});
+            DofGeometry<Dim>{rows_->column_start(), at_dofs(*rows_, bodies_->rest()),
+                             find_owners()});
     }
     float_system_.reset();
     double_system_.reset();
@@ -350,7 +351,7 @@ std::int64_t IncrementalPotential<Dim>::tangent_bytes() const {
 template <int Dim>
 std::int64_t IncrementalPotential<Dim>::factor_bytes() const {
     return options_.linear == LinearSolverKind::Direct
-               ? direct_bytes<Dim>(*pattern_, at_dofs(*rows_, bodies_->rest))
+               ? direct_bytes<Dim>(*pattern_, at_dofs(*rows_, bodies_->rest()))
                : 0;
 }
 

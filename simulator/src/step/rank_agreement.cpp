@@ -61,8 +61,8 @@ Bodies<Dim> share(const Scene& scene,
                   const std::shared_ptr<const Ranks>& ranks) {
     if (ranks != nullptr) {
         bodies.sharing =
-            Sharing(ranks, partition_columns<Dim>(bodies.rest, bodies.columns, ranks->count()));
-        refuse_others(ranks.get(), checksum(bodies.cells(), checksum(bodies.rest, 0)),
+            Sharing(ranks, partition_columns<Dim>(bodies.rest(), bodies.columns, ranks->count()));
+        refuse_others(ranks.get(), checksum(bodies.cells(), checksum(bodies.rest(), 0)),
                       "other meshes", "let all of them read the same files");
         bodies.may_couple_anything = do_terms_couple_anything(scene);
         keep_near_cells(scene.solver.elements, bodies);

@@ -53,11 +53,11 @@ Simulation<Dim>::Stepper::Stepper(const Scene& scene,
       potential_(workers_, *kernels_, bodies_, held_, scene, energy_),
       islands_(scene, bodies_, held_),
       asleep_(islands_.asleep()),
-      extent_((bodies_.rest.rowwise().maxCoeff() - bodies_.rest.rowwise().minCoeff()).norm()),
+      extent_((bodies_.rest().rowwise().maxCoeff() - bodies_.rest().rowwise().minCoeff()).norm()),
       thinnest_(thinnest(bodies_)) {
     potential_.refuse_unsolvable(options.memory);
     potential_.set_observer(options.on_iterate);
-    current_.positions = bodies_.rest;
+    current_.positions = bodies_.rest();
     current_.velocities = start_velocities(scene, bodies_);
     held_.place(0, current_.positions, &current_.velocities);
 }

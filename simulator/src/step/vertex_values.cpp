@@ -24,7 +24,7 @@ Eigen::RowVectorXd energy_densities(const Bodies<Dim>& bodies,
     for (const CellRange& range : bodies.ranges) {
         for (Eigen::Index cell = range.begin; range.body == body && cell < range.end; ++cell) {
             const Eigen::Matrix<double, Dim, Dim> rest =
-                edge_matrix<Dim>(bodies.rest, bodies.cells(), cell);
+                edge_matrix<Dim>(bodies.rest(), bodies.cells(), cell);
             const Eigen::Matrix<double, Dim, Dim> F =
                 edge_matrix<Dim>(x, bodies.cells(), cell) * rest.inverse();
             const double weight = rest.determinant();
