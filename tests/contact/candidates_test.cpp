@@ -4,10 +4,14 @@
 #include "closest_points_oracle.h"
 #include "gather.h"
 #include "scenes.h"
+#include "support/host_tasks.h"
+
+#include <pent/parallel.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <random>
 #include <set>
 #include <utility>
@@ -228,6 +232,49 @@ TYPED_TEST(CandidatesTest, AreSearchedOfBodiesThatMoveAgainstOneAnotherAlone) {
         EXPECT_EQ(move(0, 1, 0.12), 5);
         EXPECT_EQ(candidates.meetings().size(), 2U);
     }
+}
+
+// Bodies and pairs of them are searched side by side.
+TYPED_TEST(CandidatesTest, AreTheSameForAnyNumberOfThreads) {
+    constexpr int kDim = TypeParam::value;
+    this->scene_.add(test::cube<kDim>(2), Vector<kDim>::Constant(1.05));
+    ContactOptions options = this->options_;
+    options.self = true;
+    const ContactScene<kDim> model = test::contact_scene<kDim>(this->scene_, options);
+    const Colliders<kDim> colliders(model);
+    std::vector<CandidatePairs> expected;
+    for (const int threads : {1, 4}) {
+        Candidates<kDim> candidates(colliders);
+        Workers(pent::test::host_tasks(threads)).run([&] {
+            candidates.cover(this->scene_.positions, this->target(0.1));
+        });
+        std::vector<CandidatePairs> found;
+        for (const Meeting<kDim>& meeting : candidates.meetings()) {
+            found.push_back(meeting.pairs);
+        }
+        if (threads == 1) {
+            expected = found;
+        }
+        ASSERT_EQ(found.size(), 6U);  // of each body, and of each two
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            std::vector<const CandidateList*> lists;
+            for (const CandidatePairs& pairs : {std::cref(found[i]), std::cref(expected[i])}) {
+                for_each_list<kDim>(pairs, [&]<int K, int L>(const CandidateList& list, int, int) {
+                    lists.push_back(&list);
+                });
+            }
+            for (std::size_t k = 0; k < 4; ++k) {
+                EXPECT_TRUE(std::equal(lists[k]->pairs.begin(), lists[k]->pairs.end(),
+                                       lists[k + 4]->pairs.begin(), lists[k + 4]->pairs.end(),
+                                       [](const Candidate& a, const Candidate& b) {
+                                           return a.first == b.first && a.second == b.second
+                                                  && a.distance == b.distance;
+                                       }));
+                this->near_ += lists[k]->pairs.size();
+            }
+        }
+    }
+    EXPECT_GT(this->near_, 100U);
 }
 
 // A margin of a penalty is a path of no length: what it keeps holds until a vertex has moved that
