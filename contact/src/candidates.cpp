@@ -182,7 +182,8 @@ Meeting<Dim> Candidates<Dim>::search_within(int body,
             PathCover<Dim>(vertices, paths)};
 }
 
-// What lies still beside what moves is not searched, and what is far off is forgotten once it moves.
+// What lies still beside what moves is not searched, and what is far off is forgotten once it
+// moves.
 template <int Dim>
 void Candidates<Dim>::cover_between(const Paths<Dim>& paths) {
     const std::vector<Pair> near = overlapping(paths);

@@ -163,8 +163,8 @@ struct Support {
     }
 };
 
-// Simplices of one and of another patch, different ones in each lane, at the start and at the end of
-// their paths.
+// Simplices of one and of another patch, different ones in each lane, at the start and at the end
+// of their paths.
 template <int Dim, int K, int L, bool IsStill>
 struct Pairs {
     Simplex<Dim, K> first[2];   // NOLINT(modernize-avoid-c-arrays)
@@ -217,8 +217,8 @@ struct Pairs {
     }
 };
 
-// Two patches, and where the second is as seen from the origin of the first, at the start and at the
-// end.
+// Two patches, and where the second is as seen from the origin of the first, at the start and at
+// the end.
 template <int Dim, int K, int L, bool IsStill>
 class PatchPair {
 public:

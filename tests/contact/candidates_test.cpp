@@ -198,8 +198,8 @@ TYPED_TEST(CandidatesTest, AreSearchedAnewForMotionsThatAreMuchShorterElsewhere)
     EXPECT_EQ(candidates.work().searches, 2);
 }
 
-// Of three bodies in a row the last comes, shakes and goes, while the others lie still, or fly: what
-// is searched is what it meets.
+// Of three bodies in a row the last comes and goes while the others lie still, or all fly: what is
+// searched is what it meets.
 TYPED_TEST(CandidatesTest, AreSearchedOfBodiesThatMoveAgainstOneAnotherAlone) {
     constexpr int kDim = TypeParam::value;
     Vector<kDim> aside = Vector<kDim>::Constant(0.1);

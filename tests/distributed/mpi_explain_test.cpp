@@ -27,7 +27,8 @@ protected:
     static std::string lasting(const std::string& text) {
         constexpr std::size_t kCosts = 42;  // behind name, on or off, and unknowns
         constexpr std::size_t kReason = 66;
-        // A slow machine says what takes so long; over it, on the terminal that Open MPI gives ranks.
+        // A slow machine says what takes so long; over it, on the terminal that Open MPI gives a
+        // rank.
         const std::size_t erased = text.rfind("\x1b[K");
         std::istringstream lines(erased == std::string::npos ? text : text.substr(erased + 3));
         std::string all;

@@ -309,8 +309,8 @@ TEST(ContactOfALinearStep, IsSearchedOnceAStepAndItsTreesAreRefit) {
     const StepReport report = simulation.step();
     EXPECT_EQ(report.contact.searches, 1);
     EXPECT_EQ(report.contact.trees_built, 0);
-    // Of two bodies: patches of vertices, edges, triangles and tetrahedra, and trees of vertices and
-    // of facets, which tell what is inside.
+    // Of two bodies: patches of vertices, edges, triangles and tetrahedra, and trees of vertices
+    // and of facets, which tell what is inside.
     EXPECT_EQ(report.contact.trees_refit, 12);
     EXPECT_GT(report.contact.candidates, 0);
 }

@@ -209,9 +209,10 @@ TYPED_TEST(IncrementalPotentialTest, SolvesInDoubleWhereFloatsWouldLoseTheMasses
 }
 
 // From soft to where doubles take over, centers of mass move as doubles move them, and so does all
-// else but for what the rounding of blocks adds to rotations. What floats are let round of a mass is
-// 2e-3 of it, counted as one rounding of the whole stiffness. A vertex inside has the sum of
-// (Dim + 1)! cells: so many roundings by half a digit, of sums that grow evenly, and of either sign.
+// else but for what the rounding of blocks adds to rotations. What floats are let round of a mass
+// is 2e-3 of it, counted as one rounding of the whole stiffness. A vertex inside has the sum of
+// (Dim + 1)! cells: so many roundings by half a digit, of sums that grow evenly, and of either
+// sign.
 template <int Dim>
 void expect_motion_in_floats(Isa isa) {
     const double cells = std::tgamma(Dim + 2);
