@@ -214,32 +214,28 @@ BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
     BarrierContacts<Dim> contacts;
     std::vector<Found<Dim>> all;
     std::uint32_t lists = 0;
-    const auto find = [&]<int K, int L>(const CandidateList& list, int first, int second,
-                                        const Displacement& displacement) {
-        const double distance = candidates.activation_distance(first, second);
-        const DistanceCull<K, L> cull(list, colliders.surface(first).template simplices<K>(),
-                                      colliders.surface(second).template simplices<L>(),
-                                      displacement, distance);
-        const std::vector<Found<Dim>> found = collect<Found<Dim>>(
-            cull.size(), kChunk, [&](std::size_t k, std::vector<Found<Dim>>& here) {
-                if (!cull.passes(k)) {
-                    return;
-                }
-                const Candidate& pair = list.pairs[k];
-                if (const auto contact = contact_of<Dim, K, L>(colliders, positions,
-                                                               {first, second}, pair, distance)) {
-                    here.push_back({*contact, {lists, pair.first, pair.second}});
-                }
-            });
-        all.insert(all.end(), found.begin(), found.end());
-        contacts.candidates += static_cast<std::int64_t>(cull.size());
-        ++lists;
-    };
     candidates.for_each_meeting(
         positions, positions, [&](const CandidatePairs& pairs, const Displacement& displacement) {
             for_each_list<Dim>(
                 pairs, [&]<int K, int L>(const CandidateList& list, int first, int second) {
-                    find.template operator()<K, L>(list, first, second, displacement);
+                    const double distance = candidates.activation_distance(first, second);
+                    const DistanceCull<K, L> cull(
+                        list, colliders.surface(first).template simplices<K>(),
+                        colliders.surface(second).template simplices<L>(), displacement, distance);
+                    const std::vector<Found<Dim>> found = collect<Found<Dim>>(
+                        cull.size(), kChunk, [&](std::size_t k, std::vector<Found<Dim>>& here) {
+                            if (!cull.passes(k)) {
+                                return;
+                            }
+                            const Candidate& pair = list.pairs[k];
+                            if (const auto contact = contact_of<Dim, K, L>(
+                                    colliders, positions, {first, second}, pair, distance)) {
+                                here.push_back({*contact, {lists, pair.first, pair.second}});
+                            }
+                        });
+                    all.insert(all.end(), found.begin(), found.end());
+                    contacts.candidates += static_cast<std::int64_t>(cull.size());
+                    ++lists;
                 });
         });
     all = merged(all, {0});

@@ -77,7 +77,7 @@ public:
                           const PositionsView<Dim>& to,
                           const Visit& visit) const {
         Displacement displacement;
-        displacement.of_vertex.setZero(from.cols());
+        displacement.of_vertex.setZero(meetings_.empty() ? 0 : from.cols());
         for (const Meeting<Dim>& meeting : meetings_) {
             displacement.max = meeting.cover.displacement(from, to, displacement.of_vertex);
             visit(meeting.pairs, displacement);

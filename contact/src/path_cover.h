@@ -50,7 +50,7 @@ private:
                                           const Vector<Dim>& mean,
                                           Eigen::Index k) const;
 
-    // By their places among the vertices, and less the mean of all:
+    // By their places among the vertices; starts and ways less the mean of all.
     Simplices<1> vertices_;
     Positions<Dim> start_;       // of the paths
     Positions<Dim> way_;         // from start to end

@@ -12,8 +12,8 @@ namespace pent::mesher {
 /// tetrahedra turn over to agree with their neighbors, and each hole, a connected part of the
 /// triangles that are still out of balance, gets a cone from its middle.
 ///
-/// Throws an Error that begins with `name` if nothing is left, or for a hole that takes more than a
-/// quarter of what is there to close.
+/// Throws an Error that begins with `name` if nothing is left, for a hole that takes more than a
+/// quarter of what is there to close, or for what is not within 1e-30 to 1e30 m across.
 [[nodiscard]] exchange::TetSurface closed_boundary(const exchange::TetSurface& surface,
                                                    const std::string& name,
                                                    BoundaryReport& report);
