@@ -21,6 +21,14 @@ def slow(tmp_path_factory):
     return pentimento.SceneBuilder(gravity=[0, -9, 0, 0], frames=3000).body("a", mesh).build()
 
 
+@pytest.fixture(autouse=True)
+def hears_ctrl_c():
+    """As at a terminal: shells start what runs in the background with SIGINT ignored, and Python leaves it so."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def interrupt_soon(seconds: float) -> threading.Thread:
     def interrupt():
         time.sleep(seconds)

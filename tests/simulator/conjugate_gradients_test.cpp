@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -78,6 +79,37 @@ TEST(ConjugateGradients, ReachOneMillionthWithAFloatMatrix) {
     EXPECT_TRUE(report.has_converged);
     const Eigen::VectorXd gap = problem.b.reshaped() - ElasticBox<4>::dense(A) * x.reshaped();
     EXPECT_NEAR(gap.norm() / problem.b.norm(), report.residual, 1e-12);
+}
+
+// In some rows b is a ten-thousandth of what it is in others: what is left of it there has to be as
+// small a part in the norm that makes up for that, and is not in that of all rows alone.
+TEST(ConjugateGradients, LeaveAsLittleInASecondNorm) {
+    constexpr double kTolerance = 1e-6;
+    Problem problem;
+    const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
+    Eigen::VectorXd weights = Eigen::VectorXd::Ones(problem.b.cols());
+    for (Eigen::Index row = 0; row < weights.size(); row += 3) {
+        problem.b.col(row) *= 1e-4;
+        weights[row] = 1e8;
+    }
+    const auto left = [&](const BlockVector<4>& x, const Eigen::VectorXd& with) {
+        const BlockVector<4> r =
+            problem.b - (ElasticBox<4>::dense(A) * x.reshaped()).reshaped(4, x.cols());
+        const auto norm = [&](const BlockVector<4>& of) {
+            return std::sqrt(of.colwise().squaredNorm().dot(with));
+        };
+        return norm(r) / norm(problem.b);
+    };
+    const Workers workers(1);
+    const auto preconditioner = columns_of(problem, A);
+    const auto plain = solve(problem, A, *preconditioner, {.tolerance = kTolerance});
+    EXPECT_GT(left(plain.x, weights), 10 * kTolerance);
+    const auto even =
+        solve(problem, A, *preconditioner, {.tolerance = kTolerance, .weights = {weights}});
+    EXPECT_TRUE(even.report.has_converged);
+    EXPECT_LE(left(even.x, weights), 1.001 * kTolerance);
+    EXPECT_LE(left(even.x, Eigen::VectorXd::Ones(weights.size())), 1.001 * kTolerance);
+    EXPECT_NEAR(left(even.x, weights), even.report.residual, 1e-3 * kTolerance);
 }
 
 TEST(ConjugateGradients, ReportAMatrixThatIsNotPositiveDefinite) {

@@ -179,6 +179,20 @@ TEST(SharedSimulation, HasFloatMatricesAndOtherPreconditioners) {
     }
 }
 
+// Every rank weighs forces alike, also those on vertices of which others have the cells.
+TEST(SharedSimulation, HasMaterialsThatDifferAMillionfold) {
+    for (const Integrator integrator : {Integrator::LinearEuler, Integrator::NewtonEuler}) {
+        Case<4> made = swing(integrator);
+        Region soft;
+        soft.name = "soft";
+        soft.select = {HalfSpaceSelection{-Eigen::Vector4d::UnitX(), -0.7}};
+        soft.material.lame = lame_from_young(4, 0.1, 0.28);
+        soft.material.density = 1e-3;
+        made.scene.bodies[0].regions = {soft};
+        expect_same_on_ranks(made, 2, 1e-7);
+    }
+}
+
 TEST(SharedSimulation, HasLoadsActivationsAndAttachments) {
     Case<4> made = swing(Integrator::NewtonEuler);
     Scene& scene = made.scene;

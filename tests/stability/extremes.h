@@ -18,6 +18,7 @@ struct Extreme {
     double dt = 1.0 / 30;   ///< s.
     double aspect = 1;      ///< Thickness of layers over the other edges.
     double ratio = 1;       ///< Young's modulus of a second body over that of the first.
+    double heaviness = 1;   ///< Density of a second body over that of the first.
     double size = 1;        ///< m.
     double offset = 0;      ///< Distance of the body from the origin, in sizes.
     double gravity = 9.8;   ///< m/s^2.

@@ -49,9 +49,10 @@ simulator::Scene scene_of(const Extreme& extreme, simulator::Precision precision
     scene.gravity = Eigen::Vector4d::Zero();
     scene.frames_per_second = 1 / extreme.dt;
     scene.bodies = {body_of(extreme, "body")};
-    if (extreme.ratio != 1) {
+    if (extreme.ratio != 1 || extreme.heaviness != 1) {
         Extreme other = extreme;
         other.young *= extreme.ratio;
+        other.density *= extreme.heaviness;
         scene.bodies.push_back(body_of(other, "other"));
         scene.bodies.back().place.translate[1] += 3 * extreme.size;
     }

@@ -51,6 +51,19 @@ double residual(const Workers& workers,
     });
 }
 
+// Sum of weight * |r|^2 over the columns of r.
+template <int Dim>
+double weighed_square(const Workers& workers,
+                      const Eigen::VectorXd& weights,
+                      const BlockVector<Dim>& r) {
+    return sum_chunks(workers, weights.size(), [&](Eigen::Index begin, Eigen::Index count) {
+        return r.middleCols(begin, count)
+            .colwise()
+            .squaredNorm()
+            .dot(weights.segment(begin, count));
+    });
+}
+
 // x += alpha p, r -= alpha q; returns |r|^2.
 template <int Dim>
 double advance(const Workers& workers,
@@ -97,8 +110,12 @@ LinearSolution<Dim> ConjugateGradients<Dim>::solve(const BlockMatrix<Dim, Scalar
     halo_ = halo;
     LinearSolution<Dim> solution{std::move(guess), {}};
     LinearSolveReport& report = solution.report;
-    const double b_norm = std::sqrt(halo_.sum(dot(*workers_, A.rows(), b, b)));
-    if (b_norm == 0) {
+    weights_ = options.weights;
+    b_norms_ = {std::sqrt(halo_.sum(dot(*workers_, A.rows(), b, b)))};
+    for (const Eigen::VectorXd& weights : weights_) {
+        b_norms_.push_back(std::sqrt(halo_.sum(weighed_square(*workers_, weights, b))));
+    }
+    if (b_norms_.front() == 0) {
         solution.x.setZero();
         report.has_converged = true;
         return solution;
@@ -106,21 +123,21 @@ LinearSolution<Dim> ConjugateGradients<Dim>::solve(const BlockMatrix<Dim, Scalar
     for (BlockVector<Dim>* vector : {&r_, &z_, &p_, &q_}) {
         vector->resize(Dim, b.cols());
     }
-    double r_norm = find_residual(A, b, solution.x);
-    if (r_norm > options.tolerance * b_norm && preconditioner.correct(*workers_, r_, solution.x)) {
-        r_norm = find_residual(A, b, solution.x);
+    double left = find_residual(A, b, solution.x);
+    if (left > options.tolerance && preconditioner.correct(*workers_, r_, solution.x)) {
+        left = find_residual(A, b, solution.x);
     }
     constexpr int kMaxStarts = 5;
     for (int start = 0;; ++start) {
-        report.residual = r_norm / b_norm;
-        report.has_converged = report.residual <= options.tolerance;
-        if (report.has_converged || !std::isfinite(r_norm) || start == kMaxStarts
+        report.residual = left;
+        report.has_converged = left <= options.tolerance;
+        if (report.has_converged || !std::isfinite(left) || start == kMaxStarts
             || report.iterations >= options.max_iterations || report.has_broken_down) {
             return solution;
         }
         // A little below the tolerance, so that the true residual meets it at the first check.
-        iterate(A, preconditioner, options, 0.95 * options.tolerance * b_norm, solution);
-        r_norm = find_residual(A, b, solution.x);
+        iterate(A, preconditioner, options, 0.95 * options.tolerance, solution);
+        left = find_residual(A, b, solution.x);
     }
 }
 
@@ -131,7 +148,17 @@ double ConjugateGradients<Dim>::find_residual(const BlockMatrix<Dim, Scalar>& A,
                                               BlockVector<Dim>& x) {
     halo_.update(x);
     A.multiply(*workers_, *kernels_, x, r_);
-    return std::sqrt(halo_.sum(residual(*workers_, A.rows(), b, r_)));
+    return part_left(residual(*workers_, A.rows(), b, r_));
+}
+
+template <int Dim>
+double ConjugateGradients<Dim>::part_left(double r_square) const {
+    double most = std::sqrt(halo_.sum(r_square)) / b_norms_[0];
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+        const double left = std::sqrt(halo_.sum(weighed_square(*workers_, weights_[i], r_)));
+        most = std::max(most, left / b_norms_[i + 1]);
+    }
+    return most;
 }
 
 template <int Dim>
@@ -144,9 +171,9 @@ void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
     LinearSolveReport& report = solution.report;
     const Eigen::Index rows = A.rows();
     p_.setZero();
-    double r_norm = std::numeric_limits<double>::infinity();
+    double left = std::numeric_limits<double>::infinity();
     double rz_before = 1;
-    while (r_norm > enough && report.iterations < options.max_iterations) {
+    while (left > enough && report.iterations < options.max_iterations) {
         preconditioner.apply(*workers_, r_, z_);
         const double rz = halo_.sum(dot(*workers_, rows, r_, z_));
         redirect(*workers_, rows, rz / rz_before, z_, p_);
@@ -157,8 +184,7 @@ void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
             report.has_broken_down = true;
             return;
         }
-        r_norm = std::sqrt(
-            halo_.sum(advance(*workers_, rows, rz / curvature, {&p_, &q_}, r_, solution.x)));
+        left = part_left(advance(*workers_, rows, rz / curvature, {&p_, &q_}, r_, solution.x));
         rz_before = rz;
         ++report.iterations;
     }

@@ -27,11 +27,13 @@ public:
                                             const Halo& halo = {});
 
 private:
-    // r_ = b - A x; returns |r_|.
+    // r_ = b - A x; returns what is left of b.
     template <typename Scalar>
     double find_residual(const BlockMatrix<Dim, Scalar>& A,
                          const BlockVector<Dim>& b,
                          BlockVector<Dim>& x);
+    // What r_ is of b, by the norm in which that is more.
+    [[nodiscard]] double part_left(double r_square) const;
     // From x, whose residual is r_, until the one that is carried along is small enough, iterations
     // are spent, or a direction shows that A is not positive definite.
     template <typename Scalar>
@@ -49,6 +51,8 @@ private:
     BlockVector<Dim> z_;
     BlockVector<Dim> p_;
     BlockVector<Dim> q_;
+    std::vector<Eigen::VectorXd> weights_;  // of this rank's rows, as in LinearSolveOptions
+    std::vector<double> b_norms_;           // |b|, and those by weights
 };
 
 }  // namespace pent::simulator

@@ -133,12 +133,10 @@ NewtonReport Simulation<Dim>::Stepper::minimize(Method method) {
     const auto displaced = [&](const Positions<Dim>& x) -> Positions<Dim> {
         return x + potential_.prescribed_displacement(x);
     };
-    double start_value = 0;
-    double start_norm = 0;
+    NewtonStart at_start;
     {  // whose gradient is not to lie about while the others are found
         const Evaluation<Dim> start = potential_.evaluate(displaced(current_.positions));
-        start_value = start.value;
-        start_norm = start.gradient.norm();
+        at_start = {start.value, potential_.norms(start.gradient)};
     }
     const bool is_damped = method == Method::Damped;
     if (is_damped) {  // the linear step was taken, and thrown away
@@ -150,7 +148,7 @@ NewtonReport Simulation<Dim>::Stepper::minimize(Method method) {
             return first;
         }
     }
-    if (!(potential_.evaluate(next_.positions).value <= start_value)) {
+    if (!(potential_.evaluate(next_.positions).value <= at_start.value)) {
         next_.positions = displaced(current_.positions);
     }
     return newton(potential_,
@@ -159,8 +157,7 @@ NewtonReport Simulation<Dim>::Stepper::minimize(Method method) {
                    .bound = kMaxExtents * extent_,
                    .max_iterations = is_damped ? kDampedIterations : kMaxIterations,
                    .may_stop_short = is_damped,
-                   .start_value = start_value,
-                   .start_norm = start_norm},
+                   .start = at_start},
                   next_.positions);
 }
 

@@ -44,6 +44,7 @@ IncrementalPotential<Dim>::IncrementalPotential(const Workers& workers,
       dofs_(std::make_shared<const DofMap>(
           number_dofs_alike(bodies, held, std::vector<bool>(bodies.count(), true)))),
       rows_(rows_of(dofs_, bodies, held, std::vector<bool>(bodies.count(), true))),
+      scales_(bodies),
       inertia_(workers, dofs_, bodies.masses),
       mass_drag_(workers, dofs_, bodies.masses),
       stiffness_drag_(
@@ -129,6 +130,7 @@ template <int Dim>
 void IncrementalPotential<Dim>::begin_step(std::shared_ptr<const StepProblem<Dim>> problem,
                                            const StepStart<Dim>& start) {
     problem_ = std::move(problem);
+    scales_.set_inertia(problem_->inertia != 0);
     inertia_.set_anchor({problem_, &problem_->target});
     mass_drag_.set_anchor({problem_, &problem_->origin});
     energy_->begin_step(start);
@@ -277,7 +279,8 @@ LinearSolution<Dim> IncrementalPotential<Dim>::solve_filtered(const NewtonSystem
                                                               double tolerance) {
     const Stopwatch watch;
     const LinearSolveOptions options{.tolerance = std::max(tolerance, options_.tolerance),
-                                     .max_iterations = options_.max_iterations};
+                                     .max_iterations = options_.max_iterations,
+                                     .weights = scales_.weights(*rows_)};
     const Positions<Dim>& x = energy_->positions();
     // Where all is to be solved for at once, most of it is the motion that inertia alone leads to.
     BlockVector<Dim> guess = tolerance == 0

@@ -5,6 +5,7 @@
 #include "potentials/mass_distance.h"
 #include "potentials/rayleigh_damping.h"
 #include "potentials/scene_energy.h"
+#include "step/force_scales.h"
 #include "step/objective.h"
 #include "step/step_problem.h"
 
@@ -70,6 +71,9 @@ public:
     void balance(const Positions<Dim>& x);
 
     [[nodiscard]] Evaluation<Dim> evaluate(const Positions<Dim>& x) override;
+    [[nodiscard]] GradientNorms norms(const Positions<Dim>& gradient) const override {
+        return scales_.norms(gradient);
+    }
     [[nodiscard]] NewtonDirection<Dim> solve(const Positions<Dim>& gradient,
                                              const Positions<Dim>& displacement,
                                              double tolerance) override;
@@ -117,6 +121,7 @@ private:
     std::shared_ptr<const DofMap> dofs_;           // alike on all ranks
     std::shared_ptr<const DofMap> rows_;           // the same as this rank has them in its matrix
     std::shared_ptr<const BlockPattern> pattern_;  // of elements, by rows
+    ForceScales<Dim> scales_;
     MassDistance<Dim> inertia_;
     MassDistance<Dim> mass_drag_;
     RayleighDamping<Dim> stiffness_drag_;

@@ -60,8 +60,8 @@ public:
     NewtonReport run() {
         at_ = function_.evaluate(x_);
         start_ = x_;
-        start_value_ = options_.start_norm ? options_.start_value : at_.value;
-        start_norm_ = options_.start_norm.value_or(at_.gradient.norm());
+        first_ = options_.start ? *options_.start
+                                : NewtonStart{at_.value, function_.norms(at_.gradient)};
         displacement_ = function_.prescribed_displacement(x_);
         is_pending_ = !displacement_.isZero(0);
         while (report_.iterations < options_.max_iterations) {
@@ -70,7 +70,7 @@ public:
             }
         }
         if (options_.may_stop_short) {
-            static_cast<void>(finish(at_.gradient.norm()));
+            static_cast<void>(finish(residual()));
         } else if (!is_at_kink()) {
             fail("Newton's method did not reach its tolerance");
         }
@@ -83,8 +83,8 @@ private:
         if (!std::isfinite(at_.value)) {
             return fail("the energy grew beyond all bounds");
         }
-        if (!is_pending_ && at_.gradient.norm() <= options_.tolerance * start_norm_) {
-            return finish(at_.gradient.norm());
+        if (!is_pending_ && residual() <= options_.tolerance) {
+            return finish(residual());
         }
         if (!is_current_) {
             at_ = function_.evaluate(x_);
@@ -108,12 +108,12 @@ private:
         }
         const bool is_cut = !factor || *factor < 1;
         const bool has_stalled =
-            is_cut && value_before - at_.value <= kKinkGain * (start_value_ - at_.value);
+            is_cut && value_before - at_.value <= kKinkGain * (first_.value - at_.value);
         if ((has_stalled || best_age_ >= kKinkIterations) && is_at_kink()) {
             return false;
         }
         if (!factor && options_.may_stop_short && report_.iterations > 1) {
-            return finish(at_.gradient.norm());
+            return finish(residual());
         }
         if (!factor) {
             return fail("the line search found no decrease");
@@ -124,8 +124,8 @@ private:
         const bool has_changed = function_.accept(x_);
         if (!is_pending_ && *factor >= 1
             && *factor * correction < options_.settled * options_.min_correction
-            && at_.gradient.norm() <= options_.settled * options_.tolerance * start_norm_) {
-            return finish(at_.gradient.norm());
+            && residual() <= options_.settled * options_.tolerance) {
+            return finish(residual());
         }
         if (is_pending_ && !carry_on(limit)) {
             return false;
@@ -205,7 +205,7 @@ private:
         const double change = next.value - at_.value;
         return change <= kArmijo * factor * slope + kRounding * std::abs(at_.value)
                || (change <= at_.rounding && has_less_gradient(at_, next, factor))
-               || (next.has_kink && change <= kMaxRise * (start_value_ - at_.value)
+               || (next.has_kink && change <= kMaxRise * (first_.value - at_.value)
                    && has_less_gradient(at_, next, factor));
     }
 
@@ -216,7 +216,10 @@ private:
         if (!is_pending_) {
             displacement_.setZero();
         }
-        start_norm_ = std::max(start_norm_, at_.gradient.norm());
+        const GradientNorms now = function_.norms(at_.gradient);
+        for (std::size_t norm = 0; norm < now.size(); ++norm) {
+            first_.norms[norm] = std::max(first_.norms[norm], now[norm]);
+        }
         blocked_steps_ = limit < kBlocked ? blocked_steps_ + 1 : 0;
         if (is_pending_ && blocked_steps_ == kMaxBlockedSteps) {
             report_.has_blocked_points = true;
@@ -228,25 +231,37 @@ private:
     // Keeps the point with the least gradient that was come by near kinks.
     void remember() {
         ++best_age_;
-        if (at_.gradient.norm() < best_norm_) {
+        const GradientNorms now = function_.norms(at_.gradient);
+        if (best_norms_.empty() || residual(now) < residual(best_norms_)) {
             best_ = x_;
-            best_norm_ = at_.gradient.norm();
+            best_norms_ = now;
             best_age_ = 0;
         }
     }
 
     bool is_at_kink() {
-        if (best_norm_ > kKinkGradient * start_norm_) {
+        if (best_norms_.empty() || residual(best_norms_) > kKinkGradient) {
             return false;
         }
         x_ = best_;
-        static_cast<void>(finish(best_norm_));
+        static_cast<void>(finish(residual(best_norms_)));
         return true;
     }
 
-    bool finish(double gradient_norm) {
+    // How much of the gradient at the start is left, in the norm in which that is most.
+    [[nodiscard]] double residual() const { return residual(function_.norms(at_.gradient)); }
+    [[nodiscard]] double residual(const GradientNorms& now) const {
+        double most = 0;
+        for (std::size_t norm = 0; norm < now.size(); ++norm) {
+            const double left = now[norm] == 0 ? 0 : now[norm] / first_.norms[norm];
+            most = left <= most ? most : left;  // that of what is not a number is not, either
+        }
+        return most;
+    }
+
+    bool finish(double residual) {
         report_.has_converged = true;
-        report_.residual = start_norm_ > 0 ? gradient_norm / start_norm_ : 0;
+        report_.residual = residual;
         return false;
     }
 
@@ -264,11 +279,10 @@ private:
     Positions<Dim> displacement_;  // of prescribed points, to their places
     bool is_pending_ = false;      // whether they are still on their way
     int blocked_steps_ = 0;        // steps in a row that hardly moved them
-    double start_value_ = 0;
-    double start_norm_ = 0;
+    NewtonStart first_;
     Positions<Dim> best_;
-    double best_norm_ = std::numeric_limits<double>::infinity();
-    int best_age_ = 0;  // iterations since
+    GradientNorms best_norms_;  // there; none yet
+    int best_age_ = 0;          // iterations since
     NewtonReport report_;
 };
 

@@ -8,8 +8,14 @@
 
 namespace pent::simulator {
 
+/// What counts as the start.
+struct NewtonStart {
+    double value = 0;
+    GradientNorms norms;
+};
+
 struct NewtonOptions {
-    double tolerance = 1e-4;    ///< Of |gradient| over that at the start, in (0, 1).
+    double tolerance = 1e-4;  ///< Of all norms of the gradient over those at the start, in (0, 1).
     double min_correction = 0;  ///< Largest coordinate of a correction below which it is none.
     double settled = 0;  ///< A whole correction below so many min_correction, and a gradient below
                          ///< so many tolerances, are an end, too; 0 for no such rule.
@@ -21,8 +27,7 @@ struct NewtonOptions {
     bool may_stop_short = false;  ///< Whether to have taken that many, or to find no decrease
                                   ///< behind the first, is as good an end as any.
     bool extends_steps = false;   ///< Whether a whole step may go on along its line.
-    double start_value = 0;       ///< Value and |gradient| that count as those at the start, where
-    std::optional<double> start_norm = {};  ///< these are given; else those of the first point.
+    std::optional<NewtonStart> start = {};  ///< If not that of the first point.
 };
 
 struct NewtonReport {
@@ -30,8 +35,8 @@ struct NewtonReport {
     std::string failure_reason;       ///< Empty if it has.
     bool has_blocked_points = false;  ///< Prescribed points could not get to their places.
     int iterations = 0;               ///< Linear solves.
-    double residual = 0;  ///< |gradient| at the end over that at the start; 0 if it ended by
-                          ///< tolerance of the gradient or correction.
+    double residual = 0;  ///< Gradient at the end over that at the start, by the norm in which more
+                          ///< is left; 0 if it ended by a negligible correction.
 };
 
 /// Minimizes a function by Newton's method with line search, from x, where the result goes.

@@ -3,6 +3,7 @@
 #include <pent/simplex_mesh.h>
 
 #include <string>
+#include <vector>
 
 namespace pent::simulator {
 
@@ -14,6 +15,9 @@ struct Evaluation {
     bool has_kink = false;  ///< Whether the gradient is not quite the derivative of the value here.
     Positions<Dim> gradient;  ///< Dim x points; 0 where a variable is fixed.
 };
+
+/// How large a gradient is: |gradient|, and the same in other norms in which as little may be left.
+using GradientNorms = std::vector<double>;
 
 /// Where Newton's method would go.
 template <int Dim>
@@ -36,6 +40,11 @@ public:
     Objective& operator=(Objective&&) = delete;
 
     [[nodiscard]] virtual Evaluation<Dim> evaluate(const Positions<Dim>& x) = 0;
+
+    /// Always as many.
+    [[nodiscard]] virtual GradientNorms norms(const Positions<Dim>& gradient) const {
+        return {gradient.norm()};
+    }
 
     /// -(Hessian)^-1 gradient at the point last evaluated, prescribed points moving by
     /// `displacement`.

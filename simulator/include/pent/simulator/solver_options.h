@@ -76,10 +76,12 @@ struct SolverOptions {
     LinearSolverKind linear = LinearSolverKind::Iterative;
     PreconditionerKind preconditioner = PreconditionerKind::RigidModes;
     Precision precision = Precision::Float;
-    double tolerance = 1e-4;  ///< |b - A x| / |b| at which the linear solve stops, in (0, 1).
+    double tolerance = 1e-4;  ///< |b - A x| / |b| at which the linear solve stops, in (0, 1); of
+                              ///< several materials also with each force over the stiffness there,
+                              ///< and over the density.
     double newton_tolerance =
         1e-4;                   ///< Unbalanced force at the end of a step over that at its start,
-                                ///< in (0, 1); not for LinearEuler.
+                                ///< as for tolerance, in (0, 1); not for LinearEuler.
     int max_iterations = 3000;  ///< Of one linear solve, > 0.
     int max_halvings = 6;       ///< How often a failed step may be cut in two, 0..20.
 };

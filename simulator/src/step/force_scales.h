@@ -1,0 +1,41 @@
+#pragma once
+
+#include "model/bodies.h"
+#include "step/objective.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pent::simulator {
+
+/// How large forces are on some vertices beside those on others that move as far, by what they are
+/// made of. Beside steel the forces on rubber are no more than a rounding, and yet they have to be
+/// balanced: so what is left of them is told in several norms.
+template <int Dim>
+class ForceScales {
+public:
+    /// @param bodies  A vertex of several materials counts as of the stiffest, or densest.
+    explicit ForceScales(const Bodies<Dim>& bodies);
+
+    /// Whether densities count: in a step with inertia.
+    void set_inertia(bool has_inertia) { has_inertia_ = has_inertia; }
+
+    /// The norm of a gradient; that with every part over the stiffness there, if that is not the
+    /// same everywhere; and that over the density, likewise. What is largest counts as it is.
+    ///
+    /// @param gradient  Dim x vertices.
+    [[nodiscard]] GradientNorms norms(const Positions<Dim>& gradient) const;
+
+    /// Of the squares of forces on the vertices of these rows in all norms but the first.
+    [[nodiscard]] std::vector<Eigen::VectorXd> weights(const DofMap& rows) const;
+
+private:
+    [[nodiscard]] std::vector<const std::vector<float>*> scales() const;
+
+    // Of what is largest over what is there, one a vertex; empty if the same everywhere.
+    std::vector<float> by_stiffness_;
+    std::vector<float> by_density_;
+    bool has_inertia_ = true;
+};
+
+}  // namespace pent::simulator
