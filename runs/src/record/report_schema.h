@@ -76,7 +76,9 @@ void fields(Part& step, const Visit& visit) {
     visit(key("filtered", "", "of those, the ones that `filter` changed"), step.filtered);
     visit(key("damping_hessians", "", "of damping with a tangent of its own"),
           step.damping_hessians);
-    visit(key("residual", "", "largest \\|b - A x\\| / \\|b\\| of the linear solves, from x"),
+    visit(key("residual", "",
+              "largest \\|b - A x\\| / \\|b\\| of the linear solves, from x, in the norm in which "
+              "most is left"),
           step.residual);
     visit(key("unbalanced", "", "force left by Newton's method over that at its start"),
           step.unbalanced);

@@ -95,7 +95,6 @@ Bodies<Dim> make_bodies(const Scene& scene, std::vector<SimplexMesh<Dim>> meshes
     Bodies<Dim> bodies;
     bodies.meshes = std::move(meshes);
     append_bodies(scene, bodies);
-    bodies.columns = number_columns(bodies.meshes);
     lump_masses(scene, bodies);
     return bodies;
 }

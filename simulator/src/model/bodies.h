@@ -27,11 +27,10 @@ struct Bodies {
     Eigen::Index cell_count = 0;  ///< Of all ranks.
     std::vector<std::uint32_t>
         mesh_cells;  ///< Which cell of its mesh each is; empty if all are and no body has regions.
-    std::vector<CellRange> ranges;  ///< One a body and one a region, in this order.
-    QuadraticCells<Dim> quadratic;  ///< Of which the cells are children; empty if not asked for.
-    Eigen::VectorXd masses;         ///< One a vertex, kg.
-    double large_energy = 0;        ///< Elastic energy of all bodies at strains of about one, J.
-    Columns columns;
+    std::vector<CellRange> ranges;    ///< One a body and one a region, in this order.
+    QuadraticCells<Dim> quadratic;    ///< Of which the cells are children; empty if not asked for.
+    Eigen::VectorXd masses;           ///< One a vertex, kg.
+    double large_energy = 0;          ///< Elastic energy of all bodies at strains of about one, J.
     Sharing sharing;                  ///< By ranks.
     bool may_couple_anything = true;  ///< Whether a matrix may couple vertices that share no cell.
 
@@ -78,6 +77,10 @@ struct Bodies {
     /// The body that a vertex belongs to.
     [[nodiscard]] std::size_t body_of(std::uint32_t vertex) const;
 };
+
+/// The columns of all bodies; a mesh without columns has one a vertex.
+template <int Dim>
+[[nodiscard]] Columns number_columns(const std::vector<SimplexMesh<Dim>>& meshes);
 
 /// Places the meshes and lumps masses.
 ///

@@ -43,7 +43,7 @@ DofMap number_dofs(const Bodies<Dim>& bodies,
                    const std::vector<bool>& is_in) {
     const std::vector<bool> is_fixed = fixed_vertices(bodies, held, is_in);
     if (!bodies.sharing.is_shared()) {
-        return number_dofs<Dim>(bodies.cells(), is_fixed, bodies.columns);
+        return number_dofs<Dim>(bodies.cells(), is_fixed, number_columns(bodies.meshes));
     }
     const std::vector<bool> is_coupled = coupled_vertices(bodies);
     std::vector<bool> is_own(is_fixed.size());
@@ -56,7 +56,7 @@ DofMap number_dofs(const Bodies<Dim>& bodies,
             others.push_back(vertex);
         }
     }
-    const DofMap own = number_dofs<Dim>(bodies.cells(), has_no_row, bodies.columns);
+    const DofMap own = number_dofs<Dim>(bodies.cells(), has_no_row, number_columns(bodies.meshes));
     std::vector<std::uint32_t> vertex_of_dof = own.vertices();
     vertex_of_dof.insert(vertex_of_dof.end(), others.begin(), others.end());
     return {is_fixed.size(), std::move(vertex_of_dof), own.column_start(), std::move(is_own)};

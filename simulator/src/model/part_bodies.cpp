@@ -47,9 +47,9 @@ void place_parts(const Scene& scene,
                   crc32c(bodies.rest().data(),
                          static_cast<std::size_t>(bodies.rest().size()) * sizeof(double)),
                   "other meshes", "let all of them read the same files");
-    bodies.columns = number_columns(bodies.meshes);
-    bodies.sharing =
-        Sharing(ranks, partition_columns<Dim>(bodies.rest(), bodies.columns, ranks->count()));
+    bodies.sharing = Sharing(
+        ranks,
+        partition_columns<Dim>(bodies.rest(), number_columns(bodies.meshes), ranks->count()));
 }
 
 // Appends the cells of a body, of whose mesh nothing but labels and fibers in their order stays.

@@ -25,10 +25,6 @@ template <int Dim>
 template <int Dim>
 void check_meshes(const Scene& scene, std::size_t meshes);
 
-/// The columns of all bodies; a mesh without columns has one a vertex.
-template <int Dim>
-[[nodiscard]] Columns number_columns(const std::vector<SimplexMesh<Dim>>& meshes);
-
 /// Finds masses and the large energy, once all else is there; of parts also who shares them. Throws
 /// an Error for a vertex without mass.
 template <int Dim>

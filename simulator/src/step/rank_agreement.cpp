@@ -60,8 +60,9 @@ Bodies<Dim> share(const Scene& scene,
                   Bodies<Dim> bodies,
                   const std::shared_ptr<const Ranks>& ranks) {
     if (ranks != nullptr) {
-        bodies.sharing =
-            Sharing(ranks, partition_columns<Dim>(bodies.rest(), bodies.columns, ranks->count()));
+        bodies.sharing = Sharing(
+            ranks,
+            partition_columns<Dim>(bodies.rest(), number_columns(bodies.meshes), ranks->count()));
         refuse_others(ranks.get(), checksum(bodies.cells(), checksum(bodies.rest(), 0)),
                       "other meshes", "let all of them read the same files");
         bodies.may_couple_anything = do_terms_couple_anything(scene);
