@@ -86,7 +86,7 @@ struct StepReport {
     std::int64_t filtered = 0;  ///< Of those, the ones that Filter changed: none with Filter::None.
     std::int64_t damping_hessians =
         0;                  ///< The same for Rayleigh damping with a tangent of its own.
-    double residual = 0;    ///< Largest |b - A x| / |b|, computed from x.
+    double residual = 0;    ///< Largest |b - A x| / |b| from x, in the norm where most is left.
     double unbalanced = 0;  ///< Largest unbalanced force at the end of a Newton step over that at
                             ///< its start; above newton_tolerance at kinks and barriers alone.
     std::int64_t inverted = 0;  ///< Cells with J <= 0 at the end.
