@@ -23,7 +23,7 @@ def slow(tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def hears_ctrl_c():
-    """As at a terminal: shells start what runs in the background with SIGINT ignored, and Python leaves it so."""
+    """As at a terminal: shells have SIGINT ignored in the background, and Python leaves it so."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)

@@ -13,6 +13,9 @@
 
 namespace pent::simulator::test {
 
+inline constexpr ElementKind kElementKinds[] = {ElementKind::Linear, ElementKind::Smoothed,
+                                                ElementKind::Quadratic};
+
 /// A small box of one material with everything the kernels need, positions scrambled at will.
 template <int Dim>
 struct ElasticBox {

@@ -19,9 +19,6 @@ template <typename T>
 class ElementLayoutTest : public testing::Test {};
 TYPED_TEST_SUITE(ElementLayoutTest, Dimensions);
 
-constexpr ElementKind kKinds[] = {ElementKind::Linear, ElementKind::Smoothed,
-                                  ElementKind::Quadratic};
-
 using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
 Pairs pairs_of(const BlockPattern& pattern) {
@@ -64,7 +61,7 @@ Pairs pairs_that_feel_each_other(const ElasticBox<Dim>& box) {
 // none but those of vertices of one element.
 TYPED_TEST(ElementLayoutTest, HasABlockForEveryPairThatFeelsEachOther) {
     constexpr int kDim = TypeParam::value;
-    for (const ElementKind kind : kKinds) {
+    for (const ElementKind kind : test::kElementKinds) {
         ElasticBox<kDim> box({.lame = {.lambda = 2, .mu = 1}}, {0, 3}, kind);
         box.scramble(0.02, 1);
         const Pairs expected = pairs_that_feel_each_other(box);

@@ -25,9 +25,6 @@ template <typename T>
 class ElementsTest : public testing::Test {};
 TYPED_TEST_SUITE(ElementsTest, Dimensions);
 
-constexpr ElementKind kKinds[] = {ElementKind::Linear, ElementKind::Smoothed,
-                                  ElementKind::Quadratic};
-
 const Material kFirst{.lame = {.lambda = 1.3, .mu = 0.7}};
 const Material kSecond{.model = Model::StVenantKirchhoff, .lame = {.lambda = 3, .mu = 2}};
 
@@ -144,7 +141,7 @@ std::vector<bool> held_below(ElementKind kind, double x) {
 
 TYPED_TEST(ElementsTest, AddUpToTheTheoryOfEachMaterial) {
     constexpr int kDim = TypeParam::value;
-    for (const ElementKind kind : kKinds) {
+    for (const ElementKind kind : test::kElementKinds) {
         SCOPED_TRACE(static_cast<int>(kind));
         std::vector<bool> is_held = held_below<kDim>(kind, -1);
         is_held[0] = is_held[3] = true;
@@ -176,7 +173,7 @@ TYPED_TEST(ElementsTest, AddUpToTheTheoryOfEachMaterial) {
 // An element of which every corner is held has nothing to say of anything that is solved for.
 TYPED_TEST(ElementsTest, AreThoseWithAFreeCornerAndSayTheSameOfIt) {
     constexpr int kDim = TypeParam::value;
-    for (const ElementKind kind : kKinds) {
+    for (const ElementKind kind : test::kElementKinds) {
         SCOPED_TRACE(static_cast<int>(kind));
         TwoMaterials<kDim> all(kind, held_below<kDim>(kind, -1));
         TwoMaterials<kDim> some(kind, held_below<kDim>(kind, 0.8));
@@ -211,7 +208,7 @@ TYPED_TEST(ElementsTest, AreThoseWithAFreeCornerAndSayTheSameOfIt) {
 TYPED_TEST(ElementsTest, AreTheSameToTheBitForAnyNumberOfThreads) {
     constexpr int kDim = TypeParam::value;
     const Kernels<kDim>& isa = kernels<kDim>(best_isa());
-    for (const ElementKind kind : kKinds) {
+    for (const ElementKind kind : test::kElementKinds) {
         const TwoMaterials<kDim> body(kind, held_below<kDim>(kind, 0.1));
         const Positions<kDim>& x = body.box.positions;
         std::vector<Positions<kDim>> gradients;

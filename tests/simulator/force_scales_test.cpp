@@ -18,9 +18,6 @@ using test::gradient_of;
 using test::Setting;
 using test::shaken;
 
-constexpr ElementKind kKinds[] = {ElementKind::Linear, ElementKind::Smoothed,
-                                  ElementKind::Quadratic};
-
 template <typename T>
 class ForceScalesTest : public testing::Test {};
 TYPED_TEST_SUITE(ForceScalesTest, Dimensions);
@@ -65,7 +62,7 @@ TYPED_TEST(ForceScalesTest, LetBodiesThatAreStrainedAlikeCountAlike) {
         ASSERT_EQ(norms.size(), 2);
         const double larger =
             std::max(gradient.leftCols(half).norm(), gradient.rightCols(half).norm());
-        EXPECT_NEAR(norms[1], std::sqrt(2.0) * larger, 1e-6 * larger);
+        EXPECT_NEAR(norms[1], std::sqrt(2.0) * larger, 1e-9 * larger);
     }
 }
 
@@ -111,8 +108,9 @@ TYPED_TEST(ForceScalesTest, TakeTheStifferOfTwoMaterialsOfAVertex) {
     }
 }
 
-// Two cubes that hang from a side each, and come to rest; the softer, or lighter, as near to where
-// it comes to rest alone as the tolerance says, whatever is beside it.
+// How far the first of two cubes, each pulled away from a side that is held, is in three steps from
+// where it is alone, over how far it moved. Both leave 1e-4 of the forces of a step, and a cube
+// of two cells an edge has no mode that is ten times as soft as those that gravity moves.
 template <int Dim>
 double far_from_alone(ElementKind kind, Integrator integrator, double stiffness, double density) {
     Scene both = two_materials<Dim>(stiffness, density);
@@ -145,7 +143,7 @@ double far_from_alone(ElementKind kind, Integrator integrator, double stiffness,
 
 TYPED_TEST(ForceScalesTest, LeaveASoftBodyBesideAStiffOneAsRightAsAlone) {
     constexpr int kDim = TypeParam::value;
-    for (const ElementKind kind : kKinds) {
+    for (const ElementKind kind : test::kElementKinds) {
         for (const double ratio : {1e3, 1e6}) {
             EXPECT_LT(far_from_alone<kDim>(kind, Integrator::Quasistatic, ratio, ratio), 1e-3)
                 << word_of(kind) << " " << ratio;
@@ -157,7 +155,7 @@ TYPED_TEST(ForceScalesTest, LeaveALightBodyBesideAHeavyOneAsRightAsAlone) {
     constexpr int kDim = TypeParam::value;
     for (const Integrator integrator :
          {Integrator::LinearEuler, Integrator::NewtonEuler, Integrator::Bdf2}) {
-        for (const ElementKind kind : kKinds) {
+        for (const ElementKind kind : test::kElementKinds) {
             for (const double stiffness : {1.0, 1e3, 1e6}) {
                 EXPECT_LT(far_from_alone<kDim>(kind, integrator, stiffness, 1e6), 1e-3)
                     << word_of(integrator) << " " << word_of(kind) << " " << stiffness;

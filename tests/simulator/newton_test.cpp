@@ -44,6 +44,37 @@ TEST(Newton, GainsDigitsQuadratically) {
     EXPECT_LE(iterations(1e-12), iterations(1e-3) + 2);
 }
 
+// A stiff x^2, which one iteration solves, beside a soft y^4, of whose gradient each leaves 8/27.
+// In the norm of all the soft part is nothing from the first; in one of its own 1e-4 is left after
+// eight: log 1e-4 / log 8/27 is 7.6.
+TEST(Newton, GoesOnUntilEveryNormIsSmall) {
+    const auto iterations = [](bool has_own_norm) {
+        struct Two : PlainFunction {
+            bool has_own_norm = false;
+            GradientNorms norms(const Positions<3>& of) const override {
+                return has_own_norm ? GradientNorms{of.norm(), of.col(0).tail(1).norm()}
+                                    : PlainFunction::norms(of);
+            }
+        };
+        Two f;
+        f.has_own_norm = has_own_norm;
+        f.value = [](const Eigen::VectorXd& x) { return 1e9 * x[0] * x[0] + std::pow(x[2], 4); };
+        f.gradient = [](const Eigen::VectorXd& x) {
+            return Eigen::VectorXd(Eigen::Vector3d(2e9 * x[0], 0, 4 * std::pow(x[2], 3)));
+        };
+        f.hessian = [](const Eigen::VectorXd& x) {
+            return Eigen::MatrixXd(Eigen::Vector3d(2e9, 1, 12 * x[2] * x[2]).asDiagonal());
+        };
+        Positions<3> x = point(1, 0, 1);
+        const NewtonReport report = newton<3>(f, {.tolerance = 1e-4}, x);
+        EXPECT_TRUE(report.has_converged) << report.failure_reason;
+        EXPECT_LE(report.residual, 1e-4);
+        return report.iterations;
+    };
+    EXPECT_EQ(iterations(false), 1);
+    EXPECT_EQ(iterations(true), 8);
+}
+
 // m/2 (x - c)^2 + friction: a mass that is to come to rest where it started, m |c| being half of
 // what friction can hold. With the Hessian alone it goes to and fro across the place. With the
 // secant each iteration at least halves the slip: x_next = m c / (m + F / |x|), so that ten of them

@@ -22,9 +22,6 @@ using test::Setting;
 using test::shaken;
 using test::value_of;
 
-constexpr ElementKind kKinds[] = {ElementKind::Linear, ElementKind::Smoothed,
-                                  ElementKind::Quadratic};
-
 template <typename T>
 class RegionTest : public testing::Test {};
 TYPED_TEST_SUITE(RegionTest, Dimensions);
@@ -56,7 +53,7 @@ Scene layered_boxes(ElementKind kind) {
 
 TYPED_TEST(RegionTest, HaveTheirDensityAndOfTwoTheLaterOneCounts) {
     constexpr int kDim = TypeParam::value;
-    for (const ElementKind kind : kKinds) {
+    for (const ElementKind kind : test::kElementKinds) {
         Scene scene = layered_boxes<kDim>(kind);
         scene.bodies[0].regions[1].material.density = 500;
         const Setting<kDim> setting(scene, cells_of(kind));
@@ -78,7 +75,7 @@ TYPED_TEST(RegionTest, HaveTheirDensityAndOfTwoTheLaterOneCounts) {
 // All cells are there once, in another order.
 TYPED_TEST(RegionTest, KeepTheCellsOfTheMeshAndKnowWhichIsWhich) {
     constexpr int kDim = TypeParam::value;
-    for (const ElementKind kind : kKinds) {
+    for (const ElementKind kind : test::kElementKinds) {
         const Setting<kDim> setting(layered_boxes<kDim>(kind), 2);
         const Bodies<kDim>& bodies = setting.bodies;
         for (std::size_t body = 0; body < 2; ++body) {
@@ -99,7 +96,7 @@ TYPED_TEST(RegionTest, KeepTheCellsOfTheMeshAndKnowWhichIsWhich) {
 
 TYPED_TEST(RegionTest, HaveTheDerivativesOfTheirEnergyAndAddUpToAll) {
     constexpr int kDim = TypeParam::value;
-    for (const ElementKind kind : kKinds) {
+    for (const ElementKind kind : test::kElementKinds) {
         const Scene scene = layered_boxes<kDim>(kind);
         const Setting<kDim> setting(scene, 3);
         Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, setting.held,
@@ -163,7 +160,7 @@ Scene pulled_cube(ElementKind kind, int stiff_along) {
 // Two springs in a row, of which one is four times as stiff: the soft half is stretched by 4/5.
 TYPED_TEST(RegionTest, InARowStretchLikeSpringsInARow) {
     constexpr int kDim = TypeParam::value;
-    for (const ElementKind kind : kKinds) {
+    for (const ElementKind kind : test::kElementKinds) {
         const Scene scene = pulled_cube<kDim>(kind, 0);
         Simulation<kDim> simulation(scene, {cube_for<kDim>(scene, cells_of(kind))});
         const StepReport report = simulation.step();
@@ -184,7 +181,7 @@ TYPED_TEST(RegionTest, InARowStretchLikeSpringsInARow) {
 // up: strain 2e-5 times half the end of 0.5^(n - 1) m^(n - 1) times each Young's modulus.
 TYPED_TEST(RegionTest, SideBySideAddUpTheirForces) {
     constexpr int kDim = TypeParam::value;
-    for (const ElementKind kind : kKinds) {
+    for (const ElementKind kind : test::kElementKinds) {
         const Scene scene = pulled_cube<kDim>(kind, 1);
         Simulation<kDim> simulation(scene, {cube_for<kDim>(scene, cells_of(kind))});
         const StepReport report = simulation.step();
@@ -198,7 +195,7 @@ TYPED_TEST(RegionTest, SideBySideAddUpTheirForces) {
 
 TYPED_TEST(RegionTest, GoOnToTheSameBitsFromASnapshotAndWithAnyThreads) {
     constexpr int kDim = TypeParam::value;
-    for (const ElementKind kind : kKinds) {
+    for (const ElementKind kind : test::kElementKinds) {
         Scene scene = layered_boxes<kDim>(kind);
         scene.gravity[1] = -9.8;
         scene.contact = ContactSettings{.distance = 0.05, .stiffness = 2e3};

@@ -5,6 +5,9 @@
 #include "linear/linear_solve.h"
 #include "linear/preconditioner.h"
 
+#include <span>
+#include <vector>
+
 namespace pent::simulator {
 
 /// Preconditioned conjugate gradients for A x = b, A symmetric positive definite.
@@ -51,8 +54,8 @@ private:
     BlockVector<Dim> z_;
     BlockVector<Dim> p_;
     BlockVector<Dim> q_;
-    std::vector<Eigen::VectorXd> weights_;  // of this rank's rows, as in LinearSolveOptions
-    std::vector<double> b_norms_;           // |b|, and those by weights
+    std::span<const Eigen::VectorXd> weights_;  // of the solve that goes on, see LinearSolveOptions
+    std::vector<double> b_norms_;               // |b|, and those by weights
 };
 
 }  // namespace pent::simulator

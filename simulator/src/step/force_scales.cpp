@@ -3,22 +3,23 @@
 #include <pent/dimensions.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 
 namespace pent::simulator {
 
 namespace {
 
-// The largest of a number of materials over the largest of those that each vertex has.
+// The largest of a number of materials over the largest of those that each vertex has; empty if
+// there is but one.
 template <int Dim, typename Number>
-std::vector<float> scales_by(const Bodies<Dim>& bodies, const Number& number) {
-    double largest = 0;
-    bool differ = false;
+Eigen::VectorXd scales_by(const Bodies<Dim>& bodies, const Number& number) {
+    double smallest = number(bodies.ranges.front().material);
+    double largest = smallest;
     for (const CellRange& range : bodies.ranges) {
-        differ = differ || number(range.material) != number(bodies.ranges.front().material);
+        smallest = std::min(smallest, number(range.material));
         largest = std::max(largest, number(range.material));
     }
-    if (!differ) {
+    if (smallest == largest) {
         return {};
     }
     Eigen::Matrix<double, 1, Eigen::Dynamic> of_vertices =
@@ -31,12 +32,7 @@ std::vector<float> scales_by(const Bodies<Dim>& bodies, const Number& number) {
         }
     }
     bodies.sharing.gather(of_vertices);
-    std::vector<float> scales;
-    scales.reserve(static_cast<std::size_t>(of_vertices.size()));
-    for (const double own : of_vertices) {
-        scales.push_back(static_cast<float>(largest / own));
-    }
-    return scales;
+    return largest * of_vertices.cwiseInverse().transpose();
 }
 
 }  // namespace
@@ -47,12 +43,12 @@ ForceScales<Dim>::ForceScales(const Bodies<Dim>& bodies)
       by_density_(scales_by(bodies, [](const Material& own) { return own.density; })) {}
 
 template <int Dim>
-std::vector<const std::vector<float>*> ForceScales<Dim>::scales() const {
-    std::vector<const std::vector<float>*> all;
-    if (!by_stiffness_.empty()) {
+std::vector<const Eigen::VectorXd*> ForceScales<Dim>::scales() const {
+    std::vector<const Eigen::VectorXd*> all;
+    if (by_stiffness_.size() > 0) {
         all.push_back(&by_stiffness_);
     }
-    if (!by_density_.empty() && has_inertia_) {
+    if (by_density_.size() > 0 && has_inertia_) {
         all.push_back(&by_density_);
     }
     return all;
@@ -61,13 +57,8 @@ std::vector<const std::vector<float>*> ForceScales<Dim>::scales() const {
 template <int Dim>
 GradientNorms ForceScales<Dim>::norms(const Positions<Dim>& gradient) const {
     GradientNorms norms = {gradient.norm()};
-    for (const std::vector<float>* scale : scales()) {
-        double sum = 0;
-        for (Eigen::Index vertex = 0; vertex < gradient.cols(); ++vertex) {
-            const double factor = (*scale)[static_cast<std::size_t>(vertex)];
-            sum += factor * factor * gradient.col(vertex).squaredNorm();
-        }
-        norms.push_back(std::sqrt(sum));
+    for (const Eigen::VectorXd* scale : scales()) {
+        norms.push_back((gradient * scale->asDiagonal()).norm());
     }
     return norms;
 }
@@ -75,7 +66,7 @@ GradientNorms ForceScales<Dim>::norms(const Positions<Dim>& gradient) const {
 template <int Dim>
 std::vector<Eigen::VectorXd> ForceScales<Dim>::weights(const DofMap& rows) const {
     std::vector<Eigen::VectorXd> weights;
-    for (const std::vector<float>* scale : scales()) {
+    for (const Eigen::VectorXd* scale : scales()) {
         Eigen::VectorXd& own = weights.emplace_back(rows.row_count());
         for (std::uint32_t row = 0; row < rows.row_count(); ++row) {
             const double factor = (*scale)[rows.vertex_of(row)];

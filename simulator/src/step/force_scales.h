@@ -3,7 +3,6 @@
 #include "model/bodies.h"
 #include "step/objective.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace pent::simulator {
@@ -30,11 +29,11 @@ public:
     [[nodiscard]] std::vector<Eigen::VectorXd> weights(const DofMap& rows) const;
 
 private:
-    [[nodiscard]] std::vector<const std::vector<float>*> scales() const;
+    [[nodiscard]] std::vector<const Eigen::VectorXd*> scales() const;
 
-    // Of what is largest over what is there, one a vertex; empty if the same everywhere.
-    std::vector<float> by_stiffness_;
-    std::vector<float> by_density_;
+    // What is largest over what is there, one a vertex; empty if the same everywhere.
+    Eigen::VectorXd by_stiffness_;
+    Eigen::VectorXd by_density_;
     bool has_inertia_ = true;
 };
 

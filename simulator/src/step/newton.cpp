@@ -281,7 +281,7 @@ private:
     int blocked_steps_ = 0;        // steps in a row that hardly moved them
     NewtonStart first_;
     Positions<Dim> best_;
-    GradientNorms best_norms_;  // there; none yet
+    GradientNorms best_norms_;  // there; empty until there is one
     int best_age_ = 0;          // iterations since
     NewtonReport report_;
 };

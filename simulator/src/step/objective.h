@@ -41,7 +41,7 @@ public:
 
     [[nodiscard]] virtual Evaluation<Dim> evaluate(const Positions<Dim>& x) = 0;
 
-    /// Always as many.
+    /// In the same norms at every call.
     [[nodiscard]] virtual GradientNorms norms(const Positions<Dim>& gradient) const {
         return {gradient.norm()};
     }
