@@ -1,5 +1,7 @@
 #include "heartbeat.h"
 
+#include "terminal.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <unistd.h>
@@ -16,10 +18,7 @@ void print(const char* text, std::size_t length) {
 }  // namespace
 
 Heartbeat::Heartbeat(bool quiet, std::chrono::milliseconds between)
-    : start_(Clock::now()),
-      last_(start_),
-      between_(between),
-      is_terminal_(::isatty(STDOUT_FILENO) == 1) {
+    : start_(Clock::now()), last_(start_), between_(between), is_terminal_(is_on_terminal()) {
     if (quiet) {
         return;
     }

@@ -1,10 +1,11 @@
 #include "progress.h"
 
+#include "terminal.h"
+
 #include <pent/formatted.h>
 
 #include <cmath>
 #include <cstdio>
-#include <unistd.h>
 #include <utility>
 
 namespace pent::apps {
@@ -29,7 +30,7 @@ Progress::Progress(std::string label, std::int64_t total, bool quiet)
     : label_(std::move(label)),
       total_(total),
       quiet_(quiet),
-      terminal_(::isatty(STDOUT_FILENO) == 1),
+      terminal_(is_on_terminal()),
       start_(Clock::now()),
       last_(start_) {}
 

@@ -50,12 +50,20 @@ Candidates<Dim>::Candidates(const Colliders<Dim>& colliders, const SharedWork& s
       min_inflation_(colliders.scene().options.margin),
       trees_(static_cast<std::size_t>(colliders.count())),
       patches_(static_cast<std::size_t>(colliders.count())),
-      proximity_(static_cast<std::size_t>(colliders.count())) {
+      proximity_(static_cast<std::size_t>(colliders.count())),
+      convex_(static_cast<std::size_t>(colliders.count())) {
     if (!is_penalty()) {
         const ContactOptions& options = colliders.scene().options;
         activation_distance_ = options.distance + options.separation;
         min_inflation_ = kInflation * options.distance;
     }
+    parallel_for(convex_.size(), [&](std::size_t i) {
+        const int body = static_cast<int>(i);
+        if (colliders.can_meet(body, body)) {
+            convex_[i] = ConvexBody<Dim>::make(colliders.cells(body), colliders.rest(),
+                                               activation_distance(body, body));
+        }
+    });
 }
 
 template <int Dim>
@@ -142,44 +150,48 @@ template <int Dim>
 void Candidates<Dim>::cover_within(const Paths<Dim>& paths) {
     std::vector<int> bodies;
     for (int body = 0; body < colliders_.count(); ++body) {
-        if (!colliders_.can_meet(body, body)
-            || (!is_penalty() && is_covered({body, body}, paths))) {
-            continue;
-        }
-        bodies.push_back(body);
-        std::optional<SelfProximity<Dim>>& proximity = proximity_[static_cast<std::size_t>(body)];
-        if (!proximity) {
-            proximity.emplace(colliders_.surface(body), colliders_.rest(),
-                              activation_distance_ + (is_penalty() ? 0 : 2 * min_inflation_),
-                              is_penalty(), shared_);
+        if (colliders_.can_meet(body, body) && (is_penalty() || !is_covered({body, body}, paths))) {
+            bodies.push_back(body);
         }
     }
     inflation_.conservativeResize(paths.to.cols());
     std::vector<Meeting<Dim>> found(bodies.size());
-    parallel_for(bodies.size(), [&](std::size_t k) {
-        SelfProximity<Dim>& proximity = *proximity_[static_cast<std::size_t>(bodies[k])];
-        if (is_penalty()) {
-            found[k].pairs = proximity.find(paths.to);
-        } else {
-            found[k] = search_within(bodies[k], proximity, paths);
-        }
-    });
+    parallel_for(bodies.size(), [&](std::size_t k) { found[k] = find_within(bodies[k], paths); });
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         insert({bodies[k], bodies[k]}, std::move(found[k]));
     }
 }
 
+// What a convex body has not been bent enough to meet takes no search.
 template <int Dim>
-Meeting<Dim> Candidates<Dim>::search_within(int body,
-                                            SelfProximity<Dim>& proximity,
-                                            Paths<Dim> paths) {
+Meeting<Dim> Candidates<Dim>::find_within(int body, Paths<Dim> paths) {
+    const std::optional<ConvexBody<Dim>>& convex = convex_[static_cast<std::size_t>(body)];
+    const double distance = activation_distance(body, body);
+    if (is_penalty()) {
+        const bool is_apart = convex && convex->stays_apart({paths.to, paths.to}, distance);
+        return {is_apart ? CandidatePairs() : proximity(body).find(paths.to), {}};
+    }
     const Simplices<1>& vertices = colliders_.surface(body).vertices;
+    paths.inflation = &inflation_;
+    if (convex && convex->stays_apart(paths, distance + 2 * min_inflation_)) {
+        set_inflation<Dim>(vertices, paths, min_inflation_, 0, inflation_);
+        return {{}, PathCover<Dim>(vertices, paths)};
+    }
     paths.drift = mean_shift<Dim>(vertices, paths.from, paths.to);
     set_inflation<Dim>(vertices, paths, min_inflation_, kInflationOfPath, inflation_);
-    paths.inflation = &inflation_;
-    const double distance = activation_distance(body, body);
-    return {proximity.find(paths, distance, measured_within(distance)),
+    return {proximity(body).find(paths, distance, measured_within(distance)),
             PathCover<Dim>(vertices, paths)};
+}
+
+template <int Dim>
+SelfProximity<Dim>& Candidates<Dim>::proximity(int body) {
+    std::optional<SelfProximity<Dim>>& proximity = proximity_[static_cast<std::size_t>(body)];
+    if (!proximity) {
+        proximity.emplace(colliders_.surface(body), colliders_.rest(),
+                          activation_distance_ + (is_penalty() ? 0 : 2 * min_inflation_),
+                          is_penalty(), shared_);
+    }
+    return *proximity;
 }
 
 // What lies still beside what moves is not searched, and what is far off is forgotten once it
@@ -404,6 +416,9 @@ std::int64_t Candidates<Dim>::bytes() const {
     }
     for (const std::optional<SelfProximity<Dim>>& proximity : proximity_) {
         sum += proximity ? proximity->bytes() : 0;
+    }
+    for (const std::optional<ConvexBody<Dim>>& convex : convex_) {
+        sum += convex ? convex->bytes() : 0;
     }
     return sum
            + static_cast<std::int64_t>(boxes_.size() * sizeof(Box)

@@ -2,6 +2,7 @@
 
 #include "candidate.h"
 #include "colliders.h"
+#include "convex_body.h"
 #include "overlaps.h"
 #include "path_cover.h"
 #include "self_proximity.h"
@@ -115,9 +116,8 @@ private:
     [[nodiscard]] bool does_cover(const Meeting<Dim>& meeting, const Paths<Dim>& paths) const;
     void insert(const Pair& pair, Meeting<Dim> meeting);
     void cover_within(const Paths<Dim>& paths);
-    [[nodiscard]] Meeting<Dim> search_within(int body,
-                                             SelfProximity<Dim>& proximity,
-                                             Paths<Dim> paths);
+    [[nodiscard]] Meeting<Dim> find_within(int body, Paths<Dim> paths);
+    [[nodiscard]] SelfProximity<Dim>& proximity(int body);
     void cover_between(const Paths<Dim>& paths);
     [[nodiscard]] std::vector<Pair> overlapping(Paths<Dim> paths);
     void search_between(const std::vector<Pair>& pairs, Paths<Dim> paths);
@@ -143,7 +143,8 @@ private:
     std::vector<SurfaceTrees<Dim>> trees_;  // of vertices and facets, under a penalty
     std::vector<std::optional<SurfacePatches<Dim>>> patches_;  // of colliders that were near others
     std::vector<std::optional<SelfProximity<Dim>>>
-        proximity_;              // of bodies that may meet themselves
+        proximity_;                                       // of bodies that may be near themselves
+    std::vector<std::optional<ConvexBody<Dim>>> convex_;  // of bodies that may meet themselves
     std::vector<Box> boxes_;     // around the path of each vertex, while it is searched
     Eigen::VectorXd inflation_;  // of each path, m, while it is searched
     SearchWork work_;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace pent::contact {
@@ -38,6 +40,10 @@ public:
     [[nodiscard]] bool is_core(int i) const { return place(i) >= scene_.bodies.size(); }
     [[nodiscard]] const Surface<Dim>& surface(int i) const {
         return is_core(i) ? core(i).surface : scene_.bodies[place(i)].surface;
+    }
+    /// Those of a core are not at hand.
+    [[nodiscard]] std::span<const std::uint32_t> cells(int i) const {
+        return is_core(i) ? std::span<const std::uint32_t>() : scene_.bodies[place(i)].cells;
     }
     [[nodiscard]] bool is_kinematic(int i) const {
         return is_core(i) || scene_.bodies[place(i)].is_kinematic;

@@ -27,13 +27,10 @@ protected:
     static std::string lasting(const std::string& text) {
         constexpr std::size_t kCosts = 42;  // behind name, on or off, and unknowns
         constexpr std::size_t kReason = 66;
-        // A slow machine says what takes so long; over it, on the terminal that Open MPI gives a
-        // rank.
-        const std::size_t erased = text.rfind("\x1b[K");
-        std::istringstream lines(erased == std::string::npos ? text : text.substr(erased + 3));
+        std::istringstream lines(text);
         std::string all;
         for (std::string line; std::getline(lines, line);) {
-            if (line.rfind("working ", 0) == 0) {
+            if (line.rfind("working ", 0) == 0) {  // a slow machine says what takes so long
                 continue;
             }
             if (line.rfind("note: ", 0) == 0) {

@@ -307,6 +307,14 @@ TEST_F(MpiRuns, GoOnWithTheSameMeshesAlone) {
     }
 }
 
+// Open MPI gives a rank a terminal, whatever becomes of what it says.
+TEST_F(MpiRuns, SayHowFarTheyAreInPlainLines) {
+    const Outcome run = simulate(2, "bar", "run");
+    EXPECT_EQ(run.exit_code, 0);
+    expect_contains(run.out, {" left"});
+    EXPECT_EQ(run.out.find('\x1b'), std::string::npos) << run.out;
+}
+
 TEST_F(MpiRuns, SayTheirHelpOnce) {
     const Outcome help = test::run_program("pent-sim-mpi --help", test::mpirun(3));
     EXPECT_EQ(help.exit_code, 0);

@@ -60,13 +60,13 @@ HIDDEN = {
 # contact/src from the bottom up: a file includes headers of its own layer and of those above it in
 # this list, and public ones. What finds crossings is a witness: it knows no candidates.
 CONTACT = [
-    ("simplices", "apart ccd closest_point_search distance_energy distance_hessian filter gather"
-                  " normals obstacles pair_contact paths simplex_crossing spanned_volume stencil"
-                  " surface friction"),
+    ("simplices", "apart ccd closest_point_search convex_reference distance_energy distance_hessian"
+                  " filter gather normals obstacles pair_contact paths simplex_crossing"
+                  " spanned_volume stencil surface friction"),
     ("trees", "box_tree boxes_around chunks halving near_lanes near_lanes_avx2 near_lanes_avx512"
               " near_lanes_baseline near_lanes_isa near_lanes_kernel patch_lanes patch_partition"
               " patches path_cover refit_tree surface_patches surface_trees winding_number"),
-    ("search", "candidate colliders near_on_paths near_pairs overlaps self_proximity"
+    ("search", "candidate colliders convex_body near_on_paths near_pairs overlaps pair_at self_proximity"
                " self_proximity_search shared_work"),
     ("crossings", "crossings obstacle_contacts"),
     ("candidates", "candidates"),

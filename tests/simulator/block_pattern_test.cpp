@@ -29,8 +29,8 @@ TEST(BlockPattern, HoldsEveryPairOfFreeVerticesOfACellOnceAndInOrder) {
     for (Eigen::Index cell = 0; cell < box.mesh.cell_count(); ++cell) {
         for (int a = 0; a <= 4; ++a) {
             for (int b = 0; b <= 4; ++b) {
-                const auto row = box.dofs.rank_of(box.mesh.cells(a, cell));
-                const auto column = box.dofs.rank_of(box.mesh.cells(b, cell));
+                const auto row = box.dofs.index_of(box.mesh.cells(a, cell));
+                const auto column = box.dofs.index_of(box.mesh.cells(b, cell));
                 if (row <= column && column < box.dofs.count()) {
                     const auto at = static_cast<std::size_t>(pattern.find(row, column));
                     EXPECT_EQ(pattern.columns[at], column);
@@ -82,8 +82,8 @@ TEST(BlockPattern, OfListsHasThePairsOfTheirElements) {
     for (const auto& element : {std::vector<std::uint32_t>{0, 7}, {2, 1, 5}, {3, 4, 7}}) {
         for (const std::uint32_t a : element) {
             for (const std::uint32_t b : element) {
-                const std::uint32_t row = box.dofs.rank_of(a);
-                const std::uint32_t column = box.dofs.rank_of(b);
+                const std::uint32_t row = box.dofs.index_of(a);
+                const std::uint32_t column = box.dofs.index_of(b);
                 if (row <= column && column < box.dofs.count()) {
                     expected.emplace(row, column);
                 }

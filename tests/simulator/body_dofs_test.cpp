@@ -60,18 +60,18 @@ void expect_map_of(const DofMap& dofs, const Bodies<4>& bodies, const Vertices& 
     EXPECT_EQ(Vertices(dofs.vertices().begin(), dofs.vertices().end()), expected);
     ASSERT_EQ(dofs.count(), expected.size());  // none twice
     ASSERT_EQ(dofs.vertex_count(), static_cast<std::size_t>(bodies.vertex_count()));
-    std::set<std::uint32_t> ranks;
+    std::set<std::uint32_t> indices;
     for (std::uint32_t v = 0; v < bodies.vertex_count(); ++v) {
         EXPECT_EQ(dofs.has_dof(v), expected.contains(v)) << v;
         if (dofs.has_dof(v)) {
             EXPECT_EQ(dofs.vertex_of(dofs.dof_of(v)), v);
-            EXPECT_EQ(dofs.rank_of(v), dofs.dof_of(v));
+            EXPECT_EQ(dofs.index_of(v), dofs.dof_of(v));
         } else {
-            EXPECT_EQ(dofs.rank_of(v), dofs.count() + v);
+            EXPECT_EQ(dofs.index_of(v), dofs.count() + v);
         }
-        ranks.insert(dofs.rank_of(v));
+        indices.insert(dofs.index_of(v));
     }
-    EXPECT_EQ(ranks.size(), dofs.vertex_count());
+    EXPECT_EQ(indices.size(), dofs.vertex_count());
     const Positions<4> values = at_dofs<4>(dofs, bodies.rest());
     for (std::uint32_t dof = 0; dof < dofs.count(); ++dof) {
         EXPECT_EQ(values.col(dof), bodies.rest().col(dofs.vertex_of(dof)));

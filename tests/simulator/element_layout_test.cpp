@@ -45,9 +45,9 @@ Pairs pairs_that_feel_each_other(const ElasticBox<Dim>& box) {
         moved.col(v) += Vector<Dim>::LinSpaced(0.01, 0.03);
         Positions<Dim> after;
         static_cast<void>(box.forces(Isa::Baseline, moved, after));
-        const std::uint32_t own = box.dofs.rank_of(static_cast<std::uint32_t>(v));
+        const std::uint32_t own = box.dofs.index_of(static_cast<std::uint32_t>(v));
         for (Eigen::Index u = 0; u < box.positions.cols(); ++u) {
-            const std::uint32_t other = box.dofs.rank_of(static_cast<std::uint32_t>(u));
+            const std::uint32_t other = box.dofs.index_of(static_cast<std::uint32_t>(u));
             const bool both = own < box.dofs.count() && other < box.dofs.count();
             if (both && own <= other && (after.col(u) - before.col(u)).norm() > 1e-9) {
                 pairs.emplace(own, other);

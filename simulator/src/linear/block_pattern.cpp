@@ -55,8 +55,8 @@ BlockPattern make_pattern_of(const DofMap& dofs, const ForEachPair& for_each_pai
     pattern.is_cut.assign(rows, false);
     const auto for_each_block = [&](const auto& visit) {
         for_each_pair([&](std::uint32_t a, std::uint32_t b) {
-            const std::uint32_t row = dofs.rank_of(a);
-            const std::uint32_t column = dofs.rank_of(b);
+            const std::uint32_t row = dofs.index_of(a);
+            const std::uint32_t column = dofs.index_of(b);
             if (row >= column || row >= rows) {
                 return;
             }

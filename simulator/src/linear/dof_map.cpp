@@ -119,15 +119,15 @@ DofMap::DofMap(std::size_t vertices,
                std::vector<std::uint32_t> vertex_of_dof,
                std::vector<std::uint32_t> column_start,
                std::vector<bool> is_own)
-    : rank_(vertices),
+    : index_(vertices),
       vertex_of_dof_(std::move(vertex_of_dof)),
       column_start_(std::move(column_start)),
       is_own_(std::move(is_own)) {
     for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
-        rank_[vertex] = count() + vertex;
+        index_[vertex] = count() + vertex;
     }
     for (std::uint32_t dof = 0; dof < count(); ++dof) {
-        rank_[vertex_of_dof_[dof]] = dof;
+        index_[vertex_of_dof_[dof]] = dof;
     }
 }
 

@@ -38,12 +38,12 @@ public:
     /// How many have rows here: all but those of other ranks.
     [[nodiscard]] std::uint32_t row_count() const { return column_start_.back(); }
 
-    [[nodiscard]] bool has_dof(std::uint32_t vertex) const { return rank_[vertex] < count(); }
+    [[nodiscard]] bool has_dof(std::uint32_t vertex) const { return index_[vertex] < count(); }
 
     /// Only for a vertex that has one.
     [[nodiscard]] std::uint32_t dof_of(std::uint32_t vertex) const {
         assert(has_dof(vertex));
-        return rank_[vertex];
+        return index_[vertex];
     }
     [[nodiscard]] std::uint32_t vertex_of(std::uint32_t dof) const { return vertex_of_dof_[dof]; }
 
@@ -52,15 +52,15 @@ public:
 
     /// The dof of a vertex, or count() + vertex for one that has none: an order of all vertices in
     /// which those come last.
-    [[nodiscard]] std::uint32_t rank_of(std::uint32_t vertex) const { return rank_[vertex]; }
+    [[nodiscard]] std::uint32_t index_of(std::uint32_t vertex) const { return index_[vertex]; }
 
     /// The same, one a vertex.
-    [[nodiscard]] const std::vector<std::uint32_t>& ranks() const { return rank_; }
+    [[nodiscard]] const std::vector<std::uint32_t>& indices() const { return index_; }
 
     /// Dofs of column c: [start[c], start[c + 1]); those that have rows.
     [[nodiscard]] const std::vector<std::uint32_t>& column_start() const { return column_start_; }
 
-    [[nodiscard]] std::size_t vertex_count() const { return rank_.size(); }
+    [[nodiscard]] std::size_t vertex_count() const { return index_.size(); }
 
     /// Whether a vertex is of this rank.
     [[nodiscard]] bool is_own(std::uint32_t vertex) const {
@@ -68,7 +68,7 @@ public:
     }
 
 private:
-    std::vector<std::uint32_t> rank_;
+    std::vector<std::uint32_t> index_;
     std::vector<std::uint32_t> vertex_of_dof_;
     std::vector<std::uint32_t> column_start_ = {0};
     std::vector<bool> is_own_;

@@ -33,7 +33,7 @@ Incidences list_by_rows(const DofMap& dofs, const std::vector<HessianStencil>& s
         for (std::uint32_t s = 0; s < stencils.size(); ++s) {
             for (std::int32_t i = 0; i < stencils[s].count; ++i) {
                 const std::uint32_t vertex = stencils[s].vertices[i];
-                if (vertex != kNoVertex && dofs.rank_of(vertex) < dofs.row_count()) {
+                if (vertex != kNoVertex && dofs.index_of(vertex) < dofs.row_count()) {
                     visit(dofs.dof_of(vertex), Incidence{s, static_cast<std::uint32_t>(i)});
                 }
             }

@@ -8,6 +8,7 @@
 #include <pent/stopwatch.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace pent::simulator {
@@ -25,6 +26,17 @@ constexpr double kTight = 0.01;
 
 // The stiffness never is more than this times that of the scene.
 constexpr double kMaxStiffness = 1e8;
+
+// None where other ranks have some of them.
+template <int Dim>
+std::span<const std::uint32_t> cells_of(const Bodies<Dim>& bodies, std::size_t body) {
+    const Simplices<Dim + 1>& cells = bodies.cells();
+    const auto [begin, size] = bodies.cells_of(body);
+    if (cells.cols() < bodies.cell_count) {
+        return {};
+    }
+    return {cells.col(begin).data(), static_cast<std::size_t>(size) * (Dim + 1)};
+}
 
 // Without bodies that meet only obstacles are in it, which need no surfaces.
 template <int Dim>
@@ -47,8 +59,8 @@ contact::ContactScene<Dim> contact_scene(const Scene& scene,
         if (do_bodies_meet) {
             surface = contact::surface_of<Dim>(boundary_of(bodies, body), first);
         }
-        result.bodies.push_back(
-            {scene.bodies[body].name, std::move(surface), held.is_kinematic(body)});
+        result.bodies.push_back({scene.bodies[body].name, std::move(surface),
+                                 held.is_kinematic(body), cells_of(bodies, body)});
     }
     for (const Obstacle& obstacle : scene.obstacles) {
         result.obstacles.push_back(

@@ -54,7 +54,7 @@ void ElasticEnergy::add(const ElasticEnergy& other) {
 
 template <int Dim>
 Elements<Dim>::Elements(std::size_t ranges, const DofMap& dofs, const BlockPattern& pattern)
-    : ranks_(dofs.ranks()), ranges_(ranges), dof_count_(dofs.count()) {
+    : indices_(dofs.indices()), ranges_(ranges), dof_count_(dofs.count()) {
     if (pattern.blocks() > kMaxBlocks) {
         // GCOVR_EXCL_START: 137 GB of blocks
         throw Error("the mesh has " + std::to_string(pattern.blocks()) + " matrix blocks; at most "
@@ -75,7 +75,7 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
         element.corners.assign(cells.col(cell).begin(), cells.col(cell).end());
         std::sort(
             element.corners.begin(), element.corners.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return dofs.rank_of(a) < dofs.rank_of(b); });
+            [&](std::uint32_t a, std::uint32_t b) { return dofs.index_of(a) < dofs.index_of(b); });
         Eigen::Matrix<double, Dim, Dim> Dm;
         for (int a = 0; a < Dim; ++a) {
             Dm.col(a) = rest.col(element.corners[static_cast<std::size_t>(a) + 1])
@@ -115,7 +115,7 @@ Elements<Dim>::Elements(const std::vector<SmoothingDomains<Dim>>& domains,
         std::vector<std::pair<std::uint32_t, Eigen::Index>> keyed;
         for (Eigen::Index i = start; i < start + corner_count(range, domain); ++i) {
             const std::uint32_t corner = of_range.corners[static_cast<std::size_t>(i)];
-            keyed.emplace_back(dofs.rank_of(corner), i);
+            keyed.emplace_back(dofs.index_of(corner), i);
         }
         std::sort(keyed.begin(), keyed.end());
         element.corners.clear();
@@ -288,13 +288,13 @@ void Elements<Dim>::set_lane(const Element& element,
     std::size_t pair = 0;
     for (std::size_t a = 0; a < n; ++a) {
         const std::uint32_t vertex = element.corners[a < element.corners.size() ? a : 0];
-        const std::uint32_t row = dofs.rank_of(vertex);
+        const std::uint32_t row = dofs.index_of(vertex);
         vertices_[at(chunk.first_corner, n, a)] = vertex;
         for (std::size_t b = a; b < n; ++b, ++pair) {
             if (b >= element.corners.size()) {
                 continue;
             }
-            const std::uint32_t column = dofs.rank_of(element.corners[b]);
+            const std::uint32_t column = dofs.index_of(element.corners[b]);
             // Of two dofs, the lower of which has a row.
             if (std::max(row, column) < dofs.count() && std::min(row, column) < dofs.row_count()) {
                 const auto block = static_cast<std::int32_t>(
@@ -336,7 +336,7 @@ ElementRun Elements<Dim>::run(int chunk) const {
             .corners = c.corners,
             .rest = rest_.data() + c.first_rest,
             .vertices = vertices_.data() + c.first_corner,
-            .dofs = ranks_.data(),
+            .dofs = indices_.data(),
             .blocks = blocks_.data() + c.first_block,
             .dof_count = dof_count_};
 }
@@ -399,7 +399,7 @@ std::int64_t Elements<Dim>::bytes() const {
             chunk.rest.size() * sizeof(double) + chunk.elements.size() * sizeof(Eigen::Index);
     }
     return static_cast<std::int64_t>(passive + rest_.size() * sizeof(double)
-                                     + (vertices_.size() + ranks_.size() + blocks_.size())
+                                     + (vertices_.size() + indices_.size() + blocks_.size())
                                            * sizeof(std::uint32_t));
 }
 

@@ -161,7 +161,7 @@ private:
     void color(std::size_t vertices);
     [[nodiscard]] ElementRun run(int chunk) const;
 
-    std::vector<std::uint32_t> ranks_;  // DofMap::rank_of of every vertex
+    std::vector<std::uint32_t> indices_;  // DofMap::index_of of every vertex
     std::vector<double> rest_;
     std::vector<std::uint32_t> vertices_;
     std::vector<std::int32_t> blocks_;

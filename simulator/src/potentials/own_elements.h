@@ -32,7 +32,7 @@ OwnAndShared elastic_elements(Eigen::Index begin,
         std::uint32_t first = lowest;
         bool is_near = false;
         corners_of(element, [&](std::uint32_t corner) {
-            lowest = std::min(lowest, dofs.rank_of(corner));
+            lowest = std::min(lowest, dofs.index_of(corner));
             first = std::min(first, corner);
             is_near = is_near || dofs.is_own(corner);
         });

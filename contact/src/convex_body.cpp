@@ -1,0 +1,180 @@
+#include "convex_body.h"
+
+#include "chunks.h"
+#include "convex_reference.h"
+#include "pair_at.h"
+#include "self_proximity.h"
+
+#include <pent/dimensions.h>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+namespace pent::contact {
+
+namespace {
+
+// For rounding, and for dents too small to be bent out.
+constexpr double kMargin = 1.05;
+
+// Gaps are of interest between these multiples of the distance: nearer there is no room for being
+// bent. They are looked for no farther than this part of the mean edge, where pairs are few.
+constexpr double kLeastGap = 1.2;
+constexpr double kMostGap = 4;
+constexpr double kMostOfEdge = 0.6;
+
+// Cells that a thread looks at in one go.
+constexpr std::size_t kChunk = 512;
+
+// The least distance of some pairs, but no more than a limit.
+template <int Dim, int K, int L>
+double least_distance(const Surface<Dim>& surface,
+                      const CandidateList& pairs,
+                      const PositionsView<Dim>& positions,
+                      double limit) {
+    double least = limit;
+    for (const Candidate& pair : pairs.pairs) {
+        const PairAt<Dim, K, L> at(surface.template simplices<K>(), surface.template simplices<L>(),
+                                   pair, positions);
+        least = at.distance_below(least);
+    }
+    return least;
+}
+
+// The least distance of two simplices that share no vertex, but no more than a limit, m.
+template <int Dim>
+double gap_of(const Surface<Dim>& surface, const Positions<Dim>& positions, double limit) {
+    const PositionsView<Dim> view(positions);
+    const CandidatePairs near = SelfProximity<Dim>(surface, positions, limit, false)
+                                    .find(Paths<Dim>{view, view}, limit, limit);
+    return least_distance<Dim, 2, Dim - 1>(
+        surface, near.mixed_first, view,
+        least_distance<Dim, 1, Dim>(surface, near.points_first, view, limit));
+}
+
+// By elimination: all pivots are above 0.
+template <int Dim>
+bool is_positive_definite(Block<Dim> matrix) {
+    for (int k = 0; k < Dim; ++k) {
+        if (!(matrix(k, k) > 0)) {
+            return false;
+        }
+        for (int i = k + 1; i < Dim; ++i) {
+            const double factor = matrix(i, k) / matrix(k, k);
+            for (int j = k + 1; j <= i; ++j) {
+                matrix(i, j) -= factor * matrix(j, k);
+            }
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
+template <int Dim>
+ConvexBody<Dim>::ConvexBody(std::span<const std::uint32_t> cells,
+                            Positions<Dim> reference,
+                            double gap)
+    : cells_(cells),
+      first_vertex_(*std::min_element(cells.begin(), cells.end())),
+      reference_(std::move(reference)),
+      gap_(gap) {}
+
+template <int Dim>
+std::optional<ConvexBody<Dim>> ConvexBody<Dim>::make(std::span<const std::uint32_t> cells,
+                                                     const PositionsView<Dim>& rest,
+                                                     double distance) {
+    if (cells.empty()) {
+        return std::nullopt;
+    }
+    const auto [least, greatest] = std::minmax_element(cells.begin(), cells.end());
+    const std::uint32_t first = *least;
+    const Eigen::Index count = *greatest - first + 1;
+    const Eigen::Map<const Simplices<Dim + 1>> all(
+        cells.data(), Dim + 1, static_cast<Eigen::Index>(cells.size()) / (Dim + 1));
+    const Simplices<Dim + 1> own = all.array() - first;
+    const Surface<Dim> surface = make_surface<Dim>(own, count);
+    std::optional<Positions<Dim>> reference =
+        convex_reference<Dim>(surface, own, rest.middleCols(first, count));
+    if (!reference) {
+        return std::nullopt;
+    }
+    const double limit =
+        std::min(kMostGap * distance, kMostOfEdge * mean_edge_length<Dim>(surface, *reference));
+    const double gap = gap_of<Dim>(surface, *reference, limit);
+    if (gap < kLeastGap * distance) {
+        return std::nullopt;
+    }
+    return ConvexBody(cells, *std::move(reference), gap);
+}
+
+// That of the affine map which fits the middle of the paths best: any is right, the best one tells
+// most.
+template <int Dim>
+Block<Dim> ConvexBody<Dim>::rotation(const Paths<Dim>& paths) const {
+    const Eigen::Index count = reference_.cols();
+    const Positions<Dim> middle =
+        0.5
+        * (paths.from.middleCols(first_vertex_, count) + paths.to.middleCols(first_vertex_, count));
+    const Positions<Dim> centered = middle.colwise() - middle.rowwise().mean();
+    const Eigen::JacobiSVD<Block<Dim>> svd(centered * reference_.transpose(),
+                                           Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Block<Dim> u = svd.matrixU();
+    if (u.determinant() * svd.matrixV().determinant() < 0) {
+        u.col(Dim - 1) *= -1;
+    }
+    return u * svd.matrixV().transpose();
+}
+
+// Whether the symmetric part of R^T F less `least` is positive definite. With E of the edges of the
+// cell as they are, and T = R E0 of those turned from the reference, F = E E0^-1: that is so if and
+// only if the symmetric part of T^T E less `least` T^T T is.
+template <int Dim>
+bool ConvexBody<Dim>::is_monotone(std::size_t cell,
+                                  const Positions<Dim>& turned,
+                                  const PositionsView<Dim>& positions,
+                                  double least) const {
+    Block<Dim> edges;
+    Block<Dim> of_turned;
+    const auto corners = cells_.subspan(cell * (Dim + 1), Dim + 1);
+    const std::uint32_t start = corners[0];
+    for (int k = 0; k < Dim; ++k) {
+        const std::uint32_t end = corners[k + 1];
+        edges.col(k) = positions.col(end) - positions.col(start);
+        of_turned.col(k) = turned.col(end - first_vertex_) - turned.col(start - first_vertex_);
+    }
+    const Block<Dim> map = of_turned.transpose() * (edges - least * of_turned);
+    return is_positive_definite<Dim>(map + map.transpose());
+}
+
+template <int Dim>
+bool ConvexBody<Dim>::stays_apart(const Paths<Dim>& paths, double distance) const {
+    const double least = kMargin * distance / gap_;
+    const Positions<Dim> turned = rotation(paths) * reference_;
+    std::atomic<bool> is_apart = true;
+    const auto look = [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t cell = begin; cell < end && is_apart; ++cell) {
+            if (!is_monotone(cell, turned, paths.from, least)
+                || !(paths.is_still() || is_monotone(cell, turned, paths.to, least))) {
+                is_apart = false;
+            }
+        }
+    };
+    for_each_chunk(cells_.size() / (Dim + 1), kChunk, look);
+    return is_apart;
+}
+
+template <int Dim>
+std::int64_t ConvexBody<Dim>::bytes() const {
+    return static_cast<std::int64_t>(sizeof(double)) * reference_.size();
+}
+
+#define PENT_INSTANTIATE(Dim) template class ConvexBody<Dim>;
+PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
+#undef PENT_INSTANTIATE
+
+}  // namespace pent::contact
