@@ -69,6 +69,9 @@ Candidates<Dim>::Candidates(const Colliders<Dim>& colliders, const SharedWork& s
 template <int Dim>
 void Candidates<Dim>::cover(const PositionsView<Dim>& from, const PositionsView<Dim>& to) {
     const Paths<Dim> paths{from, to};
+    if (inflation_.size() != to.cols()) {
+        inflation_.setZero(to.cols());
+    }
     cover_between(paths);
     cover_within(paths);
     if (is_penalty()) {
@@ -154,7 +157,6 @@ void Candidates<Dim>::cover_within(const Paths<Dim>& paths) {
             bodies.push_back(body);
         }
     }
-    inflation_.conservativeResize(paths.to.cols());
     std::vector<Meeting<Dim>> found(bodies.size());
     parallel_for(bodies.size(), [&](std::size_t k) { found[k] = find_within(bodies[k], paths); });
     for (std::size_t k = 0; k < bodies.size(); ++k) {

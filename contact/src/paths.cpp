@@ -3,6 +3,7 @@
 #include <pent/dimensions.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace pent::contact {
@@ -36,7 +37,7 @@ void set_inflation(const Simplices<1>& vertices,
                    double least,
                    double of_path,
                    Eigen::VectorXd& inflation) {
-    inflation.conservativeResize(paths.to.cols());
+    assert(inflation.size() == paths.to.cols());
     for (const std::uint32_t v : vertices.reshaped()) {
         const double length = (paths.to.col(v) - paths.from.col(v) - paths.drift).norm();
         inflation[v] = std::max(least, of_path * length);

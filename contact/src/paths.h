@@ -49,7 +49,8 @@ template <int Dim>
 /// Sets the inflation of some vertices: `least` (m), or a part of the path, less the drift of all,
 /// where that is more.
 ///
-/// @param inflation  Of each vertex of the scene; others stay what they were.
+/// @param inflation  Of each vertex of the scene, as many as there are; others stay what they were,
+///                   so that several threads may each set those of a body.
 template <int Dim>
 void set_inflation(const Simplices<1>& vertices,
                    const Paths<Dim>& paths,

@@ -154,7 +154,7 @@ TYPED_TEST(SelfProximityTest, FindsAllThatComesNearOnPathsWhateverHappenedBefore
         const PositionsView<kDim> first_place = start;
         const PositionsView<kDim> last_place = end;
         Paths<kDim> paths{first_place, last_place, mean_shift<kDim>(surface.vertices, start, end)};
-        Eigen::VectorXd inflation;
+        Eigen::VectorXd inflation = Eigen::VectorXd::Zero(start.cols());
         set_inflation<kDim>(surface.vertices, paths, kInflation, 0.1, inflation);
         paths.inflation = &inflation;
         const CandidatePairs pairs = kept.find(paths, kActivationDistance, kMeasured);
