@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <utility>
+#include <vector>
 
 namespace pent::contact {
 
@@ -21,14 +22,51 @@ namespace {
 // For rounding, and for dents too small to be bent out.
 constexpr double kMargin = 1.05;
 
-// Gaps are of interest between these multiples of the distance: nearer there is no room for being
-// bent. They are looked for no farther than this part of the mean edge, where pairs are few.
+// A gap is of use from this multiple of the distance on: below there is no room for being bent.
 constexpr double kLeastGap = 1.2;
+
+// What cells tell of the gap is enough from this multiple on. Else it is searched for, up to the
+// next one, and no farther than this part of the mean edge, where pairs are few.
+constexpr double kEnoughGap = 1.8;
 constexpr double kMostGap = 4;
-constexpr double kMostOfEdge = 0.6;
+constexpr double kMostOfEdge = 0.45;
 
 // Cells that a thread looks at in one go.
 constexpr std::size_t kChunk = 512;
+
+// Two simplices that share no vertex are no nearer than this, if one of them is a vertex or an edge
+// of the surface, m: on the way from there the sum of its barycentric coordinates falls from 1 to 0,
+// no faster than the steepest of all its gradients. Far too low where cells are flat.
+template <int Dim>
+double gap_by_cells(const Simplices<1>& surface,
+                    const Simplices<Dim + 1>& cells,
+                    const Positions<Dim>& positions) {
+    std::vector<bool> is_outside(static_cast<std::size_t>(positions.cols()), false);
+    for (const std::uint32_t vertex : surface.reshaped()) {
+        is_outside[vertex] = true;
+    }
+    double steepest = 0;
+    for (Eigen::Index cell = 0; cell < cells.cols(); ++cell) {
+        const Corners<Dim, Dim + 1> corners = gather<Dim, Dim + 1>(cells, cell, positions);
+        const Block<Dim> edges =
+            corners.template rightCols<Dim>().colwise() - corners.col(0).eval();
+        Corners<Dim, Dim + 1> slopes;
+        slopes.template rightCols<Dim>() = edges.inverse().transpose();
+        slopes.col(0) = -slopes.template rightCols<Dim>().rowwise().sum();
+        for (int i = 0; i <= Dim; ++i) {
+            if (!is_outside[cells(i, cell)]) {
+                continue;
+            }
+            steepest = std::max(steepest, slopes.col(i).norm());
+            for (int j = 0; j < i; ++j) {
+                if (is_outside[cells(j, cell)]) {
+                    steepest = std::max(steepest, (slopes.col(i) + slopes.col(j)).norm());
+                }
+            }
+        }
+    }
+    return 1 / steepest;
+}
 
 // The least distance of some pairs, but no more than a limit.
 template <int Dim, int K, int L>
@@ -47,7 +85,7 @@ double least_distance(const Surface<Dim>& surface,
 
 // The least distance of two simplices that share no vertex, but no more than a limit, m.
 template <int Dim>
-double gap_of(const Surface<Dim>& surface, const Positions<Dim>& positions, double limit) {
+double gap_by_search(const Surface<Dim>& surface, const Positions<Dim>& positions, double limit) {
     const PositionsView<Dim> view(positions);
     const CandidatePairs near = SelfProximity<Dim>(surface, positions, limit, false)
                                     .find(Paths<Dim>{view, view}, limit, limit);
@@ -103,9 +141,12 @@ std::optional<ConvexBody<Dim>> ConvexBody<Dim>::make(std::span<const std::uint32
     if (!reference) {
         return std::nullopt;
     }
-    const double limit =
+    double gap = gap_by_cells<Dim>(surface.vertices, own, *reference);
+    const double most =
         std::min(kMostGap * distance, kMostOfEdge * mean_edge_length<Dim>(surface, *reference));
-    const double gap = gap_of<Dim>(surface, *reference, limit);
+    if (gap < kEnoughGap * distance && most >= kLeastGap * distance) {
+        gap = std::max(gap, gap_by_search<Dim>(surface, *reference, most));
+    }
     if (gap < kLeastGap * distance) {
         return std::nullopt;
     }
