@@ -35,8 +35,8 @@ constexpr double kMostOfEdge = 0.45;
 constexpr std::size_t kChunk = 512;
 
 // Two simplices that share no vertex are no nearer than this, if one of them is a vertex or an edge
-// of the surface, m: on the way from there the sum of its barycentric coordinates falls from 1 to 0,
-// no faster than the steepest of all its gradients. Far too low where cells are flat.
+// of the surface, m: on the way from there the sum of its barycentric coordinates falls from 1 to
+// 0, no faster than the steepest of all its gradients. Far too low where cells are flat.
 template <int Dim>
 double gap_by_cells(const Simplices<1>& surface,
                     const Simplices<Dim + 1>& cells,
