@@ -69,7 +69,7 @@ Candidates<Dim>::Candidates(const Colliders<Dim>& colliders, const SharedWork& s
 template <int Dim>
 void Candidates<Dim>::cover(const PositionsView<Dim>& from, const PositionsView<Dim>& to) {
     const Paths<Dim> paths{from, to};
-    if (inflation_.size() != to.cols()) {
+    if (inflation_.size() != to.cols()) {  // here, since threads share it
         inflation_.setZero(to.cols());
     }
     cover_between(paths);
@@ -164,7 +164,7 @@ void Candidates<Dim>::cover_within(const Paths<Dim>& paths) {
     }
 }
 
-// What a convex body has not been bent enough to meet takes no search.
+// A convex body that has not been bent enough to meet itself takes no search.
 template <int Dim>
 Meeting<Dim> Candidates<Dim>::find_within(int body, Paths<Dim> paths) {
     const std::optional<ConvexBody<Dim>>& convex = convex_[static_cast<std::size_t>(body)];

@@ -157,9 +157,9 @@ private:
     std::vector<Hinge<Dim>> hinges_;
 };
 
-// Whether all cells are positively oriented, and one alone has its own middle in it that every
-// facet sees behind itself. What has no dents then goes round that point once: it is convex, and
-// the cells fill it once.
+// Whether all cells are positively oriented, and the middle of the first is behind every facet and
+// in no other cell. A surface without dents then goes round that point once: it is convex, and the
+// cells fill it once.
 template <int Dim>
 bool is_filled_once(const Surface<Dim>& surface,
                     const Simplices<Dim + 1>& cells,

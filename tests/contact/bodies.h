@@ -18,6 +18,34 @@ template <int Dim>
     return mesh;
 }
 
+/// A bar of so many cells of 1 m along the first axis, and of one across.
+template <int Dim>
+[[nodiscard]] SimplexMesh<Dim> bar(int length) {
+    std::array<int, Dim> count{};
+    std::array<double, Dim> size{};
+    count.fill(1);
+    size.fill(1);
+    count[0] = length;
+    size[0] = length;
+    return pent::test::kuhn_box<Dim>(count, size);
+}
+
+/// A bar bent to part of a spiral: at an amount of 1 its ends lie upon one another, an eighth of a
+/// cell apart. By 0 it is as it was.
+template <int Dim>
+void bend(Positions<Dim>& bar, int length, double amount) {
+    if (amount == 0) {
+        return;
+    }
+    const double radius = length / (7.4 * amount);
+    for (auto x : bar.colwise()) {
+        const double angle = x[0] / radius;
+        const double r = radius + 0.1 * angle - x[1];
+        x[0] = r * std::sin(angle);
+        x[1] = radius - r * std::cos(angle);
+    }
+}
+
 /// A mesh without those cells for whose middles is_left_out() is true.
 template <int Dim, typename IsLeftOut>
 [[nodiscard]] SimplexMesh<Dim> carved(SimplexMesh<Dim> mesh, const IsLeftOut& is_left_out) {

@@ -148,6 +148,8 @@ TYPED_TEST(ConvexBodyTest, TurnsAndSwellingTakeNothingAway) {
                 + Vector<kDim>::Ones();
             const PositionsView<kDim> view(x);
             const double least = this->least_distance(x);
+            // Cells of a cube in R^4 tell of 1/2 of an edge in place of 1/sqrt(3), and the margin
+            // is 1.05: 0.82.
             EXPECT_TRUE(body->stays_apart({view, view}, 0.8 * least)) << distance;
             EXPECT_FALSE(body->stays_apart({view, view}, 1.001 * least)) << distance;
         }

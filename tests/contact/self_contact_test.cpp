@@ -95,33 +95,18 @@ TYPED_TEST(SelfContact, IsNoneAtRestNorInSomethingThinThatIsSqueezed) {
     }
 }
 
-// A bar bent to part of a spiral: its ends lie upon one another, half their distance of contact
-// apart, where the amount is 1.
-template <int Dim>
-Positions<Dim> bent(const Positions<Dim>& bar, double amount, unsigned seed) {
-    Positions<Dim> x = bar;
-    for (auto at : x.colwise()) {
-        const double radius = 8 / (7.4 * amount);
-        const double angle = at[0] / radius;
-        const double r = radius + 0.1 * angle - at[1];
-        at[1] = radius - r * std::cos(angle);
-        at[0] = r * std::sin(angle);
-    }
-    test::shake<Dim>(x, 0.01, seed);
-    return test::tilt<Dim>() * x;
-}
-
 // A convex body with its cells at hand is not searched, so has no patches for it, while it is bent
 // a little. Bent further it has all contacts with itself, as one without them.
 TYPED_TEST(SelfContact, IsTheSameWhetherCellsAreAtHandOrNot) {
     constexpr int kDim = TypeParam::value;
-    std::array<int, kDim> count{};
-    std::array<double, kDim> size{};
-    count.fill(1);
-    size.fill(1);
-    count[0] = 8;
-    size[0] = 8;
-    SimplexMesh<kDim> bar = pent::test::kuhn_box<kDim>(count, size);
+    constexpr int kLength = 8;
+    const SimplexMesh<kDim> bar = test::bar<kDim>(kLength);
+    const auto bent = [&](double amount) {
+        Positions<kDim> x = bar.positions;
+        test::bend<kDim>(x, kLength, amount);
+        test::shake<kDim>(x, 0.01, 7);
+        return Positions<kDim>(test::tilt<kDim>() * x);
+    };
     test::Scene<kDim> scene;
     scene.add(bar, Vector<kDim>::Zero());
     for (const ContactModel model : {ContactModel::Penalty, ContactModel::Barrier}) {
@@ -130,10 +115,10 @@ TYPED_TEST(SelfContact, IsTheSameWhetherCellsAreAtHandOrNot) {
         with_cells.bodies[0].cells = {bar.cells.data(), static_cast<std::size_t>(bar.cells.size())};
         ContactFinder<kDim> with(with_cells);
         ContactFinder<kDim> without(test::contact_scene<kDim>(scene, options));
-        Positions<kDim> before = bent<kDim>(bar.positions, 0.04, 7);
+        Positions<kDim> before = bent(0.04);
         std::size_t contacts = 0;
         for (const double amount : {0.05, 0.1, 0.2, 0.5, 0.9, 1.0, 1.02, 0.9, 0.1}) {
-            const Positions<kDim> x = bent<kDim>(bar.positions, amount, 7);
+            const Positions<kDim> x = bent(amount);
             EXPECT_EQ(with.limit_step(before, x).fraction, without.limit_step(before, x).fraction);
             const Contacts<kDim> found = with.find(x, 1000);
             const Contacts<kDim> wanted = without.find(x, 1000);

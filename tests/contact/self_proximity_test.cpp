@@ -1,9 +1,9 @@
 #include "self_proximity.h"
 
+#include "bodies.h"
 #include "closest_points_oracle.h"
 #include "gather.h"
 #include "overlaps.h"
-#include "scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -25,31 +25,17 @@ class SelfProximityTest : public testing::Test {
 protected:
     static constexpr int kD = T::value;
 
+    static constexpr int kLength = kD == 3 ? 16 : 8;
+
     void SetUp() override {
-        std::array<int, kD> count{};
-        std::array<double, kD> size{};
-        count.fill(1);
-        size.fill(1);
-        count[0] = kD == 3 ? 16 : 8;
-        size[0] = count[0];
-        scene_.add(pent::test::kuhn_box<kD>(count, size), Vector<kD>::Zero());
+        scene_.add(test::bar<kD>(kLength), Vector<kD>::Zero());
         test::shake<kD>(scene_.positions, 0.05, 3);
     }
 
-    // The bar bent to part of a spiral, shaken, turned and moved: by 0 it is as at rest, at 1 its
-    // ends lie upon one another.
+    // The bar bent, shaken, turned and moved.
     [[nodiscard]] Positions<kD> bent(double amount, double shake, unsigned seed) const {
         Positions<kD> x = scene_.positions;
-        const double length = kD == 3 ? 16 : 8;
-        for (auto column : x.colwise()) {
-            if (amount > 0) {
-                const double radius = length / (7.4 * amount);
-                const double angle = column[0] / radius;
-                const double r = radius + 0.1 * angle - column[1];
-                column[1] = r * std::sin(angle);
-                column[0] = r * std::cos(angle);
-            }
-        }
+        test::bend<kD>(x, kLength, amount);
         test::shake<kD>(x, shake, seed);
         return ((1 + amount) * test::tilt<kD>() * x).colwise() + 10 * amount * Vector<kD>::Ones();
     }

@@ -29,7 +29,7 @@ constexpr double kMaxStiffness = 1e8;
 
 // None where other ranks have some of them.
 template <int Dim>
-std::span<const std::uint32_t> cells_of(const Bodies<Dim>& bodies, std::size_t body) {
+std::span<const std::uint32_t> whole_cells(const Bodies<Dim>& bodies, std::size_t body) {
     const Simplices<Dim + 1>& cells = bodies.cells();
     const auto [begin, size] = bodies.cells_of(body);
     if (cells.cols() < bodies.cell_count) {
@@ -60,7 +60,7 @@ contact::ContactScene<Dim> contact_scene(const Scene& scene,
             surface = contact::surface_of<Dim>(boundary_of(bodies, body), first);
         }
         result.bodies.push_back({scene.bodies[body].name, std::move(surface),
-                                 held.is_kinematic(body), cells_of(bodies, body)});
+                                 held.is_kinematic(body), whole_cells(bodies, body)});
     }
     for (const Obstacle& obstacle : scene.obstacles) {
         result.obstacles.push_back(
