@@ -255,6 +255,18 @@ void factor_columns(const BlockRows<Scalar>& matrix,
     }
 }
 
+// Brings near the factors of the dof that is next but 63, a page ahead: see ReadAhead.
+template <int Dim>
+[[gnu::always_inline]] inline void prefetch_factors(const ColumnFactors<const float>& factors,
+                                                    std::size_t dof) {
+    constexpr std::size_t kEntries = std::size_t{Dim} * Dim;
+    constexpr std::size_t kAhead = 64;
+    __builtin_prefetch(factors.inverses + (dof + kAhead) * kEntries);
+    for (std::size_t m = 0; m < factors.band; ++m) {
+        __builtin_prefetch(factors.couplings + ((dof + kAhead) * factors.band + m) * kEntries);
+    }
+}
+
 template <int Dim, bool IsVectorized>
 void solve_columns(const ColumnFactors<const float>& factors, const double* r, double* z) {
     using Vertex = typename VertexOf<Dim, IsVectorized>::Type;
@@ -264,6 +276,7 @@ void solve_columns(const ColumnFactors<const float>& factors, const double* r, d
         const std::size_t begin = factors.column_start[column];
         const std::size_t end = factors.column_start[column + 1];
         for (std::size_t k = begin; k < end; ++k) {
+            prefetch_factors<Dim>(factors, k);
             auto value = loaded<Vertex>(r + k * Dim);
             for (std::size_t m = 1; m <= band && m <= k - begin; ++m) {
                 const float* coupling = factors.couplings + ((k - m) * band + m - 1) * kEntries;

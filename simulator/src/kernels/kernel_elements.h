@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/kernel_laws.h"
-#include "kernels/kernel_transpose.h"
+#include "kernels/kernel_vertices.h"
 #include "kernels/kernels.h"
 #include "kernels/quadratic_rule.h"
 
@@ -50,23 +50,88 @@ Group<Dim> group_at(const ElementRun& run, int group) {
             run.dof_count};
 }
 
-// Edges x_a - x_0 of every element of a group: [axis][a - 1][lane], subtracted in double.
+// So many groups after another of a run, or its last one.
+template <int Dim>
+Group<Dim> group_ahead(const ElementRun& run, int group, int by) {
+    const int last = (run.elements - 1) / kGroup;
+    return group_at<Dim>(run, group + by < last ? group + by : last);
+}
+
+// Places of the blocks of one corner with itself and all after it.
+template <int Dim>
+const std::int32_t* row_of_blocks(const Group<Dim>& group, int a) {
+    return group.blocks + std::int64_t{a * group.corners - a * (a - 1) / 2} * kGroup;
+}
+
+// Brings near what a group two ahead is read of, with each corner of the group at hand its share.
+// Processors look ahead by themselves, but not beyond the end of a page, of which each has some 25
+// elements; and all of a group at once would wait for itself, since so many reads cannot be under
+// way. What only prefetches is inlined: g++ leaves out calls of what has no effect that it knows.
+//
+// @param WithPlaces  Whether places of blocks are read, too.
+template <int Dim, bool WithPlaces = false>
+class ReadAhead {
+public:
+    ReadAhead(const ElementRun& run, int group)
+        : group_(group_ahead<Dim>(run, group, 2)),
+          rest_share_((group_.volume + kGroup - group_.rest + kLine * group_.corners - 1)
+                      / (kLine * group_.corners) * kLine) {}
+
+    [[gnu::always_inline]] void bring(int corner) const {
+        const double* rest = group_.rest + corner * rest_share_;
+        const double* share_end = rest + rest_share_;
+        const double* group_end = group_.volume + kGroup;
+        for (const double* end = share_end < group_end ? share_end : group_end; rest < end;
+             rest += kLine) {
+            __builtin_prefetch(rest);
+        }
+        __builtin_prefetch(group_.vertices + corner * kGroup);
+        for (int pair = 0; WithPlaces && pair < group_.corners - corner; ++pair) {
+            __builtin_prefetch(row_of_blocks(group_, corner) + pair * kGroup);
+        }
+    }
+
+private:
+    static constexpr int kLine = 64 / sizeof(double);
+
+    Group<Dim> group_;
+    std::int64_t rest_share_;  // of a corner, in numbers
+};
+
+// x_a - x_0 of every element of a group, subtracted in double: to[axis][lane].
+template <int Dim, bool IsVectorized>
+void gather_edge(const Group<Dim>& group,
+                 int corner,
+                 const double* positions,
+                 double (&to)[Dim][kGroup]) {
+    using Tile = VertexTile<Dim, IsVectorized>;
+    using Vertex = typename Tile::Vertex;
+    for (int lane = 0; lane < kGroup; lane += Tile::kCount) {
+        Tile edges;
+        for (int k = 0; k < Tile::kCount; ++k) {
+            const std::uint32_t* vertices = group.vertices + lane + k;
+            edges.at[k] = loaded<Vertex>(positions + std::int64_t{Dim} * vertices[corner * kGroup])
+                          - loaded<Vertex>(positions + std::int64_t{Dim} * vertices[0]);
+        }
+        edges.store(to, lane);
+    }
+}
+
+// All edges: [a - 1][axis][lane].
 template <int Dim>
 struct Edges {
     alignas(64) double at[Dim][Dim][kGroup];
 };
 
-template <int Dim>
-void gather_edges(const Group<Dim>& group, const double* positions, Edges<Dim>& edges) {
-    for (int lane = 0; lane < kGroup; ++lane) {
-        const double* origin = positions + std::int64_t{Dim} * group.vertices[lane];
-        for (int a = 0; a < Dim; ++a) {
-            const double* corner =
-                positions + std::int64_t{Dim} * group.vertices[(a + 1) * kGroup + lane];
-            for (int axis = 0; axis < Dim; ++axis) {
-                edges.at[axis][a][lane] = corner[axis] - origin[axis];
-            }
-        }
+template <int Dim, bool IsVectorized, typename Ahead>
+void gather_edges(const Group<Dim>& group,
+                  const Ahead& ahead,
+                  const double* positions,
+                  Edges<Dim>& edges) {
+    ahead.bring(0);
+    for (int a = 1; a <= Dim; ++a) {
+        gather_edge<Dim, IsVectorized>(group, a, positions, edges.at[a - 1]);
+        ahead.bring(a);
     }
 }
 
@@ -88,7 +153,7 @@ Tensor<Real, Dim> deformation(const Edges<Dim>& edges, const Tensor<Real, Dim>& 
     for (int i = 0; i < Dim; ++i) {
         Real edge[Dim];
         for (int a = 0; a < Dim; ++a) {
-            edge[a] = Lanes<Real>::load(edges.at[i][a] + lane);
+            edge[a] = Lanes<Real>::load(edges.at[a][i] + lane);
         }
         for (int j = 0; j < Dim; ++j) {
             Real sum = edge[0] * rest[0][j];
@@ -123,6 +188,31 @@ struct GroupEnergies {
     }
 };
 
+template <typename Vertex>
+void add_to_vertex(const Vertex& part, double* sum) {
+    store(loaded<Vertex>(static_cast<const double*>(sum)) + part, sum);
+}
+
+// Adds part[corner][axis][lane]: element after element, all corners of one before the next.
+template <int Dim, bool IsVectorized>
+void add_to_corners(const Group<Dim>& group,
+                    const double (&part)[Dim + 1][Dim][kGroup],
+                    double* gradient) {
+    using Tile = VertexTile<Dim, IsVectorized>;
+    for (int lane = 0; lane < group.elements; lane += Tile::kCount) {
+        Tile corners[Dim + 1];
+        for (int a = 0; a <= Dim; ++a) {
+            corners[a].load(part[a], lane);
+        }
+        for (int k = 0; k < Tile::kCount && lane + k < group.elements; ++k) {
+            for (int a = 0; a <= Dim; ++a) {
+                const std::int64_t vertex = group.vertices[a * kGroup + lane + k];
+                add_to_vertex(corners[a].at[k], gradient + Dim * vertex);
+            }
+        }
+    }
+}
+
 template <int Dim, typename Real>
 RunEnergy add_gradient(const ElementRun& run, const double* positions, double* gradient) {
     constexpr int kWidth = Lanes<Real>::kCount;
@@ -134,7 +224,7 @@ RunEnergy add_gradient(const ElementRun& run, const double* positions, double* g
     GroupEnergies energies;
     for (int g = 0; g < groups; ++g) {
         const Group<Dim> group = group_at<Dim>(run, g);
-        gather_edges(group, positions, edges);
+        gather_edges<Dim, (kWidth > 1)>(group, ReadAhead<Dim>(run, g), positions, edges);
         for (int lane = 0; lane < kGroup; lane += kWidth) {
             const Tensor<Real, Dim> rest = load_rest<Real>(group, lane);
             const Real volume = Lanes<Real>::load(group.volume + lane);
@@ -155,14 +245,7 @@ RunEnergy add_gradient(const ElementRun& run, const double* positions, double* g
             energies.store(stress, volume, lane);
         }
         energies.add_to(total, group.elements, run.collapse_norm);
-        for (int lane = 0; lane < group.elements; ++lane) {
-            for (int a = 0; a <= Dim; ++a) {
-                double* sum = gradient + std::int64_t{Dim} * group.vertices[a * kGroup + lane];
-                for (int i = 0; i < Dim; ++i) {
-                    sum[i] += corner[a][i][lane];
-                }
-            }
-        }
+        add_to_corners<Dim, (kWidth > 1)>(group, corner, gradient);
     }
     return total;
 }

@@ -167,10 +167,12 @@ void hessian_blocks(const RotatedHessian<Real, Dim>& hessian,
 }
 
 // Element after element, all blocks of one before the next: neighbors in a pack share blocks, and
-// adding to the same one again at once would wait for the addition before.
+// adding to the same one again at once would wait for the addition before. With each, one of the
+// group after this is brought near, a matrix being too large for the caches close by.
 template <int Dim, typename Real, typename Scalar>
 void scatter_blocks(const BlockPack<Real, Dim>& pack,
                     const Group<Dim>& group,
+                    const Group<Dim>& next,
                     int first_lane,
                     Scalar* values) {
     constexpr int kEntries = Dim * Dim;
@@ -182,7 +184,10 @@ void scatter_blocks(const BlockPack<Real, Dim>& pack,
     }
     for (int l = 0; l < lanes; ++l) {
         for (int pair = 0; pair < kPairs<Dim>; ++pair) {
-            const std::int32_t block = group.blocks[pair * kGroup + first_lane + l];
+            const int place = pair * kGroup + first_lane + l;
+            const std::int64_t soon = next.blocks[place] < 0 ? 0 : next.blocks[place];
+            __builtin_prefetch(values + soon * kEntries, 1);
+            const std::int32_t block = group.blocks[place];
             if (block >= 0) {
                 add_to<kEntries, kWidth>(entries[pair][l], values + std::int64_t{block} * kEntries);
             }
@@ -221,16 +226,6 @@ void scatter_held(const BlockPack<Real, Dim>& pack,
     }
 }
 
-// Brings the blocks of a group near while its Hessian is computed: a matrix does not fit in the
-// caches close by.
-template <int Dim, typename Scalar>
-void prefetch_blocks(const Group<Dim>& group, const Scalar* values) {
-    for (int i = 0; i < kPairs<Dim> * kGroup; ++i) {
-        const std::int64_t block = group.blocks[i] < 0 ? 0 : group.blocks[i];
-        __builtin_prefetch(values + block * Dim * Dim, 1);
-    }
-}
-
 // How many of the first lanes are marked by 1.
 template <typename Real>
 int count_marked(const Real& marks, int lanes) {
@@ -259,8 +254,8 @@ std::int64_t add_hessian(const ElementRun& run,
     std::int64_t filtered_elements = 0;
     for (int g = 0; g < groups; ++g) {
         const Group<Dim> group = group_at<Dim>(run, g);
-        prefetch_blocks(group, target.values);
-        gather_edges(group, positions, edges);
+        const Group<Dim> next = group_ahead<Dim>(run, g, 1);
+        gather_edges<Dim, (kWidth > 1)>(group, ReadAhead<Dim, true>(run, g), positions, edges);
         bool has_held = false;
         for (int lane = 0; lane < group.elements; ++lane) {  // the last corner is held if any is
             has_held = has_held || group.dof(Dim, lane) >= group.dof_count;
@@ -273,7 +268,7 @@ std::int64_t add_hessian(const ElementRun& run,
                 rotated_hessian(F, rest, moduli, target.filter, Real(Number(0)));
             filtered_elements += count_marked(hessian.is_filtered, group.elements - lane);
             hessian_blocks(hessian, scale * volume, pack);
-            scatter_blocks(pack, group, lane, target.values);
+            scatter_blocks(pack, group, next, lane, target.values);
             if (has_held && target.prescribed_displacement != nullptr) {
                 scatter_held(pack, group, lane, target);
             }

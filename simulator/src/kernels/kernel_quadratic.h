@@ -25,17 +25,14 @@ struct GroupNodes {
     alignas(64) double at[kQuadraticNodes<Dim>][Dim][kGroup];
 };
 
-template <int Dim>
-void gather_nodes(const Group<Dim>& group, const double* positions, GroupNodes<Dim>& nodes) {
-    for (int lane = 0; lane < kGroup; ++lane) {
-        const double* origin = positions + std::int64_t{Dim} * group.vertices[lane];
-        for (int node = 0; node < kQuadraticNodes<Dim>; ++node) {
-            const double* place =
-                positions + std::int64_t{Dim} * group.vertices[node * kGroup + lane];
-            for (int axis = 0; axis < Dim; ++axis) {
-                nodes.at[node][axis][lane] = place[axis] - origin[axis];
-            }
-        }
+template <int Dim, bool IsVectorized>
+void gather_nodes(const Group<Dim>& group,
+                  const ReadAhead<Dim>& ahead,
+                  const double* positions,
+                  GroupNodes<Dim>& nodes) {
+    for (int node = 0; node < kQuadraticNodes<Dim>; ++node) {
+        gather_edge<Dim, IsVectorized>(group, node, positions, nodes.at[node]);
+        ahead.bring(node);
     }
 }
 
@@ -53,7 +50,7 @@ void edges_at(const GroupNodes<Dim>& nodes, int point, Edges<Dim>& edges) {
                 }
             }
             for (int lane = 0; a > 0 && lane < kGroup; ++lane) {
-                edges.at[axis][a - 1][lane] = corners[a][lane] - corners[0][lane];
+                edges.at[a - 1][axis][lane] = corners[a][lane] - corners[0][lane];
             }
         }
     }
@@ -194,6 +191,7 @@ void pull_nodes(const PointStates<Real, Dim>& states,
 
 template <int Dim, typename Real>
 RunEnergy add_quadratic_gradient(const ElementRun& run, const double* positions, double* gradient) {
+    constexpr bool kIsVectorized = Lanes<Real>::kCount > 1;
     const int groups = (run.elements + kGroup - 1) / kGroup;
     RunEnergy total;
     GroupNodes<Dim> nodes;
@@ -201,7 +199,7 @@ RunEnergy add_quadratic_gradient(const ElementRun& run, const double* positions,
     GroupEnergies energies;
     for (int g = 0; g < groups; ++g) {
         const Group<Dim> group = group_at<Dim>(run, g);
-        gather_nodes(group, positions, nodes);
+        gather_nodes<Dim, kIsVectorized>(group, ReadAhead<Dim>(run, g), positions, nodes);
         for (int q = 0; q < kQuadraticPoints<Dim>; ++q) {
             edges_at(nodes, q, edges[q]);
         }
@@ -222,7 +220,7 @@ RunEnergy add_quadratic_gradient(const ElementRun& run, const double* positions,
         }
         energies.add_to(total, group.elements, run.collapse_norm);
         for (int node = 0; node < kQuadraticNodes<Dim>; ++node) {
-            add_to_corner(group, node, nodes.at[node], gradient);
+            add_to_corner<Dim, kIsVectorized>(group, node, nodes.at[node], gradient);
         }
     }
     return total;

@@ -219,7 +219,7 @@ std::int64_t add_quadratic_hessian(const ElementRun& run,
     std::int64_t filtered_elements = 0;
     for (int g = 0; g < groups; ++g) {
         const Group<Dim> group = group_at<Dim>(run, g);
-        gather_nodes(group, positions, nodes);
+        gather_nodes<Dim, (kWidth > 1)>(group, ReadAhead<Dim>(run, g), positions, nodes);
         for (int q = 0; q < kQuadraticPoints<Dim>; ++q) {
             edges_at(nodes, q, edges[q]);
         }

@@ -37,7 +37,10 @@ struct GroupTensor {
 
 // F = sum over corners a > 0 of (x_a - x_0) g_a^T.
 template <typename Real, int Dim>
-void deform_group(const Group<Dim>& group, const double* positions, GroupTensor<Real, Dim>& F) {
+void deform_group(const Group<Dim>& group,
+                  const ReadAhead<Dim>& ahead,
+                  const double* positions,
+                  GroupTensor<Real, Dim>& F) {
     using Number = typename Lanes<Real>::Number;
     for (Tensor<Real, Dim>& tensor : F.of_pack) {
         for (int i = 0; i < Dim; ++i) {
@@ -47,15 +50,10 @@ void deform_group(const Group<Dim>& group, const double* positions, GroupTensor<
         }
     }
     alignas(64) double edge[Dim][kGroup];
+    ahead.bring(0);
     for (int a = 1; a < group.corners; ++a) {
-        for (int lane = 0; lane < kGroup; ++lane) {
-            const double* origin = positions + std::int64_t{Dim} * group.vertices[lane];
-            const double* corner =
-                positions + std::int64_t{Dim} * group.vertices[a * kGroup + lane];
-            for (int axis = 0; axis < Dim; ++axis) {
-                edge[axis][lane] = corner[axis] - origin[axis];
-            }
-        }
+        gather_edge<Dim, (Lanes<Real>::kCount > 1)>(group, a, positions, edge);
+        ahead.bring(a);
         for (int pack = 0; pack < kPacks<Real>; ++pack) {
             const int lane = pack * Lanes<Real>::kCount;
             const Vector<Real, Dim> gradient = load_gradient<Real>(group, a, lane);
@@ -69,15 +67,19 @@ void deform_group(const Group<Dim>& group, const double* positions, GroupTensor<
     }
 }
 
-template <int Dim>
+// Adds part[axis][lane] to one corner of every element.
+template <int Dim, bool IsVectorized>
 void add_to_corner(const Group<Dim>& group,
                    int corner,
                    const double (&part)[Dim][kGroup],
                    double* gradient) {
-    for (int lane = 0; lane < group.elements; ++lane) {
-        double* sum = gradient + std::int64_t{Dim} * group.vertices[corner * kGroup + lane];
-        for (int i = 0; i < Dim; ++i) {
-            sum[i] += part[i][lane];
+    using Tile = VertexTile<Dim, IsVectorized>;
+    for (int lane = 0; lane < group.elements; lane += Tile::kCount) {
+        Tile parts;
+        parts.load(part, lane);
+        for (int k = 0; k < Tile::kCount && lane + k < group.elements; ++k) {
+            const std::int64_t vertex = group.vertices[corner * kGroup + lane + k];
+            add_to_vertex(parts.at[k], gradient + Dim * vertex);
         }
     }
 }
@@ -85,6 +87,7 @@ void add_to_corner(const Group<Dim>& group,
 // Adds P g_a to every corner; `pull` is P times the volume.
 template <typename Real, int Dim>
 void scatter_pull(const Group<Dim>& group, const GroupTensor<Real, Dim>& pull, double* gradient) {
+    constexpr bool kIsVectorized = Lanes<Real>::kCount > 1;
     alignas(64) double part[Dim][kGroup];
     alignas(64) double first[Dim][kGroup] = {};
     for (int a = 1; a < group.corners; ++a) {
@@ -100,9 +103,9 @@ void scatter_pull(const Group<Dim>& group, const GroupTensor<Real, Dim>& pull, d
                 Lanes<Real>::store(Lanes<Real>::load(first[i] + lane) - sum, first[i] + lane);
             }
         }
-        add_to_corner(group, a, part, gradient);
+        add_to_corner<Dim, kIsVectorized>(group, a, part, gradient);
     }
-    add_to_corner(group, 0, first, gradient);
+    add_to_corner<Dim, kIsVectorized>(group, 0, first, gradient);
 }
 
 template <int Dim, typename Real>
@@ -115,7 +118,7 @@ RunEnergy add_smoothed_gradient(const ElementRun& run, const double* positions, 
     GroupEnergies energies;
     for (int g = 0; g < groups; ++g) {
         const Group<Dim> group = group_at<Dim>(run, g);
-        deform_group(group, positions, F);
+        deform_group(group, ReadAhead<Dim>(run, g), positions, F);
         for (int pack = 0; pack < kPacks<Real>; ++pack) {
             const int lane = pack * Lanes<Real>::kCount;
             const Real volume = Lanes<Real>::load(group.volume + lane);
@@ -194,15 +197,10 @@ struct BlockTile {
     alignas(64) Scalar entries[kMaxBlocks][Lanes<Real>::kCount][Dim * Dim];
 };
 
-// Where the matrix indices of the blocks (a, a), (a, a + 1) .. of a group are.
-template <int Dim>
-const std::int32_t* row_of_blocks(const Group<Dim>& group, int a) {
-    return group.blocks + std::int64_t{a * group.corners - a * (a - 1) / 2} * kGroup;
-}
-
 // Brings the blocks of one corner near while those of the one before are computed.
 template <int Dim, typename Scalar>
-void prefetch_row(const Group<Dim>& group, int a, int lane, int lanes, const Scalar* values) {
+[[gnu::always_inline]] inline void prefetch_row(
+    const Group<Dim>& group, int a, int lane, int lanes, const Scalar* values) {
     const std::int32_t* blocks = row_of_blocks(group, a) + lane;
     for (int b = a; b < group.corners; ++b, blocks += kGroup) {
         for (int l = 0; l < lanes; ++l) {
@@ -322,7 +320,7 @@ std::int64_t add_smoothed_hessian(const ElementRun& run,
     std::int64_t filtered_elements = 0;
     for (int g = 0; g < groups; ++g) {
         const Group<Dim> group = group_at<Dim>(run, g);
-        deform_group(group, positions, F);
+        deform_group(group, ReadAhead<Dim>(run, g), positions, F);
         for (int lane = 0; lane < group.elements; lane += kWidth) {
             prefetch_row(group, 0, lane, kWidth, target.values);
             const Real volume = Lanes<Real>::load(group.volume + lane);

@@ -22,15 +22,16 @@ void exchange(Type& low, Type& high, std::index_sequence<Lane...> /*lanes*/) {
         first, high, static_cast<int>((Lane & Step) != 0 ? kWidth + Lane : Lane + Step)...);
 }
 
-template <int Width, int Step, typename Type>
-void exchange_all(Type (&rows)[Width]) {
+/// Transposes as many vectors as they have lanes. Inlined, or they would go through memory.
+template <int Width, typename Type, int Step = Width / 2>
+[[gnu::always_inline]] inline void transpose(Type (&rows)[Width]) {
     if constexpr (Step > 0) {
         for (int i = 0; i < Width; ++i) {
             if ((i & Step) == 0) {
                 exchange<Step>(rows[i], rows[i + Step], std::make_index_sequence<Width>());
             }
         }
-        exchange_all<Width, Step / 2>(rows);
+        transpose<Width, Type, Step / 2>(rows);
     }
 }
 
@@ -44,7 +45,7 @@ void transpose(const Scalar (&from)[Rows][Width], Scalar (&to)[Width][Rows]) {
             for (int i = 0; i < Width; ++i) {
                 __builtin_memcpy(&rows[i], from[tile + i], sizeof(Type));
             }
-            exchange_all<Width, Width / 2>(rows);
+            transpose(rows);
             for (int i = 0; i < Width; ++i) {
                 __builtin_memcpy(&to[i][tile], &rows[i], sizeof(Type));
             }

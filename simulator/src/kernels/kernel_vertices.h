@@ -1,5 +1,7 @@
 #pragma once
 
+#include "kernels/kernel_transpose.h"
+
 #include <pent/pack.h>
 
 #include <cstdint>
@@ -77,6 +79,45 @@ template <typename Vertex>
 void store(const Vertex& vertex, double* to) {
     __builtin_memcpy(to, &vertex, sizeof vertex);
 }
+
+// As many vertices as are turned into lanes, or out of them, at once.
+template <int Dim, bool IsVectorized>
+struct VertexTile {
+    using Vertex = typename VertexOf<Dim, IsVectorized>::Type;
+    static constexpr int kCount = IsVectorized && Dim == 4 ? 4 : 1;
+
+    Vertex at[kCount];
+
+    // From lanes: from[axis][lane], the first lane being a multiple of kCount.
+    template <int Lanes>
+    void load(const double (&from)[Dim][Lanes], int lane) {
+        if constexpr (kCount > 1) {
+            for (int axis = 0; axis < Dim; ++axis) {
+                at[axis] = load_four(from[axis] + lane);
+            }
+            transpose(at);
+        } else {
+            for (int axis = 0; axis < Dim; ++axis) {
+                at[0][axis] = from[axis][lane];
+            }
+        }
+    }
+
+    // To lanes; the vertices are no more.
+    template <int Lanes>
+    void store(double (&to)[Dim][Lanes], int lane) {
+        if constexpr (kCount > 1) {
+            transpose(at);
+            for (int axis = 0; axis < Dim; ++axis) {
+                simulator::store(at[axis], to[axis] + lane);
+            }
+        } else {
+            for (int axis = 0; axis < Dim; ++axis) {
+                to[axis][lane] = at[0][axis];
+            }
+        }
+    }
+};
 
 // Sums of the entries of four vectors.
 inline Four sums_of(const Four& a, const Four& b, const Four& c, const Four& d) {
