@@ -35,11 +35,6 @@ constexpr double kMeasured = 1.6;
 // Pairs of a penalty kept for another evaluation, at most: 96 MB.
 constexpr std::size_t kMaxKept = 8'000'000;
 
-template <int Dim>
-std::pair<int, int> colliders_of(const Meeting<Dim>& meeting) {
-    return {meeting.pairs.first, meeting.pairs.second};
-}
-
 }  // namespace
 
 template <int Dim>
@@ -96,22 +91,14 @@ void Candidates<Dim>::drop_what_is_not_kept() {
     // All of a team drop them, or none: all have to have the same meetings.
     if (min_inflation_ == 0
         || shared_.sum(static_cast<std::int64_t>(count)) > static_cast<std::int64_t>(kMaxKept)) {
-        std::vector<Meeting<Dim>>().swap(meetings_);
+        meetings_.clear();
     }
 }
 
 template <int Dim>
-typename std::vector<Meeting<Dim>>::const_iterator Candidates<Dim>::place_of(
-    const Pair& pair) const {
-    return std::lower_bound(
-        meetings_.begin(), meetings_.end(), pair,
-        [](const Meeting<Dim>& meeting, const Pair& of) { return colliders_of(meeting) < of; });
-}
-
-template <int Dim>
 bool Candidates<Dim>::is_covered(const Pair& pair, const Paths<Dim>& paths) const {
-    const auto place = place_of(pair);
-    return place != meetings_.end() && colliders_of(*place) == pair && does_cover(*place, paths);
+    const Meeting<Dim>* meeting = meetings_.find(pair);
+    return meeting != nullptr && does_cover(*meeting, paths);
 }
 
 // Not where a motion needs few of the candidates, and distances measured elsewhere do not tell
@@ -133,19 +120,11 @@ bool Candidates<Dim>::does_cover(const Meeting<Dim>& meeting, const Paths<Dim>& 
            && !(are_many && cover.farthest_from_end(paths.from) > unmeasured);
 }
 
-// In the place of what is there of the same two.
 template <int Dim>
 void Candidates<Dim>::insert(const Pair& pair, Meeting<Dim> meeting) {
-    meeting.pairs.first = pair.first;
-    meeting.pairs.second = pair.second;
     work_.overlaps += meeting.pairs.overlaps();
     ++work_.searches;
-    const auto place = meetings_.begin() + (place_of(pair) - meetings_.cbegin());
-    if (place == meetings_.end() || colliders_of(*place) != pair) {
-        meetings_.insert(place, std::move(meeting));
-    } else {
-        *place = std::move(meeting);
-    }
+    meetings_.put(pair, std::move(meeting));
 }
 
 // Bodies side by side: small ones are not worth several threads each.
@@ -204,9 +183,9 @@ void Candidates<Dim>::cover_between(const Paths<Dim>& paths) {
     std::vector<Pair> unknown;
     std::copy_if(near.begin(), near.end(), std::back_inserter(unknown),
                  [&](const Pair& pair) { return !is_covered(pair, paths); });
-    std::erase_if(meetings_, [&](const Meeting<Dim>& meeting) {
+    meetings_.erase_if([&](const Meeting<Dim>& meeting) {
         return !meeting.pairs.is_self()
-               && !std::binary_search(near.begin(), near.end(), colliders_of(meeting))
+               && !std::binary_search(near.begin(), near.end(), meeting.colliders())
                && !does_cover(meeting, paths);
     });
     if (!unknown.empty()) {
@@ -405,11 +384,7 @@ SearchWork Candidates<Dim>::work() const {
 
 template <int Dim>
 std::int64_t Candidates<Dim>::bytes() const {
-    std::int64_t sum = 0;
-    for (const Meeting<Dim>& meeting : meetings_) {
-        sum += static_cast<std::int64_t>(meeting.pairs.size() * sizeof(Candidate))
-               + meeting.cover.bytes();
-    }
+    std::int64_t sum = meetings_.bytes();
     for (const SurfaceTrees<Dim>& trees : trees_) {
         sum += trees.bytes();
     }

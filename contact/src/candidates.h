@@ -1,10 +1,9 @@
 #pragma once
 
-#include "candidate.h"
 #include "colliders.h"
 #include "convex_body.h"
+#include "meetings.h"
 #include "overlaps.h"
-#include "path_cover.h"
 #include "self_proximity.h"
 #include "shared_work.h"
 #include "surface_patches.h"
@@ -24,14 +23,6 @@ struct SearchWork {
     std::int64_t trees_built = 0;
     std::int64_t trees_refit = 0;
     double tree_seconds = 0;
-};
-
-/// What of two colliders, or of one and itself, can come near, and where that holds.
-template <int Dim>
-struct Meeting {
-    CandidatePairs pairs;
-    PathCover<Dim>
-        cover;  ///< Of the vertices of both; of none where pairs are found anew each time.
 };
 
 /// The pairs of simplices of a scene that can come within the activation distance (with the
@@ -68,8 +59,7 @@ public:
     /// Drops pairs that would not be of use again, or that are too many to keep for penalties.
     void drop_what_is_not_kept();
 
-    /// Ascending by colliders.
-    [[nodiscard]] const std::vector<Meeting<Dim>>& meetings() const { return meetings_; }
+    [[nodiscard]] const Meetings<Dim>& meetings() const { return meetings_; }
 
     /// Calls visit(pairs, displacement) for each meeting, with how far its vertices get from where
     /// distances were measured on the way between two positions.
@@ -106,12 +96,10 @@ public:
     [[nodiscard]] std::int64_t bytes() const;
 
 private:
-    using Pair = std::pair<int, int>;
+    using Pair = typename Meetings<Dim>::Pair;
 
     [[nodiscard]] bool is_penalty() const { return !colliders_.is_barrier(); }
 
-    [[nodiscard]] typename std::vector<Meeting<Dim>>::const_iterator place_of(
-        const Pair& pair) const;
     [[nodiscard]] bool is_covered(const Pair& pair, const Paths<Dim>& paths) const;
     [[nodiscard]] bool does_cover(const Meeting<Dim>& meeting, const Paths<Dim>& paths) const;
     void insert(const Pair& pair, Meeting<Dim> meeting);
@@ -139,7 +127,7 @@ private:
     SharedWork shared_;
     double activation_distance_;  // m, with the separation
     double min_inflation_;        // m
-    std::vector<Meeting<Dim>> meetings_;
+    Meetings<Dim> meetings_;
     std::vector<SurfaceTrees<Dim>> trees_;  // of vertices and facets, under a penalty
     std::vector<std::optional<SurfacePatches<Dim>>> patches_;  // of colliders that were near others
     std::vector<std::optional<SelfProximity<Dim>>>

@@ -69,7 +69,7 @@ CONTACT = [
     ("search", "candidate colliders convex_body near_on_paths near_pairs overlaps pair_at self_proximity"
                " self_proximity_search shared_work"),
     ("crossings", "crossings obstacle_contacts"),
-    ("candidates", "candidates"),
+    ("candidates", "candidates meetings"),
     ("contacts", "barrier_contacts contact_energy penalty_contacts step_limit"),
     ("finder", "contact_finder"),
 ]
