@@ -1,5 +1,6 @@
 #pragma once
 
+#include "candidate.h"
 #include "colliders.h"
 #include "convex_body.h"
 #include "meetings.h"

@@ -46,7 +46,7 @@ TEST(MeetingsTest, AreAMapByColliders) {
             ++place;
         }
         EXPECT_EQ(meetings.find(pair) != nullptr, expected.contains(pair));
-        EXPECT_GE(meetings.bytes(), static_cast<std::int64_t>(candidates * sizeof(Candidate)));
+        EXPECT_EQ(meetings.bytes(), static_cast<std::int64_t>(candidates * sizeof(Candidate)));
     }
     meetings.clear();
     EXPECT_TRUE(meetings.empty());

@@ -32,6 +32,7 @@ TEST(NearestInBody, IsTheNearestOfAllCellsOfTheBodyAndTheFirstOfThoseAlikeFar) {
         const MaterialPoints<4> found = nearest_in_body<4>(Workers(2), bodies, body, vertices);
         ASSERT_EQ(found.size(), vertices.size());
         const auto [begin, size] = bodies.cells_of(body);
+        int inside = 0;  // of those of the other body
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const Vector<4> point = bodies.rest().col(vertices[i]);
             std::vector<MaterialPoint<4>> of_cells;
@@ -45,10 +46,12 @@ TEST(NearestInBody, IsTheNearestOfAllCellsOfTheBodyAndTheFirstOfThoseAlikeFar) {
             const auto first = std::find_if(of_cells.begin(), of_cells.end(), [&](const auto& one) {
                 return one.distance <= least + 1e-12;
             });
+            inside += bodies.body_of(vertices[i]) != body && least == 0 ? 1 : 0;
             EXPECT_NEAR(found[i].distance, least, 1e-13);
             EXPECT_EQ(found[i].vertices, first->vertices);
             EXPECT_EQ(found[i].weights, first->weights);
         }
+        EXPECT_GT(inside, 0);
     }
 }
 

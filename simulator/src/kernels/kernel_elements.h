@@ -190,7 +190,7 @@ struct GroupEnergies {
 
 template <typename Vertex>
 void add_to_vertex(const Vertex& part, double* sum) {
-    store(loaded<Vertex>(static_cast<const double*>(sum)) + part, sum);
+    store(loaded<Vertex>(sum) + part, sum);
 }
 
 // Adds part[corner][axis][lane]: element after element, all corners of one before the next.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/kernel_lanes.h"
 #include "kernels/kernel_transpose.h"
 
 #include <pent/pack.h>
@@ -80,11 +81,13 @@ void store(const Vertex& vertex, double* to) {
     __builtin_memcpy(to, &vertex, sizeof vertex);
 }
 
-// As many vertices as are turned into lanes, or out of them, at once.
+// As many vertices as are turned into lanes, or out of them, at once: number by number where no
+// register has four, which would be taken apart for it and take twice as long.
 template <int Dim, bool IsVectorized>
 struct VertexTile {
-    using Vertex = typename VertexOf<Dim, IsVectorized>::Type;
-    static constexpr int kCount = IsVectorized && Dim == 4 ? 4 : 1;
+    static constexpr bool kIsWhole = IsVectorized && Dim == 4 && kRegisterBytes >= sizeof(Four);
+    static constexpr int kCount = kIsWhole ? 4 : 1;
+    using Vertex = typename VertexOf<Dim, kIsWhole>::Type;
 
     Vertex at[kCount];
 
