@@ -7,10 +7,13 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <numeric>
+#include <compare>
+#include <type_traits>
+#include <utility>
 
 namespace pent::contact {
 
@@ -18,26 +21,11 @@ namespace {
 
 constexpr std::size_t kChunk = 512;
 
+// Found contacts are sorted in stretches of this many, which are then merged.
+constexpr std::size_t kStretch = 4096;
+
 // What is in no place of a contact's vertices.
 constexpr std::uint32_t kNoVertex = 0xffffffff;
-
-// Contacts without a mollifier that are the same faces; the key is their corners.
-template <int Dim>
-bool is_before(const Contact<Dim>& a, const Contact<Dim>& b) {
-    if (a.mollifier.is_on() != b.mollifier.is_on()) {
-        return b.mollifier.is_on();
-    }
-    if (a.first_count != b.first_count) {
-        return a.first_count < b.first_count;
-    }
-    return a.vertices < b.vertices;
-}
-
-template <int Dim>
-bool is_same(const Contact<Dim>& a, const Contact<Dim>& b) {
-    return !a.mollifier.is_on() && !b.mollifier.is_on() && a.first_count == b.first_count
-           && a.vertices == b.vertices;
-}
 
 // The contact of one pair of simplices, and which pair: the list, and the places in it.
 template <int Dim>
@@ -46,50 +34,88 @@ struct Found {
     std::array<std::uint32_t, 3> pair;
 };
 
-// By their faces, then by their pairs.
+// Where a contact comes among the found ones: by its faces, then by its pair. Contacts of the same
+// faces that have no mollifier are one.
 template <int Dim>
-bool is_before(const Found<Dim>& a, const Found<Dim>& b) {
-    return is_before<Dim>(a.contact, b.contact)
-           || (!is_before<Dim>(b.contact, a.contact) && a.pair < b.pair);
+struct Key {
+    std::uint32_t kind = 0;
+    std::array<std::uint32_t, Dim + 1> vertices;
+    std::array<std::uint32_t, 3> pair;
+    std::uint32_t place = 0;
+
+    Key() = default;  // to be filled
+    Key(const Found<Dim>& found, std::size_t at)
+        : kind((found.contact.mollifier.is_on() ? kMollified : 0U) + found.contact.first_count),
+          vertices(found.contact.vertices),
+          pair(found.pair),
+          place(static_cast<std::uint32_t>(at)) {}
+
+    auto operator<=>(const Key&) const = default;
+
+    [[nodiscard]] bool is_same_contact(const Key& other) const {
+        return kind == other.kind && kind < kMollified && vertices == other.vertices;
+    }
+
+private:
+    static constexpr std::uint32_t kMollified = 16;
+};
+
+// Keys in ascending order.
+//
+// @param starts  Where stretches begin that are ascending already.
+template <int Dim>
+std::vector<Key<Dim>> sorted_keys(const std::vector<Found<Dim>>& found,
+                                  std::vector<std::size_t> starts) {
+    std::vector<Key<Dim>> keys(found.size());
+    for_each_chunk(found.size(), kStretch,
+                   [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
+                       for (std::size_t i = begin; i < end; ++i) {
+                           keys[i] = Key<Dim>(found[i], i);
+                       }
+                   });
+    const auto at = [&](std::size_t place) {
+        return keys.begin() + static_cast<std::ptrdiff_t>(place);
+    };
+    if (starts.empty()) {
+        for_each_chunk(found.size(), kStretch,
+                       [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
+                           std::sort(at(begin), at(end));
+                       });
+        for (std::size_t begin = 0; begin < found.size(); begin += kStretch) {
+            starts.push_back(begin);
+        }
+    }
+    while (starts.size() > 1) {  // two by two
+        const auto start = [&](std::size_t i) {
+            return i < starts.size() ? starts[i] : keys.size();
+        };
+        std::vector<std::size_t> left((starts.size() + 1) / 2);
+        parallel_for(left.size(), [&](std::size_t i) {
+            left[i] = starts[2 * i];
+            std::inplace_merge(at(start(2 * i)), at(start(2 * i + 1)), at(start(2 * i + 2)));
+        });
+        starts = std::move(left);
+    }
+    return keys;
 }
 
 // One contact for all pairs with the same nearest faces, in ascending order. Their distances differ
 // by rounding: that of the first pair counts, whatever order they were found in. What has been
 // merged may be merged with more.
 //
-// @param starts  Where stretches begin that are ascending already; one where nothing is known.
-template <int Dim>
-std::vector<Found<Dim>> merged(const std::vector<Found<Dim>>& found,
-                               std::vector<std::size_t> starts) {
-    std::vector<std::uint32_t> order(found.size());
-    std::iota(order.begin(), order.end(), 0U);
-    const auto is_first = [&](std::uint32_t a, std::uint32_t b) {
-        return is_before<Dim>(found[a], found[b]);
-    };
-    if (starts.size() == 1) {
-        std::sort(order.begin(), order.end(), is_first);
-    }
-    while (starts.size() > 1) {  // two by two
-        std::vector<std::size_t> left;
-        for (std::size_t i = 0; i < starts.size(); i += 2) {
-            left.push_back(starts[i]);
-            if (i + 1 < starts.size()) {
-                const std::size_t end = i + 2 < starts.size() ? starts[i + 2] : order.size();
-                const auto at = [&](std::size_t place) {
-                    return order.begin() + static_cast<std::ptrdiff_t>(place);
-                };
-                std::inplace_merge(at(starts[i]), at(starts[i + 1]), at(end), is_first);
-            }
+// @param starts  As above; none where nothing is known.
+// @param pick    What is wanted of each of them.
+template <int Dim, typename Pick>
+auto merged(std::vector<Found<Dim>> found, std::vector<std::size_t> starts, const Pick& pick) {
+    const std::vector<Key<Dim>> keys = sorted_keys<Dim>(found, std::move(starts));
+    std::vector<std::decay_t<decltype(pick(found[0]))>> kept;
+    for (std::size_t k = 0; k < keys.size();) {
+        Found<Dim>& first = found[keys[k].place];
+        const Key<Dim>& key = keys[k];
+        while (++k < keys.size() && keys[k].is_same_contact(key)) {
+            first.contact.multiplicity += found[keys[k].place].contact.multiplicity;
         }
-        starts = std::move(left);
-    }
-    std::vector<Found<Dim>> kept;
-    for (const std::uint32_t i : order) {
-        if (!kept.empty() && is_same(kept.back().contact, found[i].contact)) {
-            kept.back().contact.multiplicity += found[i].contact.multiplicity;
-        } else {
-            kept.push_back(found[i]);
-        }
+        kept.push_back(pick(first));
     }
     return kept;
 }
@@ -238,24 +264,22 @@ BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
                     ++lists;
                 });
         });
-    all = merged(all, {0});
+    const auto contact = [](const Found<Dim>& found) { return found.contact; };
     const SharedWork& shared = candidates.shared();
-    if (shared.is_shared()) {
-        std::vector<std::size_t> starts;
-        std::size_t count = 0;
-        std::vector<std::vector<Found<Dim>>> of_all = shared.lists(std::move(all));
-        for (const std::vector<Found<Dim>>& list : of_all) {
-            starts.push_back(count);
-            count += list.size();
-        }
-        all = joined(std::move(of_all));
-        all = starts.size() > 1 ? merged(all, std::move(starts)) : std::move(all);
-        contacts.candidates = shared.sum(contacts.candidates);
+    if (!shared.is_shared()) {
+        contacts.list = merged<Dim>(std::move(all), {}, contact);
+        return contacts;
     }
-    contacts.list.reserve(all.size());
-    for (const Found<Dim>& found : all) {
-        contacts.list.push_back(found.contact);
+    all = merged<Dim>(std::move(all), {}, [](const Found<Dim>& found) { return found; });
+    std::vector<std::size_t> starts;
+    std::size_t count = 0;
+    std::vector<std::vector<Found<Dim>>> of_all = shared.lists(std::move(all));
+    for (const std::vector<Found<Dim>>& list : of_all) {
+        starts.push_back(count);
+        count += list.size();
     }
+    contacts.list = merged<Dim>(joined(std::move(of_all)), std::move(starts), contact);
+    contacts.candidates = shared.sum(contacts.candidates);
     return contacts;
 }
 
