@@ -69,6 +69,33 @@ void add_gradient(const Contacts<Dim>& contacts,
     }
 }
 
+// Room for the spectrum of a pair, whatever it comes to.
+template <int Dim>
+std::size_t most_numbers(const Contact<Dim>& contact, Filter filter) {
+    const int most = contact.mollifier.is_on() ? Dim * Dim
+                     : filter == Filter::Clamp ? Dim
+                                               : 2 * Dim - 1;
+    return static_cast<std::size_t>(most * (1 + Dim * contact.count));
+}
+
+// Of the vertices that may move.
+template <int Dim>
+void store(const Spectrum<Dim>& spectrum,
+           const Contact<Dim>& contact,
+           SpectralHessian<Dim>& hessian,
+           std::vector<double>& numbers) {
+    hessian.vertices = contact.vertices;
+    hessian.count = contact.count;
+    hessian.rank = static_cast<std::int32_t>(spectrum.values.size());
+    double* next = numbers.data() + hessian.begin;
+    next = std::copy_n(spectrum.values.data(), hessian.rank, next);
+    for (int i = 0; i < hessian.count; ++i) {
+        for (int k = 0; k < hessian.rank; ++k) {
+            next = std::copy_n(&spectrum.vectors(Dim * i, k), Dim, next);
+        }
+    }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -150,30 +177,30 @@ Block<Dim> surface_hessian(const DistanceEnergy& energy,
 }
 
 template <int Dim>
-StencilMatrix<Dim> moving_hessian(const DistanceEnergy& energy,
-                                  const Contact<Dim>& contact,
-                                  const PositionsView<Dim>& positions,
-                                  Filter filter) {
+Spectrum<Dim> moving_spectrum(const DistanceEnergy& energy,
+                              const Contact<Dim>& contact,
+                              const PositionsView<Dim>& positions,
+                              Filter filter) {
     const Stencil<Dim> points = corners_of<Dim>(contact, positions);
     const double slope = energy.slope(contact.distance);
     const double curvature = energy.curvature(contact.distance);
     const Mollifier& mollifier = contact.mollifier;
     const double c = mollifier.is_on() ? volume_squared(contact, points) : 0;
     if (!(c < mollifier.threshold)) {
-        return distance_hessian<Dim>(points, contact, slope, curvature, filter);
+        return distance_spectrum<Dim>(points, contact, slope, curvature, filter);
     }
     const double value = energy.value(contact.distance);
     const StencilVector<Dim> by_distance = slope * outer<Dim>(contact.weights, contact.direction);
     const StencilVector<Dim> by_volume =
         spanned_volume_squared_gradient<Dim>(points, contact.first_count);
     StencilMatrix<Dim> hessian =
-        mollifier.value(c) * distance_hessian<Dim>(points, contact, slope, curvature, Filter::None);
+        mollifier.value(c) * distance_hessian<Dim>(points, contact, slope, curvature);
     hessian += mollifier.slope(c) * value
                * spanned_volume_squared_hessian<Dim>(points, contact.first_count);
     hessian += mollifier.curvature(c) * value * by_volume * by_volume.transpose();
     hessian += mollifier.slope(c)
                * (by_distance * by_volume.transpose() + by_volume * by_distance.transpose());
-    return filtered_square(hessian, filter);
+    return filtered_spectrum<Dim>(hessian, filter);
 }
 
 template <int Dim>
@@ -209,21 +236,29 @@ StencilHessians<Dim> hessians_of(const ContactScene<Dim>& scene,
                                  const Contacts<Dim>& contacts,
                                  const PositionsView<Dim>& positions,
                                  double stiffness,
-                                 Filter filter) {
+                                 Filter filter,
+                                 StencilHessians<Dim> memory) {
     const bool do_weights_move = scene.options.model == ContactModel::Barrier;
-    const std::size_t dense = do_weights_move ? contacts.pair_count : 0;
-    StencilHessians<Dim> hessians;
-    hessians.dense.resize(dense);
-    hessians.weighted.resize(contacts.list.size() - dense);
+    const std::size_t pairs = do_weights_move ? contacts.pair_count : 0;
+    StencilHessians<Dim> hessians = std::move(memory);
+    hessians.spectral.resize(pairs);
+    hessians.weighted.resize(contacts.list.size() - pairs);
+    std::size_t numbers = 0;
+    for (std::size_t k = 0; k < pairs; ++k) {
+        hessians.spectral[k].begin = numbers;
+        numbers += most_numbers<Dim>(contacts.list[k], filter);
+    }
+    if (hessians.numbers.size() < numbers) {
+        hessians.numbers.resize(numbers);
+    }
     for_each_chunk(contacts.list.size(), kHessianChunk,
                    [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
                        for (std::size_t k = begin; k < end; ++k) {
                            const Contact<Dim>& contact = contacts.list[k];
                            const DistanceEnergy energy = energy_of<Dim>(scene, contact, stiffness);
-                           if (k < dense) {
-                               hessians.dense[k] = {
-                                   contact.vertices, contact.count,
-                                   moving_hessian<Dim>(energy, contact, positions, filter)};
+                           if (k < pairs) {
+                               store<Dim>(moving_spectrum<Dim>(energy, contact, positions, filter),
+                                          contact, hessians.spectral[k], hessians.numbers);
                                continue;
                            }
                            const Block<Dim> block =
@@ -231,7 +266,7 @@ StencilHessians<Dim> hessians_of(const ContactScene<Dim>& scene,
                                    ? surface_hessian<Dim>(
                                        energy, surface_at<Dim>(scene, contact, positions), filter)
                                    : held_hessian<Dim>(energy, contact, filter);
-                           hessians.weighted[k - dense] = {contact.vertices, contact.count,
+                           hessians.weighted[k - pairs] = {contact.vertices, contact.count,
                                                            contact.weights, block};
                        }
                    });
@@ -270,12 +305,13 @@ void add_gradient(const Contacts<Dim>& contacts, Positions<Dim>& gradient) {
     template Block<Dim> held_hessian(const DistanceEnergy&, const Contact<Dim>&, Filter);      \
     template Block<Dim> surface_hessian(const DistanceEnergy&, const SignedDistance<Dim>&,     \
                                         Filter);                                               \
-    template StencilMatrix<Dim> moving_hessian(const DistanceEnergy&, const Contact<Dim>&,     \
-                                               const PositionsView<Dim>&, Filter);             \
+    template Spectrum<Dim> moving_spectrum(const DistanceEnergy&, const Contact<Dim>&,         \
+                                           const PositionsView<Dim>&, Filter);                 \
     template Contacts<Dim> evaluate_all(const ContactScene<Dim>&, const PositionsView<Dim>&,   \
                                         double, Contacts<Dim>);                                \
     template StencilHessians<Dim> hessians_of(const ContactScene<Dim>&, const Contacts<Dim>&,  \
-                                              const PositionsView<Dim>&, double, Filter);      \
+                                              const PositionsView<Dim>&, double, Filter,       \
+                                              StencilHessians<Dim>);                           \
     template void add_gradient(const Contacts<Dim>&, Positions<Dim>&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE

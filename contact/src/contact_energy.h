@@ -1,5 +1,7 @@
 #pragma once
 
+#include "spectrum.h"
+
 #include <pent/contact/contact_scene.h>
 #include <pent/contact/filter.h>
 
@@ -44,10 +46,10 @@ template <int Dim>
 
 /// Filtered Hessian of a pair whose weights move, with its mollifier.
 template <int Dim>
-[[nodiscard]] StencilMatrix<Dim> moving_hessian(const DistanceEnergy& energy,
-                                                const Contact<Dim>& contact,
-                                                const PositionsView<Dim>& positions,
-                                                Filter filter);
+[[nodiscard]] Spectrum<Dim> moving_spectrum(const DistanceEnergy& energy,
+                                            const Contact<Dim>& contact,
+                                            const PositionsView<Dim>& positions,
+                                            Filter filter);
 
 /// The contacts with energies and slopes, found in parallel and summed up.
 ///
@@ -59,11 +61,14 @@ template <int Dim>
                                          Contacts<Dim> contacts);
 
 /// Filtered Hessians of all contacts, in their order. Parallel.
+///
+/// @param memory  Lists to write to: of the last time, so that nothing is allocated.
 template <int Dim>
 [[nodiscard]] StencilHessians<Dim> hessians_of(const ContactScene<Dim>& scene,
                                                const Contacts<Dim>& contacts,
                                                const PositionsView<Dim>& positions,
                                                double stiffness,
-                                               Filter filter);
+                                               Filter filter,
+                                               StencilHessians<Dim> memory);
 
 }  // namespace pent::contact

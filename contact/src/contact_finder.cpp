@@ -133,9 +133,10 @@ public:
     [[nodiscard]] StencilHessians<Dim> hessians(const Contacts<Dim>& contacts,
                                                 const PositionsView<Dim>& positions,
                                                 double stiffness,
-                                                Filter filter) const {
+                                                Filter filter,
+                                                StencilHessians<Dim> memory) const {
         return colliders_.with_cores(positions, [&](const PositionsView<Dim>& all) {
-            return hessians_of<Dim>(scene_, contacts, all, stiffness, filter);
+            return hessians_of<Dim>(scene_, contacts, all, stiffness, filter, std::move(memory));
         });
     }
 
@@ -242,8 +243,9 @@ template <int Dim>
 StencilHessians<Dim> ContactFinder<Dim>::hessians(const Contacts<Dim>& contacts,
                                                   const PositionsView<Dim>& positions,
                                                   double stiffness,
-                                                  Filter filter) const {
-    return state_->hessians(contacts, positions, stiffness, filter);
+                                                  Filter filter,
+                                                  StencilHessians<Dim> memory) const {
+    return state_->hessians(contacts, positions, stiffness, filter, std::move(memory));
 }
 
 template <int Dim>

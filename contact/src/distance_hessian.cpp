@@ -4,6 +4,9 @@
 
 #include <pent/dimensions.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
 #include <array>
 #include <utility>
 
@@ -88,59 +91,106 @@ Eigen::Matrix<double, Dim + 1, Dim> weight_basis(const Contact<Dim>& contact,
     return basis;
 }
 
-// The Hessian of faces with a given number of edges: all sizes known.
+// What the Hessian of faces with a given number of edges does in {w, W} (x) u and w (x) E: basis
+// inner basis^T.
 template <int Dim, int Edges>
-StencilMatrix<Dim> hessian_of_edges(const Contact<Dim>& contact,
-                                    const MovingWeights<Dim>& moving,
-                                    double slope,
-                                    double curvature,
-                                    Filter filter) {
-    constexpr int kSize = 2 * Edges + 1;
-    using Inner = Eigen::Matrix<double, kSize, kSize>;
-    const Eigen::Matrix<double, Dim + 1, Dim> weight_frame = weight_basis<Dim>(contact, moving);
-    const double length = contact.weights.norm();
-    const double distance = contact.distance + contact.radius;
-    Inner inner = Inner::Zero();
-    if constexpr (Edges > 0) {
-        // W R^-1 in the basis: how the weights answer to unit motions along the frame.
-        Eigen::Matrix<double, Edges + 1, Edges> answer =
-            weight_frame.template leftCols<Edges + 1>().transpose().lazyProduct(
-                moving.weights.template leftCols<Edges>());
-        moving.triangle.template topLeftCorner<Edges, Edges>()
-            .template triangularView<Eigen::Upper>()
-            .template solveInPlace<Eigen::OnTheRight>(answer);
-        inner.template topLeftCorner<Edges + 1, Edges + 1>() =
-            -slope * distance * answer.lazyProduct(answer.transpose());
-        inner.template topRightCorner<Edges + 1, Edges>() = -slope * length * answer;
-        inner.template bottomLeftCorner<Edges, Edges + 1>() =
-            inner.template topRightCorner<Edges + 1, Edges>().transpose();
-    }
-    inner(0, 0) += curvature * length * length;
-    inner = filtered_square(inner, filter);
+struct Range {
+    static constexpr int kSize = 2 * Edges + 1;
+    Eigen::Matrix<double, Dim*(Dim + 1), kSize> basis;  // orthonormal
+    Eigen::Matrix<double, kSize, kSize> inner = Eigen::Matrix<double, kSize, kSize>::Zero();
 
-    Eigen::Matrix<double, Dim*(Dim + 1), kSize> basis;
-    for (int k = 0; k <= Edges; ++k) {
-        basis.col(k) = outer<Dim>(weight_frame.col(k), contact.direction);
+    Range(const Contact<Dim>& contact,
+          const MovingWeights<Dim>& moving,
+          double slope,
+          double curvature) {
+        const Eigen::Matrix<double, Dim + 1, Dim> weight_frame = weight_basis<Dim>(contact, moving);
+        const double length = contact.weights.norm();
+        if constexpr (Edges > 0) {
+            // W R^-1 in the basis: how the weights answer to unit motions along the frame.
+            Eigen::Matrix<double, Edges + 1, Edges> answer =
+                weight_frame.template leftCols<Edges + 1>().transpose().lazyProduct(
+                    moving.weights.template leftCols<Edges>());
+            moving.triangle.template topLeftCorner<Edges, Edges>()
+                .template triangularView<Eigen::Upper>()
+                .template solveInPlace<Eigen::OnTheRight>(answer);
+            inner.template topLeftCorner<Edges + 1, Edges + 1>() =
+                -slope * (contact.distance + contact.radius)
+                * answer.lazyProduct(answer.transpose());
+            inner.template topRightCorner<Edges + 1, Edges>() = -slope * length * answer;
+            inner.template bottomLeftCorner<Edges, Edges + 1>() =
+                inner.template topRightCorner<Edges + 1, Edges>().transpose();
+        }
+        inner(0, 0) += curvature * length * length;
+        for (int k = 0; k <= Edges; ++k) {
+            basis.col(k) = outer<Dim>(weight_frame.col(k), contact.direction);
+        }
+        for (int k = 0; k < Edges; ++k) {
+            basis.col(Edges + 1 + k) = outer<Dim>(weight_frame.col(0), moving.frame.col(k));
+        }
     }
-    for (int k = 0; k < Edges; ++k) {
-        basis.col(Edges + 1 + k) = outer<Dim>(weight_frame.col(0), moving.frame.col(k));
-    }
-    const Eigen::Matrix<double, Dim*(Dim + 1), kSize> product = basis.lazyProduct(inner);
-    StencilMatrix<Dim> hessian = product.lazyProduct(basis.transpose());
+};
+
+// Orthonormal columns that are normal to the direction and to the faces.
+template <int Dim, int Edges>
+Eigen::Matrix<double, Dim, Dim - 1 - Edges> normals_of(const Contact<Dim>& contact,
+                                                       const MovingWeights<Dim>& moving) {
+    Eigen::Matrix<double, Dim, Edges + 1> along;
+    along << contact.direction, moving.frame.template leftCols<Edges>();
+    const Eigen::HouseholderQR<Eigen::Matrix<double, Dim, Edges + 1>> all(along);
+    const Block<Dim> frame = all.householderQ();
+    return frame.template rightCols<Dim - 1 - Edges>();
+}
+
+template <int Dim, int Edges>
+Spectrum<Dim> spectrum_of_edges(const Contact<Dim>& contact,
+                                const MovingWeights<Dim>& moving,
+                                double slope,
+                                double curvature,
+                                Filter filter) {
+    const Range<Dim, Edges> range(contact, moving, slope, curvature);
+    using Inner = decltype(range.inner);
+    const Eigen::SelfAdjointEigenSolver<Inner> solver(range.inner);
+    // It is 0 on all of w (x) E, so at most Edges + 1 eigenvalues are above 0: another is rounding.
+    const int most = filter == Filter::Clamp ? Edges + 1 : range.kSize;
     // What is normal to the direction and to the faces: buckling, negative where psi' is.
-    const double buckling = filtered(slope / distance, filter);
-    if (Edges < Dim - 1 && buckling != 0) {
-        Block<Dim> normal = Block<Dim>::Identity();
-        normal -= contact.direction * contact.direction.transpose();
-        normal -= moving.frame * moving.frame.transpose();
-        for (int i = 0; i <= Dim; ++i) {
-            for (int j = 0; j <= Dim; ++j) {
-                hessian.template block<Dim, Dim>(Dim * i, Dim * j) +=
-                    buckling * contact.weights[i] * contact.weights[j] * normal;
+    const double buckling = filtered(slope / (contact.distance + contact.radius), filter);
+    constexpr int kNormals = Dim - 1 - Edges;
+    Spectrum<Dim> spectrum;
+    spectrum.resize(most + kNormals);
+    Eigen::Index rank = 0;
+    for (int k = range.kSize - most; k < range.kSize; ++k) {
+        const double value = filtered(solver.eigenvalues()[k], filter);
+        if (value != 0) {
+            spectrum.values[rank] = value;
+            spectrum.vectors.col(rank++) = range.basis.lazyProduct(solver.eigenvectors().col(k));
+        }
+    }
+    if constexpr (kNormals > 0) {
+        if (buckling != 0) {
+            const Weights<Dim> weights = contact.weights.normalized();
+            const auto normals = normals_of<Dim, Edges>(contact, moving);
+            for (int k = 0; k < kNormals; ++k) {
+                spectrum.values[rank] = buckling * contact.weights.squaredNorm();
+                spectrum.vectors.col(rank++) = outer<Dim>(weights, normals.col(k));
             }
         }
     }
-    return hessian;
+    spectrum.resize(rank);
+    return spectrum;
+}
+
+// Calls of_edges.operator()<Edges>(moving) with the number of edges that do move the weights.
+template <int Dim, typename OfEdges>
+auto with_edges(const Stencil<Dim>& points, const Contact<Dim>& contact, const OfEdges& of_edges) {
+    const MovingWeights<Dim> moving = moving_weights<Dim>(points, contact);
+    return [&]<int... Edges>(std::integer_sequence<int, Edges...>) {
+        decltype(of_edges.template operator()<0>(moving)) result;
+        ((moving.edges == Edges ? void(result = of_edges.template operator()<Edges>(moving))
+                                : void()),
+         ...);
+        return result;
+    }
+    (std::make_integer_sequence<int, Dim>());
 }
 
 }  // namespace
@@ -149,23 +199,41 @@ template <int Dim>
 StencilMatrix<Dim> distance_hessian(const Stencil<Dim>& points,
                                     const Contact<Dim>& contact,
                                     double slope,
-                                    double curvature,
-                                    Filter filter) {
-    const MovingWeights<Dim> moving = moving_weights<Dim>(points, contact);
-    return [&]<int... Edges>(std::integer_sequence<int, Edges...>) {
-        StencilMatrix<Dim> hessian;
-        ((moving.edges == Edges ? void(
-              hessian = hessian_of_edges<Dim, Edges>(contact, moving, slope, curvature, filter))
-                                : void()),
-         ...);
+                                    double curvature) {
+    return with_edges<Dim>(points, contact, [&]<int Edges>(const MovingWeights<Dim>& moving) {
+        const Range<Dim, Edges> range(contact, moving, slope, curvature);
+        StencilMatrix<Dim> hessian =
+            range.basis.lazyProduct(range.inner).eval().lazyProduct(range.basis.transpose());
+        Block<Dim> normal = Block<Dim>::Identity();
+        normal -= contact.direction * contact.direction.transpose();
+        normal -= moving.frame * moving.frame.transpose();
+        normal *= slope / (contact.distance + contact.radius);
+        for (int i = 0; Edges < Dim - 1 && i <= Dim; ++i) {
+            for (int j = 0; j <= Dim; ++j) {
+                hessian.template block<Dim, Dim>(Dim * i, Dim * j) +=
+                    contact.weights[i] * contact.weights[j] * normal;
+            }
+        }
         return hessian;
-    }
-    (std::make_integer_sequence<int, Dim>());
+    });
+}
+
+template <int Dim>
+Spectrum<Dim> distance_spectrum(const Stencil<Dim>& points,
+                                const Contact<Dim>& contact,
+                                double slope,
+                                double curvature,
+                                Filter filter) {
+    return with_edges<Dim>(points, contact, [&]<int Edges>(const MovingWeights<Dim>& moving) {
+        return spectrum_of_edges<Dim, Edges>(contact, moving, slope, curvature, filter);
+    });
 }
 
 #define PENT_INSTANTIATE(Dim)                                                                   \
     template StencilMatrix<Dim> distance_hessian<Dim>(const Stencil<Dim>&, const Contact<Dim>&, \
-                                                      double, double, Filter);
+                                                      double, double);                          \
+    template Spectrum<Dim> distance_spectrum<Dim>(const Stencil<Dim>&, const Contact<Dim>&,     \
+                                                  double, double, Filter);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 

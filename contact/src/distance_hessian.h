@@ -1,5 +1,7 @@
 #pragma once
 
+#include "spectrum.h"
+
 #include <pent/contact/contact.h>
 #include <pent/contact/filter.h>
 
@@ -25,8 +27,8 @@ template <int Dim>
 ///         - d (W M^-1 E^T (x) ... + its transpose) - d^2 W M^-1 W^T (x) u u^T)
 ///
 /// Its range is spanned by {w, W} (x) u, w (x) E and w (x) (what is normal to u and E): at most 2
-/// Dim - 1 dimensions. The filter works there, on a matrix of that size, and is the same as one on
-/// all eigenvalues. Faces whose edges are dependent to rounding move as if their weights were held.
+/// Dim - 1 dimensions. Faces whose edges are dependent to rounding move as if their weights were
+/// held.
 ///
 /// @param points     Corners of the contact, in its order; columns beyond are not read.
 /// @param slope      psi'(d), J/m.
@@ -35,7 +37,14 @@ template <int Dim>
 [[nodiscard]] StencilMatrix<Dim> distance_hessian(const Stencil<Dim>& points,
                                                   const Contact<Dim>& contact,
                                                   double slope,
-                                                  double curvature,
-                                                  Filter filter);
+                                                  double curvature);
+
+/// Its filtered eigenvalues and their eigenvectors, found in its range: at most Dim if clamped.
+template <int Dim>
+[[nodiscard]] Spectrum<Dim> distance_spectrum(const Stencil<Dim>& points,
+                                              const Contact<Dim>& contact,
+                                              double slope,
+                                              double curvature,
+                                              Filter filter);
 
 }  // namespace pent::contact

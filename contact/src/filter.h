@@ -2,8 +2,6 @@
 
 #include <pent/contact/filter.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <cmath>
 
 namespace pent::contact {
@@ -19,18 +17,6 @@ namespace pent::contact {
             break;
     }
     return eigenvalue;
-}
-
-/// A symmetric matrix with its eigenvalues filtered.
-template <typename Square>
-[[nodiscard]] Square filtered_square(const Square& matrix, Filter filter) {
-    if (filter == Filter::None) {
-        return matrix;
-    }
-    const Eigen::SelfAdjointEigenSolver<Square> solver(matrix);
-    const auto values =
-        solver.eigenvalues().unaryExpr([&](double value) { return filtered(value, filter); });
-    return solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
 }
 
 }  // namespace pent::contact

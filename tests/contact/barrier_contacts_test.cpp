@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace pent::contact {
 namespace {
@@ -88,12 +90,18 @@ protected:
                 }
             }
         }
-        for (const DenseHessian<kSpace>& hessian : hessians.dense) {
-            for (int i = 0; i < hessian.count; ++i) {
-                for (int j = 0; j < hessian.count; ++j) {
+        for (const SpectralHessian<kSpace>& hessian : hessians.spectral) {
+            const double* const values = hessians.numbers.data() + hessian.begin;
+            const Eigen::Map<const Eigen::MatrixXd> vectors(values + hessian.rank, kSpace,
+                                                            hessian.rank * hessian.count);
+            for (int k = 0; k < hessian.rank; ++k) {
+                double along = 0;
+                for (int i = 0; i < hessian.count; ++i) {
+                    along += vectors.col(hessian.rank * i + k).dot(way.col(hessian.vertices[i]));
+                }
+                for (int i = 0; i < hessian.count; ++i) {
                     product.col(hessian.vertices[i]) +=
-                        hessian.matrix.template block<kSpace, kSpace>(kSpace * i, kSpace * j)
-                        * way.col(hessian.vertices[j]);
+                        values[k] * along * vectors.col(hessian.rank * i + k);
                 }
             }
         }
@@ -155,6 +163,37 @@ TYPED_TEST(BarrierContactsTest, HessiansAreTheDifferencesOfTheGradient) {
         (this->gradient(finder, x + h * way) - this->gradient(finder, x - h * way)) / (2 * h);
     // Truncation (h / gap)^2, rounding 1e-16 / h; strata that change within h.
     EXPECT_LT((this->product(finder, x, way) - difference).norm(), 1e-5 * difference.norm());
+}
+
+// Those of more contacts, and of another filter, were there before.
+TYPED_TEST(BarrierContactsTest, HessiansDoNotDependOnTheListsTheyAreWrittenTo) {
+    constexpr int kDim = TypeParam::value;
+    ContactFinder<kDim> finder(this->cubes_.model(this->obstacles_below()));
+    const auto hessians = [&](double push, Filter filter, StencilHessians<kDim> memory) {
+        const auto x = this->cubes_.pushed(push);
+        return finder.hessians(finder.find(x, test::kBarrierStiffness), x, test::kBarrierStiffness,
+                               filter, std::move(memory));
+    };
+    const StencilHessians<kDim> fresh = hessians(0.03, Filter::Clamp, {});
+    const StencilHessians<kDim> again =
+        hessians(0.03, Filter::Clamp, hessians(0.05, Filter::None, {}));
+    ASSERT_EQ(again.weighted.size(), fresh.weighted.size());
+    ASSERT_EQ(again.spectral.size(), fresh.spectral.size());
+    EXPECT_GT(fresh.spectral.size(), 10U);
+    EXPECT_GE(again.numbers.size(), fresh.numbers.size());
+    for (std::size_t k = 0; k < fresh.spectral.size(); ++k) {
+        const SpectralHessian<kDim>& one = fresh.spectral[k];
+        const SpectralHessian<kDim>& other = again.spectral[k];
+        EXPECT_EQ(other.vertices, one.vertices);
+        ASSERT_EQ(other.count, one.count);
+        ASSERT_EQ(other.rank, one.rank);
+        const auto numbers = [&](const StencilHessians<kDim>& of, const SpectralHessian<kDim>& at) {
+            return std::vector<double>(
+                of.numbers.data() + at.begin,
+                of.numbers.data() + at.begin + at.rank * (1 + kDim * at.count));
+        };
+        EXPECT_EQ(numbers(again, other), numbers(fresh, one));
+    }
 }
 
 TYPED_TEST(BarrierContactsTest, DependOnPositionsAloneNotOnHistoryOrThreads) {

@@ -50,7 +50,8 @@ struct PairEnergy {
         return gradient;
     }
     [[nodiscard]] StencilMatrix<Dim> hessian(const Stencil<Dim>& points, Filter filter) const {
-        return moving_hessian<Dim>(energy, contact(points), Positions<Dim>(points), filter);
+        return moving_spectrum<Dim>(energy, contact(points), Positions<Dim>(points), filter)
+            .matrix();
     }
 };
 

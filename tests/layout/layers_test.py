@@ -62,7 +62,7 @@ HIDDEN = {
 CONTACT = [
     ("simplices", "apart ccd closest_point_search convex_reference distance_energy distance_hessian"
                   " filter gather normals obstacles pair_contact paths simplex_crossing"
-                  " spanned_volume stencil surface friction"),
+                  " spanned_volume spectrum stencil surface friction"),
     ("trees", "box_tree boxes_around chunks halving near_lanes near_lanes_avx2 near_lanes_avx512"
               " near_lanes_baseline near_lanes_isa near_lanes_kernel patch_lanes patch_partition"
               " patches path_cover refit_tree surface_patches surface_trees winding_number"),

@@ -48,7 +48,7 @@ struct SpringyBox {
         system.add_masses(2, masses);
         system.add_stencil({.vertices = ends.data(),
                             .weights = weights.data(),
-                            .matrix = spring.data(),
+                            .numbers = spring.data(),
                             .count = 2,
                             .stride = kBoxDim});
         system.weigh_masses();

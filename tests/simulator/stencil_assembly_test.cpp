@@ -13,14 +13,16 @@ using test::ElasticBox;
 
 constexpr double kScale = 0.37;
 
-// Random stencils over the vertices of a box of which some have no dof: every third with a whole
-// matrix of its own, the others with weights and one block; every fifth with a point that is none.
+// Random stencils over the vertices of a box of which some have no dof: a third with a whole matrix
+// of its own, a third with values and vectors, the others with weights and one block; every fifth
+// with a point that is none.
 template <int Dim>
 struct Stencils {
     ElasticBox<Dim> box{{.lame = {.lambda = 1, .mu = 1}}, {1, 4}};
     std::vector<std::vector<std::uint32_t>> vertices;
     std::vector<Eigen::VectorXd> weights;
     std::vector<Eigen::MatrixXd> matrices;
+    std::vector<Eigen::VectorXd> spectra;
     std::vector<HessianStencil> list;
     Positions<Dim> displacement;
 
@@ -41,20 +43,39 @@ struct Stencils {
                 vertices.back()[0] = kNoVertex;
             }
             weights.emplace_back(Eigen::VectorXd::NullaryExpr(corners, any));
-            const Eigen::Index size = s % 3 == 0 ? Dim * corners : Dim;
+            const Eigen::Index size = s % 3 < 2 ? Dim * corners : Dim;
             const Eigen::MatrixXd half = Eigen::MatrixXd::NullaryExpr(size, size, any);
             matrices.emplace_back(half + half.transpose());
+            const Eigen::Index rank = 1 + s % (Dim * Dim);
+            spectra.emplace_back(Eigen::VectorXd::NullaryExpr(rank * (1 + Dim * corners), any));
+            if (s % 3 == 1) {
+                matrices.back() = matrix_of(spectra.back(), rank);
+            }
         }
         for (int s = 0; s < count; ++s) {
             const auto i = static_cast<std::size_t>(s);
             list.push_back({.vertices = vertices[i].data(),
-                            .weights = s % 3 == 0 ? nullptr : weights[i].data(),
-                            .matrix = matrices[i].data(),
+                            .weights = s % 3 < 2 ? nullptr : weights[i].data(),
+                            .numbers = s % 3 == 1 ? spectra[i].data() : matrices[i].data(),
                             .count = static_cast<std::int32_t>(vertices[i].size()),
+                            .rank = s % 3 == 1 ? 1 + s % (Dim * Dim) : 0,
                             .stride = static_cast<std::int32_t>(matrices[i].rows()),
                             .scale = kScale});
         }
         displacement = Positions<Dim>::NullaryExpr(Dim, total, any);
+    }
+
+    static Eigen::MatrixXd matrix_of(const Eigen::VectorXd& spectrum, Eigen::Index rank) {
+        const Eigen::Index corners = (spectrum.size() / rank - 1) / Dim;
+        Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(Dim * corners, Dim * corners);
+        for (Eigen::Index k = 0; k < rank; ++k) {
+            Eigen::VectorXd vector(Dim * corners);
+            for (Eigen::Index i = 0; i < corners; ++i) {
+                vector.segment(Dim * i, Dim) = spectrum.segment(rank + Dim * (rank * i + k), Dim);
+            }
+            matrix += spectrum[k] * vector * vector.transpose();
+        }
+        return matrix;
     }
 
     // Their sum over all vertices, in the vertices' own order.
@@ -69,7 +90,7 @@ struct Stencils {
                     if (a == kNoVertex || b == kNoVertex) {
                         continue;
                     }
-                    if (s % 3 == 0) {
+                    if (s % 3 < 2) {
                         sum.block<Dim, Dim>(Dim * a, Dim * b) +=
                             kScale * matrices[s].block<Dim, Dim>(Dim * i, Dim * j);
                     } else {
@@ -138,7 +159,7 @@ TEST(StencilAssembly, LeavesNothingOverWhereThePatternHasAPlaceForEverything) {
     const Eigen::Matrix<std::uint32_t, 5, 1> corners = box.mesh.cells.col(0);
     const std::vector<HessianStencil> one = {{.vertices = corners.data(),
                                               .weights = weights.data(),
-                                              .matrix = block.data(),
+                                              .numbers = block.data(),
                                               .count = 5,
                                               .stride = 4}};
     const Positions<4> still = Positions<4>::Zero(4, box.mesh.vertex_count());

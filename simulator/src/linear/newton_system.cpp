@@ -125,7 +125,7 @@ bool NewtonSystem<Dim>::do_stencils_drown(double max_ratio) const {
         for (std::int32_t i = 0; stencil.is_checked && i < stencil.count; ++i) {
             const std::uint32_t vertex = stencil.vertices[i];
             const double stiffness =
-                stencil.scale * stencil.weights[i] * stencil.weights[i] * stencil.matrix[0];
+                stencil.scale * stencil.weights[i] * stencil.weights[i] * stencil.numbers[0];
             const double mass = dofs_->has_dof(vertex) ? masses_[dofs_->dof_of(vertex)] : 0;
             if (mass > 0 && stiffness > max_ratio * mass) {
                 return true;

@@ -106,6 +106,7 @@ public:
 
 private:
     using Block = Eigen::Matrix<double, Dim, Dim>;
+    using Vectors = Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>>;
 
     void add(std::uint32_t row, const Incidence& at) {
         const HessianStencil& stencil = stencils_[at.stencil];
@@ -113,26 +114,40 @@ private:
         const auto corner = static_cast<std::int32_t>(at.corner);
         if (stencil.weights != nullptr) {
             const Block weighted = (stencil.scale * stencil.weights[corner])
-                                   * Map(stencil.matrix, Eigen::OuterStride<>(stencil.stride));
+                                   * Map(stencil.numbers, Eigen::OuterStride<>(stencil.stride));
             for (std::int32_t j = 0; j < stencil.count; ++j) {
                 add_block(row, stencil.vertices[j], stencil.weights[j] * weighted);
             }
-            return;
-        }
-        for (std::int32_t j = 0; j < stencil.count; ++j) {
-            const double* first = stencil.matrix + std::ptrdiff_t{Dim} * j * stencil.stride
-                                  + std::ptrdiff_t{Dim} * corner;
-            add_block(row, stencil.vertices[j],
-                      stencil.scale * Map(first, Eigen::OuterStride<>(stencil.stride)));
+        } else if (stencil.rank > 0) {
+            const auto vectors_of = [&](std::int32_t i) {
+                const std::ptrdiff_t size = std::ptrdiff_t{Dim} * stencil.rank;
+                return Vectors(stencil.numbers + stencil.rank + size * i, Dim, stencil.rank);
+            };
+            scaled_ = vectors_of(corner);
+            for (std::int32_t k = 0; k < stencil.rank; ++k) {
+                scaled_.col(k) *= stencil.scale * stencil.numbers[k];
+            }
+            for (std::int32_t j = 0; j < stencil.count; ++j) {
+                add_block(row, stencil.vertices[j], scaled_.lazyProduct(vectors_of(j).transpose()));
+            }
+        } else {
+            for (std::int32_t j = 0; j < stencil.count; ++j) {
+                const double* first = stencil.numbers + std::ptrdiff_t{Dim} * j * stencil.stride
+                                      + std::ptrdiff_t{Dim} * corner;
+                add_block(row, stencil.vertices[j],
+                          stencil.scale * Map(first, Eigen::OuterStride<>(stencil.stride)));
+            }
         }
     }
 
-    void add_block(std::uint32_t row, std::uint32_t vertex, const Block& block) {
+    // @param block  An expression: what is below the diagonal is not computed.
+    template <typename Expression>
+    void add_block(std::uint32_t row, std::uint32_t vertex, const Expression& block) {
         if (vertex == kNoVertex) {
             return;
         }
         if (!dofs_.has_dof(vertex)) {
-            right_.col(row) -= block * displacement_.col(vertex);
+            right_.col(row) -= Block(block) * displacement_.col(vertex);
             return;
         }
         const std::uint32_t column = dofs_.dof_of(vertex);
@@ -170,6 +185,7 @@ private:
     std::vector<std::uint32_t> slots_;  // of columns, one more than the place in sums_; 0 for none
     std::vector<std::uint32_t> columns_;
     std::vector<Block> sums_;
+    Eigen::Matrix<double, Dim, Eigen::Dynamic, Eigen::ColMajor, Dim, Dim * Dim> scaled_;
     std::vector<std::size_t> order_;
 };
 

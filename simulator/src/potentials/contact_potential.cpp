@@ -96,23 +96,24 @@ void add_stencils(double weight,
                   std::size_t first,
                   NewtonSystem<Dim>& system) {
     const std::size_t weighted = hessians.weighted.size();
-    system.reserve_stencils(weighted + hessians.dense.size());
+    system.reserve_stencils(weighted + hessians.spectral.size());
     for (std::size_t k = 0; k < weighted; ++k) {
         const contact::WeightedHessian<Dim>& hessian = hessians.weighted[(first + k) % weighted];
         system.add_stencil({.vertices = hessian.vertices.data(),
                             .weights = hessian.weights.data(),
-                            .matrix = hessian.block.data(),
+                            .numbers = hessian.block.data(),
                             .count = hessian.count,
                             .stride = Dim,
                             .scale = weight});
     }
-    for (const contact::DenseHessian<Dim>& hessian : hessians.dense) {
-        system.add_stencil({.vertices = hessian.vertices.data(),
-                            .weights = nullptr,
-                            .matrix = hessian.matrix.data(),
-                            .count = hessian.count,
-                            .stride = static_cast<std::int32_t>(hessian.matrix.rows()),
-                            .scale = weight});
+    for (const contact::SpectralHessian<Dim>& hessian : hessians.spectral) {
+        if (hessian.rank > 0) {
+            system.add_stencil({.vertices = hessian.vertices.data(),
+                                .numbers = hessians.numbers.data() + hessian.begin,
+                                .count = hessian.count,
+                                .rank = hessian.rank,
+                                .scale = weight});
+        }
     }
 }
 
@@ -272,8 +273,9 @@ void ContactPotential<Dim>::add_hessian(const Positions<Dim>& x,
         own = own_contacts();
     }
     const contact::Contacts<Dim>& contacts = sharing_->is_shared() ? own : contacts_;
-    hessians_ =
-        workers_->run([&] { return finder_->hessians(contacts, x, stiffness_, settings_.filter); });
+    hessians_ = workers_->run([&] {
+        return finder_->hessians(contacts, x, stiffness_, settings_.filter, std::move(hessians_));
+    });
     add_stencils<Dim>(weight, hessians_, is_barrier_ ? 0 : contacts.pair_count, system);
     work_.seconds += watch.seconds();
 }

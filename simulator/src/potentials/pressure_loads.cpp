@@ -331,7 +331,7 @@ void PressureLoads<Dim>::add_hessian(const Positions<Dim>& x,
             // Of a wall all but the apex, which comes first.
             const int skipped = pressed.facets(0, i) == kNoVertex ? 1 : 0;
             system.add_stencil({.vertices = &pressed.facets(skipped, i),
-                                .matrix = first + i * kSide * kSide + skipped * Dim * (kSide + 1),
+                                .numbers = first + i * kSide * kSide + skipped * Dim * (kSide + 1),
                                 .count = Dim - skipped,
                                 .stride = static_cast<std::int32_t>(kSide),
                                 .scale = weight * pressed.factor * pressed.pressure / (2 * Dim)});

@@ -90,7 +90,7 @@ struct Spring {
     [[nodiscard]] HessianStencil stencil(double weight, const Matrix<Dim>& K) const {
         return {.vertices = vertices.data(),
                 .weights = weights.data(),
-                .matrix = K.data(),
+                .numbers = K.data(),
                 .count = count,
                 .stride = Dim,
                 .scale = weight,

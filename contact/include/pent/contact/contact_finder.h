@@ -65,10 +65,14 @@ public:
     ///
     /// Those of a barrier are exact, so the weights move with the corners; those of a penalty hold
     /// them.
+    ///
+    /// @param memory  Lists to write to, whatever is in them: those of the last time save that
+    ///                they are allocated anew.
     [[nodiscard]] StencilHessians<Dim> hessians(const Contacts<Dim>& contacts,
                                                 const PositionsView<Dim>& positions,
                                                 double stiffness,
-                                                Filter filter) const;
+                                                Filter filter,
+                                                StencilHessians<Dim> memory = {}) const;
 
     /// How far all vertices can go from one place towards another without coming nearer than a
     /// tenth of their gaps, or of dhat where these are larger. All of it with penalties.

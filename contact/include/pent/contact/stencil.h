@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -43,19 +44,27 @@ struct WeightedHessian {
     Block<Dim> block = Block<Dim>::Zero();
 };
 
-/// The Hessian of an energy of a few vertices by all their coordinates, N/m.
+/// The Hessian of an energy of a few vertices by all their coordinates, N/m, by its eigenvalues and
+/// eigenvectors: block (i, j) is
+///
+///     sum over k < rank of value_k f_ik f_jk^T
+///
+/// Its numbers are in a list of StencilHessians: the values, and then for each vertex i the vectors
+/// f_i0, f_i1, ... of Dim numbers.
 template <int Dim>
-struct DenseHessian {
+struct SpectralHessian {
     std::array<std::uint32_t, Dim + 1> vertices{};
-    std::int32_t count = 0;     ///< Vertices in use.
-    StencilMatrix<Dim> matrix;  ///< Dim count rows and columns in use.
+    std::int32_t count = 0;  ///< Vertices in use.
+    std::int32_t rank = 0;   ///< Eigenvalues that are not 0.
+    std::size_t begin = 0;   ///< Of its numbers.
 };
 
 /// The Hessian of a sum of such energies: what to scatter into a matrix, in this order.
 template <int Dim>
 struct StencilHessians {
     std::vector<WeightedHessian<Dim>> weighted;
-    std::vector<DenseHessian<Dim>> dense;
+    std::vector<SpectralHessian<Dim>> spectral;
+    std::vector<double> numbers;  ///< Of `spectral`; there may be more than are in use.
 };
 
 }  // namespace pent::contact
