@@ -55,24 +55,6 @@ template <int Dim, int M, int N>
     return gap_along<Dim, M, N>(line, first, second) > distance * line.norm();
 }
 
-/// The same at all times for points that move evenly, along the line through their middles where
-/// they start or that where they end: how far sets are apart along any line is concave in time,
-/// too.
-template <int Dim, int M, int N>
-[[nodiscard]] bool are_paths_apart_along_middles(const Corners<Dim, M>& first,
-                                                 const Corners<Dim, M>& first_end,
-                                                 const Corners<Dim, N>& second,
-                                                 const Corners<Dim, N>& second_end,
-                                                 double distance) {
-    const auto are_apart = [&](const Vector<Dim>& line) {
-        const double least = distance * line.norm();
-        return gap_along<Dim, M, N>(line, first, second) > least
-               && gap_along<Dim, M, N>(line, first_end, second_end) > least;
-    };
-    return are_apart(second.rowwise().mean() - first.rowwise().mean())
-           || are_apart(second_end.rowwise().mean() - first_end.rowwise().mean());
-}
-
 /// How much nearer the hulls of two sets of points that move evenly can come on their way, at most:
 /// the longest way of a point of one against a point of the other.
 template <int Dim, int M, int N>

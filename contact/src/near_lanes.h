@@ -14,9 +14,12 @@ inline constexpr int kLanes = 16;
 /// Simplices of a patch, side by side.
 struct LanesView {
     const float* corners = nullptr;  ///< [corner][axis][lane], m from the origin; lanes from
-                                     ///< `count` on hold any numbers.
-    const double* origin = nullptr;  ///< Dim coordinates, m.
-    float extent = 0;                ///< The largest absolute value of a coordinate in `corners`.
+                                     ///< `count` on hold the first simplex again.
+    const std::int32_t* vertices = nullptr;  ///< [corner][lane]: the same number, the same vertex.
+    const double* origin = nullptr;          ///< Dim coordinates, m.
+    const float* low = nullptr;   ///< The box around all of them, Dim coordinates, m from the
+    const float* high = nullptr;  ///< origin.
+    float extent = 0;             ///< The largest absolute value of a coordinate in `corners`.
     int count = 0;
 };
 
@@ -30,9 +33,9 @@ struct LanesOnPaths {
 };
 
 /// Sets bit j of near[i], of kLanes entries, to whether simplex i of the first and j of the second
-/// patch may be near: all pairs that are nearer than `distance` (m) at some time, and others for
-/// which neither their boxes nor a few lines tell that they are not. No pair is lost to rounding of
-/// floats. Coordinates are finite; not checked.
+/// patch may be near: all pairs without a common vertex that are nearer than `distance` (m) at some
+/// time, and others of which neither their boxes nor a few lines tell that they are not. No pair is
+/// lost to rounding of floats. Coordinates are finite; not checked.
 using FindNearLanes = void (*)(const LanesOnPaths& patches, double distance, std::uint16_t* near);
 
 /// By the corners of the simplices of the first patch: for vertices and facets, and for edges and

@@ -19,11 +19,12 @@ constexpr int kRegisterLanes = 8;
 constexpr int kRegisterLanes = 4;
 #endif
 
-// Lines that are tried: after these few pairs are left that are not near.
+// Lines that are tried for two simplices: after these few pairs are left that are not near.
 constexpr int kApproaches = 4;
 
 using Floats = Pack<float, kRegisterLanes>;
 using Truths = Mask<float, kRegisterLanes>;
+using Numbers = Truths::Vector;
 
 // Of the largest coordinate: what rounding adds to a gap, at most. Coordinates lack three roundings
 // of 2^-24, and a sum of four products of twice as much some ten: 2e-6 in all.
@@ -62,11 +63,26 @@ struct Chosen {
     }
 };
 
+template <int Dim>
+struct LaneBox {
+    float low[Dim];   // NOLINT(modernize-avoid-c-arrays): as all here, of plain numbers
+    float high[Dim];  // NOLINT(modernize-avoid-c-arrays)
+};
+
 // The boxes around all simplices of a patch, side by side.
 template <int Dim>
 struct Boxes {
-    float low[Dim][kLanes];   // NOLINT(modernize-avoid-c-arrays): as all here, of plain numbers
+    float low[Dim][kLanes];   // NOLINT(modernize-avoid-c-arrays)
     float high[Dim][kLanes];  // NOLINT(modernize-avoid-c-arrays)
+
+    [[nodiscard, gnu::always_inline]] LaneBox<Dim> operator[](int i) const {
+        LaneBox<Dim> box;
+        for (int axis = 0; axis < Dim; ++axis) {
+            box.low[axis] = low[axis][i];
+            box.high[axis] = high[axis][i];
+        }
+        return box;
+    }
 
     // Moved.
     template <int Count>
@@ -88,20 +104,32 @@ struct Boxes {
     }
 };
 
-// Those of two patches at one end of their paths.
-template <int Dim>
-struct BoxPairs {
-    Boxes<Dim> first;
-    Boxes<Dim> second;
-
-    // How far box i of the first is from those from `lane` on of the second along an axis: above
-    // and below them. Negative where they overlap.
-    [[gnu::always_inline]] void gaps(
-        int i, int lane, int axis, Floats& above, Floats& below) const {
-        above = Floats::load(second.low[axis] + lane) - Floats(first.high[axis][i]);
-        below = Floats(first.low[axis][i]) - Floats::load(second.high[axis] + lane);
+// Bit i: whether box i may come within a distance of a box, both at all ends of their paths. Boxes
+// that are apart along an axis at both ends are at all times.
+template <int Dim, int Ends>
+[[gnu::always_inline]] inline std::uint32_t near_boxes(const LaneBox<Dim>* box,
+                                                       const Boxes<Dim>* boxes,
+                                                       int count,
+                                                       const Floats& squared_distance) {
+    std::uint32_t near = 0;
+    for (int lane = 0; lane < count; lane += kRegisterLanes) {
+        Floats sum(0.0F);
+        for (int axis = 0; axis < Dim; ++axis) {
+            Floats above = Floats::load(boxes[0].low[axis] + lane) - Floats(box[0].high[axis]);
+            Floats below = Floats(box[0].low[axis]) - Floats::load(boxes[0].high[axis] + lane);
+            if constexpr (Ends == 2) {
+                above =
+                    min(above, Floats::load(boxes[1].low[axis] + lane) - Floats(box[1].high[axis]));
+                below =
+                    min(below, Floats(box[1].low[axis]) - Floats::load(boxes[1].high[axis] + lane));
+            }
+            const Floats gap = max(max(above, below), Floats(0.0F));
+            sum = multiply_add(gap, gap, sum);
+        }
+        near |= bits(!(sum > squared_distance)) << lane;
     }
-};
+    return near & ((1U << count) - 1);
+}
 
 // Some simplices side by side.
 template <int Dim, int Count>
@@ -128,6 +156,46 @@ struct Simplex {
         return sum * Floats(1.0F / Count);
     }
 };
+
+// How far the simplices of a patch reach along a line.
+template <int Dim, int Count>
+struct Reach {
+    float of_lane[kLanes];  // NOLINT(modernize-avoid-c-arrays)
+    float most;
+
+    [[gnu::always_inline]] void set(const LanesView& patch, const float* line, float shift) {
+        float left[kLanes];  // NOLINT(modernize-avoid-c-arrays)
+        for (int lane = 0; lane < kLanes; lane += kRegisterLanes) {
+            Floats reach;
+            for (int corner = 0; corner < Count; ++corner) {
+                Floats along(shift);
+                for (int axis = 0; axis < Dim; ++axis) {
+                    along = multiply_add(
+                        Floats(line[axis]),
+                        Floats::load(patch.corners + (corner * Dim + axis) * kLanes + lane), along);
+                }
+                reach = corner == 0 ? along : max(along, reach);
+            }
+            reach.store(of_lane + lane);
+            reach.store(left + lane);
+        }
+        for (int half = kLanes / 2; half > 0; half /= 2) {
+            for (int i = 0; i < half; ++i) {
+                left[i] = left[i] > left[i + half] ? left[i] : left[i + half];
+            }
+        }
+        most = left[0];
+    }
+};
+
+template <int Dim>
+[[gnu::always_inline]] inline float dot(const float* a, const float* b) {
+    float sum = 0;
+    for (int axis = 0; axis < Dim; ++axis) {
+        sum += a[axis] * b[axis];
+    }
+    return sum;
+}
 
 template <int Dim>
 [[gnu::always_inline]] inline Floats dot(const Floats* a, const Floats* b) {
@@ -202,7 +270,8 @@ struct Pairs {
                 }
             }
             are_apart = are_apart || least > distance * sqrt(squared);
-            if (pent::all(are_apart || squared < distance * distance)) {
+            if (approach == kApproaches - 1
+                || pent::all(are_apart || squared < distance * distance)) {
                 break;
             }
             const Floats toward_squared = dot<Dim>(toward, toward);
@@ -233,35 +302,65 @@ public:
     // The largest coordinate.
     [[nodiscard]] float size() const { return size_; }
 
-    // Boxes that are apart along an axis at both ends are at all times.
-    void find_near_boxes(float distance, std::uint16_t* near) const {
-        BoxPairs<Dim> boxes[kEnds];  // NOLINT(modernize-avoid-c-arrays)
-        for (int end = 0; end < kEnds; ++end) {
-            boxes[end].first.template set<K>(first_[end], kNoShift);
-            boxes[end].second.template set<L>(second_[end], shift_[end]);
-        }
-        const std::uint32_t all = (1U << second_[0].count) - 1;
-        for (int i = 0; i < first_[0].count; ++i) {
-            std::uint32_t of_first = 0;
-            for (int lane = 0; lane < second_[0].count; lane += kRegisterLanes) {
-                Floats sum(0.0F);
-                for (int axis = 0; axis < Dim; ++axis) {
-                    Floats above;
-                    Floats below;
-                    boxes[0].gaps(i, lane, axis, above, below);
-                    if constexpr (!IsStill) {
-                        Floats above_at_end;
-                        Floats below_at_end;
-                        boxes[1].gaps(i, lane, axis, above_at_end, below_at_end);
-                        above = min(above, above_at_end);
-                        below = min(below, below_at_end);
-                    }
-                    const Floats gap = max(max(above, below), Floats(0.0F));
-                    sum = multiply_add(gap, gap, sum);
-                }
-                of_first |= bits(!(sum > Floats(distance * distance))) << lane;
+    // Whether all of the first are apart from all of the second, at both ends, along the line
+    // through the middles of the boxes around them.
+    [[nodiscard]] bool are_apart(float distance) {
+        float back[Dim];  // NOLINT(modernize-avoid-c-arrays)
+        for (int axis = 0; axis < Dim; ++axis) {
+            line_[axis] = 0;
+            for (int end = 0; end < kEnds; ++end) {
+                line_[axis] += second_[end].low[axis] + second_[end].high[axis]
+                               - first_[end].low[axis] - first_[end].high[axis]
+                               + 2 * shift_[end][axis];
             }
-            near[i] = static_cast<std::uint16_t>(of_first & all);
+            back[axis] = -line_[axis];
+        }
+        enough_ = distance * __builtin_sqrtf(dot<Dim>(line_, line_));
+        bool are_apart = true;
+        for (int end = 0; end < kEnds; ++end) {
+            of_first_[end].set(first_[end], line_, 0);
+            of_second_[end].set(second_[end], back, dot<Dim>(back, shift_[end]));
+            are_apart = are_apart && -(of_first_[end].most + of_second_[end].most) > enough_;
+        }
+        return are_apart;
+    }
+
+    // Most of the first are not even near the box around all of the second.
+    void find_near_boxes(float distance, std::uint16_t* near) const {
+        const Floats squared_distance(distance * distance);
+        Boxes<Dim> first[kEnds];     // NOLINT(modernize-avoid-c-arrays)
+        LaneBox<Dim> around[kEnds];  // NOLINT(modernize-avoid-c-arrays): the second
+        for (int end = 0; end < kEnds; ++end) {
+            first[end].template set<K>(first_[end], kNoShift);
+            for (int axis = 0; axis < Dim; ++axis) {
+                around[end].low[axis] = second_[end].low[axis] + shift_[end][axis];
+                around[end].high[axis] = second_[end].high[axis] + shift_[end][axis];
+            }
+        }
+        float all_of_second[2] = {};  // NOLINT(modernize-avoid-c-arrays)
+        for (int end = 0; end < kEnds; ++end) {
+            all_of_second[end] = of_second_[end].most;
+        }
+        unsigned left = near_boxes<Dim, kEnds>(around, first, first_[0].count, squared_distance)
+                        & near_along_line(of_first_, all_of_second);
+        if (left == 0) {
+            return;
+        }
+        Boxes<Dim> second[kEnds];  // NOLINT(modernize-avoid-c-arrays)
+        for (int end = 0; end < kEnds; ++end) {
+            second[end].template set<L>(second_[end], shift_[end]);
+        }
+        for (; left != 0; left &= left - 1) {
+            const int i = __builtin_ctz(left);
+            LaneBox<Dim> box[kEnds];  // NOLINT(modernize-avoid-c-arrays)
+            float reach[2] = {};      // NOLINT(modernize-avoid-c-arrays)
+            for (int end = 0; end < kEnds; ++end) {
+                box[end] = first[end][i];
+                reach[end] = of_first_[end].of_lane[i];
+            }
+            near[i] = static_cast<std::uint16_t>(
+                near_boxes<Dim, kEnds>(box, second, second_[0].count, squared_distance)
+                & near_along_line(of_second_, reach) & ~sharing(i));
         }
     }
 
@@ -295,6 +394,25 @@ public:
         }
     }
 
+    // Bit j: whether simplex j of the second has a vertex of simplex i of the first.
+    [[nodiscard]] std::uint32_t sharing(int i) const {
+        std::uint32_t sharing = 0;
+        for (int lane = 0; lane < kLanes; lane += kRegisterLanes) {
+            Truths is_same{Numbers{}};
+            for (int b = 0; b < L; ++b) {
+                Numbers of_second;
+                __builtin_memcpy(&of_second, second_[0].vertices + b * kLanes + lane,
+                                 sizeof of_second);
+                for (int a = 0; a < K; ++a) {
+                    const std::int32_t of_first = first_[0].vertices[a * kLanes + i];
+                    is_same = is_same || Truths{of_second == of_first};
+                }
+            }
+            sharing |= bits(is_same) << lane;
+        }
+        return sharing;
+    }
+
 private:
     static constexpr int kEnds = IsStill ? 1 : 2;
     static constexpr float kNoShift[Dim] = {};  // NOLINT(modernize-avoid-c-arrays)
@@ -322,23 +440,46 @@ private:
         return pairs;
     }
 
+    // Bit i: whether simplex i of a patch, reaching so far, is not apart along the line from what
+    // reaches so far from the other side, each at both ends.
+    template <int Count>
+    [[nodiscard]] std::uint32_t near_along_line(const Reach<Dim, Count>* reaches,
+                                                const float* others) const {
+        std::uint32_t near = 0;
+        for (int lane = 0; lane < kLanes; lane += kRegisterLanes) {
+            Floats least = Floats::load(reaches[0].of_lane + lane) + Floats(others[0]);
+            if constexpr (!IsStill) {
+                least = max(least, Floats::load(reaches[1].of_lane + lane) + Floats(others[1]));
+            }
+            near |= bits(!(-least > Floats(enough_))) << lane;
+        }
+        return near;
+    }
+
     LanesView first_[2];       // NOLINT(modernize-avoid-c-arrays)
     LanesView second_[2];      // NOLINT(modernize-avoid-c-arrays)
     float shift_[kEnds][Dim];  // NOLINT(modernize-avoid-c-arrays)
     float size_ = 0;
+
+    // A line, how far the first reach along it and the second back, and how far apart is enough.
+    float line_[Dim];                 // NOLINT(modernize-avoid-c-arrays)
+    Reach<Dim, K> of_first_[kEnds];   // NOLINT(modernize-avoid-c-arrays)
+    Reach<Dim, L> of_second_[kEnds];  // NOLINT(modernize-avoid-c-arrays)
+    float enough_ = 0;
 };
 
 template <int Dim, int K, int L, bool IsStill>
 void find_near(const LanesOnPaths& patches, double distance, std::uint16_t* near) {
-    const PatchPair<Dim, K, L, IsStill> pair(patches);
+    PatchPair<Dim, K, L, IsStill> pair(patches);
     const float limit =
         static_cast<float>(distance) * (1 + kRelativeRounding) + kRounding * pair.size();
     const bool is_told = limit > kMinLength;
     const std::uint32_t all = (1U << patches.second_start.count) - 1;
     for (int i = 0; i < kLanes; ++i) {
-        near[i] = static_cast<std::uint16_t>(is_told || i >= patches.first_start.count ? 0U : all);
+        near[i] = static_cast<std::uint16_t>(
+            is_told || i >= patches.first_start.count ? 0U : all & ~pair.sharing(i));
     }
-    if (is_told) {
+    if (is_told && !pair.are_apart(limit)) {
         pair.find_near_boxes(limit, near);
         pair.keep_near_simplices(limit, near);
     }

@@ -37,8 +37,8 @@ struct FoundOnPaths {
     return all;
 }
 
-/// Adds pairs of two lists of simplices that share no vertex and may come within the activation
-/// distance of each other while their vertices are near their paths. Within one list (edges in R^3,
+/// Adds pairs without a common vertex that may come within the activation distance of each other
+/// while their vertices are near their paths, with their distances. Within one list (edges in R^3,
 /// within one body) a pair has the lower place first.
 template <int Dim, int K, int L>
 struct NearOnPaths {
@@ -55,29 +55,22 @@ struct NearOnPaths {
         // Tests allow for rounding: candidates have to be a superset.
         constexpr double kRoundUp = 1 + 1e-9;
         ++found.overlaps;
-        if (share_a_vertex<K, L>(first, i, second, j)) {
-            return;
-        }
         if (is_same_list && j < i) {
             std::swap(i, j);
         }
-        // Boxes around whole paths are crude: what counts is how near the two come at any one time.
         const double near = (activation_distance + paths.template inflation_of<K>(first, i)
                              + paths.template inflation_of<L>(second, j))
                             * kRoundUp;
-        const Corners<Dim, K> p_start = gather<Dim, K>(first, i, paths.from);
-        const Corners<Dim, L> q_start = gather<Dim, L>(second, j, paths.from);
         const Corners<Dim, K> p = gather<Dim, K>(first, i, paths.to);
         const Corners<Dim, L> q = gather<Dim, L>(second, j, paths.to);
-        if (are_paths_apart<Dim, K, L>(p_start, p, q_start, q, near * near)
-            || are_paths_apart_along_middles<Dim, K, L>(p_start, p, q_start, q, near)) {
-            return;
-        }
         ClosestPointSearch<Dim, K, L> closest(p, q, measured * measured);
-        const bool is_known =
-            !are_boxes_apart<Dim, K, L>(p, q, measured * measured) && closest.run();
+        const bool is_known = !are_boxes_apart<Dim, K, L>(p, q, measured * measured)
+                              && !are_apart_along_middles<Dim, K, L>(p, q, measured)
+                              && closest.run();
         const double distance = is_known ? std::sqrt(closest.best().distance_squared) : measured;
-        if (distance < near + relative_path_length<Dim, K, L>(p_start, p, q_start, q) * kRoundUp) {
+        const double length = relative_path_length<Dim, K, L>(
+            gather<Dim, K>(first, i, paths.from), p, gather<Dim, L>(second, j, paths.from), q);
+        if (distance < near + length * kRoundUp) {
             (is_known ? found.known : found.others).push_back({i, j, rounded_down(distance)});
         }
     }

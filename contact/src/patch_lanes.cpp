@@ -4,7 +4,7 @@
 #include <pent/parallel.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace pent::contact {
 
@@ -16,26 +16,33 @@ void PatchLanes<Dim>::set(const Simplices<Count>& simplices,
     constexpr int kPatches = 64;
     stride_ = std::size_t{Count} * Dim * kLanes;
     corners_.resize(stride_ * partition.size());
+    vertices_.resize(stride_ / Dim * partition.size());
     patches_.resize(partition.size());
     parallel_for(partition.size(), kPatches, [&](std::size_t which) {
+        using Corner = Eigen::Matrix<float, Dim, 1>;
         const std::span<const std::uint32_t> members = partition[which];
         Patch& patch = patches_[which];
         patch.origin = positions.col(simplices(0, members[0]));
-        float extent = 0;
         patch.count = static_cast<int>(members.size());
-        float* corners = corners_.data() + which * stride_;
-        for (int lane = 0; lane < patch.count; ++lane) {
-            const std::uint32_t i = members[static_cast<std::size_t>(lane)];
+        patch.low.setConstant(std::numeric_limits<float>::infinity());
+        patch.high = -patch.low;
+        float* const corners = corners_.data() + which * stride_;
+        std::int32_t* const vertices = vertices_.data() + which * stride_ / Dim;
+        for (int lane = 0; lane < kLanes; ++lane) {
+            const std::uint32_t i =
+                members[lane < patch.count ? static_cast<std::size_t>(lane) : 0];
             for (int corner = 0; corner < Count; ++corner) {
-                const Vector<Dim> at = positions.col(simplices(corner, i)) - patch.origin;
+                const std::uint32_t vertex = simplices(corner, i);
+                vertices[corner * kLanes + lane] = static_cast<std::int32_t>(vertex);
+                const Corner at = (positions.col(vertex) - patch.origin).template cast<float>();
+                patch.low = patch.low.cwiseMin(at);
+                patch.high = patch.high.cwiseMax(at);
                 for (int axis = 0; axis < Dim; ++axis) {
-                    const auto x = static_cast<float>(at[axis]);
-                    corners[(corner * Dim + axis) * kLanes + lane] = x;
-                    extent = std::max(extent, std::abs(x));
+                    corners[(corner * Dim + axis) * kLanes + lane] = at[axis];
                 }
             }
         }
-        patch.extent = extent;
+        patch.extent = std::max(patch.high.maxCoeff(), -patch.low.minCoeff());
     });
 }
 

@@ -47,7 +47,7 @@ public:
           first_(sides.first),
           second_(sides.second),
           rows_(sides.rows),
-          start_(asked.paths.from),
+          paths_(asked.paths),
           activation_distance_(asked.activation_distance),
           is_still_(asked.paths.is_still()),
           test_(test),
@@ -169,10 +169,21 @@ private:
                  double near,
                  Found& found) const {
         for (const Candidate& pair : pairs) {
-            if (!bound.is_apart(static_cast<double>(pair.distance), near)) {
+            if (!bound.is_apart(static_cast<double>(pair.distance), near)
+                && !are_boxes_apart(pair, near)) {
                 test_(pair.first, pair.second, found);
             }
         }
+    }
+
+    // At all times, on paths.
+    [[nodiscard]] bool are_boxes_apart(const Candidate& pair, double near) const {
+        return !is_still_
+               && are_paths_apart<Dim, K, L>(gather<Dim, K>(first_, pair.first, paths_.from),
+                                             gather<Dim, K>(first_, pair.first, paths_.to),
+                                             gather<Dim, L>(second_, pair.second, paths_.from),
+                                             gather<Dim, L>(second_, pair.second, paths_.to),
+                                             near * near);
     }
 
     void look_at_all(std::size_t a, std::uint32_t b, Found& found) const {
@@ -185,18 +196,16 @@ private:
     // more for rounding, and can be contacts.
     [[nodiscard]] std::vector<Candidate> list(std::size_t a, std::uint32_t b, Found& found) const {
         std::vector<Candidate> pairs;
-        for_each_near<Dim, K>(
-            PatchOnPaths<Dim>{first_patches(), a}, PatchOnPaths<Dim>{second_patches(), b}, true,
-            listed_limit(), [&](std::uint32_t i, std::uint32_t j) {
-                Candidate pair{i, j};
-                if (is_same_list() && j < i) {
-                    std::swap(pair.first, pair.second);
-                }
-                if (!share_a_vertex<K, L>(first_, pair.first, second_, pair.second)) {
-                    ++found.overlaps;
-                    add_if_near(pair, pairs);
-                }
-            });
+        for_each_near<Dim, K>(PatchOnPaths<Dim>{first_patches(), a},
+                              PatchOnPaths<Dim>{second_patches(), b}, true, listed_limit(),
+                              [&](std::uint32_t i, std::uint32_t j) {
+                                  Candidate pair{i, j};
+                                  if (is_same_list() && j < i) {
+                                      std::swap(pair.first, pair.second);
+                                  }
+                                  ++found.overlaps;
+                                  add_if_near(pair, pairs);
+                              });
         return pairs;
     }
 
@@ -206,7 +215,7 @@ private:
         const double culled = (1 - kRounding) * all_.distance_;
         const PositionsView<Dim> rest = all_.rest_;
         const double distance =
-            PairAt<Dim, K, L>(first_, second_, pair, start_).distance_below(listed_limit());
+            PairAt<Dim, K, L>(first_, second_, pair, paths_.from).distance_below(listed_limit());
         if (distance < listed_limit()
             && !(all_.is_rest_left_out_
                  && PairAt<Dim, K, L>(first_, second_, pair, rest).distance_below(culled)
@@ -259,7 +268,7 @@ private:
     const Simplices<K>& first_;
     const Simplices<L>& second_;
     std::vector<Row>& rows_;
-    const PositionsView<Dim>& start_;
+    const Paths<Dim>& paths_;
     double activation_distance_;
     bool is_still_;
     Test test_;

@@ -81,8 +81,9 @@ struct PatchOnPaths {
     }
 };
 
-/// Calls visit(i, j) for the pairs of simplices of two patches that may be nearer than a distance
-/// at some time, none of which that are is left out. Of a patch with itself each pair once.
+/// Calls visit(i, j) for the pairs of simplices of two patches without a common vertex that may be
+/// nearer than a distance at some time, none of which that are is left out. Of a patch with itself
+/// each pair once.
 ///
 /// @param is_still  Where paths start, in place of along them.
 /// @param distance  With what their vertices may leave their paths by, m.

@@ -34,8 +34,13 @@ TYPED_TEST(PatchLanesTest, CornersAreThoseOfTheirSimplices) {
             const LanesView view = lanes[patch];
             ASSERT_EQ(view.count, static_cast<int>(partition[patch].size()));
             float most = 0;
-            for (int lane = 0; lane < view.count; ++lane) {
-                const std::uint32_t facet = partition[patch][static_cast<std::size_t>(lane)];
+            const Eigen::Map<const Eigen::Matrix<float, kDim, 1>> low(view.low);
+            const Eigen::Map<const Eigen::Matrix<float, kDim, 1>> high(view.high);
+            Eigen::Matrix<float, kDim, 1> least = high;
+            Eigen::Matrix<float, kDim, 1> greatest = low;
+            for (int lane = 0; lane < kLanes; ++lane) {
+                const std::uint32_t facet =
+                    partition[patch][lane < view.count ? static_cast<std::size_t>(lane) : 0];
                 for (int corner = 0; corner < kDim; ++corner) {
                     for (int axis = 0; axis < kDim; ++axis) {
                         const float x = view.corners[(corner * kDim + axis) * kLanes + lane];
@@ -43,10 +48,14 @@ TYPED_TEST(PatchLanesTest, CornersAreThoseOfTheirSimplices) {
                                     positions(axis, surface.facets(corner, facet)),
                                     1e-7 + 1e-15 * away);
                         most = std::max(most, std::abs(x));
+                        least[axis] = std::min(least[axis], x);
+                        greatest[axis] = std::max(greatest[axis], x);
                     }
                 }
             }
             EXPECT_EQ(view.extent, most);
+            EXPECT_EQ(least, low);
+            EXPECT_EQ(greatest, high);
         }
     }
     EXPECT_GT(lanes.bytes(), 0);
