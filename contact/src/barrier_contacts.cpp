@@ -11,7 +11,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <compare>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -50,7 +50,10 @@ struct Key {
           pair(found.pair),
           place(static_cast<std::uint32_t>(at)) {}
 
-    auto operator<=>(const Key&) const = default;
+    bool operator<(const Key& other) const {
+        return std::tie(kind, vertices, pair, place)
+               < std::tie(other.kind, other.vertices, other.pair, other.place);
+    }
 
     [[nodiscard]] bool is_same_contact(const Key& other) const {
         return kind == other.kind && kind < kMollified && vertices == other.vertices;

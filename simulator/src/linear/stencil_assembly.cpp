@@ -115,44 +115,51 @@ private:
         if (stencil.weights != nullptr) {
             const Block weighted = (stencil.scale * stencil.weights[corner])
                                    * Map(stencil.numbers, Eigen::OuterStride<>(stencil.stride));
-            for (std::int32_t j = 0; j < stencil.count; ++j) {
-                add_block(row, stencil.vertices[j], stencil.weights[j] * weighted);
-            }
+            add_blocks(row, stencil,
+                       [&](std::int32_t j) -> Block { return stencil.weights[j] * weighted; });
         } else if (stencil.rank > 0) {
-            const auto vectors_of = [&](std::int32_t i) {
-                const std::ptrdiff_t size = std::ptrdiff_t{Dim} * stencil.rank;
-                return Vectors(stencil.numbers + stencil.rank + size * i, Dim, stencil.rank);
-            };
-            scaled_ = vectors_of(corner);
+            const Vectors of_row = vectors_of(stencil, corner);
             for (std::int32_t k = 0; k < stencil.rank; ++k) {
-                scaled_.col(k) *= stencil.scale * stencil.numbers[k];
+                scaled_.col(k) = (stencil.scale * stencil.numbers[k]) * of_row.col(k);
             }
-            for (std::int32_t j = 0; j < stencil.count; ++j) {
-                add_block(row, stencil.vertices[j], scaled_.lazyProduct(vectors_of(j).transpose()));
-            }
+            add_blocks(row, stencil, [&](std::int32_t j) -> Block {
+                const Vectors of_column = vectors_of(stencil, j);
+                Block sum = Block::Zero();
+                for (std::int32_t k = 0; k < stencil.rank; ++k) {
+                    sum += scaled_.col(k) * of_column.col(k).transpose();
+                }
+                return sum;
+            });
         } else {
-            for (std::int32_t j = 0; j < stencil.count; ++j) {
+            add_blocks(row, stencil, [&](std::int32_t j) -> Block {
                 const double* first = stencil.numbers + std::ptrdiff_t{Dim} * j * stencil.stride
                                       + std::ptrdiff_t{Dim} * corner;
-                add_block(row, stencil.vertices[j],
-                          stencil.scale * Map(first, Eigen::OuterStride<>(stencil.stride)));
-            }
+                return stencil.scale * Map(first, Eigen::OuterStride<>(stencil.stride));
+            });
         }
     }
 
-    // @param block  An expression: what is below the diagonal is not computed.
-    template <typename Expression>
-    void add_block(std::uint32_t row, std::uint32_t vertex, const Expression& block) {
-        if (vertex == kNoVertex) {
-            return;
-        }
-        if (!dofs_.has_dof(vertex)) {
-            right_.col(row) -= Block(block) * displacement_.col(vertex);
-            return;
-        }
-        const std::uint32_t column = dofs_.dof_of(vertex);
-        if (column >= row) {
-            sums_[slot_of(column)] += block;
+    [[nodiscard]] static Vectors vectors_of(const HessianStencil& stencil, std::int32_t corner) {
+        const double* const first = stencil.numbers + stencil.rank;
+        return {first + std::ptrdiff_t{Dim} * stencil.rank * corner, Dim, stencil.rank};
+    }
+
+    // Those of a row that block(corner) gives. What is below the diagonal is not asked for.
+    template <typename BlockOf>
+    void add_blocks(std::uint32_t row, const HessianStencil& stencil, const BlockOf& block) {
+        for (std::int32_t j = 0; j < stencil.count; ++j) {
+            const std::uint32_t vertex = stencil.vertices[j];
+            if (vertex == kNoVertex) {
+                continue;
+            }
+            if (!dofs_.has_dof(vertex)) {
+                right_.col(row) -= block(j) * displacement_.col(vertex);
+                continue;
+            }
+            const std::uint32_t column = dofs_.dof_of(vertex);
+            if (column >= row) {
+                sums_[slot_of(column)] += block(j);
+            }
         }
     }
 
@@ -185,7 +192,7 @@ private:
     std::vector<std::uint32_t> slots_;  // of columns, one more than the place in sums_; 0 for none
     std::vector<std::uint32_t> columns_;
     std::vector<Block> sums_;
-    Eigen::Matrix<double, Dim, Eigen::Dynamic, Eigen::ColMajor, Dim, Dim * Dim> scaled_;
+    Eigen::Matrix<double, Dim, Dim * Dim> scaled_;
     std::vector<std::size_t> order_;
 };
 
