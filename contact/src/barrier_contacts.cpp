@@ -11,8 +11,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 
 namespace pent::contact {
@@ -34,6 +35,9 @@ struct Found {
     std::array<std::uint32_t, 3> pair;
 };
 
+template <int Dim>
+using FoundLists = std::vector<std::vector<Found<Dim>>>;
+
 // Where a contact comes among the found ones: by its faces, then by its pair. Contacts of the same
 // faces that have no mollifier are one.
 template <int Dim>
@@ -41,18 +45,17 @@ struct Key {
     std::uint32_t kind = 0;
     std::array<std::uint32_t, Dim + 1> vertices;
     std::array<std::uint32_t, 3> pair;
-    std::uint32_t place = 0;
+    const Found<Dim>* found = nullptr;
 
     Key() = default;  // to be filled
-    Key(const Found<Dim>& found, std::size_t at)
-        : kind((found.contact.mollifier.is_on() ? kMollified : 0U) + found.contact.first_count),
-          vertices(found.contact.vertices),
-          pair(found.pair),
-          place(static_cast<std::uint32_t>(at)) {}
+    explicit Key(const Found<Dim>& of)
+        : kind((of.contact.mollifier.is_on() ? kMollified : 0U) + of.contact.first_count),
+          vertices(of.contact.vertices),
+          pair(of.pair),
+          found(&of) {}
 
     bool operator<(const Key& other) const {
-        return std::tie(kind, vertices, pair, place)
-               < std::tie(other.kind, other.vertices, other.pair, other.place);
+        return std::tie(kind, vertices, pair) < std::tie(other.kind, other.vertices, other.pair);
     }
 
     [[nodiscard]] bool is_same_contact(const Key& other) const {
@@ -63,42 +66,54 @@ private:
     static constexpr std::uint32_t kMollified = 16;
 };
 
-// Keys in ascending order.
+// Merges neighboring stretches of what is ascending in each, two by two, until there is one.
 //
-// @param starts  Where stretches begin that are ascending already.
-template <int Dim>
-std::vector<Key<Dim>> sorted_keys(const std::vector<Found<Dim>>& found,
-                                  std::vector<std::size_t> starts) {
-    std::vector<Key<Dim>> keys(found.size());
-    for_each_chunk(found.size(), kStretch,
-                   [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
-                       for (std::size_t i = begin; i < end; ++i) {
-                           keys[i] = Key<Dim>(found[i], i);
-                       }
-                   });
-    const auto at = [&](std::size_t place) {
-        return keys.begin() + static_cast<std::ptrdiff_t>(place);
-    };
-    if (starts.empty()) {
-        for_each_chunk(found.size(), kStretch,
-                       [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
-                           std::sort(at(begin), at(end));
-                       });
-        for (std::size_t begin = 0; begin < found.size(); begin += kStretch) {
-            starts.push_back(begin);
-        }
-    }
-    while (starts.size() > 1) {  // two by two
+// @param starts  Where they begin.
+template <typename Item>
+void merge_stretches(std::vector<Item>& items, std::vector<std::size_t> starts) {
+    while (starts.size() > 1) {
         const auto start = [&](std::size_t i) {
-            return i < starts.size() ? starts[i] : keys.size();
+            const std::size_t place = i < starts.size() ? starts[i] : items.size();
+            return items.begin() + static_cast<std::ptrdiff_t>(place);
         };
         std::vector<std::size_t> left((starts.size() + 1) / 2);
         parallel_for(left.size(), [&](std::size_t i) {
             left[i] = starts[2 * i];
-            std::inplace_merge(at(start(2 * i)), at(start(2 * i + 1)), at(start(2 * i + 2)));
+            std::inplace_merge(start(2 * i), start(2 * i + 1), start(2 * i + 2));
         });
         starts = std::move(left);
     }
+}
+
+// Keys in ascending order.
+//
+// @param is_ascending  Whether each list is already.
+template <int Dim>
+std::vector<Key<Dim>> sorted_keys(const FoundLists<Dim>& lists, bool is_ascending) {
+    std::vector<std::size_t> starts;
+    std::size_t count = 0;
+    for (const std::vector<Found<Dim>>& list : lists) {
+        starts.push_back(count);
+        count += list.size();
+    }
+    std::vector<Key<Dim>> keys(count);
+    parallel_for(lists.size(), [&](std::size_t l) {
+        std::transform(lists[l].begin(), lists[l].end(),
+                       keys.begin() + static_cast<std::ptrdiff_t>(starts[l]),
+                       [](const Found<Dim>& found) { return Key<Dim>(found); });
+    });
+    if (!is_ascending) {
+        starts.clear();
+        for (std::size_t begin = 0; begin < count; begin += kStretch) {
+            starts.push_back(begin);
+        }
+        for_each_chunk(count, kStretch,
+                       [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
+                           std::sort(keys.begin() + static_cast<std::ptrdiff_t>(begin),
+                                     keys.begin() + static_cast<std::ptrdiff_t>(end));
+                       });
+    }
+    merge_stretches(keys, std::move(starts));
     return keys;
 }
 
@@ -106,21 +121,30 @@ std::vector<Key<Dim>> sorted_keys(const std::vector<Found<Dim>>& found,
 // by rounding: that of the first pair counts, whatever order they were found in. What has been
 // merged may be merged with more.
 //
-// @param starts  As above; none where nothing is known.
-// @param pick    What is wanted of each of them.
-template <int Dim, typename Pick>
-auto merged(std::vector<Found<Dim>> found, std::vector<std::size_t> starts, const Pick& pick) {
-    const std::vector<Key<Dim>> keys = sorted_keys<Dim>(found, std::move(starts));
-    std::vector<std::decay_t<decltype(pick(found[0]))>> kept;
-    for (std::size_t k = 0; k < keys.size();) {
-        Found<Dim>& first = found[keys[k].place];
-        const Key<Dim>& key = keys[k];
-        while (++k < keys.size() && keys[k].is_same_contact(key)) {
-            first.contact.multiplicity += found[keys[k].place].contact.multiplicity;
+// @param is_ascending  Whether each list is already.
+// @param pick          What is wanted of them: from a contact with its pair to a contact or both.
+template <typename Item, int Dim, typename Pick>
+std::vector<Item> merged(const FoundLists<Dim>& lists, bool is_ascending, const Pick& pick) {
+    const std::vector<Key<Dim>> keys = sorted_keys<Dim>(lists, is_ascending);
+    std::vector<std::size_t> starts;  // of keys of one contact
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        if (k == 0 || !keys[k].is_same_contact(keys[k - 1])) {
+            starts.push_back(k);
         }
-        kept.push_back(pick(first));
     }
-    return kept;
+    std::vector<Item> all(starts.size());
+    starts.push_back(keys.size());
+    for_each_chunk(all.size(), kChunk,
+                   [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
+                       for (std::size_t i = begin; i < end; ++i) {
+                           Found<Dim> found = *keys[starts[i]].found;
+                           for (std::size_t k = starts[i] + 1; k < starts[i + 1]; ++k) {
+                               found.contact.multiplicity += keys[k].found->contact.multiplicity;
+                           }
+                           all[i] = pick(found);
+                       }
+                   });
+    return all;
 }
 
 // One simplex of a pair, as a side of a contact.
@@ -241,7 +265,7 @@ BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
                                            const Candidates<Dim>& candidates,
                                            const PositionsView<Dim>& positions) {
     BarrierContacts<Dim> contacts;
-    std::vector<Found<Dim>> all;
+    FoundLists<Dim> all;
     std::uint32_t lists = 0;
     candidates.for_each_meeting(
         positions, positions, [&](const CandidatePairs& pairs, const Displacement& displacement) {
@@ -251,7 +275,7 @@ BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
                     const DistanceCull<K, L> cull(
                         list, colliders.surface(first).template simplices<K>(),
                         colliders.surface(second).template simplices<L>(), displacement, distance);
-                    const std::vector<Found<Dim>> found = collect<Found<Dim>>(
+                    FoundLists<Dim> found = collect_parts<Found<Dim>>(
                         cull.size(), kChunk, [&](std::size_t k, std::vector<Found<Dim>>& here) {
                             if (!cull.passes(k)) {
                                 return;
@@ -262,7 +286,7 @@ BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
                                 here.push_back({*contact, {lists, pair.first, pair.second}});
                             }
                         });
-                    all.insert(all.end(), found.begin(), found.end());
+                    std::move(found.begin(), found.end(), std::back_inserter(all));
                     contacts.candidates += static_cast<std::int64_t>(cull.size());
                     ++lists;
                 });
@@ -270,18 +294,11 @@ BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
     const auto contact = [](const Found<Dim>& found) { return found.contact; };
     const SharedWork& shared = candidates.shared();
     if (!shared.is_shared()) {
-        contacts.list = merged<Dim>(std::move(all), {}, contact);
+        contacts.list = merged<Contact<Dim>, Dim>(all, false, contact);
         return contacts;
     }
-    all = merged<Dim>(std::move(all), {}, [](const Found<Dim>& found) { return found; });
-    std::vector<std::size_t> starts;
-    std::size_t count = 0;
-    std::vector<std::vector<Found<Dim>>> of_all = shared.lists(std::move(all));
-    for (const std::vector<Found<Dim>>& list : of_all) {
-        starts.push_back(count);
-        count += list.size();
-    }
-    contacts.list = merged<Dim>(joined(std::move(of_all)), std::move(starts), contact);
+    all = shared.lists(merged<Found<Dim>, Dim>(all, false, std::identity()));
+    contacts.list = merged<Contact<Dim>, Dim>(all, true, contact);
     contacts.candidates = shared.sum(contacts.candidates);
     return contacts;
 }

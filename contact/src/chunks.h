@@ -38,16 +38,24 @@ template <typename Item>
     return all;
 }
 
-/// What add(i, list) adds to a list for all i in [0, count), in their order.
+/// What add(i, list) adds to a list for all i in [0, count), in their order: a list for each chunk.
 template <typename Item, typename Add>
-[[nodiscard]] std::vector<Item> collect(std::size_t count, std::size_t size, const Add& add) {
+[[nodiscard]] std::vector<std::vector<Item>> collect_parts(std::size_t count,
+                                                           std::size_t size,
+                                                           const Add& add) {
     std::vector<std::vector<Item>> parts((count + size - 1) / size);
     for_each_chunk(count, size, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             add(i, parts[chunk]);
         }
     });
-    return joined(std::move(parts));
+    return parts;
+}
+
+/// The same in one list.
+template <typename Item, typename Add>
+[[nodiscard]] std::vector<Item> collect(std::size_t count, std::size_t size, const Add& add) {
+    return joined(collect_parts<Item>(count, size, add));
 }
 
 }  // namespace pent::contact
