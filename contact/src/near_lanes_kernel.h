@@ -325,8 +325,9 @@ public:
         return are_apart;
     }
 
-    // Most of the first are not even near the box around all of the second.
-    void find_near_boxes(float distance, std::uint16_t* near) const {
+    // Most of the first are not even near the box around all of the second. Returns whether any are
+    // near; so does what follows.
+    bool find_near_boxes(float distance, std::uint16_t* near) const {
         const Floats squared_distance(distance * distance);
         Boxes<Dim> first[kEnds];     // NOLINT(modernize-avoid-c-arrays)
         LaneBox<Dim> around[kEnds];  // NOLINT(modernize-avoid-c-arrays): the second
@@ -344,12 +345,13 @@ public:
         unsigned left = near_boxes<Dim, kEnds>(around, first, first_[0].count, squared_distance)
                         & near_along_line(of_first_, all_of_second);
         if (left == 0) {
-            return;
+            return false;
         }
         Boxes<Dim> second[kEnds];  // NOLINT(modernize-avoid-c-arrays)
         for (int end = 0; end < kEnds; ++end) {
             second[end].template set<L>(second_[end], shift_[end]);
         }
+        bool is_any = false;
         for (; left != 0; left &= left - 1) {
             const int i = __builtin_ctz(left);
             LaneBox<Dim> box[kEnds];  // NOLINT(modernize-avoid-c-arrays)
@@ -361,12 +363,14 @@ public:
             near[i] = static_cast<std::uint16_t>(
                 near_boxes<Dim, kEnds>(box, second, second_[0].count, squared_distance)
                 & near_along_line(of_second_, reach) & ~sharing(i));
+            is_any = is_any || near[i] != 0;
         }
+        return is_any;
     }
 
     // Takes out those that are apart along a line: lines take much longer than boxes, and few boxes
     // are near each other, so that what is left is gathered until every lane has a pair.
-    void keep_near_simplices(float distance, std::uint16_t* near) const {
+    bool keep_near_simplices(float distance, std::uint16_t* near) const {
         constexpr int kPairs = kLanes * kLanes;
         std::int32_t of_first[kPairs + kRegisterLanes];   // NOLINT(modernize-avoid-c-arrays)
         std::int32_t of_second[kPairs + kRegisterLanes];  // NOLINT(modernize-avoid-c-arrays)
@@ -381,6 +385,7 @@ public:
         for (int lane = 0; lane < kRegisterLanes; ++lane) {
             of_first[count + lane] = of_second[count + lane] = 0;  // in lanes that are left over
         }
+        bool is_any = false;
         for (int begin = 0; begin < count; begin += kRegisterLanes) {
             const auto pairs = gather(of_first + begin, of_second + begin);
             unsigned left = bits(!pairs.are_apart(Floats(distance)));
@@ -390,8 +395,10 @@ public:
             for (; left != 0; left &= left - 1) {
                 const int pair = begin + __builtin_ctz(left);
                 near[of_first[pair]] |= static_cast<std::uint16_t>(1U << of_second[pair]);
+                is_any = true;
             }
         }
+        return is_any;
     }
 
     // Bit j: whether simplex j of the second has a vertex of simplex i of the first.
@@ -469,31 +476,28 @@ private:
 };
 
 template <int Dim, int K, int L, bool IsStill>
-void find_near(const LanesOnPaths& patches, double distance, std::uint16_t* near) {
+bool find_near(const LanesOnPaths& patches, double distance, std::uint16_t* near) {
     PatchPair<Dim, K, L, IsStill> pair(patches);
     const float limit =
         static_cast<float>(distance) * (1 + kRelativeRounding) + kRounding * pair.size();
     const bool is_told = limit > kMinLength;
+    if (is_told && pair.are_apart(limit)) {
+        return false;
+    }
     const std::uint32_t all = (1U << patches.second_start.count) - 1;
     for (int i = 0; i < kLanes; ++i) {
         near[i] = static_cast<std::uint16_t>(
             is_told || i >= patches.first_start.count ? 0U : all & ~pair.sharing(i));
     }
-    if (is_told && !pair.are_apart(limit)) {
-        pair.find_near_boxes(limit, near);
-        pair.keep_near_simplices(limit, near);
-    }
+    return !is_told || (pair.find_near_boxes(limit, near) && pair.keep_near_simplices(limit, near));
 }
 
 template <int Dim, int K, int L>
-void find_near_lanes(const LanesOnPaths& patches, double distance, std::uint16_t* near) {
+bool find_near_lanes(const LanesOnPaths& patches, double distance, std::uint16_t* near) {
     const bool is_still = patches.first_start.corners == patches.first_end.corners
                           && patches.second_start.corners == patches.second_end.corners;
-    if (is_still) {
-        find_near<Dim, K, L, true>(patches, distance, near);
-    } else {
-        find_near<Dim, K, L, false>(patches, distance, near);
-    }
+    return is_still ? find_near<Dim, K, L, true>(patches, distance, near)
+                    : find_near<Dim, K, L, false>(patches, distance, near);
 }
 
 template <int Dim>

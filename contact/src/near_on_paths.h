@@ -64,9 +64,7 @@ struct NearOnPaths {
         const Corners<Dim, K> p = gather<Dim, K>(first, i, paths.to);
         const Corners<Dim, L> q = gather<Dim, L>(second, j, paths.to);
         ClosestPointSearch<Dim, K, L> closest(p, q, measured * measured);
-        const bool is_known = !are_boxes_apart<Dim, K, L>(p, q, measured * measured)
-                              && !are_apart_along_middles<Dim, K, L>(p, q, measured)
-                              && closest.run();
+        const bool is_known = !are_apart_along_middles<Dim, K, L>(p, q, measured) && closest.run();
         const double distance = is_known ? std::sqrt(closest.best().distance_squared) : measured;
         const double length = relative_path_length<Dim, K, L>(
             gather<Dim, K>(first, i, paths.from), p, gather<Dim, L>(second, j, paths.from), q);

@@ -94,9 +94,11 @@ void for_each_near(const PatchOnPaths<Dim>& first,
                    double distance,
                    const Visit& visit) {
     std::array<std::uint16_t, kLanes> near;
-    near_lanes_kernels<Dim>().template find<K>()(
-        {first.at_start(), first.at_end(is_still), second.at_start(), second.at_end(is_still)},
-        distance, near.data());
+    const LanesOnPaths patches{first.at_start(), first.at_end(is_still), second.at_start(),
+                               second.at_end(is_still)};
+    if (!near_lanes_kernels<Dim>().template find<K>()(patches, distance, near.data())) {
+        return;
+    }
     const std::span<const std::uint32_t> of_first = first.members();
     const std::span<const std::uint32_t> of_second = second.members();
     const bool is_one = &first.all == &second.all && first.place == second.place;

@@ -82,8 +82,13 @@ Near find(LanesIsa isa, Patch<Dim, K>& first, Patch<Dim, L>& second, bool is_sti
     const LanesView b = second.view(0);
     Near near;
     near.fill(0xffff);
-    near_lanes_kernels<Dim>(isa).template find<K>()(
+    const bool is_any = near_lanes_kernels<Dim>(isa).template find<K>()(
         {a, is_still ? a : first.view(1), b, is_still ? b : second.view(1)}, limit, near.data());
+    if (!is_any) {
+        near.fill(0);
+    }
+    EXPECT_EQ(is_any,
+              std::any_of(near.begin(), near.end(), [](auto of_one) { return of_one != 0; }));
     return near;
 }
 
