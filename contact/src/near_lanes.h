@@ -35,8 +35,9 @@ struct LanesOnPaths {
 /// Sets bit j of near[i], of kLanes entries, to whether simplex i of the first and j of the second
 /// patch may be near: all pairs without a common vertex that are nearer than `distance` (m) at some
 /// time, and others of which neither their boxes nor a few lines tell that they are not. No pair is
-/// lost to rounding of floats. Coordinates are finite; not checked. Returns whether there may be any;
-/// where not, nothing is set.
+/// lost to rounding of floats. Coordinates are finite; not checked.
+///
+/// Returns whether there may be any; where not, `near` is of no use.
 using FindNearLanes = bool (*)(const LanesOnPaths& patches, double distance, std::uint16_t* near);
 
 /// By the corners of the simplices of the first patch: for vertices and facets, and for edges and
