@@ -1,290 +1,19 @@
 #pragma once
 
-#include "near_lanes.h"
-
-#include <pent/simd.h>
-
-#include <cstdint>
+#include "near_lanes_shapes.h"
 
 // Included once for each instruction set, by a file that is compiled for it.
 
 namespace pent::contact {
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int kRegisterLanes = 16;
-#elif defined(__AVX__)
-constexpr int kRegisterLanes = 8;
-#else
-constexpr int kRegisterLanes = 4;
-#endif
-
-// Lines that are tried for two simplices: after these few pairs are left that are not near.
-constexpr int kApproaches = 4;
-
-using Floats = Pack<float, kRegisterLanes>;
-using Truths = Mask<float, kRegisterLanes>;
-using Numbers = Truths::Vector;
-
 // Of the largest coordinate: what rounding adds to a gap, at most. Coordinates lack three roundings
-// of 2^-24, and a sum of four products of twice as much some ten: 2e-6 in all.
+// of 2^-24, and a sum of four products of twice as much, or two where the shift has its own, some
+// ten: 2e-6 in all.
 constexpr float kRounding = 4e-6F;
 
 // The same of the distance, for the length of a line.
 constexpr float kRelativeRounding = 1e-5F;
-
-// Squares of lengths below would be lost in float.
-constexpr float kMinLength = 1e-15F;
-
-// Lanes of a patch, one in each lane of a register.
-struct Chosen {
-    const std::int32_t* lanes;
-
-    // Of kLanes numbers those in the chosen lanes.
-    [[nodiscard, gnu::always_inline]] Floats of(const float* numbers) const {
-#if defined(__AVX512F__)
-        const __m512i which = _mm512_loadu_si512(lanes);
-        return Floats(reinterpret_cast<Floats::Vector>(
-            _mm512_maskz_permutexvar_ps(0xffff, which, _mm512_loadu_ps(numbers))));
-#elif defined(__AVX2__)
-        const __m256i which = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(lanes));
-        const __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(numbers), which);
-        const __m256 high =
-            _mm256_permutevar8x32_ps(_mm256_loadu_ps(numbers + kRegisterLanes), which);
-        const __m256 is_high = _mm256_castsi256_ps(_mm256_slli_epi32(which, 28));
-        return Floats(reinterpret_cast<Floats::Vector>(_mm256_blendv_ps(low, high, is_high)));
-#else
-        float chosen[kRegisterLanes];  // NOLINT(modernize-avoid-c-arrays)
-        for (int i = 0; i < kRegisterLanes; ++i) {
-            chosen[i] = numbers[lanes[i]];
-        }
-        return Floats::load(chosen);
-#endif
-    }
-};
-
-template <int Dim>
-struct LaneBox {
-    float low[Dim];   // NOLINT(modernize-avoid-c-arrays): as all here, of plain numbers
-    float high[Dim];  // NOLINT(modernize-avoid-c-arrays)
-};
-
-// The boxes around all simplices of a patch, side by side.
-template <int Dim>
-struct Boxes {
-    float low[Dim][kLanes];   // NOLINT(modernize-avoid-c-arrays)
-    float high[Dim][kLanes];  // NOLINT(modernize-avoid-c-arrays)
-
-    [[nodiscard, gnu::always_inline]] LaneBox<Dim> operator[](int i) const {
-        LaneBox<Dim> box;
-        for (int axis = 0; axis < Dim; ++axis) {
-            box.low[axis] = low[axis][i];
-            box.high[axis] = high[axis][i];
-        }
-        return box;
-    }
-
-    // Moved.
-    template <int Count>
-    [[gnu::always_inline]] void set(const LanesView& patch, const float* shift) {
-        for (int axis = 0; axis < Dim; ++axis) {
-            for (int lane = 0; lane < kLanes; lane += kRegisterLanes) {
-                Floats least = Floats::load(patch.corners + axis * kLanes + lane);
-                Floats most = least;
-                for (int corner = 1; corner < Count; ++corner) {
-                    const Floats next =
-                        Floats::load(patch.corners + (corner * Dim + axis) * kLanes + lane);
-                    least = min(least, next);
-                    most = max(most, next);
-                }
-                (least + Floats(shift[axis])).store(low[axis] + lane);
-                (most + Floats(shift[axis])).store(high[axis] + lane);
-            }
-        }
-    }
-};
-
-// Bit i: whether box i may come within a distance of a box, both at all ends of their paths. Boxes
-// that are apart along an axis at both ends are at all times.
-template <int Dim, int Ends>
-[[gnu::always_inline]] inline std::uint32_t near_boxes(const LaneBox<Dim>* box,
-                                                       const Boxes<Dim>* boxes,
-                                                       int count,
-                                                       const Floats& squared_distance) {
-    std::uint32_t near = 0;
-    for (int lane = 0; lane < count; lane += kRegisterLanes) {
-        Floats sum(0.0F);
-        for (int axis = 0; axis < Dim; ++axis) {
-            Floats above = Floats::load(boxes[0].low[axis] + lane) - Floats(box[0].high[axis]);
-            Floats below = Floats(box[0].low[axis]) - Floats::load(boxes[0].high[axis] + lane);
-            if constexpr (Ends == 2) {
-                above =
-                    min(above, Floats::load(boxes[1].low[axis] + lane) - Floats(box[1].high[axis]));
-                below =
-                    min(below, Floats(box[1].low[axis]) - Floats::load(boxes[1].high[axis] + lane));
-            }
-            const Floats gap = max(max(above, below), Floats(0.0F));
-            sum = multiply_add(gap, gap, sum);
-        }
-        near |= bits(!(sum > squared_distance)) << lane;
-    }
-    return near & ((1U << count) - 1);
-}
-
-// Some simplices side by side.
-template <int Dim, int Count>
-struct Simplex {
-    Floats corners[Count][Dim];  // NOLINT(modernize-avoid-c-arrays)
-
-    // Those in chosen lanes of a patch, moved.
-    [[gnu::always_inline]] void set(const LanesView& patch,
-                                    const Chosen& chosen,
-                                    const float* shift) {
-        for (int corner = 0; corner < Count; ++corner) {
-            for (int axis = 0; axis < Dim; ++axis) {
-                corners[corner][axis] =
-                    chosen.of(patch.corners + (corner * Dim + axis) * kLanes) + Floats(shift[axis]);
-            }
-        }
-    }
-
-    [[nodiscard, gnu::always_inline]] Floats middle(int axis) const {
-        Floats sum = corners[0][axis];
-        for (int corner = 1; corner < Count; ++corner) {
-            sum += corners[corner][axis];
-        }
-        return sum * Floats(1.0F / Count);
-    }
-};
-
-// How far the simplices of a patch reach along a line.
-template <int Dim, int Count>
-struct Reach {
-    float of_lane[kLanes];  // NOLINT(modernize-avoid-c-arrays)
-    float most;
-
-    [[gnu::always_inline]] void set(const LanesView& patch, const float* line, float shift) {
-        float left[kLanes];  // NOLINT(modernize-avoid-c-arrays)
-        for (int lane = 0; lane < kLanes; lane += kRegisterLanes) {
-            Floats reach;
-            for (int corner = 0; corner < Count; ++corner) {
-                Floats along(shift);
-                for (int axis = 0; axis < Dim; ++axis) {
-                    along = multiply_add(
-                        Floats(line[axis]),
-                        Floats::load(patch.corners + (corner * Dim + axis) * kLanes + lane), along);
-                }
-                reach = corner == 0 ? along : max(along, reach);
-            }
-            reach.store(of_lane + lane);
-            reach.store(left + lane);
-        }
-        for (int half = kLanes / 2; half > 0; half /= 2) {
-            for (int i = 0; i < half; ++i) {
-                left[i] = left[i] > left[i + half] ? left[i] : left[i + half];
-            }
-        }
-        most = left[0];
-    }
-};
-
-template <int Dim>
-[[gnu::always_inline]] inline float dot(const float* a, const float* b) {
-    float sum = 0;
-    for (int axis = 0; axis < Dim; ++axis) {
-        sum += a[axis] * b[axis];
-    }
-    return sum;
-}
-
-template <int Dim>
-[[gnu::always_inline]] inline Floats dot(const Floats* a, const Floats* b) {
-    Floats sum = a[0] * b[0];
-    for (int axis = 1; axis < Dim; ++axis) {
-        sum = multiply_add(a[axis], b[axis], sum);
-    }
-    return sum;
-}
-
-// The corner that is least, or most, along a line, and how far along.
-template <int Dim>
-struct Support {
-    Floats corner[Dim];  // NOLINT(modernize-avoid-c-arrays)
-    Floats along;
-
-    template <int Count>
-    [[gnu::always_inline]] void set(const Floats* line,
-                                    const Simplex<Dim, Count>& simplex,
-                                    bool is_least) {
-        along = dot<Dim>(line, simplex.corners[0]);
-        for (int axis = 0; axis < Dim; ++axis) {
-            corner[axis] = simplex.corners[0][axis];
-        }
-        for (int next = 1; next < Count; ++next) {
-            const Floats of_next = dot<Dim>(line, simplex.corners[next]);
-            const auto is_better = is_least ? of_next < along : of_next > along;
-            along = select(is_better, of_next, along);
-            for (int axis = 0; axis < Dim; ++axis) {
-                corner[axis] = select(is_better, simplex.corners[next][axis], corner[axis]);
-            }
-        }
-    }
-};
-
-// Simplices of one and of another patch, different ones in each lane, at the start and at the end
-// of their paths.
-template <int Dim, int K, int L, bool IsStill>
-struct Pairs {
-    Simplex<Dim, K> first[2];   // NOLINT(modernize-avoid-c-arrays)
-    Simplex<Dim, L> second[2];  // NOLINT(modernize-avoid-c-arrays)
-
-    // Whether a line is found along which they are apart at both ends, hence at all times: from
-    // that through their middles on the nearest point of the hull of all differences of corners is
-    // approached [gilbert1966], and given up where it is nearer than the distance, or soon.
-    [[nodiscard, gnu::always_inline]] Truths are_apart(const Floats& distance) const {
-        constexpr int kEnds = IsStill ? 1 : 2;
-        Floats line[Dim];  // NOLINT(modernize-avoid-c-arrays)
-        for (int axis = 0; axis < Dim; ++axis) {
-            line[axis] = second[0].middle(axis) - first[0].middle(axis);
-            if constexpr (!IsStill) {
-                line[axis] += second[1].middle(axis) - first[1].middle(axis);
-                line[axis] *= Floats(0.5F);
-            }
-        }
-        Truths are_apart = distance < Floats(0.0F);
-        for (int approach = 0; approach < kApproaches; ++approach) {
-            const Floats squared = dot<Dim>(line, line);
-            Floats least;
-            Floats toward[Dim];  // NOLINT(modernize-avoid-c-arrays): to the support
-            for (int end = 0; end < kEnds; ++end) {
-                Support<Dim> of_first;
-                Support<Dim> of_second;
-                of_first.set(line, first[end], false);
-                of_second.set(line, second[end], true);
-                const Floats gap = of_second.along - of_first.along;
-                const auto is_better = end == 0 ? gap == gap : gap < least;
-                least = end == 0 ? gap : select(is_better, gap, least);
-                for (int axis = 0; axis < Dim; ++axis) {
-                    const Floats next = of_second.corner[axis] - of_first.corner[axis] - line[axis];
-                    toward[axis] = end == 0 ? next : select(is_better, next, toward[axis]);
-                }
-            }
-            are_apart = are_apart || least > distance * sqrt(squared);
-            if (approach == kApproaches - 1
-                || pent::all(are_apart || squared < distance * distance)) {
-                break;
-            }
-            const Floats toward_squared = dot<Dim>(toward, toward);
-            const Floats part =
-                -dot<Dim>(line, toward) / max(toward_squared, Floats(kMinLength * kMinLength));
-            const Floats step = min(max(part, Floats(0.0F)), Floats(1.0F));
-            for (int axis = 0; axis < Dim; ++axis) {
-                line[axis] = multiply_add(step, toward[axis], line[axis]);
-            }
-        }
-        return are_apart;
-    }
-};
 
 // Two patches, and where the second is as seen from the origin of the first, at the start and at
 // the end.
@@ -305,28 +34,29 @@ public:
     // Whether all of the first are apart from all of the second, at both ends, along the line
     // through the middles of the boxes around them.
     [[nodiscard]] bool are_apart(float distance) {
+        float line[Dim];  // NOLINT(modernize-avoid-c-arrays)
         float back[Dim];  // NOLINT(modernize-avoid-c-arrays)
         for (int axis = 0; axis < Dim; ++axis) {
-            line_[axis] = 0;
+            line[axis] = 0;
             for (int end = 0; end < kEnds; ++end) {
-                line_[axis] += second_[end].low[axis] + second_[end].high[axis]
-                               - first_[end].low[axis] - first_[end].high[axis]
-                               + 2 * shift_[end][axis];
+                line[axis] += second_[end].low[axis] + second_[end].high[axis]
+                              - first_[end].low[axis] - first_[end].high[axis]
+                              + 2 * shift_[end][axis];
             }
-            back[axis] = -line_[axis];
+            back[axis] = -line[axis];
         }
-        enough_ = distance * __builtin_sqrtf(dot<Dim>(line_, line_));
+        enough_ = distance * __builtin_sqrtf(dot<Dim>(line, line));
         bool are_apart = true;
         for (int end = 0; end < kEnds; ++end) {
-            of_first_[end].set(first_[end], line_, 0);
+            of_first_[end].set(first_[end], line, 0);
             of_second_[end].set(second_[end], back, dot<Dim>(back, shift_[end]));
             are_apart = are_apart && -(of_first_[end].most + of_second_[end].most) > enough_;
         }
         return are_apart;
     }
 
-    // Most of the first are not even near the box around all of the second. Returns whether any are
-    // near; so does what follows.
+    // After are_apart(), whose line tells of single simplices, too. Most of the first are not even
+    // near the box around all of the second. Returns whether any are near; so does what follows.
     bool find_near_boxes(float distance, std::uint16_t* near) const {
         const Floats squared_distance(distance * distance);
         Boxes<Dim> first[kEnds];     // NOLINT(modernize-avoid-c-arrays)
@@ -468,8 +198,7 @@ private:
     float shift_[kEnds][Dim];  // NOLINT(modernize-avoid-c-arrays)
     float size_ = 0;
 
-    // A line, how far the first reach along it and the second back, and how far apart is enough.
-    float line_[Dim];                 // NOLINT(modernize-avoid-c-arrays)
+    // How far the first reach along the line and the second back, and what is apart along it.
     Reach<Dim, K> of_first_[kEnds];   // NOLINT(modernize-avoid-c-arrays)
     Reach<Dim, L> of_second_[kEnds];  // NOLINT(modernize-avoid-c-arrays)
     float enough_ = 0;

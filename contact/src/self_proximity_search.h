@@ -170,14 +170,14 @@ private:
                  Found& found) const {
         for (const Candidate& pair : pairs) {
             if (!bound.is_apart(static_cast<double>(pair.distance), near)
-                && !are_boxes_apart(pair, near)) {
+                && !do_boxes_stay_apart(pair, near)) {
                 test_(pair.first, pair.second, found);
             }
         }
     }
 
-    // At all times, on paths.
-    [[nodiscard]] bool are_boxes_apart(const Candidate& pair, double near) const {
+    // Those around the two simplices, all along their paths.
+    [[nodiscard]] bool do_boxes_stay_apart(const Candidate& pair, double near) const {
         return !is_still_
                && are_paths_apart<Dim, K, L>(gather<Dim, K>(first_, pair.first, paths_.from),
                                              gather<Dim, K>(first_, pair.first, paths_.to),

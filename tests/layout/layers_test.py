@@ -64,8 +64,8 @@ CONTACT = [
                   " filter gather normals obstacles pair_contact paths simplex_crossing"
                   " spanned_volume spectrum stencil surface friction"),
     ("trees", "box_tree boxes_around chunks halving near_lanes near_lanes_avx2 near_lanes_avx512"
-              " near_lanes_baseline near_lanes_isa near_lanes_kernel patch_lanes patch_partition"
-              " patches path_cover refit_tree surface_patches surface_trees winding_number"),
+              " near_lanes_baseline near_lanes_isa near_lanes_kernel near_lanes_shapes patch_lanes"
+              " patch_partition patches path_cover refit_tree surface_patches surface_trees winding_number"),
     ("search", "candidate colliders convex_body near_on_paths near_pairs overlaps pair_at self_proximity"
                " self_proximity_search shared_work"),
     ("crossings", "crossings obstacle_contacts"),
