@@ -1,8 +1,8 @@
 #include "contact_energy.h"
 
 #include "chunks.h"
-#include "distance_hessian.h"
 #include "filter.h"
+#include "pair_spectra.h"
 #include "spanned_volume.h"
 
 #include <pent/contact/contact_finder.h>
@@ -65,33 +65,6 @@ void add_gradient(const Contacts<Dim>& contacts,
                 gradient.col(contact.vertices[i]) += extra->vector.template segment<Dim>(Dim * i);
             }
             ++extra;
-        }
-    }
-}
-
-// Room for the spectrum of a pair, whatever it comes to.
-template <int Dim>
-std::size_t most_numbers(const Contact<Dim>& contact, Filter filter) {
-    const int most = contact.mollifier.is_on() ? Dim * Dim
-                     : filter == Filter::Clamp ? Dim
-                                               : 2 * Dim - 1;
-    return static_cast<std::size_t>(most * (1 + Dim * contact.count));
-}
-
-// Of the vertices that may move.
-template <int Dim>
-void store(const Spectrum<Dim>& spectrum,
-           const Contact<Dim>& contact,
-           SpectralHessian<Dim>& hessian,
-           std::vector<double>& numbers) {
-    hessian.vertices = contact.vertices;
-    hessian.count = contact.count;
-    hessian.rank = static_cast<std::int32_t>(spectrum.values.size());
-    double* next = numbers.data() + hessian.begin;
-    next = std::copy_n(spectrum.values.data(), hessian.rank, next);
-    for (int i = 0; i < hessian.count; ++i) {
-        for (int k = 0; k < hessian.rank; ++k) {
-            next = std::copy_n(&spectrum.vectors(Dim * i, k), Dim, next);
         }
     }
 }
@@ -177,33 +150,6 @@ Block<Dim> surface_hessian(const DistanceEnergy& energy,
 }
 
 template <int Dim>
-Spectrum<Dim> moving_spectrum(const DistanceEnergy& energy,
-                              const Contact<Dim>& contact,
-                              const PositionsView<Dim>& positions,
-                              Filter filter) {
-    const Stencil<Dim> points = corners_of<Dim>(contact, positions);
-    const double slope = energy.slope(contact.distance);
-    const double curvature = energy.curvature(contact.distance);
-    const Mollifier& mollifier = contact.mollifier;
-    const double c = mollifier.is_on() ? volume_squared(contact, points) : 0;
-    if (!(c < mollifier.threshold)) {
-        return distance_spectrum<Dim>(points, contact, slope, curvature, filter);
-    }
-    const double value = energy.value(contact.distance);
-    const StencilVector<Dim> by_distance = slope * outer<Dim>(contact.weights, contact.direction);
-    const StencilVector<Dim> by_volume =
-        spanned_volume_squared_gradient<Dim>(points, contact.first_count);
-    StencilMatrix<Dim> hessian =
-        mollifier.value(c) * distance_hessian<Dim>(points, contact, slope, curvature);
-    hessian += mollifier.slope(c) * value
-               * spanned_volume_squared_hessian<Dim>(points, contact.first_count);
-    hessian += mollifier.curvature(c) * value * by_volume * by_volume.transpose();
-    hessian += mollifier.slope(c)
-               * (by_distance * by_volume.transpose() + by_volume * by_distance.transpose());
-    return filtered_spectrum<Dim>(hessian, filter);
-}
-
-template <int Dim>
 Contacts<Dim> evaluate_all(const ContactScene<Dim>& scene,
                            const PositionsView<Dim>& positions,
                            double stiffness,
@@ -245,31 +191,37 @@ StencilHessians<Dim> hessians_of(const ContactScene<Dim>& scene,
     hessians.weighted.resize(contacts.list.size() - pairs);
     std::size_t numbers = 0;
     for (std::size_t k = 0; k < pairs; ++k) {
-        hessians.spectral[k].begin = numbers;
-        numbers += most_numbers<Dim>(contacts.list[k], filter);
+        const Contact<Dim>& contact = contacts.list[k];
+        hessians.spectral[k] = {contact.vertices, contact.count, 0, numbers};
+        numbers += PairSpectra<Dim>::most_numbers(contact, filter);
     }
     if (hessians.numbers.size() < numbers) {
         hessians.numbers.resize(numbers);
     }
-    for_each_chunk(contacts.list.size(), kHessianChunk,
+    for_each_chunk(pairs, kHessianChunk,
                    [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
+                       PairSpectra<Dim> spectra(filter, hessians.numbers.data());
                        for (std::size_t k = begin; k < end; ++k) {
                            const Contact<Dim>& contact = contacts.list[k];
-                           const DistanceEnergy energy = energy_of<Dim>(scene, contact, stiffness);
-                           if (k < pairs) {
-                               store<Dim>(moving_spectrum<Dim>(energy, contact, positions, filter),
-                                          contact, hessians.spectral[k], hessians.numbers);
-                               continue;
-                           }
-                           const Block<Dim> block =
-                               contact.kind == ContactKind::Surface
-                                   ? surface_hessian<Dim>(
-                                       energy, surface_at<Dim>(scene, contact, positions), filter)
-                                   : held_hessian<Dim>(energy, contact, filter);
-                           hessians.weighted[k - pairs] = {contact.vertices, contact.count,
-                                                           contact.weights, block};
+                           spectra.add(energy_of<Dim>(scene, contact, stiffness), contact,
+                                       positions, hessians.spectral[k]);
                        }
+                       spectra.finish();
                    });
+    for_each_chunk(
+        hessians.weighted.size(), kHessianChunk,
+        [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) {
+                const Contact<Dim>& contact = contacts.list[pairs + k];
+                const DistanceEnergy energy = energy_of<Dim>(scene, contact, stiffness);
+                const Block<Dim> block =
+                    contact.kind == ContactKind::Surface
+                        ? surface_hessian<Dim>(energy, surface_at<Dim>(scene, contact, positions),
+                                               filter)
+                        : held_hessian<Dim>(energy, contact, filter);
+                hessians.weighted[k] = {contact.vertices, contact.count, contact.weights, block};
+            }
+        });
     return hessians;
 }
 
@@ -305,8 +257,6 @@ void add_gradient(const Contacts<Dim>& contacts, Positions<Dim>& gradient) {
     template Block<Dim> held_hessian(const DistanceEnergy&, const Contact<Dim>&, Filter);      \
     template Block<Dim> surface_hessian(const DistanceEnergy&, const SignedDistance<Dim>&,     \
                                         Filter);                                               \
-    template Spectrum<Dim> moving_spectrum(const DistanceEnergy&, const Contact<Dim>&,         \
-                                           const PositionsView<Dim>&, Filter);                 \
     template Contacts<Dim> evaluate_all(const ContactScene<Dim>&, const PositionsView<Dim>&,   \
                                         double, Contacts<Dim>);                                \
     template StencilHessians<Dim> hessians_of(const ContactScene<Dim>&, const Contacts<Dim>&,  \

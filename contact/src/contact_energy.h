@@ -1,7 +1,5 @@
 #pragma once
 
-#include "spectrum.h"
-
 #include <pent/contact/contact_scene.h>
 #include <pent/contact/filter.h>
 
@@ -43,13 +41,6 @@ template <int Dim>
 [[nodiscard]] Block<Dim> surface_hessian(const DistanceEnergy& energy,
                                          const SignedDistance<Dim>& distance,
                                          Filter filter);
-
-/// Filtered Hessian of a pair whose weights move, with its mollifier.
-template <int Dim>
-[[nodiscard]] Spectrum<Dim> moving_spectrum(const DistanceEnergy& energy,
-                                            const Contact<Dim>& contact,
-                                            const PositionsView<Dim>& positions,
-                                            Filter filter);
 
 /// The contacts with energies and slopes, found in parallel and summed up.
 ///

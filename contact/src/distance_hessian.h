@@ -1,9 +1,8 @@
 #pragma once
 
-#include "spectrum.h"
+#include "spectra.h"
 
 #include <pent/contact/contact.h>
-#include <pent/contact/filter.h>
 
 namespace pent::contact {
 
@@ -26,25 +25,17 @@ template <int Dim>
 ///     psi'' (w w^T (x) u u^T) + (psi'/d) (w w^T (x) (I - E M^-1 E^T - u u^T)
 ///         - d (W M^-1 E^T (x) ... + its transpose) - d^2 W M^-1 W^T (x) u u^T)
 ///
-/// Its range is spanned by {w, W} (x) u, w (x) E and w (x) (what is normal to u and E): at most 2
-/// Dim - 1 dimensions. Faces whose edges are dependent to rounding move as if their weights were
-/// held.
+/// Its range is in the span of {w, W} (x) u, w (x) E and w (x) (what is normal to u and E): at most
+/// 2 Dim - 1 dimensions. It is 0 on all of w (x) E, so that at most Dim eigenvalues are above 0.
+/// Faces whose edges are dependent to rounding move as if their weights were held.
 ///
 /// @param points     Corners of the contact, in its order; columns beyond are not read.
 /// @param slope      psi'(d), J/m.
 /// @param curvature  psi''(d), J/m^2.
 template <int Dim>
-[[nodiscard]] StencilMatrix<Dim> distance_hessian(const Stencil<Dim>& points,
-                                                  const Contact<Dim>& contact,
-                                                  double slope,
-                                                  double curvature);
-
-/// Its filtered eigenvalues and their eigenvectors, found in its range: at most Dim if clamped.
-template <int Dim>
-[[nodiscard]] Spectrum<Dim> distance_spectrum(const Stencil<Dim>& points,
-                                              const Contact<Dim>& contact,
-                                              double slope,
-                                              double curvature,
-                                              Filter filter);
+[[nodiscard]] ReducedMatrix<Dim, 2 * Dim - 1> distance_hessian(const Stencil<Dim>& points,
+                                                               const Contact<Dim>& contact,
+                                                               double slope,
+                                                               double curvature);
 
 }  // namespace pent::contact

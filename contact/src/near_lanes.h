@@ -2,9 +2,7 @@
 
 #include <cstdint>
 
-// Which simplices of two patches may be near each other, for all of their pairs side by side. The
-// kernels are compiled for several instruction sets: nothing here is shared with other files but
-// plain data.
+// Which simplices of two patches may be near each other, for all of their pairs side by side.
 
 namespace pent::contact {
 
@@ -39,29 +37,5 @@ struct LanesOnPaths {
 ///
 /// Returns whether there may be any; where not, `near` is of no use.
 using FindNearLanes = bool (*)(const LanesOnPaths& patches, double distance, std::uint16_t* near);
-
-/// By the corners of the simplices of the first patch: for vertices and facets, and for edges and
-/// ridges.
-template <int Dim>
-struct NearLanesKernels {
-    FindNearLanes points = nullptr;
-    FindNearLanes mixed = nullptr;
-
-    template <int K>
-    [[nodiscard]] FindNearLanes find() const {
-        return K == 1 ? points : mixed;
-    }
-};
-
-/// Instruction sets that there are kernels for, and this machine runs.
-enum class LanesIsa : std::uint8_t { Baseline, Avx2, Avx512 };
-[[nodiscard]] bool is_supported(LanesIsa isa);
-
-template <int Dim>
-[[nodiscard]] const NearLanesKernels<Dim>& near_lanes_kernels(LanesIsa isa);
-
-/// Of the widest that is supported.
-template <int Dim>
-[[nodiscard]] const NearLanesKernels<Dim>& near_lanes_kernels();
 
 }  // namespace pent::contact

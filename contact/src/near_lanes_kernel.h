@@ -229,9 +229,5 @@ bool find_near_lanes(const LanesOnPaths& patches, double distance, std::uint16_t
                     : find_near<Dim, K, L, false>(patches, distance, near);
 }
 
-template <int Dim>
-constexpr NearLanesKernels<Dim> kNearLanesKernels{find_near_lanes<Dim, 1, Dim>,
-                                                  find_near_lanes<Dim, 2, Dim - 1>};
-
 }  // namespace
 }  // namespace pent::contact

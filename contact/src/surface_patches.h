@@ -1,6 +1,6 @@
 #pragma once
 
-#include "near_lanes.h"
+#include "lanes.h"
 #include "patch_lanes.h"
 #include "patch_partition.h"
 #include "paths.h"
@@ -96,7 +96,7 @@ void for_each_near(const PatchOnPaths<Dim>& first,
     std::array<std::uint16_t, kLanes> near;
     const LanesOnPaths patches{first.at_start(), first.at_end(is_still), second.at_start(),
                                second.at_end(is_still)};
-    if (!near_lanes_kernels<Dim>().template find<K>()(patches, distance, near.data())) {
+    if (!lanes_kernels<Dim>().template find_near<K>()(patches, distance, near.data())) {
         return;
     }
     const std::span<const std::uint32_t> of_first = first.members();

@@ -1,6 +1,7 @@
 #include "near_lanes.h"
 
 #include "closest_points_oracle.h"
+#include "lanes.h"
 
 #include <gtest/gtest.h>
 
@@ -82,7 +83,7 @@ Near find(LanesIsa isa, Patch<Dim, K>& first, Patch<Dim, L>& second, bool is_sti
     const LanesView b = second.view(0);
     Near near;
     near.fill(0xffff);
-    const bool is_any = near_lanes_kernels<Dim>(isa).template find<K>()(
+    const bool is_any = lanes_kernels<Dim>(isa).template find_near<K>()(
         {a, is_still ? a : first.view(1), b, is_still ? b : second.view(1)}, limit, near.data());
     if (!is_any) {
         near.fill(0);

@@ -3,6 +3,8 @@
 #include "closest_points_oracle.h"
 #include "contact_energy.h"
 #include "distance_hessian.h"
+#include "pair_spectra.h"
+#include "spectral.h"
 
 #include <random>
 
@@ -50,8 +52,13 @@ struct PairEnergy {
         return gradient;
     }
     [[nodiscard]] StencilMatrix<Dim> hessian(const Stencil<Dim>& points, Filter filter) const {
-        return moving_spectrum<Dim>(energy, contact(points), Positions<Dim>(points), filter)
-            .matrix();
+        const Contact<Dim> at = contact(points);
+        SpectralHessian<Dim> hessian{at.vertices, at.count};
+        std::vector<double> numbers(PairSpectra<Dim>::most_numbers(at, filter));
+        PairSpectra<Dim> spectra(filter, numbers.data());
+        spectra.add(energy, at, Positions<Dim>(points), hessian);
+        spectra.finish();
+        return DenseSpectrum<Dim>(hessian, numbers).matrix();
     }
 };
 

@@ -60,17 +60,18 @@ HIDDEN = {
 # contact/src from the bottom up: a file includes headers of its own layer and of those above it in
 # this list, and public ones. What finds crossings is a witness: it knows no candidates.
 CONTACT = [
+    ("lanes", "lanes lanes_avx2 lanes_avx512 lanes_baseline lanes_isa lanes_table near_lanes"
+              " near_lanes_kernel near_lanes_shapes spectra_lanes spectra_lanes_kernel"),
     ("simplices", "apart ccd closest_point_search convex_reference distance_energy distance_hessian"
                   " filter gather normals obstacles pair_contact paths simplex_crossing"
-                  " spanned_volume spectrum stencil surface friction"),
-    ("trees", "box_tree boxes_around chunks halving near_lanes near_lanes_avx2 near_lanes_avx512"
-              " near_lanes_baseline near_lanes_isa near_lanes_kernel near_lanes_shapes patch_lanes"
-              " patch_partition patches path_cover refit_tree surface_patches surface_trees winding_number"),
+                  " spanned_volume spectra stencil surface friction"),
+    ("trees", "box_tree boxes_around chunks halving patch_lanes patch_partition"
+              " patches path_cover refit_tree surface_patches surface_trees winding_number"),
     ("search", "candidate colliders convex_body near_on_paths near_pairs overlaps pair_at self_proximity"
                " self_proximity_search shared_work"),
     ("crossings", "crossings obstacle_contacts"),
     ("candidates", "candidates meetings"),
-    ("contacts", "barrier_contacts contact_energy penalty_contacts step_limit"),
+    ("contacts", "barrier_contacts contact_energy pair_spectra penalty_contacts step_limit"),
     ("finder", "contact_finder"),
 ]
 # Helpers of loops and of processes, for all.

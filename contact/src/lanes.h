@@ -1,0 +1,37 @@
+#pragma once
+
+#include "near_lanes.h"
+#include "spectra_lanes.h"
+
+#include <cstdint>
+
+// Kernels of loops over things side by side, compiled for several instruction sets: nothing in them
+// is shared with other files but plain data.
+
+namespace pent::contact {
+
+template <int Dim>
+struct LanesKernels {
+    FindNearLanes near_points = nullptr;  ///< First patches of vertices, second ones of facets.
+    FindNearLanes near_mixed = nullptr;   ///< Of edges and of ridges.
+    FindSpectra find_spectra = nullptr;
+
+    /// By the corners of the simplices of the first patch.
+    template <int K>
+    [[nodiscard]] FindNearLanes find_near() const {
+        return K == 1 ? near_points : near_mixed;
+    }
+};
+
+/// Instruction sets that there are kernels for, and this machine runs.
+enum class LanesIsa : std::uint8_t { Baseline, Avx2, Avx512 };
+[[nodiscard]] bool is_supported(LanesIsa isa);
+
+template <int Dim>
+[[nodiscard]] const LanesKernels<Dim>& lanes_kernels(LanesIsa isa);
+
+/// Of the widest that is supported.
+template <int Dim>
+[[nodiscard]] const LanesKernels<Dim>& lanes_kernels();
+
+}  // namespace pent::contact

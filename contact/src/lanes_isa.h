@@ -1,0 +1,15 @@
+#pragma once
+
+#include "lanes.h"
+
+namespace pent::contact {
+
+/// One file each, compiled for its instruction set; see lanes.cpp for the choice.
+template <int Dim>
+const LanesKernels<Dim>& lanes_baseline();
+template <int Dim>
+const LanesKernels<Dim>& lanes_avx2();
+template <int Dim>
+const LanesKernels<Dim>& lanes_avx512();
+
+}  // namespace pent::contact
