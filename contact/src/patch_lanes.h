@@ -1,8 +1,9 @@
 #pragma once
 
 #include "near_lanes.h"
-#include "patch_partition.h"
+#include "patch_vertices.h"
 
+#include <pent/contact/stencil.h>
 #include <pent/contact/surface.h>
 
 #include <cstddef>
@@ -18,26 +19,23 @@ class PatchLanes {
 public:
     /// Parallel.
     ///
-    /// @param partition  Of the simplices.
-    template <int Count>
-    void set(const Simplices<Count>& simplices,
-             const PatchPartition& partition,
-             const PositionsView<Dim>& positions);
+    /// @param positions  Of all vertices of the scene.
+    void set(const PatchVertices& vertices, const PositionsView<Dim>& positions);
 
-    [[nodiscard]] LanesView operator[](std::size_t patch) const {
+    /// @param vertices  That the positions were set of.
+    [[nodiscard]] LanesView of(std::size_t patch, const PatchVertices& vertices) const {
         const Patch& of = patches_[patch];
         return {.corners = corners_.data() + patch * stride_,
-                .vertices = vertices_.data() + patch * stride_ / Dim,
+                .vertices = vertices.corners(patch),
                 .origin = of.origin.data(),
                 .low = of.low.data(),
                 .high = of.high.data(),
                 .extent = of.extent,
-                .count = of.count};
+                .count = vertices.simplex_count(patch)};
     }
 
     [[nodiscard]] std::int64_t bytes() const {
         return static_cast<std::int64_t>(corners_.size() * sizeof(float)
-                                         + vertices_.size() * sizeof(std::int32_t)
                                          + patches_.size() * sizeof(Patch));
     }
 
@@ -47,12 +45,10 @@ private:
         Eigen::Matrix<float, Dim, 1> low;
         Eigen::Matrix<float, Dim, 1> high;
         float extent = 0;
-        int count = 0;
     };
 
     std::size_t stride_ = 0;  // floats of a patch
     std::vector<float> corners_;
-    std::vector<std::int32_t> vertices_;
     std::vector<Patch> patches_;
 };
 

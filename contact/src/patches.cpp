@@ -65,20 +65,6 @@ double larger(double a, double b) {
     return a > b || std::isnan(a) ? a : b;
 }
 
-// Vertices of some simplices, ascending, once each.
-template <int Count>
-std::vector<std::uint32_t> corners_of(const Simplices<Count>& simplices,
-                                      std::span<const std::uint32_t> patch) {
-    std::vector<std::uint32_t> vertices;
-    for (const std::uint32_t i : patch) {
-        const auto corners = simplices.col(i);
-        vertices.insert(vertices.end(), corners.begin(), corners.end());
-    }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    return vertices;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -101,18 +87,10 @@ PatchBound bound_of(const PatchMotion<Dim>& first, const PatchMotion<Dim>& secon
 }
 
 template <int Dim>
-template <int Count>
-Patches<Dim>::Patches(const Simplices<Count>& simplices,
-                      const PatchPartition& partition,
-                      const PositionsView<Dim>& rest) {
-    for (std::size_t patch = 0; patch < partition.size(); ++patch) {
-        const std::vector<std::uint32_t> vertices = corners_of<Count>(simplices, partition[patch]);
-        begin_.push_back(of_patch_.size());
-        of_patch_.insert(of_patch_.end(), vertices.begin(), vertices.end());
-    }
-    begin_.push_back(of_patch_.size());
-    rest_.resize(partition.size());
-    offsets_.resize(Dim, static_cast<Eigen::Index>(of_patch_.size()));
+Patches<Dim>::Patches(const PatchVertices& vertices, const PositionsView<Dim>& rest)
+    : begin_(vertices.begin()), vertices_(vertices.of_all()) {
+    rest_.resize(vertices.size());
+    offsets_.resize(Dim, static_cast<Eigen::Index>(vertices_.size()));
     parallel_for(rest_.size(), kChunk, [&](std::size_t patch) {
         auto offsets = own(offsets_, patch);
         gather(patch, rest, offsets);
@@ -126,7 +104,7 @@ void Patches<Dim>::gather(std::size_t patch,
                           const PositionsView<Dim>& positions,
                           Eigen::Ref<Positions<Dim>> vertices) const {
     for (Eigen::Index k = 0; k < vertices.cols(); ++k) {
-        vertices.col(k) = positions.col(of_patch_[begin_[patch] + static_cast<std::size_t>(k)]);
+        vertices.col(k) = positions.col(vertices_[begin_[patch] + static_cast<std::size_t>(k)]);
     }
 }
 
@@ -153,7 +131,7 @@ template <int Dim>
 PatchPlaces<Dim> Patches<Dim>::place(const PositionsView<Dim>& positions) const {
     PatchPlaces<Dim> places;
     places.of_patch.resize(rest_.size());
-    places.vertices.resize(Dim, static_cast<Eigen::Index>(of_patch_.size()));
+    places.vertices.resize(Dim, static_cast<Eigen::Index>(vertices_.size()));
     parallel_for(rest_.size(), kChunk, [&](std::size_t patch) {
         auto vertices = own(places.vertices, patch);
         gather(patch, positions, vertices);
@@ -250,22 +228,14 @@ template <int Dim>
 std::int64_t Patches<Dim>::bytes() const {
     return static_cast<std::int64_t>(rest_.size() * sizeof(Rest)
                                      + begin_.size() * sizeof(std::size_t)
-                                     + of_patch_.size() * sizeof(std::uint32_t)
+                                     + vertices_.size() * sizeof(std::uint32_t)
                                      + static_cast<std::size_t>(offsets_.size()) * sizeof(double));
 }
 
-#define PENT_INSTANTIATE_OF(Dim, Count)                                            \
-    template Patches<Dim>::Patches(const Simplices<Count>&, const PatchPartition&, \
-                                   const PositionsView<Dim>&);
 #define PENT_INSTANTIATE(Dim)                                                       \
     template PatchBound bound_of(const PatchMotion<Dim>&, const PatchMotion<Dim>&); \
     template class Patches<Dim>;
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
-PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE_OF, 1)
-PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE_OF, 2)
-PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE_OF, 3)
-PENT_INSTANTIATE_OF(4, 4)
 #undef PENT_INSTANTIATE
-#undef PENT_INSTANTIATE_OF
 
 }  // namespace pent::contact

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "patch_partition.h"
+#include "patch_vertices.h"
 
 #include <pent/contact/surface.h>
 
@@ -84,12 +84,8 @@ class Patches {
 public:
     Patches() = default;
 
-    /// @param partition  Of the simplices.
-    /// @param rest       Rest positions of all vertices of the scene.
-    template <int Count>
-    Patches(const Simplices<Count>& simplices,
-            const PatchPartition& partition,
-            const PositionsView<Dim>& rest);
+    /// @param rest  Rest positions of all vertices of the scene.
+    Patches(const PatchVertices& vertices, const PositionsView<Dim>& rest);
 
     [[nodiscard]] std::size_t size() const { return rest_.size(); }
 
@@ -135,7 +131,7 @@ private:
                                        PatchMotion<Dim>& motion) const;
 
     std::vector<std::size_t> begin_;       // of the vertices of each patch, and one more
-    std::vector<std::uint32_t> of_patch_;  // vertices
+    std::vector<std::uint32_t> vertices_;  // of all patches
     Positions<Dim> offsets_;               // of these from the centers of patches, at rest
     std::vector<Rest> rest_;
 };

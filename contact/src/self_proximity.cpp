@@ -39,21 +39,14 @@ SelfProximity<Dim>::SelfProximity(const Surface<Dim>& surface,
       on_paths_(surface, rest) {
     const double of_edge = kMaxOfEdge * mean_edge_length<Dim>(surface, rest);
     listed_distance_ = std::clamp(of_edge, kMinListed * distance, kListed * distance);
-    patches_[0] = make_patches<1>(surface.vertices);
-    patches_[1] = make_patches<2>(surface.edges);
-    patches_[2] = make_patches<3>(surface.template simplices<3>());
+    patches_[0] = Patches<Dim>(on_paths_.template of<1>().vertices, rest);
+    patches_[1] = Patches<Dim>(on_paths_.template of<2>().vertices, rest);
+    patches_[2] = Patches<Dim>(on_paths_.template of<3>().vertices, rest);
     if constexpr (Dim > 3) {
-        patches_[Dim - 1] = make_patches<Dim>(surface.facets);
+        patches_[Dim - 1] = Patches<Dim>(on_paths_.template of<Dim>().vertices, rest);
     }
     points_.resize(on_paths_.template of<1>().partition.size());
     mixed_.resize(on_paths_.template of<2>().partition.size());
-}
-
-template <int Dim>
-template <int Count>
-Patches<Dim> SelfProximity<Dim>::make_patches(const Simplices<Count>& simplices) const {
-    const PatchPartition& partition = on_paths_.template of<Count>().partition;
-    return partition.size() > 0 ? Patches<Dim>(simplices, partition, rest_) : Patches<Dim>();
 }
 
 template <int Dim>

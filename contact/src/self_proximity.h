@@ -94,8 +94,6 @@ private:
     template <typename Test, int K, int L>
     class Search;
 
-    template <int Count>
-    [[nodiscard]] Patches<Dim> make_patches(const Simplices<Count>& simplices) const;
     [[nodiscard]] Places place(const PositionsView<Dim>& positions) const;
     void move(const Asked& asked);
     template <typename Points, typename Mixed>

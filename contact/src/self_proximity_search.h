@@ -231,8 +231,19 @@ private:
         if (listed.empty()) {
             return;
         }
+        std::size_t known_count = listed.size();
+        std::size_t pair_count = 0;
+        for (const Known& old : row.known) {
+            known_count += old.search == all_.search_ ? 1 : 0;
+            pair_count += old.search == all_.search_ ? old.end - old.begin : 0;
+        }
+        for (const Listed& next : listed) {
+            pair_count += next.pairs.size();
+        }
         std::vector<Known> known;
         std::vector<Candidate> pairs;
+        known.reserve(known_count);
+        pairs.reserve(pair_count);
         const auto push = [&](Known entry, std::span<const Candidate> of_both) {
             entry.begin = static_cast<std::uint32_t>(pairs.size());
             pairs.insert(pairs.end(), of_both.begin(), of_both.end());
@@ -258,8 +269,6 @@ private:
         while (old != row.known.end()) {
             push_old();
         }
-        known.shrink_to_fit();
-        pairs.shrink_to_fit();
         row.known.swap(known);
         row.pairs.swap(pairs);
     }

@@ -3,6 +3,7 @@
 #include "lanes.h"
 #include "patch_lanes.h"
 #include "patch_partition.h"
+#include "patch_vertices.h"
 #include "paths.h"
 
 #include <pent/contact/box_tree.h>
@@ -21,6 +22,7 @@ namespace pent::contact {
 template <int Dim>
 struct PatchesOnPaths {
     PatchPartition partition;
+    PatchVertices vertices;
     std::vector<Box> around;        ///< The paths of each patch.
     BoxTree tree;                   ///< Over these, in the order of patches.
     std::vector<double> inflation;  ///< How far a vertex of each may leave its path, m.
@@ -35,8 +37,7 @@ class SurfacePatches {
 public:
     /// Parallel.
     ///
-    /// @param surface  Must outlive this.
-    /// @param rest     Of all vertices of the scene.
+    /// @param rest  Of all vertices of the scene.
     SurfacePatches(const Surface<Dim>& surface, const PositionsView<Dim>& rest);
 
     /// Fits boxes to paths. Parallel.
@@ -59,11 +60,6 @@ public:
     [[nodiscard]] std::int64_t bytes() const;
 
 private:
-    // Calls work(simplices, patches) for each kind.
-    template <typename Work>
-    void for_each_kind(const Work& work);
-
-    const Surface<Dim>& surface_;
     std::array<PatchesOnPaths<Dim>, Dim> kinds_;
     std::int64_t refit_ = 0;
 };
@@ -75,9 +71,9 @@ struct PatchOnPaths {
     std::size_t place;
 
     [[nodiscard]] std::span<const std::uint32_t> members() const { return all.partition[place]; }
-    [[nodiscard]] LanesView at_start() const { return all.at_start[place]; }
+    [[nodiscard]] LanesView at_start() const { return all.at_start.of(place, all.vertices); }
     [[nodiscard]] LanesView at_end(bool is_still) const {
-        return is_still ? at_start() : all.at_end[place];
+        return is_still ? at_start() : all.at_end.of(place, all.vertices);
     }
 };
 

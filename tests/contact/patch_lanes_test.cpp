@@ -26,12 +26,13 @@ TYPED_TEST(PatchLanesTest, CornersAreThoseOfTheirSimplices) {
     const Surface<kDim>& surface = scene.surfaces[0];
     const PositionsView<kDim> rest = scene.positions;
     const PatchPartition partition(boxes_around<kDim, kDim>(surface.facets, rest, 0));
+    const PatchVertices vertices(surface.facets, partition);
     PatchLanes<kDim> lanes;
     for (const double away : {0.0, 1e7}) {
         const Positions<kDim> positions = (scene.positions.array() + away).matrix();
-        lanes.set(surface.facets, partition, positions);
+        lanes.set(vertices, positions);
         for (std::size_t patch = 0; patch < partition.size(); ++patch) {
-            const LanesView view = lanes[patch];
+            const LanesView view = lanes.of(patch, vertices);
             ASSERT_EQ(view.count, static_cast<int>(partition[patch].size()));
             float most = 0;
             const Eigen::Map<const Eigen::Matrix<float, kDim, 1>> low(view.low);
@@ -42,6 +43,8 @@ TYPED_TEST(PatchLanesTest, CornersAreThoseOfTheirSimplices) {
                 const std::uint32_t facet =
                     partition[patch][lane < view.count ? static_cast<std::size_t>(lane) : 0];
                 for (int corner = 0; corner < kDim; ++corner) {
+                    EXPECT_EQ(view.vertices[corner * kLanes + lane],
+                              static_cast<std::int32_t>(surface.facets(corner, facet)));
                     for (int axis = 0; axis < kDim; ++axis) {
                         const float x = view.corners[(corner * kDim + axis) * kLanes + lane];
                         EXPECT_NEAR(static_cast<double>(x) + view.origin[axis],

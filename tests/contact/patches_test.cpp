@@ -48,8 +48,10 @@ protected:
             edge_partition = PatchPartition(boxes_around<kD, 2>(surface.edges, scene.positions, 0));
             ridge_partition =
                 PatchPartition(boxes_around<kD, kD - 1>(surface.ridges, scene.positions, 0));
-            edge_patches = Patches<kD>(surface.edges, edge_partition, scene.positions);
-            ridge_patches = Patches<kD>(surface.ridges, ridge_partition, scene.positions);
+            edge_patches =
+                Patches<kD>(PatchVertices(surface.edges, edge_partition), scene.positions);
+            ridge_patches =
+                Patches<kD>(PatchVertices(surface.ridges, ridge_partition), scene.positions);
         }
 
         // How they move from some positions to others.
@@ -318,7 +320,8 @@ TYPED_TEST(PatchesTest, NeverStayApartWhereNothingIsKnown) {
     line.bottomRows(kDim - 1).setZero();
     bar.move(line, line);
     EXPECT_FALSE(stay_apart<kDim>(bar.edges[0], bar.edges[0], 2, 1));
-    const Patches<kDim> patches(bar.scene.surfaces[0].edges, bar.edge_partition, line);
+    const Patches<kDim> patches(PatchVertices(bar.scene.surfaces[0].edges, bar.edge_partition),
+                                line);
     const auto motions = patches.motions(patches.place(line), patches.place(line));
     EXPECT_FALSE(stay_apart<kDim>(motions[0], motions[0], 2, 1));
     EXPECT_FALSE(stay_apart<kDim>(PatchMotion<kDim>(), PatchMotion<kDim>(), 2, 1));
