@@ -26,7 +26,7 @@ struct ReducedMatrix {
 template <int Dim>
 [[nodiscard]] ReducedMatrix<Dim, Dim * Dim> without_translations(const StencilMatrix<Dim>& matrix);
 
-/// Finds the filtered eigenvalues of such matrices, which are not 0, and their eigenvectors.
+/// Finds the filtered eigenvalues of such matrices that are not 0, and their eigenvectors.
 /// Several are done at once: what is added is there after finish().
 template <int Dim, int Size>
 class Spectra {
