@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lanes_register.h"
 #include "near_lanes.h"
 
 #include <pent/simd.h>
@@ -12,13 +13,7 @@
 namespace pent::contact {
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int kRegisterLanes = 16;
-#elif defined(__AVX__)
-constexpr int kRegisterLanes = 8;
-#else
-constexpr int kRegisterLanes = 4;
-#endif
+constexpr int kRegisterLanes = kRegisterBytes / static_cast<int>(sizeof(float));
 
 // Lines that are tried for two simplices: after these few pairs are left that are not near.
 constexpr int kApproaches = 4;

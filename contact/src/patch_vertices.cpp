@@ -30,7 +30,7 @@ PatchVertices::PatchVertices(const Simplices<Count>& simplices, const PatchParti
         const std::span<const std::uint32_t> members = partition[patch];
         const std::vector<std::uint32_t> vertices = vertices_of<Count>(simplices, members);
         simplex_counts_.push_back(static_cast<std::uint8_t>(members.size()));
-        begin_.push_back(vertices_.size());
+        starts_.push_back(vertices_.size());
         vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
         for (int corner = 0; corner < Count; ++corner) {
             for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -42,12 +42,12 @@ PatchVertices::PatchVertices(const Simplices<Count>& simplices, const PatchParti
             }
         }
     }
-    begin_.push_back(vertices_.size());
+    starts_.push_back(vertices_.size());
 }
 
 std::int64_t PatchVertices::bytes() const {
     return static_cast<std::int64_t>(
-        begin_.size() * sizeof(std::size_t) + vertices_.size() * sizeof(std::uint32_t)
+        starts_.size() * sizeof(std::size_t) + vertices_.size() * sizeof(std::uint32_t)
         + corners_.size() * sizeof(std::int32_t) + places_.size() + simplex_counts_.size());
 }
 

@@ -22,17 +22,17 @@ public:
     PatchVertices(const Simplices<Count>& simplices, const PatchPartition& partition);
 
     /// Of patches.
-    [[nodiscard]] std::size_t size() const { return begin_.empty() ? 0 : begin_.size() - 1; }
+    [[nodiscard]] std::size_t size() const { return starts_.empty() ? 0 : starts_.size() - 1; }
 
     /// Where those of a patch begin among those of all patches, and one more.
-    [[nodiscard]] const std::vector<std::size_t>& begin() const { return begin_; }
+    [[nodiscard]] const std::vector<std::size_t>& starts() const { return starts_; }
 
     /// Those of all patches, one after the other.
     [[nodiscard]] const std::vector<std::uint32_t>& of_all() const { return vertices_; }
 
     /// Those of a patch, ascending, each once.
     [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t patch) const {
-        return std::span(vertices_).subspan(begin_[patch], begin_[patch + 1] - begin_[patch]);
+        return std::span(vertices_).subspan(starts_[patch], starts_[patch + 1] - starts_[patch]);
     }
 
     /// Simplices of a patch.
@@ -59,7 +59,7 @@ private:
     }
 
     int corner_count_ = 0;
-    std::vector<std::size_t> begin_;
+    std::vector<std::size_t> starts_;
     std::vector<std::uint32_t> vertices_;
     std::vector<std::int32_t> corners_;
     std::vector<std::uint8_t> places_;

@@ -88,7 +88,7 @@ PatchBound bound_of(const PatchMotion<Dim>& first, const PatchMotion<Dim>& secon
 
 template <int Dim>
 Patches<Dim>::Patches(const PatchVertices& vertices, const PositionsView<Dim>& rest)
-    : begin_(vertices.begin()), vertices_(vertices.of_all()) {
+    : begin_(vertices.starts()), vertices_(vertices.of_all()) {
     rest_.resize(vertices.size());
     offsets_.resize(Dim, static_cast<Eigen::Index>(vertices_.size()));
     parallel_for(rest_.size(), kChunk, [&](std::size_t patch) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lanes_register.h"
 #include "spectra_lanes.h"
 
 #include <pent/simd.h>
@@ -9,13 +10,7 @@
 namespace pent::contact {
 namespace {
 
-#if defined(__AVX512F__)
-using Doubles = Pack<double, 8>;
-#elif defined(__AVX__)
-using Doubles = Pack<double, 4>;
-#else
-using Doubles = Pack<double, 2>;
-#endif
+using Doubles = Pack<double, kRegisterBytes / static_cast<int>(sizeof(double))>;
 
 // Of the largest number of a matrix: what counts as 0 off its diagonal.
 constexpr double kNegligible = 1e-15;

@@ -18,11 +18,7 @@ TYPED_TEST_SUITE(PatchLanesTest, Dimensions);
 TYPED_TEST(PatchLanesTest, CornersAreThoseOfTheirSimplices) {
     constexpr int kDim = TypeParam::value;
     test::Scene<kDim> scene;
-    std::array<int, kDim> count{};
-    std::array<double, kDim> size{};
-    count.fill(2);
-    size.fill(1);
-    scene.add(pent::test::kuhn_box<kDim>(count, size), Vector<kDim>::Zero());
+    scene.add(test::cube<kDim>(2), Vector<kDim>::Zero());
     const Surface<kDim>& surface = scene.surfaces[0];
     const PositionsView<kDim> rest = scene.positions;
     const PatchPartition partition(boxes_around<kDim, kDim>(surface.facets, rest, 0));
