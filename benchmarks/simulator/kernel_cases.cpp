@@ -58,7 +58,7 @@ struct Bench {
         const Workers workers(1);
         beam.assemble(workers, kernels<4>(best_isa()), matrix);
         for (std::int64_t row = 0; row < matrix.rows(); ++row) {
-            matrix.diagonal(row).diagonal().array() += kMass;
+            matrix.add_to_diagonal(row, kMass);
             dof_positions.col(row) =
                 beam.positions.col(beam.dofs.vertex_of(static_cast<std::uint32_t>(row)));
         }

@@ -45,7 +45,7 @@ int cold_iterations(const Scene& scene, const Simulation<4>& simulation) {
     for (std::int64_t row = 0; row < pattern.rows(); ++row) {
         const std::uint32_t vertex = dofs.vertex_of(static_cast<std::uint32_t>(row));
         const double mass = simulation.masses(0)[vertex];
-        A.diagonal(row).diagonal().array() += static_cast<float>(mass);
+        A.add_to_diagonal(row, static_cast<float>(mass));
         positions.col(row) = simulation.positions(0).col(vertex);
         b.col(row) = h * h * simulation.forces(0).col(vertex)
                      + h * mass * simulation.velocities(0).col(vertex);

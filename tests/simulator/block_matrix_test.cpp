@@ -23,7 +23,7 @@ BlockMatrix<Dim, Scalar> random_matrix(const BlockPattern& pattern) {
     }
     for (std::int64_t row = 0; row < matrix.rows(); ++row) {
         const Eigen::Matrix<Scalar, Dim, Dim> block = matrix.diagonal(row);
-        matrix.diagonal(row) = block + block.transpose();
+        matrix.set_block(matrix.diagonal_of(row), block + block.transpose());
     }
     return matrix;
 }
@@ -53,6 +53,30 @@ TEST(BlockMatrix, MultipliesAsTheDenseMatrixDoes) {
     expect_product_matches_dense<3, double>();
     expect_product_matches_dense<4, float>();
     expect_product_matches_dense<4, double>();
+}
+
+// Numbers of a block one by one: each entry has a place of its own, whichever it is.
+template <int Dim>
+void expect_blocks_as_they_were_set() {
+    using Block = Eigen::Matrix<double, Dim, Dim>;
+    const ElasticBox<Dim> box({.lame = {.lambda = 1, .mu = 1}});
+    BlockMatrix<Dim, double> matrix(box.pattern);
+    const Block block = Block::Random();
+    const std::int64_t last = matrix.pattern().blocks() - 1;
+    matrix.set_block(0, block);
+    matrix.add_to_block(last, block);
+    matrix.add_to_block(last, block);
+    matrix.add_to_diagonal(0, 3);
+    EXPECT_EQ(matrix.diagonal(0), block + Block(3 * Block::Identity()));
+    EXPECT_EQ(matrix.block(last), 2 * block);
+    const Eigen::Map<const Eigen::VectorXd> numbers(matrix.values(), Dim * Dim);
+    EXPECT_NEAR(numbers.sum(), block.sum() + 3 * Dim, 1e-12);
+    EXPECT_EQ(matrix.block(1), Block::Zero());
+}
+
+TEST(BlockMatrix, HasEveryEntryOfABlockThatWasSet) {
+    expect_blocks_as_they_were_set<3>();
+    expect_blocks_as_they_were_set<4>();
 }
 
 // Row sums by the dense matrix: of the symmetric part, as what is added stays symmetric.

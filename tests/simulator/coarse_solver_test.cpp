@@ -31,12 +31,10 @@ struct Chain {
         pattern.row_start.push_back(static_cast<std::int64_t>(pattern.columns.size()));
         BlockMatrix<4, double> matrix(pattern);
         for (std::int64_t k = 0; k < pattern.blocks(); ++k) {
-            matrix.block(k).setIdentity();
-            matrix.block(k) *= -1;
+            matrix.set_block(k, -Eigen::Matrix4d::Identity());
         }
         for (std::uint32_t row = 0; row < count; ++row) {
-            matrix.diagonal(row).setIdentity();
-            matrix.diagonal(row) *= 2.1;
+            matrix.set_block(matrix.diagonal_of(row), 2.1 * Eigen::Matrix4d::Identity());
         }
         coarse_pattern = make_aggregate_pattern(aggregates, pattern, nullptr);
         A = galerkin_product(Workers(1), kernels<4>(Isa::Baseline).blocks, matrix, aggregates,

@@ -56,7 +56,7 @@ TEST(ColumnJacobi, TakesAColumnThatIsNotPositiveDefiniteApart) {
     while (pattern.columns[static_cast<std::size_t>(pattern.row_start[row]) + 1] != row + 1) {
         ++row;
     }
-    A.block(pattern.row_start[row] + 1).setConstant(1e3);
+    A.set_block(pattern.row_start[row] + 1, Eigen::Matrix4d::Constant(1e3));
     const std::vector<std::uint32_t> columns = {0, row, row + 2, row + 3};
     const std::vector<std::uint32_t> cut = {0, row, row + 1, row + 2, row + 3};
     const Eigen::Index solved_for = row + 3;

@@ -21,7 +21,7 @@ BlockMatrix<4, Scalar> definite_matrix(const ElasticBox<4>& box, double mass) {
     box.elements->add_hessian(Workers(1), kernels<4>(best_isa()), box.positions,
                               target_in(matrix, 1, Filter::Clamp));
     for (std::int64_t row = 0; row < matrix.rows(); ++row) {
-        matrix.diagonal(row).diagonal().array() += static_cast<Scalar>(mass);
+        matrix.add_to_diagonal(row, static_cast<Scalar>(mass));
     }
     return matrix;
 }
@@ -115,8 +115,7 @@ TEST(ConjugateGradients, LeaveAsLittleInASecondNorm) {
 TEST(ConjugateGradients, ReportAMatrixThatIsNotPositiveDefinite) {
     Problem problem;
     BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
-    A.diagonal(3).setZero();
-    A.diagonal(3).diagonal().setConstant(-1);
+    A.set_block(A.diagonal_of(3), -Eigen::Matrix4d::Identity());
     const Workers workers(1);
     const auto [x, report] = solve(problem, A, *columns_of(problem, A), {.tolerance = 1e-8});
     EXPECT_TRUE(report.has_broken_down);

@@ -41,9 +41,9 @@ struct CutMatrix {
             const std::uint32_t i = dofs[row];
             for (std::int64_t k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k) {
                 const std::uint32_t j = dofs[pattern.columns[static_cast<std::size_t>(k)]];
-                const auto block =
+                const Eigen::Matrix4d block =
                     whole.block(whole.pattern().find(std::min(i, j), std::max(i, j)));
-                A->block(k) = i <= j ? Eigen::Matrix4d(block) : Eigen::Matrix4d(block.transpose());
+                A->set_block(k, i <= j ? block : Eigen::Matrix4d(block.transpose()));
             }
         }
         find_ghosts(owners);

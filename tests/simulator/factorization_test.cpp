@@ -63,7 +63,7 @@ TEST(Factorization, IsNoneOfAMatrixThatIsNotPositiveDefinite) {
     auto& matrix = std::get<BlockMatrix<kDim, double>>(problem.system.matrix());
     const auto lower_all_by = [&](double amount) {
         for (std::int64_t row = 0; row < matrix.rows(); ++row) {
-            matrix.diagonal(row) -= amount * Eigen::Matrix4d::Identity();
+            matrix.add_to_diagonal(row, -amount);
         }
     };
     const double lowest = parts.eigenvalues()[0];

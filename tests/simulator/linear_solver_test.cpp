@@ -37,8 +37,7 @@ TEST(LinearSolvers, FindTheSolutionOfTheDenseFactorization) {
 TEST(LinearSolvers, ReportAMatrixThatIsNotPositiveDefinite) {
     SpringyBox problem(Precision::Double);
     auto& matrix = std::get<BlockMatrix<kDim, double>>(problem.system.matrix());
-    matrix.diagonal(3).setZero();
-    matrix.diagonal(3).diagonal().setConstant(-1);
+    matrix.set_block(matrix.diagonal_of(3), -Eigen::Matrix4d::Identity());
     std::vector<std::unique_ptr<LinearSolver<kDim>>> solvers;
     solvers.push_back(problem.iterative(PreconditionerKind::ColumnJacobi));
     solvers.push_back(problem.direct());

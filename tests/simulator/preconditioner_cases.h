@@ -25,7 +25,7 @@ struct ScrambledBox {
         box.elements->add_hessian(workers, kernels<4>(Isa::Baseline), box.positions,
                                   target_in(A, 1, Filter::Clamp));
         for (std::int64_t row = 0; row < A.rows(); ++row) {
-            A.diagonal(row).diagonal().array() += 0.1;
+            A.add_to_diagonal(row, 0.1);
         }
         std::mt19937 random(2);
         std::normal_distribution<double> normal;

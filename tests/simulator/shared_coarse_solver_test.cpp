@@ -33,7 +33,7 @@ struct Chain {
             for (std::int64_t k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k) {
                 const std::uint32_t column = pattern.columns[static_cast<std::size_t>(k)];
                 const double value = column == row ? 2.1 : -1;
-                A->block(k) = value * Eigen::Matrix4d::Identity();
+                A->set_block(k, value * Eigen::Matrix4d::Identity());
                 dense(row, column) = value;
                 dense(column, row) = value;
             }

@@ -45,7 +45,7 @@ struct SharedBox {
         box.elements->add_hessian(Workers(1), kernels<4>(Isa::Baseline), box.positions,
                                   target_in(A, 1, Filter::Clamp));
         for (std::int64_t row = 0; row < A.rows(); ++row) {
-            A.diagonal(row).diagonal().array() += 0.1;
+            A.add_to_diagonal(row, 0.1);
         }
         positions = at_dofs<4>(box.dofs, box.positions);
         for (std::uint32_t dof = 0; dof < A.rows(); ++dof) {
@@ -63,7 +63,7 @@ struct SharedBox {
                     const std::uint32_t i = box.dofs.dof_of(v);
                     const std::uint32_t j = box.dofs.dof_of(w);
                     if (i <= j) {
-                        A.block(box.pattern.find(i, j)) += Eigen::Matrix4d::Identity();
+                        A.add_to_block(box.pattern.find(i, j), Eigen::Matrix4d::Identity());
                     }
                 }
             }

@@ -18,7 +18,7 @@ namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
 inline constexpr int kMaxBand = 2;
 
-// One block a lane, column-major: [column * Dim + row][lane].
+// One block a lane: [block_entry(row, column)][lane].
 template <typename Real, int Dim>
 struct LaneBlocks {
     alignas(64) double at[Dim * Dim][Lanes<Real>::kCount];
@@ -31,15 +31,17 @@ struct LaneBlocks {
     }
     // `diagonal` times the identity.
     void set(int lane, double diagonal) {
-        for (int entry = 0; entry < Dim * Dim; ++entry) {
-            at[entry][lane] = entry % (Dim + 1) == 0 ? diagonal : 0;
+        for (int i = 0; i < Dim; ++i) {
+            for (int j = 0; j < Dim; ++j) {
+                at[block_entry<Dim>(i, j)][lane] = i == j ? diagonal : 0;
+            }
         }
     }
     [[nodiscard]] Tensor<Real, Dim> load() const {
         Tensor<Real, Dim> blocks;
         for (int i = 0; i < Dim; ++i) {
             for (int j = 0; j < Dim; ++j) {
-                blocks[i][j] = Lanes<Real>::load(at[j * Dim + i]);
+                blocks[i][j] = Lanes<Real>::load(at[block_entry<Dim>(i, j)]);
             }
         }
         return blocks;
@@ -47,7 +49,7 @@ struct LaneBlocks {
     void store(const Tensor<Real, Dim>& blocks) {
         for (int i = 0; i < Dim; ++i) {
             for (int j = 0; j < Dim; ++j) {
-                Lanes<Real>::store(blocks[i][j], at[j * Dim + i]);
+                Lanes<Real>::store(blocks[i][j], at[block_entry<Dim>(i, j)]);
             }
         }
     }
@@ -267,31 +269,53 @@ template <int Dim>
     }
 }
 
+// Several columns layer by layer at the same time: each layer waits for the one before, and while
+// one column waits the others go on.
 template <int Dim, bool IsVectorized>
 void solve_columns(const ColumnFactors<const float>& factors, const double* r, double* z) {
     using Vertex = typename VertexOf<Dim, IsVectorized>::Type;
     constexpr std::size_t kEntries = std::size_t{Dim} * Dim;
+    constexpr std::int64_t kTogether = 4;
     const std::size_t band = factors.band;
-    for (std::int64_t column = factors.begin; column < factors.end; ++column) {
-        const std::size_t begin = factors.column_start[column];
-        const std::size_t end = factors.column_start[column + 1];
-        for (std::size_t k = begin; k < end; ++k) {
-            prefetch_factors<Dim>(factors, k);
-            auto value = loaded<Vertex>(r + k * Dim);
-            for (std::size_t m = 1; m <= band && m <= k - begin; ++m) {
-                const float* coupling = factors.couplings + ((k - m) * band + m - 1) * kEntries;
-                value -= transposed_times(coupling, loaded<Vertex>(z + (k - m) * Dim));
-            }
-            store(value, z + k * Dim);
+    for (std::int64_t first = factors.begin; first < factors.end; first += kTogether) {
+        const std::uint32_t* start = factors.column_start + first;
+        const std::int64_t left = factors.end - first;
+        const std::int64_t count = left < kTogether ? left : kTogether;
+        std::size_t longest = 0;
+        for (std::int64_t c = 0; c < count; ++c) {
+            const std::size_t length = start[c + 1] - start[c];
+            longest = length > longest ? length : longest;
         }
-        for (std::size_t k = end; k-- > begin;) {
-            Vertex value =
-                block_times(factors.inverses + k * kEntries, loaded<Vertex>(z + k * Dim));
-            for (std::size_t j = 1; j <= band && k + j < end; ++j) {
-                const float* coupling = factors.couplings + (k * band + j - 1) * kEntries;
-                value -= block_times(coupling, loaded<Vertex>(z + (k + j) * Dim));
+        for (std::size_t layer = 0; layer < longest; ++layer) {
+            for (std::int64_t c = 0; c < count; ++c) {
+                const std::size_t k = start[c] + layer;
+                if (k >= start[c + 1]) {
+                    continue;
+                }
+                prefetch_factors<Dim>(factors, k);
+                auto value = loaded<Vertex>(r + k * Dim);
+                for (std::size_t m = 1; m <= band && m <= layer; ++m) {
+                    const float* coupling = factors.couplings + ((k - m) * band + m - 1) * kEntries;
+                    value -= transposed_times(coupling, loaded<Vertex>(z + (k - m) * Dim));
+                }
+                store(value, z + k * Dim);
             }
-            store(value, z + k * Dim);
+        }
+        for (std::size_t layer = 1; layer <= longest; ++layer) {  // from the last one
+            for (std::int64_t c = 0; c < count; ++c) {
+                const std::size_t end = start[c + 1];
+                if (layer > end - start[c]) {
+                    continue;
+                }
+                const std::size_t k = end - layer;
+                Vertex value =
+                    block_times(factors.inverses + k * kEntries, loaded<Vertex>(z + k * Dim));
+                for (std::size_t j = 1; j <= band && k + j < end; ++j) {
+                    const float* coupling = factors.couplings + (k * band + j - 1) * kEntries;
+                    value -= block_times(coupling, loaded<Vertex>(z + (k + j) * Dim));
+                }
+                store(value, z + k * Dim);
+            }
         }
     }
 }

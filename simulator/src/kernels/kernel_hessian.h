@@ -9,7 +9,7 @@
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
-// The blocks of one pack of elements: [pair][column * Dim + row][lane].
+// The blocks of one pack of elements: [pair][block_entry(row, column)][lane].
 template <typename Real, int Dim>
 struct BlockPack {
     alignas(64) typename Lanes<Real>::Number at[kPairs<Dim>][Dim * Dim][Lanes<Real>::kCount];
@@ -110,13 +110,14 @@ Tensor<Real, Dim> hessian_block(const RotatedHessian<Real, Dim>& hessian,
     return block;
 }
 
-// Column-major entries of a block; symmetric ones to the bit, from the upper triangle.
+// Entries of a block in the order of the matrix; symmetric ones to the bit, from the upper triangle.
 template <typename Real, int Dim, typename Stored>
 void store_block(const Tensor<Real, Dim>& block, bool is_symmetric, Stored& stored) {
     for (int i = 0; i < Dim; ++i) {
         for (int j = 0; j < Dim; ++j) {
             const bool is_mirrored = is_symmetric && i > j;
-            Lanes<Real>::store(is_mirrored ? block[j][i] : block[i][j], stored[j * Dim + i]);
+            Lanes<Real>::store(is_mirrored ? block[j][i] : block[i][j],
+                               stored[block_entry<Dim>(i, j)]);
         }
     }
 }
@@ -218,7 +219,8 @@ void scatter_held(const BlockPack<Real, Dim>& pack,
                 double* right = target.right + std::int64_t{Dim} * row;
                 for (int i = 0; i < Dim; ++i) {
                     for (int j = 0; j < Dim; ++j) {
-                        right[i] -= static_cast<double>(block[j * Dim + i][l]) * displacement[j];
+                        right[i] -=
+                            static_cast<double>(block[block_entry<Dim>(i, j)][l]) * displacement[j];
                     }
                 }
             }

@@ -91,10 +91,16 @@ struct Galerkin {
     template <int Vector, typename Scalar>
     static void add_part_times(const Scalar* block, const double* arm, Product& product) {
         static_assert(kVectors <= 3);
-        block += row_of(Vector);
         Vertex axes[Dim];
+        if constexpr (Rows == Dim) {
+            load_columns(block, axes);
+        } else {
+            block += row_of(Vector);
+            for (int c = 0; c < Dim; ++c) {
+                load(block + c * Rows, axes[c]);
+            }
+        }
         for (int c = 0; c < Dim; ++c) {
-            load(block + c * Rows, axes[c]);
             product.at[c][Vector] += axes[c];
         }
         for_each_plane<Dim>([&](int p, int q, int k) {

@@ -26,8 +26,8 @@ struct QuadraticHessian {
     // Block (a, b) at a point.
     [[nodiscard]] Real entry(int point, int a, int b, int i, int j) const {
         const auto& blocks = points[point].at;
-        const auto* lanes = a <= b ? blocks[pair_index<Dim>(a, b)][j * Dim + i]
-                                   : blocks[pair_index<Dim>(b, a)][i * Dim + j];
+        const auto* lanes = a <= b ? blocks[pair_index<Dim>(a, b)][block_entry<Dim>(i, j)]
+                                   : blocks[pair_index<Dim>(b, a)][block_entry<Dim>(j, i)];
         return load_lanes(lanes);
     }
 
@@ -137,7 +137,7 @@ void scatter_block(const Scalar (&entries)[Dim * Dim], std::int32_t place, Scala
     Scalar turned[Dim * Dim];
     for (int i = 0; i < Dim; ++i) {
         for (int j = 0; j < Dim; ++j) {
-            turned[i * Dim + j] = entries[j * Dim + i];
+            turned[block_entry<Dim>(j, i)] = entries[block_entry<Dim>(i, j)];
         }
     }
     add_to<Dim * Dim, Width>(turned, values + std::int64_t{kTurnedBlock - place} * Dim * Dim);
@@ -162,7 +162,8 @@ void scatter_held_block(const Scalar (&entries)[Dim * Dim],
     double* right = target.right + std::int64_t{Dim} * dof;
     for (int i = 0; i < Dim; ++i) {
         for (int j = 0; j < Dim; ++j) {
-            const Scalar value = is_turned ? entries[i * Dim + j] : entries[j * Dim + i];
+            const Scalar value =
+                entries[is_turned ? block_entry<Dim>(j, i) : block_entry<Dim>(i, j)];
             right[i] -= static_cast<double>(value) * displacement[j];
         }
     }

@@ -22,7 +22,7 @@ void multiply_rows(const BlockRows<Scalar>& rows, const double* x, double* y) {
         const Scalar* entry = rows.values + block * kEntries;
         for (int j = 0; j < Dim; ++j) {  // the diagonal block
             for (int i = 0; i < Dim; ++i) {
-                sum[i] += static_cast<double>(entry[j * Dim + i]) * x_row[j];
+                sum[i] += static_cast<double>(entry[block_entry<Dim>(i, j)]) * x_row[j];
             }
         }
         for (++block; block < rows.row_start[row + 1]; ++block) {
@@ -32,7 +32,7 @@ void multiply_rows(const BlockRows<Scalar>& rows, const double* x, double* y) {
             for (int j = 0; j < Dim; ++j) {
                 double dot = 0;
                 for (int i = 0; i < Dim; ++i) {
-                    const double value = static_cast<double>(entry[j * Dim + i]);
+                    const double value = static_cast<double>(entry[block_entry<Dim>(i, j)]);
                     sum[i] += value * x_column[j];
                     dot += value * x_row[i];
                 }
@@ -58,9 +58,7 @@ template <typename Scalar>
     __builtin_prefetch(column + 4 * kAhead);
 }
 
-// The same for 4 x 4 blocks by their diagonals: entry j of diagonal k is in row j ^ k of column j.
-// So a product with the block takes what it is multiplied by as it lies in memory, one with its
-// transpose a part of x that is turned once a row, and neither needs a sum across a vector.
+// The same for 4 x 4 blocks, by their diagonals.
 template <typename Scalar>
 void multiply_rows_4(const BlockRows<Scalar>& rows, const double* x, double* y) {
     const std::int64_t* row_start = rows.row_start;
@@ -69,51 +67,24 @@ void multiply_rows_4(const BlockRows<Scalar>& rows, const double* x, double* y) 
         std::int64_t k = row_start[row];
         const std::int64_t last = row_start[row + 1];
         const Scalar* block = rows.values + 16 * k;
-        const Four x_row = load_four(x + 4 * row);
-        const Four x_1 = __builtin_shufflevector(x_row, x_row, 1, 0, 3, 2);
-        const Four x_2 = __builtin_shufflevector(x_row, x_row, 2, 3, 0, 1);
-        const Four x_3 = __builtin_shufflevector(x_row, x_row, 3, 2, 1, 0);
-        const Diagonals diagonal = diagonals_of(block);
-        Four sum_0 = diagonal.at[0] * x_row;
-        Four sum_1 = diagonal.at[1] * x_row;
-        Four sum_2 = diagonal.at[2] * x_row;
-        Four sum_3 = diagonal.at[3] * x_row;
+        const Turned x_row = turned(load_four(x + 4 * row));
+        Diagonals sums = diagonals_of(block);
+        for (Four& sum : sums.at) {
+            sum *= x_row.at[0];
+        }
         for (++k, block += 16; k < last; ++k, block += 16) {
             prefetch_ahead(block, columns + k);
             const std::int64_t at = std::int64_t{4} * columns[k];
             const Four x_column = load_four(x + at);
             const Diagonals of = diagonals_of(block);
-            sum_0 += of.at[0] * x_column;
-            sum_1 += of.at[1] * x_column;
-            sum_2 += of.at[2] * x_column;
-            sum_3 += of.at[3] * x_column;
-            const Four even = load_four(y + at) + of.at[0] * x_row + of.at[2] * x_2;
-            const Four odd = of.at[1] * x_1 + of.at[3] * x_3;
+            for (int d = 0; d < 4; ++d) {
+                sums.at[d] += of.at[d] * x_column;
+            }
+            const Four even = load_four(y + at) + of.at[0] * x_row.at[0] + of.at[2] * x_row.at[2];
+            const Four odd = of.at[1] * x_row.at[1] + of.at[3] * x_row.at[3];
             store(even + odd, y + at);
         }
-        sum_0 += __builtin_shufflevector(sum_2, sum_2, 2, 3, 0, 1);
-        sum_1 += __builtin_shufflevector(sum_3, sum_3, 2, 3, 0, 1);
-        sum_0 += __builtin_shufflevector(sum_1, sum_1, 1, 0, 3, 2);
-        store(load_four(y + 4 * row) + sum_0, y + 4 * row);
-    }
-}
-
-// The same by the columns of blocks, for registers of less than four numbers: what is between
-// halves of a vector is taken apart number by number there.
-template <typename Scalar>
-void multiply_rows_4_by_columns(const BlockRows<Scalar>& rows, const double* x, double* y) {
-    for (std::int64_t row = rows.begin; row < rows.end; ++row) {
-        const Four x_row = load_four(x + 4 * row);
-        const Scalar* block = rows.values + 16 * rows.row_start[row];
-        Four sum = block_times(block, x_row);
-        for (std::int64_t k = rows.row_start[row] + 1; k < rows.row_start[row + 1]; ++k) {
-            block += 16;
-            prefetch_ahead(block, rows.columns + k);
-            const std::int64_t at = std::int64_t{4} * rows.columns[k];
-            sum += block_times(block, load_four(x + at));
-            store(load_four(y + at) + transposed_times(block, x_row), y + at);
-        }
-        store(load_four(y + 4 * row) + sum, y + 4 * row);
+        store(load_four(y + 4 * row) + rows_of(sums), y + 4 * row);
     }
 }
 

@@ -242,8 +242,8 @@ void scatter_tile(const BlockTile<Real, Scalar, Dim>& tile,
             double* right = target.right + std::int64_t{Dim} * row;
             for (int i = 0; i < Dim; ++i) {
                 for (int j = 0; j < Dim; ++j) {
-                    right[i] -=
-                        static_cast<double>(tile.entries[k][l][j * Dim + i]) * displacement[j];
+                    right[i] -= static_cast<double>(tile.entries[k][l][block_entry<Dim>(i, j)])
+                                * displacement[j];
                 }
             }
         }

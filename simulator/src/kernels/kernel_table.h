@@ -14,11 +14,8 @@ namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
 template <int Dim, typename Scalar, bool IsVectorized>
 constexpr auto choose_multiply() {
-    constexpr bool kHasFours = kRegisterBytes >= 4 * static_cast<int>(sizeof(double));
-    if constexpr (Dim == 4 && IsVectorized && kHasFours) {
+    if constexpr (Dim == 4 && IsVectorized) {
         return &multiply_rows_4<Scalar>;
-    } else if constexpr (Dim == 4 && IsVectorized) {
-        return &multiply_rows_4_by_columns<Scalar>;
     } else {
         return &multiply_rows<Dim, Scalar>;
     }
@@ -36,6 +33,8 @@ constexpr auto choose_multiply_modes() {
 template <int Dim, typename DoublePack>
 constexpr BlockKernels block_kernels() {
     constexpr bool kIsVectorized = Lanes<DoublePack>::kCount > 1;
+    // Where a register has less than four numbers, the columns of a block are had sooner one by one.
+    constexpr bool kHasFours = kIsVectorized && kRegisterBytes >= static_cast<int>(sizeof(Four));
     return {.multiply_float = choose_multiply<Dim, float, kIsVectorized>(),
             .multiply_double = choose_multiply<Dim, double, kIsVectorized>(),
             .multiply_modes_float = choose_multiply_modes<Dim, float, kIsVectorized>(),
@@ -45,8 +44,8 @@ constexpr BlockKernels block_kernels() {
             .solve_columns = &solve_columns<Dim, kIsVectorized>,
             .sum_forces = &sum_forces<Dim, kIsVectorized>,
             .add_motions = &add_motions<Dim, kIsVectorized>,
-            .galerkin_float = &galerkin<Dim, Dim, kIsVectorized, float>,
-            .galerkin_double = &galerkin<Dim, Dim, kIsVectorized, double>,
+            .galerkin_float = &galerkin<Dim, Dim, kHasFours, float>,
+            .galerkin_double = &galerkin<Dim, Dim, kHasFours, double>,
             .galerkin_modes_float = &galerkin<Dim, kModes<Dim>, kIsVectorized, float>,
             .galerkin_modes_double = &galerkin<Dim, kModes<Dim>, kIsVectorized, double>};
 }

@@ -187,6 +187,68 @@ void complete_basis(Tensor<Real, Dim>& U, const Real (&sigma)[Dim], int lane) {
     }
 }
 
+// One round of one-sided Jacobi: makes columns i and i ^ Round of F orthogonal, for all i. Rotations
+// of one round share no column, so that none waits for the roots of another.
+//
+// @return  Whether any was not orthogonal yet.
+template <int Round, typename Real, int Dim>
+[[gnu::always_inline]] inline bool turn_round(Tensor<Real, Dim>& F, Tensor<Real, Dim>& rest) {
+    using L = Lanes<Real>;
+    using Number = typename L::Number;
+    using Limits = Precise<Number>;
+    using Truth = decltype(F[0][0] < F[0][0]);
+    constexpr int kMostPairs = Dim / 2;
+    const Real zero = Real(Number(0));
+    const Real one = Real(Number(1));
+    Real difference[kMostPairs];
+    Real twice[kMostPairs];
+    Truth is_turned[kMostPairs];
+    Truth is_any_turned = one < zero;
+    int pair = 0;
+#pragma GCC unroll 4
+    for (int i = 0; i < Dim; ++i) {
+        const int j = i ^ Round;
+        if (j <= i || j >= Dim) {
+            continue;
+        }
+        Real a = F[0][i] * F[0][i];
+        Real b = F[0][j] * F[0][j];
+        Real c = F[0][i] * F[0][j];
+        for (int row = 1; row < Dim; ++row) {
+            a += F[row][i] * F[row][i];
+            b += F[row][j] * F[row][j];
+            c += F[row][i] * F[row][j];
+        }
+        difference[pair] = b - a;
+        twice[pair] = c + c;
+        is_turned[pair] = L::abs(c) > Real(Limits::kOrthogonal) * L::root(a) * L::root(b);
+        is_any_turned = is_any_turned || is_turned[pair];
+        ++pair;
+    }
+    if (!L::any(is_any_turned)) {
+        return false;
+    }
+    pair = 0;
+#pragma GCC unroll 4
+    for (int i = 0; i < Dim; ++i) {
+        const int j = i ^ Round;
+        if (j <= i || j >= Dim) {
+            continue;
+        }
+        const Real d = difference[pair];
+        const Real t = twice[pair];
+        const Real sign = L::select(d < zero, -one, one);
+        const Real root = L::root(d * d + t * t);
+        const Real tangent =
+            L::select(is_turned[pair], sign * t / (L::abs(d) + root + Real(Limits::kTiny)), zero);
+        const Real cosine = one / L::root(one + tangent * tangent);
+        turn_columns(F, i, j, cosine, tangent * cosine);
+        turn_columns(rest, i, j, cosine, tangent * cosine);
+        ++pair;
+    }
+    return true;
+}
+
 /// One-sided Jacobi: columns of F are turned until they are orthogonal [golub2013, 8.6.3].
 ///
 /// @param rest  Turned along; pass the identity to get V.
@@ -197,35 +259,12 @@ SignedSvd<Real, Dim> signed_svd(Tensor<Real, Dim> F, Tensor<Real, Dim> rest) {
     using Limits = Precise<Number>;
     const Real one = Real(Number(1));
     const Real tiny = Real(Limits::kTiny);
-    bool is_orthogonal = false;
-    for (int sweep = 0; sweep < kMaxSweeps && !is_orthogonal; ++sweep) {
-        is_orthogonal = true;
-        for (int i = 0; i < Dim; ++i) {
-            for (int j = i + 1; j < Dim; ++j) {
-                Real a = F[0][i] * F[0][i];
-                Real b = F[0][j] * F[0][j];
-                Real c = F[0][i] * F[0][j];
-                for (int row = 1; row < Dim; ++row) {
-                    a += F[row][i] * F[row][i];
-                    b += F[row][j] * F[row][j];
-                    c += F[row][i] * F[row][j];
-                }
-                const auto is_turned =
-                    L::abs(c) > Real(Limits::kOrthogonal) * L::root(a) * L::root(b);
-                if (!L::any(is_turned)) {
-                    continue;
-                }
-                is_orthogonal = false;
-                const Real d = b - a;
-                const Real twice = c + c;
-                const Real sign = L::select(d < Real(Number(0)), -one, one);
-                const Real tangent = L::select(
-                    is_turned, sign * twice / (L::abs(d) + L::root(d * d + twice * twice) + tiny),
-                    Real(Number(0)));
-                const Real cosine = one / L::root(one + tangent * tangent);
-                turn_columns(F, i, j, cosine, tangent * cosine);
-                turn_columns(rest, i, j, cosine, tangent * cosine);
-            }
+    bool is_turned = true;
+    for (int sweep = 0; sweep < kMaxSweeps && is_turned; ++sweep) {
+        is_turned = turn_round<1>(F, rest);
+        if constexpr (Dim > 2) {
+            is_turned |= turn_round<2>(F, rest);
+            is_turned |= turn_round<3>(F, rest);
         }
     }
     SignedSvd<Real, Dim> svd;

@@ -2,6 +2,7 @@
 
 #include "kernels/kernel_lanes.h"
 #include "kernels/kernel_transpose.h"
+#include "linear/block_order.h"
 
 #include <pent/pack.h>
 
@@ -122,48 +123,47 @@ struct VertexTile {
     }
 };
 
-// Sums of the entries of four vectors.
-inline Four sums_of(const Four& a, const Four& b, const Four& c, const Four& d) {
-    const Four ab =
-        __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
-    const Four cd =
-        __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
-    return __builtin_shufflevector(ab, cd, 0, 1, 4, 5)
-           + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+// What blocks are multiplied by: part k has number j ^ k at j, see block_order.h.
+struct Turned {
+    Four at[4];
+};
+inline Turned turned(const Four& x) {
+    return {{x, __builtin_shufflevector(x, x, 1, 0, 3, 2),
+             __builtin_shufflevector(x, x, 2, 3, 0, 1), __builtin_shufflevector(x, x, 3, 2, 1, 0)}};
 }
 
-// A column-major block by its diagonals, entry j of diagonal k being that in row j ^ k of column j.
+// The diagonals of a block.
 struct Diagonals {
     Four at[4];
 };
-
 template <typename Scalar>
 Diagonals diagonals_of(const Scalar* block) {
-    const Four c0 = load_four(block);
-    const Four c1 = load_four(block + 4);
-    const Four c2 = load_four(block + 8);
-    const Four c3 = load_four(block + 12);
-    const Four even_01 = __builtin_shufflevector(c0, c1, 0, 5, 2, 7);
-    const Four odd_01 = __builtin_shufflevector(c0, c1, 1, 4, 3, 6);
-    const Four even_23 = __builtin_shufflevector(c2, c3, 0, 5, 2, 7);
-    const Four odd_23 = __builtin_shufflevector(c2, c3, 1, 4, 3, 6);
-    return {{__builtin_shufflevector(even_01, even_23, 0, 1, 6, 7),
-             __builtin_shufflevector(odd_01, odd_23, 0, 1, 6, 7),
-             __builtin_shufflevector(even_01, even_23, 2, 3, 4, 5),
-             __builtin_shufflevector(odd_01, odd_23, 2, 3, 4, 5)}};
+    return {{load_four(block), load_four(block + 4), load_four(block + 8), load_four(block + 12)}};
 }
 
-// A x for a column-major block.
+// The sum of what diagonals give times their columns: at j of part k there is what belongs to row
+// j ^ k.
+inline Four rows_of(const Diagonals& products) {
+    const Four& second = products.at[2];
+    const Four& third = products.at[3];
+    const Four even = products.at[0] + __builtin_shufflevector(second, second, 2, 3, 0, 1);
+    const Four odd = products.at[1] + __builtin_shufflevector(third, third, 2, 3, 0, 1);
+    return even + __builtin_shufflevector(odd, odd, 1, 0, 3, 2);
+}
+
+// A x for a block.
 template <typename Scalar>
 Four block_times(const Scalar* block, const Four& x) {
-    return (load_four(block) * x[0] + load_four(block + 4) * x[1])
-           + (load_four(block + 8) * x[2] + load_four(block + 12) * x[3]);
+    const Diagonals of = diagonals_of(block);
+    return rows_of({{of.at[0] * x, of.at[1] * x, of.at[2] * x, of.at[3] * x}});
 }
 template <int Dim, typename Scalar>
 OneByOne<Dim> block_times(const Scalar* block, const OneByOne<Dim>& x) {
     OneByOne<Dim> sum = {};
     for (int j = 0; j < Dim; ++j) {
-        sum += loaded<OneByOne<Dim>>(block + j * Dim) * x[j];
+        for (int i = 0; i < Dim; ++i) {
+            sum[i] += static_cast<double>(block[block_entry<Dim>(i, j)]) * x[j];
+        }
     }
     return sum;
 }
@@ -171,18 +171,42 @@ OneByOne<Dim> block_times(const Scalar* block, const OneByOne<Dim>& x) {
 // A^T x.
 template <typename Scalar>
 Four transposed_times(const Scalar* block, const Four& x) {
-    return sums_of(load_four(block) * x, load_four(block + 4) * x, load_four(block + 8) * x,
-                   load_four(block + 12) * x);
+    const Diagonals of = diagonals_of(block);
+    const Turned by = turned(x);
+    return (of.at[0] * by.at[0] + of.at[2] * by.at[2])
+           + (of.at[1] * by.at[1] + of.at[3] * by.at[3]);
 }
 template <int Dim, typename Scalar>
 OneByOne<Dim> transposed_times(const Scalar* block, const OneByOne<Dim>& x) {
     OneByOne<Dim> sums = {};
     for (int j = 0; j < Dim; ++j) {
         for (int i = 0; i < Dim; ++i) {
-            sums[j] += static_cast<double>(block[j * Dim + i]) * x[i];
+            sums[j] += static_cast<double>(block[block_entry<Dim>(i, j)]) * x[i];
         }
     }
     return sums;
+}
+
+// The columns of a block.
+template <typename Scalar>
+void load_columns(const Scalar* block, Four (&columns)[4]) {
+    const Diagonals of = diagonals_of(block);
+    const Four left = __builtin_shufflevector(of.at[0], of.at[1], 0, 4, 2, 6);
+    const Four left_odd = __builtin_shufflevector(of.at[1], of.at[0], 1, 5, 3, 7);
+    const Four right = __builtin_shufflevector(of.at[2], of.at[3], 0, 4, 2, 6);
+    const Four right_odd = __builtin_shufflevector(of.at[3], of.at[2], 1, 5, 3, 7);
+    columns[0] = __builtin_shufflevector(left, right, 0, 1, 4, 5);
+    columns[1] = __builtin_shufflevector(left_odd, right_odd, 0, 1, 4, 5);
+    columns[2] = __builtin_shufflevector(right, left, 2, 3, 6, 7);
+    columns[3] = __builtin_shufflevector(right_odd, left_odd, 2, 3, 6, 7);
+}
+template <int Dim, typename Scalar>
+void load_columns(const Scalar* block, OneByOne<Dim> (&columns)[Dim]) {
+    for (int j = 0; j < Dim; ++j) {
+        for (int i = 0; i < Dim; ++i) {
+            columns[j][i] = static_cast<double>(block[block_entry<Dim>(i, j)]);
+        }
+    }
 }
 
 }  // namespace

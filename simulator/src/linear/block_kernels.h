@@ -8,7 +8,7 @@ namespace pent::simulator {
 /// Rows [begin, end) of a symmetric block matrix.
 template <typename Scalar>
 struct BlockRows {
-    const Scalar* values = nullptr;  ///< Blocks, column-major.
+    const Scalar* values = nullptr;  ///< Blocks of vertices in block_order.h's, others by columns.
     const std::int64_t* row_start =
         nullptr;                             ///< Blocks of row i: [row_start[i], row_start[i + 1]).
     const std::uint32_t* columns = nullptr;  ///< Of blocks.
@@ -36,8 +36,8 @@ struct ColumnFactors {
     const std::uint32_t* column_start =
         nullptr;                  ///< Unknowns of column c: [column_start[c], column_start[c + 1]).
     std::size_t band = 0;         ///< How far apart in one column dofs are coupled, at most 2.
-    Number* inverses = nullptr;   ///< D_k^-1 of every dof k, column-major.
-    Number* couplings = nullptr;  ///< E_k,j of every dof, j = 1 .. band.
+    Number* inverses = nullptr;   ///< D_k^-1 of every dof k, in the order of block_order.h.
+    Number* couplings = nullptr;  ///< E_k,j of every dof, j = 1 .. band, as well.
     std::int64_t begin = 0;
     std::int64_t end = 0;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "linear/block_kernels.h"
+#include "linear/block_order.h"
 #include "linear/block_pattern.h"
 
 #include <pent/parallel.h>
@@ -34,6 +35,26 @@ struct LineAllocator {
     }
 };
 
+/// A block from the Dim^2 numbers that it is stored in.
+template <int Dim, typename Scalar>
+[[nodiscard]] Eigen::Matrix<Scalar, Dim, Dim> read_block(const Scalar* stored) {
+    Eigen::Matrix<Scalar, Dim, Dim> block;
+    for (int j = 0; j < Dim; ++j) {
+        for (int i = 0; i < Dim; ++i) {
+            block(i, j) = stored[block_entry<Dim>(i, j)];
+        }
+    }
+    return block;
+}
+template <int Dim, typename Scalar>
+void write_block(const Eigen::Matrix<Scalar, Dim, Dim>& block, Scalar* stored) {
+    for (int j = 0; j < Dim; ++j) {
+        for (int i = 0; i < Dim; ++i) {
+            stored[block_entry<Dim>(i, j)] = block(i, j);
+        }
+    }
+}
+
 /// Vectors of the dofs, one block a column: Dim x rows.
 template <int Dim>
 using BlockVector = Positions<Dim>;
@@ -60,17 +81,28 @@ public:
         return {values_.data(), pattern_->row_start.data(), pattern_->columns.data(), 0, rows()};
     }
 
-    [[nodiscard]] Eigen::Map<Block> block(std::int64_t index) {
-        return Eigen::Map<Block>(values_.data() + index * kEntries);
+    // NOLINTBEGIN(readability-const-return-type): so that nobody assigns to what is a copy
+    [[nodiscard]] const Block block(std::int64_t index) const {
+        return read_block<Dim>(values_.data() + index * kEntries);
     }
-    [[nodiscard]] Eigen::Map<const Block> block(std::int64_t index) const {
-        return Eigen::Map<const Block>(values_.data() + index * kEntries);
+    [[nodiscard]] const Block diagonal(std::int64_t row) const { return block(diagonal_of(row)); }
+    // NOLINTEND(readability-const-return-type)
+    /// Index of the diagonal block of a row.
+    [[nodiscard]] std::int64_t diagonal_of(std::int64_t row) const {
+        return pattern_->row_start[static_cast<std::size_t>(row)];
     }
-    [[nodiscard]] Eigen::Map<const Block> diagonal(std::int64_t row) const {
-        return block(pattern_->row_start[static_cast<std::size_t>(row)]);
+    void set_block(std::int64_t index, const Block& block) {
+        write_block<Dim>(block, values_.data() + index * kEntries);
     }
-    [[nodiscard]] Eigen::Map<Block> diagonal(std::int64_t row) {
-        return block(pattern_->row_start[static_cast<std::size_t>(row)]);
+    void add_to_block(std::int64_t index, const Block& block) {
+        set_block(index, this->block(index) + block);
+    }
+    /// Adds so many times the identity to the diagonal block of a row.
+    void add_to_diagonal(std::int64_t row, Scalar number) {
+        Scalar* values = values_.data() + diagonal_of(row) * kEntries;
+        for (int i = 0; i < Dim; ++i) {
+            values[block_entry<Dim>(i, i)] += number;
+        }
     }
 
     /// The second part, or null.

@@ -122,8 +122,8 @@ private:
                 solved.setIdentity();
             }
             // Symmetric to the bit, as conjugate gradients want it.
-            Eigen::Map<Eigen::Matrix<float, Dim, Dim>>(inverses_.data() + k * kEntries) =
-                (0.5 * (solved + solved.transpose())).template cast<float>();
+            write_block<Dim, float>((0.5 * (solved + solved.transpose())).template cast<float>(),
+                                    inverses_.data() + k * kEntries);
         }
     }
 

@@ -74,7 +74,7 @@ void NewtonSystem<Dim>::add_masses(double weight, const Eigen::VectorXd& masses)
                 for (std::int64_t row = begin; row < end; ++row) {
                     const double mass =
                         weight * masses[dofs_->vertex_of(static_cast<std::uint32_t>(row))];
-                    matrix.diagonal(row).diagonal().array() += static_cast<Scalar>(mass);
+                    matrix.add_to_diagonal(row, static_cast<Scalar>(mass));
                 }
             });
         },

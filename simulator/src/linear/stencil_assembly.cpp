@@ -95,8 +95,8 @@ public:
             add(row, *at);
         }
         for (std::size_t slot = 0; slot < fixed; ++slot) {
-            matrix_.block(first + static_cast<std::int64_t>(slot)) +=
-                sums_[slot].template cast<Scalar>();
+            matrix_.add_to_block(first + static_cast<std::int64_t>(slot),
+                                 sums_[slot].template cast<Scalar>());
         }
         take_leftover(fixed, leftover);
         for (const std::uint32_t column : columns_) {
@@ -240,7 +240,7 @@ std::unique_ptr<CouplingMatrix<Dim, Scalar>> join(const DofMap& dofs,
                 ++part;
                 next = 0;
             }
-            coupling->matrix.block(coupling->pattern.row_start[row] + k) = part->blocks[next++];
+            coupling->matrix.set_block(coupling->pattern.row_start[row] + k, part->blocks[next++]);
         }
     }
     return coupling;
