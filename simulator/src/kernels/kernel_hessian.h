@@ -110,7 +110,7 @@ Tensor<Real, Dim> hessian_block(const RotatedHessian<Real, Dim>& hessian,
     return block;
 }
 
-// Entries of a block in the order of the matrix; symmetric ones to the bit, from the upper triangle.
+// Entries of a block as the matrix has them; symmetric ones to the bit, from the upper triangle.
 template <typename Real, int Dim, typename Stored>
 void store_block(const Tensor<Real, Dim>& block, bool is_symmetric, Stored& stored) {
     for (int i = 0; i < Dim; ++i) {

@@ -33,7 +33,7 @@ constexpr auto choose_multiply_modes() {
 template <int Dim, typename DoublePack>
 constexpr BlockKernels block_kernels() {
     constexpr bool kIsVectorized = Lanes<DoublePack>::kCount > 1;
-    // Where a register has less than four numbers, the columns of a block are had sooner one by one.
+    // With less than four numbers in a register the columns of a block are had sooner one by one.
     constexpr bool kHasFours = kIsVectorized && kRegisterBytes >= static_cast<int>(sizeof(Four));
     return {.multiply_float = choose_multiply<Dim, float, kIsVectorized>(),
             .multiply_double = choose_multiply<Dim, double, kIsVectorized>(),

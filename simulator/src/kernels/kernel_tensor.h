@@ -187,8 +187,8 @@ void complete_basis(Tensor<Real, Dim>& U, const Real (&sigma)[Dim], int lane) {
     }
 }
 
-// One round of one-sided Jacobi: makes columns i and i ^ Round of F orthogonal, for all i. Rotations
-// of one round share no column, so that none waits for the roots of another.
+// One round of one-sided Jacobi: makes columns i and i ^ Round of F orthogonal, for all i.
+// Rotations of one round share no column, so that none waits for the roots of another.
 //
 // @return  Whether any was not orthogonal yet.
 template <int Round, typename Real, int Dim>
