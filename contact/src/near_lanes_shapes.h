@@ -1,8 +1,8 @@
 #pragma once
 
-#include "lanes_register.h"
 #include "near_lanes.h"
 
+#include <pent/register_bytes.h>
 #include <pent/simd.h>
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "lanes_register.h"
 #include "spectra_lanes.h"
 
+#include <pent/register_bytes.h>
 #include <pent/simd.h>
 
 // Included once for each instruction set, by a file that is compiled for it.

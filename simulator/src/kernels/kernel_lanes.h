@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/register_bytes.h>
 #include <pent/simd.h>
 
 // What the kernels need of a number, for one number and for a pack of numbers (one a lane).
@@ -61,14 +62,7 @@ struct Lanes<float> : OneLane<float> {};
 template <>
 struct Lanes<double> : OneLane<double> {};
 
-// The pack that fills a register of the instruction set that this file is compiled for.
-#if defined(__AVX512F__)
-constexpr int kRegisterBytes = 64;
-#elif defined(__AVX__)
-constexpr int kRegisterBytes = 32;
-#else
-constexpr int kRegisterBytes = 16;
-#endif
+// The pack that fills a register.
 template <typename Scalar>
 using Widest = Pack<Scalar, kRegisterBytes / static_cast<int>(sizeof(Scalar))>;
 

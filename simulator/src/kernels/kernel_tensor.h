@@ -113,6 +113,33 @@ struct SignedSvd {
     Tensor<Real, Dim> turned_rest;  // the matrix `rest` passed in, times V
 };
 
+template <typename Real>
+struct PlaneRotation {
+    Real cosine;
+    Real sine;
+};
+
+// The rotation that makes a symmetric 2 x 2 matrix diagonal, by at most an eighth of a turn, in
+// some lanes; none in the others.
+//
+// @param difference  Of its diagonal, the second entry less the first.
+// @param twice  The entry beside the diagonal, times 2.
+template <typename Real>
+PlaneRotation<Real> diagonalizing_rotation(const Real& difference,
+                                           const Real& twice,
+                                           const typename Lanes<Real>::Mask& is_turned) {
+    using L = Lanes<Real>;
+    using Number = typename L::Number;
+    const Real zero = Real(Number(0));
+    const Real one = Real(Number(1));
+    const Real sign = L::select(difference < zero, -one, one);
+    const Real root = L::root(difference * difference + twice * twice);
+    const Real tangent = L::select(
+        is_turned, sign * twice / (L::abs(difference) + root + Real(Precise<Number>::kTiny)), zero);
+    const Real cosine = one / L::root(one + tangent * tangent);
+    return {cosine, tangent * cosine};
+}
+
 // Turns columns i and j of A by the plane rotation (c, s).
 template <typename Real, int Dim>
 void turn_columns(Tensor<Real, Dim>& A, int i, int j, const Real& c, const Real& s) {
@@ -195,16 +222,10 @@ template <int Round, typename Real, int Dim>
 [[gnu::always_inline]] inline bool turn_round(Tensor<Real, Dim>& F, Tensor<Real, Dim>& rest) {
     using L = Lanes<Real>;
     using Number = typename L::Number;
-    using Limits = Precise<Number>;
-    using Truth = decltype(F[0][0] < F[0][0]);
-    constexpr int kMostPairs = Dim / 2;
-    const Real zero = Real(Number(0));
-    const Real one = Real(Number(1));
-    Real difference[kMostPairs];
-    Real twice[kMostPairs];
-    Truth is_turned[kMostPairs];
-    Truth is_any_turned = one < zero;
-    int pair = 0;
+    Real difference[Dim];  // of the first column of each pair
+    Real twice[Dim];
+    typename L::Mask is_turned[Dim];
+    typename L::Mask is_any_turned = Real(Number(1)) < Real(Number(0));
 #pragma GCC unroll 4
     for (int i = 0; i < Dim; ++i) {
         const int j = i ^ Round;
@@ -219,32 +240,24 @@ template <int Round, typename Real, int Dim>
             b += F[row][j] * F[row][j];
             c += F[row][i] * F[row][j];
         }
-        difference[pair] = b - a;
-        twice[pair] = c + c;
-        is_turned[pair] = L::abs(c) > Real(Limits::kOrthogonal) * L::root(a) * L::root(b);
-        is_any_turned = is_any_turned || is_turned[pair];
-        ++pair;
+        difference[i] = b - a;
+        twice[i] = c + c;
+        is_turned[i] = L::abs(c) > Real(Precise<Number>::kOrthogonal) * L::root(a) * L::root(b);
+        is_any_turned = is_any_turned || is_turned[i];
     }
     if (!L::any(is_any_turned)) {
         return false;
     }
-    pair = 0;
 #pragma GCC unroll 4
     for (int i = 0; i < Dim; ++i) {
         const int j = i ^ Round;
         if (j <= i || j >= Dim) {
             continue;
         }
-        const Real d = difference[pair];
-        const Real t = twice[pair];
-        const Real sign = L::select(d < zero, -one, one);
-        const Real root = L::root(d * d + t * t);
-        const Real tangent =
-            L::select(is_turned[pair], sign * t / (L::abs(d) + root + Real(Limits::kTiny)), zero);
-        const Real cosine = one / L::root(one + tangent * tangent);
-        turn_columns(F, i, j, cosine, tangent * cosine);
-        turn_columns(rest, i, j, cosine, tangent * cosine);
-        ++pair;
+        const PlaneRotation<Real> rotation =
+            diagonalizing_rotation(difference[i], twice[i], is_turned[i]);
+        turn_columns(F, i, j, rotation.cosine, rotation.sine);
+        turn_columns(rest, i, j, rotation.cosine, rotation.sine);
     }
     return true;
 }
@@ -384,15 +397,8 @@ Tensor<Real, Dim> filtered(const Tensor<Real, Dim>& matrix, Filter filter, Real&
                     continue;
                 }
                 is_diagonal = false;
-                const Real d = A[j][j] - A[i][i];
-                const Real twice = A[i][j] + A[i][j];
-                const Real sign = L::select(d < zero, -one, one);
-                const Real root = L::root(d * d + twice * twice);
-                const Real tangent = L::select(
-                    is_turned, sign * twice / (L::abs(d) + root + Real(Precise<Number>::kTiny)),
-                    zero);
-                const Real cosine = one / L::root(one + tangent * tangent);
-                const Real sine = tangent * cosine;
+                const auto [cosine, sine] =
+                    diagonalizing_rotation(A[j][j] - A[i][i], A[i][j] + A[i][j], is_turned);
                 turn_columns(A, i, j, cosine, sine);
                 for (int k = 0; k < Dim; ++k) {
                     const Real upper = A[i][k];

@@ -8,7 +8,7 @@ namespace pent::simulator {
 /// Rows [begin, end) of a symmetric block matrix.
 template <typename Scalar>
 struct BlockRows {
-    const Scalar* values = nullptr;  ///< Blocks of vertices in block_order.h's, others by columns.
+    const Scalar* values = nullptr;  ///< Of vertices as in block_order.h, of modes by columns.
     const std::int64_t* row_start =
         nullptr;                             ///< Blocks of row i: [row_start[i], row_start[i + 1]).
     const std::uint32_t* columns = nullptr;  ///< Of blocks.

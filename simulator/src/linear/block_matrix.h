@@ -81,7 +81,7 @@ public:
         return {values_.data(), pattern_->row_start.data(), pattern_->columns.data(), 0, rows()};
     }
 
-    // NOLINTBEGIN(readability-const-return-type): so that nobody assigns to what is a copy
+    // Copies. NOLINTBEGIN(readability-const-return-type): so that nobody assigns to one
     [[nodiscard]] const Block block(std::int64_t index) const {
         return read_block<Dim>(values_.data() + index * kEntries);
     }
