@@ -24,15 +24,17 @@ PathCover<Dim>::PathCover(Simplices<1> vertices, const Paths<Dim>& paths)
       inflation_(vertices_.cols()) {
     const Vector<Dim> from = mean(paths.from);
     const Vector<Dim> to = mean(paths.to);
-    double squared = 0;
+    double longest = 0;
     for (Eigen::Index k = 0; k < vertices_.cols(); ++k) {
         const std::uint32_t v = vertices_(0, k);
         start_.col(k) = paths.from.col(v) - from;
         way_.col(k) = paths.to.col(v) - to - start_.col(k);
         inflation_[k] = paths.inflation_of(v);
-        squared = std::max(squared, way_.col(k).squaredNorm());
+        const double squared = way_.col(k).squaredNorm();
+        longest = std::max(longest, squared);
+        squared_ways_ += squared;
     }
-    longest_path_ = std::sqrt(squared);
+    longest_path_ = std::sqrt(longest);
 }
 
 template <int Dim>
@@ -45,22 +47,23 @@ Vector<Dim> PathCover<Dim>::mean(const PositionsView<Dim>& positions) const {
 }
 
 // The time at which the paths are next to the positions in the sense of least squares is as good as
-// any.
+// any. It is the same for positions that are shifted, since ways add up to none.
 template <int Dim>
 bool PathCover<Dim>::covers(const PositionsView<Dim>& positions) const {
-    const Vector<Dim> middle = mean(positions);
-    const auto aside = [&](Eigen::Index k, double t) -> Vector<Dim> {
-        return positions.col(vertices_(0, k)) - middle - start_.col(k) - t * way_.col(k);
-    };
-    double squared = 0;
+    Vector<Dim> sum = Vector<Dim>::Zero();
     double along = 0;
     for (Eigen::Index k = 0; k < vertices_.cols(); ++k) {
-        squared += way_.col(k).squaredNorm();
-        along += way_.col(k).dot(aside(k, 0));
+        const auto position = positions.col(vertices_(0, k));
+        sum += position;
+        along += way_.col(k).dot(position - start_.col(k));
     }
-    const double t = squared > 0 ? std::clamp(along / squared, 0.0, 1.0) : 0;
+    const Vector<Dim> middle = sum / std::max<double>(1, static_cast<double>(vertices_.cols()));
+    const double t = squared_ways_ > 0 ? std::clamp(along / squared_ways_, 0.0, 1.0) : 0;
     for (Eigen::Index k = 0; k < vertices_.cols(); ++k) {
-        if (!(aside(k, t).squaredNorm() <= inflation_[k] * inflation_[k])) {
+        const double squared =
+            (positions.col(vertices_(0, k)) - middle - start_.col(k) - t * way_.col(k))
+                .squaredNorm();
+        if (!(squared <= inflation_[k] * inflation_[k])) {
             return false;
         }
     }

@@ -56,6 +56,7 @@ private:
     Positions<Dim> way_;         // from start to end
     Eigen::VectorXd inflation_;  // m
     double longest_path_ = 0;    // m
+    double squared_ways_ = 0;    // the sum of their squares, m^2
 };
 
 }  // namespace pent::contact
