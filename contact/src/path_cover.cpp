@@ -43,6 +43,11 @@ Vector<Dim> PathCover<Dim>::mean(const PositionsView<Dim>& positions) const {
     for (const std::uint32_t v : vertices_.reshaped()) {
         sum += positions.col(v);
     }
+    return mean_of_sum(sum);
+}
+
+template <int Dim>
+Vector<Dim> PathCover<Dim>::mean_of_sum(const Vector<Dim>& sum) const {
     return sum / std::max<double>(1, static_cast<double>(vertices_.cols()));
 }
 
@@ -57,7 +62,7 @@ bool PathCover<Dim>::covers(const PositionsView<Dim>& positions) const {
         sum += position;
         along += way_.col(k).dot(position - start_.col(k));
     }
-    const Vector<Dim> middle = sum / std::max<double>(1, static_cast<double>(vertices_.cols()));
+    const Vector<Dim> middle = mean_of_sum(sum);
     const double t = squared_ways_ > 0 ? std::clamp(along / squared_ways_, 0.0, 1.0) : 0;
     for (Eigen::Index k = 0; k < vertices_.cols(); ++k) {
         const double squared =

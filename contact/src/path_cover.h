@@ -46,6 +46,7 @@ public:
 
 private:
     [[nodiscard]] Vector<Dim> mean(const PositionsView<Dim>& positions) const;
+    [[nodiscard]] Vector<Dim> mean_of_sum(const Vector<Dim>& sum) const;
     [[nodiscard]] double squared_from_end(const PositionsView<Dim>& positions,
                                           const Vector<Dim>& mean,
                                           Eigen::Index k) const;
