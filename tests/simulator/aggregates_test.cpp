@@ -82,7 +82,7 @@ std::size_t reached(const BlockPattern& pattern, const std::vector<std::uint32_t
 TEST(MakeHierarchy, PartitionsEveryLevelIntoConnectedPiecesOfBoundedSize) {
     const Box box({12, 6, 4, 4}, {12, 6, 4, 4});
     const std::vector<Aggregates> levels = box.hierarchy();
-    ASSERT_EQ(levels.size(), 2U);  // of 2275 dofs, 47 and 8 aggregates or so
+    ASSERT_EQ(levels.size(), 2U);  // of 2275 dofs, 95 and 16 aggregates or so
     auto children = static_cast<std::size_t>(box.pattern.rows());
     for (const Aggregates& level : levels) {
         expect_partition(level, children);
@@ -92,7 +92,7 @@ TEST(MakeHierarchy, PartitionsEveryLevelIntoConnectedPiecesOfBoundedSize) {
     EXPECT_LE(levels.back().count(), kCoarsestAggregates);
     for (const auto& members : levels[0].members) {
         EXPECT_EQ(reached(box.pattern, members), members.size());
-        EXPECT_LE(members.size(), 2U * 48);  // and what was left over beside it
+        EXPECT_LE(members.size(), 2U * 24);  // and what was left over beside it
     }
 }
 
@@ -113,13 +113,28 @@ TEST(MakeHierarchy, CutsNoColumnOfThinLayers) {
     EXPECT_EQ(cut_links(Box({6, 4, 4, 5}, {6, 4, 4, 0.25})), 0);
 }
 
-// 16 layers of a quarter: pieces of a column as thick as the cells are wide, four vertices each, so
-// that of the 16 links of a column at most those between its pieces are cut.
-TEST(MakeHierarchy, CutsThinLayersOnlyBetweenPiecesAsThickAsTheMeshIsFine) {
-    const Box box({4, 4, 4, 16}, {4, 4, 4, 4});
+// 32 layers of a quarter: parts of columns that are about twice as long as aggregates are wide, so
+// that of the 32 links of a column at most those between its parts are cut.
+TEST(MakeHierarchy, CutsThinLayersOnlyBetweenPartsLongerThanTheMeshIsFine) {
+    const Box box({4, 4, 4, 32}, {4, 4, 4, 8});
     const auto columns = static_cast<int>(box.dofs.column_start().size()) - 1;
     EXPECT_LE(cut_links(box), 3 * columns);
     EXPECT_GT(cut_links(box), 0);
+}
+
+// Of every aggregate, all columns begin at one layer and end at one layer.
+TEST(MakeHierarchy, LetsAggregatesMeetInPlanesAcrossTheColumns) {
+    const Box box({8, 6, 6, 15}, {8, 6, 6, 15});
+    const auto& start = box.dofs.column_start();
+    const Aggregates level = box.hierarchy()[0];
+    std::vector<std::uint32_t> parts(box.dofs.count());  // of its column, from the bottom
+    for (std::size_t column = 0; column + 1 < start.size(); ++column) {
+        for (std::uint32_t dof = start[column] + 1; dof < start[column + 1]; ++dof) {
+            parts[dof] = parts[dof - 1] + (level.of_child[dof] != level.of_child[dof - 1] ? 1 : 0);
+            EXPECT_EQ(parts[dof], parts[dof - start[column]]);  // as in the first column
+        }
+    }
+    EXPECT_EQ(parts[start[1] - 1], 3U);  // 16 layers: about 4 by 2.45 by 2.45 by 2.45
 }
 
 // Borders are halfway between middles: no vertex is nearer to the middle of a neighbor, but where

@@ -52,7 +52,8 @@ void expect_free_fall(Precision precision) {
 TEST(FreeFall, TakesNoIterations) {
     Scene scene = box_scene<4>();
     scene.gravity[1] = -9.8;
-    scene.solver.tolerance = 1e-5;
+    scene.solver.tolerance = 1e-8;
+    scene.solver.precision = Precision::Double;
     Simulation<4> simulation(scene, {bar()});
     for (int i = 0; i < 3; ++i) {
         EXPECT_EQ(simulation.step().iterations, 0);

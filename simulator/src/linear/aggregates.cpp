@@ -16,21 +16,23 @@ namespace pent::simulator {
 
 namespace {
 
-constexpr double kDofs = 48;     // of an aggregate
+constexpr double kDofs = 24;     // of an aggregate
 constexpr double kChildren = 6;  // aggregates of an aggregate of aggregates
 constexpr int kRounds = 8;       // of moving borders
+// Length of aggregates along columns, which a smoother solves for as a whole, over width across.
+constexpr double kSlenderness = 2;
 // A relative difference that is none: rounding, which instruction sets and compilers do each in
 // their own way, does not decide.
 constexpr double kTie = 1e-9;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-// How thick the layer of a dof is, in units of its distance from the nearest dof beside it; 1 where
-// it is thicker.
+// How high the layer of a dof is: how far it is from the nearest dof of its column, in units of its
+// distance from the nearest beside it; 1 where there is none of either, or none apart.
 template <int Dim>
-std::vector<double> layer_ratios(const Links& links,
-                                 const std::vector<std::uint32_t>& column_start,
-                                 const Positions<Dim>& rest) {
-    std::vector<double> ratios(links.size(), 1.0);
+std::vector<double> layer_heights(const Links& links,
+                                  const std::vector<std::uint32_t>& column_start,
+                                  const Positions<Dim>& rest) {
+    std::vector<double> heights(links.size(), 1.0);
     for (std::size_t column = 0; column + 1 < column_start.size(); ++column) {
         const std::uint32_t begin = column_start[column];
         const std::uint32_t end = column_start[column + 1];
@@ -41,12 +43,12 @@ std::vector<double> layer_ratios(const Links& links,
                 double& nearest = other >= begin && other < end ? within : beside;
                 nearest = std::min(nearest, (rest.col(other) - rest.col(dof)).norm());
             });
-            if (within < beside) {
-                ratios[dof] = within / beside;
+            if (within > 0 && beside > 0 && std::isfinite(within) && std::isfinite(beside)) {
+                heights[dof] = within / beside;
             }
         }
     }
-    return ratios;
+    return heights;
 }
 
 // What aggregates grow from.
@@ -76,52 +78,62 @@ Nodes<Dim> nodes_of(const Aggregates& parts, const Nodes<Dim>& children) {
     return nodes;
 }
 
-// The columns in pieces as thick as the mesh is fine: thin layers are coupled too strongly to be
-// told apart.
-Aggregates cut_columns(const std::vector<double>& ratios,
-                       const std::vector<std::uint32_t>& column_start) {
-    Aggregates pieces;
-    for (std::size_t column = 0; column + 1 < column_start.size(); ++column) {
-        const std::uint32_t begin = column_start[column];
-        const std::uint32_t end = column_start[column + 1];
-        const double thickness = std::accumulate(ratios.begin() + begin, ratios.begin() + end, 0.0);
-        const std::size_t first = pieces.members.size();
-        const auto dofs = static_cast<std::int64_t>(end - begin);
-        const auto count = static_cast<std::size_t>(std::clamp<std::int64_t>(
-            std::lround((1 + kTie) * thickness), std::min<std::int64_t>(1, dofs), dofs));
-        pieces.members.resize(first + count);
-        double below = 0;
-        for (std::uint32_t dof = begin; dof < end; ++dof) {
-            const double middle = (below + ratios[dof] / 2) / thickness;
-            below += ratios[dof];
-            const auto place =
-                static_cast<std::size_t>((1 + kTie) * static_cast<double>(count) * middle);
-            const std::size_t piece = first + std::min(place, count - 1);
-            pieces.members[piece].push_back(dof);
-            pieces.of_child.push_back(static_cast<std::uint32_t>(piece));
-        }
-    }
-    return pieces;
-}
-
-// Pieces of columns. A whole column counts no less than the side of an aggregate of cubes, which it
-// takes the place of.
+// What the dofs of columns count for the size of an aggregate. Thin layers are coupled too strongly
+// to be told apart, so that less of them is as much; but a whole column counts no less than the
+// side of an aggregate of cubes, which it takes the place of.
 template <int Dim>
-Nodes<Dim> nodes_of_pieces(const Aggregates& pieces,
-                           const std::vector<double>& ratios,
-                           const std::vector<std::uint32_t>& column_start,
-                           const Nodes<Dim>& dofs) {
-    Nodes<Dim> nodes = nodes_of(pieces, dofs);
-    std::fill(nodes.weights.begin(), nodes.weights.end(), 0.0);
+std::vector<double> weights_of(const std::vector<double>& heights,
+                               const std::vector<std::uint32_t>& column_start) {
+    std::vector<double> weights;
     for (std::size_t column = 0; column + 1 < column_start.size(); ++column) {
         const std::uint32_t begin = column_start[column];
         const std::uint32_t end = column_start[column + 1];
         const double least = std::min(1.0, std::pow(kDofs, 1.0 / Dim) / (end - begin));
         for (std::uint32_t dof = begin; dof < end; ++dof) {
-            nodes.weights[pieces.of_child[dof]] += std::max(least, ratios[dof]);
+            weights.push_back(std::clamp(heights[dof], least, 1.0));
         }
     }
-    return nodes;
+    return weights;
+}
+
+double sum_of(const std::vector<double>& values, std::uint32_t begin, std::uint32_t end) {
+    return std::accumulate(values.begin() + begin, values.begin() + end, 0.0);
+}
+
+// Into how many parts to cut each column, so that aggregates of such parts are kSlenderness times
+// as long as wide.
+template <int Dim>
+std::vector<double> parts_of_columns(const std::vector<double>& heights,
+                                     const std::vector<double>& weights,
+                                     const std::vector<std::uint32_t>& column_start) {
+    std::vector<double> parts;
+    for (std::size_t column = 0; column + 1 < column_start.size(); ++column) {
+        const std::uint32_t begin = column_start[column];
+        const std::uint32_t end = column_start[column + 1];
+        const double most = std::max(1.0, static_cast<double>(end) - begin);
+        const double height = sum_of(heights, begin, end);
+        const double weight = sum_of(weights, begin, end);
+        const double width = std::pow(kDofs * height / (kSlenderness * weight), 1.0 / Dim);
+        parts.push_back(weight > 0 ? std::clamp(height / (kSlenderness * width), 1.0, most) : 1);
+    }
+    return parts;
+}
+
+// Which of `count` parts of a column, which are equally high, each of its dofs is in.
+std::vector<std::uint32_t> cut_column(const std::vector<double>& heights,
+                                      std::uint32_t begin,
+                                      std::uint32_t end,
+                                      std::uint32_t count) {
+    const double whole = sum_of(heights, begin, end);
+    std::vector<std::uint32_t> parts;
+    double below = 0;
+    for (std::uint32_t dof = begin; dof < end; ++dof) {
+        const double middle = (below + heights[dof] / 2) / whole;
+        below += heights[dof];
+        parts.push_back(
+            std::min(static_cast<std::uint32_t>((1 + kTie) * count * middle), count - 1));
+    }
+    return parts;
 }
 
 template <int Dim>
@@ -130,6 +142,7 @@ public:
     Growth(const Nodes<Dim>& nodes, double size)
         : nodes_(&nodes), size_(size), owner_(nodes.links.size(), kNone), seen_(owner_) {}
 
+    // From seeds on, each beside what is there.
     Aggregates run() {
         for (std::uint32_t node = 0; node < owner_.size(); ++node) {
             if (owner_[node] == kNone) {
@@ -144,12 +157,24 @@ public:
         join_small_ones();
         for (int round = 0; round < kRounds && move_borders(); ++round) {
         }
+        return finish();
+    }
+
+    // From pieces on, each node in one of so many.
+    Aggregates mend(std::vector<std::uint32_t> piece_of, std::size_t count) {
+        owner_ = std::move(piece_of);
+        members_.resize(count);
+        return finish();
+    }
+
+private:
+    // Of pieces that hang together, none of them small.
+    Aggregates finish() {
         split();
         join_small_ones();
         return collect();
     }
 
-private:
     // The nodes beside it that nobody has become seeds of the next.
     void grow(std::uint32_t seed) {
         const auto piece = static_cast<std::uint32_t>(weights_.size());
@@ -345,16 +370,51 @@ private:
     std::vector<double> weights_;  // of the aggregates
 };
 
-// What aggregates of parts are of the children of these.
-Aggregates compose(const Aggregates& parts, const Aggregates& aggregates) {
-    Aggregates composed;
-    composed.members.resize(aggregates.members.size());
-    for (std::uint32_t child = 0; child < parts.of_child.size(); ++child) {
-        const std::uint32_t a = aggregates.of_child[parts.of_child[child]];
-        composed.of_child.push_back(a);
-        composed.members[a].push_back(child);
+Aggregates whole_columns(const std::vector<std::uint32_t>& column_start) {
+    Aggregates columns;
+    for (std::size_t column = 0; column + 1 < column_start.size(); ++column) {
+        std::vector<std::uint32_t> dofs(column_start[column + 1] - column_start[column]);
+        std::iota(dofs.begin(), dofs.end(), column_start[column]);
+        columns.of_child.insert(columns.of_child.end(), dofs.size(),
+                                static_cast<std::uint32_t>(column));
+        columns.members.push_back(std::move(dofs));
     }
-    return composed;
+    return columns;
+}
+
+// Clusters of whole columns, which are then cut across: rigid pieces lock least where they meet in
+// planes.
+//
+// @param dofs  Without weights, which they get.
+template <int Dim>
+Aggregates aggregate_columns(const std::vector<std::uint32_t>& column_start, Nodes<Dim>& dofs) {
+    const std::vector<double> heights = layer_heights<Dim>(dofs.links, column_start, dofs.places);
+    dofs.weights = weights_of<Dim>(heights, column_start);
+    const std::vector<double> parts = parts_of_columns<Dim>(heights, dofs.weights, column_start);
+    Nodes<Dim> columns = nodes_of(whole_columns(column_start), dofs);
+    for (std::size_t column = 0; column < parts.size(); ++column) {
+        columns.weights[column] =
+            sum_of(dofs.weights, column_start[column], column_start[column + 1]) / parts[column];
+    }
+    std::vector<std::uint32_t> piece_of(dofs.links.size());
+    std::uint32_t pieces = 0;
+    for (const std::vector<std::uint32_t>& cluster : Growth<Dim>(columns, kDofs).run().members) {
+        double sum = 0;
+        for (const std::uint32_t column : cluster) {
+            sum += parts[column];
+        }
+        const auto count = static_cast<std::uint32_t>(
+            std::lround((1 + kTie) * sum / static_cast<double>(cluster.size())));
+        for (const std::uint32_t column : cluster) {
+            std::uint32_t dof = column_start[column];
+            for (const std::uint32_t part :
+                 cut_column(heights, dof, column_start[column + 1], count)) {
+                piece_of[dof++] = pieces + part;
+            }
+        }
+        pieces += count;
+    }
+    return Growth<Dim>(dofs, kDofs).mend(std::move(piece_of), pieces);
 }
 
 }  // namespace
@@ -373,10 +433,7 @@ std::vector<Aggregates> make_hierarchy(const BlockPattern& pattern,
                      rest.leftCols(dofs),
                      {},
                      std::vector<double>(static_cast<std::size_t>(dofs), 1.0)};
-    const std::vector<double> ratios = layer_ratios<Dim>(nodes.links, column_start, rest);
-    const Aggregates pieces = cut_columns(ratios, column_start);
-    const Nodes<Dim> piece_nodes = nodes_of_pieces(pieces, ratios, column_start, nodes);
-    std::vector<Aggregates> levels = {compose(pieces, Growth<Dim>(piece_nodes, kDofs).run())};
+    std::vector<Aggregates> levels = {aggregate_columns(column_start, nodes)};
     for (std::int64_t count = count_all(levels.back()); count > kCoarsestAggregates;) {
         nodes = nodes_of(levels.back(), nodes);
         Aggregates next = Growth<Dim>(nodes, kChildren).run();

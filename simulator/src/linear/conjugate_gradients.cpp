@@ -124,6 +124,9 @@ LinearSolution<Dim> ConjugateGradients<Dim>::solve(const BlockMatrix<Dim, Scalar
         vector->resize(Dim, b.cols());
     }
     double left = find_residual(A, b, solution.x);
+    if (left > options.tolerance) {
+        left = scale_guess(A.rows(), b, solution.x);
+    }
     if (left > options.tolerance && preconditioner.correct(*workers_, r_, solution.x)) {
         left = find_residual(A, b, solution.x);
     }
@@ -139,6 +142,18 @@ LinearSolution<Dim> ConjugateGradients<Dim>::solve(const BlockMatrix<Dim, Scalar
         iterate(A, preconditioner, options, 0.95 * options.tolerance, solution);
         left = find_residual(A, b, solution.x);
     }
+}
+
+template <int Dim>
+double ConjugateGradients<Dim>::scale_guess(Eigen::Index rows,
+                                            const BlockVector<Dim>& b,
+                                            BlockVector<Dim>& x) {
+    const double work = halo_.sum(dot(*workers_, rows, b, x));
+    const double curvature = work - halo_.sum(dot(*workers_, rows, r_, x));
+    const double factor = curvature > 0 ? work / curvature : 0;
+    x *= factor;
+    r_.leftCols(rows) = (1 - factor) * b.leftCols(rows) + factor * r_.leftCols(rows);
+    return part_left(halo_.sum(dot(*workers_, rows, r_, r_)));
 }
 
 template <int Dim>
