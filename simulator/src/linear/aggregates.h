@@ -29,12 +29,13 @@ inline constexpr int kCoarsestAggregates = 24;
 
 /// Aggregates of about 24 dofs each, aggregates of about 6 of these, and so on until few are left.
 ///
-/// Clusters of whole columns, single dofs where a mesh knows none, grow from a seed beside those that
-/// are there, along links of the matrix, always by what is nearest to their middle; then borders
-/// move until they are halfway between middles, for ragged ones lock where a body bends. Each is
-/// then cut across in parts about twice as long as wide, thin layers not at all: the finest aggregates.
-/// Arms of a body that lie side by side never share one, as pieces of space would make them. What
-/// has no link to others stays alone. Those that share no link follow one another, by color.
+/// Clusters of whole columns, single dofs where a mesh knows none, grow from a seed beside those
+/// that are there, along links of the matrix, always by what is nearest to their middle; then
+/// borders move until they are halfway between middles, for ragged ones lock where a body bends.
+/// Each is then cut across in parts about twice as long as wide, thin layers not at all: these are
+/// the finest aggregates. Arms of a body that lie side by side never share one, as pieces of space
+/// would make them. What has no link to others stays alone. Those that share no link follow one
+/// another, by color.
 ///
 /// Where dofs are shared each rank has aggregates of its own dofs, and all have as many levels.
 ///

@@ -35,9 +35,9 @@ private:
     double find_residual(const BlockMatrix<Dim, Scalar>& A,
                          const BlockVector<Dim>& b,
                          BlockVector<Dim>& x);
-    // From r_ = b - A x on: takes the multiple of the guess x that is nearest to the solution in the
-    // norm of A, where none can be farther than 0 is, and its residual; returns what is left of b.
-    // What inertia alone would do is far from what stiff bodies do.
+    // From r_ = b - A x on: takes the multiple of the guess x that is nearest to the solution in
+    // the norm of A, where none can be farther than 0 is, and its residual; returns what is left of
+    // b. What inertia alone would do is far from what stiff bodies do.
     double scale_guess(Eigen::Index rows, const BlockVector<Dim>& b, BlockVector<Dim>& x);
     // What r_ is of b, by the norm in which that is more.
     [[nodiscard]] double part_left(double r_square) const;
