@@ -133,7 +133,7 @@ TEST_F(MpiMisfits, OfBaseAndLayersAreThoseOfPentSim) {
     expect_refused("touching", {"more than two cells", "contact needs a closed surface"});
     const std::size_t contact = scene.find("[contact]");
     scene.erase(contact, scene.find("[solver]") - contact);
-    write("apart", scene + "newton_tolerance = 1e-7\n");
+    write("apart", scene + "newton_tolerance = 1e-8\n");
     expect_warned<4>("apart", "a", "more than two cells");
 }
 
