@@ -27,7 +27,7 @@ struct Aggregates {
 /// Most aggregates at which a hierarchy ends, unless they share no link.
 inline constexpr int kCoarsestAggregates = 24;
 
-/// Aggregates of about 24 dofs each, aggregates of about 6 of these, and so on until few are left.
+/// Aggregates of about 29 dofs each, aggregates of about 6 of these, and so on until few are left.
 ///
 /// Clusters of whole columns, single dofs where a mesh knows none, grow from a seed beside those
 /// that are there, along links of the matrix, always by what is nearest to their middle; then
