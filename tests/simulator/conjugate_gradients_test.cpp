@@ -133,6 +133,51 @@ TEST(ConjugateGradients, SayWhenIterationsRunOut) {
     EXPECT_GT(report.residual, 1e-12);
 }
 
+TEST(ConjugateGradients, TakeAnyMultipleOfTheSolutionForIt) {
+    Problem problem;
+    const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
+    const auto preconditioner = columns_of(problem, A);
+    const BlockVector<4> solution = solve(problem, A, *preconditioner, {.tolerance = 1e-12}).x;
+    for (const double factor : {1e-3, 2.0, -7.0, 1e6}) {
+        problem.guess = factor * solution;
+        const auto [x, report] = solve(problem, A, *preconditioner, {.tolerance = 1e-8});
+        EXPECT_TRUE(report.has_converged) << factor;
+        EXPECT_EQ(report.iterations, 0) << factor;
+        EXPECT_LT((x - solution).norm(), 1e-8 * solution.norm()) << factor;
+    }
+}
+
+// |x - A^-1 b|_A^2 is |x|_A^2 - 2 b x, and of 0 the same 0: a guess is taken so that this is the
+// least of all its multiples, -(b x)^2 / |x|_A^2 of the guess.
+TEST(ConjugateGradients, BeginAtTheMultipleOfTheGuessThatIsNearestInTheNormOfTheMatrix) {
+    Problem problem;
+    const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
+    const Workers workers(1);
+    const auto times_A = [&](const BlockVector<4>& x) {
+        BlockVector<4> product(4, x.cols());
+        A.multiply(workers, kernels<4>(best_isa()).blocks, x, product);
+        return product;
+    };
+    const auto inner = [](const BlockVector<4>& a, const BlockVector<4>& b) {
+        return a.cwiseProduct(b).sum();
+    };
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    for (const double size : {1e-6, 1.0, 1e6}) {
+        problem.guess =
+            BlockVector<4>::NullaryExpr(4, A.rows(), [&]() { return size * normal(random); });
+        const auto [x, report] =
+            solve(problem, A, *columns_of(problem, A), {.tolerance = 1e-12, .max_iterations = 0});
+        EXPECT_EQ(report.iterations, 0);
+        const double found = inner(x, times_A(x)) - 2 * inner(problem.b, x);
+        const double along = inner(problem.b, problem.guess);
+        const double least = -along * along / inner(problem.guess, times_A(problem.guess));
+        EXPECT_NEAR(found, least, 1e-9 * std::abs(least)) << size;
+        const double left = (problem.b - times_A(x)).norm() / problem.b.norm();
+        EXPECT_NEAR(report.residual, left, 1e-9 * left) << size;
+    }
+}
+
 TEST(ConjugateGradients, GiveZeroForZeroWithoutIterating) {
     Problem problem;
     const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 1);

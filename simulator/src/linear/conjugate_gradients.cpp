@@ -82,6 +82,22 @@ double advance(const Workers& workers,
     });
 }
 
+// x *= factor, r = b - A x, where it was that of x before; returns |r|^2.
+template <int Dim>
+double scale(const Workers& workers,
+             Eigen::Index rows,
+             double factor,
+             const BlockVector<Dim>& b,
+             BlockVector<Dim>& r,
+             BlockVector<Dim>& x) {
+    return sum_chunks(workers, rows, [&](Eigen::Index begin, Eigen::Index count) {
+        x.middleCols(begin, count) *= factor;
+        auto part = r.middleCols(begin, count);
+        part = (1 - factor) * b.middleCols(begin, count) + factor * part;
+        return part.squaredNorm();
+    });
+}
+
 // p = z + beta p.
 template <int Dim>
 void redirect(const Workers& workers,
@@ -151,9 +167,8 @@ double ConjugateGradients<Dim>::scale_guess(Eigen::Index rows,
     const double work = halo_.sum(dot(*workers_, rows, b, x));
     const double curvature = work - halo_.sum(dot(*workers_, rows, r_, x));
     const double factor = curvature > 0 ? work / curvature : 0;
-    x *= factor;
-    r_.leftCols(rows) = (1 - factor) * b.leftCols(rows) + factor * r_.leftCols(rows);
-    return part_left(halo_.sum(dot(*workers_, rows, r_, r_)));
+    x.rightCols(x.cols() - rows) *= factor;  // ghosts
+    return part_left(scale(*workers_, rows, factor, b, r_, x));
 }
 
 template <int Dim>
