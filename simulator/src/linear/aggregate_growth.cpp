@@ -27,6 +27,7 @@ public:
         for (std::uint32_t node = 0; node < owner_.size(); ++node) {
             if (owner_[node] == kNone) {
                 seeds_ = {node};
+                // It grows meanwhile. NOLINTNEXTLINE(modernize-loop-convert)
                 for (std::size_t next = 0; next < seeds_.size(); ++next) {
                     if (owner_[seeds_[next]] == kNone) {
                         grow(seeds_[next]);
