@@ -1,5 +1,6 @@
 #pragma once
 
+#include "motion_lanes.h"
 #include "near_lanes.h"
 #include "spectra_lanes.h"
 
@@ -15,6 +16,7 @@ struct LanesKernels {
     FindNearLanes near_points = nullptr;  ///< First patches of vertices, second ones of facets.
     FindNearLanes near_mixed = nullptr;   ///< Of edges and of ridges.
     FindSpectra find_spectra = nullptr;
+    BoundMotions bound_motions = nullptr;
 
     /// By the corners of the simplices of the first patch.
     template <int K>

@@ -1,5 +1,6 @@
 #include "patches.h"
 
+#include "lanes.h"
 #include "normals.h"
 
 #include <pent/dimensions.h>
@@ -9,6 +10,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <span>
 
@@ -68,22 +70,41 @@ double larger(double a, double b) {
 }  // namespace
 
 template <int Dim>
-PatchBound bound_of(const PatchMotion<Dim>& first, const PatchMotion<Dim>& second) {
-    double turn = 0;
-    double shift = 0;
-    const auto add = [&](const PatchPlace<Dim>& a, const PatchPlace<Dim>& b) {
-        const Map<Dim> mean = 0.5 * (a.map + b.map);
-        turn = std::max(turn, 0.5 * (a.map - b.map).norm());
-        shift = std::max(
-            shift,
-            (a.center - b.center - mean * (first.earlier_center - second.earlier_center)).norm());
-    };
-    add(first.end, second.end);
-    if (!first.is_still || !second.is_still) {
-        add(first.start, second.start);
-    }
-    return {std::max(first.least_stretch, second.least_stretch) - turn,
-            shift + turn * (first.radius + second.radius) + first.deviation + second.deviation};
+PatchMotions<Dim>::PatchMotions(const std::vector<PatchMotion<Dim>>& motions) {
+    const bool are_still = std::all_of(motions.begin(), motions.end(),
+                                       [](const auto& motion) { return motion.is_still; });
+    places_ = are_still ? 1 : 2;
+    const auto size = static_cast<std::size_t>(MotionRows::size(places_));
+    numbers_.resize(motions.size() * size);
+    parallel_for(motions.size(), kChunk, [&](std::size_t patch) {
+        const PatchMotion<Dim>& motion = motions[patch];
+        double* const row = numbers_.data() + patch * size;
+        using Axes = Eigen::Map<Vector<Dim>>;
+        Axes(row + MotionRows::kEarlierCenter) = motion.earlier_center;
+        row[MotionRows::kSizes] = motion.least_stretch;
+        row[MotionRows::kSizes + 1] = motion.radius;
+        row[MotionRows::kSizes + 2] = motion.deviation;
+        for (int i = 0; i < places_; ++i) {
+            const PatchPlace<Dim>& place = i == 0 ? motion.end : motion.start;
+            double* const to = row + MotionRows::kPlaces + i * MotionRows::kPlaceSize;
+            Axes{to} = place.center - place.map * motion.earlier_center;
+            for (int axis = 0; axis < Dim; ++axis) {
+                Axes(to + MotionRows::kAxes * (1 + axis)) = place.map.col(axis);
+            }
+        }
+    });
+}
+
+template <int Dim>
+void PatchMotions<Dim>::bound(std::size_t patch,
+                              const PatchMotions& others,
+                              std::span<const std::uint32_t> which,
+                              std::span<PatchBound> bounds) const {
+    assert(places_ == others.places_ && bounds.size() >= which.size());
+    const double* const row =
+        numbers_.data() + patch * static_cast<std::size_t>(MotionRows::size(places_));
+    lanes_kernels<Dim>().bound_motions(row, others.rows(), which.data(),
+                                       static_cast<int>(which.size()), bounds.data());
 }
 
 template <int Dim>
@@ -232,8 +253,8 @@ std::int64_t Patches<Dim>::bytes() const {
                                      + static_cast<std::size_t>(offsets_.size()) * sizeof(double));
 }
 
-#define PENT_INSTANTIATE(Dim)                                                       \
-    template PatchBound bound_of(const PatchMotion<Dim>&, const PatchMotion<Dim>&); \
+#define PENT_INSTANTIATE(Dim)         \
+    template class PatchMotions<Dim>; \
     template class Patches<Dim>;
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE

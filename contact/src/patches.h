@@ -1,12 +1,14 @@
 #pragma once
 
+#include "motion_lanes.h"
+#include "patch_bound.h"
 #include "patch_vertices.h"
 
 #include <pent/contact/surface.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace pent::contact {
@@ -49,34 +51,30 @@ struct PatchMotion {
     PatchPlace<Dim> start;
 };
 
-/// How near a point of one and a point of another patch can be at any time, from how far they were
-/// apart earlier: no nearer than that times the stretch, less the lack.
-///
-/// With G the mean of both maps, x - y is G (X - Y), which is no shorter than the earlier distance
-/// times the least stretch of G, and what the maps and centers lack to agree with G. That is
-/// convex in time: most at one of its ends.
-struct PatchBound {
-    double stretch = 0;
-    double lack = std::numeric_limits<double>::infinity();  ///< m.
-
-    /// Whether points that were so far apart (m), or farther, are certainly more than `distance`
-    /// apart now. Never true where something is not finite.
-    [[nodiscard]] bool is_apart(double earlier_distance, double distance) const {
-        return stretch > 0 && stretch * earlier_distance - lack > distance;
-    }
-
-    /// What this tells of moments to which another bound has led.
-    [[nodiscard]] PatchBound after(const PatchBound& earlier) const {
-        constexpr double kMaxStretch = 1e30;  // so that products stay finite
-        return stretch > 0 && earlier.stretch > 0
-                   ? PatchBound{std::min(stretch * earlier.stretch, kMaxStretch),
-                                stretch * earlier.lack + lack}
-                   : PatchBound{};
-    }
-};
-
+/// How all patches of a surface have moved, for bounds of many pairs.
 template <int Dim>
-[[nodiscard]] PatchBound bound_of(const PatchMotion<Dim>& first, const PatchMotion<Dim>& second);
+class PatchMotions {
+public:
+    PatchMotions() = default;
+    explicit PatchMotions(const std::vector<PatchMotion<Dim>>& motions);
+
+    /// Writes the bound of a patch and of each of some patches of others, which have moved at the
+    /// same time, to the begin of `bounds`.
+    void bound(std::size_t patch,
+               const PatchMotions& others,
+               std::span<const std::uint32_t> which,
+               std::span<PatchBound> bounds) const;
+
+    [[nodiscard]] std::int64_t bytes() const {
+        return static_cast<std::int64_t>(numbers_.size() * sizeof(double));
+    }
+
+private:
+    [[nodiscard]] MotionRows rows() const { return {numbers_.data(), places_}; }
+
+    int places_ = 1;
+    std::vector<double> numbers_;
+};
 
 /// Divides a surface to tell how its parts move.
 template <int Dim>

@@ -79,10 +79,10 @@ void SelfProximity<Dim>::move(const Asked& asked) {
     Places now = place(asked.paths.from);
     const Places end = asked.paths.is_still() ? Places() : place(asked.paths.to);
     for (std::size_t i = 0; i < now.size(); ++i) {
-        since_[i] = search_ == 1 ? patches_[i].motions(now[i], now[i])
-                                 : patches_[i].motions(places_[i], now[i]);
+        since_[i] =
+            PatchMotions<Dim>(patches_[i].motions(search_ == 1 ? now[i] : places_[i], now[i]));
         if (!asked.paths.is_still()) {
-            ahead_[i] = patches_[i].motions(now[i], now[i], end[i]);
+            ahead_[i] = PatchMotions<Dim>(patches_[i].motions(now[i], now[i], end[i]));
         }
     }
     places_ = std::move(now);
@@ -135,9 +135,7 @@ template <int Dim>
 std::int64_t SelfProximity<Dim>::bytes() const {
     auto sum = on_paths_.bytes() + static_cast<std::int64_t>(boxes_.size() * sizeof(Box));
     for (std::size_t i = 0; i < patches_.size(); ++i) {
-        sum += patches_[i].bytes() + places_[i].bytes()
-               + static_cast<std::int64_t>((since_[i].size() + ahead_[i].size())
-                                           * sizeof(PatchMotion<Dim>));
+        sum += patches_[i].bytes() + places_[i].bytes() + since_[i].bytes() + ahead_[i].bytes();
     }
     for (const std::vector<Row>* rows : {&points_, &mixed_}) {
         for (const Row& row : *rows) {

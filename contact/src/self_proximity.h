@@ -62,7 +62,7 @@ public:
 private:
     // All patches at some moment, and how they have moved, by corners, less one.
     using Places = std::array<PatchPlaces<Dim>, Dim>;
-    using Motions = std::array<std::vector<PatchMotion<Dim>>, Dim>;
+    using Motions = std::array<PatchMotions<Dim>, Dim>;
 
     // What is known of a patch and another: pairs [begin, end) of the row, and what all others are
     // no nearer than, from the listed distance.

@@ -6,6 +6,7 @@
 #include "self_proximity.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <utility>
 #include <vector>
@@ -34,6 +35,10 @@ public:
 
     // Patches that one thread looks at in one go.
     static constexpr std::size_t kChunk = 8;
+
+    // Bounds found in one go.
+    static constexpr std::size_t kBatch = 16;
+    using Bounds = std::array<PatchBound, kBatch>;
 
     // What pairs are of.
     struct Sides {
@@ -100,6 +105,8 @@ private:
         Row& row = rows_[a];
         row.unknown.clear();
         auto known = row.known.begin();
+        std::array<Known*, kBatch> listed;
+        std::size_t count = 0;
         second_patches().tree.for_each_overlap(first_patches().around[a], [&](std::uint32_t b) {
             if (is_same_list() && b < a) {
                 return;
@@ -107,50 +114,81 @@ private:
             while (known != row.known.end() && known->second < b) {
                 ++known;
             }
-            const bool is_known =
-                known != row.known.end() && known->second == b && known->search + 1 == all_.search_;
-            if (!is_known || !look_at_list(a, *known, found)) {
+            if (known == row.known.end() || known->second != b
+                || known->search + 1 != all_.search_) {
                 row.unknown.push_back(b);
+                return;
+            }
+            listed[count++] = &*known;
+            if (count == kBatch) {
+                look_at_lists(a, listed, found);
+                count = 0;
             }
         });
+        look_at_lists(a, std::span(listed).first(count), found);
+        std::sort(row.unknown.begin(), row.unknown.end());
     }
 
-    // Looks at what is listed of two patches, if that is all that can be near.
-    bool look_at_list(std::size_t a, Known& known, Found& found) {
-        known.set_bound(since(a, known.second).after(known.bound()));
-        known.search = all_.search_;
-        const PatchBound bound = along(a, known.second).after(known.bound());
-        if (!is_apart(bound, a, known.second)) {
-            return false;
+    // Looks at what is listed of a patch and others, at most kBatch, where that is all that can be
+    // near.
+    void look_at_lists(std::size_t a, std::span<Known* const> listed, Found& found) {
+        std::array<std::uint32_t, kBatch> seconds;
+        std::transform(listed.begin(), listed.end(), seconds.begin(),
+                       [](const Known* known) { return known->second; });
+        const std::span<const std::uint32_t> others = std::span(seconds).first(listed.size());
+        const Bounds since = this->since(a, others);
+        const Bounds along = this->along(a, others);
+        Row& row = rows_[a];
+        for (std::size_t k = 0; k < listed.size(); ++k) {
+            Known& known = *listed[k];
+            known.set_bound(since[k].after(known.bound()));
+            known.search = all_.search_;
+            const PatchBound bound = along[k].after(known.bound());
+            if (is_apart(bound, a, known.second)) {
+                look_at(std::span(row.pairs).subspan(known.begin, known.end - known.begin), bound,
+                        near(a, known.second), found);
+            } else {
+                row.unknown.push_back(known.second);
+            }
         }
-        const std::span<const Candidate> pairs = rows_[a].pairs;
-        look_at(pairs.subspan(known.begin, known.end - known.begin), bound, near(a, known.second),
-                found);
-        return true;
     }
 
     // The next search is taken to find the patches moved as this one does.
     void look_at_others(std::size_t a, Found& found) {
         std::vector<Listed> listed;
-        for (const std::uint32_t b : rows_[a].unknown) {
-            const PatchBound bound = along(a, b);
-            if (is_apart(is_still_ ? since(a, b) : bound, a, b)) {
-                listed.push_back({b, list(a, b, found)});
-                look_at(listed.back().pairs, bound, near(a, b), found);
-            } else {
-                look_at_all(a, b, found);
+        const std::span<const std::uint32_t> unknown = rows_[a].unknown;
+        for (std::size_t begin = 0; begin < unknown.size(); begin += kBatch) {
+            const auto others = unknown.subspan(begin, std::min(kBatch, unknown.size() - begin));
+            const Bounds along = this->along(a, others);
+            const Bounds bounds = is_still_ ? since(a, others) : along;
+            for (std::size_t k = 0; k < others.size(); ++k) {
+                const std::uint32_t b = others[k];
+                if (is_apart(bounds[k], a, b)) {
+                    listed.push_back({b, list(a, b, found)});
+                    look_at(listed.back().pairs, along[k], near(a, b), found);
+                } else {
+                    look_at_all(a, b, found);
+                }
             }
         }
         add(rows_[a], listed);
     }
 
-    [[nodiscard]] PatchBound since(std::size_t a, std::uint32_t b) const {
-        return bound_of<Dim>(all_.since_[K - 1][a], all_.since_[L - 1][b]);
+    // Of a patch and others, at most kBatch.
+    [[nodiscard]] Bounds since(std::size_t a, std::span<const std::uint32_t> others) const {
+        Bounds bounds;
+        all_.since_[K - 1].bound(a, all_.since_[L - 1], others, bounds);
+        return bounds;
     }
 
-    [[nodiscard]] PatchBound along(std::size_t a, std::uint32_t b) const {
-        return is_still_ ? PatchBound{1, 0}
-                         : bound_of<Dim>(all_.ahead_[K - 1][a], all_.ahead_[L - 1][b]);
+    [[nodiscard]] Bounds along(std::size_t a, std::span<const std::uint32_t> others) const {
+        Bounds bounds;
+        if (is_still_) {
+            bounds.fill({1, 0});
+        } else {
+            all_.ahead_[K - 1].bound(a, all_.ahead_[L - 1], others, bounds);
+        }
+        return bounds;
     }
 
     // Whether pairs of two patches that are in no list are apart.

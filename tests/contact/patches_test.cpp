@@ -9,8 +9,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -131,6 +133,14 @@ protected:
         return all;
     }
 };
+
+template <int Dim>
+PatchBound bound_of(const PatchMotion<Dim>& first, const PatchMotion<Dim>& second) {
+    PatchBound bound;
+    PatchMotions<Dim>({first}).bound(0, PatchMotions<Dim>({second}), std::array{0U},
+                                     std::span(&bound, 1));
+    return bound;
+}
 
 // Whether pairs that were so far apart are certainly farther apart now than a distance.
 template <int Dim>

@@ -60,8 +60,9 @@ HIDDEN = {
 # contact/src from the bottom up: a file includes headers of its own layer and of those above it in
 # this list, and public ones. What finds crossings is a witness: it knows no candidates.
 CONTACT = [
-    ("lanes", "lanes lanes_avx2 lanes_avx512 lanes_baseline lanes_isa lanes_table near_lanes"
-              " near_lanes_kernel near_lanes_shapes spectra_lanes spectra_lanes_kernel"),
+    ("lanes", "lanes lanes_avx2 lanes_avx512 lanes_baseline lanes_isa lanes_table motion_lanes"
+              " motion_lanes_kernel near_lanes near_lanes_kernel near_lanes_shapes patch_bound"
+              " spectra_lanes spectra_lanes_kernel"),
     ("simplices", "apart ccd closest_point_search convex_reference distance_energy distance_hessian"
                   " filter gather normals obstacles pair_contact paths simplex_crossing"
                   " spanned_volume spectra stencil surface friction"),
