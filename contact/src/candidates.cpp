@@ -26,7 +26,7 @@ constexpr double kTooCoarse = 3;
 
 // The inflation around long paths is this part of them: Newton's method goes less far from one
 // iteration to the next, so candidates of the first hold for some that follow.
-constexpr double kInflationOfPath = 0.25;
+constexpr double kInflationOfPath = 0.1;
 
 // Distances are measured up to this many times the activation distance: while no vertex has gone
 // farther than 0.3 times that from there, no other pair can be within it.

@@ -63,7 +63,7 @@ public:
     [[nodiscard]] const Meetings<Dim>& meetings() const { return meetings_; }
 
     /// Calls visit(pairs, displacement) for each meeting, with how far its vertices get from where
-    /// distances were measured on the way between two positions.
+    /// distances were measured on the way between two positions; of no use where it has no pairs.
     template <typename Visit>
     void for_each_meeting(const PositionsView<Dim>& from,
                           const PositionsView<Dim>& to,
@@ -71,7 +71,9 @@ public:
         Displacement displacement;
         displacement.of_vertex.setZero(meetings_.empty() ? 0 : from.cols());
         for (const Meeting<Dim>& meeting : meetings_) {
-            displacement.max = meeting.cover.displacement(from, to, displacement.of_vertex);
+            if (meeting.pairs.size() > 0) {
+                displacement.max = meeting.cover.displacement(from, to, displacement.of_vertex);
+            }
             visit(meeting.pairs, displacement);
         }
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "motion_lanes.h"
+#include "transpose_four.h"
 
 #include <pent/simd.h>
 
@@ -12,18 +13,6 @@ namespace {
 // The axes of a patch, or four patches side by side.
 using Four = Pack<double, 4>;
 constexpr int kFour = 4;
-
-// Rows become columns.
-[[gnu::always_inline]] inline void transpose(Four* rows) {
-    const Four::Vector a = __builtin_shufflevector(rows[0].lanes, rows[1].lanes, 0, 4, 2, 6);
-    const Four::Vector b = __builtin_shufflevector(rows[0].lanes, rows[1].lanes, 1, 5, 3, 7);
-    const Four::Vector c = __builtin_shufflevector(rows[2].lanes, rows[3].lanes, 0, 4, 2, 6);
-    const Four::Vector d = __builtin_shufflevector(rows[2].lanes, rows[3].lanes, 1, 5, 3, 7);
-    rows[0] = Four(__builtin_shufflevector(a, c, 0, 1, 4, 5));
-    rows[1] = Four(__builtin_shufflevector(b, d, 0, 1, 4, 5));
-    rows[2] = Four(__builtin_shufflevector(a, c, 2, 3, 6, 7));
-    rows[3] = Four(__builtin_shufflevector(b, d, 2, 3, 6, 7));
-}
 
 // The sum of each row.
 [[nodiscard, gnu::always_inline]] inline Four sums(Four* rows) {

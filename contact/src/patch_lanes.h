@@ -6,6 +6,7 @@
 #include <pent/contact/stencil.h>
 #include <pent/contact/surface.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -42,8 +43,8 @@ public:
 private:
     struct Patch {
         Vector<Dim> origin;
-        Eigen::Matrix<float, Dim, 1> low;
-        Eigen::Matrix<float, Dim, 1> high;
+        std::array<float, 4> low{};  // 0 for axes that there are not
+        std::array<float, 4> high{};
         float extent = 0;
     };
 

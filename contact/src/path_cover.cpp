@@ -87,12 +87,15 @@ template <int Dim>
 float PathCover<Dim>::displacement(const PositionsView<Dim>& from,
                                    const PositionsView<Dim>& to,
                                    Eigen::VectorXf& of_vertex) const {
+    const bool is_still = from.data() == to.data();
     const Vector<Dim> mean_from = mean(from);
-    const Vector<Dim> mean_to = mean(to);
+    const Vector<Dim> mean_to = is_still ? mean_from : mean(to);
     float most = 0;
     for (Eigen::Index k = 0; k < vertices_.cols(); ++k) {
-        const double squared =
-            std::max(squared_from_end(from, mean_from, k), squared_from_end(to, mean_to, k));
+        double squared = squared_from_end(from, mean_from, k);
+        if (!is_still) {
+            squared = std::max(squared, squared_from_end(to, mean_to, k));
+        }
         const float displacement = rounded_up(std::sqrt(squared));
         of_vertex[vertices_(0, k)] = displacement;
         most = std::max(most, displacement);
