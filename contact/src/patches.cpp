@@ -238,9 +238,10 @@ PatchPlace<Dim> Patches<Dim>::move(std::size_t patch,
         const Vector<Dim> offset = before.col(k) - motion.earlier_center;
         squared = larger(squared, (after.col(k) - place.center - place.map * offset).squaredNorm());
     }
-    const double rounding = kRounding
-                            * (place.center.norm() + motion.earlier_center.norm()
-                               + (1 + place.map.norm()) * motion.radius);
+    const double rounding =
+        kRounding
+        * (place.center.norm()
+           + (1 + place.map.norm()) * (motion.earlier_center.norm() + motion.radius));
     motion.deviation = larger(motion.deviation, std::sqrt(squared) + rounding);
     return place;
 }
