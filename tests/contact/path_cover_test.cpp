@@ -67,6 +67,25 @@ TYPED_TEST(PathCoverTest, DisplacementsBoundHowDistancesChange) {
     }
 }
 
+TYPED_TEST(PathCoverTest, DisplacementsOnAWayAreThoseOfItsFartherEnds) {
+    constexpr int kDim = TypeParam::value;
+    const auto displacements = [&](const Positions<kDim>& from, const Positions<kDim>& to) {
+        Eigen::VectorXf of_vertex(from.cols());
+        this->cover_.displacement(from, to, of_vertex);
+        return of_vertex;
+    };
+    Positions<kDim> x = this->to_;
+    Positions<kDim> y = this->to_;
+    test::shake<kDim>(x, 0.3, 4);
+    test::shake<kDim>(y, 0.3, 5);
+    const Eigen::VectorXf of_x = displacements(x, x);
+    const Eigen::VectorXf of_y = displacements(y, y);
+    EXPECT_TRUE((of_x.array() > of_y.array()).any());
+    EXPECT_TRUE((of_x.array() < of_y.array()).any());
+    EXPECT_EQ(displacements(x, y), of_x.cwiseMax(of_y));
+    EXPECT_EQ(displacements(x, Positions<kDim>(x)), of_x);
+}
+
 // Of the paths themselves, where others are wanted than those of the scene.
 TYPED_TEST(PathCoverTest, KnowsTheLongestPathAndWhatIsFarthestFromItsEnd) {
     constexpr int kDim = TypeParam::value;
