@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/kernel_tensor.h"
+#include "kernels/kernel_transpose.h"
 #include "kernels/kernel_vertices.h"
 #include "linear/block_kernels.h"
 
@@ -18,44 +19,51 @@ namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
 inline constexpr int kMaxBand = 2;
 
-// One block a lane: [block_entry(row, column)][lane].
+// One block a lane, in the order of block_order.h.
 template <typename Real, int Dim>
 struct LaneBlocks {
-    alignas(64) double at[Dim * Dim][Lanes<Real>::kCount];
+    static constexpr int kEntries = Dim * Dim;
+    static constexpr int kCount = Lanes<Real>::kCount;
+
+    alignas(64) double at[kCount][kEntries];
 
     template <typename Scalar>
     void set(int lane, const Scalar* block) {
-        for (int entry = 0; entry < Dim * Dim; ++entry) {
-            at[entry][lane] = static_cast<double>(block[entry]);
+        for (int entry = 0; entry < kEntries; ++entry) {
+            at[lane][entry] = static_cast<double>(block[entry]);
         }
     }
     // `diagonal` times the identity.
     void set(int lane, double diagonal) {
         for (int i = 0; i < Dim; ++i) {
             for (int j = 0; j < Dim; ++j) {
-                at[block_entry<Dim>(i, j)][lane] = i == j ? diagonal : 0;
+                at[lane][block_entry<Dim>(i, j)] = i == j ? diagonal : 0;
             }
         }
     }
     [[nodiscard]] Tensor<Real, Dim> load() const {
+        alignas(64) double entries[kEntries][kCount];
+        transpose_back(at, entries);
         Tensor<Real, Dim> blocks;
         for (int i = 0; i < Dim; ++i) {
             for (int j = 0; j < Dim; ++j) {
-                blocks[i][j] = Lanes<Real>::load(at[block_entry<Dim>(i, j)]);
+                blocks[i][j] = Lanes<Real>::load(entries[block_entry<Dim>(i, j)]);
             }
         }
         return blocks;
     }
     void store(const Tensor<Real, Dim>& blocks) {
+        alignas(64) double entries[kEntries][kCount];
         for (int i = 0; i < Dim; ++i) {
             for (int j = 0; j < Dim; ++j) {
-                Lanes<Real>::store(blocks[i][j], at[block_entry<Dim>(i, j)]);
+                Lanes<Real>::store(blocks[i][j], entries[block_entry<Dim>(i, j)]);
             }
         }
+        transpose(entries, at);
     }
     void get(int lane, float* block) const {
-        for (int entry = 0; entry < Dim * Dim; ++entry) {
-            block[entry] = static_cast<float>(at[entry][lane]);
+        for (int entry = 0; entry < kEntries; ++entry) {
+            block[entry] = static_cast<float>(at[lane][entry]);
         }
     }
 };

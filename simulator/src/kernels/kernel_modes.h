@@ -4,6 +4,9 @@
 #include "linear/block_kernels.h"
 #include "linear/rigid_mode_order.h"
 
+#include <cstddef>
+#include <utility>
+
 // Rigid modes of aggregates: RigidModes has the formulas, one child at a time.
 //
 // What a child at x (relative to the middle) turns with plane p < q is mode k. Sums over children
@@ -51,69 +54,282 @@ void add_motions(const AggregateChildren& children, const double* modes, double*
     }
 }
 
-// One row of aggregates of T^T H T, see GalerkinRow. What a child has is in vectors of Dim rows:
-// those of the axes, then, where it has modes of its own, those of rotations, the last of which
-// ends with the rows: some may be in two, and computed twice.
-template <int Dim, int Rows, bool IsVectorized>
-struct Galerkin {
-    using Vertex = typename VertexOf<Dim, IsVectorized>::Type;
-    static constexpr int kColumns = kModes<Dim>;
-    static constexpr int kVectors = (Rows + Dim - 1) / Dim;
-    static constexpr int row_of(int vector) {
-        return vector + 1 < kVectors ? Dim * vector : Rows - Dim;
+// The numbers of a block in the order of block_order.h, one by one or as many as a register has.
+template <int Dim, bool IsVectorized, typename Scalar>
+struct BlockNumbers {
+    Scalar at[Dim * Dim];
+
+    static BlockNumbers load(const Scalar* block) {
+        BlockNumbers numbers;
+        __builtin_memcpy(numbers.at, block, sizeof numbers.at);
+        return numbers;
+    }
+    // In each column what x has at column ^ `turn`, zero where it has nothing.
+    static BlockNumbers of_columns(const Scalar* x, int turn) {
+        BlockNumbers numbers;
+        for (int j = 0; j < Dim; ++j) {
+            for (int i = 0; i < Dim; ++i) {
+                numbers.at[block_entry<Dim>(i, j)] = (j ^ turn) < Dim ? x[j ^ turn] : 0;
+            }
+        }
+        return numbers;
+    }
+    // In each row what x has at row ^ `turn`.
+    static BlockNumbers of_rows(const Scalar* x, int turn) {
+        BlockNumbers numbers;
+        for (int j = 0; j < Dim; ++j) {
+            for (int i = 0; i < Dim; ++i) {
+                numbers.at[block_entry<Dim>(i, j)] = (i ^ turn) < Dim ? x[i ^ turn] : 0;
+            }
+        }
+        return numbers;
+    }
+    Scalar entry(int i, int j) const { return at[block_entry<Dim>(i, j)]; }
+    void add(const BlockNumbers& other) {
+        for (int i = 0; i < Dim * Dim; ++i) {
+            at[i] += other.at[i];
+        }
+    }
+    void add_times(const BlockNumbers& other, const BlockNumbers& factors) {
+        for (int i = 0; i < Dim * Dim; ++i) {
+            at[i] += other.at[i] * factors.at[i];
+        }
+    }
+};
+
+template <typename Scalar>
+struct BlockNumbers<4, true, Scalar> {
+    static constexpr int kFill = kRegisterBytes / static_cast<int>(sizeof(Scalar));
+    static constexpr int kWidth = kFill < 4 ? 4 : kFill > 16 ? 16 : kFill;
+    static constexpr int kCount = 16 / kWidth;
+    using Some = Pack<Scalar, kWidth>;
+
+    Some at[kCount];
+
+    static BlockNumbers load(const Scalar* block) {
+        BlockNumbers numbers;
+        for (int i = 0; i < kCount; ++i) {
+            numbers.at[i] = Some::load(block + i * kWidth);
+        }
+        return numbers;
+    }
+    static BlockNumbers of_columns(const Scalar* x, int turn) {
+        const Some fours = repeated(loaded<FourOf<Scalar>>(x));
+        const Some some = turn == 1   ? turned<1>(fours)
+                          : turn == 2 ? turned<2>(fours)
+                                      : turned<3>(fours);
+        BlockNumbers all;
+        for (Some& one : all.at) {
+            one = some;
+        }
+        return all;
+    }
+    // Diagonal k has rows column ^ k.
+    static BlockNumbers of_rows(const Scalar* x, int turn) {
+        const auto numbers = loaded<FourOf<Scalar>>(x);
+        const FourOf<Scalar> by[4] = {numbers,
+                                      __builtin_shufflevector(numbers, numbers, 1, 0, 3, 2),
+                                      __builtin_shufflevector(numbers, numbers, 2, 3, 0, 1),
+                                      __builtin_shufflevector(numbers, numbers, 3, 2, 1, 0)};
+        BlockNumbers all;
+        if constexpr (kWidth == 4) {
+            for (int k = 0; k < 4; ++k) {
+                all.at[k] = Some(by[k ^ turn]);
+            }
+        } else {
+            const auto first = joined(by[turn], by[1 ^ turn]);
+            const auto second = joined(by[2 ^ turn], by[3 ^ turn]);
+            if constexpr (kWidth == 8) {
+                all.at[0] = Some(first);
+                all.at[1] = Some(second);
+            } else {
+                all.at[0] = Some(joined(first, second));
+            }
+        }
+        return all;
+    }
+    Scalar entry(int i, int j) const {
+        const int at_entry = block_entry<4>(i, j);
+        return at[at_entry / kWidth].lanes[at_entry % kWidth];
+    }
+    void add(const BlockNumbers& other) {
+        for (int i = 0; i < kCount; ++i) {
+            at[i] += other.at[i];
+        }
+    }
+    void add_times(const BlockNumbers& other, const BlockNumbers& factors) {
+        for (int i = 0; i < kCount; ++i) {
+            at[i] += other.at[i] * factors.at[i];
+        }
     }
 
-    // H T of a child, added up over the children of one aggregate.
+private:
+    template <typename Vector, std::size_t... Lane>
+    static auto joined(const Vector& first,
+                       const Vector& second,
+                       std::index_sequence<Lane...> /*lanes*/) {
+        return __builtin_shufflevector(first, second, static_cast<int>(Lane)...);
+    }
+    // One after the other.
+    template <typename Vector>
+    static auto joined(const Vector& first, const Vector& second) {
+        constexpr std::size_t kLanes = sizeof(Vector) / sizeof(Scalar);
+        return joined(first, second, std::make_index_sequence<2 * kLanes>());
+    }
+    // Over and over.
+    template <typename Vector>
+    static Some repeated(const Vector& numbers) {
+        if constexpr (sizeof(Vector) == sizeof(Some)) {
+            return Some(numbers);
+        } else {
+            return repeated(joined(numbers, numbers));
+        }
+    }
+    template <std::size_t Turn, std::size_t... Lane>
+    static Some turned(const Some& fours, std::index_sequence<Lane...> /*lanes*/) {
+        return Some(
+            __builtin_shufflevector(fours.lanes, fours.lanes, static_cast<int>(Lane ^ Turn)...));
+    }
+    // Number j ^ Turn of each four at j.
+    template <std::size_t Turn>
+    static Some turned(const Some& fours) {
+        return turned<Turn>(fours, std::make_index_sequence<kWidth>());
+    }
+};
+
+// H T of a child, and T^T of that, for children that are vertices. A rotation of plane p < q has
+// x_p times column q of H less x_q times column p. With turn = p ^ q both are columns times what x
+// has at column ^ turn: a block is added up as it is, and so multiplied for each turn, by rows of
+// the result in the same way; differences are taken at the end.
+template <int Dim, bool IsVectorized, typename Scalar>
+struct GalerkinOfVertices {
+    using Numbers = BlockNumbers<Dim, IsVectorized, Scalar>;
+    static constexpr int kDim = Dim;
+    static constexpr int kModes = simulator::kModes<Dim>;
+    static constexpr int kRows = Dim;
+    static constexpr int kTurns = Dim > 2 ? 4 : 2;  // from 1 on, and as they are
+
     struct Product {
-        Vertex at[kColumns][kVectors];
+        Numbers at[kTurns];
+    };
+    struct Sum {
+        Product at[kTurns];
+    };
+
+    static void add_times(const Scalar* block, const Scalar* arm, Product& product) {
+        const Numbers numbers = Numbers::load(block);
+        product.at[0].add(numbers);
+#pragma GCC unroll 4
+        for (int turn = 1; turn < kTurns; ++turn) {
+            product.at[turn].add_times(numbers, Numbers::of_columns(arm, turn));
+        }
+    }
+
+    struct Rows {
+        Numbers at[kTurns];
+    };
+    static Rows rows_of(const Scalar* arm) {
+        Rows rows;
+#pragma GCC unroll 4
+        for (int turn = 1; turn < kTurns; ++turn) {
+            rows.at[turn] = Numbers::of_rows(arm, turn);
+        }
+        return rows;
+    }
+
+    static void add_transposed_times(const Product& product, const Rows& rows, Sum& sum) {
+        for (int part = 0; part < kTurns; ++part) {
+            const Numbers numbers = product.at[part];
+            sum.at[0].at[part].add(numbers);
+            for (int turn = 1; turn < kTurns; ++turn) {
+                sum.at[turn].at[part].add_times(numbers, rows.at[turn]);
+            }
+        }
+    }
+
+    static void store_block(const Sum& sum, Scalar* block) {
+#pragma GCC unroll 4
+        for (int j = 0; j < Dim; ++j) {
+            store_column(
+                sum, [&](const Product& of, int i) { return of.at[0].entry(i, j); },
+                block + j * kModes);
+        }
+        for_each_plane<Dim>([&](int p, int q, int k) {
+            store_column(
+                sum,
+                [&](const Product& of, int i) {
+                    return of.at[p ^ q].entry(i, q) - of.at[p ^ q].entry(i, p);
+                },
+                block + k * kModes);
+        });
+    }
+
+private:
+    // @param entry  Of a row of H T.
+    template <typename Entry>
+    [[gnu::always_inline]] static void store_column(const Sum& sum,
+                                                    const Entry& entry,
+                                                    Scalar* column) {
+#pragma GCC unroll 4
+        for (int i = 0; i < Dim; ++i) {
+            column[i] = entry(sum.at[0], i);
+        }
+        for_each_plane<Dim>([&](int p, int q, int k) {
+            column[k] = entry(sum.at[p ^ q], q) - entry(sum.at[p ^ q], p);
+        });
+    }
+};
+
+// The same for children that have modes of their own, in vectors of Dim rows: those of the axes,
+// then those of rotations, the last of which ends with the rows: some may be in two, and computed
+// twice.
+template <int Dim, bool IsVectorized, typename Scalar>
+struct GalerkinOfModes {
+    using Vertex = typename VertexOf<Dim, IsVectorized, Scalar>::Type;
+    static constexpr int kDim = Dim;
+    static constexpr int kModes = simulator::kModes<Dim>;
+    static constexpr int kRows = kModes;
+    static constexpr int kVectors = (kRows + Dim - 1) / Dim;
+    static constexpr int row_of(int vector) {
+        return vector + 1 < kVectors ? Dim * vector : kRows - Dim;
+    }
+
+    struct Product {
+        Vertex at[kModes][kVectors];
     };
 
     // T^T of that, but for the differences that rotations are. Of a column: the axes, those times
     // each coordinate of the arm, and rotations times its ratio.
     struct Sum {
-        Vertex at[kColumns][Dim + kVectors];
+        Vertex at[kModes][Dim + kVectors];
     };
 
-    static_assert(sizeof(Product) + sizeof(Sum) == kGalerkinScratch<Dim, Rows> * sizeof(double));
-
-    template <typename Scalar>
-    static void add_times(const Scalar* block, const double* arm, Product& product) {
-        add_part_times<0>(block, arm, product);
-        if constexpr (kVectors > 1) {
-            add_part_times<1>(block, arm, product);
-        }
-        if constexpr (kVectors > 2) {
-            add_part_times<2>(block, arm, product);
-        }
-    }
-
-    // The rows of one vector.
-    template <int Vector, typename Scalar>
-    static void add_part_times(const Scalar* block, const double* arm, Product& product) {
-        static_assert(kVectors <= 3);
-        Vertex axes[Dim];
-        if constexpr (Rows == Dim) {
-            load_columns(block, axes);
-        } else {
-            block += row_of(Vector);
+    static void add_times(const Scalar* block, const Scalar* arm, Product& product) {
+#pragma GCC unroll 3
+        for (int v = 0; v < kVectors; ++v) {
+            const Scalar* rows = block + row_of(v);
+            Vertex axes[Dim];
             for (int c = 0; c < Dim; ++c) {
-                load(block + c * Rows, axes[c]);
+                load(rows + c * kRows, axes[c]);
+                product.at[c][v] += axes[c];
             }
+            for_each_plane<Dim>([&](int p, int q, int k) {
+                product.at[k][v] += axes[q] * arm[p] - axes[p] * arm[q]
+                                    + loaded<Vertex>(rows + k * kRows) * arm[Dim];
+            });
         }
-        for (int c = 0; c < Dim; ++c) {
-            product.at[c][Vector] += axes[c];
-        }
-        for_each_plane<Dim>([&](int p, int q, int k) {
-            Vertex sum = product.at[k][Vector] + axes[q] * arm[p] - axes[p] * arm[q];
-            if constexpr (Rows > Dim) {
-                sum += loaded<Vertex>(block + k * Rows) * arm[Dim];
-            }
-            product.at[k][Vector] = sum;
-        });
     }
 
-    static void add_transposed_times(const Product& product, const double* arm, Sum& sum) {
-        for (int c = 0; c < kColumns; ++c) {
+    struct Rows {
+        const Scalar* arm;
+    };
+    static Rows rows_of(const Scalar* arm) {
+        return {arm};
+    }
+
+    static void add_transposed_times(const Product& product, const Rows& rows, Sum& sum) {
+        const Scalar* arm = rows.arm;
+        for (int c = 0; c < kModes; ++c) {
             const Vertex axes = product.at[c][0];
             sum.at[c][0] += axes;
             for (int p = 0; p < Dim; ++p) {
@@ -125,20 +341,15 @@ struct Galerkin {
         }
     }
 
-    template <typename Scalar>
     static void store_block(const Sum& sum, Scalar* block) {
-        for (int c = 0; c < kColumns; ++c, block += kColumns) {
+        for (int c = 0; c < kModes; ++c, block += kModes) {
             const Vertex* of = sum.at[c];
             for (int i = 0; i < Dim; ++i) {
-                block[i] = static_cast<Scalar>(of[0][i]);
+                block[i] = of[0][i];
             }
             for_each_plane<Dim>([&](int p, int q, int k) {
-                double entry = of[1 + p][q] - of[1 + q][p];
-                if constexpr (Rows > Dim) {
-                    const int v = k < row_of(kVectors - 1) ? k / Dim : kVectors - 1;
-                    entry += of[Dim + v][k - row_of(v)];
-                }
-                block[k] = static_cast<Scalar>(entry);
+                const int v = k < row_of(kVectors - 1) ? k / Dim : kVectors - 1;
+                block[k] = of[1 + p][q] - of[1 + q][p] + of[Dim + v][k - row_of(v)];
             });
         }
     }
@@ -146,39 +357,43 @@ struct Galerkin {
 
 // Products of a row with all children of an aggregate are added up first: neighbors in the row
 // mostly are of one aggregate, and their sum stays in registers.
-template <int Dim, int Rows, bool IsVectorized, typename Scalar>
+template <typename Of, typename Scalar>
 class GalerkinSum {
 public:
-    using Of = Galerkin<Dim, Rows, IsVectorized>;
-
-    explicit GalerkinSum(const GalerkinRow& of)
+    explicit GalerkinSum(const GalerkinRow<Scalar>& of)
         : of_(&of),
           sums_(reinterpret_cast<typename Of::Sum*>(of.scratch)),
-          products_(reinterpret_cast<typename Of::Product*>(sums_ + of.blocks)) {
-        for (std::size_t block = 0; block < of.blocks; ++block) {
-            sums_[block] = {};
-        }
-    }
+          products_(reinterpret_cast<typename Of::Product*>(sums_ + of.blocks)) {}
 
     void add(const BlockRows<Scalar>& H) {
-        const AggregateChildren& children = of_->children;
-        for (std::size_t i = 0; i < children.count; ++i) {
-            const std::uint32_t next = children.members[i + 1 < children.count ? i + 1 : i];
-            add_row(H, children.members[i], H.values + H.row_start[next] * kEntries);
+        for (std::size_t i = 0; i < of_->count; ++i) {
+            const std::uint32_t next = of_->members[i + 2 < of_->count ? i + 2 : i];
+            add_row(H, of_->members[i], H.values + H.row_start[next] * kEntries);
         }
     }
 
+    // Those that H has nothing of, since all they are made of is below the diagonal, are many.
     void store(Scalar* blocks) const {
-        for (std::size_t block = 0; block < of_->blocks; ++block) {
-            Of::store_block(sums_[block], blocks + block * Of::kColumns * Of::kColumns);
+        constexpr int kStored = Of::kModes * Of::kModes;
+        for (std::size_t place = 0; place < of_->blocks; ++place, blocks += kStored) {
+            if (of_->uses[place] == kNone) {
+                __builtin_memset(blocks, 0, kStored * sizeof(Scalar));
+            } else {
+                Of::store_block(sums_[place], blocks);
+                of_->uses[place] = kNone;
+            }
         }
     }
 
 private:
-    static constexpr int kEntries = Rows * Rows;
+    static constexpr int kEntries = Of::kRows * Of::kRows;
+    // What of a place there is: nothing, a sum, or that and a product with this row.
+    static constexpr std::uint8_t kNone = 0;
+    static constexpr std::uint8_t kSum = 1;
+    static constexpr std::uint8_t kProduct = 2;
 
-    [[nodiscard]] const double* arm_of(std::size_t child) const {
-        return of_->children.arms + child * of_->children.arm_stride;
+    [[nodiscard]] const Scalar* arm_of(std::size_t child) const {
+        return of_->arms + child * (Of::kDim + 1);
     }
 
     [[nodiscard]] std::uint32_t place_of(std::uint32_t child) const {
@@ -196,11 +411,14 @@ private:
         while (k < last) {
             const std::uint32_t place = place_of(H.columns[k]);
             typename Of::Product sum;
-            if (of_->is_touched[place] != 0) {
+            if (of_->uses[place] == kProduct) {
                 sum = products_[place];
             } else {
+                if (of_->uses[place] == kNone) {
+                    sums_[place] = {};
+                }
                 sum = {};
-                of_->is_touched[place] = 1;
+                of_->uses[place] = kProduct;
                 of_->touched[touched++] = place;
             }
             do {
@@ -211,10 +429,11 @@ private:
             } while (k < last && place_of(H.columns[k]) == place);
             products_[place] = sum;
         }
+        const auto rows = Of::rows_of(arm_of(row));
         for (std::size_t t = 0; t < touched; ++t) {
             const std::uint32_t place = of_->touched[t];
-            Of::add_transposed_times(products_[place], arm_of(row), sums_[place]);
-            of_->is_touched[place] = 0;
+            Of::add_transposed_times(products_[place], rows, sums_[place]);
+            of_->uses[place] = kSum;
         }
     }
 
@@ -235,14 +454,14 @@ private:
         Of::add_times(half, arm_of(column), sum);
     }
 
-    const GalerkinRow* of_;
+    const GalerkinRow<Scalar>* of_;
     typename Of::Sum* sums_;
     typename Of::Product* products_;
 };
 
-template <int Dim, int Rows, bool IsVectorized, typename Scalar>
-void galerkin(const GalerkinRow& of, const SymmetricParts<Scalar>& A, Scalar* blocks) {
-    GalerkinSum<Dim, Rows, IsVectorized, Scalar> sum(of);
+template <typename Of, typename Scalar>
+void galerkin(const GalerkinRow<Scalar>& of, const SymmetricParts<Scalar>& A, Scalar* blocks) {
+    GalerkinSum<Of, Scalar> sum(of);
     sum.add(A.own);
     if (A.coupling.values != nullptr) {
         sum.add(A.coupling);

@@ -33,21 +33,20 @@ constexpr auto choose_multiply_modes() {
 template <int Dim, typename DoublePack>
 constexpr BlockKernels block_kernels() {
     constexpr bool kIsVectorized = Lanes<DoublePack>::kCount > 1;
-    // With less than four numbers in a register the columns of a block are had sooner one by one.
-    constexpr bool kHasFours = kIsVectorized && kRegisterBytes >= static_cast<int>(sizeof(Four));
-    return {.multiply_float = choose_multiply<Dim, float, kIsVectorized>(),
-            .multiply_double = choose_multiply<Dim, double, kIsVectorized>(),
-            .multiply_modes_float = choose_multiply_modes<Dim, float, kIsVectorized>(),
-            .multiply_modes_double = choose_multiply_modes<Dim, double, kIsVectorized>(),
-            .factor_columns_float = &factor_columns<Dim, DoublePack, float>,
-            .factor_columns_double = &factor_columns<Dim, DoublePack, double>,
-            .solve_columns = &solve_columns<Dim, kIsVectorized>,
-            .sum_forces = &sum_forces<Dim, kIsVectorized>,
-            .add_motions = &add_motions<Dim, kIsVectorized>,
-            .galerkin_float = &galerkin<Dim, Dim, kHasFours, float>,
-            .galerkin_double = &galerkin<Dim, Dim, kHasFours, double>,
-            .galerkin_modes_float = &galerkin<Dim, kModes<Dim>, kIsVectorized, float>,
-            .galerkin_modes_double = &galerkin<Dim, kModes<Dim>, kIsVectorized, double>};
+    return {
+        .multiply_float = choose_multiply<Dim, float, kIsVectorized>(),
+        .multiply_double = choose_multiply<Dim, double, kIsVectorized>(),
+        .multiply_modes_float = choose_multiply_modes<Dim, float, kIsVectorized>(),
+        .multiply_modes_double = choose_multiply_modes<Dim, double, kIsVectorized>(),
+        .factor_columns_float = &factor_columns<Dim, DoublePack, float>,
+        .factor_columns_double = &factor_columns<Dim, DoublePack, double>,
+        .solve_columns = &solve_columns<Dim, kIsVectorized>,
+        .sum_forces = &sum_forces<Dim, kIsVectorized>,
+        .add_motions = &add_motions<Dim, kIsVectorized>,
+        .galerkin_float = &galerkin<GalerkinOfVertices<Dim, kIsVectorized, float>, float>,
+        .galerkin_double = &galerkin<GalerkinOfVertices<Dim, kIsVectorized, double>, double>,
+        .galerkin_modes_float = &galerkin<GalerkinOfModes<Dim, kIsVectorized, float>, float>,
+        .galerkin_modes_double = &galerkin<GalerkinOfModes<Dim, kIsVectorized, double>, double>};
 }
 
 // A simplex is the case of Dim + 1 corners of the kernels for any number of them, which give the

@@ -59,6 +59,30 @@ void transpose(const Scalar (&from)[Rows][Width], Scalar (&to)[Width][Rows]) {
     }
 }
 
+/// The other way: to[row][lane] = from[lane][row].
+template <int Rows, int Width, typename Scalar>
+void transpose_back(const Scalar (&from)[Width][Rows], Scalar (&to)[Rows][Width]) {
+    if constexpr (Width > 1 && Rows % Width == 0) {
+        using Type = typename Pack<Scalar, Width>::Vector;
+        for (int tile = 0; tile < Rows; tile += Width) {
+            Type rows[Width];
+            for (int i = 0; i < Width; ++i) {
+                __builtin_memcpy(&rows[i], &from[i][tile], sizeof(Type));
+            }
+            transpose(rows);
+            for (int i = 0; i < Width; ++i) {
+                __builtin_memcpy(to[tile + i], &rows[i], sizeof(Type));
+            }
+        }
+    } else {
+        for (int row = 0; row < Rows; ++row) {
+            for (int lane = 0; lane < Width; ++lane) {
+                to[row][lane] = from[lane][row];
+            }
+        }
+    }
+}
+
 /// to[i] += from[i], in vectors of Width.
 template <int Count, int Width, typename Scalar>
 void add_to(const Scalar (&from)[Count], Scalar* to) {

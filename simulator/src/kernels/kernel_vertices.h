@@ -15,15 +15,17 @@ namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
 // Written with the vector types of the compiler, for packs have no shuffles; a machine without
 // vectors of four gets pairs.
-using Four = Pack<double, 4>::Vector;
+template <typename Number>
+using FourOf = typename Pack<Number, 4>::Vector;
+using Four = FourOf<double>;
 
 // Where there are no vectors, or not of three.
-template <int Dim>
+template <int Dim, typename Number = double>
 struct OneByOne {
-    double at[Dim];
+    Number at[Dim];
 
-    double& operator[](int i) { return at[i]; }
-    double operator[](int i) const { return at[i]; }
+    Number& operator[](int i) { return at[i]; }
+    Number operator[](int i) const { return at[i]; }
     OneByOne& operator+=(const OneByOne& other) {
         for (int i = 0; i < Dim; ++i) {
             at[i] += other.at[i];
@@ -38,21 +40,21 @@ struct OneByOne {
     }
     friend OneByOne operator+(OneByOne a, const OneByOne& b) { return a += b; }
     friend OneByOne operator-(OneByOne a, const OneByOne& b) { return a -= b; }
-    friend OneByOne operator*(OneByOne a, double factor) {
-        for (double& number : a.at) {
+    friend OneByOne operator*(OneByOne a, Number factor) {
+        for (Number& number : a.at) {
             number *= factor;
         }
         return a;
     }
 };
 
-template <int Dim, bool IsVectorized>
+template <int Dim, bool IsVectorized, typename Number = double>
 struct VertexOf {
-    using Type = OneByOne<Dim>;
+    using Type = OneByOne<Dim, Number>;
 };
-template <>
-struct VertexOf<4, true> {
-    using Type = Four;
+template <typename Number>
+struct VertexOf<4, true, Number> {
+    using Type = FourOf<Number>;
 };
 
 template <typename Scalar>
@@ -64,10 +66,13 @@ template <typename Scalar>
 void load(const Scalar* from, Four& to) {
     to = load_four(from);
 }
-template <int Dim, typename Scalar>
-void load(const Scalar* from, OneByOne<Dim>& to) {
+inline void load(const float* from, FourOf<float>& to) {
+    to = Pack<float, 4>::load(from).lanes;
+}
+template <int Dim, typename Number, typename Scalar>
+void load(const Scalar* from, OneByOne<Dim, Number>& to) {
     for (int i = 0; i < Dim; ++i) {
-        to.at[i] = static_cast<double>(from[i]);
+        to.at[i] = static_cast<Number>(from[i]);
     }
 }
 template <typename Vertex, typename Scalar>
@@ -185,28 +190,6 @@ OneByOne<Dim> transposed_times(const Scalar* block, const OneByOne<Dim>& x) {
         }
     }
     return sums;
-}
-
-// The columns of a block.
-template <typename Scalar>
-void load_columns(const Scalar* block, Four (&columns)[4]) {
-    const Diagonals of = diagonals_of(block);
-    const Four left = __builtin_shufflevector(of.at[0], of.at[1], 0, 4, 2, 6);
-    const Four left_odd = __builtin_shufflevector(of.at[1], of.at[0], 1, 5, 3, 7);
-    const Four right = __builtin_shufflevector(of.at[2], of.at[3], 0, 4, 2, 6);
-    const Four right_odd = __builtin_shufflevector(of.at[3], of.at[2], 1, 5, 3, 7);
-    columns[0] = __builtin_shufflevector(left, right, 0, 1, 4, 5);
-    columns[1] = __builtin_shufflevector(left_odd, right_odd, 0, 1, 4, 5);
-    columns[2] = __builtin_shufflevector(right, left, 2, 3, 6, 7);
-    columns[3] = __builtin_shufflevector(right_odd, left_odd, 2, 3, 6, 7);
-}
-template <int Dim, typename Scalar>
-void load_columns(const Scalar* block, OneByOne<Dim> (&columns)[Dim]) {
-    for (int j = 0; j < Dim; ++j) {
-        for (int i = 0; i < Dim; ++i) {
-            columns[j][i] = static_cast<double>(block[block_entry<Dim>(i, j)]);
-        }
-    }
 }
 
 }  // namespace

@@ -76,13 +76,27 @@ void for_each_chunk(const Workers& workers, std::int64_t rows, const Work& work)
     });
 }
 
+// Of children, as kernels take them: coordinates, then the ratio.
+template <typename Scalar, int Dim>
+std::vector<Scalar> numbers_of(const std::vector<Arm<Dim>>& arms) {
+    std::vector<Scalar> numbers;
+    numbers.reserve(arms.size() * (Dim + 1));
+    for (const Arm<Dim>& arm : arms) {
+        for (const double coordinate : arm.x) {
+            numbers.push_back(static_cast<Scalar>(coordinate));
+        }
+        numbers.push_back(static_cast<Scalar>(arm.ratio));
+    }
+    return numbers;
+}
+
 // Rows of aggregates one after the other, with the room that kernels need.
-template <int Dim, int Rows>
+template <int Dim, int Rows, typename Scalar>
 class GalerkinRows {
 public:
     // Of the rows [begin, end) at most.
     GalerkinRows(const Aggregates& aggregates,
-                 const std::vector<Arm<Dim>>& arms,
+                 const std::vector<Scalar>& arms,
                  const AggregatePattern& pattern,
                  std::int64_t begin,
                  std::int64_t end)
@@ -95,22 +109,18 @@ public:
         }
         places_.resize(last + std::size_t{1});
         touched_.resize(most);
-        is_touched_.resize(most);
+        uses_.resize(most);
         scratch_.resize(most * kGalerkinScratch<Dim, Rows>);
     }
 
-    [[nodiscard]] GalerkinRow at(std::int64_t row) {
+    [[nodiscard]] GalerkinRow<Scalar> at(std::int64_t row) {
         const std::span<const std::uint32_t> columns = columns_of(row);
         for (std::uint32_t place = 0; place < columns.size(); ++place) {
             places_[columns[place]] = place;
         }
         const auto& members = aggregates_->members[static_cast<std::size_t>(row)];
-        return {children_of<Dim>(members, *arms_),
-                aggregates_->of_child.data(),
-                places_.data(),
-                columns.size(),
-                touched_.data(),
-                is_touched_.data(),
+        return {members.data(), members.size(), arms_->data(),   aggregates_->of_child.data(),
+                places_.data(), columns.size(), touched_.data(), uses_.data(),
                 scratch_.data()};
     }
 
@@ -122,12 +132,12 @@ private:
     }
 
     const Aggregates* aggregates_;
-    const std::vector<Arm<Dim>>* arms_;
+    const std::vector<Scalar>* arms_;
     const AggregatePattern* pattern_;
     std::vector<std::uint32_t> places_;
     std::vector<std::uint32_t> touched_;
-    std::vector<std::uint8_t> is_touched_;
-    std::vector<double, LineAllocator<double>> scratch_;
+    std::vector<std::uint8_t> uses_;
+    std::vector<Scalar, LineAllocator<Scalar>> scratch_;
 };
 
 // A = H + H^T, in place; what is between ranks is whole. Each pair of blocks is one thread's.
@@ -163,8 +173,9 @@ AggregateMatrix<Dim, Scalar> product_of(const Workers& workers,
     Result result;
     result.pattern = &pattern;
     result.values.resize(pattern.columns.size() * Result::kEntries);
+    const std::vector<Scalar> numbers = numbers_of<Scalar>(arms);
     for_each_chunk(workers, pattern.rows(), [&](std::int64_t begin, std::int64_t end) {
-        GalerkinRows<Dim, Rows> rows(aggregates, arms, pattern, begin, end);
+        GalerkinRows<Dim, Rows, Scalar> rows(aggregates, numbers, pattern, begin, end);
         for (std::int64_t row = begin; row < end; ++row) {
             const std::int64_t first = pattern.row_start[static_cast<std::size_t>(row)];
             kernel(rows.at(row), A, result.values.data() + first * Result::kEntries);

@@ -59,21 +59,24 @@ struct SymmetricParts {
 
 /// One row of P^T H P, where A = H + H^T but for columns of other ranks: the upper triangle of A
 /// with its diagonal halved, and those columns whole. P is the rigid modes of aggregates, A a
-/// matrix over their children.
+/// matrix over their children. Sums have the precision of the blocks: preconditioners need no more.
+template <typename Scalar>
 struct GalerkinRow {
-    AggregateChildren children;               ///< Of the aggregate whose row it is.
+    const std::uint32_t* members = nullptr;   ///< Of the aggregate whose row it is.
+    std::size_t count = 0;                    ///< Of members.
+    const Scalar* arms = nullptr;             ///< Of all children: Dim coordinates, then the ratio.
     const std::uint32_t* of_child = nullptr;  ///< Aggregates of all children.
     const std::uint32_t* places = nullptr;    ///< Of aggregates among the blocks of the row.
     std::size_t blocks = 0;                   ///< Of the row.
     std::uint32_t* touched = nullptr;         ///< Room for as many places.
-    std::uint8_t* is_touched = nullptr;       ///< Of places: zero; left zero.
-    double* scratch = nullptr;                ///< kGalerkinScratch numbers a block.
+    std::uint8_t* uses = nullptr;             ///< Of places: zero; left zero.
+    Scalar* scratch = nullptr;                ///< kGalerkinScratch numbers a block.
 };
 
-/// For children of Rows dofs each.
+/// At most, for children of Rows dofs each.
 template <int Dim, int Rows>
-inline constexpr std::size_t kGalerkinScratch = Dim*(Dim + 1) / 2
-                                                * Dim*(Dim + 2 * ((Rows + Dim - 1) / Dim));
+inline constexpr std::size_t kGalerkinScratch =
+    Rows == Dim ? 20 * Dim* Dim : Dim*(Dim + 1) / 2 * Dim*(Dim + 2 * ((Rows + Dim - 1) / Dim));
 
 /// The inner loops of linear algebra.
 struct BlockKernels {
@@ -103,14 +106,16 @@ struct BlockKernels {
     void (*add_motions)(const AggregateChildren& children, const double* modes, double* x);
 
     /// Stores the blocks of one row of P^T H P. Blocks of A are of vertices, or of modes.
-    void (*galerkin_float)(const GalerkinRow& row, const SymmetricParts<float>& A, float* blocks);
-    void (*galerkin_double)(const GalerkinRow& row,
+    void (*galerkin_float)(const GalerkinRow<float>& row,
+                           const SymmetricParts<float>& A,
+                           float* blocks);
+    void (*galerkin_double)(const GalerkinRow<double>& row,
                             const SymmetricParts<double>& A,
                             double* blocks);
-    void (*galerkin_modes_float)(const GalerkinRow& row,
+    void (*galerkin_modes_float)(const GalerkinRow<float>& row,
                                  const SymmetricParts<float>& A,
                                  float* blocks);
-    void (*galerkin_modes_double)(const GalerkinRow& row,
+    void (*galerkin_modes_double)(const GalerkinRow<double>& row,
                                   const SymmetricParts<double>& A,
                                   double* blocks);
 };

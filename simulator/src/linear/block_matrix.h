@@ -15,7 +15,8 @@
 
 namespace pent::simulator {
 
-/// Starts arrays at cache lines, so that no 4 x 4 block of floats lies across two.
+/// Starts arrays at cache lines, so that no 4 x 4 block of floats lies across two, and leaves
+/// numbers that nothing is said of as they are: who fills them does so with all threads.
 template <typename Value>
 struct LineAllocator {
     using value_type = Value;  // NOLINT(readability-identifier-naming): as allocators must
@@ -29,6 +30,14 @@ struct LineAllocator {
         return static_cast<Value*>(::operator new(count * sizeof(Value), kLine));
     }
     void deallocate(Value* memory, std::size_t /*count*/) { ::operator delete(memory, kLine); }
+    template <typename Other>
+    void construct(Other* at) noexcept {
+        ::new (static_cast<void*>(at)) Other;
+    }
+    template <typename Other, typename... From>
+    void construct(Other* at, From&&... from) {
+        ::new (static_cast<void*>(at)) Other(std::forward<From>(from)...);
+    }
     template <typename Other>
     bool operator==(const LineAllocator<Other>& /*other*/) const {
         return true;
