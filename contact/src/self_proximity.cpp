@@ -140,7 +140,7 @@ std::int64_t SelfProximity<Dim>::bytes() const {
     for (const std::vector<Row>* rows : {&points_, &mixed_}) {
         for (const Row& row : *rows) {
             sum += static_cast<std::int64_t>(row.known.size() * sizeof(Known)
-                                             + row.pairs.size() * sizeof(Candidate));
+                                             + row.pairs.capacity() * sizeof(Candidate));
         }
     }
     return sum;

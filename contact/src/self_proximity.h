@@ -78,7 +78,7 @@ private:
         void set_bound(const PatchBound& bound);
     };
 
-    // What is known of a patch and others, by these.
+    // What is known of a patch and others, by these. Some pairs may be in no list any more.
     struct Row {
         std::vector<Known> known;
         std::vector<Candidate> pairs;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -77,8 +78,9 @@ public:
     [[nodiscard]] const std::vector<Found>& found() const { return found_; }
 
 private:
+    // Lists of a patch and others, ascending: pairs [begin, end) of these.
     struct Listed {
-        std::uint32_t second = 0;
+        std::vector<Known> known;
         std::vector<Candidate> pairs;
     };
 
@@ -155,7 +157,7 @@ private:
 
     // The next search is taken to find the patches moved as this one does.
     void look_at_others(std::size_t a, Found& found) {
-        std::vector<Listed> listed;
+        Listed listed;
         const std::span<const std::uint32_t> unknown = rows_[a].unknown;
         for (std::size_t begin = 0; begin < unknown.size(); begin += kBatch) {
             const auto others = unknown.subspan(begin, std::min(kBatch, unknown.size() - begin));
@@ -164,8 +166,7 @@ private:
             for (std::size_t k = 0; k < others.size(); ++k) {
                 const std::uint32_t b = others[k];
                 if (is_apart(bounds[k], a, b)) {
-                    listed.push_back({b, list(a, b, found)});
-                    look_at(listed.back().pairs, along[k], near(a, b), found);
+                    look_at(list(a, b, listed, found), along[k], near(a, b), found);
                 } else {
                     look_at_all(a, b, found);
                 }
@@ -230,10 +231,13 @@ private:
                               [&](std::uint32_t i, std::uint32_t j) { test_(i, j, found); });
     }
 
-    // The pairs of two patches that are within the listed distance where paths start, with a little
-    // more for rounding, and can be contacts.
-    [[nodiscard]] std::vector<Candidate> list(std::size_t a, std::uint32_t b, Found& found) const {
-        std::vector<Candidate> pairs;
+    // Lists the pairs of two patches that are within the listed distance where paths start, with a
+    // little more for rounding, and can be contacts; returns them, until the next are listed.
+    std::span<const Candidate> list(std::size_t a,
+                                    std::uint32_t b,
+                                    Listed& listed,
+                                    Found& found) const {
+        const std::size_t before = listed.pairs.size();
         for_each_near<Dim, K>(PatchOnPaths<Dim>{first_patches(), a},
                               PatchOnPaths<Dim>{second_patches(), b}, true, listed_limit(),
                               [&](std::uint32_t i, std::uint32_t j) {
@@ -242,9 +246,13 @@ private:
                                       std::swap(pair.first, pair.second);
                                   }
                                   ++found.overlaps;
-                                  add_if_near(pair, pairs);
+                                  add_if_near(pair, listed.pairs);
                               });
-        return pairs;
+        listed.known.push_back({.second = b,
+                                .search = all_.search_,
+                                .begin = static_cast<std::uint32_t>(before),
+                                .end = static_cast<std::uint32_t>(listed.pairs.size())});
+        return std::span(listed.pairs).subspan(before);
     }
 
     [[nodiscard]] double listed_limit() const { return (1 + kRounding) * all_.listed_distance_; }
@@ -265,49 +273,58 @@ private:
 
     // Puts new lists in the place of old ones, and leaves out those of patches that are not near
     // any more.
-    void add(Row& row, const std::vector<Listed>& listed) {
-        if (listed.empty()) {
+    void add(Row& row, const Listed& listed) const {
+        if (listed.known.empty()) {
             return;
         }
-        std::size_t known_count = listed.size();
-        std::size_t pair_count = 0;
-        for (const Known& old : row.known) {
-            known_count += old.search == all_.search_ ? 1 : 0;
-            pair_count += old.search == all_.search_ ? old.end - old.begin : 0;
-        }
-        for (const Listed& next : listed) {
-            pair_count += next.pairs.size();
-        }
-        std::vector<Known> known;
-        std::vector<Candidate> pairs;
-        known.reserve(known_count);
-        pairs.reserve(pair_count);
-        const auto push = [&](Known entry, std::span<const Candidate> of_both) {
-            entry.begin = static_cast<std::uint32_t>(pairs.size());
-            pairs.insert(pairs.end(), of_both.begin(), of_both.end());
-            entry.end = static_cast<std::uint32_t>(pairs.size());
-            known.push_back(entry);
-        };
+        std::vector<Known> known(row.known.size() + listed.known.size());
+        auto end = known.begin();
         auto old = row.known.begin();
-        const auto push_old = [&] {
-            if (old->search == all_.search_) {
-                push(*old, std::span(row.pairs).subspan(old->begin, old->end - old->begin));
+        const auto push_old = [&](std::uint32_t before) {
+            for (; old != row.known.end() && old->second < before; ++old) {
+                if (old->search == all_.search_) {
+                    *end++ = *old;
+                }
             }
-            ++old;
         };
-        for (const Listed& next : listed) {
-            while (old != row.known.end() && old->second < next.second) {
-                push_old();
-            }
+        const auto first = static_cast<std::uint32_t>(row.pairs.size());
+        for (Known next : listed.known) {
+            push_old(next.second);
             if (old != row.known.end() && old->second == next.second) {
                 ++old;
             }
-            push({.second = next.second, .search = all_.search_}, next.pairs);
+            next.begin += first;
+            next.end += first;
+            *end++ = next;
         }
-        while (old != row.known.end()) {
-            push_old();
-        }
+        push_old(std::numeric_limits<std::uint32_t>::max());
+        known.erase(end, known.end());
         row.known.swap(known);
+        if (row.pairs.size() + listed.pairs.size() <= row.pairs.capacity()) {
+            row.pairs.insert(row.pairs.end(), listed.pairs.begin(), listed.pairs.end());
+        } else {
+            pack(row, listed.pairs);
+        }
+    }
+
+    // Leaves out the pairs of no list, of those there were and those that come behind them. There
+    // is room for some more then, so that most new lists are put behind the old ones.
+    static void pack(Row& row, const std::vector<Candidate>& behind) {
+        std::size_t count = 0;
+        for (const Known& known : row.known) {
+            count += known.end - known.begin;
+        }
+        std::vector<Candidate> pairs;
+        pairs.reserve(count + count / 2);
+        const std::size_t there = row.pairs.size();
+        for (Known& known : row.known) {
+            const Candidate* from = known.begin < there ? row.pairs.data() + known.begin
+                                                        : behind.data() + (known.begin - there);
+            const std::uint32_t size = known.end - known.begin;
+            known.begin = static_cast<std::uint32_t>(pairs.size());
+            known.end = known.begin + size;
+            pairs.insert(pairs.end(), from, from + size);
+        }
         row.pairs.swap(pairs);
     }
 
