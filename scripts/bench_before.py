@@ -5,7 +5,7 @@
 
 Times of a machine that others share differ by a tenth or more from minute to minute; so the two programs take turns,
 round by round, and what counts is the ratio of two that came one after the other: its median, and quartiles. The
-cases are those that both have by the same name. Build another commit in a checkout of its own, without running it:
+cases are those that both have by the same name. Another commit is built in a checkout of its own:
 
     cmake -S . -B build/bench -DCMAKE_BUILD_TYPE=Release -DPENT_BUILD_BENCHMARKS=ON -DPENT_BUILD_TESTS=OFF
     cmake --build build/bench --target bench_simulator
@@ -42,7 +42,10 @@ def cases_of(told):
 
 def measured(program, threads):
     """The cases of one round of a program; ends with its message if it fails."""
-    done = subprocess.run([program, "--threads", str(threads), "--no-growth", "--rounds", "1"], check=False, capture_output=True, text=True)
+    try:
+        done = subprocess.run([program, "--threads", str(threads), "--no-growth", "--rounds", "1"], check=False, capture_output=True, text=True)
+    except OSError as error:
+        sys.exit(f"bench_before: {program} does not run: {error.strerror}")
     if done.returncode != 0:
         sys.exit(f"bench_before: {program} ended with {done.returncode}: {done.stderr.strip()}")
     return cases_of(done.stdout)

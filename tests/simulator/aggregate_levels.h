@@ -68,15 +68,16 @@ inline Eigen::MatrixXd dense_modes(const Aggregates& aggregates,
     return P;
 }
 
-template <typename Scalar>
-Eigen::MatrixXd dense(const AggregateMatrix<4, Scalar>& A) {
+template <int Dim, typename Scalar>
+Eigen::MatrixXd dense(const AggregateMatrix<Dim, Scalar>& A) {
+    constexpr int kSize = kModes<Dim>;
     const Eigen::Index rows = A.pattern->rows();
-    Eigen::MatrixXd full = Eigen::MatrixXd::Zero(kModeCount * rows, kModeCount * rows);
+    Eigen::MatrixXd full = Eigen::MatrixXd::Zero(kSize * rows, kSize * rows);
     for (Eigen::Index row = 0; row < rows; ++row) {
         for (std::int64_t k = A.pattern->row_start[static_cast<std::size_t>(row)];
              k < A.pattern->row_start[static_cast<std::size_t>(row) + 1]; ++k) {
             const Eigen::Index column = A.pattern->columns[static_cast<std::size_t>(k)];
-            full.block<kModeCount, kModeCount>(kModeCount * row, kModeCount * column) =
+            full.block<kSize, kSize>(kSize * row, kSize * column) =
                 A.block(k).template cast<double>();
         }
     }

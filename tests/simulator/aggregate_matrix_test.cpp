@@ -1,10 +1,14 @@
 #include "linear/aggregate_matrix.h"
 
 #include "aggregate_levels.h"
+#include "elastic_box.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
 
 namespace pent::simulator {
 namespace {
@@ -25,6 +29,72 @@ TEST(GalerkinProduct, IsThatOfDenseMatricesOnEveryLevelSpringsIncludedOnEveryIns
         EXPECT_LT((dense(levels.first) - first).norm(), 1e-13 * first.norm()) << isa_name(isa);
         EXPECT_LT((dense(levels.second) - second).norm(), 1e-13 * second.norm()) << isa_name(isa);
     }
+}
+
+// What the modes do to all children, one mode at a time.
+template <int Dim, int Rows>
+Eigen::MatrixXd modes_of(const Aggregates& aggregates, const std::vector<Arm<Dim>>& arms) {
+    using Modes = RigidModes<Dim, Rows>;
+    constexpr int kSize = kModes<Dim>;
+    Eigen::MatrixXd P = Eigen::MatrixXd::Zero(Rows * static_cast<Eigen::Index>(arms.size()),
+                                              kSize * aggregates.count());
+    for (std::size_t child = 0; child < arms.size(); ++child) {
+        for (int mode = 0; mode < kSize; ++mode) {
+            P.block<Rows, 1>(Rows * static_cast<Eigen::Index>(child),
+                             kSize * aggregates.of_child[child] + mode) =
+                Modes::motion(Modes::Modes::Unit(mode), arms[child]);
+        }
+    }
+    return P;
+}
+
+// Of numbers at random, none of which makes up for another: sums of some hundred terms.
+template <int Dim, typename Scalar>
+void expect_products_of_numbers_at_random(double tolerance) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    const auto arms_of = [&](std::size_t count) {
+        std::vector<Arm<Dim>> arms(count);
+        for (Arm<Dim>& arm : arms) {
+            arm = {Eigen::Matrix<double, Dim, 1>::NullaryExpr([&] { return normal(random); }),
+                   0.5 + std::abs(normal(random))};
+        }
+        return arms;
+    };
+    const test::ElasticBox<Dim> box({.lame = {.lambda = 1, .mu = 1}});
+    BlockMatrix<Dim, Scalar> A(box.pattern);
+    std::generate_n(A.values(), box.pattern.blocks() * Dim * Dim,
+                    [&] { return static_cast<Scalar>(normal(random)); });
+    for (std::int64_t row = 0; row < A.rows(); ++row) {
+        const Eigen::Matrix<Scalar, Dim, Dim> block = A.diagonal(row);
+        A.set_block(A.diagonal_of(row), block + block.transpose());
+    }
+    const Aggregates fine = test::stripes(static_cast<std::uint32_t>(A.rows()), 5);
+    const Aggregates coarse = test::stripes(5, 2);
+    const AggregatePattern fine_pattern = make_aggregate_pattern(fine, box.pattern, nullptr);
+    const AggregatePattern coarse_pattern = make_aggregate_pattern(coarse, fine_pattern);
+    const auto fine_arms = arms_of(static_cast<std::size_t>(A.rows()));
+    const auto coarse_arms = arms_of(5);
+    const Eigen::MatrixXd P = modes_of<Dim, Dim>(fine, fine_arms);
+    const Eigen::MatrixXd Q = modes_of<Dim, kModes<Dim>>(coarse, coarse_arms);
+    const Eigen::MatrixXd expected = P.transpose() * test::ElasticBox<Dim>::dense(A) * P;
+    const Eigen::MatrixXd expected_next = Q.transpose() * expected * Q;
+    for (const Isa isa : test::supported_isas()) {
+        const BlockKernels& blocks = kernels<Dim>(isa).blocks;
+        const auto first = galerkin_product(Workers(2), blocks, A, fine, fine_arms, fine_pattern);
+        const auto second =
+            galerkin_product(Workers(2), blocks, first, coarse, coarse_arms, coarse_pattern);
+        EXPECT_LT((dense(first) - expected).norm(), tolerance * expected.norm()) << isa_name(isa);
+        EXPECT_LT((dense(second) - expected_next).norm(), tolerance * expected_next.norm())
+            << isa_name(isa);
+    }
+}
+
+TEST(GalerkinProduct, IsThatOfDenseMatricesInBothPrecisionsAndDimensions) {
+    expect_products_of_numbers_at_random<3, float>(1e-6);
+    expect_products_of_numbers_at_random<3, double>(1e-14);
+    expect_products_of_numbers_at_random<4, float>(1e-6);
+    expect_products_of_numbers_at_random<4, double>(1e-14);
 }
 
 TEST(GalerkinProduct, IsSymmetricToTheBitAndTheSameForAnyNumberOfThreads) {

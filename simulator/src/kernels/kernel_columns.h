@@ -43,7 +43,7 @@ struct LaneBlocks {
     }
     [[nodiscard]] Tensor<Real, Dim> load() const {
         alignas(64) double entries[kEntries][kCount];
-        transpose_back(at, entries);
+        transpose(at, entries);
         Tensor<Real, Dim> blocks;
         for (int i = 0; i < Dim; ++i) {
             for (int j = 0; j < Dim; ++j) {

@@ -67,7 +67,7 @@ void multiply_rows_4(const BlockRows<Scalar>& rows, const double* x, double* y) 
         std::int64_t k = row_start[row];
         const std::int64_t last = row_start[row + 1];
         const Scalar* block = rows.values + 16 * k;
-        const Permuted x_row = permuted(load_four(x + 4 * row));
+        const auto x_row = permuted(load_four(x + 4 * row));
         Diagonals sums = diagonals_of(block);
         for (Four& sum : sums.at) {
             sum *= x_row.at[0];

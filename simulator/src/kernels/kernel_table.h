@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/kernel_columns.h"
+#include "kernels/kernel_galerkin.h"
 #include "kernels/kernel_hessian.h"
 #include "kernels/kernel_modes.h"
 #include "kernels/kernel_quadratic_hessian.h"

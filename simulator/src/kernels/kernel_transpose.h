@@ -35,49 +35,29 @@ template <int Width, typename Type, int Step = Width / 2>
     }
 }
 
-/// to[lane][row] = from[row][lane].
-template <int Rows, int Width, typename Scalar>
-void transpose(const Scalar (&from)[Rows][Width], Scalar (&to)[Width][Rows]) {
-    if constexpr (Width > 1 && Rows % Width == 0) {
-        using Type = typename Pack<Scalar, Width>::Vector;
-        for (int tile = 0; tile < Rows; tile += Width) {
-            Type rows[Width];
-            for (int i = 0; i < Width; ++i) {
-                __builtin_memcpy(&rows[i], from[tile + i], sizeof(Type));
-            }
-            transpose(rows);
-            for (int i = 0; i < Width; ++i) {
-                __builtin_memcpy(&to[i][tile], &rows[i], sizeof(Type));
-            }
-        }
-    } else {
-        for (int row = 0; row < Rows; ++row) {
-            for (int lane = 0; lane < Width; ++lane) {
-                to[lane][row] = from[row][lane];
-            }
-        }
-    }
-}
-
-/// The other way: to[row][lane] = from[lane][row].
-template <int Rows, int Width, typename Scalar>
-void transpose_back(const Scalar (&from)[Width][Rows], Scalar (&to)[Rows][Width]) {
-    if constexpr (Width > 1 && Rows % Width == 0) {
-        using Type = typename Pack<Scalar, Width>::Vector;
-        for (int tile = 0; tile < Rows; tile += Width) {
-            Type rows[Width];
-            for (int i = 0; i < Width; ++i) {
-                __builtin_memcpy(&rows[i], &from[i][tile], sizeof(Type));
-            }
-            transpose(rows);
-            for (int i = 0; i < Width; ++i) {
-                __builtin_memcpy(to[tile + i], &rows[i], sizeof(Type));
+/// to[column][row] = from[row][column]: in squares as wide as the shorter side where they fill it.
+template <int Rows, int Columns, typename Scalar>
+void transpose(const Scalar (&from)[Rows][Columns], Scalar (&to)[Columns][Rows]) {
+    constexpr int kWidth = Rows < Columns ? Rows : Columns;
+    constexpr bool kIsPowerOfTwo = (kWidth & (kWidth - 1)) == 0;
+    if constexpr (kWidth > 1 && kIsPowerOfTwo && Rows % kWidth == 0 && Columns % kWidth == 0) {
+        using Type = typename Pack<Scalar, kWidth>::Vector;
+        for (int row = 0; row < Rows; row += kWidth) {
+            for (int column = 0; column < Columns; column += kWidth) {
+                Type rows[kWidth];
+                for (int i = 0; i < kWidth; ++i) {
+                    __builtin_memcpy(&rows[i], &from[row + i][column], sizeof(Type));
+                }
+                transpose(rows);
+                for (int i = 0; i < kWidth; ++i) {
+                    __builtin_memcpy(&to[column + i][row], &rows[i], sizeof(Type));
+                }
             }
         }
     } else {
         for (int row = 0; row < Rows; ++row) {
-            for (int lane = 0; lane < Width; ++lane) {
-                to[row][lane] = from[lane][row];
+            for (int column = 0; column < Columns; ++column) {
+                to[column][row] = from[row][column];
             }
         }
     }

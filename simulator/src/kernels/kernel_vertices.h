@@ -129,10 +129,12 @@ struct VertexTile {
 };
 
 // What blocks are multiplied by: part k has number j ^ k at j, see block_order.h.
+template <typename Vector>
 struct Permuted {
-    Four at[4];
+    Vector at[4];
 };
-inline Permuted permuted(const Four& x) {
+template <typename Vector>
+Permuted<Vector> permuted(const Vector& x) {
     return {{x, __builtin_shufflevector(x, x, 1, 0, 3, 2),
              __builtin_shufflevector(x, x, 2, 3, 0, 1), __builtin_shufflevector(x, x, 3, 2, 1, 0)}};
 }
@@ -177,7 +179,7 @@ OneByOne<Dim> block_times(const Scalar* block, const OneByOne<Dim>& x) {
 template <typename Scalar>
 Four transposed_times(const Scalar* block, const Four& x) {
     const Diagonals of = diagonals_of(block);
-    const Permuted by = permuted(x);
+    const auto by = permuted(x);
     return (of.at[0] * by.at[0] + of.at[2] * by.at[2])
            + (of.at[1] * by.at[1] + of.at[3] * by.at[3]);
 }

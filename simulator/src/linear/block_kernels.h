@@ -69,14 +69,15 @@ struct GalerkinRow {
     const std::uint32_t* places = nullptr;    ///< Of aggregates among the blocks of the row.
     std::size_t blocks = 0;                   ///< Of the row.
     std::uint32_t* touched = nullptr;         ///< Room for as many places.
-    std::uint8_t* uses = nullptr;             ///< Of places: zero; left zero.
+    std::uint8_t* uses = nullptr;             ///< What places are used for: zero; left zero.
     Scalar* scratch = nullptr;                ///< kGalerkinScratch numbers a block.
 };
 
-/// At most, for children of Rows dofs each.
+/// For children of Rows dofs each: a product with a block of their rows and what is made of it.
 template <int Dim, int Rows>
 inline constexpr std::size_t kGalerkinScratch =
-    Rows == Dim ? 20 * Dim* Dim : Dim*(Dim + 1) / 2 * Dim*(Dim + 2 * ((Rows + Dim - 1) / Dim));
+    Rows == Dim ? Dim* Dim*(4 + 4 * 4)
+                : Dim*(Dim + 1) / 2 * Dim*(Dim + 2 * ((Rows + Dim - 1) / Dim));
 
 /// The inner loops of linear algebra.
 struct BlockKernels {
