@@ -1,6 +1,7 @@
 #include "barrier_contacts.h"
 
 #include "apart.h"
+#include "passing_candidates.h"
 #include "spanned_volume.h"
 
 #include <pent/dimensions.h>
@@ -12,7 +13,6 @@
 #include <bit>
 #include <cmath>
 #include <functional>
-#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -264,33 +264,21 @@ template <int Dim>
 BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
                                            const Candidates<Dim>& candidates,
                                            const PositionsView<Dim>& positions) {
-    BarrierContacts<Dim> contacts;
-    FoundLists<Dim> all;
-    std::uint32_t lists = 0;
-    candidates.for_each_meeting(
-        positions, positions, [&](const CandidatePairs& pairs, const Displacement& displacement) {
-            for_each_list<Dim>(
-                pairs, [&]<int K, int L>(const CandidateList& list, int first, int second) {
-                    const double distance = candidates.activation_distance(first, second);
-                    const DistanceCull<K, L> cull(
-                        list, colliders.surface(first).template simplices<K>(),
-                        colliders.surface(second).template simplices<L>(), displacement, distance);
-                    FoundLists<Dim> found = collect_parts<Found<Dim>>(
-                        cull.size(), kChunk, [&](std::size_t k, std::vector<Found<Dim>>& here) {
-                            if (!cull.passes(k)) {
-                                return;
-                            }
-                            const Candidate& pair = list.pairs[k];
-                            if (const auto contact = contact_of<Dim, K, L>(
-                                    colliders, positions, {first, second}, pair, distance)) {
-                                here.push_back({*contact, {lists, pair.first, pair.second}});
-                            }
-                        });
-                    std::move(found.begin(), found.end(), std::back_inserter(all));
-                    contacts.candidates += static_cast<std::int64_t>(cull.size());
-                    ++lists;
-                });
+    const auto within = [&](int first, int second) {
+        return candidates.activation_distance(first, second);
+    };
+    auto [all, looked_at] = look_at_passing<std::vector<Found<Dim>>, Dim>(
+        candidates, positions, positions, within,
+        [&]<int K, int L>(const ListPlace& place, const Candidate& pair,
+                          std::vector<Found<Dim>>& found) {
+            if (const auto contact =
+                    contact_of<Dim, K, L>(colliders, positions, {place.first, place.second}, pair,
+                                          within(place.first, place.second))) {
+                found.push_back({*contact, {place.list, pair.first, pair.second}});
+            }
         });
+    BarrierContacts<Dim> contacts;
+    contacts.candidates = looked_at;
     const auto contact = [](const Found<Dim>& found) { return found.contact; };
     const SharedWork& shared = candidates.shared();
     if (!shared.is_shared()) {

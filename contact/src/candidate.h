@@ -3,7 +3,9 @@
 #include <pent/contact/surface.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 // Lists of what may come near what, and which of it a look is worth.
@@ -54,29 +56,89 @@ struct CandidatePairs {
     }
 };
 
-/// Calls visit<K, L>(list, first, second) for each list, K and L being the corners of its simplices
-/// and first and second the colliders that these belong to.
+/// How many lists CandidatePairs have.
+inline constexpr int kLists = 4;
+
+/// Calls visit<K, L>(list, first, second) for a list by its place, K and L being the corners of its
+/// simplices and first and second the colliders that these belong to.
 template <int Dim, typename Visit>
-void for_each_list(const CandidatePairs& pairs, const Visit& visit) {
-    visit.template operator()<1, Dim>(pairs.points_first, pairs.first, pairs.second);
-    visit.template operator()<1, Dim>(pairs.points_second, pairs.second, pairs.first);
-    visit.template operator()<2, Dim - 1>(pairs.mixed_first, pairs.first, pairs.second);
-    visit.template operator()<2, Dim - 1>(pairs.mixed_second, pairs.second, pairs.first);
+void visit_list(const CandidatePairs& pairs, int place, const Visit& visit) {
+    switch (place) {
+        case 0:
+            visit.template operator()<1, Dim>(pairs.points_first, pairs.first, pairs.second);
+            break;
+        case 1:
+            visit.template operator()<1, Dim>(pairs.points_second, pairs.second, pairs.first);
+            break;
+        case 2:
+            visit.template operator()<2, Dim - 1>(pairs.mixed_first, pairs.first, pairs.second);
+            break;
+        default:
+            visit.template operator()<2, Dim - 1>(pairs.mixed_second, pairs.second, pairs.first);
+    }
 }
 
-/// How far vertices get, at most, from where distances were measured, but for a common shift, in m.
-struct Displacement {
-    Eigen::VectorXf of_vertex;  ///< Of the scene; set for those of the pairs that it is of.
-    float max = 0;
+/// The same for each list.
+template <int Dim, typename Visit>
+void for_each_list(const CandidatePairs& pairs, const Visit& visit) {
+    for (int place = 0; place < kLists; ++place) {
+        visit_list<Dim>(pairs, place, visit);
+    }
+}
+
+/// How far vertices of two colliders get, at most, from where distances were measured, but for a
+/// common shift, in m.
+class Displacement {
+public:
+    /// Of no vertex.
+    Displacement() = default;
+
+    /// Of what is between the first and the last of some vertices, and of some others; ascending.
+    Displacement(const Simplices<1>& first, const Simplices<1>& second) {
+        const auto [a, b] = first(0, 0) < second(0, 0) ? std::pair(span_of(first), span_of(second))
+                                                       : std::pair(span_of(second), span_of(first));
+        first_ = a.begin;
+        if (a.end < b.begin) {
+            second_ = b.begin;
+            skipped_ = a.begin + (b.begin - a.end);
+            of_vertex_.resize((a.end - a.begin) + (b.end - b.begin));
+        } else {  // of one collider, or mixed with one another
+            of_vertex_.resize(std::max(a.end, b.end) - a.begin);
+        }
+    }
+
+    [[nodiscard]] float& operator[](std::uint32_t vertex) { return of_vertex_[place(vertex)]; }
+    [[nodiscard]] float operator[](std::uint32_t vertex) const { return of_vertex_[place(vertex)]; }
 
     template <int Count>
     [[nodiscard]] float of(const Simplices<Count>& simplices, Eigen::Index i) const {
         float of_corner = 0;
         for (int corner = 0; corner < Count; ++corner) {
-            of_corner = std::max(of_corner, of_vertex[simplices(corner, i)]);
+            of_corner = std::max(of_corner, (*this)[simplices(corner, i)]);
         }
         return of_corner;
     }
+
+    float max = 0;
+
+private:
+    struct Span {
+        std::uint32_t begin = 0;
+        std::uint32_t end = 0;
+    };
+    static Span span_of(const Simplices<1>& vertices) {
+        return {vertices(0, 0), vertices(0, vertices.cols() - 1) + 1};
+    }
+
+    // Colliders have their vertices one after the other: what is between two of them is left out.
+    [[nodiscard]] std::size_t place(std::uint32_t vertex) const {
+        return vertex - (vertex < second_ ? first_ : skipped_);
+    }
+
+    std::vector<float> of_vertex_;
+    std::uint32_t first_ = 0;
+    std::uint32_t second_ = 0xffffffff;  // vertices from here on are in the second span
+    std::uint32_t skipped_ = 0;          // vertices before it that have no place
 };
 
 /// Tells which candidates of a list may come within a distance, from how far they were apart and

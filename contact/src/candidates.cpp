@@ -36,6 +36,12 @@ constexpr double kMeasured = 1.6;
 // Pairs of a penalty kept for another evaluation, at most: 96 MB.
 constexpr std::size_t kMaxKept = 8'000'000;
 
+// Of what ascends.
+template <typename Item>
+bool contains(const std::vector<Item>& items, const Item& item) {
+    return std::binary_search(items.begin(), items.end(), item);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -68,8 +74,9 @@ void Candidates<Dim>::cover(const PositionsView<Dim>& from, const PositionsView<
     if (inflation_.size() != to.cols()) {  // here, since threads share it
         inflation_.setZero(to.cols());
     }
-    cover_between(paths);
-    cover_within(paths);
+    const std::vector<Pair> known = covered(paths);
+    cover_between(paths, known);
+    cover_within(paths, known);
     if (is_penalty()) {
         fit_trees(to);
     }
@@ -97,9 +104,34 @@ void Candidates<Dim>::drop_what_is_not_kept() {
 }
 
 template <int Dim>
-bool Candidates<Dim>::is_covered(const Pair& pair, const Paths<Dim>& paths) const {
-    const Meeting<Dim>* meeting = meetings_.find(pair);
-    return meeting != nullptr && does_cover(*meeting, paths);
+std::vector<Displacement> Candidates<Dim>::displacements(const PositionsView<Dim>& from,
+                                                         const PositionsView<Dim>& to) const {
+    std::vector<Displacement> displacements(meetings_.size());
+    parallel_for(meetings_.size(), [&](std::size_t m) {
+        const CandidatePairs& pairs = meetings_[m].pairs;
+        if (pairs.size() > 0) {
+            displacements[m] = Displacement(colliders_.surface(pairs.first).vertices,
+                                            colliders_.surface(pairs.second).vertices);
+            meetings_[m].cover.find_displacement(from, to, displacements[m]);
+        }
+    });
+    return displacements;
+}
+
+// The colliders of the meetings that hold for the paths, ascending.
+template <int Dim>
+std::vector<typename Candidates<Dim>::Pair> Candidates<Dim>::covered(
+    const Paths<Dim>& paths) const {
+    std::vector<char> holds(meetings_.size());
+    parallel_for(meetings_.size(),
+                 [&](std::size_t m) { holds[m] = does_cover(meetings_[m], paths) ? 1 : 0; });
+    std::vector<Pair> covered;
+    for (std::size_t m = 0; m < meetings_.size(); ++m) {
+        if (holds[m] != 0) {
+            covered.push_back(meetings_[m].colliders());
+        }
+    }
+    return covered;
 }
 
 // Not where a motion needs few of the candidates, and distances measured elsewhere do not tell
@@ -130,10 +162,11 @@ void Candidates<Dim>::insert(const Pair& pair, Meeting<Dim> meeting) {
 
 // Bodies side by side: small ones are not worth several threads each.
 template <int Dim>
-void Candidates<Dim>::cover_within(const Paths<Dim>& paths) {
+void Candidates<Dim>::cover_within(const Paths<Dim>& paths, const std::vector<Pair>& covered) {
     std::vector<int> bodies;
     for (int body = 0; body < colliders_.count(); ++body) {
-        if (colliders_.can_meet(body, body) && (is_penalty() || !is_covered({body, body}, paths))) {
+        if (colliders_.can_meet(body, body)
+            && (is_penalty() || !contains(covered, Pair(body, body)))) {
             bodies.push_back(body);
         }
     }
@@ -179,15 +212,14 @@ SelfProximity<Dim>& Candidates<Dim>::proximity(int body) {
 // What lies still beside what moves is not searched, and what is far off is forgotten once it
 // moves.
 template <int Dim>
-void Candidates<Dim>::cover_between(const Paths<Dim>& paths) {
+void Candidates<Dim>::cover_between(const Paths<Dim>& paths, const std::vector<Pair>& covered) {
     const std::vector<Pair> near = overlapping(paths);
     std::vector<Pair> unknown;
     std::copy_if(near.begin(), near.end(), std::back_inserter(unknown),
-                 [&](const Pair& pair) { return !is_covered(pair, paths); });
+                 [&](const Pair& pair) { return !contains(covered, pair); });
     meetings_.erase_if([&](const Meeting<Dim>& meeting) {
-        return !meeting.pairs.is_self()
-               && !std::binary_search(near.begin(), near.end(), meeting.colliders())
-               && !does_cover(meeting, paths);
+        return !meeting.pairs.is_self() && !contains(near, meeting.colliders())
+               && !contains(covered, meeting.colliders());
     });
     if (!unknown.empty()) {
         search_between(unknown, paths);

@@ -62,21 +62,10 @@ public:
 
     [[nodiscard]] const Meetings<Dim>& meetings() const { return meetings_; }
 
-    /// Calls visit(pairs, displacement) for each meeting, with how far its vertices get from where
-    /// distances were measured on the way between two positions; of no use where it has no pairs.
-    template <typename Visit>
-    void for_each_meeting(const PositionsView<Dim>& from,
-                          const PositionsView<Dim>& to,
-                          const Visit& visit) const {
-        Displacement displacement;
-        displacement.of_vertex.setZero(meetings_.empty() ? 0 : from.cols());
-        for (const Meeting<Dim>& meeting : meetings_) {
-            if (meeting.pairs.size() > 0) {
-                displacement.max = meeting.cover.displacement(from, to, displacement.of_vertex);
-            }
-            visit(meeting.pairs, displacement);
-        }
-    }
+    /// How far the vertices of each meeting get from where its distances were measured on the way
+    /// between two positions; of no vertex where it has no pairs.
+    [[nodiscard]] std::vector<Displacement> displacements(const PositionsView<Dim>& from,
+                                                          const PositionsView<Dim>& to) const;
 
     /// How near simplices of two colliders have to be found, m.
     [[nodiscard]] double activation_distance(int first, int second) const {
@@ -103,13 +92,13 @@ private:
 
     [[nodiscard]] bool is_penalty() const { return !colliders_.is_barrier(); }
 
-    [[nodiscard]] bool is_covered(const Pair& pair, const Paths<Dim>& paths) const;
+    [[nodiscard]] std::vector<Pair> covered(const Paths<Dim>& paths) const;
     [[nodiscard]] bool does_cover(const Meeting<Dim>& meeting, const Paths<Dim>& paths) const;
     void insert(const Pair& pair, Meeting<Dim> meeting);
-    void cover_within(const Paths<Dim>& paths);
+    void cover_within(const Paths<Dim>& paths, const std::vector<Pair>& covered);
     [[nodiscard]] Meeting<Dim> find_within(int body, Paths<Dim> paths);
     [[nodiscard]] SelfProximity<Dim>& proximity(int body);
-    void cover_between(const Paths<Dim>& paths);
+    void cover_between(const Paths<Dim>& paths, const std::vector<Pair>& covered);
     [[nodiscard]] std::vector<Pair> overlapping(Paths<Dim> paths);
     void search_between(const std::vector<Pair>& pairs, Paths<Dim> paths);
     [[nodiscard]] Simplices<1> vertices_of(const std::vector<int>& colliders) const;

@@ -84,23 +84,22 @@ double PathCover<Dim>::squared_from_end(const PositionsView<Dim>& positions,
 
 // How far it is along a straight way is convex, whatever the shift on it: most at one of its ends.
 template <int Dim>
-float PathCover<Dim>::displacement(const PositionsView<Dim>& from,
-                                   const PositionsView<Dim>& to,
-                                   Eigen::VectorXf& of_vertex) const {
+void PathCover<Dim>::find_displacement(const PositionsView<Dim>& from,
+                                       const PositionsView<Dim>& to,
+                                       Displacement& displacement) const {
     const bool is_still = from.data() == to.data();
     const Vector<Dim> mean_from = mean(from);
     const Vector<Dim> mean_to = is_still ? mean_from : mean(to);
-    float most = 0;
+    displacement.max = 0;
     for (Eigen::Index k = 0; k < vertices_.cols(); ++k) {
         double squared = squared_from_end(from, mean_from, k);
         if (!is_still) {
             squared = std::max(squared, squared_from_end(to, mean_to, k));
         }
-        const float displacement = rounded_up(std::sqrt(squared));
-        of_vertex[vertices_(0, k)] = displacement;
-        most = std::max(most, displacement);
+        const float of_vertex = rounded_up(std::sqrt(squared));
+        displacement[vertices_(0, k)] = of_vertex;
+        displacement.max = std::max(displacement.max, of_vertex);
     }
-    return most;
 }
 
 template <int Dim>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "candidate.h"
 #include "paths.h"
 
 #include <pent/contact/surface.h>
@@ -28,12 +29,13 @@ public:
     /// its inflation of where its path is.
     [[nodiscard]] bool covers(const PositionsView<Dim>& positions) const;
 
-    /// How far any of the vertices gets from the ends of the paths, but for a common shift, on a
-    /// straight way between two positions, m. Written to `of_vertex`, of all of the scene; returns
-    /// the largest.
-    float displacement(const PositionsView<Dim>& from,
-                       const PositionsView<Dim>& to,
-                       Eigen::VectorXf& of_vertex) const;
+    /// How far each of the vertices gets from the end of its path, but for a common shift, on a
+    /// straight way between two positions.
+    ///
+    /// @param displacement  With a place for each.
+    void find_displacement(const PositionsView<Dim>& from,
+                           const PositionsView<Dim>& to,
+                           Displacement& displacement) const;
 
     /// The longest path, m.
     [[nodiscard]] double longest_path() const { return longest_path_; }

@@ -252,10 +252,10 @@ std::vector<Contact<Dim>> find_penalty_contacts(const Colliders<Dim>& colliders,
                                                 const PositionsView<Dim>& positions) {
     Setting<Dim> setting{colliders, candidates, positions, Positions<Dim>()};
     std::vector<NearNow> all;
-    candidates.for_each_meeting(positions, positions,
-                                [&](const CandidatePairs& pairs, const Displacement& gone) {
-                                    all.push_back(near_now<Dim>(setting, pairs, gone));
-                                });
+    const std::vector<Displacement> gone = candidates.displacements(positions, positions);
+    for (std::size_t m = 0; m < gone.size(); ++m) {  // each takes a team to look at
+        all.push_back(near_now<Dim>(setting, candidates.meetings()[m].pairs, gone[m]));
+    }
     find_normals<Dim>(all, setting);
     std::vector<Contact<Dim>> contacts;
     for (const NearNow& near : all) {

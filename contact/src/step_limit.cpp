@@ -2,6 +2,7 @@
 
 #include "ccd.h"
 #include "obstacle_contacts.h"
+#include "passing_candidates.h"
 
 #include <pent/dimensions.h>
 
@@ -27,24 +28,41 @@ struct Step {
     const Positions<Dim> motion;
 };
 
+// The least fraction that any thread has found so far: it only saves work, since what is equal to
+// it is looked at to the end.
+class SharedLimit {
+public:
+    explicit SharedLimit(double limit) : least_(limit) {}
+
+    // The most that is of interest to a thread that has found `own`.
+    [[nodiscard]] double most(double own) const {
+        return std::nextafter(std::min(least_.load(std::memory_order_relaxed), own), 2.0);
+    }
+
+    void lower_to(double fraction) {
+        double seen = least_.load(std::memory_order_relaxed);
+        while (fraction < seen
+               && !least_.compare_exchange_weak(seen, fraction, std::memory_order_relaxed)) {
+        }
+    }
+
+private:
+    std::atomic<double> least_;
+};
+
 // The least of safe(k, limit) over all k in [0, count), where it is below the limit; of equals the
 // first.
 template <typename Safe>
 Bound least_bound(std::size_t count, double limit, const Safe& safe) {
     std::vector<Bound> bounds((count + kChunk - 1) / kChunk, Bound{1, 0, 0});
-    std::atomic<double> least = limit;  // a bound that only saves work
+    SharedLimit shared(limit);
     for_each_chunk(count, kChunk, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
         Bound& here = bounds[chunk];
         for (std::size_t k = begin; k < end; ++k) {
-            const double most = std::min(least.load(std::memory_order_relaxed), std::get<0>(here));
-            const Bound bound = safe(k, std::nextafter(most, 2.0));
+            const Bound bound = safe(k, shared.most(std::get<0>(here)));
             if (bound < here) {
                 here = bound;
-                const double fraction = std::get<0>(bound);
-                double seen = least.load(std::memory_order_relaxed);
-                while (fraction < seen
-                       && !least.compare_exchange_weak(seen, fraction, std::memory_order_relaxed)) {
-                }
+                shared.lower_to(std::get<0>(bound));
             }
         }
     });
@@ -83,47 +101,39 @@ struct LeastBound {
     }
 };
 
-// What the candidates of one list allow, if that is less than the limit.
-template <int Dim, int K, int L>
-Bound bound_of(const Candidates<Dim>& candidates,
-               const CandidateList& list,
-               const std::array<int, 2>& which,
-               const Step<Dim>& step,
-               const Displacement& displacement,
-               double limit) {
-    const Colliders<Dim>& colliders = candidates.colliders();
+// What is between two colliders.
+template <int Dim>
+Clearance clearance_between(const Colliders<Dim>& colliders, int first, int second) {
     const ContactOptions& options = colliders.scene().options;
-    const Simplices<K>& first = colliders.surface(which[0]).template simplices<K>();
-    const Simplices<L>& second = colliders.surface(which[1]).template simplices<L>();
-    const bool has_core = colliders.is_core(which[0]) || colliders.is_core(which[1]);
-    const Clearance clearance{
-        options.separation + colliders.radius(which[0]) + colliders.radius(which[1]),
-        options.distance};
-    // A pair that stays beyond this distance stops no motion.
-    const DistanceCull<K, L> cull(list, first, second, displacement,
-                                  clearance.separation + kGapReached * clearance.distance);
-    const auto safe = [&](std::size_t k, double most) -> Bound {
-        const auto& [i, j, measured] = list.pairs[k];
-        if (!cull.passes(k)) {
-            return {1, i, j};
-        }
-        const Corners<Dim, K> a_motion = gather<Dim, K>(first, i, step.motion);
-        const Corners<Dim, L> b_motion = gather<Dim, L>(second, j, step.motion);
-        const Vector<Dim> together = a_motion.col(0);
-        const bool do_keep_place =
-            (a_motion.colwise() - together).isZero(0) && (b_motion.colwise() - together).isZero(0);
-        // Fixed vertices may touch if they stay as they are.
-        if (do_keep_place
-            || (has_core && colliders.template may_enter_obstacles<K>(first, i)
-                && colliders.template may_enter_obstacles<L>(second, j))) {
-            return {1, i, j};
-        }
-        return {safe_fraction<Dim, K, L>(gather<Dim, K>(first, i, step.from), a_motion,
-                                         gather<Dim, L>(second, j, step.from), b_motion, clearance,
-                                         most),
-                i, j};
-    };
-    return least_bound(cull.size(), limit, safe);
+    return {options.separation + colliders.radius(first) + colliders.radius(second),
+            options.distance};
+}
+
+// What a candidate allows; 1 or more than `most` where that is more.
+template <int Dim, int K, int L>
+double fraction_of(const Colliders<Dim>& colliders,
+                   const ListPlace& place,
+                   const Candidate& pair,
+                   const Step<Dim>& step,
+                   double most) {
+    const Simplices<K>& first = colliders.surface(place.first).template simplices<K>();
+    const Simplices<L>& second = colliders.surface(place.second).template simplices<L>();
+    const Corners<Dim, K> a_motion = gather<Dim, K>(first, pair.first, step.motion);
+    const Corners<Dim, L> b_motion = gather<Dim, L>(second, pair.second, step.motion);
+    const Vector<Dim> together = a_motion.col(0);
+    const bool do_keep_place =
+        (a_motion.colwise() - together).isZero(0) && (b_motion.colwise() - together).isZero(0);
+    const bool has_core = colliders.is_core(place.first) || colliders.is_core(place.second);
+    // Fixed vertices may touch if they stay as they are.
+    if (do_keep_place
+        || (has_core && colliders.template may_enter_obstacles<K>(first, pair.first)
+            && colliders.template may_enter_obstacles<L>(second, pair.second))) {
+        return 1;
+    }
+    return safe_fraction<Dim, K, L>(gather<Dim, K>(first, pair.first, step.from), a_motion,
+                                    gather<Dim, L>(second, pair.second, step.from), b_motion,
+                                    clearance_between<Dim>(colliders, place.first, place.second),
+                                    most);
 }
 
 // The two simplices of a bound.
@@ -131,25 +141,20 @@ template <int Dim>
 Crossing touching(const Candidates<Dim>& candidates, const LeastBound& least) {
     const Colliders<Dim>& colliders = candidates.colliders();
     Crossing crossing;
-    std::uint32_t lists = 0;
-    const auto tell = [&]<int K, int L>(const CandidateList&, int first, int second) {
-        if (lists++ != least.list) {
-            return;
-        }
-        crossing = {CrossingKind::Touching,
-                    colliders.collider(first),
-                    colliders.collider(second),
-                    named_corners<Dim, K>(colliders, first, std::get<1>(least.bound)),
-                    named_corners<Dim, L>(colliders, second, std::get<2>(least.bound)),
-                    0};
-        if (colliders.is_core(first)) {
-            std::swap(crossing.first, crossing.second);
-            std::swap(crossing.first_corners, crossing.second_corners);
-        }
-    };
-    for (const Meeting<Dim>& meeting : candidates.meetings()) {
-        for_each_list<Dim>(meeting.pairs, tell);
-    }
+    visit_list<Dim>(
+        candidates.meetings()[least.list / kLists].pairs, static_cast<int>(least.list % kLists),
+        [&]<int K, int L>(const CandidateList&, int first, int second) {
+            crossing = {CrossingKind::Touching,
+                        colliders.collider(first),
+                        colliders.collider(second),
+                        named_corners<Dim, K>(colliders, first, std::get<1>(least.bound)),
+                        named_corners<Dim, L>(colliders, second, std::get<2>(least.bound)),
+                        0};
+            if (colliders.is_core(first)) {
+                std::swap(crossing.first, crossing.second);
+                std::swap(crossing.first_corners, crossing.second_corners);
+            }
+        });
     return crossing;
 }
 
@@ -206,17 +211,28 @@ LeastBound least_of_pairs(Candidates<Dim>& candidates,
     }
     const PositionsView<Dim> end = part < 1 ? PositionsView<Dim>(cut) : to;
     candidates.cover(step.from, end);
-    LeastBound least{.bound{part, 0, 0}};
-    std::uint32_t lists = 0;
-    candidates.for_each_meeting(
-        step.from, end, [&](const CandidatePairs& pairs, const Displacement& displacement) {
-            for_each_list<Dim>(
-                pairs, [&]<int K, int L>(const CandidateList& list, int first, int second) {
-                    least.take(bound_of<Dim, K, L>(candidates, list, {first, second}, step,
-                                                   displacement, least.fraction()),
-                               lists++);
-                });
+    const Colliders<Dim>& colliders = candidates.colliders();
+    // A pair that stays beyond this distance stops no motion.
+    const auto within = [&](int first, int second) {
+        const Clearance clearance = clearance_between<Dim>(colliders, first, second);
+        return clearance.separation + kGapReached * clearance.distance;
+    };
+    SharedLimit limit(part);
+    const OfPassing<LeastBound> found = look_at_passing<LeastBound, Dim>(
+        candidates, step.from, end, within,
+        [&]<int K, int L>(const ListPlace& place, const Candidate& pair, LeastBound& here) {
+            const double fraction =
+                fraction_of<Dim, K, L>(colliders, place, pair, step, limit.most(here.fraction()));
+            const LeastBound bound{{fraction, pair.first, pair.second}, place.list};
+            if (bound.is_below(here)) {
+                here = bound;
+                limit.lower_to(fraction);
+            }
         });
+    LeastBound least{.bound{part, 0, 0}};
+    for (const LeastBound& bound : found.parts) {
+        least = bound.is_below(least) ? bound : least;
+    }
     return least_of_all(least, candidates.shared());
 }
 

@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <initializer_list>
+#include <map>
 #include <random>
 #include <set>
 #include <utility>
@@ -96,11 +98,13 @@ protected:
                          const Positions<kSpace>& x,
                          double distance) {
         std::set<std::pair<int, int>> met;
-        candidates.for_each_meeting(
-            from, to, [&](const CandidatePairs& pairs, const Displacement& displacement) {
-                expect_complete(pairs, displacement, x, distance);
-                met.insert({pairs.first, pairs.second});
-            });
+        const std::vector<Displacement> displacements = candidates.displacements(from, to);
+        ASSERT_EQ(displacements.size(), candidates.meetings().size());
+        for (std::size_t m = 0; m < displacements.size(); ++m) {
+            const CandidatePairs& pairs = candidates.meetings()[m].pairs;
+            expect_complete(pairs, displacements[m], x, distance);
+            met.insert({pairs.first, pairs.second});
+        }
         const int count = static_cast<int>(scene_.surfaces.size());
         for (int a = 0; a < count; ++a) {
             for (int b = a + 1; b < count; ++b) {
@@ -138,6 +142,32 @@ protected:
 
 using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
 TYPED_TEST_SUITE(CandidatesTest, Dimensions);
+
+// Each vertex has a place of its own, however the vertices of two colliders lie.
+TEST(DisplacementTest, HasAPlaceForEachVertexOfOneOrTwoColliders) {
+    const auto ascending = [](std::initializer_list<std::uint32_t> list) {
+        Simplices<1> vertices(1, static_cast<Eigen::Index>(list.size()));
+        std::copy(list.begin(), list.end(), vertices.data());
+        return vertices;
+    };
+    const Simplices<1> low = ascending({3, 4, 7});
+    for (const Simplices<1>& other :
+         {ascending({8, 9}), ascending({1'000'000'000, 1'000'000'002}), ascending({5, 9}),
+          ascending({0, 1}), ascending({0, 20}), low}) {
+        Displacement displacement(low, other);
+        std::map<std::uint32_t, float> expected;
+        for (const Simplices<1>& vertices : {low, other}) {
+            for (const std::uint32_t v : vertices.reshaped()) {
+                expected[v] = static_cast<float>(expected.size() + 1);
+                displacement[v] = expected[v];
+            }
+        }
+        for (const auto& [v, value] : expected) {
+            EXPECT_EQ(std::as_const(displacement)[v], value);
+        }
+        EXPECT_EQ(displacement.of<1>(low, 2), expected[7]);
+    }
+}
 
 TYPED_TEST(CandidatesTest, HoldAllThatComesNearOnTheWay) {
     constexpr int kDim = TypeParam::value;

@@ -67,11 +67,11 @@ CONTACT = [
                   " filter gather normals obstacles pair_contact paths simplex_crossing"
                   " spanned_volume spectra stencil surface friction"),
     ("trees", "box_tree boxes_around chunks halving patch_lanes patch_partition patch_vertices"
-              " patches path_cover refit_tree surface_patches surface_trees winding_number"),
-    ("search", "candidate colliders convex_body near_on_paths near_pairs overlaps pair_at self_proximity"
-               " self_proximity_search shared_work"),
+              " patches refit_tree surface_patches surface_trees winding_number"),
+    ("search", "candidate colliders convex_body near_on_paths near_pairs overlaps pair_at path_cover"
+               " self_proximity self_proximity_search shared_work"),
     ("crossings", "crossings obstacle_contacts"),
-    ("candidates", "candidates meetings"),
+    ("candidates", "candidates meetings passing_candidates"),
     ("contacts", "barrier_contacts contact_energy pair_spectra penalty_contacts step_limit"),
     ("finder", "contact_finder"),
 ]
