@@ -62,7 +62,9 @@ int main(int argc, char** argv) {
     const Options options = parse(argc, argv);
     std::printf(
         "# %s\n\n%s, %u cores seen, g++ %s, kernels for %s. Medians of %d rounds that take "
-        "all cases in turn;\n+- is half the distance of the quartiles.\n\n",
+        "all cases in turn;\n+- is half the distance of the quartiles. Products and "
+        "preconditioners are applied ten times in a row, after\nas many that do not count; those "
+        "that keep a part of more than 24 MB in the cache may be above 100%%.\n\n",
         options.title.c_str(), processor().c_str(), std::thread::hardware_concurrency(),
         __VERSION__, std::string(pent::simulator::isa_name(pent::simulator::best_isa())).c_str(),
         options.rounds);
