@@ -264,21 +264,20 @@ template <int Dim>
 BarrierContacts<Dim> find_barrier_contacts(const Colliders<Dim>& colliders,
                                            const Candidates<Dim>& candidates,
                                            const PositionsView<Dim>& positions) {
-    const auto within = [&](int first, int second) {
-        return candidates.activation_distance(first, second);
-    };
-    auto [all, looked_at] = look_at_passing<std::vector<Found<Dim>>, Dim>(
-        candidates, positions, positions, within,
+    const ContactOptions& options = colliders.scene().options;
+    const PassingCandidates<Dim> passing(candidates, positions, positions,
+                                         options.distance + options.separation);
+    FoundLists<Dim> all = passing.template look_at_each<std::vector<Found<Dim>>>(
         [&]<int K, int L>(const ListPlace& place, const Candidate& pair,
                           std::vector<Found<Dim>>& found) {
-            if (const auto contact =
-                    contact_of<Dim, K, L>(colliders, positions, {place.first, place.second}, pair,
-                                          within(place.first, place.second))) {
+            if (const auto contact = contact_of<Dim, K, L>(
+                    colliders, positions, {place.first, place.second}, pair,
+                    candidates.activation_distance(place.first, place.second))) {
                 found.push_back({*contact, {place.list, pair.first, pair.second}});
             }
         });
     BarrierContacts<Dim> contacts;
-    contacts.candidates = looked_at;
+    contacts.candidates = passing.count();
     const auto contact = [](const Found<Dim>& found) { return found.contact; };
     const SharedWork& shared = candidates.shared();
     if (!shared.is_shared()) {

@@ -56,33 +56,38 @@ struct CandidatePairs {
     }
 };
 
-/// How many lists CandidatePairs have.
-inline constexpr int kLists = 4;
+/// A list, and the colliders that its first and its second simplices belong to.
+struct ListOfTwo {
+    const CandidateList& list;
+    int first;
+    int second;
+};
 
-/// Calls visit<K, L>(list, first, second) for a list by its place, K and L being the corners of its
-/// simplices and first and second the colliders that these belong to.
-template <int Dim, typename Visit>
-void visit_list(const CandidatePairs& pairs, int place, const Visit& visit) {
+/// How many lists CandidatePairs have.
+inline constexpr std::uint32_t kLists = 4;
+
+/// One of them, by its place: first those of vertices and facets.
+[[nodiscard]] inline ListOfTwo list_at(const CandidatePairs& pairs, std::uint32_t place) {
     switch (place) {
         case 0:
-            visit.template operator()<1, Dim>(pairs.points_first, pairs.first, pairs.second);
-            break;
+            return {pairs.points_first, pairs.first, pairs.second};
         case 1:
-            visit.template operator()<1, Dim>(pairs.points_second, pairs.second, pairs.first);
-            break;
+            return {pairs.points_second, pairs.second, pairs.first};
         case 2:
-            visit.template operator()<2, Dim - 1>(pairs.mixed_first, pairs.first, pairs.second);
-            break;
+            return {pairs.mixed_first, pairs.first, pairs.second};
         default:
-            visit.template operator()<2, Dim - 1>(pairs.mixed_second, pairs.second, pairs.first);
+            return {pairs.mixed_second, pairs.second, pairs.first};
     }
 }
 
-/// The same for each list.
+/// Calls visit<K, L>(list), K and L being the corners of the simplices of a list.
 template <int Dim, typename Visit>
-void for_each_list(const CandidatePairs& pairs, const Visit& visit) {
-    for (int place = 0; place < kLists; ++place) {
-        visit_list<Dim>(pairs, place, visit);
+void visit_list(const CandidatePairs& pairs, std::uint32_t place, const Visit& visit) {
+    const ListOfTwo list = list_at(pairs, place);
+    if (place < 2) {
+        visit.template operator()<1, Dim>(list);
+    } else {
+        visit.template operator()<2, Dim - 1>(list);
     }
 }
 
@@ -144,20 +149,11 @@ private:
 /// Tells which candidates of a list may come within a distance, from how far they were apart and
 /// how far they have gone since: most are held back by two numbers, without a look at where they
 /// are.
-template <int K, int L>
 class DistanceCull {
 public:
-    /// All but the distance (m) are kept by reference.
-    DistanceCull(const CandidateList& list,
-                 const Simplices<K>& first,
-                 const Simplices<L>& second,
-                 const Displacement& displacement,
-                 double distance)
-        : list_(list),
-          first_(first),
-          second_(second),
-          displacement_(displacement),
-          distance_(distance) {
+    /// List and displacement are kept by reference; the distance in m.
+    DistanceCull(const CandidateList& list, const Displacement& displacement, double distance)
+        : list_(list), displacement_(displacement), distance_(distance) {
         const std::size_t known = list.known_count;
         const bool is_done =
             known == list.pairs.size() || is_beyond(list.pairs[known], 2 * displacement.max);
@@ -167,11 +163,15 @@ public:
     /// Candidates from this place on do not pass.
     [[nodiscard]] std::size_t size() const { return size_; }
 
-    [[nodiscard]] bool passes(std::size_t place) const {
+    /// @param first, second  What the candidates are of.
+    template <int K, int L>
+    [[nodiscard]] bool passes(std::size_t place,
+                              const Simplices<K>& first,
+                              const Simplices<L>& second) const {
         const Candidate& pair = list_.pairs[place];
         return !is_beyond(pair, 2 * displacement_.max)
-               && !is_beyond(pair, displacement_.of<K>(first_, pair.first)
-                                       + displacement_.of<L>(second_, pair.second));
+               && !is_beyond(pair, displacement_.of<K>(first, pair.first)
+                                       + displacement_.of<L>(second, pair.second));
     }
 
 private:
@@ -182,8 +182,6 @@ private:
     }
 
     const CandidateList& list_;
-    const Simplices<K>& first_;
-    const Simplices<L>& second_;
     const Displacement& displacement_;
     double distance_;
     std::size_t size_ = 0;

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "candidates.h"
-#include "chunks.h"
+
+#include <pent/parallel.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -18,72 +19,70 @@ struct ListPlace {
     int second = 0;
 };
 
-/// What was found of candidates: a part for each chunk of them, in their order.
-template <typename Part>
-struct OfPassing {
-    std::vector<Part> parts;
-    std::int64_t looked_at = 0;
-};
+/// The candidates that may come within a distance on the way between two positions, in chunks of
+/// all lists: small bodies have short ones, which would not be worth several threads each.
+template <int Dim>
+class PassingCandidates {
+public:
+    /// Parallel.
+    ///
+    /// @param candidates  That cover the way; must outlive this.
+    /// @param distance    Between simplices, m; less the radii of their colliders.
+    PassingCandidates(const Candidates<Dim>& candidates,
+                      const PositionsView<Dim>& from,
+                      const PositionsView<Dim>& to,
+                      double distance);
 
-/// Looks at the candidates that may come within a distance on the way between two positions: chunks
-/// of all lists at the same time, since small bodies have short lists.
-///
-/// @param within  within(first, second): that distance for the simplices of two colliders, m.
-/// @param look    look.operator()<K, L>(place, pair, part): adds to the part of its chunk, which
-///                begins as a Part().
-template <typename Part, int Dim, typename Within, typename Look>
-[[nodiscard]] OfPassing<Part> look_at_passing(const Candidates<Dim>& candidates,
-                                              const PositionsView<Dim>& from,
-                                              const PositionsView<Dim>& to,
-                                              const Within& within,
-                                              const Look& look) {
-    constexpr std::size_t kChunk = 512;
-    const Colliders<Dim>& colliders = candidates.colliders();
-    const Meetings<Dim>& meetings = candidates.meetings();
-    const std::vector<Displacement> displacements = candidates.displacements(from, to);
-    // Calls visit<K, L>(list, cull, place).
-    const auto visit_culled = [&](std::uint32_t place, const auto& visit) {
-        const std::uint32_t m = place / kLists;
-        visit_list<Dim>(
-            meetings[m].pairs, static_cast<int>(place % kLists),
-            [&]<int K, int L>(const CandidateList& list, int first, int second) {
-                const DistanceCull<K, L> cull(list,
-                                              colliders.surface(first).template simplices<K>(),
-                                              colliders.surface(second).template simplices<L>(),
-                                              displacements[m], within(first, second));
-                visit.template operator()<K, L>(list, cull, ListPlace{place, first, second});
+    /// Of candidates that a look at single ones has to tell of.
+    [[nodiscard]] std::int64_t count() const { return count_; }
+
+    /// Calls look.operator()<K, L>(place, pair, part) for each that passes. Chunks are looked at at
+    /// the same time, each with a part of its own, which begins as a Part(). Returns these in the
+    /// order of chunks.
+    template <typename Part, typename Look>
+    [[nodiscard]] std::vector<Part> look_at_each(const Look& look) const {
+        std::vector<Part> parts(chunks_.size());
+        parallel_for(chunks_.size(), [&](std::size_t c) {
+            const std::uint32_t list = chunks_[c].list;
+            visit_list<Dim>(pairs_of(list), list % kLists, [&]<int K, int L>(const ListOfTwo& of) {
+                look_at_chunk<K, L>(chunks_[c], of, look, parts[c]);
             });
-    };
+        });
+        return parts;
+    }
+
+private:
     struct Chunk {
         std::uint32_t list = 0;
-        std::size_t begin = 0;
+        std::size_t begin = 0;  // in the list
+        std::size_t end = 0;
     };
-    std::vector<Chunk> chunks;
-    OfPassing<Part> found;
-    for (std::uint32_t list = 0; list < kLists * meetings.size(); ++list) {
-        visit_culled(list, [&]<int K, int L>(const CandidateList&, const DistanceCull<K, L>& cull,
-                                             const ListPlace&) {
-            for (std::size_t begin = 0; begin < cull.size(); begin += kChunk) {
-                chunks.push_back({list, begin});
-            }
-            found.looked_at += static_cast<std::int64_t>(cull.size());
-        });
+
+    [[nodiscard]] const CandidatePairs& pairs_of(std::uint32_t list) const {
+        return candidates_.meetings()[list / kLists].pairs;
     }
-    found.parts.resize(chunks.size());
-    parallel_for(chunks.size(), [&](std::size_t c) {
-        const std::size_t begin = chunks[c].begin;
-        visit_culled(chunks[c].list, [&]<int K, int L>(const CandidateList& list,
-                                                       const DistanceCull<K, L>& cull,
-                                                       const ListPlace& place) {
-            const std::size_t end = std::min(begin + kChunk, cull.size());
-            for (std::size_t k = begin; k < end; ++k) {
-                if (cull.passes(k)) {
-                    look.template operator()<K, L>(place, list.pairs[k], found.parts[c]);
-                }
+
+    template <int K, int L, typename Look, typename Part>
+    void look_at_chunk(const Chunk& chunk,
+                       const ListOfTwo& of,
+                       const Look& look,
+                       Part& part) const {
+        const Surface<Dim>& first = candidates_.colliders().surface(of.first);
+        const Surface<Dim>& second = candidates_.colliders().surface(of.second);
+        const ListPlace place{chunk.list, of.first, of.second};
+        for (std::size_t k = chunk.begin; k < chunk.end; ++k) {
+            if (culls_[chunk.list].passes(k, first.template simplices<K>(),
+                                          second.template simplices<L>())) {
+                look.template operator()<K, L>(place, of.list.pairs[k], part);
             }
-        });
-    });
-    return found;
-}
+        }
+    }
+
+    const Candidates<Dim>& candidates_;
+    std::vector<Displacement> displacements_;  // of meetings
+    std::vector<DistanceCull> culls_;          // of lists
+    std::vector<Chunk> chunks_;
+    std::int64_t count_ = 0;
+};
 
 }  // namespace pent::contact

@@ -55,10 +55,10 @@ std::vector<NearPoint> near_points(const Setting<Dim>& setting,
                                    const Simplices<1>& vertices,
                                    const Simplices<Dim>& facets) {
     const double limit = setting.distance() * setting.distance();
-    const DistanceCull<1, Dim> cull(list, vertices, facets, displacement, setting.distance());
+    const DistanceCull cull(list, displacement, setting.distance());
     std::vector<NearPoint> near =
         collect<NearPoint>(cull.size(), kChunk, [&](std::size_t k, std::vector<NearPoint>& found) {
-            if (!cull.passes(k)) {
+            if (!cull.passes(k, vertices, facets)) {
                 return;
             }
             const auto& [i, j, measured] = list.pairs[k];
@@ -89,10 +89,10 @@ std::vector<Candidate> near_mixed(const Setting<Dim>& setting,
         return sorted(std::move(all)).pairs;
     }
     const double limit = setting.distance() * setting.distance();
-    const DistanceCull<2, Dim - 1> cull(list, edges, ridges, displacement, setting.distance());
+    const DistanceCull cull(list, displacement, setting.distance());
     std::vector<Candidate> near =
         collect<Candidate>(cull.size(), kChunk, [&](std::size_t k, std::vector<Candidate>& found) {
-            if (!cull.passes(k)) {
+            if (!cull.passes(k, edges, ridges)) {
                 return;
             }
             const Corners<Dim, 2> a = gather<Dim, 2>(edges, list.pairs[k].first, setting.positions);

@@ -101,14 +101,6 @@ struct LeastBound {
     }
 };
 
-// What is between two colliders.
-template <int Dim>
-Clearance clearance_between(const Colliders<Dim>& colliders, int first, int second) {
-    const ContactOptions& options = colliders.scene().options;
-    return {options.separation + colliders.radius(first) + colliders.radius(second),
-            options.distance};
-}
-
 // What a candidate allows; 1 or more than `most` where that is more.
 template <int Dim, int K, int L>
 double fraction_of(const Colliders<Dim>& colliders,
@@ -130,10 +122,13 @@ double fraction_of(const Colliders<Dim>& colliders,
             && colliders.template may_enter_obstacles<L>(second, pair.second))) {
         return 1;
     }
+    const ContactOptions& options = colliders.scene().options;
+    const Clearance clearance{
+        options.separation + colliders.radius(place.first) + colliders.radius(place.second),
+        options.distance};
     return safe_fraction<Dim, K, L>(gather<Dim, K>(first, pair.first, step.from), a_motion,
                                     gather<Dim, L>(second, pair.second, step.from), b_motion,
-                                    clearance_between<Dim>(colliders, place.first, place.second),
-                                    most);
+                                    clearance, most);
 }
 
 // The two simplices of a bound.
@@ -141,20 +136,20 @@ template <int Dim>
 Crossing touching(const Candidates<Dim>& candidates, const LeastBound& least) {
     const Colliders<Dim>& colliders = candidates.colliders();
     Crossing crossing;
-    visit_list<Dim>(
-        candidates.meetings()[least.list / kLists].pairs, static_cast<int>(least.list % kLists),
-        [&]<int K, int L>(const CandidateList&, int first, int second) {
-            crossing = {CrossingKind::Touching,
-                        colliders.collider(first),
-                        colliders.collider(second),
-                        named_corners<Dim, K>(colliders, first, std::get<1>(least.bound)),
-                        named_corners<Dim, L>(colliders, second, std::get<2>(least.bound)),
-                        0};
-            if (colliders.is_core(first)) {
-                std::swap(crossing.first, crossing.second);
-                std::swap(crossing.first_corners, crossing.second_corners);
-            }
-        });
+    visit_list<Dim>(candidates.meetings()[least.list / kLists].pairs, least.list % kLists,
+                    [&]<int K, int L>(const ListOfTwo& of) {
+                        crossing = {
+                            CrossingKind::Touching,
+                            colliders.collider(of.first),
+                            colliders.collider(of.second),
+                            named_corners<Dim, K>(colliders, of.first, std::get<1>(least.bound)),
+                            named_corners<Dim, L>(colliders, of.second, std::get<2>(least.bound)),
+                            0};
+                        if (colliders.is_core(of.first)) {
+                            std::swap(crossing.first, crossing.second);
+                            std::swap(crossing.first_corners, crossing.second_corners);
+                        }
+                    });
     return crossing;
 }
 
@@ -212,14 +207,12 @@ LeastBound least_of_pairs(Candidates<Dim>& candidates,
     const PositionsView<Dim> end = part < 1 ? PositionsView<Dim>(cut) : to;
     candidates.cover(step.from, end);
     const Colliders<Dim>& colliders = candidates.colliders();
+    const ContactOptions& options = colliders.scene().options;
     // A pair that stays beyond this distance stops no motion.
-    const auto within = [&](int first, int second) {
-        const Clearance clearance = clearance_between<Dim>(colliders, first, second);
-        return clearance.separation + kGapReached * clearance.distance;
-    };
+    const PassingCandidates<Dim> passing(candidates, step.from, end,
+                                         options.separation + kGapReached * options.distance);
     SharedLimit limit(part);
-    const OfPassing<LeastBound> found = look_at_passing<LeastBound, Dim>(
-        candidates, step.from, end, within,
+    const std::vector<LeastBound> bounds = passing.template look_at_each<LeastBound>(
         [&]<int K, int L>(const ListPlace& place, const Candidate& pair, LeastBound& here) {
             const double fraction =
                 fraction_of<Dim, K, L>(colliders, place, pair, step, limit.most(here.fraction()));
@@ -230,7 +223,7 @@ LeastBound least_of_pairs(Candidates<Dim>& candidates,
             }
         });
     LeastBound least{.bound{part, 0, 0}};
-    for (const LeastBound& bound : found.parts) {
+    for (const LeastBound& bound : bounds) {
         least = bound.is_below(least) ? bound : least;
     }
     return least_of_all(least, candidates.shared());

@@ -78,10 +78,10 @@ protected:
                         const Displacement& displacement,
                         const Positions<kSpace>& x,
                         double distance) {
-        const DistanceCull<K, L> cull(list, first, second, displacement, distance);
+        const DistanceCull cull(list, displacement, distance);
         Pairs passing;
         for (std::size_t k = 0; k < cull.size(); ++k) {
-            if (cull.passes(k)) {
+            if (cull.passes(k, first, second)) {
                 passing.insert({list.pairs[k].first, list.pairs[k].second});
             }
         }
@@ -287,20 +287,15 @@ TYPED_TEST(CandidatesTest, AreTheSameForAnyNumberOfThreads) {
         }
         ASSERT_EQ(found.size(), 6U);  // of each body, and of each two
         for (std::size_t i = 0; i < found.size(); ++i) {
-            std::vector<const CandidateList*> lists;
-            for (const CandidatePairs& pairs : {std::cref(found[i]), std::cref(expected[i])}) {
-                for_each_list<kDim>(pairs, [&]<int K, int L>(const CandidateList& list, int, int) {
-                    lists.push_back(&list);
-                });
-            }
-            for (std::size_t k = 0; k < 4; ++k) {
-                EXPECT_TRUE(std::equal(lists[k]->pairs.begin(), lists[k]->pairs.end(),
-                                       lists[k + 4]->pairs.begin(), lists[k + 4]->pairs.end(),
+            for (std::uint32_t place = 0; place < kLists; ++place) {
+                const std::vector<Candidate>& here = list_at(found[i], place).list.pairs;
+                const std::vector<Candidate>& there = list_at(expected[i], place).list.pairs;
+                EXPECT_TRUE(std::equal(here.begin(), here.end(), there.begin(), there.end(),
                                        [](const Candidate& a, const Candidate& b) {
                                            return a.first == b.first && a.second == b.second
                                                   && a.distance == b.distance;
                                        }));
-                this->near_ += lists[k]->pairs.size();
+                this->near_ += here.size();
             }
         }
     }

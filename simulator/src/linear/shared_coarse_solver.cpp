@@ -131,12 +131,13 @@ Eigen::MatrixXd rigid_motions(const AggregatePlaces<Dim>& places, const Sharing&
     }
     // By the eigenvectors of their products, columns in units of their lengths.
     std::vector<double> sums(std::size_t{kSize} * kSize);
-    Eigen::Map<Eigen::MatrixXd> products(sums.data(), kSize, kSize);
+    using Products = Eigen::Matrix<double, kSize, kSize>;
+    Eigen::Map<Products> products(sums.data());
     products = motions.transpose() * motions;
     sharing.sum(sums);
-    const Eigen::VectorXd scales = products.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scales.asDiagonal() * products
-                                                               * scales.asDiagonal());
+    const Eigen::Matrix<double, kSize, 1> scales = products.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Products> eigen(scales.asDiagonal() * products
+                                                        * scales.asDiagonal());
     const Eigen::Index dropped =
         (eigen.eigenvalues().array() < kDependent * eigen.eigenvalues().maxCoeff()).count();
     const Eigen::MatrixXd independent = eigen.eigenvectors().rightCols(kSize - dropped);
