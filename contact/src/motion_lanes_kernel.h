@@ -1,7 +1,6 @@
 #pragma once
 
 #include "motion_lanes.h"
-#include "transpose_four.h"
 
 #include <pent/simd.h>
 
@@ -16,7 +15,7 @@ constexpr int kFour = 4;
 
 // The sum of each row.
 [[nodiscard, gnu::always_inline]] inline Four sums(Four* rows) {
-    transpose(rows);
+    transpose<kFour>(rows);
     return (rows[0] + rows[1]) + (rows[2] + rows[3]);
 }
 
@@ -76,7 +75,7 @@ void bound_motions(const double* first,
         for (int k = 0; k < kFour; ++k) {
             of_others[k] = Four::load(rows[k] + MotionRows::kSizes);
         }
-        transpose(of_others);
+        transpose<kFour>(of_others);
         const auto& [least_stretch, radius, deviation, unused] = of_others;
         double stretch[kFour];  // NOLINT(modernize-avoid-c-arrays)
         double lack[kFour];     // NOLINT(modernize-avoid-c-arrays)

@@ -1,7 +1,5 @@
 #include "patch_lanes.h"
 
-#include "transpose_four.h"
-
 #include <pent/dimensions.h>
 #include <pent/parallel.h>
 #include <pent/simd.h>
@@ -45,7 +43,7 @@ void PatchLanes<Dim>::set(const PatchVertices& vertices, const PositionsView<Dim
             for (int lane = 0; lane < kLanes; lane += kFour) {
                 std::array<Four, kFour> four{points[places[0]], points[places[1]],
                                              points[places[2]], points[places[3]]};
-                transpose(four.data());
+                transpose<kFour>(four.data());
                 for (std::size_t axis = 0; axis < Dim; ++axis) {
                     four[axis].store(to + axis * kLanes + lane);
                 }

@@ -216,6 +216,31 @@ const char* comparison_fault(const Number* a, const Number* b) {
     return holds(x < x, [](int) { return false; }) ? nullptr : "any of none";
 }
 
+// Of packs and of vectors of the compiler.
+template <typename Number, int Count>
+const char* transposition_fault(std::uint32_t& state) {
+    using Real = Pack<Number, Count>;
+    Number from[Count][Count];
+    Real packs[Count];
+    typename Real::Vector vectors[Count];
+    for (int i = 0; i < Count; ++i) {
+        for (int j = 0; j < Count; ++j) {
+            from[i][j] = number<Number>(state);
+        }
+        packs[i] = Real::load(from[i]);
+        vectors[i] = packs[i].lanes;
+    }
+    transpose<Count>(packs);
+    transpose<Count>(vectors);
+    for (int i = 0; i < Count; ++i) {
+        const auto expected = [&](int j) { return from[j][i]; };
+        if (!holds(packs[i], expected) || !holds(Real(vectors[i]), expected)) {
+            return "transpose";
+        }
+    }
+    return nullptr;
+}
+
 template <typename Number, int Count>
 const char* fault_of_packs() {
     std::uint32_t state = Count;
@@ -228,6 +253,7 @@ const char* fault_of_packs() {
         const char* const faults[] = {
             arithmetic_fault<Number, Count>(a.at, b.at, c.at),
             function_fault<Number, Count>(a.at, b.at), comparison_fault<Number, Count>(a.at, b.at),
+            transposition_fault<Number, Count>(state),
             holds(Pack<Number, Count>::load(floats.at),
                   [&](int i) { return static_cast<Number>(floats.at[i]); })
                     && holds(Pack<Number, Count>::load(doubles.at),

@@ -3,6 +3,9 @@
 #include <pent/mask.h>
 #include <pent/pack.h>
 
+#include <cstddef>
+#include <utility>
+
 namespace pent {
 
 /// a * b + c, lane by lane: rounded once where this file is compiled for fused multiply-add, else
@@ -107,6 +110,46 @@ PENT_SIMD_INLINE Pack<Number, Count> sqrt(const Pack<Number, Count>& a) {
         }
     }
     return root;
+}
+
+namespace detail {
+
+// One butterfly of a transposition: where a lane has the bit Step it takes from `high`.
+template <int Step, typename Vector, std::size_t... Lane>
+[[gnu::always_inline]] inline void exchange(Vector& low,
+                                            Vector& high,
+                                            std::index_sequence<Lane...> /*lanes*/) {
+    constexpr auto kCount = sizeof...(Lane);
+    const Vector first = low;
+    low = __builtin_shufflevector(
+        first, high, static_cast<int>((Lane & Step) != 0 ? kCount + Lane - Step : Lane)...);
+    high = __builtin_shufflevector(
+        first, high, static_cast<int>((Lane & Step) != 0 ? kCount + Lane : Lane + Step)...);
+}
+
+template <typename Row>
+[[gnu::always_inline]] inline auto& lanes_of(Row& row) {
+    if constexpr (requires { row.lanes; }) {
+        return row.lanes;
+    } else {
+        return row;
+    }
+}
+
+}  // namespace detail
+
+/// Transposes `Count` packs, or vectors of the compiler, of as many lanes each: rows become columns.
+template <int Count, typename Row, int Step = Count / 2>
+[[gnu::always_inline]] inline void transpose(Row* rows) {
+    if constexpr (Step > 0) {
+        for (int i = 0; i < Count; ++i) {
+            if ((i & Step) == 0) {
+                detail::exchange<Step>(detail::lanes_of(rows[i]), detail::lanes_of(rows[i + Step]),
+                                       std::make_index_sequence<Count>());
+            }
+        }
+        transpose<Count, Row, Step / 2>(rows);
+    }
 }
 
 }  // namespace pent

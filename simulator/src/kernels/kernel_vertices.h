@@ -104,7 +104,7 @@ struct VertexTile {
             for (int axis = 0; axis < Dim; ++axis) {
                 at[axis] = load_four(from[axis] + lane);
             }
-            transpose(at);
+            pent::transpose<kCount>(at);
         } else {
             for (int axis = 0; axis < Dim; ++axis) {
                 at[0][axis] = from[axis][lane];
@@ -116,7 +116,7 @@ struct VertexTile {
     template <int Lanes>
     void store(double (&to)[Dim][Lanes], int lane) {
         if constexpr (kCount > 1) {
-            transpose(at);
+            pent::transpose<kCount>(at);
             for (int axis = 0; axis < Dim; ++axis) {
                 simulator::store(at[axis], to[axis] + lane);
             }
