@@ -71,6 +71,42 @@ TYPED_TEST(StepLimitTest, IsTheLeastOfAllPairsForAnyNumberOfThreads) {
     }
 }
 
+// Many pairs of many bodies allow the same fraction to the bit, since all are where numbers are
+// exact: whichever a thread finds first, the first of them is named.
+TYPED_TEST(StepLimitTest, NamesTheFirstOfEqualPairsForAnyNumberOfThreads) {
+    constexpr int kDim = TypeParam::value;
+    constexpr int kTwos = 6;
+    test::Scene<kDim> scene;
+    for (int i = 0; i < kTwos; ++i) {
+        Vector<kDim> at = Vector<kDim>::Constant(4 * i);
+        scene.add(test::cube<kDim>(1), at);
+        at.array() += 0.125;
+        at[0] += 1;
+        scene.add(test::cube<kDim>(1), at);
+    }
+    Positions<kDim> to = scene.positions;
+    for (int i = 0; i < kTwos; ++i) {
+        to.middleCols(scene.begin[2 * i + 1], scene.begin[2 * i + 2] - scene.begin[2 * i + 1])
+            .row(0)
+            .array() -= 0.25;
+    }
+    const ContactScene<kDim> model = test::contact_scene<kDim>(
+        scene, {.model = ContactModel::Barrier, .distance = 0.25, .separation = 0});
+    const StepLimit first = ContactFinder<kDim>(model).limit_step(scene.positions, to);
+    EXPECT_LT(first.fraction, 0.5);
+    EXPECT_EQ(std::max(first.limiting.first.index, first.limiting.second.index), 1U);
+    for (const int threads : {1, 2, 3, 8, 8, 8, 8}) {
+        Workers(pent::test::host_tasks(threads)).run([&] {
+            const StepLimit again = ContactFinder<kDim>(model).limit_step(scene.positions, to);
+            EXPECT_EQ(again.fraction, first.fraction);
+            EXPECT_EQ(again.limiting.first, first.limiting.first);
+            EXPECT_EQ(again.limiting.second, first.limiting.second);
+            EXPECT_EQ(again.limiting.first_corners, first.limiting.first_corners);
+            EXPECT_EQ(again.limiting.second_corners, first.limiting.second_corners);
+        });
+    }
+}
+
 TYPED_TEST(StepLimitTest, IsTheWholeStepUnderAPenalty) {
     constexpr int kDim = TypeParam::value;
     this->cubes_.options.model = ContactModel::Penalty;
