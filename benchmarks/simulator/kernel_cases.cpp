@@ -165,7 +165,7 @@ double seconds_in_a_row(const Action& action) {
 
 Case product_case(const SharedBench& bench, int threads) {
     const auto workers = std::make_shared<Workers>(threads);
-    Case c{.name = "matrix times vector, float blocks",
+    Case c{.name = "products in a row, float blocks",
            .threads = threads,
            .unit = "block",
            .units = static_cast<double>(bench->beam.pattern.blocks())};
@@ -187,7 +187,7 @@ Case product_case(const SharedBench& bench, int threads) {
 
 Case apply_case(const SharedBench& bench, int threads) {
     const auto workers = std::make_shared<Workers>(threads);
-    Case c{.name = "preconditioner, applied", .threads = threads};
+    Case c{.name = "preconditioner, applied in a row", .threads = threads};
     c.run = [bench, workers] {
         return seconds_in_a_row(
             [&] { bench->preconditioner->apply(*workers, bench->x, bench->y); });
