@@ -170,8 +170,9 @@ public:
                               const Simplices<L>& second) const {
         const Candidate& pair = list_.pairs[place];
         return !is_beyond(pair, 2 * displacement_.max)
-               && !is_beyond(pair, displacement_.of<K>(first, pair.first)
-                                       + displacement_.of<L>(second, pair.second));
+               && (displacement_.max == 0  // each vertex would tell the same
+                   || !is_beyond(pair, displacement_.of<K>(first, pair.first)
+                                           + displacement_.of<L>(second, pair.second)));
     }
 
 private:
