@@ -95,6 +95,8 @@ void visit_list(const CandidatePairs& pairs, std::uint32_t place, const Visit& v
 /// common shift, in m.
 class Displacement {
 public:
+    float max = 0;  ///< Of all vertices.
+
     /// Of no vertex.
     Displacement() = default;
 
@@ -123,8 +125,6 @@ public:
         }
         return of_corner;
     }
-
-    float max = 0;
 
 private:
     struct Span {

@@ -27,13 +27,8 @@ class Meetings {
 public:
     using Pair = std::pair<int, int>;
 
-    /// That of two colliders, the first not above the second; null if there is none.
-    [[nodiscard]] const Meeting<Dim>* find(const Pair& colliders) const {
-        const auto place = std::lower_bound(list_.begin(), list_.end(), colliders, is_below);
-        return place != list_.end() && place->colliders() == colliders ? &*place : nullptr;
-    }
-
-    /// Takes a meeting of two colliders in the place of what is there of the same two.
+    /// Takes a meeting of two colliders, the first not above the second, in the place of what is
+    /// there of the same two.
     void put(const Pair& colliders, Meeting<Dim> meeting) {
         meeting.pairs.first = colliders.first;
         meeting.pairs.second = colliders.second;
@@ -55,7 +50,6 @@ public:
 
     [[nodiscard]] auto begin() const { return list_.begin(); }
     [[nodiscard]] auto end() const { return list_.end(); }
-    [[nodiscard]] bool empty() const { return list_.empty(); }
     [[nodiscard]] std::size_t size() const { return list_.size(); }
     [[nodiscard]] const Meeting<Dim>& operator[](std::size_t place) const { return list_[place]; }
 

@@ -32,13 +32,16 @@ public:
                       const PositionsView<Dim>& from,
                       const PositionsView<Dim>& to,
                       double distance);
+    // It refers to parts of its own.
+    PassingCandidates(const PassingCandidates&) = delete;
+    PassingCandidates& operator=(const PassingCandidates&) = delete;
 
-    /// Of candidates that a look at single ones has to tell of.
+    /// How many are tested one by one; of the others their lists tell.
     [[nodiscard]] std::int64_t count() const { return count_; }
 
-    /// Calls look.operator()<K, L>(place, pair, part) for each that passes. Chunks are looked at at
-    /// the same time, each with a part of its own, which begins as a Part(). Returns these in the
-    /// order of chunks.
+    /// Calls look.operator()<K, L>(place, pair, part) for each that passes. Chunks are looked at in
+    /// parallel, each with a part of its own, which begins as a Part(). Returns these in the order
+    /// of chunks.
     template <typename Part, typename Look>
     [[nodiscard]] std::vector<Part> look_at_each(const Look& look) const {
         std::vector<Part> parts(chunks_.size());

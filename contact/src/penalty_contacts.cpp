@@ -253,7 +253,7 @@ std::vector<Contact<Dim>> find_penalty_contacts(const Colliders<Dim>& colliders,
     Setting<Dim> setting{colliders, candidates, positions, Positions<Dim>()};
     std::vector<NearNow> all;
     const std::vector<Displacement> gone = candidates.displacements(positions, positions);
-    for (std::size_t m = 0; m < gone.size(); ++m) {  // each takes a team to look at
+    for (std::size_t m = 0; m < gone.size(); ++m) {  // in one order, since a team gathers each
         all.push_back(near_now<Dim>(setting, candidates.meetings()[m].pairs, gone[m]));
     }
     find_normals<Dim>(all, setting);

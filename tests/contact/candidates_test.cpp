@@ -358,7 +358,7 @@ TYPED_TEST(CandidatesTest, WithoutAMarginAreExactAndNotKept) {
     EXPECT_EQ(candidates.meetings()[0].pairs.mixed_first.pairs.size(),
               static_cast<std::size_t>(inside));
     candidates.drop_what_is_not_kept();
-    EXPECT_TRUE(candidates.meetings().empty());
+    EXPECT_EQ(candidates.meetings().size(), 0U);
     candidates.cover(x);
     EXPECT_EQ(candidates.work().searches, 2);
 }

@@ -138,7 +138,8 @@ template <typename Row>
 
 }  // namespace detail
 
-/// Transposes `Count` packs, or vectors of the compiler, of as many lanes each: rows become columns.
+/// Transposes `Count` packs, or vectors of the compiler, of as many lanes each: rows become
+/// columns.
 template <int Count, typename Row, int Step = Count / 2>
 [[gnu::always_inline]] inline void transpose(Row* rows) {
     if constexpr (Step > 0) {
