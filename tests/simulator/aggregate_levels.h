@@ -77,8 +77,9 @@ Eigen::MatrixXd dense(const AggregateMatrix<Dim, Scalar>& A) {
         for (std::int64_t k = A.pattern->row_start[static_cast<std::size_t>(row)];
              k < A.pattern->row_start[static_cast<std::size_t>(row) + 1]; ++k) {
             const Eigen::Index column = A.pattern->columns[static_cast<std::size_t>(k)];
-            full.block<kSize, kSize>(kSize * row, kSize * column) =
-                A.block(k).template cast<double>();
+            const Eigen::MatrixXd block = A.block(k).template cast<double>();
+            full.block<kSize, kSize>(kSize * column, kSize * row) = block.transpose();
+            full.block<kSize, kSize>(kSize * row, kSize * column) = block;
         }
     }
     return full;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 #include <vector>
 
@@ -28,6 +29,24 @@ TEST(GalerkinProduct, IsThatOfDenseMatricesOnEveryLevelSpringsIncludedOnEveryIns
         // Sums of some hundred terms.
         EXPECT_LT((dense(levels.first) - first).norm(), 1e-13 * first.norm()) << isa_name(isa);
         EXPECT_LT((dense(levels.second) - second).norm(), 1e-13 * second.norm()) << isa_name(isa);
+    }
+}
+
+// Sums of some hundred terms, in the precision of the blocks.
+template <int Dim, typename Scalar>
+void expect_product_of_the_dense_matrix(const AggregateMatrix<Dim, Scalar>& A, double tolerance) {
+    using Vector = typename AggregateMatrix<Dim, Scalar>::Vector;
+    const Vector r = Vector::Random(kModes<Dim> * A.pattern->rows());
+    const Vector x = Vector::Random(r.size());
+    const Eigen::VectorXd product = dense(A) * x.template cast<double>();
+    typename AggregateMatrix<Dim, Scalar>::Shares shares;
+    A.fit(shares);
+    for (const Isa isa : test::supported_isas()) {
+        Vector left;
+        A.subtract_product(Workers(2), kernels<Dim>(isa).blocks, r, x, left, shares);
+        EXPECT_LT((left.template cast<double>() - (r.template cast<double>() - product)).norm(),
+                  tolerance * product.norm())
+            << isa_name(isa);
     }
 }
 
@@ -87,6 +106,7 @@ void expect_products_of_numbers_at_random(double tolerance) {
         EXPECT_LT((dense(first) - expected).norm(), tolerance * expected.norm()) << isa_name(isa);
         EXPECT_LT((dense(second) - expected_next).norm(), tolerance * expected_next.norm())
             << isa_name(isa);
+        expect_product_of_the_dense_matrix(first, tolerance);
     }
 }
 
@@ -110,42 +130,70 @@ TEST(GalerkinProduct, IsSymmetricToTheBitAndTheSameForAnyNumberOfThreads) {
     }
 }
 
-// Sums of some hundred terms, in the precision of the blocks.
-template <typename Scalar>
-void expect_product_of_the_dense_matrix(Precision precision, double tolerance) {
-    const TwoLevels<Scalar> levels(precision);
-    using Vector = typename AggregateMatrix<4, Scalar>::Vector;
-    const Vector x = Vector::Random(kModeCount * 9);
-    const Eigen::VectorXd expected = dense(levels.first) * x.template cast<double>();
-    for (const Isa isa : test::supported_isas()) {
-        Vector y;
-        levels.first.multiply(Workers(2), kernels<4>(isa).blocks, BlockPart::Whole, x, y);
-        EXPECT_LT((y.template cast<double>() - expected).norm(), tolerance * expected.norm());
-    }
-}
-
 TEST(AggregateMatrix, MultipliesAsItsDenseMatrixOnEveryInstructionSet) {
-    expect_product_of_the_dense_matrix<float>(Precision::Float, 1e-6);
-    expect_product_of_the_dense_matrix<double>(Precision::Double, 1e-14);
+    expect_product_of_the_dense_matrix(TwoLevels<float>(Precision::Float).first, 1e-6);
+    expect_product_of_the_dense_matrix(TwoLevels<double>(Precision::Double).first, 1e-14);
 }
 
-TEST(AggregateMatrix, MultipliesByItsPartsBesideTheDiagonalToo) {
-    const TwoLevels<double> levels(Precision::Double);
-    const Eigen::VectorXd x = Eigen::VectorXd::Random(kModeCount * 9);
-    Eigen::MatrixXd below = dense(levels.first);
-    for (Eigen::Index row = 0; row < 9; ++row) {
-        below.block(kModeCount * row, kModeCount * row, kModeCount, kModeCount * (9 - row))
-            .setZero();
+// What is stored of a block is each of its entries once.
+template <int Size>
+void expect_a_place_for_every_entry() {
+    std::vector<int> uses(std::size_t{Size} * Size, 0);
+    for (int row = 0; row < Size; ++row) {
+        for (int column = 0; column < Size; ++column) {
+            ++uses.at(static_cast<std::size_t>(mode_entry<Size>(row, column)));
+        }
     }
-    const Eigen::MatrixXd above = below.transpose();
+    EXPECT_EQ(std::count(uses.begin(), uses.end(), 1), Size * Size);
+}
+
+TEST(AggregateMatrix, HasAPlaceForEveryEntryOfABlock) {
+    expect_a_place_for_every_entry<kModes<3>>();
+    expect_a_place_for_every_entry<kModes<4>>();
+}
+
+template <int Dim, typename Scalar>
+void expect_blocks_plus_transposes() {
+    constexpr int kSize = kModes<Dim>;
+    using Block = Eigen::Matrix<Scalar, kSize, kSize>;
+    const Block A = Block::Random();
+    const Block B = Block::Random();
+    std::vector<Scalar> stored(std::size_t{kSize} * kSize);
+    write_modes<kSize>(B, stored.data());
     for (const Isa isa : test::supported_isas()) {
-        const BlockKernels& blocks = kernels<4>(isa).blocks;
-        Eigen::VectorXd y;
-        levels.first.multiply(Workers(2), blocks, BlockPart::BelowDiagonal, x, y);
-        EXPECT_LT((y - below * x).norm(), 1e-14 * y.norm());
-        levels.first.multiply(Workers(2), blocks, BlockPart::AboveDiagonal, x, y);
-        EXPECT_LT((y - above * x).norm(), 1e-14 * y.norm());
+        std::vector<Scalar> sum(stored.size());
+        write_modes<kSize>(A, sum.data());
+        mode_kernels_of<Scalar>(kernels<Dim>(isa).blocks).add_transposed(stored.data(), sum.data());
+        EXPECT_EQ(read_modes<kSize>(sum.data()), A + B.transpose()) << isa_name(isa);
     }
+}
+
+TEST(AggregateMatrix, AddsTransposedBlocksInBothPrecisionsAndDimensions) {
+    expect_blocks_plus_transposes<3, float>();
+    expect_blocks_plus_transposes<3, double>();
+    expect_blocks_plus_transposes<4, float>();
+    expect_blocks_plus_transposes<4, double>();
+}
+
+// Both triangles, each block of which once.
+TEST(AggregatePattern, GoesOverTheBlocksOfRowsFromBothTriangles) {
+    const TwoLevels<double> levels(Precision::Double);
+    const AggregatePattern& pattern = levels.fine_pattern;
+    const Eigen::MatrixXd full = dense(levels.first);
+    Eigen::MatrixXd found = Eigen::MatrixXd::Zero(full.rows(), full.cols());
+    std::vector<std::size_t> uses(pattern.columns.size(), 0);
+    for (std::uint32_t row = 0; row < pattern.rows(); ++row) {
+        for_each_in_row(
+            pattern, row, [&](std::uint32_t column, std::int64_t k, bool is_transposed) {
+                const Eigen::MatrixXd block = levels.first.block(k);
+                found.block<kModeCount, kModeCount>(kModeCount * row, kModeCount * column) +=
+                    is_transposed ? block.transpose() : block;
+                ++uses.at(static_cast<std::size_t>(k));
+            });
+    }
+    EXPECT_EQ(found, full);
+    EXPECT_EQ(std::count(uses.begin(), uses.end(), 1), pattern.rows());  // the diagonal
+    EXPECT_EQ(std::count(uses.begin(), uses.end(), 2), std::ssize(uses) - pattern.rows());
 }
 
 // As long as they can be: the first row of each is linked to one of the batch before.

@@ -189,8 +189,10 @@ TEST(MakeHierarchy, NumbersAggregatesByColor) {
     const std::vector<Aggregates> levels = box.hierarchy();
     const AggregatePattern pattern = make_aggregate_pattern(levels[0], box.pattern, nullptr);
     std::int64_t most = 0;  // neighbors, and itself
-    for (std::size_t row = 0; row + 1 < pattern.row_start.size(); ++row) {
-        most = std::max(most, pattern.row_start[row + 1] - pattern.row_start[row]);
+    for (std::uint32_t row = 0; row < pattern.rows(); ++row) {
+        std::int64_t blocks = 0;
+        for_each_in_row(pattern, row, [&](auto... /*of the block*/) { ++blocks; });
+        most = std::max(most, blocks);
     }
     EXPECT_LE(static_cast<std::int64_t>(pattern.batches.size()) - 1, most);
 }

@@ -28,10 +28,10 @@ Links links_of(const BlockPattern& pattern) {
 Links links_of(const AggregatePattern& pattern) {
     Links links;
     for (std::uint32_t row = 0; row < pattern.rows(); ++row) {
-        const auto r = static_cast<std::size_t>(row);
-        for (std::int64_t k = pattern.row_start[r]; k < pattern.row_start[r + 1]; ++k) {
-            links.insert({row, pattern.columns[static_cast<std::size_t>(k)]});
-        }
+        for_each_in_row(pattern, row,
+                        [&](std::uint32_t column, std::int64_t /*block*/, bool /*transposed*/) {
+                            links.insert({row, column});
+                        });
     }
     return links;
 }

@@ -366,14 +366,16 @@ TEST(SharedGaussSeidel, MakesNoErrorGrow) {
                              made.pattern);
         A.ghosts = made.exchange.get();
         const GaussSeidel<4, double> smoother(Workers(1), A);
+        AggregateMatrix<4, double>::Shares shares;
+        A.fit(shares);
         const Eigen::Index rows = kModeCount * A.pattern->rows();  // as many on every rank
         const Eigen::Index first = rows * ranks->rank();
         for (Eigen::Index k = 0; k < B.cols(); ++k) {
             const Eigen::VectorXd unit = Eigen::VectorXd::Unit(B.rows(), k).segment(first, rows);
             Eigen::VectorXd z;
             Eigen::VectorXd left;
-            smoother.sweep_forth(Workers(1), blocks(), unit, z, left);
-            smoother.sweep_back(Workers(1), blocks(), unit, z);
+            smoother.sweep_forth(Workers(1), blocks(), unit, z, left, shares);
+            smoother.sweep_back(Workers(1), blocks(), unit, z, shares);
             B.col(k).segment(first, rows) = z.head(rows);
         }
     });

@@ -209,8 +209,7 @@ struct GalerkinOfVertices {
 #pragma GCC unroll 4
         for (int j = 0; j < Dim; ++j) {
             store_column(
-                sum, [&](const Product& of, int i) { return of.at[0].entry(i, j); },
-                block + j * kModes);
+                sum, [&](const Product& of, int i) { return of.at[0].entry(i, j); }, j, block);
         }
         for_each_plane<Dim>([&](int p, int q, int k) {
             store_column(
@@ -218,7 +217,7 @@ struct GalerkinOfVertices {
                 [&](const Product& of, int i) {
                     return of.at[p ^ q].entry(i, q) - of.at[p ^ q].entry(i, p);
                 },
-                block + k * kModes);
+                k, block);
         });
     }
 
@@ -227,13 +226,15 @@ private:
     template <typename Entry>
     [[gnu::always_inline]] static void store_column(const Sum& sum,
                                                     const Entry& entry,
-                                                    Scalar* column) {
+                                                    int column,
+                                                    Scalar* block) {
 #pragma GCC unroll 4
         for (int i = 0; i < Dim; ++i) {
-            column[i] = entry(sum.at[0], i);
+            block[mode_entry<kModes>(i, column)] = entry(sum.at[0], i);
         }
         for_each_plane<Dim>([&](int p, int q, int k) {
-            column[k] = entry(sum.at[p ^ q], q) - entry(sum.at[p ^ q], p);
+            block[mode_entry<kModes>(k, column)] =
+                entry(sum.at[p ^ q], q) - entry(sum.at[p ^ q], p);
         });
     }
 };
@@ -263,9 +264,13 @@ struct GalerkinOfModes {
     };
 
     static void add_times(const Scalar* block, const Scalar* arm, Product& product) {
+        Scalar columns[kModes * kModes];
+        for (int entry = 0; entry < kModes * kModes; ++entry) {
+            columns[entry] = block[kByColumns.at[entry]];
+        }
 #pragma GCC unroll 3
         for (int v = 0; v < kVectors; ++v) {
-            const Scalar* rows = block + row_of(v);
+            const Scalar* rows = columns + row_of(v);
             Vertex axes[Dim];
             for (int c = 0; c < Dim; ++c) {
                 load(rows + c * kRows, axes[c]);
@@ -300,17 +305,35 @@ struct GalerkinOfModes {
     }
 
     static void store_block(const Sum& sum, Scalar* block) {
-        for (int c = 0; c < kModes; ++c, block += kModes) {
+        for (int c = 0; c < kModes; ++c) {
             const Vertex* of = sum.at[c];
             for (int i = 0; i < Dim; ++i) {
-                block[i] = of[0][i];
+                block[mode_entry<kModes>(i, c)] = of[0][i];
             }
             for_each_plane<Dim>([&](int p, int q, int k) {
                 const int v = k < row_of(kVectors - 1) ? k / Dim : kVectors - 1;
-                block[k] = of[1 + p][q] - of[1 + q][p] + of[Dim + v][k - row_of(v)];
+                block[mode_entry<kModes>(k, c)] =
+                    of[1 + p][q] - of[1 + q][p] + of[Dim + v][k - row_of(v)];
             });
         }
     }
+
+private:
+    // Where the entries of a block are stored, column by column.
+    struct Places {
+        std::uint8_t at[kModes * kModes];
+    };
+    static constexpr Places places() {
+        Places places = {};
+        for (int column = 0; column < kModes; ++column) {
+            for (int row = 0; row < kModes; ++row) {
+                places.at[kModes * column + row] =
+                    static_cast<std::uint8_t>(mode_entry<kModes>(row, column));
+            }
+        }
+        return places;
+    }
+    static constexpr Places kByColumns = places();
 };
 
 // Products of a row with all children of an aggregate are added up first: neighbors in the row
@@ -333,11 +356,14 @@ public:
         }
     }
 
-    // Many blocks of the row get nothing from H: all of A that they are made of is below its
-    // diagonal, and comes from the row of the other aggregate.
-    void store(Scalar* blocks) const {
+    // Many blocks of the row get nothing from H: all of A that they are made of is in the triangle
+    // that is not stored, and comes from the row of the other aggregate.
+    void store(Scalar* blocks, Scalar* above) const {
         constexpr int kStored = Of::kModes * Of::kModes;
         for (std::size_t place = 0; place < of_->blocks; ++place, blocks += kStored) {
+            if (place == of_->blocks - of_->above) {
+                blocks = above;
+            }
             if (of_->uses[place] == kNone) {
                 __builtin_memset(blocks, 0, kStored * sizeof(Scalar));
             } else {
@@ -366,9 +392,6 @@ private:
     void add_row(const BlockRows<Scalar>& H, std::uint32_t row, const Scalar* ahead) {
         const std::int64_t last = H.row_start[row + 1];
         std::int64_t k = H.row_start[row];
-        while (H.columns[k] < row) {
-            ++k;
-        }
         std::size_t touched = 0;
         while (k < last) {
             const std::uint32_t place = place_of(H.columns[k]);
@@ -422,13 +445,16 @@ private:
 };
 
 template <typename Of, typename Scalar>
-void galerkin(const GalerkinRow<Scalar>& of, const SymmetricParts<Scalar>& A, Scalar* blocks) {
+void galerkin(const GalerkinRow<Scalar>& of,
+              const SymmetricParts<Scalar>& A,
+              Scalar* blocks,
+              Scalar* above) {
     GalerkinSum<Of, Scalar> sum(of);
     sum.add(A.own);
     if (A.coupling.values != nullptr) {
         sum.add(A.coupling);
     }
-    sum.store(blocks);
+    sum.store(blocks, above);
 }
 
 }  // namespace

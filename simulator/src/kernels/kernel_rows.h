@@ -88,56 +88,5 @@ void multiply_rows_4(const BlockRows<Scalar>& rows, const double* x, double* y) 
     }
 }
 
-// Parts of rows of Size x Size blocks: y = A x.
-template <int Size, typename Scalar>
-void multiply_spans(const BlockSpans<Scalar>& rows, const Scalar* x, Scalar* y) {
-    for (std::int64_t row = rows.begin; row < rows.end; ++row) {
-        Scalar sum[Size] = {};
-        for (std::int64_t k = rows.first[row]; k < rows.last[row]; ++k) {
-            const Scalar* entry = rows.values + k * Size * Size;
-            const Scalar* x_column = x + std::int64_t{Size} * rows.columns[k];
-            for (int j = 0; j < Size; ++j) {
-                for (int i = 0; i < Size; ++i) {
-                    sum[i] += entry[j * Size + i] * x_column[j];
-                }
-            }
-        }
-        for (int i = 0; i < Size; ++i) {
-            y[row * Size + i] = sum[i];
-        }
-    }
-}
-
-// The same in vectors of at most 32 bytes: the last ends with the column, so that some rows are in
-// two vectors, and computed twice. Four columns have sums of their own.
-template <int Size, typename Scalar>
-void multiply_spans_by_vectors(const BlockSpans<Scalar>& rows, const Scalar* x, Scalar* y) {
-    constexpr int kWide = sizeof(Scalar) == sizeof(float) && Size >= 8 ? 8 : 4;
-    static_assert(Size >= kWide);
-    constexpr int kVectors = (Size + kWide - 1) / kWide;
-    constexpr int kSums = 4;
-    using Pack [[gnu::vector_size(kWide * sizeof(Scalar))]] = Scalar;
-    for (std::int64_t row = rows.begin; row < rows.end; ++row) {
-        Pack sums[kSums][kVectors] = {};
-        for (std::int64_t k = rows.first[row]; k < rows.last[row]; ++k) {
-            const Scalar* block = rows.values + k * Size * Size;
-            const Scalar* x_column = x + std::int64_t{Size} * rows.columns[k];
-            for (int j = 0; j < Size; ++j) {
-                for (int v = 0; v < kVectors; ++v) {
-                    const int at = v + 1 < kVectors ? kWide * v : Size - kWide;
-                    Pack column;
-                    __builtin_memcpy(&column, block + j * Size + at, sizeof column);
-                    sums[j % kSums][v] += column * x_column[j];
-                }
-            }
-        }
-        for (int v = 0; v < kVectors; ++v) {
-            const Pack sum = (sums[0][v] + sums[1][v]) + (sums[2][v] + sums[3][v]);
-            const int at = v + 1 < kVectors ? kWide * v : Size - kWide;
-            __builtin_memcpy(y + row * Size + at, &sum, sizeof sum);
-        }
-    }
-}
-
 }  // namespace
 }  // namespace pent::simulator

@@ -7,6 +7,7 @@
 #include "kernels/kernel_quadratic_hessian.h"
 #include "kernels/kernel_rows.h"
 #include "kernels/kernel_smoothed.h"
+#include "kernels/kernel_sweeps.h"
 
 // The table of kernels of one instruction set, from its packs of floats and of doubles.
 
@@ -22,23 +23,14 @@ constexpr auto choose_multiply() {
     }
 }
 
-template <int Dim, typename Scalar, bool IsVectorized>
-constexpr auto choose_multiply_modes() {
-    if constexpr (IsVectorized) {
-        return &multiply_spans_by_vectors<kModes<Dim>, Scalar>;
-    } else {
-        return &multiply_spans<kModes<Dim>, Scalar>;
-    }
-}
-
 template <int Dim, typename DoublePack>
 constexpr BlockKernels block_kernels() {
     constexpr bool kIsVectorized = Lanes<DoublePack>::kCount > 1;
     return {
         .multiply_float = choose_multiply<Dim, float, kIsVectorized>(),
         .multiply_double = choose_multiply<Dim, double, kIsVectorized>(),
-        .multiply_modes_float = choose_multiply_modes<Dim, float, kIsVectorized>(),
-        .multiply_modes_double = choose_multiply_modes<Dim, double, kIsVectorized>(),
+        .modes_float = mode_kernels<kModes<Dim>, kIsVectorized, float>(),
+        .modes_double = mode_kernels<kModes<Dim>, kIsVectorized, double>(),
         .factor_columns_float = &factor_columns<Dim, DoublePack, float>,
         .factor_columns_double = &factor_columns<Dim, DoublePack, double>,
         .solve_columns = &solve_columns<Dim, kIsVectorized>,

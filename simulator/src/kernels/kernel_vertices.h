@@ -40,6 +40,12 @@ struct OneByOne {
     }
     friend OneByOne operator+(OneByOne a, const OneByOne& b) { return a += b; }
     friend OneByOne operator-(OneByOne a, const OneByOne& b) { return a -= b; }
+    friend OneByOne operator*(OneByOne a, const OneByOne& b) {
+        for (int i = 0; i < Dim; ++i) {
+            a.at[i] *= b.at[i];
+        }
+        return a;
+    }
     friend OneByOne operator*(OneByOne a, Number factor) {
         for (Number& number : a.at) {
             number *= factor;

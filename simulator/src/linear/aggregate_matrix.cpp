@@ -3,26 +3,54 @@
 #include <pent/dimensions.h>
 
 #include <algorithm>
-#include <span>
+#include <array>
+#include <numeric>
 
 namespace pent::simulator {
 
 namespace {
 
+// Calls visit(row, k) for each block k below the diagonal.
+template <typename Visit>
+void for_each_below(const AggregatePattern& pattern, const Visit& visit) {
+    for (std::size_t row = 0; row < pattern.diagonal.size(); ++row) {
+        for (std::int64_t k = pattern.row_start[row]; k < pattern.diagonal[row]; ++k) {
+            visit(row, static_cast<std::size_t>(k));
+        }
+    }
+}
+
 // As long as the next row is linked to none of the batch.
 void find_batches(AggregatePattern& pattern) {
     pattern.batches = {0};
     for (std::int64_t row = 0; row < pattern.rows(); ++row) {
-        const auto at = static_cast<std::uint32_t>(row);
-        pattern.diagonal.push_back(pattern.find(at, at));
-        pattern.above.push_back(pattern.diagonal.back() + 1);
-        const std::int64_t before = pattern.diagonal.back() - 1;
+        const auto at = static_cast<std::size_t>(row);
+        const std::int64_t before = pattern.diagonal[at] - 1;
         if (before >= pattern.row_start[at]
             && pattern.columns[static_cast<std::size_t>(before)] >= pattern.batches.back()) {
             pattern.batches.push_back(row);
         }
     }
     pattern.batches.push_back(pattern.rows());
+}
+
+// By columns, from one row after the other.
+void list_above(AggregatePattern& pattern) {
+    const auto rows = static_cast<std::size_t>(pattern.rows());
+    pattern.above_start.assign(rows + 1, 0);
+    for_each_below(pattern, [&](std::size_t /*row*/, std::size_t k) {
+        ++pattern.above_start[pattern.columns[k] + std::size_t{1}];
+    });
+    std::partial_sum(pattern.above_start.begin(), pattern.above_start.end(),
+                     pattern.above_start.begin());
+    pattern.above.resize(static_cast<std::size_t>(pattern.above_start.back()));
+    pattern.above_columns.resize(pattern.above.size());
+    std::vector<std::int64_t> next = pattern.above_start;
+    for_each_below(pattern, [&](std::size_t row, std::size_t k) {
+        const auto at = static_cast<std::size_t>(next[pattern.columns[k]]++);
+        pattern.above[at] = static_cast<std::uint32_t>(k);
+        pattern.above_columns[at] = static_cast<std::uint32_t>(row);
+    });
 }
 
 // @param for_each_link  Calls its argument with every pair of children that share a block, once at
@@ -44,17 +72,11 @@ AggregatePattern make_pattern_of(const Aggregates& aggregates, const ForEachLink
             }
         }
     });
-    AggregatePattern pattern;
-    pattern.ghosts = aggregates.ghosts;
-    pattern.row_start.push_back(0);
     for (std::vector<std::uint32_t>& columns : found) {
         std::sort(columns.begin(), columns.end());
-        const auto last = std::unique(columns.begin(), columns.end());
-        pattern.columns.insert(pattern.columns.end(), columns.begin(), last);
-        pattern.row_start.push_back(static_cast<std::int64_t>(pattern.columns.size()));
+        columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
     }
-    find_batches(pattern);
-    return pattern;
+    return {found, aggregates.ghosts};
 }
 
 template <typename Pattern, typename Visit>
@@ -101,11 +123,15 @@ public:
                  std::int64_t begin,
                  std::int64_t end)
         : aggregates_(&aggregates), arms_(&arms), pattern_(&pattern) {
-        std::size_t most = 0;
+        std::uint32_t most = 0;
         std::uint32_t last = 0;
         for (std::int64_t row = begin; row < end; ++row) {
-            most = std::max(most, columns_of(row).size());
-            last = std::max(last, columns_of(row).back());
+            std::uint32_t count = 0;
+            for_each_column(row, [&](std::uint32_t column) {
+                last = std::max(last, column);
+                ++count;
+            });
+            most = std::max(most, count);
         }
         places_.resize(last + std::size_t{1});
         touched_.resize(most);
@@ -114,21 +140,24 @@ public:
     }
 
     [[nodiscard]] GalerkinRow<Scalar> at(std::int64_t row) {
-        const std::span<const std::uint32_t> columns = columns_of(row);
-        for (std::uint32_t place = 0; place < columns.size(); ++place) {
-            places_[columns[place]] = place;
-        }
-        const auto& members = aggregates_->members[static_cast<std::size_t>(row)];
-        return {members.data(), members.size(), arms_->data(),   aggregates_->of_child.data(),
-                places_.data(), columns.size(), touched_.data(), uses_.data(),
-                scratch_.data()};
+        std::uint32_t count = 0;
+        for_each_column(row, [&](std::uint32_t column) { places_[column] = count++; });
+        const auto r = static_cast<std::size_t>(row);
+        const auto& members = aggregates_->members[r];
+        const auto above =
+            static_cast<std::size_t>(pattern_->above_start[r + 1] - pattern_->above_start[r]);
+        return {members.data(), members.size(), arms_->data(), aggregates_->of_child.data(),
+                places_.data(), count,          above,         touched_.data(),
+                uses_.data(),   scratch_.data()};
     }
 
 private:
-    [[nodiscard]] std::span<const std::uint32_t> columns_of(std::int64_t row) const {
-        const auto r = static_cast<std::size_t>(row);
-        return {pattern_->columns.data() + pattern_->row_start[r],
-                pattern_->columns.data() + pattern_->row_start[r + 1]};
+    template <typename Visit>
+    void for_each_column(std::int64_t row, const Visit& visit) const {
+        for_each_in_row(*pattern_, static_cast<std::uint32_t>(row),
+                        [&](std::uint32_t column, std::int64_t /*block*/, bool /*is_transposed*/) {
+                            visit(column);
+                        });
     }
 
     const Aggregates* aggregates_;
@@ -140,22 +169,26 @@ private:
     std::vector<Scalar, LineAllocator<Scalar>> scratch_;
 };
 
-// A = H + H^T, in place; what is between ranks is whole. Each pair of blocks is one thread's.
+// A = H + H^T: to the lower triangle of H, in place, what it has above its diagonal; what is
+// between ranks is whole. Each block is one thread's.
 template <int Dim, typename Scalar>
-void add_transposed(const Workers& workers, AggregateMatrix<Dim, Scalar>& A) {
+void add_transposed(const Workers& workers,
+                    const BlockKernels& kernels,
+                    const std::vector<Scalar, LineAllocator<Scalar>>& above,
+                    AggregateMatrix<Dim, Scalar>& A) {
+    constexpr std::int64_t kEntries = AggregateMatrix<Dim, Scalar>::kEntries;
     const AggregatePattern& pattern = *A.pattern;
+    const auto& add = mode_kernels_of<Scalar>(kernels).add_transposed;
     for_each_chunk(workers, pattern.rows(), [&](std::int64_t begin, std::int64_t end) {
-        for (auto row = static_cast<std::uint32_t>(begin); row < end; ++row) {
-            for (std::int64_t k = pattern.diagonal[row]; k < pattern.row_start[row + 1]; ++k) {
-                const std::uint32_t column = pattern.columns[static_cast<std::size_t>(k)];
-                if (column >= pattern.rows()) {
-                    break;
-                }
-                auto upper = A.block(k);
-                auto lower = A.block(pattern.find(column, row));
-                const typename AggregateMatrix<Dim, Scalar>::Block sum = upper + lower.transpose();
-                upper = sum;
-                lower = sum.transpose();
+        for (auto row = static_cast<std::size_t>(begin); row < static_cast<std::size_t>(end);
+             ++row) {
+            Scalar* diagonal = A.values.data() + pattern.diagonal[row] * kEntries;
+            std::array<Scalar, std::size_t{kEntries}> half = {};
+            std::copy_n(diagonal, kEntries, half.data());
+            add(half.data(), diagonal);
+            for (std::int64_t i = pattern.above_start[row]; i < pattern.above_start[row + 1]; ++i) {
+                add(above.data() + i * kEntries,
+                    A.values.data() + pattern.above[static_cast<std::size_t>(i)] * kEntries);
             }
         }
     });
@@ -164,6 +197,7 @@ void add_transposed(const Workers& workers, AggregateMatrix<Dim, Scalar>& A) {
 // @param kernel  Of A and the Scalar, for children of so many Rows.
 template <int Dim, int Rows, typename Scalar, typename Kernel>
 AggregateMatrix<Dim, Scalar> product_of(const Workers& workers,
+                                        const BlockKernels& kernels,
                                         const Kernel& kernel,
                                         const SymmetricParts<Scalar>& A,
                                         const Aggregates& aggregates,
@@ -173,24 +207,38 @@ AggregateMatrix<Dim, Scalar> product_of(const Workers& workers,
     Result result;
     result.pattern = &pattern;
     result.values.resize(pattern.columns.size() * Result::kEntries);
+    std::vector<Scalar, LineAllocator<Scalar>> above(pattern.above.size() * Result::kEntries);
     const std::vector<Scalar> numbers = numbers_of<Scalar>(arms);
     for_each_chunk(workers, pattern.rows(), [&](std::int64_t begin, std::int64_t end) {
         GalerkinRows<Dim, Rows, Scalar> rows(aggregates, numbers, pattern, begin, end);
         for (std::int64_t row = begin; row < end; ++row) {
-            const std::int64_t first = pattern.row_start[static_cast<std::size_t>(row)];
-            kernel(rows.at(row), A, result.values.data() + first * Result::kEntries);
+            const auto r = static_cast<std::size_t>(row);
+            kernel(rows.at(row), A, result.values.data() + pattern.row_start[r] * Result::kEntries,
+                   above.data() + pattern.above_start[r] * Result::kEntries);
         }
     });
-    add_transposed(workers, result);
+    add_transposed(workers, kernels, above, result);
     return result;
 }
 
 }  // namespace
 
-std::int64_t AggregatePattern::find(std::uint32_t row, std::uint32_t column) const {
-    const auto first = columns.begin() + row_start[row];
-    const auto last = columns.begin() + row_start[row + 1];
-    return std::lower_bound(first, last, column) - columns.begin();
+AggregatePattern::AggregatePattern(const std::vector<std::vector<std::uint32_t>>& linked,
+                                   std::uint32_t of_others)
+    : row_start{0}, ghosts(of_others) {
+    for (std::uint32_t row = 0; row < linked.size(); ++row) {
+        for (const std::uint32_t column : linked[row]) {
+            if (column == row) {
+                diagonal.push_back(static_cast<std::int64_t>(columns.size()));
+            }
+            if (column <= row || column >= linked.size()) {
+                columns.push_back(column);
+            }
+        }
+        row_start.push_back(static_cast<std::int64_t>(columns.size()));
+    }
+    list_above(*this);
+    find_batches(*this);
 }
 
 AggregatePattern make_aggregate_pattern(const Aggregates& aggregates,
@@ -210,36 +258,30 @@ AggregatePattern make_aggregate_pattern(const Aggregates& aggregates,
 }
 
 template <int Dim, typename Scalar>
-void AggregateMatrix<Dim, Scalar>::multiply(const Workers& workers,
-                                            const BlockKernels& kernels,
-                                            BlockPart part,
-                                            const Vector& x,
-                                            Vector& y) const {
-    constexpr std::int64_t kRows = 64;  // of a task
-    const std::int64_t rows = pattern->rows();
-    y.resize(static_cast<Eigen::Index>(kModes<Dim> * rows));
-    workers.for_each((rows + kRows - 1) / kRows, [&](std::int64_t chunk) {
-        multiply_rows(kernels, part, {chunk * kRows, std::min((chunk + 1) * kRows, rows)}, x.data(),
-                      y.data());
+void AggregateMatrix<Dim, Scalar>::subtract_product(const Workers& workers,
+                                                    const BlockKernels& kernels,
+                                                    const Vector& r,
+                                                    const Vector& x,
+                                                    Vector& left,
+                                                    Shares& shares) const {
+    left.resize(r.size());
+    for_each_chunk(workers, pattern->rows(), [&](std::int64_t begin, std::int64_t end) {
+        mode_kernels_of<Scalar>(kernels).subtract_below(mode_rows(begin, end, shares), r.data(),
+                                                        x.data(), left.data());
     });
+    subtract_above(workers, kernels, x, left, shares);
 }
 
 template <int Dim, typename Scalar>
-void AggregateMatrix<Dim, Scalar>::multiply_rows(
-    const BlockKernels& kernels, BlockPart part, RowRange rows, const Scalar* x, Scalar* y) const {
-    const std::int64_t* start = pattern->row_start.data();
-    BlockSpans<Scalar> spans{values.data(),           start,      start + 1,
-                             pattern->columns.data(), rows.begin, rows.end};
-    if (part == BlockPart::BelowDiagonal) {
-        spans.last = pattern->diagonal.data();
-    } else if (part == BlockPart::AboveDiagonal) {
-        spans.first = pattern->above.data();
-    }
-    if constexpr (sizeof(Scalar) == sizeof(float)) {
-        kernels.multiply_modes_float(spans, x, y);
-    } else {
-        kernels.multiply_modes_double(spans, x, y);
-    }
+void AggregateMatrix<Dim, Scalar>::subtract_above(const Workers& workers,
+                                                  const BlockKernels& kernels,
+                                                  const Vector& x,
+                                                  Vector& left,
+                                                  Shares& shares) const {
+    for_each_chunk(workers, pattern->rows(), [&](std::int64_t begin, std::int64_t end) {
+        mode_kernels_of<Scalar>(kernels).subtract_above(mode_rows(begin, end, shares), x.data(),
+                                                        left.data());
+    });
 }
 
 template <int Dim, typename Scalar>
@@ -254,11 +296,11 @@ AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,
         parts.coupling = A.coupling()->all_rows();
     }
     if constexpr (sizeof(Scalar) == sizeof(float)) {
-        return product_of<Dim, Dim>(workers, kernels.galerkin_float, parts, aggregates, arms,
-                                    pattern);
+        return product_of<Dim, Dim>(workers, kernels, kernels.galerkin_float, parts, aggregates,
+                                    arms, pattern);
     } else {
-        return product_of<Dim, Dim>(workers, kernels.galerkin_double, parts, aggregates, arms,
-                                    pattern);
+        return product_of<Dim, Dim>(workers, kernels, kernels.galerkin_double, parts, aggregates,
+                                    arms, pattern);
     }
 }
 
@@ -271,10 +313,10 @@ AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,
                                               const AggregatePattern& pattern) {
     const SymmetricParts<Scalar> parts{A.all_rows(), {}};
     if constexpr (sizeof(Scalar) == sizeof(float)) {
-        return product_of<Dim, kModes<Dim>>(workers, kernels.galerkin_modes_float, parts,
+        return product_of<Dim, kModes<Dim>>(workers, kernels, kernels.galerkin_modes_float, parts,
                                             aggregates, arms, pattern);
     } else {
-        return product_of<Dim, kModes<Dim>>(workers, kernels.galerkin_modes_double, parts,
+        return product_of<Dim, kModes<Dim>>(workers, kernels, kernels.galerkin_modes_double, parts,
                                             aggregates, arms, pattern);
     }
 }

@@ -13,4 +13,15 @@ template <int Dim>
     return Dim == 4 ? 4 * (row ^ column) + column : Dim * column + row;
 }
 
+/// The same for blocks of Size modes, by their diagonals, too: number j of diagonal d is that in
+/// row j - d (mod Size) of column j. All columns but the last two come first, which are a vector,
+/// then those two: of two diagonals at a time they are one of four.
+template <int Size>
+[[gnu::always_inline]] constexpr int mode_entry(int row, int column) {
+    constexpr int kHead = Size - 2;
+    const int diagonal = (column - row + Size) % Size;
+    return column < kHead ? kHead * diagonal + column
+                          : kHead * Size + 2 * diagonal + column - kHead;
+}
+
 }  // namespace pent::simulator

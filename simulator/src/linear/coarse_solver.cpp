@@ -21,14 +21,13 @@ std::vector<std::vector<std::uint32_t>> components_of(const AggregatePattern& pa
         is_seen[root] = true;
         std::vector<std::uint32_t> rows = {root};
         for (std::size_t next = 0; next < rows.size(); ++next) {
-            const std::uint32_t row = rows[next];
-            for (std::int64_t k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k) {
-                const std::uint32_t column = pattern.columns[static_cast<std::size_t>(k)];
-                if (!is_seen[column]) {
-                    is_seen[column] = true;
-                    rows.push_back(column);
-                }
-            }
+            for_each_in_row(pattern, rows[next],
+                            [&](std::uint32_t column, std::int64_t /*block*/, bool /*transposed*/) {
+                                if (!is_seen[column]) {
+                                    is_seen[column] = true;
+                                    rows.push_back(column);
+                                }
+                            });
         }
         std::sort(rows.begin(), rows.end());
         components.push_back(std::move(rows));
@@ -36,6 +35,7 @@ std::vector<std::vector<std::uint32_t>> components_of(const AggregatePattern& pa
     return components;
 }
 
+// The lower triangle, which is all that a factorization reads.
 template <int Dim, typename Scalar>
 Eigen::MatrixXd dense(const AggregateMatrix<Dim, Scalar>& A,
                       const std::vector<std::uint32_t>& rows) {
@@ -74,8 +74,9 @@ CoarseSolver<Dim, Scalar>::CoarseSolver(const Workers& workers,
             }
         }
         for (const std::uint32_t row : component.rows) {
-            const auto blocks = A.pattern->row_start[row + 1] - A.pattern->row_start[row];
-            component.inverses.push_back(inverse_of_diagonal(A, row) / static_cast<double>(blocks));
+            int blocks = 0;
+            for_each_in_row(*A.pattern, row, [&](auto... /*of the block*/) { ++blocks; });
+            component.inverses.push_back(inverse_of_diagonal(A, row) / blocks);
         }
     });
 }

@@ -38,11 +38,12 @@ double coupling_norm(const Block& inverse_i, const Block& A_ij, const Block& inv
 
 template <int Dim, typename Scalar>
 GaussSeidel<Dim, Scalar>::GaussSeidel(const Workers& workers, const AggregateMatrix<Dim, Scalar>& A)
-    : A_(&A), inverses_(static_cast<std::size_t>(A.pattern->rows())) {
+    : A_(&A), inverses_(static_cast<std::size_t>(kEntries * A.pattern->rows())) {
     for_each_part(workers, 0, A.pattern->rows(), [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
-            inverses_[static_cast<std::size_t>(row)] =
+            const Eigen::Matrix<Scalar, kSize, kSize> inverse =
                 inverse_of_diagonal(A, static_cast<std::uint32_t>(row)).template cast<Scalar>();
+            write_modes<kSize>(inverse, inverses_.data() + kEntries * row);
         }
     });
     if (A.ghosts != nullptr) {
@@ -53,28 +54,31 @@ GaussSeidel<Dim, Scalar>::GaussSeidel(const Workers& workers, const AggregateMat
 template <int Dim, typename Scalar>
 void GaussSeidel<Dim, Scalar>::damp(const Workers& workers) {
     const AggregatePattern& pattern = *A_->pattern;
-    inverses_.resize(static_cast<std::size_t>(pattern.column_count()));
-    A_->ghosts->update(inverses_.empty() ? nullptr : inverses_.data()->data(), kSize * kSize);
-    damping_.resize(static_cast<std::size_t>(pattern.rows()));
+    inverses_.resize(static_cast<std::size_t>(kEntries * pattern.column_count()));
+    A_->ghosts->update(inverses_.data(), kEntries);
+    kept_.resize(static_cast<std::size_t>(pattern.rows()));
     using Block = Eigen::Matrix<double, kSize, kSize>;
+    const auto inverse_of = [&](std::int64_t column) -> Block {
+        return read_modes<kSize>(inverses_.data() + kEntries * column).template cast<double>();
+    };
     for_each_part(workers, 0, pattern.rows(), [&](std::int64_t begin, std::int64_t end) {
-        for (auto row = static_cast<std::size_t>(begin); row < static_cast<std::size_t>(end);
-             ++row) {
-            const Block inverse = inverses_[row].template cast<double>();
+        for (std::int64_t row = begin; row < end; ++row) {
+            const auto r = static_cast<std::size_t>(row);
+            const Block inverse = inverse_of(row);
             double sum = 0;
-            for (std::int64_t k = pattern.row_start[row + 1] - 1; k >= pattern.above[row]; --k) {
-                const std::uint32_t column = pattern.columns[static_cast<std::size_t>(k)];
-                if (column < pattern.rows()) {
-                    break;
-                }
-                sum += coupling_norm<Block>(inverse, A_->block(k).template cast<double>(),
-                                            inverses_[column].template cast<double>());
+            for (std::int64_t k = pattern.row_start[r + 1] - 1; k > pattern.diagonal[r]; --k) {
+                sum +=
+                    coupling_norm<Block>(inverse, A_->block(k).template cast<double>(),
+                                         inverse_of(pattern.columns[static_cast<std::size_t>(k)]));
             }
-            damping_[row] = static_cast<Scalar>(std::max(0.0, sum - kUndamped) / 2);
-            inverses_[row] /= 1 + damping_[row];
+            const double t = std::max(0.0, sum - kUndamped) / 2;
+            kept_[r] = static_cast<Scalar>(t / (1 + t));
         }
     });
-    inverses_.resize(static_cast<std::size_t>(pattern.rows()));
+    inverses_.resize(static_cast<std::size_t>(kEntries * pattern.rows()));
+    for (std::size_t i = 0; i < inverses_.size(); ++i) {
+        inverses_[i] *= 1 - kept_[i / static_cast<std::size_t>(kEntries)];
+    }
 }
 
 template <int Dim, typename Scalar>
@@ -82,54 +86,35 @@ void GaussSeidel<Dim, Scalar>::sweep_forth(const Workers& workers,
                                            const BlockKernels& kernels,
                                            const Vector& r,
                                            Vector& z,
-                                           Vector& left) const {
+                                           Vector& left,
+                                           Shares& shares) const {
     z.resize(static_cast<Eigen::Index>(kSize * A_->pattern->column_count()));
+    left.resize(r.size());
     const std::vector<std::int64_t>& batches = A_->pattern->batches;
     for (std::size_t i = 0; i + 1 < batches.size(); ++i) {
-        for_each_part(workers, batches[i], batches[i + 1],
-                      [&](std::int64_t begin, std::int64_t end) {
-                          // Into z itself: rows below the diagonal read batches before alone.
-                          A_->multiply_rows(kernels, BlockPart::BelowDiagonal, {begin, end},
-                                            z.data(), z.data());
-                          for (std::int64_t row = begin; row < end; ++row) {
-                              auto at = z.template segment<kSize>(kSize * row);
-                              at = inverses_[static_cast<std::size_t>(row)]
-                                   * (r.template segment<kSize>(kSize * row) - at).eval();
-                          }
-                      });
+        for_each_part(
+            workers, batches[i], batches[i + 1], [&](std::int64_t begin, std::int64_t end) {
+                mode_kernels_of<Scalar>(kernels).sweep_forth(
+                    A_->mode_rows(begin, end, shares), diagonal(), r.data(), z.data(), left.data());
+            });
     }
     A_->update_ghosts(z);
-    A_->multiply(workers, kernels, BlockPart::AboveDiagonal, z, left);
-    left = -left;
-    for (std::size_t row = 0; row < damping_.size(); ++row) {
-        if (damping_[row] > 0) {
-            const auto at = static_cast<Eigen::Index>(kSize * row);
-            left.template segment<kSize>(at).noalias() +=
-                damping_[row]
-                * (A_->block(A_->pattern->diagonal[row]) * z.template segment<kSize>(at));
-        }
-    }
+    A_->subtract_above(workers, kernels, z, left, shares);
 }
 
 template <int Dim, typename Scalar>
 void GaussSeidel<Dim, Scalar>::sweep_back(const Workers& workers,
                                           const BlockKernels& kernels,
                                           const Vector& r,
-                                          Vector& z) const {
+                                          Vector& z,
+                                          Shares& shares) const {
     A_->update_ghosts(z);
-    Vector product(r.size());
     const std::vector<std::int64_t>& batches = A_->pattern->batches;
     for (std::size_t i = batches.size() - 1; i > 0; --i) {
         for_each_part(workers, batches[i - 1], batches[i],
                       [&](std::int64_t begin, std::int64_t end) {
-                          A_->multiply_rows(kernels, BlockPart::Whole, {begin, end}, z.data(),
-                                            product.data());
-                          for (std::int64_t row = begin; row < end; ++row) {
-                              z.template segment<kSize>(kSize * row).noalias() +=
-                                  inverses_[static_cast<std::size_t>(row)]
-                                  * (r.template segment<kSize>(kSize * row)
-                                     - product.template segment<kSize>(kSize * row));
-                          }
+                          mode_kernels_of<Scalar>(kernels).sweep_back(
+                              A_->mode_rows(begin, end, shares), diagonal(), r.data(), z.data());
                       });
     }
 }

@@ -24,32 +24,41 @@ template <int Dim, typename Scalar>
 class GaussSeidel {
 public:
     using Vector = typename AggregateMatrix<Dim, Scalar>::Vector;
+    using Shares = typename AggregateMatrix<Dim, Scalar>::Shares;
 
     GaussSeidel() = default;
     /// @param A  Must outlive this.
     GaussSeidel(const Workers& workers, const AggregateMatrix<Dim, Scalar>& A);
 
     /// From no guess: z = (L + D)^-1 r, over the columns. Its residual r - A z is left.
+    ///
+    /// @param shares  That fit A.
     void sweep_forth(const Workers& workers,
                      const BlockKernels& kernels,
                      const Vector& r,
                      Vector& z,
-                     Vector& left) const;
+                     Vector& left,
+                     Shares& shares) const;
 
     /// z += (D + L^T)^-1 (r - A z), z over the columns.
     void sweep_back(const Workers& workers,
                     const BlockKernels& kernels,
                     const Vector& r,
-                    Vector& z) const;
+                    Vector& z,
+                    Shares& shares) const;
 
 private:
     static constexpr int kSize = kModes<Dim>;
+    static constexpr std::int64_t kEntries = AggregateMatrix<Dim, Scalar>::kEntries;
 
     void damp(const Workers& workers);
+    [[nodiscard]] ModeDiagonal<Scalar> diagonal() const {
+        return {inverses_.data(), kept_.empty() ? nullptr : kept_.data()};
+    }
 
     const AggregateMatrix<Dim, Scalar>* A_ = nullptr;
-    std::vector<Eigen::Matrix<Scalar, kSize, kSize>> inverses_;  // of the diagonal blocks
-    std::vector<Scalar> damping_;                                // t; empty where it is zero
+    std::vector<Scalar> inverses_;  // as ModeDiagonal has them
+    std::vector<Scalar> kept_;      // the same; empty where t is zero
 };
 
 }  // namespace pent::simulator

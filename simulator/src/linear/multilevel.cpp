@@ -48,6 +48,7 @@ public:
             children = std::move(places);
             if (l + 1 < levels_.size()) {
                 level.smoother = GaussSeidel<Dim, Scalar>(workers, level.matrix);
+                level.matrix.fit(shares_);
             }
         }
         coarsest_ = SharedCoarseSolver<Dim, Scalar>(
@@ -123,21 +124,20 @@ private:
         Vector left;
         Vector coarse;
         Vector correction;
-        level.smoother.sweep_forth(workers, *kernels_, r, z, left);
+        level.smoother.sweep_forth(workers, *kernels_, r, z, left, shares_);
         restrict_to(workers, next, left, coarse);
         if (l + 2 == levels_.size()) {
             coarsest_.solve(workers, coarse, correction);
         } else {
             cycle(workers, l + 1, coarse, correction);
             next.matrix.update_ghosts(correction);
-            next.matrix.multiply(workers, *kernels_, BlockPart::Whole, correction, left);
-            left = coarse - left;
+            next.matrix.subtract_product(workers, *kernels_, coarse, correction, left, shares_);
             Vector again;
             cycle(workers, l + 1, left, again);
             correction += again;
         }
         prolong_from(workers, next, kCorrection, correction, z);
-        level.smoother.sweep_back(workers, *kernels_, r, z);
+        level.smoother.sweep_back(workers, *kernels_, r, z, shares_);
     }
 
     // To the aggregates of a level from their children.
@@ -207,6 +207,7 @@ private:
     std::unique_ptr<Preconditioner<Dim>> smoother_;
     std::vector<Level> levels_;  // the finest first
     SharedCoarseSolver<Dim, Scalar> coarsest_;
+    mutable typename AggregateMatrix<Dim, Scalar>::Shares shares_;  // of what is done just now
 };
 
 }  // namespace

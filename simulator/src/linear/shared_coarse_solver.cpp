@@ -36,17 +36,27 @@ SpreadMatrix spread(const AggregateMatrix<Dim, Scalar>& A,
         const auto ghost = static_cast<std::size_t>(column - pattern.rows());
         return first[ghosts.owners[ghost]] + ghosts.places[ghost];
     };
-    std::vector<std::pair<std::int64_t, std::int64_t>> of_row;  // number and block
-    for (std::size_t row = 0; row + 1 < pattern.row_start.size(); ++row) {
+    struct Entry {
+        std::int64_t column;
+        std::int64_t block;
+        bool is_transposed;
+    };
+    std::vector<Entry> of_row;
+    for (std::uint32_t row = 0; row < pattern.rows(); ++row) {
         of_row.clear();
-        for (std::int64_t k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k) {
-            of_row.emplace_back(number(pattern.columns[static_cast<std::size_t>(k)]), k);
-        }
-        std::sort(of_row.begin(), of_row.end());
-        for (const auto& [column, k] : of_row) {
-            const Eigen::Matrix<double, kSize, kSize, Eigen::RowMajor> block =
-                A.block(k).template cast<double>();
-            spread.columns.push_back(column);
+        for_each_in_row(pattern, row,
+                        [&](std::uint32_t column, std::int64_t k, bool is_transposed) {
+                            of_row.push_back({number(column), k, is_transposed});
+                        });
+        std::sort(of_row.begin(), of_row.end(),
+                  [](const Entry& a, const Entry& b) { return a.column < b.column; });
+        for (const Entry& entry : of_row) {
+            Eigen::Matrix<double, kSize, kSize, Eigen::RowMajor> block =
+                A.block(entry.block).template cast<double>();
+            if (entry.is_transposed) {
+                block.transposeInPlace();
+            }
+            spread.columns.push_back(entry.column);
             spread.values.insert(spread.values.end(), block.data(), block.data() + block.size());
         }
         spread.row_start.push_back(static_cast<std::int64_t>(spread.columns.size()));
@@ -74,24 +84,31 @@ CoarseSolver<Dim, Scalar> factor(const Workers& workers,
     for (std::size_t row = 0; row + 1 < own.row_start.size(); ++row) {
         blocks.push_back(static_cast<double>(own.row_start[row + 1] - own.row_start[row]));
     }
-    AggregatePattern pattern;
-    pattern.row_start.push_back(0);
-    for (const double count : gather(sharing, blocks)) {
-        pattern.row_start.push_back(pattern.row_start.back() + static_cast<std::int64_t>(count));
-    }
-    for (const double column : gather(sharing, {own.columns.begin(), own.columns.end()})) {
-        pattern.columns.push_back(static_cast<std::uint32_t>(column));
-    }
-    for (std::uint32_t row = 0; row < pattern.rows(); ++row) {
-        pattern.diagonal.push_back(pattern.find(row, row));
-    }
+    const std::vector<double> counts = gather(sharing, blocks);
+    const std::vector<double> columns = gather(sharing, {own.columns.begin(), own.columns.end()});
     const std::vector<double> values = gather(sharing, own.values);
+    std::vector<std::vector<std::uint32_t>> linked;
+    std::vector<double> stored;  // the lower triangle, blocks one after the other
+    std::size_t k = 0;
+    for (const double count : counts) {
+        const auto row = static_cast<double>(linked.size());
+        linked.emplace_back();
+        for (const std::size_t end = k + static_cast<std::size_t>(count); k < end; ++k) {
+            linked.back().push_back(static_cast<std::uint32_t>(columns[k]));
+            if (columns[k] <= row) {
+                const auto first =
+                    values.begin() + static_cast<std::ptrdiff_t>(k) * Matrix::kEntries;
+                stored.insert(stored.end(), first, first + Matrix::kEntries);
+            }
+        }
+    }
+    const AggregatePattern pattern(linked, 0);
     Matrix whole;
     whole.pattern = &pattern;
-    whole.values.resize(values.size());
-    for (std::size_t k = 0; k < pattern.columns.size(); ++k) {
-        whole.block(static_cast<std::int64_t>(k)) =
-            Eigen::Map<const Rows>(values.data() + k * Matrix::kEntries).template cast<Scalar>();
+    whole.values.resize(stored.size());
+    for (std::int64_t block = 0; block < std::ssize(pattern.columns); ++block) {
+        whole.set_block(block, Eigen::Map<const Rows>(stored.data() + block * Matrix::kEntries)
+                                   .template cast<Scalar>());
     }
     return {workers, whole};
 }
