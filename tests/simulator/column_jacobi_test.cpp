@@ -46,6 +46,20 @@ TEST(ColumnJacobi, SolvesWithTheBandOfBlocksOfEveryColumnOnEveryInstructionSet) 
     }
 }
 
+TEST(ColumnJacobi, ReturnsWhatItIsGivenTimesWhatItMakesOfIt) {
+    const Fixture f;
+    const auto n = static_cast<std::uint32_t>(f.A.rows());
+    std::vector<std::uint32_t> columns(n + 1);
+    std::iota(columns.begin(), columns.end(), 0U);
+    for (const int threads : {1, 3}) {
+        const Workers workers(threads);
+        BlockVector<4> z(4, f.A.rows());
+        const double product = column_jacobi(workers, kernels<4>(best_isa()).blocks, f.A, columns)
+                                   ->apply(workers, f.r, z);
+        EXPECT_NEAR(product, f.r.cwiseProduct(z).sum(), 1e-14 * f.r.norm() * z.norm());
+    }
+}
+
 // It is solved by its diagonal blocks; the columns beside it, in the lanes of the same vectors, are
 // none the worse.
 TEST(ColumnJacobi, TakesAColumnThatIsNotPositiveDefiniteApart) {

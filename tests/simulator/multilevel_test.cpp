@@ -109,15 +109,28 @@ TEST(Multilevel, CorrectsRigidMotionsOfTheCoarsestAggregatesExactly) {
     EXPECT_LT((back - motion).norm(), 1e-7 * motion.norm());  // 1e-10 is added to the diagonal
 }
 
+TEST(Multilevel, ReturnsWhatItIsGivenTimesWhatItMakesOfIt) {
+    const Fixture f;
+    for (const std::uint32_t most : {1U, 2U, 5U}) {
+        const Hierarchy hierarchy = three_levels(f, most);
+        BlockVector<4> z(4, f.A.rows());
+        const double product =
+            multilevel_of(f, hierarchy, positions_of(f), f.workers)->apply(f.workers, f.r, z);
+        EXPECT_NEAR(product, f.r.cwiseProduct(z).sum(), 1e-12 * f.r.norm() * z.norm());
+    }
+}
+
 TEST(Multilevel, GivesTheSameBitsForAnyNumberOfThreads) {
     const Fixture f;
     const Hierarchy hierarchy = three_levels(f, 3);
     BlockVector<4> expected(4, f.A.rows());
-    multilevel_of(f, hierarchy, positions_of(f), f.workers)->apply(f.workers, f.r, expected);
+    const double product =
+        multilevel_of(f, hierarchy, positions_of(f), f.workers)->apply(f.workers, f.r, expected);
     for (const int threads : {2, 3}) {
         const Workers workers(threads);
         BlockVector<4> z(4, f.A.rows());
-        multilevel_of(f, hierarchy, positions_of(f), workers)->apply(workers, f.r, z);
+        EXPECT_EQ(multilevel_of(f, hierarchy, positions_of(f), workers)->apply(workers, f.r, z),
+                  product);
         EXPECT_EQ(z, expected);
     }
 }

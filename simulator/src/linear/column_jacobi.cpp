@@ -32,11 +32,13 @@ public:
           inverses_(static_cast<std::size_t>(matrix.rows()) * kEntries),
           couplings_(static_cast<std::size_t>(matrix.rows()) * band_ * kEntries) {
         std::vector<std::uint8_t> has_failed(column_start.size() - 1);
-        for_each_chunk(workers, [&](std::int64_t begin, std::int64_t end) {
+        workers.for_each(chunks(), [&](std::int64_t chunk) {
+            const Range range = columns_of(chunk);
             factor(matrix,
-                   {column_start.data(), band_, inverses_.data(), couplings_.data(), begin, end},
+                   {column_start.data(), band_, inverses_.data(), couplings_.data(), range.begin,
+                    range.end},
                    has_failed.data());
-            for (std::int64_t c = begin; c < end; ++c) {
+            for (std::int64_t c = range.begin; c < range.end; ++c) {
                 if (has_failed[static_cast<std::size_t>(c)] != 0) {
                     factor_alone(matrix, column_start[static_cast<std::size_t>(c)],
                                  column_start[static_cast<std::size_t>(c) + 1]);
@@ -45,13 +47,18 @@ public:
         });
     }
 
-    void apply(const Workers& workers,
-               const BlockVector<Dim>& r,
-               BlockVector<Dim>& z) const override {
-        for_each_chunk(workers, [&](std::int64_t begin, std::int64_t end) {
-            kernels_->solve_columns(
-                {column_start_->data(), band_, inverses_.data(), couplings_.data(), begin, end},
-                r.data(), z.data());
+    double apply(const Workers& workers,
+                 const BlockVector<Dim>& r,
+                 BlockVector<Dim>& z) const override {
+        const std::vector<std::uint32_t>& start = *column_start_;
+        return workers.sum(chunks(), [&](std::int64_t chunk) -> double {
+            const Range columns = columns_of(chunk);
+            kernels_->solve_columns({start.data(), band_, inverses_.data(), couplings_.data(),
+                                     columns.begin, columns.end},
+                                    r.data(), z.data());
+            const Eigen::Index first = start[static_cast<std::size_t>(columns.begin)];
+            const Eigen::Index count = start[static_cast<std::size_t>(columns.end)] - first;
+            return r.middleCols(first, count).cwiseProduct(z.middleCols(first, count)).sum();
         });
     }
 
@@ -60,12 +67,19 @@ private:
     using Block = Eigen::Matrix<double, Dim, Dim>;
     using Floats = std::vector<float, LineAllocator<float>>;
 
-    template <typename Work>
-    void for_each_chunk(const Workers& workers, const Work& work) const {
-        const auto columns = static_cast<std::int64_t>(column_start_->size()) - 1;
-        workers.for_each((columns + kChunkColumns - 1) / kChunkColumns, [&](std::int64_t chunk) {
-            work(chunk * kChunkColumns, std::min((chunk + 1) * kChunkColumns, columns));
-        });
+    struct Range {
+        std::int64_t begin;
+        std::int64_t end;
+    };
+
+    [[nodiscard]] std::int64_t columns() const {
+        return static_cast<std::int64_t>(column_start_->size()) - 1;
+    }
+    [[nodiscard]] std::int64_t chunks() const {
+        return (columns() + kChunkColumns - 1) / kChunkColumns;
+    }
+    [[nodiscard]] Range columns_of(std::int64_t chunk) const {
+        return {chunk * kChunkColumns, std::min((chunk + 1) * kChunkColumns, columns())};
     }
 
     // How far apart in one column dofs are coupled.

@@ -3,7 +3,6 @@
 #include <pent/dimensions.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -64,18 +63,14 @@ double weighed_square(const Workers& workers,
     });
 }
 
-// x += alpha p, r -= alpha q; returns |r|^2.
+// r -= alpha q; returns |r|^2.
 template <int Dim>
 double advance(const Workers& workers,
                Eigen::Index rows,
                double alpha,
-               const std::array<const BlockVector<Dim>*, 2>& pq,
-               BlockVector<Dim>& r,
-               BlockVector<Dim>& x) {
-    const BlockVector<Dim>& p = *pq[0];  // no bindings: clang 14 lets no function take them along
-    const BlockVector<Dim>& q = *pq[1];
+               const BlockVector<Dim>& q,
+               BlockVector<Dim>& r) {
     return sum_chunks(workers, rows, [&](Eigen::Index begin, Eigen::Index count) {
-        x.middleCols(begin, count) += alpha * p.middleCols(begin, count);
         auto part = r.middleCols(begin, count);
         part -= alpha * q.middleCols(begin, count);
         return part.squaredNorm();
@@ -98,17 +93,34 @@ double scale(const Workers& workers,
     });
 }
 
-// p = z + beta p.
+// x += alpha p.
 template <int Dim>
-void redirect(const Workers& workers,
-              Eigen::Index rows,
-              double beta,
-              const BlockVector<Dim>& z,
-              BlockVector<Dim>& p) {
+void follow(const Workers& workers,
+            Eigen::Index rows,
+            double alpha,
+            const BlockVector<Dim>& p,
+            BlockVector<Dim>& x) {
+    workers.for_each(chunk_count(rows), [&](int chunk) {
+        const Eigen::Index begin = chunk * kChunkColumns;
+        const Eigen::Index count = std::min(kChunkColumns, rows - begin);
+        x.middleCols(begin, count) += alpha * p.middleCols(begin, count);
+    });
+}
+
+// The same, then p = z + beta p, in one pass.
+template <int Dim>
+void follow_and_turn(const Workers& workers,
+                     Eigen::Index rows,
+                     double alpha,
+                     double beta,
+                     const BlockVector<Dim>& z,
+                     BlockVector<Dim>& p,
+                     BlockVector<Dim>& x) {
     workers.for_each(chunk_count(rows), [&](int chunk) {
         const Eigen::Index begin = chunk * kChunkColumns;
         const Eigen::Index count = std::min(kChunkColumns, rows - begin);
         auto part = p.middleCols(begin, count);
+        x.middleCols(begin, count) += alpha * part;
         part = z.middleCols(begin, count) + beta * part;
     });
 }
@@ -203,10 +215,10 @@ void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
     p_.setZero();
     double left = std::numeric_limits<double>::infinity();
     double rz_before = 1;
+    double step = 0;  // along p, which x has yet to follow
     while (left > enough && report.iterations < options.max_iterations) {
-        preconditioner.apply(*workers_, r_, z_);
-        const double rz = halo_.sum(dot(*workers_, rows, r_, z_));
-        redirect(*workers_, rows, rz / rz_before, z_, p_);
+        const double rz = halo_.sum(preconditioner.apply(*workers_, r_, z_));
+        follow_and_turn(*workers_, rows, step, rz / rz_before, z_, p_, solution.x);
         halo_.update(p_);
         A.multiply(*workers_, *kernels_, p_, q_);
         const double curvature = halo_.sum(dot(*workers_, rows, p_, q_));
@@ -214,10 +226,12 @@ void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
             report.has_broken_down = true;
             return;
         }
-        left = part_left(advance(*workers_, rows, rz / curvature, {&p_, &q_}, r_, solution.x));
+        step = rz / curvature;
+        left = part_left(advance(*workers_, rows, step, q_, r_));
         rz_before = rz;
         ++report.iterations;
     }
+    follow(*workers_, rows, step, p_, solution.x);
 }
 
 #define PENT_INSTANTIATE(Dim, Scalar)                                                         \

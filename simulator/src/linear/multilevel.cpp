@@ -56,10 +56,10 @@ public:
     }
 
     // Additive: products with the matrix of the mesh are what an iteration costs most.
-    void apply(const Workers& workers,
-               const BlockVector<Dim>& r,
-               BlockVector<Dim>& z) const override {
-        smoother_->apply(workers, r, z);
+    double apply(const Workers& workers,
+                 const BlockVector<Dim>& r,
+                 BlockVector<Dim>& z) const override {
+        const double smoothed = smoother_->apply(workers, r, z);
         Vector coarse;
         Vector correction;
         const double scale = restrict_finest(workers, r, coarse);
@@ -69,6 +69,10 @@ public:
             cycle(workers, 0, coarse, correction);
         }
         prolong_finest(workers, scale, correction, z);
+        return smoothed
+               + scale * scale
+                     * coarse.template cast<double>().dot(
+                         correction.head(coarse.size()).template cast<double>());
     }
 
     // By the coarsest level alone, where what is solved for is solved for exactly.

@@ -21,9 +21,10 @@ public:
     Preconditioner(Preconditioner&&) = delete;
     Preconditioner& operator=(Preconditioner&&) = delete;
 
-    virtual void apply(const Workers& workers,
-                       const BlockVector<Dim>& r,
-                       BlockVector<Dim>& z) const = 0;
+    /// @return  r . z over the rows of this rank, found on the way, to the precision of B.
+    virtual double apply(const Workers& workers,
+                         const BlockVector<Dim>& r,
+                         BlockVector<Dim>& z) const = 0;
 
     /// Adds to x what a coarse space, if there is one, makes of the residual r: a better first
     /// guess. Bodies that move rigidly are then solved for at once.
