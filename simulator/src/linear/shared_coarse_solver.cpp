@@ -88,7 +88,7 @@ CoarseSolver<Dim, Scalar> factor(const Workers& workers,
     const std::vector<double> columns = gather(sharing, {own.columns.begin(), own.columns.end()});
     const std::vector<double> values = gather(sharing, own.values);
     std::vector<std::vector<std::uint32_t>> linked;
-    std::vector<double> stored;  // the lower triangle, blocks one after the other
+    std::vector<std::size_t> stored;  // blocks of the lower triangle
     std::size_t k = 0;
     for (const double count : counts) {
         const auto row = static_cast<double>(linked.size());
@@ -96,19 +96,18 @@ CoarseSolver<Dim, Scalar> factor(const Workers& workers,
         for (const std::size_t end = k + static_cast<std::size_t>(count); k < end; ++k) {
             linked.back().push_back(static_cast<std::uint32_t>(columns[k]));
             if (columns[k] <= row) {
-                const auto first =
-                    values.begin() + static_cast<std::ptrdiff_t>(k) * Matrix::kEntries;
-                stored.insert(stored.end(), first, first + Matrix::kEntries);
+                stored.push_back(k);
             }
         }
     }
     const AggregatePattern pattern(linked, 0);
     Matrix whole;
     whole.pattern = &pattern;
-    whole.values.resize(stored.size());
-    for (std::int64_t block = 0; block < std::ssize(pattern.columns); ++block) {
-        whole.set_block(block, Eigen::Map<const Rows>(stored.data() + block * Matrix::kEntries)
-                                   .template cast<Scalar>());
+    whole.values.resize(stored.size() * Matrix::kEntries);
+    for (std::size_t block = 0; block < stored.size(); ++block) {
+        whole.set_block(static_cast<std::int64_t>(block),
+                        Eigen::Map<const Rows>(values.data() + stored[block] * Matrix::kEntries)
+                            .template cast<Scalar>());
     }
     return {workers, whole};
 }
