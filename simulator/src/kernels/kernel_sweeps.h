@@ -109,12 +109,6 @@ struct ModeParts {
         const Numbers<kHead> of(head);
         return tail_of(of.at[Number]...);
     }
-    // The first two of each.
-    static Tail joined(const Head& first, const Head& second) {
-        const Numbers<kHead> a(first);
-        const Numbers<kHead> b(second);
-        return tail_of(a.at[0], a.at[1], b.at[0], b.at[1]);
-    }
     static Tail summed(const Tail& tail) {
         const Numbers<4> of(tail);
         const Scalar sums[2] = {of.at[0] + of.at[2], of.at[1] + of.at[3]};
@@ -426,13 +420,34 @@ struct Sweeps {
     }
 
     static void add_transposed(const Scalar* other, Scalar* block) {
-        TransposedBlock<Size, Parts, Scalar>::add(other, block);
+        if constexpr (kWidth == Size - 2) {
+            TransposedBlock<Size, Parts, Scalar>::add(other, block);
+        } else {  // one by one, in less code
+            for (int entry = 0; entry < kEntries; ++entry) {
+                block[entry] += other[kTransposed.at[entry]];
+            }
+        }
     }
 
 private:
     static constexpr int kMost = kRegisterBytes / static_cast<int>(sizeof(Scalar));
     static constexpr int kWidth = !IsVectorized ? 1 : kMost < Size - 2 ? kMost : Size - 2;
     static constexpr int kEntries = Size * Size;
+    // Where the entries of a block are in its transpose.
+    struct Places {
+        std::uint8_t at[kEntries];
+    };
+    static constexpr Places transposed() {
+        Places places = {};
+        for (int j = 0; j < Size; ++j) {
+            for (int i = 0; i < Size; ++i) {
+                places.at[mode_entry<Size>(i, j)] =
+                    static_cast<std::uint8_t>(mode_entry<Size>(j, i));
+            }
+        }
+        return places;
+    }
+    static constexpr Places kTransposed = transposed();
     using Parts = ModeParts<Size, kWidth, Scalar>;
     using Modes = ModeVector<Parts, Scalar>;
 

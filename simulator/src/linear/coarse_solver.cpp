@@ -35,6 +35,12 @@ std::vector<std::vector<std::uint32_t>> components_of(const AggregatePattern& pa
     return components;
 }
 
+// In one row of both triangles.
+std::int64_t blocks_of(const AggregatePattern& pattern, std::uint32_t row) {
+    return pattern.row_start[row + 1] - pattern.row_start[row] + pattern.above_start[row + 1]
+           - pattern.above_start[row];
+}
+
 // The lower triangle, which is all that a factorization reads.
 template <int Dim, typename Scalar>
 Eigen::MatrixXd dense(const AggregateMatrix<Dim, Scalar>& A,
@@ -74,9 +80,8 @@ CoarseSolver<Dim, Scalar>::CoarseSolver(const Workers& workers,
             }
         }
         for (const std::uint32_t row : component.rows) {
-            int blocks = 0;
-            for_each_in_row(*A.pattern, row, [&](auto... /*of the block*/) { ++blocks; });
-            component.inverses.push_back(inverse_of_diagonal(A, row) / blocks);
+            component.inverses.push_back(inverse_of_diagonal(A, row)
+                                         / static_cast<double>(blocks_of(*A.pattern, row)));
         }
     });
 }

@@ -93,21 +93,7 @@ double scale(const Workers& workers,
     });
 }
 
-// x += alpha p.
-template <int Dim>
-void follow(const Workers& workers,
-            Eigen::Index rows,
-            double alpha,
-            const BlockVector<Dim>& p,
-            BlockVector<Dim>& x) {
-    workers.for_each(chunk_count(rows), [&](int chunk) {
-        const Eigen::Index begin = chunk * kChunkColumns;
-        const Eigen::Index count = std::min(kChunkColumns, rows - begin);
-        x.middleCols(begin, count) += alpha * p.middleCols(begin, count);
-    });
-}
-
-// The same, then p = z + beta p, in one pass.
+// x += alpha p, then p = z + beta p, in one pass.
 template <int Dim>
 void follow_and_turn(const Workers& workers,
                      Eigen::Index rows,
@@ -231,7 +217,7 @@ void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
         rz_before = rz;
         ++report.iterations;
     }
-    follow(*workers_, rows, step, p_, solution.x);
+    follow_and_turn(*workers_, rows, step, 0, z_, p_, solution.x);  // p is of no more use
 }
 
 #define PENT_INSTANTIATE(Dim, Scalar)                                                         \
