@@ -48,15 +48,15 @@ Work StepWork::product() const {
 Work StepWork::precondition() const {
     const auto rows = static_cast<double>(size.free_vertices);
     // Three 4 x 4 blocks a row up and down the column, 10 modes twice; two products with the matrix
-    // of the finest aggregates.
-    return {.double_flops = rows * (3 * 32 + 2 * 44) + 2 * 200 * aggregate_blocks,
+    // of the finest aggregates, of which one triangle is stored: a block counts in both.
+    return {.double_flops = rows * (3 * 32 + 2 * 44) + 2 * 400 * aggregate_blocks,
             .bytes = rows * (2 * kBlock + 3 * kVector) + aggregate_blocks * kCoarseBlock};
 }
 
 Work StepWork::vectors() const {
     const auto rows = static_cast<double>(size.free_vertices);
-    // r.z, p = z + b p, p.q, x += a p and r -= a q with r.r
-    return {.double_flops = 4 * rows * (2 + 2 + 2 + 6), .bytes = rows * 13 * kVector};
+    // r.z where z is found, x += a p with p = z + b p, p.q, r -= a q with r.r
+    return {.double_flops = 4 * rows * (2 + 4 + 2 + 4), .bytes = rows * 10 * kVector};
 }
 
 double StepWork::least_step_seconds(const Ceilings& ceilings,

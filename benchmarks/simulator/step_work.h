@@ -12,7 +12,7 @@ namespace pent::simulator::bench {
 struct StepWork {
     SimulationSize size;
     FlopCount flops;
-    double aggregate_blocks = 0;  ///< Of the finest aggregates; all coarser ones are a tenth more.
+    double aggregate_blocks = 0;  ///< Stored of the finest; all coarser ones are a tenth more.
 
     [[nodiscard]] Work forces() const;
     [[nodiscard]] Work hessian() const;       ///< Projected, and assembled.

@@ -88,7 +88,7 @@ void expect_sweeps_of_numbers_at_random(double tolerance) {
     const Eigen::VectorXd left = right - full * forth;
     const Eigen::VectorXd back = forth + lower.transpose().partialPivLu().solve(left);
     const auto expect_near = [&](const Vector& found, const Eigen::VectorXd& expected, Isa isa) {
-        EXPECT_LT((found.template cast<double>() - expected).norm(), tolerance * right.norm())
+        EXPECT_LT((found.template cast<double>() - expected).norm(), tolerance * expected.norm())
             << isa_name(isa);
     };
     for (const Isa isa : test::supported_isas()) {

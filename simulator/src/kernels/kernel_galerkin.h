@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/kernel_mode_blocks.h"
 #include "kernels/kernel_vertices.h"
 #include "linear/block_kernels.h"
 #include "linear/rigid_mode_order.h"
@@ -266,7 +267,7 @@ struct GalerkinOfModes {
     static void add_times(const Scalar* block, const Scalar* arm, Product& product) {
         Scalar columns[kModes * kModes];
         for (int entry = 0; entry < kModes * kModes; ++entry) {
-            columns[entry] = block[kByColumns.at[entry]];
+            columns[entry] = block[kModePlaces<kModes>.at[entry]];
         }
 #pragma GCC unroll 3
         for (int v = 0; v < kVectors; ++v) {
@@ -317,23 +318,6 @@ struct GalerkinOfModes {
             });
         }
     }
-
-private:
-    // Where the entries of a block are stored, column by column.
-    struct Places {
-        std::uint8_t at[kModes * kModes];
-    };
-    static constexpr Places places() {
-        Places places = {};
-        for (int column = 0; column < kModes; ++column) {
-            for (int row = 0; row < kModes; ++row) {
-                places.at[kModes * column + row] =
-                    static_cast<std::uint8_t>(mode_entry<kModes>(row, column));
-            }
-        }
-        return places;
-    }
-    static constexpr Places kByColumns = places();
 };
 
 // Products of a row with all children of an aggregate are added up first: neighbors in the row

@@ -21,6 +21,8 @@ public:
     Preconditioner(Preconditioner&&) = delete;
     Preconditioner& operator=(Preconditioner&&) = delete;
 
+    /// One call at a time: it may have room of its own for what it does.
+    ///
     /// @return  r . z over the rows of this rank, found on the way, to the precision of B.
     virtual double apply(const Workers& workers,
                          const BlockVector<Dim>& r,
