@@ -4,6 +4,7 @@
 #include "springy_box.h"
 
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace pent::simulator::test {
@@ -11,32 +12,25 @@ namespace pent::simulator::test {
 inline constexpr int kModeCount = kModes<4>;
 
 inline Aggregates stripes(std::uint32_t children, std::uint32_t pieces) {
-    Aggregates aggregates;
-    aggregates.members.resize(pieces);
+    std::vector<std::uint32_t> of_child;
     for (std::uint32_t child = 0; child < children; ++child) {
-        const std::uint32_t a = child * 7 % pieces;
-        aggregates.of_child.push_back(a);
-        aggregates.members[a].push_back(child);
+        of_child.push_back(child * 7 % pieces);
     }
-    return aggregates;
+    return {std::move(of_child), pieces};
 }
 
 inline Aggregates by_number(std::uint32_t children, std::uint32_t most) {
-    Aggregates aggregates;
+    std::vector<std::uint32_t> of_child;
     for (std::uint32_t child = 0; child < children; ++child) {
-        if (child % most == 0) {
-            aggregates.members.emplace_back();
-        }
-        aggregates.members.back().push_back(child);
-        aggregates.of_child.push_back(child / most);
+        of_child.push_back(child / most);
     }
-    return aggregates;
+    return {std::move(of_child), (children + most - 1) / most};
 }
 
-inline std::vector<Arm<4>> random_arms(std::size_t count, unsigned seed) {
+inline Arms<4> random_arms(std::size_t count, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
-    std::vector<Arm<4>> arms(count);
+    Arms<4> arms(count);
     for (Arm<4>& arm : arms) {
         arm.x = Eigen::Vector4d::NullaryExpr([&] { return normal(random); });
         arm.ratio = 0.5 + std::abs(normal(random));
@@ -45,14 +39,12 @@ inline std::vector<Arm<4>> random_arms(std::size_t count, unsigned seed) {
 }
 
 // All modes of all aggregates as columns, from their definition.
-inline Eigen::MatrixXd dense_modes(const Aggregates& aggregates,
-                                   const std::vector<Arm<4>>& arms,
-                                   int rows) {
+inline Eigen::MatrixXd dense_modes(const Aggregates& aggregates, const Arms<4>& arms, int rows) {
     Eigen::MatrixXd P = Eigen::MatrixXd::Zero(rows * static_cast<Eigen::Index>(arms.size()),
                                               kModeCount * aggregates.count());
     for (std::size_t child = 0; child < arms.size(); ++child) {
         const Eigen::Index row = rows * static_cast<Eigen::Index>(child);
-        const Eigen::Index column = kModeCount * aggregates.of_child[child];
+        const Eigen::Index column = kModeCount * aggregates.of_child()[child];
         P.block<4, 4>(row, column).setIdentity();
         int k = 4;
         for (int p = 0; p < 4; ++p) {
@@ -92,8 +84,8 @@ struct TwoLevels {
     const BlockMatrix<4, Scalar>& A;
     Aggregates fine;
     Aggregates coarse = stripes(9, 4);
-    std::vector<Arm<4>> fine_arms;
-    std::vector<Arm<4>> coarse_arms = random_arms(9, 2);
+    Arms<4> fine_arms;
+    Arms<4> coarse_arms = random_arms(9, 2);
     AggregatePattern fine_pattern;
     AggregatePattern coarse_pattern;
     AggregateMatrix<4, Scalar> first;

@@ -52,7 +52,7 @@ void expect_product_of_the_dense_matrix(const AggregateMatrix<Dim, Scalar>& A, d
 
 // What the modes do to all children, one mode at a time.
 template <int Dim, int Rows>
-Eigen::MatrixXd modes_of(const Aggregates& aggregates, const std::vector<Arm<Dim>>& arms) {
+Eigen::MatrixXd modes_of(const Aggregates& aggregates, const Arms<Dim>& arms) {
     using Modes = RigidModes<Dim, Rows>;
     constexpr int kSize = kModes<Dim>;
     Eigen::MatrixXd P = Eigen::MatrixXd::Zero(Rows * static_cast<Eigen::Index>(arms.size()),
@@ -60,7 +60,7 @@ Eigen::MatrixXd modes_of(const Aggregates& aggregates, const std::vector<Arm<Dim
     for (std::size_t child = 0; child < arms.size(); ++child) {
         for (int mode = 0; mode < kSize; ++mode) {
             P.block<Rows, 1>(Rows * static_cast<Eigen::Index>(child),
-                             kSize * aggregates.of_child[child] + mode) =
+                             kSize * aggregates.of_child()[child] + mode) =
                 Modes::motion(Modes::Modes::Unit(mode), arms[child]);
         }
     }
@@ -73,7 +73,7 @@ void expect_products_of_numbers_at_random(double tolerance) {
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
     const auto arms_of = [&](std::size_t count) {
-        std::vector<Arm<Dim>> arms(count);
+        Arms<Dim> arms(count);
         for (Arm<Dim>& arm : arms) {
             arm = {Eigen::Matrix<double, Dim, 1>::NullaryExpr([&] { return normal(random); }),
                    0.5 + std::abs(normal(random))};

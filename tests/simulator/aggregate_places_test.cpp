@@ -19,24 +19,26 @@ protected:
     AggregatePlacesTest() {
         std::mt19937 random(3);
         std::normal_distribution<double> place(1, 2);
-        vertices_ = {Positions<kDim>::NullaryExpr(kDim, kVertices, [&] { return place(random); }),
-                     std::vector<double>(kVertices, 0), std::vector<double>(kVertices, 1)};
+        vertices_ = Positions<kDim>::NullaryExpr(kDim, kVertices, [&] { return place(random); });
         below_ = aggregates(kVertices, 9);
         above_ = aggregates(9, 2);
     }
 
     // Of which each has every so manieth child.
     static Aggregates aggregates(std::uint32_t children, std::uint32_t count) {
-        Aggregates result;
-        result.members.resize(count);
+        std::vector<std::uint32_t> of_child;
         for (std::uint32_t child = 0; child < children; ++child) {
-            result.of_child.push_back(child % count);
-            result.members[child % count].push_back(child);
+            of_child.push_back(child % count);
         }
-        return result;
+        return {std::move(of_child), count};
     }
 
-    AggregatePlaces<kDim> vertices_;
+    [[nodiscard]] AggregatePlaces<kDim> children() const {
+        return places_of(workers_, below_, ChildPlaces<kDim>(vertices_));
+    }
+
+    const Workers workers_ = Workers(2);
+    Positions<kDim> vertices_;
     Aggregates below_;
     Aggregates above_;
 };
@@ -44,16 +46,17 @@ TYPED_TEST_SUITE(AggregatePlacesTest, Dimensions);
 
 // However many levels lie between.
 TYPED_TEST(AggregatePlacesTest, AreMeansAndSpreadsOfTheVertices) {
-    const auto children = places_of(this->below_, this->vertices_);
-    const auto places = places_of(this->above_, children);
+    const auto children = this->children();
+    const ChildPlaces<TestFixture::kDim> of_children(children);
+    const auto places = places_of(this->workers_, this->above_, of_children);
     for (std::uint32_t a = 0; a < 2; ++a) {
         std::vector<Eigen::Index> own;
         for (std::uint32_t vertex = 0; vertex < TestFixture::kVertices; ++vertex) {
-            if (this->above_.of_child[this->below_.of_child[vertex]] == a) {
+            if (this->above_.of_child()[this->below_.of_child()[vertex]] == a) {
                 own.push_back(vertex);
             }
         }
-        const auto points = this->vertices_.middles(Eigen::all, own).eval();
+        const auto points = this->vertices_(Eigen::all, own).eval();
         const auto middle = points.rowwise().mean().eval();
         const double spread = (points.colwise() - middle).colwise().squaredNorm().mean();
         EXPECT_NEAR((places.middles.col(a) - middle).norm(), 0, 1e-14);
@@ -63,12 +66,13 @@ TYPED_TEST(AggregatePlacesTest, AreMeansAndSpreadsOfTheVertices) {
 }
 
 TYPED_TEST(AggregatePlacesTest, ArmsLeadFromTheMiddleToTheChildren) {
-    const auto children = places_of(this->below_, this->vertices_);
-    const auto places = places_of(this->above_, children);
-    const auto arms = arms_of(this->above_, children, places, nullptr);
+    const auto children = this->children();
+    const ChildPlaces<TestFixture::kDim> of_children(children);
+    const auto places = places_of(this->workers_, this->above_, of_children);
+    const auto arms = arms_of(this->workers_, this->above_, of_children, places, nullptr);
     ASSERT_EQ(arms.size(), 9U);
     for (std::uint32_t child = 0; child < 9; ++child) {
-        const std::uint32_t a = this->above_.of_child[child];
+        const std::uint32_t a = this->above_.of_child()[child];
         EXPECT_NEAR(
             (places.middles.col(a) + places.sizes[a] * arms[child].x - children.middles.col(child))
                 .norm(),
@@ -80,8 +84,9 @@ TYPED_TEST(AggregatePlacesTest, ArmsLeadFromTheMiddleToTheChildren) {
 // An aggregate of one vertex has no size to measure by.
 TYPED_TEST(AggregatePlacesTest, ArmOfAVertexAloneIsZero) {
     const Aggregates alone = TestFixture::aggregates(TestFixture::kVertices, 40);
-    const auto places = places_of(alone, this->vertices_);
-    for (const auto& arm : arms_of(alone, this->vertices_, places, nullptr)) {
+    const ChildPlaces<TestFixture::kDim> vertices(this->vertices_);
+    const auto places = places_of(this->workers_, alone, vertices);
+    for (const auto& arm : arms_of(this->workers_, alone, vertices, places, nullptr)) {
         EXPECT_EQ(arm.x.norm(), 0);
         EXPECT_EQ(arm.ratio, 0);
     }

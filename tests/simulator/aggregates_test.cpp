@@ -12,6 +12,7 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <span>
 
 namespace pent::simulator {
 namespace {
@@ -42,23 +43,58 @@ struct Box {
     }
 };
 
+std::size_t number_of(const Aggregates& aggregates) {
+    return static_cast<std::size_t>(aggregates.count());
+}
+
 void expect_partition(const Aggregates& aggregates, std::size_t children) {
-    ASSERT_EQ(aggregates.of_child.size(), children);
+    ASSERT_EQ(aggregates.of_child().size(), children);
+    EXPECT_EQ(aggregates.children(), children);
     std::size_t total = 0;
-    for (std::uint32_t a = 0; a < aggregates.members.size(); ++a) {
-        const auto& members = aggregates.members[a];
+    for (std::uint32_t a = 0; a < number_of(aggregates); ++a) {
+        const auto members = aggregates.members(a);
         EXPECT_FALSE(members.empty());
         EXPECT_TRUE(std::is_sorted(members.begin(), members.end()));
         total += members.size();
         for (const std::uint32_t child : members) {
-            EXPECT_EQ(aggregates.of_child[child], a);
+            EXPECT_EQ(aggregates.of_child()[child], a);
         }
     }
     EXPECT_EQ(total, children);
 }
 
+TEST(AggregatesTest, FollowOneAnotherByTheirFirstMembers) {
+    const Aggregates aggregates({3, 3, 0, 1, 0, 3, 2, 1}, 4);
+    EXPECT_EQ(aggregates.count(), 4);
+    expect_partition(aggregates, 8);
+    EXPECT_EQ(aggregates.first_of(3), 0U);
+    EXPECT_EQ(aggregates.first_of(0), 3U);
+    EXPECT_EQ(aggregates.first_of(1), 5U);
+    EXPECT_EQ(aggregates.first_of(2), 7U);
+    std::vector<std::uint32_t> order;
+    aggregates.for_each(Workers(1), [&](std::uint32_t a) { order.push_back(a); });
+    EXPECT_EQ(order, (std::vector<std::uint32_t>{3, 0, 1, 2}));
+}
+
+// Whether or not the last part is full.
+TEST(AggregatesTest, AreGoneOverOnceEachByAnyNumberOfThreads) {
+    for (const std::uint32_t count : {1U, 63U, 64U, 65U, 500U}) {
+        std::vector<std::uint32_t> of_child;
+        for (std::uint32_t child = 0; child < 3 * count; ++child) {
+            of_child.push_back(count - 1 - child % count);
+        }
+        const Aggregates aggregates(of_child, count);
+        for (const int threads : {1, 3}) {
+            std::vector<int> visits(count);
+            aggregates.for_each(Workers(threads), [&](std::uint32_t a) { ++visits[a]; });
+            EXPECT_EQ(visits, std::vector<int>(count, 1));
+        }
+    }
+    Aggregates().for_each(Workers(2), [](std::uint32_t a) { FAIL() << a; });
+}
+
 // Dofs of the set that can be reached from its first without leaving it.
-std::size_t reached(const BlockPattern& pattern, const std::vector<std::uint32_t>& set) {
+std::size_t reached(const BlockPattern& pattern, std::span<const std::uint32_t> set) {
     std::set<std::uint32_t> left(set.begin() + 1, set.end());
     std::vector<std::uint32_t> queue = {set[0]};
     for (std::size_t next = 0; next < queue.size(); ++next) {
@@ -86,11 +122,12 @@ TEST(MakeHierarchy, PartitionsEveryLevelIntoConnectedPiecesOfBoundedSize) {
     auto children = static_cast<std::size_t>(box.pattern.rows());
     for (const Aggregates& level : levels) {
         expect_partition(level, children);
-        EXPECT_LT(3 * level.members.size(), children);
-        children = level.members.size();
+        EXPECT_LT(3 * number_of(level), children);
+        children = number_of(level);
     }
     EXPECT_LE(levels.back().count(), kCoarsestAggregates);
-    for (const auto& members : levels[0].members) {
+    for (std::size_t a = 0; a < number_of(levels[0]); ++a) {
+        const auto members = levels[0].members(a);
         EXPECT_EQ(reached(box.pattern, members), members.size());
         EXPECT_LE(members.size(), 2U * 29);  // and what was left over beside it
     }
@@ -102,7 +139,7 @@ int cut_links(const Box& box) {
     int cut = 0;
     for (std::size_t column = 0; column + 1 < start.size(); ++column) {
         for (std::uint32_t dof = start[column]; dof + 1 < start[column + 1]; ++dof) {
-            cut += levels[0].of_child[dof] != levels[0].of_child[dof + 1] ? 1 : 0;
+            cut += levels[0].of_child()[dof] != levels[0].of_child()[dof + 1] ? 1 : 0;
         }
     }
     return cut;
@@ -130,7 +167,8 @@ TEST(MakeHierarchy, LetsAggregatesMeetInPlanesAcrossTheColumns) {
     std::vector<std::uint32_t> parts(box.dofs.count());  // of its column, from the bottom
     for (std::size_t column = 0; column + 1 < start.size(); ++column) {
         for (std::uint32_t dof = start[column] + 1; dof < start[column + 1]; ++dof) {
-            parts[dof] = parts[dof - 1] + (level.of_child[dof] != level.of_child[dof - 1] ? 1 : 0);
+            parts[dof] =
+                parts[dof - 1] + (level.of_child()[dof] != level.of_child()[dof - 1] ? 1 : 0);
             EXPECT_EQ(parts[dof], parts[dof - start[column]]);  // as in the first column
         }
     }
@@ -144,7 +182,7 @@ TEST(MakeHierarchy, GivesNearlyEveryVertexToTheNearestMiddleBesideIt) {
     const Aggregates level = box.hierarchy()[0];
     Positions<4> middles = Positions<4>::Zero(4, level.count());
     for (int a = 0; a < level.count(); ++a) {
-        const auto& members = level.members[static_cast<std::size_t>(a)];
+        const auto members = level.members(static_cast<std::size_t>(a));
         for (const std::uint32_t dof : members) {
             middles.col(a) += box.rest.col(dof) / static_cast<double>(members.size());
         }
@@ -156,7 +194,7 @@ TEST(MakeHierarchy, GivesNearlyEveryVertexToTheNearestMiddleBesideIt) {
             const auto distance = [&](std::uint32_t a) {
                 return (box.rest.col(row) - middles.col(a)).norm();
             };
-            misplaced += distance(level.of_child[column]) < 0.9 * distance(level.of_child[row]);
+            misplaced += distance(level.of_child()[column]) < 0.9 * distance(level.of_child()[row]);
         }
     }
     EXPECT_LT(misplaced, box.pattern.rows() / 50);
@@ -178,7 +216,7 @@ TEST(MakeHierarchy, IsTheSameWhereRoundingIsAnother) {
             const std::vector<Aggregates> levels = moved.hierarchy();
             ASSERT_EQ(levels.size(), expected.size());
             for (std::size_t level = 0; level < levels.size(); ++level) {
-                EXPECT_EQ(levels[level].of_child, expected[level].of_child);
+                EXPECT_EQ(levels[level].of_child(), expected[level].of_child());
             }
         }
     }
@@ -213,7 +251,8 @@ TEST(MakeHierarchy, NeverJoinsWhatOnlyLiesSideBySide) {
     const BlockPattern pattern = make_pattern<4>(mesh.cells, dofs);
     const auto levels =
         make_hierarchy<4>(pattern, dofs.column_start(), at_dofs<4>(dofs, mesh.positions));
-    for (const auto& members : levels[0].members) {
+    for (std::size_t a = 0; a < number_of(levels[0]); ++a) {
+        const auto members = levels[0].members(a);
         const bool is_first = dofs.vertex_of(members[0]) < half;
         for (const std::uint32_t dof : members) {
             EXPECT_EQ(dofs.vertex_of(dof) < half, is_first);
@@ -264,8 +303,8 @@ TEST(MakeHierarchy, HasAsManyLevelsOnAllRanksAndFewAggregatesAtItsEnd) {
         std::size_t children = cut.column_start.size() - 1;
         for (const Aggregates& level :
              make_hierarchy<4>(cut.pattern, cut.column_start, rest, &cut.sharing)) {
-            EXPECT_EQ(level.of_child.size(), children);
-            children = level.members.size();
+            EXPECT_EQ(level.of_child().size(), children);
+            children = number_of(level);
             counts[static_cast<std::size_t>(ranks->rank())].push_back(level.count());
         }
     });

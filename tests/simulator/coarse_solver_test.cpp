@@ -25,10 +25,9 @@ struct Chain {
             if (row + 1 < count && row != cut_after) {
                 pattern.columns.push_back(row + 1);
             }
-            aggregates.of_child.push_back(row);
-            aggregates.members.push_back({row});
         }
         pattern.row_start.push_back(static_cast<std::int64_t>(pattern.columns.size()));
+        aggregates = test::by_number(count, 1);
         BlockMatrix<4, double> matrix(pattern);
         for (std::int64_t k = 0; k < pattern.blocks(); ++k) {
             matrix.set_block(k, -Eigen::Matrix4d::Identity());
@@ -38,7 +37,7 @@ struct Chain {
         }
         coarse_pattern = make_aggregate_pattern(aggregates, pattern, nullptr);
         A = galerkin_product(Workers(1), kernels<4>(Isa::Baseline).blocks, matrix, aggregates,
-                             std::vector<Arm<4>>(count), coarse_pattern);
+                             Arms<4>(count, {Eigen::Vector4d::Zero(), 0}), coarse_pattern);
     }
 
     // What the solver makes of A, on the translations, which are all that a vertex has.

@@ -40,7 +40,7 @@ Links links_of(const AggregatePattern& pattern) {
 Links lifted(const Links& links, const Aggregates& aggregates) {
     Links result;
     for (const auto& [a, b] : links) {
-        result.insert({aggregates.of_child[a], aggregates.of_child[b]});
+        result.insert({aggregates.of_child()[a], aggregates.of_child()[b]});
     }
     return result;
 }
@@ -65,7 +65,7 @@ TEST(HierarchyTest, LinksAggregatesWhoseChildrenAreLinkedOnEveryLevel) {
     for (std::size_t l = 0; l < aggregates.size(); ++l) {
         const HierarchyLevel& level = hierarchy.levels[l];
         links = lifted(links, aggregates[l]);
-        EXPECT_EQ(level.aggregates.members, aggregates[l].members);
+        EXPECT_EQ(level.aggregates.of_child(), aggregates[l].of_child());
         EXPECT_EQ(level.pattern.rows(), aggregates[l].count());
         EXPECT_EQ(links_of(level.pattern), links);
         EXPECT_EQ(level.exchange, nullptr);

@@ -98,7 +98,7 @@ TEST(Multilevel, CorrectsRigidMotionsOfTheCoarsestAggregatesExactly) {
     for (std::uint32_t dof = 0; dof < f.A.rows(); ++dof) {
         std::uint32_t a = dof;
         for (const HierarchyLevel& level : hierarchy.levels) {
-            a = level.aggregates.of_child[a];
+            a = level.aggregates.of_child()[a];
         }
         motion.col(dof) = spins[a] * positions.col(dof) + shifts[a];
     }

@@ -17,12 +17,12 @@ constexpr int kDim = 4;
 template <int Rows>
 struct OneChild {
     using Modes = RigidModes<kDim, Rows>;
-    std::vector<Arm<kDim>> arms = random_arms(1, 3);
+    Arms<kDim> arms = random_arms(1, 3);
     Eigen::MatrixXd T = dense_modes(stripes(1, 1), arms, Rows);
 };
 
 TEST(RigidModes, MoveVerticesAsTheMotionThatTheyAre) {
-    const std::vector<Arm<4>> arms = random_arms(1, 3);
+    const Arms<4> arms = random_arms(1, 3);
     const Aggregates one = stripes(1, 1);
     const Eigen::VectorXd c = Eigen::VectorXd::Random(kModeCount);
     const Eigen::VectorXd vertex = dense_modes(one, arms, 4) * c;
@@ -49,25 +49,26 @@ template <int Dim>
 void expect_kernels_sum_over_children() {
     using Modes = RigidModes<Dim, Dim>;
     const std::vector<std::uint32_t> members = {1, 3, 5, 7};
-    std::vector<Arm<Dim>> arms(9);
+    Arms<Dim> arms(members.size());
     for (Arm<Dim>& arm : arms) {
         arm.x.setRandom();
+        arm.ratio = 0;
     }
     const BlockVector<Dim> r = BlockVector<Dim>::Random(Dim, 9);
     const typename Modes::Modes motion = Modes::Modes::Random();
     typename Modes::Modes expected_force = Modes::Modes::Zero();
     BlockVector<Dim> expected = r;
-    for (const std::uint32_t member : members) {
-        expected_force += Modes::force(r.col(member), arms[member]);
-        expected.col(member) += Modes::motion(motion, arms[member]);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        expected_force += Modes::force(r.col(members[i]), arms[i]);
+        expected.col(members[i]) += Modes::motion(motion, arms[i]);
     }
     for (const Isa isa : test::supported_isas()) {
         const BlockKernels& blocks = kernels<Dim>(isa).blocks;
         typename Modes::Modes force;
-        blocks.sum_forces(children_of<Dim>(members, arms), r.data(), force.data());
+        blocks.sum_forces(children_of<Dim>(members, arms.data()), r.data(), force.data());
         EXPECT_LT((force - expected_force).norm(), 1e-14) << isa_name(isa);
         BlockVector<Dim> x = r;
-        blocks.add_motions(children_of<Dim>(members, arms), motion.data(), x.data());
+        blocks.add_motions(children_of<Dim>(members, arms.data()), motion.data(), x.data());
         EXPECT_LT((x - expected).norm(), 1e-14) << isa_name(isa);
     }
 }

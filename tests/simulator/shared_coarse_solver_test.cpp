@@ -57,15 +57,16 @@ TEST(SharedCoarseSolver, SolvesForAllRanksHoweverManyRowsThereAre) {
             const Hierarchy hierarchy({test::by_number(rows, 1)}, cut.pattern, nullptr,
                                       {&cut.sharing, cut.exchange.get()}, cut.ghosts);
             const HierarchyLevel& level = hierarchy.levels[0];
-            AggregatePlaces<4> vertices{Positions<4>::Zero(4, count), std::vector<double>(count, 0),
-                                        std::vector<double>(count, 1)};
+            Positions<4> positions = Positions<4>::Zero(4, count);
             for (std::uint32_t column = 0; column < count; ++column) {
-                vertices.middles(0, column) = cut.dofs[column];
+                positions(0, column) = cut.dofs[column];
             }
-            const AggregatePlaces<4> places = places_of(level.aggregates, vertices);
+            const ChildPlaces<4> vertices(positions);
+            const AggregatePlaces<4> places = places_of(Workers(1), level.aggregates, vertices);
             const auto A = galerkin_product(
                 Workers(1), kernels<4>(Isa::Baseline).blocks, *cut.A, level.aggregates,
-                arms_of(level.aggregates, vertices, places, cut.exchange.get()), level.pattern);
+                arms_of(Workers(1), level.aggregates, vertices, places, cut.exchange.get()),
+                level.pattern);
             const SharedCoarseSolver<4, double> solver(Workers(1), A, level, places, &cut.sharing);
             Eigen::VectorXd forces = Eigen::VectorXd::Zero(kModeCount * rows);
             for (std::uint32_t row = 0; row < rows; ++row) {

@@ -158,9 +158,9 @@ struct DenseLevels {
         for (std::size_t l = 0; l < 3; ++l) {
             Level level = join(of_rank, l, before.owners);
             const std::vector<double> sums = place(level, before, counts);
-            std::vector<Arm<4>> arms;
+            Arms<4> arms;
             for (std::size_t child = 0; child < before.sizes.size(); ++child) {
-                const std::uint32_t a = level.aggregates.of_child[child];
+                const std::uint32_t a = level.aggregates.of_child()[child];
                 arms.push_back({(before.middles[child] - level.middles[a]) / level.sizes[a],
                                 before.sizes[child] / level.sizes[a]});
             }
@@ -177,21 +177,19 @@ struct DenseLevels {
                       std::size_t l,
                       const std::vector<std::uint32_t>& owners) {
         Level level;
-        level.aggregates.of_child.resize(owners.size());
+        std::vector<std::uint32_t> of_child(owners.size());
         for (std::uint32_t rank = 0; rank < of_rank.size(); ++rank) {
-            const auto first = static_cast<std::uint32_t>(level.aggregates.members.size());
+            const auto first = static_cast<std::uint32_t>(level.owners.size());
             const Aggregates& own = of_rank[rank][l];
-            level.aggregates.members.resize(first + own.members.size());
-            level.owners.resize(level.aggregates.members.size(), rank);
+            level.owners.resize(first + static_cast<std::size_t>(own.count()), rank);
             std::uint32_t place = 0;
             for (std::uint32_t child = 0; child < owners.size(); ++child) {
                 if (owners[child] == rank) {
-                    const std::uint32_t a = first + own.of_child[place++];
-                    level.aggregates.of_child[child] = a;
-                    level.aggregates.members[a].push_back(child);
+                    of_child[child] = first + own.of_child()[place++];
                 }
             }
         }
+        level.aggregates = {std::move(of_child), level.owners.size()};
         return level;
     }
 
@@ -199,7 +197,8 @@ struct DenseLevels {
                                      const Level& children,
                                      const std::vector<double>& counts) {
         std::vector<double> sums;
-        for (const auto& members : level.aggregates.members) {
+        for (std::size_t a = 0; a < level.owners.size(); ++a) {
+            const auto members = level.aggregates.members(a);
             double count = 0;
             Eigen::Vector4d middle = Eigen::Vector4d::Zero();
             for (const std::uint32_t child : members) {
@@ -357,13 +356,12 @@ TEST(SharedGaussSeidel, MakesNoErrorGrow) {
     test::on_ranks(3, [&](const std::shared_ptr<const Ranks>& ranks) {
         const Part part(of, 7, ranks);
         const HierarchyLevel& made = part.hierarchy.levels[0];
-        const AggregatePlaces<4> vertices{part.positions, std::vector<double>(81, 0),
-                                          std::vector<double>(81, 1)};
-        auto A =
-            galerkin_product(Workers(1), blocks(), *part.cut.A, made.aggregates,
-                             arms_of(made.aggregates, vertices,
-                                     places_of(made.aggregates, vertices), part.cut.exchange.get()),
-                             made.pattern);
+        const ChildPlaces<4> vertices(part.positions);
+        const AggregatePlaces<4> places = places_of(Workers(1), made.aggregates, vertices);
+        auto A = galerkin_product(
+            Workers(1), blocks(), *part.cut.A, made.aggregates,
+            arms_of(Workers(1), made.aggregates, vertices, places, part.cut.exchange.get()),
+            made.pattern);
         A.ghosts = made.exchange.get();
         const GaussSeidel<4, double> smoother(Workers(1), A);
         AggregateMatrix<4, double>::Shares shares;

@@ -23,7 +23,7 @@ void sum_forces(const AggregateChildren& children, const double* r, double* mode
     for (std::size_t i = 0; i < children.count; ++i) {
         const std::size_t child = children.members[i];
         const auto force = loaded<Vertex>(r + child * Dim);
-        const double* x = children.arms + child * children.arm_stride;
+        const double* x = children.arms + i * (Dim + 1);
         sum += force;
         for (int p = 0; p < Dim; ++p) {
             turned[p] += force * x[p];
@@ -44,7 +44,7 @@ void add_motions(const AggregateChildren& children, const double* modes, double*
     });
     for (std::size_t i = 0; i < children.count; ++i) {
         const std::size_t child = children.members[i];
-        const double* arm = children.arms + child * children.arm_stride;
+        const double* arm = children.arms + i * (Dim + 1);
         Vertex motion = shift;
         for (int p = 0; p < Dim; ++p) {
             motion += turn[p] * arm[p];

@@ -227,17 +227,14 @@ private:
         }
         std::stable_sort(order.begin(), order.end(),
                          [&](std::uint32_t a, std::uint32_t b) { return colors[a] < colors[b]; });
-        Aggregates aggregates;
-        aggregates.of_child.resize(owner_.size());
-        for (const std::uint32_t piece : order) {
-            std::vector<std::uint32_t>& members = members_[piece];
-            std::sort(members.begin(), members.end());
-            for (const std::uint32_t node : members) {
-                aggregates.of_child[node] = static_cast<std::uint32_t>(aggregates.members.size());
-            }
-            aggregates.members.push_back(std::move(members));
+        std::vector<std::uint32_t> number_of(members_.size());
+        for (std::uint32_t number = 0; number < order.size(); ++number) {
+            number_of[order[number]] = number;
         }
-        return aggregates;
+        for (std::uint32_t& owner : owner_) {
+            owner = number_of[owner];
+        }
+        return {std::move(owner_), order.size()};
     }
 
     [[nodiscard]] Eigen::Index count() const { return static_cast<Eigen::Index>(members_.size()); }

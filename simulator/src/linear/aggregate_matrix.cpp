@@ -1,10 +1,13 @@
 #include "linear/aggregate_matrix.h"
 
+#include "linear/parts.h"
+
 #include <pent/dimensions.h>
 
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <span>
 
 namespace pent::simulator {
 
@@ -63,8 +66,8 @@ AggregatePattern make_pattern_of(const Aggregates& aggregates, const ForEachLink
         found[row].push_back(row);
     }
     for_each_link([&](std::uint32_t child, std::uint32_t other) {
-        const std::uint32_t a = aggregates.of_child[child];
-        const std::uint32_t b = aggregates.of_child[other];
+        const std::uint32_t a = aggregates.of_child()[child];
+        const std::uint32_t b = aggregates.of_child()[other];
         if (a != b && found[a].back() != b) {  // most repetitions come one after the other
             found[a].push_back(b);
             if (b < rows) {
@@ -76,7 +79,7 @@ AggregatePattern make_pattern_of(const Aggregates& aggregates, const ForEachLink
         std::sort(columns.begin(), columns.end());
         columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
     }
-    return {found, aggregates.ghosts};
+    return {found, aggregates.ghosts()};
 }
 
 template <typename Pattern, typename Visit>
@@ -88,27 +91,22 @@ void for_each_block(const Pattern& pattern, const Visit& visit) {
     }
 }
 
-constexpr std::int64_t kChunkRows = 16;  // of a task
-
-// Calls work(begin, end) for chunks of rows, at the same time.
-template <typename Work>
-void for_each_chunk(const Workers& workers, std::int64_t rows, const Work& work) {
-    workers.for_each((rows + kChunkRows - 1) / kChunkRows, [&](std::int64_t chunk) {
-        work(chunk * kChunkRows, std::min(rows, (chunk + 1) * kChunkRows));
-    });
-}
-
 // Of children, as kernels take them: coordinates, then the ratio.
 template <typename Scalar, int Dim>
-std::vector<Scalar> numbers_of(const std::vector<Arm<Dim>>& arms) {
-    std::vector<Scalar> numbers;
-    numbers.reserve(arms.size() * (Dim + 1));
-    for (const Arm<Dim>& arm : arms) {
-        for (const double coordinate : arm.x) {
-            numbers.push_back(static_cast<Scalar>(coordinate));
+std::vector<Scalar, LineAllocator<Scalar>> numbers_of(const Workers& workers,
+                                                      const Arms<Dim>& arms) {
+    std::vector<Scalar, LineAllocator<Scalar>> numbers(arms.size() * (Dim + 1));
+    const auto count = static_cast<std::int64_t>(arms.size());
+    for_each_part(workers, 0, count, kLightChunk, [&](std::int64_t begin, std::int64_t end) {
+        Scalar* next = numbers.data() + begin * (Dim + 1);
+        for (auto child = static_cast<std::size_t>(begin); child < static_cast<std::size_t>(end);
+             ++child) {
+            for (const double coordinate : arms[child].x) {
+                *next++ = static_cast<Scalar>(coordinate);
+            }
+            *next++ = static_cast<Scalar>(arms[child].ratio);
         }
-        numbers.push_back(static_cast<Scalar>(arm.ratio));
-    }
+    });
     return numbers;
 }
 
@@ -116,16 +114,15 @@ std::vector<Scalar> numbers_of(const std::vector<Arm<Dim>>& arms) {
 template <int Dim, int Rows, typename Scalar>
 class GalerkinRows {
 public:
-    // Of the rows [begin, end) at most.
+    // Of these rows at most.
     GalerkinRows(const Aggregates& aggregates,
-                 const std::vector<Scalar>& arms,
+                 const Scalar* arms,
                  const AggregatePattern& pattern,
-                 std::int64_t begin,
-                 std::int64_t end)
-        : aggregates_(&aggregates), arms_(&arms), pattern_(&pattern) {
+                 std::span<const std::uint32_t> rows)
+        : aggregates_(&aggregates), arms_(arms), pattern_(&pattern) {
         std::uint32_t most = 0;
         std::uint32_t last = 0;
-        for (std::int64_t row = begin; row < end; ++row) {
+        for (const std::uint32_t row : rows) {
             std::uint32_t count = 0;
             for_each_column(row, [&](std::uint32_t column) {
                 last = std::max(last, column);
@@ -139,31 +136,30 @@ public:
         scratch_.resize(most * kGalerkinScratch<Dim, Rows>);
     }
 
-    [[nodiscard]] GalerkinRow<Scalar> at(std::int64_t row) {
+    [[nodiscard]] GalerkinRow<Scalar> at(std::uint32_t row) {
         std::uint32_t count = 0;
         for_each_column(row, [&](std::uint32_t column) { places_[column] = count++; });
-        const auto r = static_cast<std::size_t>(row);
-        const auto& members = aggregates_->members[r];
+        const std::span<const std::uint32_t> members = aggregates_->members(row);
         const auto above =
-            static_cast<std::size_t>(pattern_->above_start[r + 1] - pattern_->above_start[r]);
-        return {members.data(), members.size(), arms_->data(), aggregates_->of_child.data(),
-                places_.data(), count,          above,         touched_.data(),
+            static_cast<std::size_t>(pattern_->above_start[row + 1] - pattern_->above_start[row]);
+        return {members.data(), members.size(), arms_, aggregates_->of_child().data(),
+                places_.data(), count,          above, touched_.data(),
                 uses_.data(),   scratch_.data()};
     }
 
 private:
     template <typename Visit>
-    void for_each_column(std::int64_t row, const Visit& visit) const {
-        for_each_in_row(*pattern_, static_cast<std::uint32_t>(row),
+    void for_each_column(std::uint32_t row, const Visit& visit) const {
+        for_each_in_row(*pattern_, row,
                         [&](std::uint32_t column, std::int64_t /*block*/, bool /*is_transposed*/) {
                             visit(column);
                         });
     }
 
     const Aggregates* aggregates_;
-    const std::vector<Scalar>* arms_;
+    const Scalar* arms_;
     const AggregatePattern* pattern_;
-    std::vector<std::uint32_t> places_;
+    std::vector<std::uint32_t, LineAllocator<std::uint32_t>> places_;  // of the row's columns only
     std::vector<std::uint32_t> touched_;
     std::vector<std::uint8_t> uses_;
     std::vector<Scalar, LineAllocator<Scalar>> scratch_;
@@ -179,7 +175,7 @@ void add_transposed(const Workers& workers,
     constexpr std::int64_t kEntries = AggregateMatrix<Dim, Scalar>::kEntries;
     const AggregatePattern& pattern = *A.pattern;
     const auto& add = mode_kernels_of<Scalar>(kernels).add_transposed;
-    for_each_chunk(workers, pattern.rows(), [&](std::int64_t begin, std::int64_t end) {
+    for_each_part(workers, 0, pattern.rows(), kModeRows, [&](std::int64_t begin, std::int64_t end) {
         for (auto row = static_cast<std::size_t>(begin); row < static_cast<std::size_t>(end);
              ++row) {
             Scalar* diagonal = A.values.data() + pattern.diagonal[row] * kEntries;
@@ -201,20 +197,20 @@ AggregateMatrix<Dim, Scalar> product_of(const Workers& workers,
                                         const Kernel& kernel,
                                         const SymmetricParts<Scalar>& A,
                                         const Aggregates& aggregates,
-                                        const std::vector<Arm<Dim>>& arms,
+                                        const Arms<Dim>& arms,
                                         const AggregatePattern& pattern) {
     using Result = AggregateMatrix<Dim, Scalar>;
     Result result;
     result.pattern = &pattern;
     result.values.resize(pattern.columns.size() * Result::kEntries);
     std::vector<Scalar, LineAllocator<Scalar>> above(pattern.above.size() * Result::kEntries);
-    const std::vector<Scalar> numbers = numbers_of<Scalar>(arms);
-    for_each_chunk(workers, pattern.rows(), [&](std::int64_t begin, std::int64_t end) {
-        GalerkinRows<Dim, Rows, Scalar> rows(aggregates, numbers, pattern, begin, end);
-        for (std::int64_t row = begin; row < end; ++row) {
-            const auto r = static_cast<std::size_t>(row);
-            kernel(rows.at(row), A, result.values.data() + pattern.row_start[r] * Result::kEntries,
-                   above.data() + pattern.above_start[r] * Result::kEntries);
+    const auto numbers = numbers_of<Scalar>(workers, arms);
+    aggregates.for_each_part(workers, kModeRows, [&](std::span<const std::uint32_t> part) {
+        GalerkinRows<Dim, Rows, Scalar> rows(aggregates, numbers.data(), pattern, part);
+        for (const std::uint32_t row : part) {
+            kernel(rows.at(row), A,
+                   result.values.data() + pattern.row_start[row] * Result::kEntries,
+                   above.data() + pattern.above_start[row] * Result::kEntries);
         }
     });
     add_transposed(workers, kernels, above, result);
@@ -265,10 +261,11 @@ void AggregateMatrix<Dim, Scalar>::subtract_product(const Workers& workers,
                                                     Vector& left,
                                                     Shares& shares) const {
     left.resize(r.size());
-    for_each_chunk(workers, pattern->rows(), [&](std::int64_t begin, std::int64_t end) {
-        mode_kernels_of<Scalar>(kernels).subtract_below(mode_rows(begin, end, shares), r.data(),
-                                                        x.data(), left.data());
-    });
+    for_each_part(workers, 0, pattern->rows(), kModeRows,
+                  [&](std::int64_t begin, std::int64_t end) {
+                      mode_kernels_of<Scalar>(kernels).subtract_below(
+                          mode_rows(begin, end, shares), r.data(), x.data(), left.data());
+                  });
     subtract_above(workers, kernels, x, left, shares);
 }
 
@@ -278,10 +275,11 @@ void AggregateMatrix<Dim, Scalar>::subtract_above(const Workers& workers,
                                                   const Vector& x,
                                                   Vector& left,
                                                   Shares& shares) const {
-    for_each_chunk(workers, pattern->rows(), [&](std::int64_t begin, std::int64_t end) {
-        mode_kernels_of<Scalar>(kernels).subtract_above(mode_rows(begin, end, shares), x.data(),
-                                                        left.data());
-    });
+    for_each_part(workers, 0, pattern->rows(), kModeRows,
+                  [&](std::int64_t begin, std::int64_t end) {
+                      mode_kernels_of<Scalar>(kernels).subtract_above(mode_rows(begin, end, shares),
+                                                                      x.data(), left.data());
+                  });
 }
 
 template <int Dim, typename Scalar>
@@ -289,7 +287,7 @@ AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,
                                               const BlockKernels& kernels,
                                               const BlockMatrix<Dim, Scalar>& A,
                                               const Aggregates& aggregates,
-                                              const std::vector<Arm<Dim>>& arms,
+                                              const Arms<Dim>& arms,
                                               const AggregatePattern& pattern) {
     SymmetricParts<Scalar> parts{A.all_rows(), {}};
     if (A.coupling() != nullptr) {
@@ -309,7 +307,7 @@ AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,
                                               const BlockKernels& kernels,
                                               const AggregateMatrix<Dim, Scalar>& A,
                                               const Aggregates& aggregates,
-                                              const std::vector<Arm<Dim>>& arms,
+                                              const Arms<Dim>& arms,
                                               const AggregatePattern& pattern) {
     const SymmetricParts<Scalar> parts{A.all_rows(), {}};
     if constexpr (sizeof(Scalar) == sizeof(float)) {
@@ -325,10 +323,10 @@ AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,
     template struct AggregateMatrix<Dim, Scalar>;                                                \
     template AggregateMatrix<Dim, Scalar> galerkin_product(                                      \
         const Workers&, const BlockKernels&, const BlockMatrix<Dim, Scalar>&, const Aggregates&, \
-        const std::vector<Arm<Dim>>&, const AggregatePattern&);                                  \
+        const Arms<Dim>&, const AggregatePattern&);                                              \
     template AggregateMatrix<Dim, Scalar> galerkin_product(                                      \
         const Workers&, const BlockKernels&, const AggregateMatrix<Dim, Scalar>&,                \
-        const Aggregates&, const std::vector<Arm<Dim>>&, const AggregatePattern&);
+        const Aggregates&, const Arms<Dim>&, const AggregatePattern&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, float)
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, double)
 #undef PENT_INSTANTIATE

@@ -61,13 +61,12 @@ void for_each_in_row(const AggregatePattern& pattern, std::uint32_t row, const V
 [[nodiscard]] AggregatePattern make_aggregate_pattern(const Aggregates& aggregates,
                                                       const AggregatePattern& children);
 
-/// An aggregate and the arms of all children, as kernels take them.
+/// An aggregate as kernels take it.
 template <int Dim>
-[[nodiscard]] AggregateChildren children_of(const std::vector<std::uint32_t>& members,
-                                            const std::vector<Arm<Dim>>& arms) {
-    static_assert(offsetof(Arm<Dim>, ratio) == Dim * sizeof(double));
-    return {members.data(), members.size(), arms.data()->x.data(),
-            sizeof(Arm<Dim>) / sizeof(double)};
+[[nodiscard]] AggregateChildren children_of(std::span<const std::uint32_t> members,
+                                            const Arm<Dim>* arms) {
+    static_assert(sizeof(Arm<Dim>) == (Dim + 1) * sizeof(double));
+    return {members.data(), members.size(), arms->x.data()};
 }
 
 /// A block of modes from the numbers that it is stored in.
@@ -177,14 +176,14 @@ template <int Dim, typename Scalar>
                                                             const BlockKernels& kernels,
                                                             const BlockMatrix<Dim, Scalar>& A,
                                                             const Aggregates& aggregates,
-                                                            const std::vector<Arm<Dim>>& arms,
+                                                            const Arms<Dim>& arms,
                                                             const AggregatePattern& pattern);
 template <int Dim, typename Scalar>
 [[nodiscard]] AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,
                                                             const BlockKernels& kernels,
                                                             const AggregateMatrix<Dim, Scalar>& A,
                                                             const Aggregates& aggregates,
-                                                            const std::vector<Arm<Dim>>& arms,
+                                                            const Arms<Dim>& arms,
                                                             const AggregatePattern& pattern);
 
 }  // namespace pent::simulator

@@ -2,6 +2,7 @@
 
 #include <pent/dimensions.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -11,7 +12,7 @@ namespace {
 
 // Gives children of other ranks the arms that they have there.
 template <int Dim>
-void update(std::vector<Arm<Dim>>& arms, GhostExchange& exchange) {
+void update(Arms<Dim>& arms, GhostExchange& exchange) {
     Eigen::Matrix<double, Dim + 1, Eigen::Dynamic> told(Dim + 1,
                                                         static_cast<Eigen::Index>(arms.size()));
     for (std::size_t child = 0; child < arms.size(); ++child) {
@@ -27,54 +28,58 @@ void update(std::vector<Arm<Dim>>& arms, GhostExchange& exchange) {
 }  // namespace
 
 template <int Dim>
-AggregatePlaces<Dim> places_of(const Aggregates& aggregates, const AggregatePlaces<Dim>& children) {
-    const std::size_t count = aggregates.members.size();
+AggregatePlaces<Dim> places_of(const Workers& workers,
+                               const Aggregates& aggregates,
+                               const ChildPlaces<Dim>& children) {
+    const auto count = static_cast<std::size_t>(aggregates.count());
     AggregatePlaces<Dim> places{Positions<Dim>::Zero(Dim, aggregates.count()),
                                 std::vector<double>(count), std::vector<double>(count)};
-    for (std::size_t a = 0; a < count; ++a) {
+    aggregates.for_each(workers, [&](std::size_t a) {
         auto middle = places.middles.col(static_cast<Eigen::Index>(a));
-        for (const std::uint32_t child : aggregates.members[a]) {
-            middle += children.counts[child] * children.middles.col(child);
-            places.counts[a] += children.counts[child];
+        for (const std::uint32_t child : aggregates.members(a)) {
+            middle += children.count(child) * children.middle(child);
+            places.counts[a] += children.count(child);
         }
         middle /= places.counts[a];
         double spread = 0;
-        for (const std::uint32_t child : aggregates.members[a]) {
-            spread += children.counts[child]
-                      * ((children.middles.col(child) - middle).squaredNorm()
-                         + children.sizes[child] * children.sizes[child]);
+        for (const std::uint32_t child : aggregates.members(a)) {
+            spread += children.count(child)
+                      * ((children.middle(child) - middle).squaredNorm()
+                         + children.size(child) * children.size(child));
         }
         places.sizes[a] = std::sqrt(spread / places.counts[a]);
-    }
+    });
     return places;
 }
 
 template <int Dim>
-std::vector<Arm<Dim>> arms_of(const Aggregates& aggregates,
-                              const AggregatePlaces<Dim>& children,
-                              const AggregatePlaces<Dim>& places,
-                              GhostExchange* exchange) {
-    std::vector<Arm<Dim>> arms(aggregates.of_child.size(),
-                               {Eigen::Matrix<double, Dim, 1>::Zero(), 0});
-    for (std::size_t a = 0; a < aggregates.members.size(); ++a) {
+Arms<Dim> arms_of(const Workers& workers,
+                  const Aggregates& aggregates,
+                  const ChildPlaces<Dim>& children,
+                  const AggregatePlaces<Dim>& places,
+                  GhostExchange* exchange) {
+    Arms<Dim> arms(aggregates.of_child().size());
+    std::fill(arms.begin() + static_cast<std::ptrdiff_t>(aggregates.children()), arms.end(),
+              Arm<Dim>{Eigen::Matrix<double, Dim, 1>::Zero(), 0});
+    aggregates.for_each(workers, [&](std::size_t a) {
         const double size = places.sizes[a] > 0 ? places.sizes[a] : 1;
-        for (const std::uint32_t child : aggregates.members[a]) {
+        for (const std::uint32_t child : aggregates.members(a)) {
             arms[child].x =
-                (children.middles.col(child) - places.middles.col(static_cast<Eigen::Index>(a)))
-                / size;
-            arms[child].ratio = children.sizes[child] / size;
+                (children.middle(child) - places.middles.col(static_cast<Eigen::Index>(a))) / size;
+            arms[child].ratio = children.size(child) / size;
         }
-    }
+    });
     if (exchange != nullptr) {
         update(arms, *exchange);
     }
     return arms;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                                \
-    template AggregatePlaces<Dim> places_of(const Aggregates&, const AggregatePlaces<Dim>&); \
-    template std::vector<Arm<Dim>> arms_of(const Aggregates&, const AggregatePlaces<Dim>&,   \
-                                           const AggregatePlaces<Dim>&, GhostExchange*);
+#define PENT_INSTANTIATE(Dim)                                                              \
+    template AggregatePlaces<Dim> places_of(const Workers&, const Aggregates&,             \
+                                            const ChildPlaces<Dim>&);                      \
+    template Arms<Dim> arms_of(const Workers&, const Aggregates&, const ChildPlaces<Dim>&, \
+                               const AggregatePlaces<Dim>&, GhostExchange*);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 

@@ -3,13 +3,15 @@
 #include "linear/aggregates.h"
 #include "linear/rigid_modes.h"
 
+#include <pent/parallel.h>
 #include <pent/simulator/ranks.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace pent::simulator {
 
-/// Where aggregates are. A vertex is its own, of no size.
+/// Where aggregates are.
 template <int Dim>
 struct AggregatePlaces {
     Positions<Dim> middles;      ///< Dim x aggregates, m: means of their vertices.
@@ -17,19 +19,42 @@ struct AggregatePlaces {
     std::vector<double> counts;  ///< Of vertices.
 };
 
+/// The same of children: of aggregates, or of vertices, each of which is its own, of no size.
+template <int Dim>
+class ChildPlaces {
+public:
+    explicit ChildPlaces(const Positions<Dim>& vertices) : middles_(&vertices) {}
+    explicit ChildPlaces(const AggregatePlaces<Dim>& aggregates)
+        : middles_(&aggregates.middles), aggregates_(&aggregates) {}
+
+    [[nodiscard]] auto middle(std::uint32_t child) const { return middles_->col(child); }
+    [[nodiscard]] double size(std::uint32_t child) const {
+        return aggregates_ != nullptr ? aggregates_->sizes[child] : 0;
+    }
+    [[nodiscard]] double count(std::uint32_t child) const {
+        return aggregates_ != nullptr ? aggregates_->counts[child] : 1;
+    }
+
+private:
+    const Positions<Dim>* middles_;
+    const AggregatePlaces<Dim>* aggregates_ = nullptr;
+};
+
 /// @param children  One a child of this rank at least.
 template <int Dim>
-[[nodiscard]] AggregatePlaces<Dim> places_of(const Aggregates& aggregates,
-                                             const AggregatePlaces<Dim>& children);
+[[nodiscard]] AggregatePlaces<Dim> places_of(const Workers& workers,
+                                             const Aggregates& aggregates,
+                                             const ChildPlaces<Dim>& children);
 
 /// One a child, those of other ranks among them.
 ///
 /// @param places    Of the aggregates.
 /// @param exchange  Of the children; null where nothing is shared.
 template <int Dim>
-[[nodiscard]] std::vector<Arm<Dim>> arms_of(const Aggregates& aggregates,
-                                            const AggregatePlaces<Dim>& children,
-                                            const AggregatePlaces<Dim>& places,
-                                            GhostExchange* exchange);
+[[nodiscard]] Arms<Dim> arms_of(const Workers& workers,
+                                const Aggregates& aggregates,
+                                const ChildPlaces<Dim>& children,
+                                const AggregatePlaces<Dim>& places,
+                                GhostExchange* exchange);
 
 }  // namespace pent::simulator

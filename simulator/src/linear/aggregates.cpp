@@ -50,13 +50,13 @@ std::vector<double> layer_heights(const Links& links,
 // Nodes that are parts of others, without weights.
 template <int Dim>
 AggregateNodes<Dim> nodes_of(const Aggregates& parts, const AggregateNodes<Dim>& children) {
-    const auto count = parts.members.size();
-    AggregateNodes<Dim> nodes{link_parts(children.links, parts.of_child, count),
+    const auto count = static_cast<std::size_t>(parts.count());
+    AggregateNodes<Dim> nodes{link_parts(children.links, parts.of_child(), count),
                               Positions<Dim>::Zero(Dim, parts.count()),
                               std::vector<double>(count, 1.0), std::vector<double>(count, 0.0)};
     for (std::size_t a = 0; a < count; ++a) {
         auto place = nodes.places.col(static_cast<Eigen::Index>(a));
-        for (const std::uint32_t child : parts.members[a]) {
+        for (const std::uint32_t child : parts.members(a)) {
             place += children.dofs[child] * children.places.col(child);
             nodes.dofs[a] += children.dofs[child];
         }
@@ -124,15 +124,11 @@ std::vector<std::uint32_t> cut_column(const std::vector<double>& heights,
 }
 
 Aggregates whole_columns(const std::vector<std::uint32_t>& column_start) {
-    Aggregates columns;
+    std::vector<std::uint32_t> column_of;
     for (std::size_t column = 0; column + 1 < column_start.size(); ++column) {
-        std::vector<std::uint32_t> dofs(column_start[column + 1] - column_start[column]);
-        std::iota(dofs.begin(), dofs.end(), column_start[column]);
-        columns.of_child.insert(columns.of_child.end(), dofs.size(),
-                                static_cast<std::uint32_t>(column));
-        columns.members.push_back(std::move(dofs));
+        column_of.resize(column_start[column + 1], static_cast<std::uint32_t>(column));
     }
-    return columns;
+    return {std::move(column_of), column_start.size() - 1};
 }
 
 // Clusters of whole columns, which are then cut across: rigid pieces lock least where they meet in
@@ -152,7 +148,9 @@ Aggregates aggregate_columns(const std::vector<std::uint32_t>& column_start,
     }
     std::vector<std::uint32_t> piece_of(dofs.links.size());
     std::uint32_t pieces = 0;
-    for (const std::vector<std::uint32_t>& cluster : grow_aggregates(columns, kDofs).members) {
+    const Aggregates clusters = grow_aggregates(columns, kDofs);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(clusters.count()); ++c) {
+        const std::span<const std::uint32_t> cluster = clusters.members(c);
         double sum = 0;
         for (const std::uint32_t column : cluster) {
             sum += parts[column];
@@ -172,6 +170,26 @@ Aggregates aggregate_columns(const std::vector<std::uint32_t>& column_start,
 }
 
 }  // namespace
+
+Aggregates::Aggregates(std::vector<std::uint32_t> of_child, std::size_t count)
+    : of_child_(std::move(of_child)), members_(of_child_.size()), members_of_(count) {
+    for (const std::uint32_t aggregate : of_child_) {
+        if (members_of_[aggregate].count++ == 0) {
+            order_.push_back(aggregate);
+        }
+    }
+    std::uint32_t first = 0;
+    for (const std::uint32_t aggregate : order_) {
+        Range& range = members_of_[aggregate];
+        range.first = first;
+        first += range.count;
+        range.count = 0;
+    }
+    for (std::uint32_t child = 0; child < of_child_.size(); ++child) {
+        Range& range = members_of_[of_child_[child]];
+        members_[range.first + range.count++] = child;
+    }
+}
 
 template <int Dim>
 std::vector<Aggregates> make_hierarchy(const BlockPattern& pattern,

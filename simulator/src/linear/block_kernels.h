@@ -88,8 +88,7 @@ struct ColumnFactors {
 struct AggregateChildren {
     const std::uint32_t* members = nullptr;
     std::size_t count = 0;
-    const double* arms = nullptr;  ///< Of all children: Arm::x, then the ratio.
-    std::size_t arm_stride = 0;    ///< Numbers from one child's to the next.
+    const double* arms = nullptr;  ///< Of each: Arm::x, then the ratio.
 };
 
 /// A matrix in one part or two.

@@ -3,46 +3,17 @@
 #include "linear/block_kernels.h"
 #include "linear/block_order.h"
 #include "linear/block_pattern.h"
+#include "linear/line_allocator.h"
 
 #include <pent/parallel.h>
 
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <new>
 #include <utility>
 #include <vector>
 
 namespace pent::simulator {
-
-/// Starts arrays at cache lines, so that no 4 x 4 block of floats lies across two, and leaves
-/// numbers that nothing is said of as they are: who fills them does so with all threads.
-template <typename Value>
-struct LineAllocator {
-    using value_type = Value;  // NOLINT(readability-identifier-naming): as allocators must
-    static constexpr std::align_val_t kLine{64};
-
-    LineAllocator() = default;
-    template <typename Other>
-    explicit LineAllocator(const LineAllocator<Other>& /*other*/) {}
-
-    [[nodiscard]] Value* allocate(std::size_t count) {
-        return static_cast<Value*>(::operator new(count * sizeof(Value), kLine));
-    }
-    void deallocate(Value* memory, std::size_t /*count*/) { ::operator delete(memory, kLine); }
-    template <typename Other>
-    void construct(Other* at) noexcept {
-        ::new (static_cast<void*>(at)) Other;
-    }
-    template <typename Other, typename... From>
-    void construct(Other* at, From&&... from) {
-        ::new (static_cast<void*>(at)) Other(std::forward<From>(from)...);
-    }
-    template <typename Other>
-    bool operator==(const LineAllocator<Other>& /*other*/) const {
-        return true;
-    }
-};
 
 /// A block from the Dim^2 numbers that it is stored in.
 template <int Dim, typename Scalar>

@@ -1,6 +1,7 @@
 #include "linear/gauss_seidel.h"
 
 #include "linear/coarse_solver.h"
+#include "linear/parts.h"
 
 #include <pent/dimensions.h>
 
@@ -14,15 +15,6 @@ namespace {
 // What of the coupling to other ranks does without damping. Below 1, so that errors become smaller
 // indeed.
 constexpr double kUndamped = 0.5;
-
-// Calls work(begin, end) for parts of the rows [begin, end), at the same time.
-template <typename Work>
-void for_each_part(const Workers& workers, std::int64_t begin, std::int64_t end, const Work& work) {
-    constexpr std::int64_t kRows = 16;  // of a task
-    workers.for_each((end - begin + kRows - 1) / kRows, [&](std::int64_t part) {
-        work(begin + part * kRows, std::min(begin + (part + 1) * kRows, end));
-    });
-}
 
 // At least the largest singular value of D_i^-1/2 A_ij D_j^-1/2, and no more than 10^(1/8) = 1.33
 // times that: the eighth root of the sum of their eighth powers, which is a trace.
@@ -39,13 +31,14 @@ double coupling_norm(const Block& inverse_i, const Block& A_ij, const Block& inv
 template <int Dim, typename Scalar>
 GaussSeidel<Dim, Scalar>::GaussSeidel(const Workers& workers, const AggregateMatrix<Dim, Scalar>& A)
     : A_(&A), inverses_(static_cast<std::size_t>(kEntries * A.pattern->rows())) {
-    for_each_part(workers, 0, A.pattern->rows(), [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t row = begin; row < end; ++row) {
-            const Eigen::Matrix<Scalar, kSize, kSize> inverse =
-                inverse_of_diagonal(A, static_cast<std::uint32_t>(row)).template cast<Scalar>();
-            write_modes<kSize>(inverse, inverses_.data() + kEntries * row);
-        }
-    });
+    for_each_part(
+        workers, 0, A.pattern->rows(), kModeRows, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t row = begin; row < end; ++row) {
+                const Eigen::Matrix<Scalar, kSize, kSize> inverse =
+                    inverse_of_diagonal(A, static_cast<std::uint32_t>(row)).template cast<Scalar>();
+                write_modes<kSize>(inverse, inverses_.data() + kEntries * row);
+            }
+        });
     if (A.ghosts != nullptr) {
         damp(workers);
     }
@@ -61,7 +54,7 @@ void GaussSeidel<Dim, Scalar>::damp(const Workers& workers) {
     const auto inverse_of = [&](std::int64_t column) -> Block {
         return read_modes<kSize>(inverses_.data() + kEntries * column).template cast<double>();
     };
-    for_each_part(workers, 0, pattern.rows(), [&](std::int64_t begin, std::int64_t end) {
+    for_each_part(workers, 0, pattern.rows(), kModeRows, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             const auto r = static_cast<std::size_t>(row);
             const Block inverse = inverse_of(row);
@@ -92,11 +85,12 @@ void GaussSeidel<Dim, Scalar>::sweep_forth(const Workers& workers,
     left.resize(r.size());
     const std::vector<std::int64_t>& batches = A_->pattern->batches;
     for (std::size_t i = 0; i + 1 < batches.size(); ++i) {
-        for_each_part(
-            workers, batches[i], batches[i + 1], [&](std::int64_t begin, std::int64_t end) {
-                mode_kernels_of<Scalar>(kernels).sweep_forth(
-                    A_->mode_rows(begin, end, shares), diagonal(), r.data(), z.data(), left.data());
-            });
+        for_each_part(workers, batches[i], batches[i + 1], kModeRows,
+                      [&](std::int64_t begin, std::int64_t end) {
+                          mode_kernels_of<Scalar>(kernels).sweep_forth(
+                              A_->mode_rows(begin, end, shares), diagonal(), r.data(), z.data(),
+                              left.data());
+                      });
     }
     A_->update_ghosts(z);
     A_->subtract_above(workers, kernels, z, left, shares);
@@ -111,7 +105,7 @@ void GaussSeidel<Dim, Scalar>::sweep_back(const Workers& workers,
     A_->update_ghosts(z);
     const std::vector<std::int64_t>& batches = A_->pattern->batches;
     for (std::size_t i = batches.size() - 1; i > 0; --i) {
-        for_each_part(workers, batches[i - 1], batches[i],
+        for_each_part(workers, batches[i - 1], batches[i], kModeRows,
                       [&](std::int64_t begin, std::int64_t end) {
                           mode_kernels_of<Scalar>(kernels).sweep_back(
                               A_->mode_rows(begin, end, shares), diagonal(), r.data(), z.data());

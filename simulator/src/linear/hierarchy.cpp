@@ -12,7 +12,7 @@ namespace {
 //
 // @param children  Those of others, and their exchange.
 void add_ghosts(const Ghosts& children, GhostExchange& exchange, HierarchyLevel& level) {
-    std::vector<std::uint32_t>& of_child = level.aggregates.of_child;
+    std::vector<std::uint32_t> of_child = level.aggregates.of_child();
     const std::size_t columns =
         children.columns.empty() ? of_child.size() : children.columns.back() + std::size_t{1};
     of_child.resize(columns, 0);
@@ -32,7 +32,7 @@ void add_ghosts(const Ghosts& children, GhostExchange& exchange, HierarchyLevel&
         const auto at = std::lower_bound(found.begin(), found.end(), homes[i]) - found.begin();
         of_child[children.columns[i]] = own + static_cast<std::uint32_t>(at);
     }
-    level.aggregates.ghosts = static_cast<std::uint32_t>(found.size());
+    level.aggregates.set_ghosts(std::move(of_child), static_cast<std::uint32_t>(found.size()));
     level.ghosts.own_columns = own;
     for (const Home& home : found) {
         level.ghosts.columns.push_back(own

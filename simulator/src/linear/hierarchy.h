@@ -11,7 +11,7 @@ namespace pent::simulator {
 
 /// Aggregates of a level, which blocks their matrix has, and what of it is of other ranks.
 struct HierarchyLevel {
-    Aggregates aggregates;  ///< Of this rank; of_child and ghosts tell of those of others, too.
+    Aggregates aggregates;  ///< Of this rank; of_child() tells of those of others, too.
     AggregatePattern pattern;
     Ghosts ghosts;  ///< Those of others; none where nothing is shared.
     /// Of vectors over the aggregates; null where nothing is shared, and for the coarsest level.

@@ -29,30 +29,37 @@ public:
           halo_(hierarchy.halo),
           smoother_(std::move(smoother)),
           levels_(hierarchy.levels.size()) {
-        const auto vertices = static_cast<std::size_t>(positions.cols());
-        AggregatePlaces<Dim> children{positions, std::vector<double>(vertices, 0.0),
-                                      std::vector<double>(vertices, 1.0)};
+        AggregatePlaces<Dim> places;             // of the level before
         GhostExchange* exchange = halo_.ghosts;  // of the children
         for (std::size_t l = 0; l < levels_.size(); ++l) {
             const HierarchyLevel& made = hierarchy.levels[l];
             Level& level = levels_[l];
             level.aggregates = &made.aggregates;
-            AggregatePlaces<Dim> places = places_of(made.aggregates, children);
-            level.arms = arms_of(made.aggregates, children, places, exchange);
+            const ChildPlaces<Dim> children =
+                l == 0 ? ChildPlaces<Dim>(positions) : ChildPlaces<Dim>(places);
+            AggregatePlaces<Dim> own = places_of(workers, made.aggregates, children);
+            const Arms<Dim> arms = arms_of(workers, made.aggregates, children, own, exchange);
             level.matrix = l == 0 ? galerkin_product(workers, kernels, matrix, made.aggregates,
-                                                     level.arms, made.pattern)
+                                                     arms, made.pattern)
                                   : galerkin_product(workers, kernels, levels_[l - 1].matrix,
-                                                     made.aggregates, level.arms, made.pattern);
+                                                     made.aggregates, arms, made.pattern);
+            level.arms.resize(made.aggregates.children());
+            made.aggregates.for_each(workers, [&](std::uint32_t a) {
+                std::size_t place = made.aggregates.first_of(a);
+                for (const std::uint32_t child : made.aggregates.members(a)) {
+                    level.arms[place++] = arms[child];
+                }
+            });
             exchange = made.exchange.get();
             level.matrix.ghosts = exchange;
-            children = std::move(places);
+            places = std::move(own);
             if (l + 1 < levels_.size()) {
                 level.smoother = GaussSeidel<Dim, Scalar>(workers, level.matrix);
                 level.matrix.fit(shares_);
             }
         }
-        coarsest_ = SharedCoarseSolver<Dim, Scalar>(
-            workers, levels_.back().matrix, hierarchy.levels.back(), children, halo_.sharing);
+        coarsest_ = SharedCoarseSolver<Dim, Scalar>(workers, levels_.back().matrix,
+                                                    hierarchy.levels.back(), places, halo_.sharing);
     }
 
     // Additive: products with the matrix of the mesh are what an iteration costs most.
@@ -97,24 +104,22 @@ public:
 
 private:
     static constexpr int kSize = kModes<Dim>;
-    static constexpr int kChunk = 64;  // aggregates of a task
     using Vector = typename AggregateMatrix<Dim, Scalar>::Vector;
     using Coarse = RigidModes<Dim, kSize>;
 
     struct Level {
         const Aggregates* aggregates = nullptr;
-        std::vector<Arm<Dim>> arms;  // of the children, of other ranks, too
+        Arms<Dim> arms;  // of the members, see Aggregates::first_of()
         AggregateMatrix<Dim, Scalar> matrix;
         GaussSeidel<Dim, Scalar> smoother;  // but for the coarsest
     };
 
+    // Calls work(aggregate, members, arms) with the arms of the members.
     template <typename Work>
     static void for_each_aggregate(const Workers& workers, const Level& level, const Work& work) {
-        const int count = level.aggregates->count();
-        workers.for_each((count + kChunk - 1) / kChunk, [&](int chunk) {
-            for (int a = chunk * kChunk; a < std::min(count, (chunk + 1) * kChunk); ++a) {
-                work(static_cast<std::uint32_t>(a));
-            }
+        level.aggregates->for_each(workers, [&](std::uint32_t a) {
+            work(a, level.aggregates->members(a),
+                 level.arms.data() + level.aggregates->first_of(a));
         });
     }
 
@@ -150,12 +155,12 @@ private:
                             const Vector& children,
                             Vector& coarse) {
         coarse.resize(kSize * level.aggregates->count());
-        for_each_aggregate(workers, level, [&](std::uint32_t a) {
+        for_each_aggregate(workers, level, [&](std::uint32_t a, const auto members, auto arm) {
             typename Coarse::Modes sum = Coarse::Modes::Zero();
-            for (const std::uint32_t child : level.aggregates->members[a]) {
+            for (const std::uint32_t child : members) {
                 sum += Coarse::force(
                     children.template segment<kSize>(kSize * child).template cast<double>(),
-                    level.arms[child]);
+                    *arm++);
             }
             coarse.template segment<kSize>(kSize * a) = sum.template cast<Scalar>();
         });
@@ -166,12 +171,12 @@ private:
                              double factor,
                              const Vector& coarse,
                              Vector& children) {
-        for_each_aggregate(workers, level, [&](std::uint32_t a) {
+        for_each_aggregate(workers, level, [&](std::uint32_t a, const auto members, auto arm) {
             const typename Coarse::Modes modes =
                 factor * coarse.template segment<kSize>(kSize * a).template cast<double>();
-            for (const std::uint32_t child : level.aggregates->members[a]) {
+            for (const std::uint32_t child : members) {
                 children.template segment<kSize>(kSize * child) +=
-                    Coarse::motion(modes, level.arms[child]).template cast<Scalar>();
+                    Coarse::motion(modes, *arm++).template cast<Scalar>();
             }
         });
     }
@@ -183,9 +188,9 @@ private:
                            Vector& coarse) const {
         const Level& level = levels_[0];
         Eigen::VectorXd forces(kSize * level.aggregates->count());
-        for_each_aggregate(workers, level, [&](std::uint32_t a) {
-            kernels_->sum_forces(children_of<Dim>(level.aggregates->members[a], level.arms),
-                                 r.data(), forces.data() + kSize * std::size_t{a});
+        for_each_aggregate(workers, level, [&](std::uint32_t a, const auto members, auto arms) {
+            kernels_->sum_forces(children_of<Dim>(members, arms), r.data(),
+                                 forces.data() + kSize * std::size_t{a});
         });
         const double largest = halo_.max(forces.size() > 0 ? forces.cwiseAbs().maxCoeff() : 0);
         const double scale = largest > 0 ? largest : 1;
@@ -198,11 +203,10 @@ private:
                         const Vector& coarse,
                         BlockVector<Dim>& x) const {
         const Level& level = levels_[0];
-        for_each_aggregate(workers, level, [&](std::uint32_t a) {
+        for_each_aggregate(workers, level, [&](std::uint32_t a, const auto members, auto arms) {
             const typename Coarse::Modes modes =
                 scale * coarse.template segment<kSize>(kSize * a).template cast<double>();
-            kernels_->add_motions(children_of<Dim>(level.aggregates->members[a], level.arms),
-                                  modes.data(), x.data());
+            kernels_->add_motions(children_of<Dim>(members, arms), modes.data(), x.data());
         });
     }
 

@@ -1,17 +1,25 @@
 #pragma once
 
+#include "linear/line_allocator.h"
 #include "linear/rigid_mode_order.h"
 
 #include <Eigen/Core>
+
+#include <vector>
 
 namespace pent::simulator {
 
 /// Where a child lies in its aggregate.
 template <int Dim>
 struct Arm {
-    Eigen::Matrix<double, Dim, 1> x;  ///< From the middle of the aggregate, in units of its size.
-    double ratio = 0;                 ///< Size of the child in units of that of the aggregate.
+    Eigen::Matrix<double, Dim, 1, Eigen::DontAlign>
+        x;         ///< From the middle of the aggregate, in units of its size.
+    double ratio;  ///< Size of the child in units of that of the aggregate.
 };
+
+/// One after the other.
+template <int Dim>
+using Arms = std::vector<Arm<Dim>, LineAllocator<Arm<Dim>>>;
 
 /// What the modes of an aggregate do to one of its children, T: Rows x modes. The unknowns of the
 /// child are Dim coordinates of a vertex, or its own modes; the same motion either way.
