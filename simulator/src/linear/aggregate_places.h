@@ -19,7 +19,8 @@ struct AggregatePlaces {
     std::vector<double> counts;  ///< Of vertices.
 };
 
-/// The same of children: of aggregates, or of vertices, each of which is its own, of no size.
+/// The same of children: of aggregates, or of vertices, each of which is its own, of no size. What
+/// it is made from must outlive it.
 template <int Dim>
 class ChildPlaces {
 public:

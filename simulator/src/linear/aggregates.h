@@ -66,7 +66,8 @@ public:
     /// Calls work(aggregate) for each of this rank, at the same time.
     template <typename Work>
     void for_each(const Workers& workers, const Work& work) const {
-        for_each_part(workers, 64, [&](std::span<const std::uint32_t> aggregates) {
+        constexpr std::size_t kTask = 64;
+        for_each_part(workers, kTask, [&](std::span<const std::uint32_t> aggregates) {
             for (const std::uint32_t aggregate : aggregates) {
                 work(aggregate);
             }

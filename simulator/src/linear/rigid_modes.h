@@ -9,11 +9,11 @@
 
 namespace pent::simulator {
 
-/// Where a child lies in its aggregate.
+/// Where a child lies in its aggregate: Dim + 1 numbers, without gaps.
 template <int Dim>
 struct Arm {
-    Eigen::Matrix<double, Dim, 1, Eigen::DontAlign>
-        x;         ///< From the middle of the aggregate, in units of its size.
+    /// From the middle of the aggregate, in units of its size.
+    Eigen::Matrix<double, Dim, 1, Eigen::DontAlign> x;
     double ratio;  ///< Size of the child in units of that of the aggregate.
 };
 
