@@ -72,7 +72,7 @@ void summarize_contact(Program& program, const RunReport& report) {
         return;
     }
     if (most == 0 && count_refused(report) == 0) {
-        program.say("contact: nothing has touched; without it the run would have been the same");
+        program.say("contact: nothing touches at the end of a step");
     } else if (most == 0) {
         program.say(
             "contact: nothing touches at the end of a step, but steps were cut: there it may"

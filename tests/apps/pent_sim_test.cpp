@@ -139,7 +139,7 @@ TEST_F(FallingCubes, NeverTouchAndPentSimSaysSo) {
     const Outcome outcome =
         test::run_program("pent-sim " + path("fall.toml") + " -o " + path("run"));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    expect_contains(outcome.out, {"contact: nothing has touched", "at most 0 pairs"});
+    expect_contains(outcome.out, {"contact: nothing touches", "at most 0 pairs"});
 }
 
 TEST_F(FallingCubes, AreWarnedOfADistanceOfContactNearTheLengthOfTheirEdges) {

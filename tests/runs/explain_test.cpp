@@ -1,3 +1,4 @@
+#include "explain/doubts.h"
 #include "simulator/scenes.h"
 #include "support/messages.h"
 #include "support/temp_folder.h"
@@ -282,6 +283,23 @@ TEST(Explain, SaysWhatContactObstaclesAndSleepHaveNothingToDo) {
     }
 }
 
+TEST(Explain, KeepsWhatFrictionOfBodiesAndLaterLoadsNeed) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 5);
+    scene.bodies.pop_back();
+    const HalfSpaceObstacle floor{.normal = Eigen::Vector4d::UnitY(), .offset = -1};
+    scene.obstacles = {{.shape = floor}};
+    scene.contact = ContactSettings{};
+    scene.bodies[0].friction = 0.5;
+    EXPECT_EQ(advice(explain(scene, 1)).find("nothing to do"), std::string::npos);
+    EXPECT_NE(advice(explain(scene, 1)).find("[[obstacle]] could go"), std::string::npos);
+    scene.loads = {{.body = scene.bodies[0].name,
+                    .select = {EverythingSelection{}},
+                    .force = Eigen::Vector4d(0, -1, 0, 0),
+                    .keyframes = {{.time = 1, .factor = 0}, {.time = 2, .factor = 1}}}};
+    EXPECT_EQ(advice(explain(scene, 1)).find("could go"), std::string::npos);
+}
+
 TEST(Explain, SaysThatNothingPushesBodiesThatAreHeldEverywhere) {
     const TempFolder folder;
     Scene scene = two_boxes(folder, 5);
@@ -401,6 +419,18 @@ TEST(Explain, SaysWhichStiffnessWouldDo) {
         EXPECT_LE(deepest(), 0.1);  // a tenth of 1 m
         EXPECT_EQ(advice(explain(*scene, 1)).find("would do"), std::string::npos);
     }
+}
+
+TEST(Remedy, SaysWhatToHoldWhereABodyMayTurnInEquilibrium) {
+    const std::string failure = "the matrix was not positive definite";
+    Scene scene;
+    scene.solver.integrator = Integrator::Quasistatic;
+    expect_contains(remedy(scene, failure, {}), {"4 vertices that are not in one plane"});
+    scene.dimension = 3;
+    expect_contains(remedy(scene, failure, {}), {"3 vertices that are not in one line"});
+    expect_contains(remedy(scene, failure, {"mm?"}), {"units first: mm?"});
+    scene.solver.integrator = Integrator::NewtonEuler;
+    EXPECT_EQ(remedy(scene, failure, {}).find("hold more"), std::string::npos);
 }
 
 }  // namespace

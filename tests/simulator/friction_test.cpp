@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace pent::simulator {
 namespace {
@@ -161,6 +162,26 @@ TYPED_TEST(FrictionSlopeTest, SingleLinearSolvesHaveItToo) {
     EXPECT_GT(speed_after(0), 1.4);
     // 0.2 s of mu g: 0.78 m/s lost, to the settling of the block.
     EXPECT_NEAR(speed_after(kFriction), 1.5 - 0.2 * kFriction * kGravity, 0.15);
+}
+
+// As with settings of contact that say nothing of friction.
+TYPED_TEST(FrictionSlopeTest, BodyAndObstacleWithCoefficientsOfTheirOwnNeedNoSettingsOfContact) {
+    constexpr int kDim = TypeParam::value;
+    const auto velocities_with = [](const std::optional<ContactSettings>& contact) {
+        BarrierScene<kDim> scene = slope<kDim>(ContactModel::Penalty, 0);
+        scene.scene.contact = contact;
+        scene.scene.bodies[0].friction = kFriction;
+        scene.scene.bodies[0].velocity = vector<kDim>(1.5, 0);
+        scene.scene.obstacles[0].friction = kFriction;
+        Simulation<kDim> simulation(scene.scene, scene.meshes);
+        for (int k = 0; k < 10; ++k) {
+            EXPECT_TRUE(simulation.step().is_accepted);
+        }
+        return Positions<kDim>(simulation.velocities(0));
+    };
+    const Positions<kDim> without = velocities_with(std::nullopt);
+    EXPECT_EQ(without, velocities_with(ContactSettings{}));
+    EXPECT_NEAR(without.row(0).mean(), 1.5 - 0.2 * kFriction * kGravity, 0.15);
 }
 
 // A soft block without damping that slides just off the angle keeps ringing for seconds: that is

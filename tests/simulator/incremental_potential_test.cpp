@@ -131,6 +131,27 @@ TYPED_TEST(IncrementalPotentialTest, SolvesForTheDirectionThatItsGradientsAskFor
     EXPECT_LT(after.norm(), 1e-3 * gradient.norm());
 }
 
+// What breaks down on the Hessian as it is is solved for again with the filtered one.
+TYPED_TEST(IncrementalPotentialTest, TellsTheResidualOfTheSolveThatCounts) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = busy_scene<kDim>();
+    scene.contact.reset();
+    scene.obstacles.clear();
+    scene.solver.tolerance = 1e-8;
+    for (Body& body : scene.bodies) {
+        body.material.lame = lame_from_young(kDim, 1e8, 0.28);
+    }
+    Step<kDim> step(scene);
+    const Positions<kDim> crumpled = shaken<kDim>(step.start, 0.3, 5);
+    const Positions<kDim> gradient = step.potential.evaluate(crumpled).gradient;
+    static_cast<void>(step.potential.take_work());
+    const NewtonDirection<kDim> direction = step.potential.solve(gradient, 0 * gradient, 0);
+    ASSERT_EQ(direction.failure_reason, "");
+    const SolveWork work = step.potential.take_work();
+    ASSERT_EQ(work.hessians, 2 * step.energy.elasticity->element_count());
+    EXPECT_LE(work.residual, scene.solver.tolerance);
+}
+
 // The part of the Hessian between what is solved for and what is moved goes to the right side.
 TYPED_TEST(IncrementalPotentialTest, CarriesTheMotionOfPrescribedVerticesIntoTheOthers) {
     constexpr int kDim = TypeParam::value;

@@ -159,6 +159,32 @@ TYPED_TEST(Host, TakesTargetsAlongInStepsThatAreCut) {
 
 // ---- grabs
 
+// ---- states
+
+// Without gravity, all at one velocity: whatever was before, it goes on from there.
+TYPED_TEST(Host, PutsABodySomewhereInMidMotion) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : kWithInertia) {
+        const Scene scene = floating_cube<kDim>(integrator);
+        Simulation<kDim> simulation(scene, {cube<kDim>()});
+        const Vector<kDim> velocity = Vector<kDim>::LinSpaced(1, 2);
+        const auto vertices = simulation.mesh(0).vertex_count();
+        for (const double speed : {1.0, 0.0, -2.0}) {
+            take_step(simulation);
+            take_step(simulation);
+            const Positions<kDim> start = simulation.positions(0).array() + 0.1;
+            const Positions<kDim> velocities = speed * velocity.replicate(1, vertices);
+            simulation.set_state(0, start, velocities);
+            for (int i = 0; i < 4; ++i) {
+                take_step(simulation);
+            }
+            const Positions<kDim> end = start + 4 * scene.dt() * velocities;
+            EXPECT_LT((simulation.positions(0) - end).cwiseAbs().maxCoeff(), 1e-9);
+            EXPECT_LT((simulation.velocities(0) - velocities).cwiseAbs().maxCoeff(), 1e-6);
+        }
+    }
+}
+
 // ---- forces and gravity
 
 TYPED_TEST(Host, PushesByForcesUntilItTakesThemAway) {

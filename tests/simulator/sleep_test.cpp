@@ -72,6 +72,42 @@ TEST(SleepingBody, StaysExactlyWhereItIsAndIsNotSolvedForInFourDimensions) {
     expect_sleep_on_floor<4>();
 }
 
+// The floor leaves within one step, so that nothing touches it at the end of that step.
+template <int Dim>
+void expect_fall_from_floor_that_leaves(Integrator integrator, ContactModel model) {
+    Scene scene = cube_on_floor<Dim>();
+    scene.solver.integrator = integrator;
+    scene.damping = Damping{.mass = 20, .stiffness = 0};
+    scene.contact = ContactSettings{.model = model};
+    std::get<HalfSpaceObstacle>(scene.obstacles[0].shape).offset = -0.01;
+    Motion down = test::still(Dim);
+    down.translate[1] = -4;
+    down.from = 3;
+    scene.obstacles[0].motion = {down};
+    scene.sleep->speed = 0.01;
+    Simulation<Dim> simulation(scene, {cube<Dim>(1)});
+    while (simulation.time() < down.from - 1e-9) {
+        ASSERT_TRUE(simulation.step().is_accepted);
+    }
+    ASSERT_TRUE(simulation.sleep()[0].is_asleep);
+    for (int i = 0; i < 5; ++i) {
+        const StepReport report = simulation.step();
+        ASSERT_TRUE(report.is_accepted) << report.failure;
+        EXPECT_EQ(report.asleep, 0) << i;
+    }
+    EXPECT_LT(test::mean_velocity(simulation, 0)[1], -0.2);  // of 0.49, where damping is weight
+}
+
+TEST(SleepingBody, FallsWhenTheFloorLeavesIt) {
+    for (const Integrator integrator :
+         {Integrator::LinearEuler, Integrator::NewtonEuler, Integrator::Bdf2}) {
+        SCOPED_TRACE(static_cast<int>(integrator));
+        expect_fall_from_floor_that_leaves<3>(integrator, ContactModel::Penalty);
+    }
+    expect_fall_from_floor_that_leaves<4>(Integrator::NewtonEuler, ContactModel::Penalty);
+    expect_fall_from_floor_that_leaves<3>(Integrator::NewtonEuler, ContactModel::Barrier);
+}
+
 TEST(BodyThatNeverSleeps, MovesAsWithoutSleepToTheBit) {
     Scene scene = cube_on_floor<4>();
     scene.sleep->time = 1e6;
@@ -201,6 +237,22 @@ TEST(StackOfBodies, FallsAsleepTogetherAndWakesTogether) {
     const StepReport report = simulation.step();
     EXPECT_EQ(report.asleep, 0);
     EXPECT_NE(simulation.positions(0), lower);
+}
+
+TEST(StackOfBodies, FallsWhenAHostTakesTheLowerOneAway) {
+    Simulation<3> simulation(stack(), {cube<3>(), cube<3>()});
+    for (int i = 0; i < 600 && simulation.step().asleep == 0; ++i) {
+    }
+    ASSERT_TRUE(simulation.sleep()[1].is_asleep);
+    const double height = simulation.positions(1).row(1).mean();
+    Positions<3> away = simulation.positions(0);
+    away.row(0).array() += 5;
+    simulation.set_state(0, away, simulation.velocities(0));
+    EXPECT_EQ(simulation.step().asleep, 0);
+    for (int i = 1; i < 20; ++i) {
+        static_cast<void>(simulation.step());
+    }
+    EXPECT_LT(simulation.positions(1).row(1).mean(), height - 0.05);
 }
 
 TEST(SleepingBody, DoesNotHinderThoseFarAway) {

@@ -157,13 +157,23 @@ Lines on_missing_contact(const Trial& trial) {
     return lines;
 }
 
+// Of [contact], or of a body or an obstacle itself.
+bool has_friction(const Scene& scene) {
+    const auto is_rough = [](const auto& part) {
+        return part.friction > 0 && !std::isinf(part.friction);
+    };
+    return (scene.contact && scene.contact->friction > 0)
+           || std::any_of(scene.bodies.begin(), scene.bodies.end(), is_rough)
+           || std::any_of(scene.obstacles.begin(), scene.obstacles.end(), is_rough);
+}
+
 Lines on_idle_contact(const Trial& trial) {
     const Scene& scene = trial.scene;
     const std::optional<ContactSettings>& contact = scene.contact;
-    // Obstacles push without [contact]; but barrier and friction are its own.
+    // Obstacles push without [contact]; but the barrier and most of friction are its own.
     const bool serves_obstacles =
         contact && !scene.obstacles.empty()
-        && (contact->friction > 0 || contact->model == ContactModel::Barrier);
+        && (has_friction(scene) || contact->model == ContactModel::Barrier);
     if (!contact || contact->self || serves_obstacles) {
         return {};
     }
@@ -212,6 +222,7 @@ Lines on_fast_bodies(const Trial& trial) {
     return lines;
 }
 
+// Now or later.
 bool is_anything_moving(const Trial& trial) {
     const auto moves = [](const auto& part) {
         return std::any_of(part.motion.begin(), part.motion.end(), [](const Motion& motion) {
@@ -222,8 +233,12 @@ bool is_anything_moving(const Trial& trial) {
     const auto has_any = [&](const auto& parts) {
         return std::any_of(parts.begin(), parts.end(), moves);
     };
-    return has_any(trial.scene.constraints) || has_any(trial.scene.attachments)
-           || has_any(trial.scene.obstacles) || trial.step.energies.kinetic > 0;
+    const auto lasts = [](const auto& part) { return part.from == 0 && std::isinf(part.to); };
+    const Scene& scene = trial.scene;
+    return has_any(scene.constraints) || has_any(scene.attachments) || has_any(scene.obstacles)
+           || !std::all_of(scene.constraints.begin(), scene.constraints.end(), lasts)
+           || !std::all_of(scene.attachments.begin(), scene.attachments.end(), lasts)
+           || !scene.loads.empty() || !scene.activations.empty() || trial.step.energies.kinetic > 0;
 }
 
 Lines on_idle_obstacles(const Trial& trial) {

@@ -241,13 +241,24 @@ std::string deep_penetration(const Scene& scene, const RunReport& report) {
            + which + " at least would keep it below a tenth, or model = \"barrier\"";
 }
 
-std::string remedy(const std::string& failure, const std::vector<std::string>& doubts) {
+std::string remedy(const Scene& scene,
+                   const std::string& failure,
+                   const std::vector<std::string>& doubts) {
     if (!doubts.empty()) {
         return "look at the units first: " + doubts.front();
     }
     if (failure.find("linear solver") != std::string::npos) {
         return "try a larger solver.max_iterations, precision = \"double\", or more "
                "steps_per_frame";
+    }
+    // Without inertia nothing keeps what turns freely in its place.
+    if (scene.solver.integrator == Integrator::Quasistatic
+        && failure.find("not positive definite") != std::string::npos) {
+        return std::string(
+                   "hold more of each body, so that it can neither move nor turn: at least ")
+               + (scene.dimension == 3 ? "3 vertices that are not in one line"
+                                       : "4 vertices that are not in one plane")
+               + "; or try more steps_per_frame";
     }
     return "try more steps_per_frame, or stiffer or slower motion";
 }

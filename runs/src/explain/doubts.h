@@ -51,7 +51,8 @@ template <int Dim>
 /// What to try after a step that failed for a reason.
 ///
 /// @param doubts  Of units: what is wrong there shows first.
-[[nodiscard]] std::string remedy(const std::string& failure,
+[[nodiscard]] std::string remedy(const Scene& scene,
+                                 const std::string& failure,
                                  const std::vector<std::string>& doubts);
 
 }  // namespace pent::runs

@@ -298,7 +298,7 @@ bool Run<Dim>::step_to_frame(int frame) {
             report_.message = "step " + std::to_string(simulation_.step_count() + 1) + ": "
                               + step.failure + ", also in steps cut "
                               + std::to_string(scene_.solver.max_halvings) + " times; "
-                              + remedy(step.failure, doubts_of_units(scene_, simulation_));
+                              + remedy(scene_, step.failure, doubts_of_units(scene_, simulation_));
             return false;
         }
         report_.steps.push_back(step);

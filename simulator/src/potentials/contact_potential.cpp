@@ -292,6 +292,18 @@ std::vector<TermEnergy> ContactPotential<Dim>::energies() const {
     return parts;
 }
 
+template <int Dim>
+std::vector<std::size_t> ContactPotential<Dim>::on_moving_obstacles(const TimeSpan& step) const {
+    std::vector<std::size_t> bodies;
+    for (const contact::Contact<Dim>& contact : contacts_.list) {
+        if (motions_.is_any() && contact.second.is_obstacle()
+            && motions_.is_moving(contact.second.index, step.begin, step.end)) {
+            bodies.push_back(contact.first.index);
+        }
+    }
+    return bodies;
+}
+
 // Pairs of different bodies in contact, each once.
 template <int Dim>
 void ContactPotential<Dim>::add_couplings(Couplings& couplings) const {
@@ -301,12 +313,8 @@ void ContactPotential<Dim>::add_couplings(Couplings& couplings) const {
             pairs.emplace_back(std::minmax(contact.first.index, contact.second.index));
         }
     }
-    for (const contact::Contact<Dim>& contact : contacts_.list) {
-        if (motions_.is_any() && contact.second.is_obstacle()
-            && motions_.is_moving(contact.second.index, step_.begin, step_.end)) {
-            couplings.driven.push_back(contact.first.index);
-        }
-    }
+    const std::vector<std::size_t> driven = on_moving_obstacles(step_);
+    couplings.driven.insert(couplings.driven.end(), driven.begin(), driven.end());
     std::sort(pairs.begin(), pairs.end());
     const auto end = std::unique(pairs.begin(), pairs.end());
     couplings.pairs.insert(couplings.pairs.end(), pairs.begin(), end);

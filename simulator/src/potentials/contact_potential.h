@@ -66,6 +66,9 @@ public:
         return obstacles_;
     }
     [[nodiscard]] bool has_moving_obstacles() const { return motions_.is_any(); }
+    /// Bodies that touch, where both were last evaluated, an obstacle that moves in a step; some
+    /// more than once.
+    [[nodiscard]] std::vector<std::size_t> on_moving_obstacles(const TimeSpan& step) const;
 
     /// How far the point of an obstacle that a contact touches moves in the step, m.
     [[nodiscard]] Vector<Dim> obstacle_displacement(const contact::Contact<Dim>& contact,

@@ -14,12 +14,10 @@ namespace pent::simulator {
 
 namespace {
 
-// None if nothing has friction.
+// None if nothing has friction. Bodies rub on obstacles without [contact], too.
 std::optional<contact::Friction> friction_law(const Scene& scene) {
-    if (!scene.contact) {
-        return std::nullopt;
-    }
-    contact::Friction law{scene.contact->friction, scene.contact->slip_speed};
+    const ContactSettings settings = scene.contact.value_or(ContactSettings{});
+    contact::Friction law{settings.friction, settings.slip_speed};
     bool is_any_above = law.coefficient > 0;
     const auto collect = [&](const auto& parts) {
         std::vector<double> own;

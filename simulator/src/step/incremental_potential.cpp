@@ -290,7 +290,6 @@ LinearSolution<Dim> IncrementalPotential<Dim>::solve_filtered(const NewtonSystem
         solver_->solve(system, at_dofs(*rows_, x), options, std::move(guess));
     work_.solve_seconds += watch.seconds();
     work_.iterations += solution.report.iterations;
-    work_.residual = std::max(work_.residual, solution.report.residual);
     return solution;
 }
 
@@ -321,6 +320,7 @@ NewtonDirection<Dim> IncrementalPotential<Dim>::solve(const Positions<Dim>& grad
             break;
         }
     }
+    work_.residual = std::max(work_.residual, solution.report.residual);
     const bool is_usable =
         solution.report.has_converged || (may_be_rough_ && !solution.report.has_broken_down);
     if (!is_usable) {

@@ -83,10 +83,14 @@ void Simulation<Dim>::Stepper::set_body(int body,
     Positions<Dim> all = current_.positions;
     all.middleCols(range.begin, range.size) = positions;
     refuse_crossings(all);
+    for (const std::size_t neighbor : neighbors_of_body(static_cast<std::size_t>(body))) {
+        islands_.wake(static_cast<int>(neighbor));  // what it carries is about to fall
+    }
     current_.positions = all;  // copied: hosts see the arrays where they lie
     current_.velocities.middleCols(range.begin, range.size) = velocities;
     islands_.wake(body);
     number_dofs_of_the_awake();
+    forget_history();  // of where it was taken from
     evaluate_current();
 }
 
@@ -225,6 +229,16 @@ bool Simulation<Dim>::Stepper::wake_for(const PrescribedPlaces<Dim>& prescribed)
     return true;
 }
 
+// Wakes what lies on obstacles that are about to move: in the end they may be far from it.
+template <int Dim>
+void Simulation<Dim>::Stepper::wake_on_obstacles(const TimeSpan& step) {
+    if (islands_.asleep_count() > 0
+        && islands_.wake({.pairs = {}, .driven = energy_.contact->on_moving_obstacles(step)},
+                         current_.positions, current_.positions)) {
+        number_dofs_of_the_awake();
+    }
+}
+
 // Breaks what pulls too hard at the end of a step; what it was tied to is awake.
 template <int Dim>
 void Simulation<Dim>::Stepper::break_springs() {
@@ -289,6 +303,7 @@ StepReport Simulation<Dim>::Stepper::step() {
     refuse_disagreement(bodies_.sharing, current_.positions, steps_);
     hold_and_release();
     const TimeSpan span{time(), time() + scene_.dt()};
+    wake_on_obstacles(span);
     held_.begin_step_of_host(current_.positions, span.begin, span.end);
     // Where the step began, if activations do work in it.
     const bool is_driven = !strain().changing_bodies(span.begin, span.end).empty();

@@ -98,6 +98,7 @@ private:
     [[nodiscard]] std::string excess(const Energies& before, Method method) const;
     [[nodiscard]] std::string tunneling() const;
     [[nodiscard]] bool wake_for(const PrescribedPlaces<Dim>& prescribed);
+    void wake_on_obstacles(const TimeSpan& step);
     bool restore_host(const HostState<Dim>& host);
     void break_springs();
     void put_to_sleep();

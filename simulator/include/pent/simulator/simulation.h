@@ -93,10 +93,10 @@ public:
     [[nodiscard]] SimulationSize size() const;
     [[nodiscard]] std::string isa() const;  ///< Name of the instruction set in use.
 
-    /// Puts a body somewhere, awake: a host's own start. Dirichlet vertices follow their motion
-    /// from the next step on, whatever is said here. Throws an Error unless both arrays are finite
-    /// and Dim x vertices, and a CrossingError where a barrier does not allow it; nothing has
-    /// changed then. To move several bodies at once, change a snapshot.
+    /// Puts a body somewhere, awake, and wakes what it touched: a host's own start. Dirichlet
+    /// vertices follow their motion from the next step on, whatever is said here. Throws an Error
+    /// unless both arrays are finite and Dim x vertices, and a CrossingError where a barrier does
+    /// not allow it; nothing has changed then. To move several bodies at once, change a snapshot.
     void set_state(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
 
     // What a host does, see HostState; it counts from the next step on, and forces() and energies()
