@@ -248,20 +248,23 @@ Terms obstacles(const Trial& trial) {
 }
 
 Terms friction(const Trial& trial) {
-    const std::optional<ContactSettings>& contact = trial.scene.contact;
+    const Scene& scene = trial.scene;
+    if (!scene.contact && scene.obstacles.empty()) {
+        return {off("friction", "no [contact] and no obstacles, which would have it")};
+    }
+    const ContactSettings contact = scene.contact.value_or(ContactSettings{});
     const auto count_own = [](const auto& parts) {
         return std::count_if(parts.begin(), parts.end(),
                              [](const auto& part) { return std::isfinite(part.friction); });
     };
-    const auto own = count_own(trial.scene.bodies) + count_own(trial.scene.obstacles);
-    if (!contact || (contact->friction == 0 && own == 0)) {
-        return {off("friction",
-                    contact ? "contact.friction = 0" : "no [contact], which would have it")};
+    const auto own = count_own(scene.bodies) + count_own(scene.obstacles);
+    if (contact.friction == 0 && own == 0) {
+        return {off("friction", "contact.friction = 0")};
     }
     return {on(
         "friction",
         formatted("coefficient %.3g, sticks below %.3g m/s; its time is that of contact",
-                  contact->friction, contact->slip_speed)
+                  contact.friction, contact.slip_speed)
             + (own > 0 ? "; " + std::to_string(own) + " bodies or obstacles have their own" : ""))};
 }
 
