@@ -170,7 +170,7 @@ bool has_friction(const Scene& scene) {
 Lines on_idle_contact(const Trial& trial) {
     const Scene& scene = trial.scene;
     const std::optional<ContactSettings>& contact = scene.contact;
-    // Obstacles push without [contact]; but the barrier and most of friction are its own.
+    // Obstacles push without [contact]; but the barrier, its friction and slip_speed are its own.
     const bool serves_obstacles =
         contact && !scene.obstacles.empty()
         && (has_friction(scene) || contact->model == ContactModel::Barrier);

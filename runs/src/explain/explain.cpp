@@ -259,7 +259,7 @@ Terms friction(const Trial& trial) {
     };
     const auto own = count_own(scene.bodies) + count_own(scene.obstacles);
     if (contact.friction == 0 && own == 0) {
-        return {off("friction", "contact.friction = 0")};
+        return {off("friction", "no coefficient of [contact], a body or an obstacle")};
     }
     return {on(
         "friction",

@@ -25,7 +25,8 @@ struct Snapshot {
     Positions<Dim> positions;   ///< Dim x vertices of all bodies, m.
     Positions<Dim> velocities;  ///< Dim x vertices, m/s.
     /// What BDF2 looks back to, the state one step ago; no columns after a step that was cut in
-    /// two, and for the other integrators. Whoever moves bodies in a snapshot takes them away.
+    /// two, and for the other integrators. Whoever moves bodies in a snapshot takes these away, and
+    /// lets nothing sleep that lay on them.
     Positions<Dim> previous_positions;
     Positions<Dim> previous_velocities;
     std::vector<SleepState> sleep;  ///< One a body.
