@@ -93,16 +93,19 @@ void add_input(CLI::App& cli, MeshArguments& arguments) {
         ->type_name("FILE");
     const std::vector<CLI::Option*> shapes = add_shapes(*input, arguments);
     input->require_option(1);
+    CLI::Option* file = input->get_option("input");
     add_placement(cli, arguments, shapes);
     cli.add_option("--size", arguments.size,
                    "Radius of a sphere or ball, edge or edges x,y,z,w of a box (m)")
         ->delimiter(',')
         ->expected(1, 4)
         ->check(CLI::PositiveNumber)
+        ->excludes(file)
         ->default_str("1");
     choose<CubeCut>(cli.add_option("--cut", arguments.cut,
                                    "Tesseracts into 24 pentachora (paths) or into 16 (corners)"),
-                    {{"paths", CubeCut::Paths}, {"corners", CubeCut::Corners}});
+                    {{"paths", CubeCut::Paths}, {"corners", CubeCut::Corners}})
+        ->needs(shapes.back());
 }
 
 void add_image(CLI::App& cli, MeshArguments& arguments) {
@@ -192,7 +195,8 @@ void add_extrusion(CLI::App& cli, MeshArguments& arguments) {
     const auto group = "Extrusion";
     CLI::Option* thickness =
         cli.add_option("--thickness", arguments.thickness,
-                       "Along w (m), negative for -w; default: 0.2 of the largest side")
+                       "Along w (m), with --one-sided to -w where negative; default: 0.2 of the "
+                       "largest side")
             ->group(group);
     CLI::Option* direction =
         cli.add_option("--extrude", arguments.direction, "The whole extrusion as x,y,z,w (m)")
@@ -255,6 +259,10 @@ void add_extrusion(CLI::App& cli, MeshArguments& arguments) {
 }
 
 decltype(mesher::BodyRequest::input) input_of(const MeshArguments& arguments) {
+    if (arguments.box.empty() && arguments.size.size() > 1) {
+        throw Error("--size: found " + std::to_string(arguments.size.size())
+                    + " numbers; expected one, the radius");
+    }
     if (arguments.sphere > 0) {
         return mesher::SphereShape{arguments.sphere, arguments.size[0]};
     }
@@ -312,7 +320,7 @@ void add_options(CLI::App& cli, MeshArguments& arguments) {
         ->capture_default_str();
     cli.add_option("--memory-limit", arguments.memory_limit,
                    "Use no more memory than this (MiB); default: the machine's")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1.0, 1e9));
     cli.add_flag("--yes", arguments.yes,
                  "Go ahead without asking where millions of cells, or minutes, are to be expected");
     add_image(cli, arguments);
@@ -347,7 +355,7 @@ void complete(const CLI::App& cli, MeshArguments& arguments) {
     request.extrusion.alternate = !arguments.lean;
     mesher::StepLimits limits{.seconds = arguments.step_limit};
     if (arguments.memory_limit > 0) {
-        limits.memory_mib = std::max<std::int64_t>(1, std::llround(arguments.memory_limit));
+        limits.memory_mib = std::llround(arguments.memory_limit);
     }
     request.limit_steps(limits);
     complete_size_field(arguments);

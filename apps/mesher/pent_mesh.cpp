@@ -14,12 +14,16 @@
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/mesher/make_body.h>
+#include <pent/mesher/moving_mesh.h>
+#include <pent/mesher/read_solid.h>
 #include <pent/output_file.h>
 #include <pent/pent_file.h>
 
 #include <cmath>
 #include <filesystem>
 #include <new>
+#include <string>
+#include <system_error>
 #include <vector>
 
 namespace {
@@ -286,13 +290,30 @@ std::vector<NamedFile> inputs_of(const MeshArguments& arguments) {
         {"--profile", arguments.request.extrusion.profile},
         {"--edge-directions", arguments.request.extrusion.edge_directions}};
     if (arguments.input != "-") {
-        inputs.push_back({"the input", arguments.input});
+        std::error_code ignored;
+        const bool is_folder = std::filesystem::is_directory(arguments.input, ignored);
+        inputs.push_back({"the input", arguments.input, is_folder});
     }
     const std::filesystem::path ending = arguments.input.extension();
     if (ending == ".node" || ending == ".ele") {
         std::filesystem::path other = arguments.input;
         inputs.push_back(
             {"its other half", other.replace_extension(ending == ".node" ? ".ele" : ".node")});
+    }
+    return inputs;
+}
+
+// Files that the input names, which are read as well.
+std::vector<NamedFile> inputs_named_by(const MeshArguments& arguments) {
+    std::vector<std::filesystem::path> paths;
+    if (arguments.space_time.is_asked_for) {
+        paths = pent::mesher::frame_files(arguments.input, arguments.space_time.series);
+    } else if (pent::mesher::is_shape_file(arguments.input)) {
+        paths = pent::mesher::files_of_shapes(arguments.input);
+    }
+    std::vector<NamedFile> inputs;
+    for (const std::filesystem::path& path : paths) {
+        inputs.push_back({"a file that the input names", path});
     }
     return inputs;
 }
@@ -310,8 +331,10 @@ int main(int argc, char** argv) {
     pent::apps::add_options(program.options(), arguments);
     return program.run(argc, argv, [&] {
         pent::apps::complete(program.options(), arguments);
-        program.require_apart(inputs_of(arguments),
-                              {{"-o", arguments.output}, {"--histogram", arguments.histogram}});
+        const std::vector<NamedFile> outputs = {{"-o", arguments.output},
+                                                {"--histogram", arguments.histogram}};
+        program.require_apart(inputs_of(arguments), outputs);
+        program.require_apart(inputs_named_by(arguments), outputs);
         pent::apps::limit_memory(arguments.memory_limit);
         try {
             if (arguments.space_time.is_asked_for) {

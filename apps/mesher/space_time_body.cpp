@@ -37,20 +37,8 @@ struct Made {
     double to = 0;    // s
 };
 
-// What is read is never written to: not into the run that is read.
-void require_outside(const fs::path& output, const fs::path& input) {
-    std::error_code ignored;
-    const fs::path within =
-        fs::weakly_canonical(output, ignored).lexically_relative(fs::canonical(input, ignored));
-    if (fs::is_directory(input) && !within.empty() && *within.begin() != "..") {
-        throw Error(output.string() + ": lies in " + input.string()
-                    + ", which is read; give it another place");
-    }
-}
-
 Made make(Program& program, const MeshArguments& arguments, Heartbeat& heartbeat) {
     const Watchdog watchdog(program, arguments.time_limit);
-    require_outside(arguments.output, arguments.input);
     heartbeat.begin("read");
     MovingMesh moving = mesher::read_moving_mesh(arguments.input, arguments.space_time.series);
     Made made{{},
@@ -115,6 +103,20 @@ void write(const Program& program, const MeshArguments& arguments, const SpaceTi
         write_text(arguments.histogram,
                    mesher::quality_svg(body.quality, arguments.output.filename().string()));
     }
+}
+
+// From what else is written.
+void require_slabs_apart(Program& program,
+                         const MeshArguments& arguments,
+                         const SpaceTimeBody& body) {
+    if (!arguments.space_time.has_slabs) {
+        return;
+    }
+    std::vector<NamedFile> slabs;
+    for (std::size_t slab = 0; slab + 1 < body.frame_layers.size(); ++slab) {
+        slabs.push_back({"a slab", slab_path(arguments.output, slab)});
+    }
+    program.require_apart(slabs, {{"--histogram", arguments.histogram}});
 }
 
 std::string names_of(const SpaceTimeBody& body) {
@@ -213,6 +215,7 @@ void make_and_write_space_time(Program& program, const MeshArguments& arguments)
         Heartbeat heartbeat(program.common().quiet);
         made = make(program, arguments, heartbeat);
         heartbeat.begin("write");
+        require_slabs_apart(program, arguments, made.body);
         write(program, arguments, made.body);
     }
     say_time(program, arguments, made);

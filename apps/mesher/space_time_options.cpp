@@ -5,8 +5,10 @@
 #include <pent/error.h>
 
 #include <charconv>
+#include <filesystem>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace pent::apps {
 
@@ -37,6 +39,9 @@ void refuse_other_options(const CLI::App& cli) {
                              "--edge-directions",
                              "--unextruded",
                              "--format",
+                             "--level",
+                             "--labels",
+                             "--spacing",
                              "--sphere",
                              "--ball",
                              "--box"}) {
@@ -47,6 +52,20 @@ void refuse_other_options(const CLI::App& cli) {
     }
     if (cli["--dim"]->count() > 0 && cli["--dim"]->as<int>() != 4) {
         throw Error("--dim 3: a space-time mesh has four dimensions; leave it out");
+    }
+}
+
+// Runs have times and regions, and other series are one body.
+void refuse_options_of_the_other(const CLI::App& cli, const std::filesystem::path& input) {
+    std::error_code ignored;
+    const bool is_run = std::filesystem::is_directory(input, ignored);
+    const std::vector<const char*> unheeded =
+        is_run ? std::vector{"--time-step", "--region-array"} : std::vector{"--body"};
+    for (const char* name : unheeded) {
+        if (cli.count(name) > 0) {
+            throw Error(std::string(name) + ": without meaning for " + input.string() + ", "
+                        + (is_run ? "a run" : "which is one body") + "; leave it out");
+        }
     }
 }
 
@@ -108,6 +127,7 @@ void complete_space_time(const CLI::App& cli, MeshArguments& arguments) {
         return;
     }
     refuse_other_options(cli);
+    refuse_options_of_the_other(cli, arguments.input);
     moving.series.scale = arguments.request.scale;
     if (cli.count("--time-step") > 0) {
         moving.series.time_step = moving.time_step;

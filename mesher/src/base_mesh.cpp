@@ -69,6 +69,7 @@ SurfaceFile surface_of(const BodyRequest& request) {
     if (const auto* shape = std::get_if<SphereShape>(&request.input)) {
         file.surface = sphere(shape->frequency);
         file.surface.points *= shape->radius;
+        require_usual_size<3>(file.surface.points, name_of_input(request) + ": the surface");
         return file;
     }
     file = read_surface(std::get<std::filesystem::path>(request.input), request.format);
@@ -80,6 +81,7 @@ SimplexMesh<3> read_base(const BodyRequest& request, BodyReport& report, StageCl
     if (const auto* shape = std::get_if<BallShape>(&request.input)) {
         SimplexMesh<3> mesh = ball(shape->frequency);
         mesh.positions *= shape->radius;
+        require_usual_size<3>(mesh.positions, name_of_input(request) + ": the mesh");
         report.generator = "cones of a sphere";
         return mesh;
     }

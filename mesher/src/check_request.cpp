@@ -10,8 +10,9 @@
 namespace pent::mesher {
 
 void check_request(const BodyRequest& request, int dim) {
-    if (!(request.extrusion.grade >= 1) || !std::isfinite(request.extrusion.grade)) {
-        throw Error("a grade of " + std::to_string(request.extrusion.grade)
+    const ExtrusionRequest& extrusion = request.extrusion;
+    if (!(extrusion.grade >= 1) || !std::isfinite(extrusion.grade)) {
+        throw Error("a grade of " + std::to_string(extrusion.grade)
                     + "; expected a finite number of 1 or more");
     }
     if (!(request.scale > 0) || !std::isfinite(request.scale)) {
@@ -32,7 +33,17 @@ void check_request(const BodyRequest& request, int dim) {
         throw Error("a translation of " + std::to_string(axes) + " components; expected 3"
                     + (dim == 4 ? " or 4" : "") + " finite ones");
     }
-    if (request.extrusion.is_kept && (request.subdivide > 1 || request.is_quadratic)) {
+    if ((extrusion.round || !extrusion.profile.empty()) && extrusion.anchor != Anchor::Middle) {
+        throw Error(name_of_input(request)
+                    + ": one-sided is for straight extrusions; a round body reaches to both sides"
+                      " of w = 0, and a profile says where each layer is; leave out the one or the"
+                      " other");
+    }
+    if (extrusion.round && extrusion.layers == 1) {
+        throw Error(name_of_input(request)
+                    + ": a round body of one layer would be two points; expected 2 or more");
+    }
+    if (extrusion.is_kept && (request.subdivide > 1 || request.is_quadratic)) {
         throw Error(name_of_input(request)
                     + ": what is subdivided or quadratic is no extrusion any more; leave out the"
                       " one or base and layers");
@@ -62,6 +73,28 @@ void refuse_filling(const BodyRequest& request) {
         throw Error(name_of_input(request)
                     + ": it is cells already, and no surface to be filled; leave out edge length,"
                       " triangles and number of pentachora");
+    }
+    refuse_repair(request);
+    refuse_generator(request);
+}
+
+void refuse_repair(const BodyRequest& request) {
+    const RepairOptions usual;
+    if (request.repair.repair != usual.repair
+        || request.repair.wrap_distance != usual.wrap_distance) {
+        throw Error(name_of_input(request)
+                    + ": nothing of it is mended; leave out repair and distance of a wrap");
+    }
+}
+
+void refuse_generator(const BodyRequest& request) {
+    const TetrahedraOptions usual;
+    const TetrahedraOptions& asked = request.tetrahedra;
+    if (asked.generator != usual.generator || asked.radius_edge_ratio != usual.radius_edge_ratio
+        || asked.keep_surface != usual.keep_surface) {
+        throw Error(name_of_input(request)
+                    + ": no surface of it is filled; leave out generator, ratio of radius and edge"
+                      " and subdivision of the surface");
     }
 }
 

@@ -17,4 +17,10 @@ void refuse_extrusion(const BodyRequest& request);
 /// For inputs that are cells already.
 void refuse_filling(const BodyRequest& request);
 
+/// For inputs of which nothing is mended.
+void refuse_repair(const BodyRequest& request);
+
+/// For inputs without a surface that tetrahedra fill.
+void refuse_generator(const BodyRequest& request);
+
 }  // namespace pent::mesher

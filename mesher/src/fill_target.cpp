@@ -41,7 +41,7 @@ TargetFilling fill_to_target(const std::function<Tetrahedra(double)>& fill,
     double too_long = std::numeric_limits<double>::infinity();
     std::optional<Trial> before;
     double length = std::log(start);
-    double nearest = 0;
+    double nearest = std::numeric_limits<double>::infinity();
     for (int i = 1; i <= kMaxFillings; ++i) {
         Tetrahedra tetrahedra = fill(std::exp(length));
         const auto count = static_cast<double>(tetrahedra.mesh.cell_count());

@@ -2,10 +2,13 @@
 #include "check_request.h"
 #include "fill_target.h"
 #include "requested_layers.h"
+#include "size_limits.h"
 #include "solid_input.h"
 #include "stage_clock.h"
 
 #include <pent/error.h>
+#include <pent/facets.h>
+#include <pent/mesher/links.h>
 #include <pent/mesher/make_body.h>
 #include <pent/mesher/stuff.h>
 #include <pent/mesher/subdivide.h>
@@ -124,6 +127,16 @@ void note_heights(const std::vector<Layer<Dim>>& layers, BodyReport& report) {
     }
 }
 
+// All of a base's boundary meets at the point where a body ends.
+template <int Dim>
+void require_manifold(const SimplexMesh<Dim>& mesh, const std::string& name) {
+    if (const LinkReport links = check_links(mesh); links.faulty > 0) {
+        throw Error(name + ": a body that ends in a point needs a base in one piece, without holes"
+                      " and cavities; expected a profile that ends with a scale above 0, or a"
+                      " straight extrusion");
+    }
+}
+
 template <int Dim>
 Body<Dim> extrude_and_prove(const SimplexMesh<Dim - 1>& base,
                             const BodyRequest& request,
@@ -154,6 +167,9 @@ Body<Dim> extrude_and_prove(const SimplexMesh<Dim - 1>& base,
     const ExtrudeOptions options{.alternate = extrusion.alternate};
     SimplexMesh<Dim> mesh =
         clock.time("extrude", [&] { return extrude<Dim>(base, ordered, layers.layers, options); });
+    if (layers.layers.front().is_point() || layers.layers.back().is_point()) {
+        require_manifold(mesh, name_of_input(request));
+    }
     Body<Dim> body = finish<Dim>(std::move(mesh), layers.volume, moved, std::move(report), clock);
     if (extrusion.is_kept) {
         body.extrusion = {base, std::move(ordered), std::move(layers.layers), options};
@@ -223,6 +239,7 @@ template <int Dim>
 Body<Dim> make_box(const BoxShape& shape, const BodyRequest& request, StageClock& clock) {
     refuse_extrusion(request);
     refuse_filling(request);
+    refuse_image_options(request);
     if (shape.count.size() != Dim || shape.size.size() != Dim) {
         throw Error("a box of " + std::to_string(shape.count.size()) + " axes; expected "
                     + std::to_string(Dim));
@@ -239,9 +256,25 @@ Body<Dim> make_box(const BoxShape& shape, const BodyRequest& request, StageClock
     SimplexMesh<Dim> mesh = clock.time("cut", [&] { return box<Dim>(count, size, shape.cut); });
     const Eigen::Map<const Eigen::Matrix<double, Dim, 1>> extent(size.data());
     mesh.positions.colwise() -= extent / 2;
+    require_usual_size<Dim>(mesh.positions, name_of_input(request) + ": the body");
     BodyReport report;
     report.generator = Dim == 4 ? "tesseracts" : "cubes";
     return finish<Dim>(std::move(mesh), extent.prod(), request, std::move(report), clock);
+}
+
+// Of a sphere that was made anew the vertices are on the flat triangles it had before, where
+// nothing can be curved.
+void require_vertices_on_sphere(double radius, const SimplexMesh<3>& mesh) {
+    constexpr double kRounding = 1e-9;
+    const Simplices<3> boundary = match_facets<3>(mesh.cells, mesh.vertex_count()).boundary;
+    for (const std::uint32_t v : boundary.reshaped()) {
+        if (std::abs(mesh.positions.col(v).norm() - radius) > kRounding * radius) {
+            throw Error(
+                "the sphere: its surface was made anew, of points beside it, and cannot be"
+                " curved; leave out triangles, edge length, Mesh_3 and subdivision of the"
+                " surface, and ask for a sphere of more triangles");
+        }
+    }
 }
 
 // The tetrahedra are the body.
@@ -257,6 +290,9 @@ Body<3> finish_solid(SimplexMesh<3> mesh,
     OntoSurface<3> onto;
     if (const auto* sphere = std::get_if<SphereShape>(&request.input)) {
         onto = onto_sphere(sphere->radius);
+        if (request.is_curved) {
+            require_vertices_on_sphere(sphere->radius, mesh);
+        }
     } else if (const auto* ball = std::get_if<BallShape>(&request.input)) {
         onto = onto_sphere(ball->radius);
     }
@@ -311,9 +347,7 @@ Body<4> make_stuffed(const std::filesystem::path& path,
     report.generator = "lattice stuffing";
     report.beveled = stuffed.beveled;
     report.thin_parts = stuffed.thin_parts;
-    if (request.translation.size() > 0) {
-        report.thin_parts.place += request.translation;
-    }
+    report.thin_parts.place.head(request.translation.size()) += request.translation;
     return finish<4>(std::move(stuffed.mesh), 0, request, std::move(report), clock,
                      onto_boundary(input.solid));
 }
@@ -329,6 +363,9 @@ SimplexMesh<2> plane_mesh(const Surface& surface, const std::string& name) {
         }
     }
     validate(mesh, name);
+    if (const Proof proof = prove(mesh); !proof.holds()) {
+        throw Error(name + ": the triangles do not fit together: " + describe_faults(proof, 2));
+    }
     return mesh;
 }
 
@@ -380,7 +417,10 @@ Body<3> make_solid(const BodyRequest& request) {
         refuse_filling(request);
         report.merged_points = file.merged_points;
         report.generator = "as read";
-        return extrude_and_prove<3>(plane_mesh(file.surface, name_of_input(request)), request,
+        BodyRequest lifted = request;  // to where the triangles are
+        lifted.translation = Eigen::Vector3d(0, 0, file.surface.points(2, 0));
+        lifted.translation.head(request.translation.size()) += request.translation;
+        return extrude_and_prove<3>(plane_mesh(file.surface, name_of_input(request)), lifted,
                                     request.extrusion, std::move(report), clock);
     }
     refuse_extrusion(request);

@@ -1,11 +1,14 @@
 #include "solid_input.h"
 
 #include "base_mesh.h"
+#include "check_request.h"
 
 #include <pent/error.h>
 #include <pent/mesher/read_solid.h>
 
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace pent::mesher {
@@ -15,6 +18,9 @@ namespace {
 SolidInput boundary_input(const std::filesystem::path& path, const BodyRequest& request) {
     const bool may_mend = request.repair.repair != Repair::None;
     BoundarySolid found = boundary_solid(read_boundary(path), path.string(), may_mend);
+    found.report.hole_place *= request.scale;
+    found.report.hole_place.head(request.translation.size()) += request.translation;
+    found.report.largest_hole *= std::pow(request.scale, 3);
     // Of boundaries of 10^5 tetrahedra, where most cells are at it.
     return {.solid = std::move(found.solid), .boundary = found.report, .seconds_per_cell = 50e-6};
 }
@@ -26,7 +32,11 @@ SolidInput image_input(const std::filesystem::path& path, const BodyRequest& req
                     + ": an image needs one of --level, the value at the surface of the body, and "
                       "--labels, for whole numbers that name parts");
     }
-    Image image = read_image(path, asked.spacing);
+    std::optional<Eigen::Vector4d> spacing = asked.spacing;
+    if (spacing) {
+        *spacing /= request.scale;  // it is m already
+    }
+    Image image = read_image(path, spacing);
     if (asked.is_labels) {
         Solid solid = label_solid(image);
         return {.solid = std::move(solid), .labels = std::move(image)};
@@ -54,6 +64,10 @@ void check_solid_request(const std::filesystem::path& path, const BodyRequest& r
         throw Error(
             path.string() + ": a shape needs the length of the edges; expected --edge-length"
             + (is_boundary_file(path) ? ", or pent-convert for one that a point sees all of" : ""));
+    }
+    refuse_generator(request);
+    if (!is_boundary_file(path)) {
+        refuse_repair(request);
     }
     if (request.repair.repair == Repair::Wrap) {
         throw Error(path.string()

@@ -6,6 +6,7 @@
 #include <pent/exchange/exchange.h>
 #include <pent/mesher/boundary_solid.h>
 #include <pent/mesher/links.h>
+#include <pent/mesher/make_body.h>
 #include <pent/mesher/primitives.h>
 #include <pent/mesher/prove.h>
 #include <pent/mesher/quality.h>
@@ -353,6 +354,22 @@ TEST(BoundarySolid, ReadsTheFilesThatHoldBoundaries) {
     EXPECT_FALSE(is_boundary_file(folder / "plane.off"));
     EXPECT_FALSE(is_boundary_file(folder / "plane.obj"));
     EXPECT_FALSE(is_boundary_file(folder / "a.stl"));
+}
+
+TEST(BoundarySolid, ReportsHolesInMetersWhereTheBodyIs) {
+    const test::TempFolder folder;
+    exchange::write(folder / "open.4off", without(tesseract(1), {3}));
+    BodyRequest request;
+    request.input = folder / "open.4off";
+    request.edge_length = 0.3;
+    const BoundaryReport there = make_body(request).report.boundary;
+    request.scale = 0.001;
+    request.edge_length *= request.scale;
+    request.translation = Eigen::Vector3d(1, 2, 3);
+    const BoundaryReport moved = make_body(request).report.boundary;
+    EXPECT_GT(there.largest_hole, 0);
+    EXPECT_DOUBLE_EQ(moved.largest_hole, 1e-9 * there.largest_hole);
+    EXPECT_LT((moved.hole_place - 0.001 * there.hole_place - Vector4d(1, 2, 3, 0)).norm(), 1e-15);
 }
 
 TEST(BoundarySolid, IsAPrimitiveOfShapeFiles) {

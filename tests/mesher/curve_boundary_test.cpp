@@ -257,6 +257,13 @@ TEST(CurvedBody, IsForQuadraticCellsOfSurfacesThatAreNotFlat) {
     expect_contains(error_of([&] { static_cast<void>(make_solid(request)); }),
                     {"not subdivided before"});
     request.subdivide = 1;
+    request.input = SphereShape{};
+    request.tetrahedra.worker = PENT_TETGEN_WORKER;
+    EXPECT_GT(make_solid(request).report.curve.moved, 400);
+    request.edge_length = 0.4;
+    expect_contains(error_of([&] { static_cast<void>(make_solid(request)); }),
+                    {"the sphere: its surface was made anew", "leave out"});
+    request.edge_length = 0;
     request.input = BoxShape{};
     expect_contains(error_of([&] { static_cast<void>(make_body(request)); }),
                     {"its surface is flat between its vertices"});

@@ -179,6 +179,39 @@ TEST(Labels, ThatTouchShareTheirInterface) {
     EXPECT_GT(part.boundary.cols(), 100);
 }
 
+// Cells that reach across a cavity have no labeled sample around their middles.
+TEST(Labels, AreOfThePartWhereCellsReachAcrossACavity) {
+    const test::TempFolder folder;
+    std::ofstream(folder / "shell.nii", std::ios::binary)
+        << test::nifti(test::sampled({24, 24, 24, 24}, Vector4d::Ones(), [](const Vector4d& p) {
+               const double radius = (p - Vector4d::Constant(11.5)).norm();
+               return radius < 10 && radius > 2.5 ? 5 : 0;
+           }));
+    BodyRequest request;
+    request.input = folder / "shell.nii";
+    request.image.is_labels = true;
+    for (const double edge : {2.5, 4.0}) {
+        request.edge_length = edge;
+        const std::vector<std::uint16_t> regions = make_body(request).mesh.regions;
+        EXPECT_EQ(std::count(regions.begin(), regions.end(), 5), std::ssize(regions)) << edge;
+    }
+}
+
+// What is said in meters is, whatever the unit of the file.
+TEST(Images, TakeTheirSpacingInMeters) {
+    const test::TempFolder folder;
+    std::ofstream(folder / "labels.nii", std::ios::binary) << label_file();
+    BodyRequest request;
+    request.input = folder / "labels.nii";
+    request.image.level = 1;
+    request.edge_length = 2;
+    request.image.spacing = Vector4d(1, 1, 1, 0.5);
+    const Body<4> body = make_body(request);
+    EXPECT_GT(body.mesh.positions.row(0).maxCoeff(), 10);
+    request.scale = 0.5;
+    EXPECT_EQ(make_body(request).mesh.positions, body.mesh.positions);
+}
+
 TEST(Images, NeedALevelOrLabels) {
     const test::TempFolder folder;
     std::ofstream(folder / "labels.nii", std::ios::binary) << label_file();

@@ -3,12 +3,15 @@
 #include "support/temp_folder.h"
 
 #include <pent/error.h>
+#include <pent/mesher/links.h>
 #include <pent/mesher/make_body.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pent::mesher {
@@ -234,8 +237,16 @@ TEST(MakeSolid, ExtrudesAFlatMeshAlongZ) {
     request.extrusion.layers = 4;
     const Body<3> body = make_solid(request);
     EXPECT_EQ(body.mesh.cell_count(), 2 * 3 * 4);
-    EXPECT_NEAR(body.report.proof.volume, 2, 1e-14);
+    EXPECT_NEAR(body.report.proof.volume, 2, 1e-13);
+    EXPECT_DOUBLE_EQ(body.mesh.positions.row(2).minCoeff(), 4);
+    EXPECT_DOUBLE_EQ(body.mesh.positions.row(2).maxCoeff(), 6);
+    request.translation = Eigen::Vector3d(0, 0, -5);
+    EXPECT_NEAR(make_solid(request).mesh.positions.row(2).sum(), 0, 1e-13);
     request.extrusion = ExtrusionRequest();
+    test::write_file(folder / "flat.obj",
+                     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 2 1 0\nv 2 2 0\nf 1 2 3\nf 3 4 5\n");
+    test::expect_contains(test::error_of([&] { static_cast<void>(make_solid(request)); }),
+                          {"flat.obj", "the triangles do not fit together"});
     test::write_file(folder / "flat.obj", "v 0 0 5\nv 1 0 5\nv 1 1 6\nf 1 2 3\n");
     test::expect_contains(test::error_of([&] { static_cast<void>(make_solid(request)); }),
                           {"flat.obj", "lie in a plane", "one z"});
@@ -288,6 +299,80 @@ TEST(MakeBody, RefusesWhatItWouldLeaveUnheeded) {
     request.input = BoxShape();
     request.extrusion.thickness = 1;
     test::expect_contains(message_for(request), {"the shape: it is the body already"});
+}
+
+TEST(MakeBody, RefusesToMendOrFillWhatIsCellsAlready) {
+    const std::vector<std::pair<std::function<void(BodyRequest&)>, const char*>> unheeded = {
+        {[](BodyRequest& r) { r.repair.repair = Repair::None; }, "nothing of it is mended"},
+        {[](BodyRequest& r) { r.repair.wrap_distance = 0.1; }, "nothing of it is mended"},
+        {[](BodyRequest& r) { r.tetrahedra.generator = Generator::Mesh3; }, "is filled"},
+        {[](BodyRequest& r) { r.tetrahedra.radius_edge_ratio = 1.2; }, "is filled"},
+        {[](BodyRequest& r) { r.tetrahedra.keep_surface = false; }, "is filled"}};
+    const test::TempFolder folder;
+    test::write_file(folder / "ball.toml", "[[shape]]\nball = { radius = 1 }\n");
+    for (const auto& [ask, message] : unheeded) {
+        for (const auto& input : std::vector<decltype(BodyRequest::input)>{
+                 BallShape{2, 1}, BoxShape{}, folder / "ball.toml"}) {
+            BodyRequest request;
+            request.input = input;
+            request.edge_length = input.index() == 0 ? 0.5 : 0;
+            ask(request);
+            test::expect_contains(message_for(request), {message, "leave out"});
+        }
+    }
+}
+
+// All of the boundary of the base meets in the point.
+TEST(MakeBody, EndsInAPointWhereTheBaseIsBoundedByASphere) {
+    const test::TempFolder folder;
+    test::write_file(folder / "point.txt", "0 1\n1 0\n");
+    const auto ask = [&](bool is_round) {
+        BodyRequest request;
+        request.extrusion.round = is_round;
+        request.extrusion.profile = is_round ? "" : folder / "point.txt";
+        return request;
+    };
+    for (const bool is_round : {false, true}) {
+        BodyRequest request = ask(is_round);
+        request.input = BallShape{2, 1};
+        EXPECT_EQ(check_links(make_body(request).mesh).faulty, 0);
+        test::write_file(folder / "two.tobj",
+                         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 3 0 0\nv 4 0 0\nv 3 1 0\n"
+                         "v 3 0 1\nt 0 1 2 3\nt 4 5 6 7\n");
+        request.input = folder / "two.tobj";
+        test::expect_contains(message_for(request),
+                              {"two.tobj: a body that ends in a point", "in one piece"});
+    }
+}
+
+TEST(MakeBody, HasNoSideForRoundBodiesAndProfiles) {
+    BodyRequest request;
+    request.input = BallShape{2, 1};
+    request.extrusion.round = true;
+    request.extrusion.anchor = Anchor::Start;
+    test::expect_contains(message_for(request), {"one-sided is for straight extrusions"});
+    request.extrusion.anchor = Anchor::Middle;
+    request.extrusion.layers = 1;
+    test::expect_contains(message_for(request), {"a round body of one layer", "2 or more"});
+    request.extrusion.layers = 2;
+    EXPECT_EQ(make_body(request).report.layers, 2);
+}
+
+TEST(MakeBody, ReportsThinPartsWhereTheBodyIs) {
+    const test::TempFolder folder;
+    test::write_file(folder / "shell.toml",
+                     "[[shape]]\nball = { radius = 1 }\n[[shape]]\nop = \"difference\"\n"
+                     "ball = { radius = 0.8 }\n");
+    BodyRequest request;
+    request.input = folder / "shell.toml";
+    request.edge_length = 0.25;
+    const Body<4> body = make_body(request);
+    for (const int axes : {3, 4}) {
+        request.translation = Eigen::VectorXd::Constant(axes, 10);
+        Eigen::Vector4d way = Eigen::Vector4d::Zero();
+        way.head(axes).setConstant(10);
+        EXPECT_EQ(make_body(request).report.thin_parts.place, body.report.thin_parts.place + way);
+    }
 }
 
 TEST(MakeBody, ScalesTheFileAndMovesTheBody) {

@@ -201,5 +201,27 @@ TEST(PentMesh, TakesTheUnitAndThePlaceOfAShape) {
     EXPECT_NEAR(radius, 0.5, 1e-6 * 0.25);  // the boundary is on the surface to 1e-6 edges
 }
 
+// What a file names is read as well.
+TEST(PentMesh, NeverWritesWhereAShapeFileReads) {
+    const test::TempFolder folder;
+    const std::string boundary = (folder / "cube.pent").string();
+    ASSERT_EQ(run_program("pent-mesh --box 1,1,1,1 -o " + boundary).exit_code, 0);
+    const std::string before = test::text_of(boundary);
+    test::write_file(folder / "shape.toml",
+                     "[[shape]]\n[[shape.shape]]\nboundary = { file = \"cube.pent\" }\n");
+    const std::string start =
+        "pent-mesh " + (folder / "shape.toml").string() + " --edge-length 0.3 -o ";
+    for (const std::string& command :
+         {start + boundary, start + (folder / "a.pent").string() + " --json " + boundary,
+          start + (folder / "a.pent").string() + " --histogram " + boundary}) {
+        const Outcome outcome = run_program(command);
+        EXPECT_EQ(outcome.exit_code, 1) << command;
+        test::expect_contains(outcome.err, {"is the same file as a file that the input names"});
+        EXPECT_FALSE(std::filesystem::exists(folder / "a.pent"));
+    }
+    EXPECT_EQ(test::text_of(boundary), before);
+    EXPECT_EQ(run_program(start + (folder / "a.pent").string()).exit_code, 0);
+}
+
 }  // namespace
 }  // namespace pent

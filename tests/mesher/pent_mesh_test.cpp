@@ -254,6 +254,15 @@ TEST(PentMesh, SaysWhatAValueShouldHaveBeen) {
                           {R"(--thickness: found "abc", expected a number)"});
     test::expect_contains(message("--scale twice"), {"--scale", "twice"});
     test::expect_contains(message("--layers many"), {"--layers", "many", "1 to 1000000"});
+    test::expect_contains(message("--memory-limit 1e14"), {"--memory-limit", "1000000000"});
+    test::expect_contains(message("--cut corners"), {"--cut requires --box"});
+    const Outcome file =
+        run_program("pent-mesh " + kModels + "/octopus_5246f.obj -o a.pent --size 2");
+    EXPECT_EQ(file.exit_code, 2);
+    test::expect_contains(file.err, {"--size excludes input"});
+    const Outcome radii = run_program("pent-mesh --ball 1 -o a.pent --size 1,2");
+    EXPECT_EQ(radii.exit_code, 1);
+    test::expect_contains(radii.err, {"--size: found 2 numbers; expected one, the radius"});
 }
 
 TEST(PentMesh, SaysWhatToTryWhereLightMendingIsNotEnough) {

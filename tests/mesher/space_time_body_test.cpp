@@ -66,12 +66,47 @@ TEST(PentMesh, WritesASpaceTimeMeshAsSlabs) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out" / "b.pent"));
 }
 
+TEST(PentMesh, NeverWritesWhereAMovingMeshIsRead) {
+    const test::TempFolder folder;
+    const std::string pvd = write_swelling_ball(folder.path());
+    const std::string frame = (folder / "ball_1.vtu").string();
+    const std::string before = test::text_of(frame);
+    const std::string command =
+        "pent-mesh " + pvd + " --space-time -o " + (folder / "out.pent").string();
+    for (const std::string& output : {" --json " + frame, " --histogram " + frame}) {
+        const Outcome outcome = run_program(command + output);
+        EXPECT_EQ(outcome.exit_code, 1) << output;
+        test::expect_contains(outcome.err, {"is the same file as a file that the input names"});
+    }
+    const std::string slab = (folder / "out_000001.pent").string();
+    for (const std::string& output : {" --json " + slab, " --histogram " + slab}) {
+        const Outcome outcome = run_program(command + " --slabs" + output);
+        EXPECT_EQ(outcome.exit_code, 1) << output;
+        test::expect_contains(outcome.err, {"is the same file as a slab"});
+    }
+    EXPECT_EQ(test::text_of(frame), before);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.pent"));
+    EXPECT_FALSE(std::filesystem::exists(slab));
+    const std::filesystem::path run = folder / "run";
+    std::filesystem::create_directory(run);
+    for (const std::string& output :
+         {" -o " + (run / "a.pent").string(),
+          " -o " + (folder / "a.pent").string() + " --json " + (run / "report.json").string()}) {
+        const Outcome outcome = run_program("pent-mesh " + run.string() + " --space-time" + output);
+        EXPECT_EQ(outcome.exit_code, 1) << output;
+        test::expect_contains(outcome.err, {" is in the input, ", "give it another name"});
+        EXPECT_TRUE(std::filesystem::is_empty(run));
+    }
+}
+
 TEST(PentMesh, SaysWhatIsWrongWithAMovingMeshAndWritesNothing) {
     const test::TempFolder folder;
     const std::string pvd = write_swelling_ball(folder.path());
     const std::string out = " -o " + (folder / "out.pent").string();
     for (const auto& [options, message] : std::vector<std::pair<std::string, std::string>>{
              {" --space-time --layers 3", "--layers: without meaning for a moving mesh"},
+             {" --space-time --spacing 1,1,1,1", "--spacing: without meaning for a moving mesh"},
+             {" --space-time --body a", "--body: without meaning for"},
              {" --space-time --dim 3", "a space-time mesh has four dimensions"},
              {" --space-time --refine-time often", "expected auto or a whole number"},
              {" --space-time --every 3", "every 3th frame leaves one"},

@@ -95,7 +95,12 @@ std::vector<std::uint16_t> label_regions(const SimplexMesh<4>& mesh,
         for (const std::uint32_t corner : cell) {
             middle += mesh.positions.col(corner) / (5 * scale);
         }
-        regions.push_back(largest_label(samples_around(labels, middle)));
+        std::uint16_t label = largest_label(samples_around(labels, middle));
+        // Around the middle of a cell that is longer than the part is thick there may be none.
+        for (int corner = 0; corner < 5 && label == 0; ++corner) {
+            label = largest_label(samples_around(labels, mesh.positions.col(cell[corner]) / scale));
+        }
+        regions.push_back(label);
     }
     return regions;
 }

@@ -22,6 +22,7 @@ namespace pent::mesher {
 
 namespace {
 
+constexpr const char* kKindOfFile = "a file of shapes (TOML)";
 constexpr std::size_t kMaxShapes = 4096;
 constexpr std::int64_t kMaxCells = 600;  // of a regular polytope
 
@@ -285,6 +286,24 @@ Solid combined_shapes(TableReader& table, std::size_t& count) {
     return *all;
 }
 
+// What stands in "file" anywhere within a node.
+void add_files(const toml::node& node,
+               const std::filesystem::path& folder,
+               std::vector<std::filesystem::path>& files) {
+    if (const toml::table* table = node.as_table()) {
+        for (const auto& [key, value] : *table) {
+            if (const auto file = value.value<std::string>(); file && key == "file") {
+                files.push_back(folder / *file);
+            }
+            add_files(value, folder, files);
+        }
+    } else if (const toml::array* array = node.as_array()) {
+        for (const toml::node& element : *array) {
+            add_files(element, folder, files);
+        }
+    }
+}
+
 }  // namespace
 
 bool is_shape_file(const std::filesystem::path& path) {
@@ -301,7 +320,13 @@ Solid parse_solid(std::string_view text, const std::string& name) {
 }
 
 Solid read_solid(const std::filesystem::path& path) {
-    return parse_solid(read_text(path, "a file of shapes (TOML)"), path.string());
+    return parse_solid(read_text(path, kKindOfFile), path.string());
+}
+
+std::vector<std::filesystem::path> files_of_shapes(const std::filesystem::path& path) {
+    std::vector<std::filesystem::path> files;
+    add_files(parse_toml(read_text(path, kKindOfFile), path.string()), path.parent_path(), files);
+    return files;
 }
 
 }  // namespace pent::mesher

@@ -351,6 +351,16 @@ bool is_series(const fs::path& path) {
            || fs::is_directory(path);
 }
 
+std::vector<fs::path> frame_files(const fs::path& path, const SeriesOptions& options) {
+    std::vector<fs::path> files;
+    if (is_series(path) && !fs::is_directory(path)) {
+        for (const FrameFile& frame : list_frames(path, options.time_step)) {
+            files.push_back(frame.path);
+        }
+    }
+    return files;
+}
+
 MovingMesh read_moving_mesh(const fs::path& path, const SeriesOptions& options) {
     if (options.every < 1) {
         throw Error("each " + std::to_string(options.every) + "th frame; expected 1 or more");

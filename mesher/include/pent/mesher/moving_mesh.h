@@ -49,6 +49,11 @@ struct SeriesOptions {
 /// Whether a path may be that of a moving mesh: a list of frames, a numbered file or a folder.
 [[nodiscard]] bool is_series(const std::filesystem::path& path);
 
+/// The files that a list of frames or the name of a numbered file stands for, in order; none for a
+/// run folder. Throws an Error as read_moving_mesh() does for the list.
+[[nodiscard]] std::vector<std::filesystem::path> frame_files(const std::filesystem::path& path,
+                                                             const SeriesOptions& options);
+
 /// Reads a moving mesh: a .pvd or .series file that lists .vtu or legacy .vtk files with their
 /// times, the first of numbered .vtu or .vtk files, or a 3D run folder of pent-sim.
 ///
