@@ -207,6 +207,24 @@ TYPED_TEST(AttachmentsTest, AreThereInStepsThatBeginFromFromAndBeforeTo) {
     }
 }
 
+// A step that is cut is one step all the same.
+TYPED_TEST(AttachmentsTest, NeitherComeNorGoWithinAStep) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = tied_cubes<kDim>(RestOffset::Zero);
+    scene.frames_per_second = 10;
+    scene.attachments[0].max_distance = 1;
+    scene.attachments[0].from = 0.25;
+    scene.attachments[0].to = 0.55;
+    const Setting<kDim> setting(scene, 1);
+    Attachments<kDim> attachments(setting.workers, scene, setting.bodies);
+    for (int part = 0; part < 40; ++part) {
+        const int step = part / 4;
+        static_cast<void>(attachments.set_time({0.025 * part, 0.025 * (part + 1)}));
+        EXPECT_EQ(value_of<kDim>(attachments, setting.bodies.rest()) > 0, step >= 3 && step < 6)
+            << part;
+    }
+}
+
 TYPED_TEST(AttachmentsTest, RefuseWhatIsTooFarAwayAndSayHowFar) {
     constexpr int kDim = TypeParam::value;
     Scene scene = tied_cubes<kDim>(RestOffset::Keep);

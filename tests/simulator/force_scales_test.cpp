@@ -66,6 +66,66 @@ TYPED_TEST(ForceScalesTest, LetBodiesThatAreStrainedAlikeCountAlike) {
     }
 }
 
+// The same for two sizes, and if they are of one material.
+TYPED_TEST(ForceScalesTest, LetBodiesOfAllSizesThatAreStrainedAlikeCountAlike) {
+    constexpr int kDim = TypeParam::value;
+    for (const double stiffness : {1.0, 30.0}) {
+        for (const double size : {0.01, 5.0, 300.0}) {
+            Scene scene = two_materials<kDim>(stiffness, 1);
+            scene.bodies[1].place.scale = size;
+            const Setting<kDim> setting(scene, 2);
+            Elasticity<kDim> elasticity(setting.workers, setting.isa, setting.bodies, setting.held,
+                                        setting.scene);
+            const Eigen::Index half = setting.bodies.first_vertex[1];
+            const Positions<kDim> rest = setting.bodies.rest();
+            Positions<kDim> x = rest;
+            const Positions<kDim> strained = shaken<kDim>(0 * x.leftCols(half), 0.02, 5);
+            x.leftCols(half) += strained;
+            x.rightCols(half) += size * strained;
+            const Positions<kDim> gradient = gradient_of<kDim>(elasticity, x);
+            ForceScales<kDim> scales(setting.bodies);
+            const double left = gradient.leftCols(half).norm();
+            const double right = gradient.rightCols(half).norm();
+            EXPECT_NEAR(scales.norms(gradient)[1], std::sqrt(2.0) * std::max(left, right),
+                        1e-6 * std::max(left, right));
+            // As much of a norm where they are accelerated alike.
+            const Positions<kDim> moved =
+                Positions<kDim>::Ones(kDim, 2 * half) * setting.bodies.masses.asDiagonal();
+            const double larger =
+                std::max(moved.leftCols(half).norm(), moved.rightCols(half).norm());
+            EXPECT_NEAR(scales.norms(moved)[2], std::sqrt(2.0) * larger, 1e-9 * larger);
+        }
+    }
+}
+
+// Whatever else there is far away, a body moves as it does alone.
+TYPED_TEST(ForceScalesTest, SmallBodiesMoveAsTheyDoWithoutALargeOne) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator :
+         {Integrator::LinearEuler, Integrator::NewtonEuler, Integrator::Bdf2}) {
+        const auto moved = [&](double size) {
+            Scene scene = two_materials<kDim>(1, 1);
+            scene.gravity[1] = -9.8;
+            scene.solver.integrator = integrator;
+            scene.bodies[0].spin = {{.plane = {0, 1}, .degrees_per_s = 400}};
+            scene.bodies[1].place.scale = size;
+            scene.bodies[1].place.translate[0] += 3 * size;
+            const std::size_t count = size > 0 ? 2 : 1;
+            scene.bodies.resize(count);
+            Simulation<kDim> simulation(
+                scene, std::vector<SimplexMesh<kDim>>(count, cube_for<kDim>(scene, 2)));
+            for (int k = 0; k < 6; ++k) {
+                EXPECT_TRUE(simulation.step().is_accepted);
+            }
+            return Positions<kDim>(simulation.positions(0));
+        };
+        const Positions<kDim> alone = moved(0);
+        for (const double size : {10.0, 100.0}) {
+            EXPECT_LT((moved(size) - alone).cwiseAbs().maxCoeff(), 1e-4) << size;
+        }
+    }
+}
+
 // Densities count beside stiffness, the larger as it is, and in steps with inertia alone.
 TYPED_TEST(ForceScalesTest, LetBodiesThatMoveAlikeCountAlike) {
     constexpr int kDim = TypeParam::value;

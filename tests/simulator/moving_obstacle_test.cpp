@@ -77,6 +77,36 @@ TYPED_TEST(MovingObstacle, CarriesWhatLiesOnItByFriction) {
     }
 }
 
+// In a lift that goes up or down at constant speed a belt gets as hold of a body as in one at rest.
+TYPED_TEST(MovingObstacle, HasTheFrictionOfTheWeightHoweverFastItRises) {
+    constexpr int kDim = TypeParam::value;
+    constexpr double kFriction = 0.2;
+    for (const ContactModel model : kModels) {
+        for (const Integrator integrator : {Integrator::NewtonEuler, Integrator::Bdf2}) {
+            for (const double rise : {0.0, 0.2, -0.2}) {
+                Scene scene = cube_on_floor<kDim>(model);
+                scene.solver.integrator = integrator;
+                scene.contact->friction = kFriction;
+                scene.damping = Damping{.mass = 0, .stiffness = 0.02};
+                scene.bodies[0].velocity = rise * Eigen::VectorXd::Unit(kDim, 1);
+                Motion belt = still(kDim);
+                scene.obstacles[0].motion[0].translate[1] = rise;
+                belt.translate[0] = 5;
+                belt.from = 0.5;
+                scene.obstacles[0].motion.push_back(belt);
+                Simulation<kDim> simulation(scene, {cube<kDim>(1)});
+                for (int i = 0; i < 80; ++i) {
+                    const StepReport report = simulation.step();
+                    ASSERT_TRUE(report.is_accepted) << report.failure;
+                }
+                const double gained = kFriction * 9.8 * 0.3;
+                EXPECT_NEAR(mean_velocity<kDim>(simulation, 0)[0], gained, 0.03 * gained)
+                    << int(model) << " " << int(integrator) << " " << rise;
+            }
+        }
+    }
+}
+
 TYPED_TEST(MovingObstacle, LiftsWhatLiesOnItAndNothingCrosses) {
     constexpr int kDim = TypeParam::value;
     for (const ContactModel model : kModels) {

@@ -41,7 +41,7 @@ Scene moving_scene() {
 }
 
 // A rigid motion keeps distances: what goes with the obstacle stays as far from it. Where a point
-// was is what displacement() says.
+// goes is what displacement() says.
 TYPED_TEST(ObstacleMotionsTest, CarryPointsAlongAtTheSameSignedDistance) {
     constexpr int kDim = TypeParam::value;
     const ObstacleMotions<kDim> motions(moving_scene<kDim>());
@@ -52,9 +52,9 @@ TYPED_TEST(ObstacleMotionsTest, CarryPointsAlongAtTheSameSignedDistance) {
     for (std::size_t i = 0; i < start.size(); ++i) {
         for (int k = 0; k < 20; ++k) {
             const Vector<kDim> now = Vector<kDim>::NullaryExpr([&] { return place(random); });
-            const Vector<kDim> before = now - motions.displacement(i, now, 0.2, 1.4);
-            EXPECT_NEAR(contact::signed_distance<kDim>(start[i], before).value,
-                        contact::signed_distance<kDim>(end[i], now).value, 1e-13)
+            const Vector<kDim> later = now + motions.displacement(i, now, 0.2, 1.4);
+            EXPECT_NEAR(contact::signed_distance<kDim>(start[i], now).value,
+                        contact::signed_distance<kDim>(end[i], later).value, 1e-13)
                 << i;
         }
         EXPECT_TRUE(motions.is_moving(i, 0.2, 0.3));
@@ -91,12 +91,12 @@ TYPED_TEST(ObstacleMotionsTest, TurnAnObstacleAboutItsCenterUnlessItIsToldOtherw
     const ObstacleMotions<kDim> motions(scene);
     const Vector<kDim> center = std::get<Ball<kDim>>(motions.at(0)[1]).center;
     EXPECT_LT((std::get<Ball<kDim>>(motions.at(1)[1]).center - center).norm(), 1e-15);
-    const Vector<kDim> top = center + 0.5 * Vector<kDim>::Unit(1);
-    // A quarter turn earlier it was at the right: x goes towards y.
-    EXPECT_LT(
-        (motions.displacement(1, top, 0, 1) - 0.5 * (Vector<kDim>::Unit(1) - Vector<kDim>::Unit(0)))
-            .norm(),
-        1e-15);
+    const Vector<kDim> right = center + 0.5 * Vector<kDim>::Unit(0);
+    // A quarter turn later it is at the top: x goes towards y.
+    EXPECT_LT((motions.displacement(1, right, 0, 1)
+               - 0.5 * (Vector<kDim>::Unit(1) - Vector<kDim>::Unit(0)))
+                  .norm(),
+              1e-15);
 }
 
 }  // namespace

@@ -46,6 +46,32 @@ std::vector<Obstacle> obstacles_in_the_way() {
                                   .sides = Eigen::VectorXd::Constant(Dim, 0.8)}}};
 }
 
+// What turns fast is not looked at for passing through what it may not touch.
+TYPED_TEST(Tunneling, IsOfBodiesThatMayTouch) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = test::box_scene<kDim>();
+    scene.frames_per_second = 30;
+    scene.solver.integrator = Integrator::NewtonEuler;
+    scene.solver.max_halvings = 0;
+    scene.bodies[0].material.lame = lame_from_young(kDim, 1e6, 0.3);
+    scene.bodies[0].spin = {{.plane = {0, 1}, .degrees_per_s = 1200}};
+    const SimplexMesh<kDim> bar = box<kDim>(4, 1, 1, test::vector<kDim>(1, 0.1, 0.1));
+    scene.contact = ContactSettings{.distance = 0.01, .friction = 0.3};
+    scene.obstacles = {{.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(kDim, 1),
+                                                   .offset = -50}}};
+    const auto failure = [&](std::size_t bodies) {
+        Simulation<kDim> simulation(scene, std::vector<SimplexMesh<kDim>>(bodies, bar));
+        return simulation.step().failure;
+    };
+    EXPECT_EQ(failure(1), "");
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies[1].name = "far";
+    scene.bodies[1].place.translate[1] = 9;
+    pent::test::expect_contains(failure(2), {"could pass through each other"});
+    scene.contact->ignore = {{scene.bodies[0].name, "far"}};
+    EXPECT_EQ(failure(2), "");
+}
+
 // It is thrown back, or at least has lost a tenth of its speed; where steps may not be cut, the run
 // ends.
 TYPED_TEST(Tunneling, ThroughAnObstacleIsSeenByPenalties) {

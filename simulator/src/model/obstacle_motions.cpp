@@ -130,8 +130,8 @@ Vector<Dim> ObstacleMotions<Dim>::displacement(std::size_t obstacle,
                                                const Vector<Dim>& point,
                                                double from,
                                                double to) const {
-    const RigidMap before = carried(obstacle, to, from);
-    return point - (before.rotation * point + before.shift);
+    const RigidMap after = carried(obstacle, from, to);
+    return after.rotation * point + after.shift - point;
 }
 
 template <int Dim>

@@ -30,7 +30,7 @@ public:
     /// Where what goes with an obstacle is at one time, of where it is at another.
     [[nodiscard]] RigidMap carried(std::size_t obstacle, double from, double to) const;
 
-    /// How far the point of an obstacle that is at `point` at one time has come since another, m.
+    /// How far the point of an obstacle that is at `point` at one time has come at another, m.
     [[nodiscard]] Vector<Dim> displacement(std::size_t obstacle,
                                            const Vector<Dim>& point,
                                            double from,

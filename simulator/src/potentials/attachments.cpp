@@ -154,11 +154,12 @@ bool Attachments<Dim>::is_there(const Attachment& attachment, double begin) cons
 template <int Dim>
 bool Attachments<Dim>::set_time(const TimeSpan& step) {
     bool has_changed = false;
+    // Of the step that this is a part of where it was cut: what comes or goes does so between steps.
+    const double whole = dt_ * std::floor(step.begin / dt_ + kSameTime);
     for (Bundle& bundle : bundles_) {
         const bool was_on = bundle.is_on;
-        bundle.is_on = is_there(*bundle.attachment, step.begin);
-        const double before = std::max(0.0, step.begin - dt_);
-        bundle.is_driven = bundle.is_on != is_there(*bundle.attachment, before);
+        bundle.is_on = is_there(*bundle.attachment, whole);
+        bundle.is_driven = bundle.is_on != is_there(*bundle.attachment, std::max(0.0, whole - dt_));
         has_changed = has_changed || bundle.is_on != was_on;
         if (bundle.target != bundle.body) {
             continue;

@@ -38,6 +38,17 @@ std::span<const std::uint32_t> whole_cells(const Bodies<Dim>& bodies, std::size_
     return {cells.col(begin).data(), static_cast<std::size_t>(size) * (Dim + 1)};
 }
 
+bool may_any_touch(const Scene& scene, std::size_t bodies) {
+    for (std::uint32_t a = 0; a < bodies; ++a) {
+        for (std::uint32_t b = a; b < bodies; ++b) {
+            if (may_touch(scene, a, b)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 // Without bodies that meet only obstacles are in it, which need no surfaces.
 template <int Dim>
 contact::ContactScene<Dim> contact_scene(const Scene& scene,
@@ -128,7 +139,7 @@ ContactPotential<Dim>::ContactPotential(const Workers& workers,
       motions_(scene),
       obstacles_(motions_.at(0)) {
     is_barrier_ = scene.contact && settings_.model == ContactModel::Barrier;
-    do_bodies_meet_ = is_barrier_ || (scene.contact && (bodies.count() > 1 || scene.contact->self));
+    do_bodies_meet_ = is_barrier_ || (scene.contact && may_any_touch(scene, bodies.count()));
     has_obstacles_ = !scene.obstacles.empty();
     stiffness_ = settings_.stiffness;
     set_held(scene, bodies, held);
@@ -155,6 +166,26 @@ bool ContactPotential<Dim>::set_time(const TimeSpan& step) {
         finder_->move_obstacles(obstacles_);
     }
     return has_changed;
+}
+
+template <int Dim>
+bool ContactPotential<Dim>::has_moving_obstacles() const {
+    for (std::size_t o = 0; motions_.is_any() && o < obstacles_.size(); ++o) {
+        if (motions_.is_moving(o, step_.begin, step_.end)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+template <int Dim>
+contact::Contacts<Dim> ContactPotential<Dim>::contacts_at_begin(const Positions<Dim>& x) const {
+    return workers_->run([&] {
+        finder_->move_obstacles(motions_.at(step_.begin));
+        contact::Contacts<Dim> contacts = finder_->find(x, stiffness_);
+        finder_->move_obstacles(obstacles_);
+        return contacts;
+    });
 }
 
 // Of the point at the surface that is next to the body.

@@ -48,6 +48,9 @@ public:
 
     [[nodiscard]] bool is_empty() const { return finder_ == nullptr; }
 
+    /// Whether two bodies, or a body and itself, may touch.
+    [[nodiscard]] bool do_bodies_meet() const { return do_bodies_meet_; }
+
     /// Contacts at the positions last evaluated: the same for any history and any number of
     /// threads.
     [[nodiscard]] const contact::Contacts<Dim>& contacts() const { return contacts_; }
@@ -65,12 +68,16 @@ public:
     [[nodiscard]] const std::vector<pent::ObstacleShape<Dim>>& obstacles() const {
         return obstacles_;
     }
-    [[nodiscard]] bool has_moving_obstacles() const { return motions_.is_any(); }
+    [[nodiscard]] bool has_moving_obstacles() const;  ///< In the step.
     /// Bodies that touch, where both were last evaluated, an obstacle that moves in a step; some
     /// more than once.
     [[nodiscard]] std::vector<std::size_t> on_moving_obstacles(const TimeSpan& step) const;
 
-    /// How far the point of an obstacle that a contact touches moves in the step, m.
+    /// Contacts with obstacles where they are when the step begins; contacts() has them where they
+    /// are at its end.
+    [[nodiscard]] contact::Contacts<Dim> contacts_at_begin(const Positions<Dim>& x) const;
+
+    /// How far the point of an obstacle that a contact touches when the step begins moves in it, m.
     [[nodiscard]] Vector<Dim> obstacle_displacement(const contact::Contact<Dim>& contact,
                                                     const Positions<Dim>& x) const;
 

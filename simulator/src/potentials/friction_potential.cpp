@@ -3,7 +3,6 @@
 #include <pent/dimensions.h>
 
 #include <cmath>
-#include <functional>
 #include <utility>
 
 namespace pent::simulator {
@@ -20,15 +19,17 @@ bool FrictionPotential<Dim>::set_time(const TimeSpan& step) {
 
 template <int Dim>
 bool FrictionPotential<Dim>::begin_step(const StepStart<Dim>& start) {
-    std::function<Vector<Dim>(const contact::Contact<Dim>&)> obstacle_displacement;
+    const Positions<Dim>* velocities = start.is_linear ? &start.velocities : nullptr;
     if (contacts_->has_moving_obstacles()) {
-        obstacle_displacement = [&](const contact::Contact<Dim>& contact) {
-            return contacts_->obstacle_displacement(contact, start.positions);
-        };
+        // One that comes nearer would press as hard on a body that has not moved yet as if it had
+        // run into it.
+        friction_.begin_step(contacts_->contacts_at_begin(start.positions).list, start.positions,
+                             velocities, start.h, [&](const contact::Contact<Dim>& contact) {
+                                 return contacts_->obstacle_displacement(contact, start.positions);
+                             });
+    } else {
+        friction_.begin_step(contacts_->contacts().list, start.positions, velocities, start.h);
     }
-    friction_.begin_step(contacts_->contacts().list, start.positions,
-                         start.is_linear ? &start.velocities : nullptr, start.h,
-                         obstacle_displacement);
     return true;
 }
 

@@ -113,7 +113,7 @@ std::string Simulation<Dim>::Stepper::tunneling() const {
                          + energy_.contact->describe(energy_.contact->limit().limiting) + kAdvice
                    : "";
     }
-    if (scene_.contact && largest_apart > thinnest_) {
+    if (energy_.contact->do_bodies_meet() && largest_apart > thinnest_) {
         return std::string(
                    "in contact something moved by more than the extent of the thinnest"
                    " body: bodies could pass through each other unseen")

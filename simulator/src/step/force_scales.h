@@ -7,9 +7,10 @@
 
 namespace pent::simulator {
 
-/// How large forces are on some vertices beside those on others that move as far, by what they are
-/// made of. Beside steel the forces on rubber are no more than a rounding, and yet they have to be
-/// balanced: so what is left of them is told in several norms.
+/// How large forces are on some vertices beside those on others that are strained as much or
+/// accelerated alike, by what they are made of and how much of it belongs to each. Beside steel the
+/// forces on rubber are no more than a rounding, and beside a large body those on a small one, and
+/// yet they have to be balanced: so what is left of them is told in several norms.
 template <int Dim>
 class ForceScales {
 public:
@@ -19,8 +20,9 @@ public:
     /// Whether densities count: in a step with inertia.
     void set_inertia(bool has_inertia) { has_inertia_ = has_inertia; }
 
-    /// The norm of a gradient; that with every part over the stiffness there, if that is not the
-    /// same everywhere; and that over the density, likewise. What is largest counts as it is.
+    /// The norm of a gradient; that with every part over the stiffness there times the surface of
+    /// what belongs to a vertex of the body, if that is not about the same everywhere; and that
+    /// over the mass of such a vertex, likewise. What is largest counts as it is.
     ///
     /// @param gradient  Dim x vertices.
     [[nodiscard]] GradientNorms norms(const Positions<Dim>& gradient) const;
