@@ -57,8 +57,8 @@ TYPED_TEST(Tunneling, IsOfBodiesThatMayTouch) {
     scene.bodies[0].spin = {{.plane = {0, 1}, .degrees_per_s = 1200}};
     const SimplexMesh<kDim> bar = box<kDim>(4, 1, 1, test::vector<kDim>(1, 0.1, 0.1));
     scene.contact = ContactSettings{.distance = 0.01, .friction = 0.3};
-    scene.obstacles = {{.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(kDim, 1),
-                                                   .offset = -50}}};
+    scene.obstacles = {
+        {.shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(kDim, 1), .offset = -50}}};
     const auto failure = [&](std::size_t bodies) {
         Simulation<kDim> simulation(scene, std::vector<SimplexMesh<kDim>>(bodies, bar));
         return simulation.step().failure;

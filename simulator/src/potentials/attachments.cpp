@@ -154,7 +154,7 @@ bool Attachments<Dim>::is_there(const Attachment& attachment, double begin) cons
 template <int Dim>
 bool Attachments<Dim>::set_time(const TimeSpan& step) {
     bool has_changed = false;
-    // Of the step that this is a part of where it was cut: what comes or goes does so between steps.
+    // Of the step that this is a part of, where it was cut: they come and go between steps.
     const double whole = dt_ * std::floor(step.begin / dt_ + kSameTime);
     for (Bundle& bundle : bundles_) {
         const bool was_on = bundle.is_on;
