@@ -4,6 +4,7 @@
 
 #include <pent/dimensions.h>
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
@@ -17,13 +18,27 @@ namespace pent::simulator {
 
 namespace {
 
-// The first step that begins at a time or later; times that differ by this part of a step are the
-// same, as they are sums of rounded ones.
+// Times that differ by this part of a step are the same, as they are sums of rounded ones.
+constexpr double kSameTime = 1e-6;
+
+// The first step that begins at a time or later.
 std::uint64_t first_step_from(double time, double dt) {
-    constexpr double kSameTime = 1e-6;
     constexpr auto kNever = std::numeric_limits<std::uint64_t>::max();
     const double step = std::ceil(time / dt - kSameTime);
     return step < 1e18 ? static_cast<std::uint64_t>(std::max(step, 0.0)) : kNever;
+}
+
+// A keyframe that a constraint is past when it takes its vertices up would be a jump, or nothing.
+void refuse_early_keyframes(const Constraint& constraint, double start, double dt) {
+    for (const Motion& motion : constraint.motion) {
+        if (!motion.keyframes.empty() && motion.keyframes.front().time <= start + kSameTime * dt) {
+            throw Error(
+                place_and_name(constraint)
+                + formatted(": the first of \"keyframes\" is at %g s, and the first step that"
+                            " holds anything begins at %g s; expected it behind that",
+                            motion.keyframes.front().time, start));
+        }
+    }
 }
 
 // What is left of a constraint's motions where its vertices are taken up.
@@ -67,8 +82,11 @@ DirichletSet<Dim> make_set(const Constraint& constraint,
          select_vertices(bodies, set.body, constraint.select, place_and_name(constraint))) {
         set.vertices.push_back(static_cast<std::uint32_t>(vertex + bodies.first_vertex[set.body]));
     }
-    set.path = path_from(static_cast<double>(set.first_step) * scene.dt(), set.begins_later(),
-                         constraint.motion);
+    const double start = static_cast<double>(set.first_step) * scene.dt();
+    if (set.begins_later()) {
+        refuse_early_keyframes(constraint, start, scene.dt());
+    }
+    set.path = path_from(start, set.begins_later(), constraint.motion);
     set.places = Positions<Dim>::Zero(Dim, static_cast<Eigen::Index>(set.vertices.size()));
     if (!set.begins_later()) {
         take_up<Dim>(bodies.rest(), set);
@@ -99,7 +117,6 @@ void place_host_holds(const HostHolds<Dim>& holds,
                       double time,
                       Positions<Dim>& positions,
                       Positions<Dim>* velocities) {
-    constexpr double kSameTime = 1e-6;  // parts of a step end at rounded sums
     const double h = holds.end - holds.begin;
     const double part = (time - holds.begin) / h;
     for (std::size_t i = 0; i < holds.vertices.size(); ++i) {
