@@ -88,19 +88,25 @@ const Result* chosen_by(const Arguments& arguments, const StudyReport& report) {
     return chosen;
 }
 
-// Throws an Error if an option says to write what the study reads.
+// Throws an Error if an option says to write what the study reads, or among what it writes, or
+// where nothing can be written.
 //
 // @param text  What says which meshes it reads: the scene or what was prepared of it.
-void require_apart(Program& program,
+void check_outputs(Program& program,
                    const Arguments& arguments,
                    const fs::path& scene,
                    const fs::path& text) {
-    std::vector<pent::apps::NamedFile> inputs = {{"the scene", scene}};
+    std::vector<pent::apps::NamedFile> inputs = {
+        {"the scene", scene},
+        {.what = "the study", .path = arguments.study.folder, .has_content = true}};
     program.require_apart(inputs, {});
     for (const pent::simulator::Body& body : pent::runs::read_scene(text).bodies) {
         inputs.push_back({"the mesh of \"" + body.name + "\"", body.mesh});
     }
     program.require_apart(inputs, {{"--write-scene", arguments.write_scene}});
+    if (!arguments.write_scene.empty()) {
+        const pent::OutputFile attempt(arguments.write_scene);  // before all the work
+    }
 }
 
 // Says on the way which run is on.
@@ -162,7 +168,7 @@ Verdict say_study(Program& program, const Arguments& arguments, const StudyRepor
 
 // In one go.
 Verdict study(Program& program, const Arguments& arguments) {
-    require_apart(program, arguments, arguments.study.scene, arguments.study.scene);
+    check_outputs(program, arguments, arguments.study.scene, arguments.study.scene);
     std::optional<Watch> watch(program.common().quiet);
     const StudyReport report = run_study(arguments.study, watch->callbacks());
     watch.reset();
@@ -182,7 +188,7 @@ void report_units(Program& program, const StudyState& state) {
 }
 
 Verdict prepare(Program& program, const Arguments& arguments) {
-    require_apart(program, arguments, arguments.study.scene, arguments.study.scene);
+    check_outputs(program, arguments, arguments.study.scene, arguments.study.scene);
     std::optional<Watch> watch(program.common().quiet);
     const std::optional<StudyState> state = prepare_study(arguments.study, watch->callbacks());
     watch.reset();
@@ -236,7 +242,7 @@ Verdict run_one(Program& program, const Arguments& arguments) {
 Verdict collect(Program& program, const Arguments& arguments) {
     const fs::path& folder = arguments.study.folder;
     const fs::path scene = pent::study::state_of_study(folder).scene;
-    require_apart(program, arguments, scene, folder / "scene.toml");
+    check_outputs(program, arguments, scene, folder / "scene.toml");
     return say_study(program, arguments,
                      pent::study::collect_study(folder, arguments.study.created_by));
 }
@@ -247,8 +253,8 @@ Verdict body(Program& program, Arguments& arguments) {
     arguments.study.programs = fs::read_symlink("/proc/self/exe").parent_path();
     const bool is_part = arguments.list_runs || arguments.run > 0 || arguments.collect;
     if (is_part) {
-        program.require_apart({{"the plan of the study", arguments.study.folder / "plan.json"}},
-                              {});
+        program.require_apart(
+            {{.what = "the study", .path = arguments.study.folder, .has_content = true}}, {});
     }
     if (is_part && !arguments.study.scene.empty()) {
         pent::study::require_scene(arguments.study.folder, arguments.study.scene);
@@ -289,6 +295,10 @@ void check_usage(const CLI::App& options, const Arguments& arguments) {
         refuse({"--error", "--budget", "--write-scene"},
                "chooses from what a study has found; it goes with --collect, not with "
                    + (part.empty() ? "--prepare" : part));
+    }
+    if (!arguments.write_scene.empty() && !arguments.error_percent && !arguments.budget) {
+        throw CLI::ValidationError("--write-scene",
+                                   "needs --error or --budget, which say what to choose");
     }
 }
 

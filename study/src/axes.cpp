@@ -23,6 +23,22 @@ std::string place_of(const Setting& setting) {
     return "--vary " + setting.axis + "=" + setting.value;
 }
 
+// What stands between commas, but those within a list or a table.
+std::vector<std::string> values_of(const std::string& text) {
+    std::vector<std::string> values(1);
+    int depth = 0;
+    for (const char c : text) {
+        depth += c == '[' || c == '{' ? 1 : 0;
+        depth -= c == ']' || c == '}' ? 1 : 0;
+        if (c == ',' && depth == 0) {
+            values.emplace_back();
+        } else {
+            values.back() += c;
+        }
+    }
+    return values;
+}
+
 // The path of the key of the scene that an axis stands for.
 std::string path_of(const std::string& axis) {
     if (axis == "dt") {
@@ -32,6 +48,17 @@ std::string path_of(const std::string& axis) {
         return "contact.model";
     }
     return axis.find('.') == std::string::npos ? "solver." + axis : axis;
+}
+
+// The name of an axis, however it was spelled: "tolerance" for "solver.tolerance".
+std::string name_of(const std::string& path) {
+    for (const std::string& key : runs::scene_keys()) {
+        const std::string name = key == "contact.model" ? "contact" : key.substr(key.find('.') + 1);
+        if (key == path && path_of(name) == path) {
+            return name;
+        }
+    }
+    return path;
 }
 
 // What might have been meant by an axis that is not known.
@@ -58,6 +85,19 @@ std::string guess(const std::string& axis, const std::vector<std::string>& keys)
 }
 
 void check_axis(const std::string& axis) {
+    if (axis == "scene.frames" || axis == "scene.frames_per_second") {
+        throw Error("--vary " + axis
+                    + ": runs are compared with the reference frame by frame, so all must have the"
+                      " same; set it in the scene, or study fewer frames by --frames");
+    }
+    if (axis == "body.mesh" || axis == "body.recipe") {
+        throw Error("--vary " + axis
+                    + ": runs are compared on meshes of one body; vary layers or subdivide, which"
+                      " change what the recipe of each body says");
+    }
+    if (axis == "scene.steps_per_frame") {
+        throw Error("--vary " + axis + ": vary dt instead, as in dt=1/30,1/60");
+    }
     const std::vector<std::string> keys = runs::scene_keys();
     if (!is_mesh_axis(axis) && std::ranges::count(keys, path_of(axis)) == 0) {
         throw Error("--vary " + axis + ": is not known; " + guess(axis, keys));
@@ -106,10 +146,8 @@ Axis parse_axis(const std::string& text) {
     if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
         throw Error("--vary " + text + ": expected a name and values, as in dt=1/30,1/60");
     }
-    Axis axis{.name = text.substr(0, equals)};
-    std::istringstream values(text.substr(equals + 1));
-    std::string value;
-    while (std::getline(values, value, ',')) {
+    Axis axis{.name = name_of(text.substr(0, equals))};
+    for (const std::string& value : values_of(text.substr(equals + 1))) {
         if (value.empty()) {
             throw Error("--vary " + text + ": one of the values is empty");
         }

@@ -14,7 +14,9 @@ struct Axis {
     std::vector<std::string> values = {};
 };
 
-/// "dt=1/30,1/60" as an axis. Throws an Error unless there is a name and values, none twice.
+/// "dt=1/30,1/60" as an axis. A path of a key that has a name of its own comes out as that:
+/// "solver.tolerance" as "tolerance". Commas part values, but not within a list or a table. Throws
+/// an Error unless there is a name and values, none twice.
 [[nodiscard]] Axis parse_axis(const std::string& text);
 
 /// Every combination of the values of the axes, the last axis fastest; one without settings if

@@ -23,7 +23,7 @@ struct Interpolation {
 /// barycentric coordinates, among those whose boxes are near. Linear in points and cells.
 ///
 /// @param points    dim x points, m.
-/// @param vertices  dim x vertices, m, of all bodies.
+/// @param vertices  dim x vertices, m.
 /// @param cells     (dim + 1) x cells.
 [[nodiscard]] Interpolation locate(const Eigen::MatrixXd& points,
                                    const Eigen::MatrixXd& vertices,

@@ -2,8 +2,10 @@
 
 #include "axes.h"
 #include "child_process.h"
+#include "record.h"
 
 #include <pent/error.h>
+#include <pent/output_file.h>
 #include <pent/pent_file.h>
 
 #include <algorithm>
@@ -25,8 +27,12 @@ std::vector<std::string> mesh_arguments(const std::string& recipe, const Setting
             continue;
         }
         const std::string option = "--" + setting.axis;
+        const auto joined = std::ranges::find_if(
+            words, [&](const std::string& one) { return one.starts_with(option + "="); });
         const auto place = std::ranges::find(words, option);
-        if (place != words.end() && place + 1 != words.end()) {
+        if (joined != words.end()) {
+            *joined = option + "=" + setting.value;
+        } else if (place != words.end() && place + 1 != words.end()) {
             *(place + 1) = setting.value;
         } else {
             words.insert(words.end(), {option, setting.value});
@@ -44,19 +50,45 @@ Settings mesh_settings(const Settings& settings) {
     return chosen;
 }
 
+// What a mesh is made from: the arguments of pent-mesh, and the content of the files they name.
+std::string origin_of(const std::vector<std::string>& arguments, const fs::path& where) {
+    std::string text;
+    for (const std::string& argument : arguments) {
+        text += argument;
+        const std::size_t value = argument.starts_with("--") ? argument.find('=') + 1 : 0;
+        const fs::path path = where / argument.substr(value);
+        if (fs::is_regular_file(path)) {
+            text += " " + fingerprint(path);
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+// Makes the mesh of a recipe, unless it is there and what it was made from is as it was.
 void make_mesh(const simulator::Body& body,
                const Settings& settings,
-               const fs::path& path,
+               const std::string& name,
                const StudyOptions& options,
+               OutputFolder& folder,
                const std::function<bool()>& should_stop) {
+    const fs::path where = fs::absolute(options.scene).parent_path();
+    const fs::path path = fs::absolute(folder.claim(name + ".pent"));
+    const fs::path note = folder.claim(name + ".txt");
     std::vector<std::string> arguments = mesh_arguments(body.recipe, settings);
+    const std::string origin = origin_of(arguments, where);
+    if (fs::exists(path) && read_text(note) == origin) {
+        return;
+    }
+    fs::remove(note);  // a kill from here on leaves a mesh of which nothing is known
     arguments.insert(arguments.end(), {"-o", path.string(), "--quiet"});
-    const ChildOutcome outcome = run_child(options.programs / "pent-mesh", arguments,
-                                           fs::absolute(options.scene).parent_path(), should_stop);
+    const ChildOutcome outcome =
+        run_child(options.programs / "pent-mesh", arguments, where, should_stop);
     if (outcome.exit_code != 0) {
         throw Error(options.scene.string() + ": the recipe of \"" + body.name
                     + "\" does not make a mesh (" + outcome.error + ")");
     }
+    write_text(note, origin);
 }
 
 }  // namespace
@@ -76,12 +108,9 @@ simulator::Scene with_meshes(const simulator::Scene& scene,
         }
         if (!body.recipe.empty() && !(is_there && level.empty())) {
             is_known = true;
-            const fs::path path =
-                folder.claim("meshes/" + body.name + "." + file_name(level) + ".pent");
-            if (!fs::exists(path)) {
-                make_mesh(body, level, fs::absolute(path), options, should_stop);
-            }
-            body.mesh = path.string();
+            const std::string name = "meshes/" + body.name + "." + file_name(level);
+            make_mesh(body, level, name, options, folder, should_stop);
+            body.mesh = (folder.path() / (name + ".pent")).string();
         }
         body.mesh = fs::absolute(body.mesh).lexically_normal().string();
         body.recipe.clear();  // the mesh is what counts from here on

@@ -19,7 +19,8 @@ inline constexpr const char* kStudyFolder = "study";
                                                       const Settings& settings);
 
 /// The scene with the meshes of a level: bodies with a recipe get meshes made by pent-mesh in
-/// `folder`, those already there are used again. A scene whose own meshes are there keeps them if
+/// `folder`; those that are there and
+/// were made from the same are used again. A scene whose own meshes are there keeps them if
 /// the settings have no axis of the mesh. Paths come out absolute.
 ///
 /// Throws an Error if a mesh is missing and there is no recipe, if the settings have an axis of the

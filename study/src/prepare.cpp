@@ -19,6 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using simulator::Scene;
 
+constexpr const char* kStatics = "quasistatic";  // as an integrator of scenes
+
 // The settings of the mesh with the largest numbers, which the reference has.
 Settings finest_mesh(const std::vector<Axis>& axes) {
     Settings settings;
@@ -70,6 +72,25 @@ std::vector<Axis> axes_of(const StudyOptions& options) {
     return axes;
 }
 
+// Whether the combinations are motions; equilibria otherwise. Throws an Error for some of either.
+bool has_time(const Scene& scene, const std::vector<Axis>& axes) {
+    std::string motion;
+    std::string equilibrium;
+    for (const Settings& settings : combinations(axes)) {
+        try {
+            const auto integrator = with_settings(scene, settings).solver.integrator;
+            (integrator == simulator::Integrator::Quasistatic ? equilibrium : motion) =
+                settings_text(settings);
+        } catch (const Error&) {  // a combination that is refused is neither
+        }
+    }
+    if (!motion.empty() && !equilibrium.empty()) {
+        throw Error("--vary: some settings seek equilibria (" + equilibrium + "), others motions ("
+                    + motion + "), which have no reference in common; make two studies of them");
+    }
+    return equilibrium.empty();
+}
+
 void check(const StudyOptions& options) {
     if (options.repeats < 1 || options.reference_halvings < 2 || options.reference_halvings > 8
         || options.frames < 0 || options.threads < 1) {
@@ -92,8 +113,13 @@ public:
                 check_setting(scene_, {axis.name, value});  // all mistakes before any work
             }
         }
-        if (has_time()) {
-            check_setting(scene_, {"integrator", options.reference_integrator});
+        has_time_ = has_time(scene_, axes_);
+        const std::string reference = has_time_ ? options.reference_integrator : kStatics;
+        check_setting(scene_, {"integrator", reference});
+        if (has_time_ && reference == kStatics) {
+            throw Error("--reference-integrator " + reference
+                        + ": has no motion to compare those of the study with; expected bdf2 or"
+                          " another integrator that has");
         }
         plan_ = {.scene = fs::absolute(options.scene).lexically_normal().string(),
                  .frames = scene_.frames,
@@ -101,7 +127,7 @@ public:
                  .repeats = options.repeats,
                  .threads = options.threads,
                  .keep_runs = options.keep_runs,
-                 .reference_integrator = options.reference_integrator};
+                 .reference_integrator = reference};
     }
 
     Plan operator()() {
@@ -116,9 +142,6 @@ public:
     }
 
 private:
-    [[nodiscard]] bool has_time() const {
-        return scene_.solver.integrator != simulator::Integrator::Quasistatic;
-    }
     void open_folder();
     void claim(const char* file, const std::string& text, const char* other);
     [[nodiscard]] Scene meshed(const Settings& settings);
@@ -131,6 +154,7 @@ private:
     OutputFolder& folder_;
     Scene scene_;
     std::vector<Axis> axes_;
+    bool has_time_ = true;  // its runs are motions, not equilibria
     Plan plan_;
 };
 
@@ -175,10 +199,8 @@ Scene Preparation::meshed(const Settings& settings) {
 }
 
 void Preparation::add_levels() {
-    Scene base = meshed(finest_mesh(axes_));
-    if (has_time()) {
-        base = with_settings(base, {{"integrator", options_.reference_integrator}});
-    }
+    Scene base =
+        with_settings(meshed(finest_mesh(axes_)), {{"integrator", plan_.reference_integrator}});
     base.solver = reference_solver(base, axes_);
     for (const Axis& axis : axes_) {
         for (const std::string& value : axis.values) {

@@ -23,6 +23,18 @@ std::string text_of(const Json& json) {
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+// Within quotes where it would not be one field, as a list is (RFC 4180).
+std::string csv_field(const std::string& text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) {
+        return text;
+    }
+    std::string quoted = "\"";
+    for (const char c : text) {
+        quoted += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return quoted + "\"";
+}
+
 Json to_json(const Errors& errors) {
     return {{"position", errors.position},
             {"position_m", errors.position_m},
@@ -127,16 +139,13 @@ std::string fingerprint(const std::filesystem::path& program) {
 }
 
 void write_record(const std::filesystem::path& path, const Record& record) {
-    const Json json = {{"verdict", record.verdict},
-                       {"message", record.message},
-                       {"wall_seconds", record.wall_seconds},
-                       {"cpu_seconds", record.cpu_seconds},
-                       {"peak_bytes", record.peak_bytes},
-                       {"machines", to_json(record.machines)},
-                       {"errors", to_json(record.errors)},
-                       {"meshes", record.meshes},
-                       {"scene", record.scene},
-                       {"reference", record.reference}};
+    const Json json = {
+        {"verdict", record.verdict},           {"message", record.message},
+        {"wall_seconds", record.wall_seconds}, {"cpu_seconds", record.cpu_seconds},
+        {"peak_bytes", record.peak_bytes},     {"machines", to_json(record.machines)},
+        {"errors", to_json(record.errors)},    {"meshes", record.meshes},
+        {"threads", record.threads},           {"scene", record.scene},
+        {"reference", record.reference}};
     write_text(path, text_of(json));
 }
 
@@ -155,6 +164,7 @@ std::optional<Record> read_record(const std::filesystem::path& path) {
         json.at("peak_bytes").get_to(record.peak_bytes);
         record.machines = machines_from(json.at("machines"));
         record.meshes = static_cast<std::uint32_t>(count_of(json.at("meshes")));
+        record.threads = json.value("threads", 0);  // not in those of older versions
         json.at("scene").get_to(record.scene);
         json.at("reference").get_to(record.reference);
         record.errors = errors_from(json.at("errors"));
@@ -202,7 +212,7 @@ std::string study_csv(const StudyReport& report) {
         const Result& result = report.results[i];
         const Errors& errors = result.errors;
         for (const Setting& setting : result.settings) {
-            csv << setting.value << ',';
+            csv << csv_field(setting.value) << ',';
         }
         double twist = 0;
         for (const double plane : errors.angular_momentum) {

@@ -17,6 +17,7 @@ struct Record {
     std::string reference = {};  ///< What it was compared with: the text of the reference's scene
                                  ///< and the checksum of its meshes; empty before.
     std::uint32_t meshes = 0;    ///< Checksum of the checksums of the mesh files.
+    int threads = 0;             ///< Of each run.
     std::string verdict = {};    ///< Empty while no run of it has ended.
     std::string message = {};
     std::vector<double> wall_seconds = {};  ///< One a repetition.

@@ -2,9 +2,37 @@
 
 #include <pent/error.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace pent::study {
+
+namespace {
+
+// Each vertex in its own body of the reference: where bodies touch, others have cells there, too.
+Interpolation locate_by_body(const Trajectory& run, const Trajectory& reference) {
+    const std::vector<Eigen::Index>& points = run.first_vertex();
+    const std::vector<Eigen::Index>& vertices = reference.first_vertex();
+    const std::vector<Eigen::Index>& cells = reference.first_cell();
+    Interpolation all;
+    all.corners.resize(reference.cells().rows(), points.back());
+    all.weights.resize(reference.cells().rows(), points.back());
+    for (std::size_t body = 0; body + 1 < points.size(); ++body) {
+        const auto columns = [body](const auto& matrix, const std::vector<Eigen::Index>& first) {
+            return matrix.middleCols(first[body], first[body + 1] - first[body]);
+        };
+        const auto first = static_cast<std::uint32_t>(vertices[body]);
+        const Interpolation one =
+            locate(columns(run.rest(), points), columns(reference.rest(), vertices),
+                   columns(reference.cells(), cells).array() - first);
+        all.corners.middleCols(points[body], one.corners.cols()) = one.corners.array() + first;
+        all.weights.middleCols(points[body], one.weights.cols()) = one.weights;
+        all.farthest = std::max(all.farthest, one.farthest);
+    }
+    return all;
+}
+
+}  // namespace
 
 Reference::Reference(const simulator::Scene& scene,
                      const std::filesystem::path& folder,
@@ -23,7 +51,7 @@ const Interpolation& Reference::where(const Trajectory& run, std::uint32_t meshe
     }
     Interpolation where;
     if (meshes != meshes_) {
-        where = locate(run.rest(), trajectory_.rest(), trajectory_.cells());
+        where = locate_by_body(run, trajectory_);
         if (where.farthest > kMaxOutside) {
             throw Error(
                 "the meshes of the study are of different shapes; expected layers or"

@@ -30,6 +30,11 @@ void require_meshes(const UnitFiles& files) {
         + " that the study was prepared with; put back what it was, or run --prepare again");
 }
 
+// The record of a run that is to be taken again.
+Record fresh(const Record& record) {
+    return {.scene = record.scene, .meshes = record.meshes, .threads = record.threads};
+}
+
 // Where a level of the reference was stopped it goes on, and all of its parts count.
 void add_times(Record& record, const ChildOutcome& outcome, double earlier_seconds = 0) {
     record.wall_seconds.push_back(earlier_seconds + outcome.wall_seconds);
@@ -126,7 +131,7 @@ void UnitRunner::run_level(UnitFiles& files) {
     if (!goes_on) {
         // From its record on the folder of the run holds nothing of another scene or mesh.
         study_.folder().remove(files.unit.name + "/");
-        files.record = {.scene = files.record.scene, .meshes = files.record.meshes};
+        files.record = fresh(files.record);
         study_.write(files);
     }
     const ChildOutcome outcome = simulate(files, goes_on);
@@ -142,7 +147,7 @@ void UnitRunner::run_level(UnitFiles& files) {
 void UnitRunner::run_combination(UnitFiles& files) {
     Record& record = files.record;
     if (record.verdict == "refused") {  // by what may have been mended since, as a full disk
-        record = {.scene = record.scene, .meshes = record.meshes};
+        record = fresh(record);
     }
     while (!study_.is_done(files)) {
         run_once(files);

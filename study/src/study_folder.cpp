@@ -23,9 +23,10 @@ UnitFiles StudyFolder::open(const Unit& unit) const {
     const std::string text = read_text(path);
     UnitFiles files{.unit = unit,
                     .scene = runs::parse_scene(text, path.string(), path.parent_path()),
-                    .record = {.scene = text, .meshes = unit.meshes}};
+                    .record = {.scene = text, .meshes = unit.meshes, .threads = plan_.threads}};
     const std::optional<Record> before = read_record(path_of(unit, ".json"));
-    files.is_begun = before && before->scene == text && before->meshes == unit.meshes;
+    files.is_begun = before && before->scene == text && before->meshes == unit.meshes
+                     && before->threads == plan_.threads;
     if (files.is_begun) {
         files.record = *before;
     }
@@ -52,7 +53,7 @@ bool StudyFolder::is_done(const UnitFiles& files) const {
         return has_frames();
     }
     const bool is_repeated = static_cast<int>(record.wall_seconds.size()) >= plan_.repeats;
-    return is_repeated && (is_measured(record) || has_frames());
+    return is_repeated && ((is_measured(record) && !plan_.keep_runs) || has_frames());
 }
 
 bool StudyFolder::is_measured(const Record& record) const {

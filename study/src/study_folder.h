@@ -17,7 +17,7 @@ namespace pent::study {
 struct UnitFiles {
     const Unit& unit;
     simulator::Scene scene = {};
-    Record record = {};     ///< Of its scene and meshes: a fresh one if there was none.
+    Record record = {};     ///< Of its scene, meshes and threads: a fresh one if there was none.
     bool is_begun = false;  ///< There was one.
 };
 

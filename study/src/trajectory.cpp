@@ -5,6 +5,8 @@
 #include <pent/simulator/placed_mesh.h>
 #include <pent/with_dimension.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 
 namespace pent::study {
@@ -39,6 +41,19 @@ double cell_measure(const Eigen::MatrixXd& positions,
     return simplex_volume<Dim>(corners);
 }
 
+// Positions before they were put in place.
+template <int Dim>
+Eigen::MatrixXd unplaced(const Eigen::MatrixXd& positions, const simulator::Placement& placement) {
+    SimplexMesh<Dim> ends;  // of the axes, and the origin
+    ends.positions.setZero(Dim, Dim + 1);
+    ends.positions.template leftCols<Dim>().setIdentity();
+    simulator::put_in_place<Dim>(ends, placement);
+    const Eigen::Vector<double, Dim> origin = ends.positions.col(Dim);
+    const Eigen::Matrix<double, Dim, Dim> axes =
+        ends.positions.template leftCols<Dim>().colwise() - origin;
+    return axes.inverse() * (positions.colwise() - origin);
+}
+
 }  // namespace
 
 std::optional<runs::RunVerdict> verdict_of(const std::filesystem::path& folder) {
@@ -61,20 +76,20 @@ Trajectory::Trajectory(const simulator::Scene& scene, std::filesystem::path fold
 template <int Dim>
 void Trajectory::read_meshes(const simulator::Scene& scene) {
     std::vector<SimplexMesh<Dim>> meshes;
-    Eigen::Index cells = 0;
     for (const std::string& body : bodies_) {
         meshes.push_back(read_mesh<Dim>(folder_ / "meshes" / (body + ".pent")).mesh);
         first_vertex_.push_back(first_vertex_.back() + meshes.back().vertex_count());
-        cells += meshes.back().cell_count();
+        first_cell_.push_back(first_cell_.back() + meshes.back().cell_count());
     }
     rest_.resize(Dim, first_vertex_.back());
     masses_.setZero(first_vertex_.back());
-    cells_.resize(Dim + 1, cells);
-    volumes_.resize(cells);
+    cells_.resize(Dim + 1, first_cell_.back());
+    volumes_.resize(first_cell_.back());
     Eigen::Index cell = 0;
     for (std::size_t body = 0; body < meshes.size(); ++body) {
         const SimplexMesh<Dim>& mesh = meshes[body];
-        rest_.middleCols(first_vertex_[body], mesh.vertex_count()) = mesh.positions;
+        rest_.middleCols(first_vertex_[body], mesh.vertex_count()) =
+            unplaced<Dim>(mesh.positions, scene.bodies[body].place);
         const std::vector<std::uint16_t> materials =
             simulator::materials_of_cells(mesh, scene.bodies[body]);
         for (Eigen::Index c = 0; c < mesh.cell_count(); ++c, ++cell) {

@@ -42,7 +42,10 @@ public:
 
     [[nodiscard]] int dimension() const { return dimension_; }
     [[nodiscard]] int frames() const { return frames_; }  ///< After frame 0.
+
+    /// Vertices at rest as the mesh files have them, wherever the bodies are placed, m.
     [[nodiscard]] const Eigen::MatrixXd& rest() const { return rest_; }
+
     [[nodiscard]] const Eigen::VectorXd& masses() const { return masses_; }  ///< Lumped, kg.
     [[nodiscard]] const std::vector<StepRecord>& steps() const { return steps_; }
     [[nodiscard]] std::int64_t cell_count() const { return cells_.cols(); }
@@ -52,6 +55,9 @@ public:
 
     /// The first vertex of each body, and the number of vertices.
     [[nodiscard]] const std::vector<Eigen::Index>& first_vertex() const { return first_vertex_; }
+
+    /// The first cell of each body, and the number of cells.
+    [[nodiscard]] const std::vector<Eigen::Index>& first_cell() const { return first_cell_; }
 
     /// Throws an Error if the frame cannot be read.
     [[nodiscard]] Moment moment(int frame) const;
@@ -70,6 +76,7 @@ private:
     int frames_ = 0;
     std::vector<std::string> bodies_;
     std::vector<Eigen::Index> first_vertex_ = {0};
+    std::vector<Eigen::Index> first_cell_ = {0};
     Eigen::MatrixXd rest_;
     Eigen::VectorXd masses_;
     Eigen::VectorXd volumes_;

@@ -30,6 +30,21 @@ TEST(ParseAxis, RefusesWhatIsNotOne) {
     }
 }
 
+TEST(ParseAxis, TakesAListOrATableAsOneValue) {
+    EXPECT_EQ(parse_axis("scene.gravity=[0,-9.8,0,0],[0,-1,0,0]").values,
+              (std::vector<std::string>{"[0,-9.8,0,0]", "[0,-1,0,0]"}));
+    EXPECT_EQ(parse_axis("constraint.motion={translate=[0,0,0,0]}").values,
+              (std::vector<std::string>{"{translate=[0,0,0,0]}"}));
+}
+
+TEST(ParseAxis, KnowsAnAxisByItsPath) {
+    EXPECT_EQ(parse_axis("solver.elements=linear").name, "elements");
+    EXPECT_EQ(parse_axis("solver.preset=fast").name, "preset");
+    EXPECT_EQ(parse_axis("contact.model=barrier").name, "contact");
+    EXPECT_EQ(parse_axis("contact.stiffness=1").name, "contact.stiffness");
+    EXPECT_EQ(parse_axis("body.material.young=1").name, "body.material.young");
+}
+
 TEST(Combinations, AreAllOfThemWithTheLastAxisFastest) {
     const std::vector<Settings> all = combinations({{"a", {"1", "2"}}, {"b", {"x", "y", "z"}}});
     ASSERT_EQ(all.size(), 6U);
@@ -147,6 +162,20 @@ TEST(WithSettings, LeavesEverythingElseAsItIs) {
     simulator::Scene changed = with_settings(scene, {{"integrator", "bdf2"}});
     changed.solver.integrator = scene.solver.integrator;
     EXPECT_EQ(runs::scene_text(changed), runs::scene_text(scene));
+}
+
+// Frames that are at other times cannot be compared, nor those of another body.
+TEST(CheckSetting, RefusesWhatRunsMustHaveInCommon) {
+    const TempFolder folder;
+    const simulator::Scene scene = bar_scene(folder);
+    const auto message = [&](const std::string& axis, const std::string& value) {
+        return error_of([&] { check_setting(scene, {axis, value}); });
+    };
+    expect_contains(message("scene.frames", "2"), {"--vary scene.frames:", "--frames"});
+    expect_contains(message("scene.frames_per_second", "60"), {"--vary scene.frames_per_second:"});
+    expect_contains(message("scene.steps_per_frame", "2"), {"vary dt instead"});
+    expect_contains(message("body.mesh", "a.pent"), {"--vary body.mesh:", "layers or subdivide"});
+    expect_contains(message("body.recipe", "x"), {"--vary body.recipe:", "layers or subdivide"});
 }
 
 TEST(CheckSetting, NamesTheNearestAxisAndRefusesBadValues) {

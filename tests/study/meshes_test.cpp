@@ -16,6 +16,8 @@ TEST(MeshArguments, TakeTheLevelInPlaceOfTheRecipesOwn) {
               (Words{"a.obj", "--layers", "8", "--thickness", "1"}));
     EXPECT_EQ(mesh_arguments("a.obj", {{"dt", "1/30"}, {"subdivide", "2"}}),
               (Words{"a.obj", "--subdivide", "2"}));
+    EXPECT_EQ(mesh_arguments("a.obj --subdivide=1", {{"subdivide", "2"}}),
+              (Words{"a.obj", "--subdivide=2"}));
 }
 
 TEST(WithMeshes, KeepsMeshesThatAreThere) {

@@ -56,6 +56,43 @@ TEST(PentStudy, ChoosesSettingsAndWritesASceneThatRuns) {
     EXPECT_EQ(json.at("runs"), 2);
 }
 
+TEST(PentStudy, WritesItsSceneAndReportOutsideOfTheStudyAlone) {
+    const TempFolder folder;
+    const std::string command = "pent-study " + test::write_bar(folder).string() + " -o "
+                                + (folder / "study").string() + " --vary dt=1/30";
+    const Outcome once = run_program(command + " --prepare");
+    ASSERT_EQ(once.exit_code, 0) << once.err;
+    const std::string plan = text_of(folder / "study/plan.json");
+    for (const std::string option : {"--write-scene ", "--json "}) {
+        for (const char* file : {"plan.json", "scene.toml", "runs/dt-1_30.toml", "new"}) {
+            const Outcome outcome =
+                run_program(command + " --error 50 " + option + (folder / "study" / file).string());
+            EXPECT_EQ(outcome.exit_code, 1);
+            expect_contains(outcome.err, {option + "is in the study"});
+        }
+    }
+    EXPECT_EQ(run_program("pent-study -o " + (folder / "study").string() + " --list-runs --json "
+                          + (folder / "study/new").string())
+                  .exit_code,
+              1);
+    EXPECT_EQ(text_of(folder / "study/plan.json"), plan);
+    EXPECT_FALSE(std::filesystem::exists(folder / "study/new"));
+}
+
+TEST(PentStudy, SaysBeforeTheWorkThatItsSceneCannotBeWritten) {
+    const TempFolder folder;
+    const std::string command = "pent-study " + test::write_bar(folder).string() + " -o "
+                                + (folder / "study").string() + " --vary dt=1/30 --write-scene "
+                                + (folder / "no/x").string();
+    const Outcome unasked = run_program(command);
+    EXPECT_EQ(unasked.exit_code, 2);
+    expect_contains(unasked.err, {"--write-scene", "--error or --budget"});
+    const Outcome missing = run_program(command + " --error 50");
+    EXPECT_EQ(missing.exit_code, 1);
+    expect_contains(missing.err, {(folder / "no/x").string()});
+    EXPECT_FALSE(std::filesystem::exists(folder / "study"));
+}
+
 TEST(PentStudy, SaysWhySettingsDidNotFinish) {
     const TempFolder folder;
     const Outcome outcome = run_program(

@@ -13,7 +13,8 @@ namespace {
 
 TEST(Record, IsReadBackAsItWasWritten) {
     const pent::test::TempFolder folder;
-    Record record{.scene = "a\n\"b\"", .reference = "r", .meshes = 7, .verdict = "finished"};
+    Record record{
+        .scene = "a\n\"b\"", .reference = "r", .meshes = 7, .threads = 5, .verdict = "finished"};
     record.wall_seconds = {0.1, 1.0 / 3, 2};
     record.machines = {{"n1", "A"}, {"n2", "B"}, {"n1", "A"}};
     record.errors.position = 0.01 / 3;
@@ -24,6 +25,7 @@ TEST(Record, IsReadBackAsItWasWritten) {
     ASSERT_TRUE(back);
     EXPECT_EQ(back->scene, record.scene);
     EXPECT_EQ(back->meshes, record.meshes);
+    EXPECT_EQ(back->threads, 5);
     EXPECT_EQ(back->wall_seconds, record.wall_seconds);
     EXPECT_EQ(back->machines, record.machines);
     EXPECT_EQ(back->errors.position, record.errors.position);
@@ -69,6 +71,13 @@ TEST(StudyCsv, HasAsManyFieldsInEveryLineAsInItsHead) {
     const std::string head = csv.substr(0, csv.find('\n'));
     EXPECT_EQ(std::ranges::count(csv, ','), 3 * std::ranges::count(head, ','));
     pent::test::expect_contains(csv, {"dt,filter,verdict", "1/30,none,", "1/60,none,"});
+}
+
+TEST(StudyCsv, HasAListInOneFieldAndItsQuotesTwice) {
+    StudyReport report;
+    report.results.resize(1);
+    report.results[0].settings = {{"scene.gravity", "[0,1]"}, {"load.kind", "\"x\""}};
+    pent::test::expect_contains(study_csv(report), {"\n\"[0,1]\",\"\"\"x\"\"\","});
 }
 
 }  // namespace

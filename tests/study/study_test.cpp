@@ -4,9 +4,11 @@
 
 #include <pent/runs/scene_file.h>
 #include <pent/study/study.h>
+#include <pent/study/units.h>
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace pent::study {
@@ -18,6 +20,29 @@ using pent::test::text_of;
 
 StudyOptions bar_study(const TempFolder& folder, std::vector<std::string> vary) {
     return {.scene = test::write_bar(folder),
+            .folder = folder / "study",
+            .vary = std::move(vary),
+            .repeats = 1,
+            .programs = PENT_BIN};
+}
+
+bool has_mesher() {
+    return std::filesystem::exists(PENT_BIN "/pent-mesh");
+}
+
+// A box that flies down without a force, and other bodies; meshes by their recipes.
+StudyOptions boxes_study(const TempFolder& folder,
+                         const std::string& more,
+                         std::vector<std::string> vary) {
+    std::ofstream(folder / "boxes.toml") << R"([scene]
+frames = 2
+[[body]]
+name = "a"
+mesh = "none.pent"
+recipe = "--box 1,1,1,1 --size 1,1,1,1"
+velocity = [0, -2, 0, 0]
+)" << more;
+    return {.scene = folder / "boxes.toml",
             .folder = folder / "study",
             .vary = std::move(vary),
             .repeats = 1,
@@ -268,7 +293,7 @@ TEST(RunStudy, VariesTheSettingsOfTheLinearSolver) {
 
 // A ball on layers held at its bottom; its recipe makes it anew for each level.
 TEST(RunStudy, MakesTheMeshesOfItsLevelsAndMeasuresAgainstTheFinest) {
-    if (!std::filesystem::exists(PENT_BIN "/pent-mesh")) {
+    if (!has_mesher()) {
         GTEST_SKIP() << "built without the mesher";
     }
     const TempFolder folder;
@@ -323,7 +348,7 @@ preset = "accurate"
 
 // All kinds of elements have the same limit; on a coarse mesh the smoothed ones are nearer to it.
 TEST(RunStudy, MeasuresKindsOfElementsAgainstThatWhichLocksLeast) {
-    if (!std::filesystem::exists(PENT_BIN "/pent-mesh")) {
+    if (!has_mesher()) {
         GTEST_SKIP() << "built without the mesher";
     }
     const TempFolder folder;
@@ -344,7 +369,7 @@ TEST(RunStudy, MeasuresKindsOfElementsAgainstThatWhichLocksLeast) {
 
 // On one mesh: what is left of the error of quadratic elements is that of steps.
 TEST(RunStudy, MeasuresOthersAgainstQuadraticElementsWhereTheMeshHasThem) {
-    if (!std::filesystem::exists(PENT_BIN "/pent-mesh")) {
+    if (!has_mesher()) {
         GTEST_SKIP() << "built without the mesher";
     }
     const TempFolder folder;
@@ -379,27 +404,141 @@ TEST(RunStudy, MeasuresPresetsAgainstTheElementsOfTheBest) {
 }
 
 TEST(RunStudy, RefusesLevelsOfDifferentShape) {
+    if (!has_mesher()) {
+        GTEST_SKIP() << "built without the mesher";
+    }
     const TempFolder folder;
-    const std::filesystem::path scene =
-        test::write_bar(folder, "[solver]\npreset = \"accurate\"\n");
-    std::string text = text_of(scene);
-    text.replace(text.find("[[constraint"), 0, "recipe = \"--no-need-to-make-it\"\n");
-    std::ofstream(scene) << text;
-    const std::filesystem::path meshes = folder / "study/meshes";
-    std::filesystem::create_directories(meshes);
-    std::ofstream(folder / "study/written.txt")
-        << "# pent study: as if it had made "
-           "them\nmeshes/bar.layers-1.pent\nmeshes/bar.layers-2.pent\n";
-    using pent::test::kuhn_box;
-    write_mesh(meshes / "bar.layers-1.pent", kuhn_box<4>({2, 1, 1, 1}, {2, 0.5, 0.5, 0.5}));
-    write_mesh(meshes / "bar.layers-2.pent", kuhn_box<4>({2, 1, 1, 1}, {1, 0.5, 0.5, 0.5}));
-    const StudyOptions options{.scene = scene,
-                               .folder = folder / "study",
-                               .vary = {"layers=1,2"},
-                               .repeats = 1,
-                               .programs = PENT_BIN};
+    const StudyOptions options = boxes_study(folder, "", {"subdivide=1,2"});
+    ASSERT_TRUE(prepare_study(options));
+    write_mesh(options.folder / "meshes/a.subdivide-1.pent",
+               pent::test::kuhn_box<4>({1, 1, 1, 1}, {3, 1, 1, 1}));
     expect_contains(pent::test::error_of([&] { static_cast<void>(run_study(options)); }),
                     {"different shapes", "of one body"});
+}
+
+// Boxes that part as they are: they move exactly, in whatever cells the others are looked for.
+TEST(RunStudy, ComparesBodiesThatTouchEachWithItself) {
+    if (!has_mesher()) {
+        GTEST_SKIP() << "built without the mesher";
+    }
+    const TempFolder folder;
+    const StudyReport report = run_study(boxes_study(folder, R"(
+[[body]]
+name = "b"
+mesh = "none.pent"
+recipe = "--box 1,1,1,1 --size 1,1,1,1"
+place = { translate = [0, 1, 0, 0] }
+)",
+                                                     {"subdivide=1,2"}));
+    ASSERT_EQ(report.results.size(), 2U);
+    for (const Result& result : report.results) {
+        EXPECT_LT(result.errors.position, 1e-12);  // rounding of a rigid flight
+    }
+}
+
+// A box twice as large is elsewhere by as much on every mesh, and in whatever order it comes.
+TEST(RunStudy, ComparesPlacedMeshesAtTheirVerticesWhateverTheOrder) {
+    if (!has_mesher()) {
+        GTEST_SKIP() << "built without the mesher";
+    }
+    std::map<std::string, double> errors;
+    for (const char* scales : {"body.place.scale=1,2", "body.place.scale=2,1"}) {
+        const TempFolder folder;
+        for (const Result& result :
+             run_study(boxes_study(folder, "", {scales, "subdivide=1,2"})).results) {
+            const double error = result.errors.position;
+            const auto [known, is_new] = errors.emplace(settings_text(result.settings), error);
+            EXPECT_NEAR(error, known->second, 1e-12) << known->first;
+            const bool is_placed_alike = result.settings[0].value == "1";
+            EXPECT_EQ(error < 1e-12, is_placed_alike) << known->first;
+        }
+    }
+    EXPECT_EQ(errors.size(), 4U);
+}
+
+TEST(RunStudy, MakesAMeshAnewWhenTheModelOfItsRecipeHasChanged) {
+    if (!has_mesher()) {
+        GTEST_SKIP() << "built without the mesher";
+    }
+    const TempFolder folder;
+    const auto write_model = [&](const char* height) {  // a tetrahedron
+        std::ofstream(folder / "model.off") << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 " << height
+                                            << "\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+    };
+    std::ofstream(folder / "model.toml") << "[[body]]\nname = \"a\"\nmesh = \"none.pent\"\n"
+                                            "recipe = \"model.off --thickness 1\"\n";
+    const StudyOptions options{.scene = folder / "model.toml",
+                               .folder = folder / "study",
+                               .vary = {"layers=1"},
+                               .programs = PENT_BIN};
+    const auto mesh = [&] {
+        EXPECT_TRUE(prepare_study(options));
+        return text_of(options.folder / "meshes/a.layers-1.pent");
+    };
+    write_model("1");
+    const std::string before = mesh();
+    EXPECT_EQ(mesh(), before);
+    write_model("2");
+    EXPECT_NE(mesh(), before);
+}
+
+TEST(RunStudy, TakesRunsAnewThatHadOtherThreads) {
+    const TempFolder folder;
+    StudyOptions options = bar_study(folder, {"dt=1/30"});
+    static_cast<void>(run_study(options));
+    const auto runs = [&] {
+        int started = 0;
+        static_cast<void>(
+            run_study(options, {.on_run = [&](int, int, const std::string&) { ++started; }}));
+        return started;
+    };
+    EXPECT_EQ(runs(), 0);
+    options.threads = 2;
+    EXPECT_EQ(runs(), 4);  // three levels of the reference and the run
+}
+
+TEST(RunStudy, KeepsTheFramesOfRunsThatWereMeasuredBeforeItWasAsked) {
+    const TempFolder folder;
+    StudyOptions options = bar_study(folder, {"dt=1/30"});
+    static_cast<void>(run_study(options));
+    options.keep_runs = true;
+    static_cast<void>(run_study(options));
+    EXPECT_TRUE(std::filesystem::exists(options.folder / "runs/dt-1_30/frames/bar_000004.pent"));
+}
+
+TEST(RunStudy, RefusesAnAxisThatIsVariedTwiceByItsNameAndItsPath) {
+    const TempFolder folder;
+    const StudyOptions options =
+        bar_study(folder, {"elements=linear", "solver.elements=quadratic"});
+    expect_contains(pent::test::error_of([&] { static_cast<void>(run_study(options)); }),
+                    {"elements is varied twice"});
+}
+
+// The law that decides the reference is that of the runs, whatever the scene had before.
+TEST(RunStudy, HasAReferenceThatMovesWhereItsRunsDo) {
+    const TempFolder folder;
+    StudyOptions options = bar_study(folder, {"integrator=bdf2,newton_euler"});
+    static_cast<void>(test::write_bar(folder, "[solver]\nintegrator = \"quasistatic\"\n"));
+    ASSERT_TRUE(prepare_study(options));
+    expect_contains(text_of(options.folder / "references/steps-4.toml"), {"integrator = \"bdf2\""});
+    options.vary = {"integrator=quasistatic"};
+    static_cast<void>(test::write_bar(folder));
+    options.force = true;
+    ASSERT_TRUE(prepare_study(options));
+    expect_contains(text_of(options.folder / "references/steps-4.toml"),
+                    {"integrator = \"quasistatic\""});
+}
+
+TEST(RunStudy, RefusesToMixMotionsWithEquilibria) {
+    const TempFolder folder;
+    StudyOptions options = bar_study(folder, {"integrator=quasistatic,bdf2"});
+    const auto error = [&] {
+        return pent::test::error_of([&] { static_cast<void>(run_study(options)); });
+    };
+    expect_contains(error(), {"integrator=quasistatic", "integrator=bdf2", "two studies"});
+    options.vary = {"dt=1/30"};
+    options.reference_integrator = "quasistatic";
+    expect_contains(error(), {"--reference-integrator quasistatic", "bdf2"});
 }
 
 TEST(RunStudy, RefusesOptionsOutOfRange) {
@@ -412,7 +551,7 @@ TEST(RunStudy, RefusesOptionsOutOfRange) {
 }
 
 TEST(RunStudy, NamesTheBodyWhoseRecipeMakesNoMesh) {
-    if (!std::filesystem::exists(PENT_BIN "/pent-mesh")) {
+    if (!has_mesher()) {
         GTEST_SKIP() << "built without the mesher";
     }
     const TempFolder folder;
