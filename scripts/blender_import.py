@@ -13,7 +13,8 @@ import sys
 def read_series(folder):
     """The slices by series: {name: [(frame, time in s, path), ...]}, in the order of time."""
     series = {}
-    with open(pathlib.Path(folder) / "slices.csv", encoding="ascii") as file:
+    table = pathlib.Path(folder) / "slices.csv"
+    with open(table, encoding="utf-8", errors="surrogateescape", newline="") as file:
         for row in csv.DictReader(file):
             path = pathlib.Path(folder) / row["file"]
             if path.suffix != ".ply":

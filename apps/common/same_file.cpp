@@ -56,6 +56,15 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
     return resolved(a) == resolved(b);
 }
 
+std::vector<NamedFile> parts_of_run(const fs::path& run, const std::string& what) {
+    std::vector<NamedFile> parts;
+    for (const char* part : {"scene.toml", "report.json", "obstacles.json", "journal.txt",
+                             "written.txt", "meshes", "frames", "contacts", "checkpoint"}) {
+        parts.push_back({what, run / part, true});
+    }
+    return parts;
+}
+
 void require_apart(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
     std::vector<NamedFile> others = inputs;
     for (const NamedFile& output : outputs) {

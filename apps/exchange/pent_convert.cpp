@@ -3,6 +3,7 @@
 #include <pent/error.h>
 #include <pent/exchange/exchange.h>
 #include <pent/formatted.h>
+#include <pent/input_path.h>
 #include <pent/pent_file.h>
 
 #include <filesystem>
@@ -41,7 +42,7 @@ void add_options(CLI::App& cli, Arguments& arguments) {
     cli.add_flag(
         "--mfem-attributes", arguments.options.has_mfem_attributes,
         "MFEM: number the boundary behind the labels of the cells, as MFEM's own meshes have"
-        " it; default: 1 bottom, 2 lateral, 3 top");
+        " it; default: those of the body, or 1 bottom, 2 lateral, 3 top");
 }
 
 // Frames of pent-sim, of the mesh that is converted.
@@ -50,7 +51,7 @@ std::vector<exchange::FramePoints> read_frames(const Arguments& arguments) {
     if (arguments.frames.empty()) {
         return frames;
     }
-    if (std::filesystem::path(arguments.input).extension() != ".pent") {
+    if (format_of(arguments.input, "") != ".pent") {
         throw Error(arguments.input + ": frames are of a .pent mesh, and this is none");
     }
     const FileInfo info = read_info(arguments.input);
@@ -93,14 +94,18 @@ void say_body(Program& program, const SimplexMesh<4>& mesh) {
 }
 
 Verdict convert(Program& program, Arguments& arguments) {
-    program.require_apart({{"the input", arguments.input}}, {{"--output", arguments.output}});
+    std::vector<NamedFile> inputs = {{"the input", arguments.input}};
+    for (const std::filesystem::path& frame : arguments.frames) {
+        inputs.push_back({"--frames", frame});
+    }
+    program.require_apart(inputs, {{"--output", arguments.output}});
     static_cast<void>(exchange::format_of(arguments.output));  // before any work
     arguments.options.created_by = program.name_and_version();
     const exchange::Content content = exchange::read(arguments.input);
     if (const auto* surface = std::get_if<exchange::TetSurface>(&content)) {
         say_surface(program, *surface);
     } else {
-        say_body(program, std::get<SimplexMesh<4>>(content));
+        say_body(program, std::get<exchange::Body>(content).mesh);
     }
     arguments.options.frames = read_frames(arguments);
     exchange::write(arguments.output, content, arguments.options);

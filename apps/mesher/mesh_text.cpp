@@ -46,6 +46,12 @@ template nlohmann::ordered_json box_json<2>(const Positions<2>&);
 template nlohmann::ordered_json box_json<3>(const Positions<3>&);
 template nlohmann::ordered_json box_json<4>(const Positions<4>&);
 
+std::string straight_line(std::int64_t cells) {
+    return formatted("straight   %lld cell%s of higher order, by their corners alone",
+                     static_cast<long long>(cells),  // NOLINT(google-runtime-int): printf's type
+                     cells == 1 ? "" : "s");
+}
+
 std::string quality_line(const mesher::QualityReport& report) {
     return formatted("mean ratio min %.3f mean %.3f, condition of Dm mean %.3g max %.3g",
                      report.mean_ratio.min, report.mean_ratio.mean, report.condition.mean,

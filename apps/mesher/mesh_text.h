@@ -3,6 +3,7 @@
 #include <pent/mesher/quality.h>
 #include <pent/simplex_mesh.h>
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -15,6 +16,9 @@ template <int Dim>
 /// The same, as {"low": [...], "high": [...]}.
 template <int Dim>
 [[nodiscard]] nlohmann::ordered_json box_json(const Positions<Dim>& positions);
+
+/// "straight   5 cells of higher order, ...": of how many cells the corners alone were taken.
+[[nodiscard]] std::string straight_line(std::int64_t cells);
 
 /// One line with the figures that matter most.
 [[nodiscard]] std::string quality_line(const mesher::QualityReport& report);

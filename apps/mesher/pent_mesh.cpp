@@ -82,9 +82,7 @@ void say_cells(const Program& program, const BodyReport& report) {
         program.say("cut        " + report.cut);
     }
     if (report.curved_cells > 0) {
-        program.say(formatted("straight   %lld cell%s of higher order, by their corners alone",
-                              static_cast<Long>(report.curved_cells),
-                              report.curved_cells == 1 ? "" : "s"));
+        program.say(pent::apps::straight_line(report.curved_cells));
     }
     if (!report.left_out.empty()) {
         program.say("left out   " + report.left_out + ": no part of a body");

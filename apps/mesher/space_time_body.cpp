@@ -32,6 +32,7 @@ struct Made {
     SpaceTimeBody body;
     std::string cut;       // see MovingMesh
     std::string left_out;  // the same
+    std::int64_t curved_cells = 0;
     std::size_t frames = 0;
     double from = 0;  // s
     double to = 0;    // s
@@ -44,6 +45,7 @@ Made make(Program& program, const MeshArguments& arguments, Heartbeat& heartbeat
     Made made{{},
               moving.cut,
               moving.left_out,
+              moving.curved_cells,
               moving.frame_count(),
               moving.times.front(),
               moving.times.back()};
@@ -145,16 +147,23 @@ void say_time(const Program& program, const MeshArguments& arguments, const Made
             : formatted("%.4g m", body.lowest_layer);
     // Where layers are 0.7 edges high, the worst cells of a body at rest are best.
     const double best = scale * 0.7 * body.base_edge * layers / (scale * (made.to - made.from));
+    const Eigen::VectorXd& translation = arguments.request.translation;
+    const double start = translation.size() == 4 ? translation[3] : 0;
+    const std::string offset =
+        start == 0 ? "" : formatted(" %c %g m", start < 0 ? '-' : '+', std::abs(start));
     program.say(
-        formatted("time       w = %g m/s * t; %d layer%s of %s, best for cells at"
+        formatted("time       w = %g m/s * t%s; %d layer%s of %s, best for cells at"
                   " --time-scale %.3g",
-                  scale, layers, layers == 1 ? "" : "s", heights.c_str(), best));
+                  scale, offset.c_str(), layers, layers == 1 ? "" : "s", heights.c_str(), best));
 }
 
 void say_body(const Program& program, const Made& made) {
     const SpaceTimeBody& body = made.body;
     if (!made.cut.empty()) {
         program.say("cut        " + made.cut);
+    }
+    if (made.curved_cells > 0) {
+        program.say(straight_line(made.curved_cells));
     }
     if (!made.left_out.empty()) {
         program.say("left out   " + made.left_out);
@@ -193,6 +202,7 @@ nlohmann::ordered_json json_of(const MeshArguments& arguments, const Made& made)
                           {"integral", body.integral},
                           {"cut", made.cut},
                           {"left_out", made.left_out},
+                          {"curved", made.curved_cells},
                           {"carried", names_of(body)},
                           {"bisection", body.way_of_bisection}};
     json["mesh"] = {{"vertices", body.mesh.vertex_count()},

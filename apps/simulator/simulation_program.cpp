@@ -199,10 +199,14 @@ Verdict explain_scene(Program& program, const Arguments& arguments, const simula
     return Verdict::Finished;
 }
 
-// Throws an Error if the --json report would replace the scene or one of its meshes, the scene
-// first: a report says why it could not be read.
+// Throws an Error if the --json report would replace the scene, one of its meshes or a part of the
+// run, the scene and the run first: a report says why the scene could not be read.
 simulator::Scene read_inputs(Program& program, const Arguments& arguments) {
-    std::vector<NamedFile> inputs = {{"the scene", arguments.scene}};
+    std::vector<NamedFile> inputs;
+    if (!arguments.output.empty()) {
+        inputs = parts_of_run(arguments.output, "a part of the run");
+    }
+    inputs.push_back({"the scene", arguments.scene});
     program.require_apart(inputs, {});
     simulator::Scene scene;
     simulator::agree(arguments.ranks.get(), [&] { scene = runs::read_scene(arguments.scene); });

@@ -18,6 +18,8 @@ namespace pent::apps {
 
 namespace {
 
+constexpr const char* kPictures = R"(\d{6,}(_s\d{2,})?\.png)";  // names of those in a folder
+
 struct Arguments {
     ViewArguments view;
     std::string output;
@@ -147,6 +149,8 @@ Verdict render(Program& program, Arguments& arguments) {
     program.require_apart(inputs, {{"--output", targets.movie},
                                    {"--output", targets.picture},
                                    {"--output", targets.folder},
+                                   taken_name(program.common().json, targets.folder, kPictures),
+                                   taken_name(targets.sheet, targets.folder, kPictures),
                                    {"--sheet", targets.sheet}});
     const bool is_one_picture = !targets.picture.empty() && targets.sheet.empty();
     options.frames = viewer::select_frames(

@@ -56,7 +56,10 @@ std::string obstacle_note(int obstacles, const Arguments& arguments) {
 }
 
 Verdict slice(Program& program, const Arguments& arguments) {
-    program.require_apart(inputs_of(arguments.view.input), {{"--output", arguments.output}});
+    program.require_apart(inputs_of(arguments.view.input),
+                          {{"--output", arguments.output},
+                           taken_name(program.common().json, arguments.output,
+                                      R"(slices\.csv|.+\.pvd|.+_\d{6,}\.(ply|obj|vtu))")});
     const viewer::RunFolder run = viewer::open_run(arguments.view.input);
     viewer::SliceRunOptions options;
     options.sections = to_sections(arguments.view);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <regex>
 #include <sstream>
 #include <utility>
 
@@ -96,12 +97,18 @@ void add_rotation(const std::string& text, viewer::SectionOptions& sections) {
 }  // namespace
 
 std::vector<NamedFile> inputs_of(const std::string& input) {
-    std::vector<NamedFile> inputs = {{"what is looked at", input}};
-    for (const char* part : {"scene.toml", "report.json", "obstacles.json", "journal.txt",
-                             "written.txt", "meshes", "frames", "contacts", "checkpoint"}) {
-        inputs.push_back({"a part of what is looked at", fs::path(input) / part, true});
-    }
+    std::vector<NamedFile> inputs = parts_of_run(input, "a part of what is looked at");
+    inputs.insert(inputs.begin(), {"what is looked at", input});
     return inputs;
+}
+
+NamedFile taken_name(const fs::path& file, const fs::path& folder, const std::string& names) {
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(fs::absolute(file, error), error);
+    const bool is_taken = !file.empty() && !folder.empty()
+                          && is_same_file(real.parent_path(), folder)
+                          && std::regex_match(real.filename().string(), std::regex(names));
+    return is_taken ? NamedFile{"a file of --output", file} : NamedFile();
 }
 
 std::vector<double> to_numbers(const std::string& text, const std::string& what) {
@@ -121,19 +128,23 @@ void add_view_options(CLI::App& cli, ViewArguments& arguments) {
                    "commas; default: all")
         ->type_name("LIST");
     cli.add_option("--w", arguments.w,
-                   "Slice at w = C, m; several, or A:B:N for N from A to B; default: one through "
+                   "Slice at w = C, m; several with commas, or A:B:N for N from A to B; default: "
+                   "one through "
                    "the middle of the bodies")
-        ->type_name("C");
+        ->type_name("C")
+        ->allow_extra_args(false);
     cli.add_option("--rotate", arguments.rotations,
                    "Turn the bodies about the origin before slicing, PLANE:DEGREES as in xw:30; "
                    "several apply in the order written; the last may be PLANE:A:B:N for N slices")
-        ->type_name("TURN");
+        ->type_name("TURN")
+        ->allow_extra_args(false);
     cli.add_option("--normal", arguments.normal,
                    "Slice across this direction instead, X,Y,Z,W (made unit)")
         ->type_name("N");
     cli.add_option("--offset", arguments.offsets,
                    "Distance of the slice from the origin along --normal, m; as --w")
-        ->type_name("D");
+        ->type_name("D")
+        ->allow_extra_args(false);
     cli.add_option("--project", arguments.projection,
                    "Add the outline of the whole bodies, projected from 4D: orthographic or "
                    "perspective")

@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,6 +38,13 @@ void add_view_options(CLI::App& cli, ViewArguments& arguments);
 /// report, obstacles, meshes, frames, contacts and checkpoints, and its folder, but nothing else in
 /// that.
 [[nodiscard]] std::vector<NamedFile> inputs_of(const std::string& input);
+
+/// `file` itself, for Program::require_apart() to refuse, if it is in `folder` and called as what the
+/// program writes there; an empty path if not.
+/// @param names  A regular expression for the whole of such a name.
+[[nodiscard]] NamedFile taken_name(const std::filesystem::path& file,
+                                   const std::filesystem::path& folder,
+                                   const std::string& names);
 
 /// The hyperplanes meant. Throws an Error that says what was found and what was expected.
 [[nodiscard]] viewer::SectionOptions to_sections(const ViewArguments& arguments);

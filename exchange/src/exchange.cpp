@@ -2,10 +2,10 @@
 
 #include <pent/error.h>
 #include <pent/input_path.h>
-#include <pent/pent_file.h>
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -45,10 +45,15 @@ void check_frames(const std::filesystem::path& path,
         throw Error(path.string() + ": " + std::string(format.name)
                     + " has no frames; expected .g4tf or .g4b");
     }
-    const auto* mesh = std::get_if<SimplexMesh<4>>(&content);
+    const auto* body = std::get_if<Body>(&content);
     const Eigen::Index points =
-        mesh != nullptr ? mesh->positions.cols() : std::get<TetSurface>(content).points.cols();
+        body != nullptr ? body->mesh.vertex_count() : std::get<TetSurface>(content).points.cols();
+    std::set<std::string_view> names;
     for (const FramePoints& frame : options.frames) {
+        if (!names.insert(frame.name).second) {
+            throw Error(path.string() + ": two frames are called \"" + frame.name
+                        + "\"; expected each frame once, from files of different names");
+        }
         if (frame.points.cols() != points) {
             throw Error(path.string() + ": frame " + frame.name + " has "
                         + std::to_string(frame.points.cols()) + " points; expected "
@@ -73,15 +78,16 @@ void write_boundary(const std::filesystem::path& path,
 }  // namespace
 
 Content read_pent(const std::filesystem::path& path) {
-    return read_mesh<4>(path).mesh;
+    MeshFile<4> file = read_mesh<4>(path);
+    return Body{std::move(file.mesh), std::move(file.extras)};
 }
 
 void write_pent(const std::filesystem::path& path,
                 const Content& content,
                 const WriteOptions& options) {
-    const auto& mesh = std::get<SimplexMesh<4>>(content);
-    validate<4>(mesh, path.string());
-    static_cast<void>(write_mesh<4>(path, mesh, {.created_by = options.created_by}));
+    const auto& body = std::get<Body>(content);
+    static_cast<void>(
+        write_mesh<4>(path, body.mesh, {.created_by = options.created_by}, body.extras));
 }
 
 std::span<const Format> formats() {
@@ -105,7 +111,7 @@ const Format& format_of(const std::filesystem::path& path) {
                 + "; expected one of " + known);
 }
 
-Content read(const std::filesystem::path& path) {
+Content read(const std::filesystem::path& path, const ReadOptions& options) {
     const Format& format = format_of(path);
     if (format.read == nullptr) {
         throw Error(path.string() + ": " + std::string(format.name)
@@ -114,6 +120,11 @@ Content read(const std::filesystem::path& path) {
     require_file(path);
     Content content = format.read(path);
     if (auto* surface = std::get_if<TetSurface>(&content)) {
+        if (options.is_welded) {
+            // What is closed as it stands may touch itself where points are at one place.
+            *surface = check(*surface).is_closed() ? without_unused_points(*surface)
+                                                   : weld(*surface).surface;
+        }
         if (surface->tetrahedra.cols() == 0) {
             throw Error(path.string() + ": no tetrahedron in it; expected the boundary of a body of"
                                         " four dimensions");
@@ -125,12 +136,12 @@ Content read(const std::filesystem::path& path) {
 
 void write(const std::filesystem::path& path, const Content& content, const WriteOptions& options) {
     const Format& format = format_of(path);
-    const auto* mesh = std::get_if<SimplexMesh<4>>(&content);
+    const auto* body = std::get_if<Body>(&content);
     check_frames(path, format, content, options);
-    if (mesh != nullptr && !format.has_cells) {
-        write_boundary(path, format, *mesh, options);
-    } else if (mesh == nullptr && format.has_cells) {
-        format.write(path, cone_of(std::get<TetSurface>(content), path.string()), options);
+    if (body != nullptr && !format.has_cells) {
+        write_boundary(path, format, body->mesh, options);
+    } else if (body == nullptr && format.has_cells) {
+        format.write(path, Body{cone_of(std::get<TetSurface>(content), path.string())}, options);
     } else {
         format.write(path, content, options);
     }

@@ -3,6 +3,7 @@
 
 #include <pent/base64.h>
 #include <pent/error.h>
+#include <pent/input_path.h>
 #include <pent/output_file.h>
 
 #include <algorithm>
@@ -165,7 +166,7 @@ void write_g4mf(const std::filesystem::path& path,
          {{{"name", "root"}, {"children", {1}}},
           {{"name", name}, {"meshInstance", {{"mesh", 0}}}}}},
     };
-    if (path.extension() == ".g4b") {
+    if (pent::format_of(path, "") == ".g4b") {
         json["buffers"][0]["chunk"] = 1;
         std::string file(kMagic);
         append_bytes(file, std::uint32_t{0});  // of a draft

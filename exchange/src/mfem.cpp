@@ -6,7 +6,9 @@
 #include <pent/output_file.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,39 +20,71 @@ namespace {
 constexpr int kPentatope = 8;
 constexpr int kTetrahedron = 4;
 
-// Labels of the boundary of an extruded body: which are in its first layer, its last, or between.
+using Corners = Eigen::Vector<std::uint32_t, 4>;
+
+struct IsBefore {
+    bool operator()(const Corners& a, const Corners& b) const {
+        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+    }
+};
+
+// Labels of the boundary: those that facets of the body have, 0 being none; else, where it was
+// extruded, by whether they are in its first layer, its last, or between.
 class BoundaryLabels {
 public:
-    BoundaryLabels(const SimplexMesh<4>& mesh, const WriteOptions& options) : mesh_(mesh) {
-        if (mesh.layers.empty()) {
-            return;
+    BoundaryLabels(const Body& body, const WriteOptions& options) : mesh_(body.mesh) {
+        for (std::size_t f = 0; f < body.extras.labels.size(); ++f) {
+            if (body.extras.labels[f] != 0) {
+                known_[sorted(body.extras.boundary.col(static_cast<Eigen::Index>(f)))] =
+                    body.extras.labels[f];
+            }
         }
-        const auto [first, last] = std::minmax_element(mesh.layers.begin(), mesh.layers.end());
-        first_ = *first;
-        last_ = *last;
-        is_mfem_ = options.has_mfem_attributes;
-        for (const std::uint16_t region : mesh.regions) {
+        if (!mesh_.layers.empty()) {
+            const auto [first, last] =
+                std::minmax_element(mesh_.layers.begin(), mesh_.layers.end());
+            first_ = *first;
+            last_ = *last;
+        }
+        is_mfem_ = options.has_mfem_attributes && !(known_.empty() && mesh_.layers.empty());
+        for (const std::uint16_t region : mesh_.regions) {
             cell_labels_ = std::max(cell_labels_, region + 1);
         }
     }
 
-    [[nodiscard]] int of(const Eigen::Vector<std::uint32_t, 4>& corners, std::size_t cell) const {
-        if (mesh_.layers.empty()) {
-            return 1;
+    [[nodiscard]] int of(const Corners& corners, std::size_t cell) const {
+        const int label = own_label(corners);
+        if (!is_mfem_) {
+            return label;
+        }
+        if (label != static_cast<int>(BoundaryLabel::Bottom)) {
+            return cell_labels_ + label - 1;
+        }
+        return mesh_.regions.empty() ? 1 : mesh_.regions[cell] + 1;
+    }
+
+private:
+    static Corners sorted(Corners corners) {
+        std::sort(corners.begin(), corners.end());
+        return corners;
+    }
+
+    [[nodiscard]] int own_label(const Corners& corners) const {
+        const auto found = known_.find(sorted(corners));
+        if (found != known_.end()) {
+            return found->second;
         }
         const auto are_in = [&](std::uint32_t layer) {
             return std::all_of(corners.begin(), corners.end(),
                                [&](std::uint32_t corner) { return mesh_.layers[corner] == layer; });
         };
-        if (are_in(first_)) {
-            return is_mfem_ && !mesh_.regions.empty() ? mesh_.regions[cell] + 1 : 1;
-        }
-        const int lateral = is_mfem_ ? cell_labels_ + 1 : 2;
-        return are_in(last_) ? lateral + 1 : lateral;
+        const BoundaryLabel label = mesh_.layers.empty() || are_in(first_) ? BoundaryLabel::Bottom
+                                    : are_in(last_)                        ? BoundaryLabel::Top
+                                                                           : BoundaryLabel::Lateral;
+        return static_cast<int>(label);
     }
 
-private:
     const SimplexMesh<4>& mesh_;
+    std::map<Corners, std::uint16_t, IsBefore> known_;
     std::uint32_t first_ = 0;
     std::uint32_t last_ = 0;
     int cell_labels_ = 1;
@@ -80,13 +114,16 @@ void check_header(TextReader& text) {
 // Label, kind and corners of the elements of a section; indices are checked when all points are
 // known.
 struct Elements {
-    std::vector<std::uint16_t> labels;
+    std::vector<std::int64_t> labels;  // from 1
     std::vector<std::array<std::int64_t, 5>> corners;
 };
 
 Elements read_elements(TextReader& text, std::string_view section, int kind) {
     expect_word(text, section);
     const std::int64_t count = text.count(text.next_word("a number of elements"), "elements");
+    // Those of cells become regions, from 0; those of the boundary are left out.
+    const std::int64_t most = kind == kPentatope ? std::numeric_limits<std::uint16_t>::max() + 1
+                                                 : std::numeric_limits<std::int32_t>::max();
     Elements elements;
     for (std::int64_t i = 0; i < count; ++i) {
         const std::int64_t label = text.integer(text.next_word("a label"), "a label");
@@ -95,10 +132,11 @@ Elements read_elements(TextReader& text, std::string_view section, int kind) {
             text.fail("an element of kind " + std::to_string(found) + "; expected "
                       + std::to_string(kind) + (kind == kPentatope ? ", a pentatope" : ""));
         }
-        if (label < 1 || label > std::numeric_limits<std::uint16_t>::max()) {
-            text.fail("a label of " + std::to_string(label) + "; expected 1 to 65535");
+        if (label < 1 || label > most) {
+            text.fail("a label of " + std::to_string(label) + "; expected 1 to "
+                      + std::to_string(most));
         }
-        elements.labels.push_back(static_cast<std::uint16_t>(label - 1));
+        elements.labels.push_back(label);
         std::array<std::int64_t, 5>& corners = elements.corners.emplace_back();
         for (int k = 0; k < (kind == kPentatope ? 5 : 4); ++k) {
             corners[static_cast<std::size_t>(k)] =
@@ -144,17 +182,20 @@ Content read_mfem(const std::filesystem::path& path) {
         }
     }
     if (std::any_of(elements.labels.begin(), elements.labels.end(),
-                    [](std::uint16_t label) { return label != 0; })) {
-        mesh.regions = elements.labels;
+                    [](std::int64_t label) { return label != 1; })) {
+        for (const std::int64_t label : elements.labels) {
+            mesh.regions.push_back(static_cast<std::uint16_t>(label - 1));
+        }
     }
     validate<4>(mesh, path.string());
-    return mesh;
+    return Body{std::move(mesh)};
 }
 
 void write_mfem(const std::filesystem::path& path,
                 const Content& content,
                 const WriteOptions& options) {
-    const auto& mesh = std::get<SimplexMesh<4>>(content);
+    const auto& body = std::get<Body>(content);
+    const SimplexMesh<4>& mesh = body.mesh;
     std::string text = "MFEM mesh v1.0\n\n# " + options.created_by
                        + "; time is the last coordinate\n\ndimension\n4\n\nelements\n"
                        + std::to_string(mesh.cell_count()) + '\n';
@@ -165,7 +206,7 @@ void write_mfem(const std::filesystem::path& path,
         text += '\n';
     }
     const FacetMatch<4> match = match_facets<4>(mesh.cells, mesh.vertex_count());
-    const BoundaryLabels labels(mesh, options);
+    const BoundaryLabels labels(body, options);
     text += "\nboundary\n" + std::to_string(match.boundary.cols()) + '\n';
     for (Eigen::Index f = 0; f < match.boundary.cols(); ++f) {
         const std::uint32_t cell = match.boundary_cells[static_cast<std::size_t>(f)];

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,57 @@ namespace pent::exchange {
 namespace {
 
 using Eigen::Vector4d;
+
+// For each point the first one at the same place.
+std::vector<std::uint32_t> first_at_same_place(const Positions<4>& points) {
+    std::vector<std::uint32_t> order(static_cast<std::size_t>(points.cols()));
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        const auto p = points.col(a);
+        const auto q = points.col(b);
+        return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+    });
+    std::vector<std::uint32_t> first(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const bool is_same = i > 0 && points.col(order[i]) == points.col(order[i - 1]);
+        first[order[i]] = is_same ? first[order[i - 1]] : order[i];
+    }
+    return first;
+}
+
+bool has_corner_twice(const Eigen::Vector<std::uint32_t, 4>& corners) {
+    for (int a = 0; a < 4; ++a) {
+        for (int b = a + 1; b < 4; ++b) {
+            if (corners[a] == corners[b]) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+// The points that some tetrahedra have, in their order, and the tetrahedra on these.
+struct UsedPoints {
+    std::vector<std::uint32_t> points;
+    Simplices<4> tetrahedra;
+};
+
+UsedPoints used_points_of(const Simplices<4>& tetrahedra, Eigen::Index points) {
+    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> name(static_cast<std::size_t>(points), kNone);
+    for (const std::uint32_t corner : tetrahedra.reshaped()) {
+        name[corner] = 0;
+    }
+    UsedPoints used;
+    for (std::size_t point = 0; point < name.size(); ++point) {
+        if (name[point] != kNone) {
+            name[point] = static_cast<std::uint32_t>(used.points.size());
+            used.points.push_back(static_cast<std::uint32_t>(point));
+        }
+    }
+    used.tetrahedra = tetrahedra.unaryExpr([&](std::uint32_t corner) { return name[corner]; });
+    return used;
+}
 
 // A triangle of a tetrahedron: its corners increasing, and whether that is the side from which the
 // tetrahedron sees it.
@@ -182,6 +234,33 @@ bool move_inside(const HalfSpaces& spaces, double margin, Vector4d& x) {
 
 }  // namespace
 
+WeldedSurface weld(const TetSurface& surface) {
+    const std::vector<std::uint32_t> first = first_at_same_place(surface.points);
+    WeldedSurface welded{surface};
+    for (std::size_t point = 0; point < first.size(); ++point) {
+        welded.merged_points += first[point] != point ? 1 : 0;
+    }
+    Simplices<4>& tetrahedra = welded.surface.tetrahedra;
+    Eigen::Index kept = 0;
+    for (Eigen::Index t = 0; t < tetrahedra.cols(); ++t) {
+        const Eigen::Vector<std::uint32_t, 4> corners =
+            tetrahedra.col(t).unaryExpr([&](std::uint32_t corner) { return first[corner]; });
+        if (has_corner_twice(corners)) {
+            ++welded.degenerate;
+        } else {
+            tetrahedra.col(kept++) = corners;
+        }
+    }
+    tetrahedra.conservativeResize(4, kept);
+    welded.surface = without_unused_points(welded.surface);
+    return welded;
+}
+
+TetSurface without_unused_points(const TetSurface& surface) {
+    UsedPoints used = used_points_of(surface.tetrahedra, surface.points.cols());
+    return {surface.points(Eigen::all, used.points), std::move(used.tetrahedra)};
+}
+
 SurfaceCheck check(const TetSurface& surface) {
     const std::vector<Side> sides = sides_of(surface.tetrahedra);
     SurfaceCheck check;
@@ -240,23 +319,10 @@ TetSurface boundary_of(const SimplexMesh<4>& mesh) {
 }
 
 BodyBoundary boundary_with_vertices(const SimplexMesh<4>& mesh) {
-    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
     const FacetMatch<4> match = match_facets<4>(mesh.cells, mesh.vertex_count());
-    std::vector<std::uint32_t> name(static_cast<std::size_t>(mesh.vertex_count()), kNone);
-    for (const std::uint32_t corner : match.boundary.reshaped()) {
-        name[corner] = 0;
-    }
-    BodyBoundary boundary;
-    for (std::size_t v = 0; v < name.size(); ++v) {
-        if (name[v] != kNone) {
-            name[v] = static_cast<std::uint32_t>(boundary.vertices.size());
-            boundary.vertices.push_back(static_cast<std::uint32_t>(v));
-        }
-    }
-    boundary.surface.points = mesh.positions(Eigen::all, boundary.vertices);
-    boundary.surface.tetrahedra =
-        match.boundary.unaryExpr([&](std::uint32_t corner) { return name[corner]; });
-    return boundary;
+    UsedPoints used = used_points_of(match.boundary, mesh.vertex_count());
+    return {{mesh.positions(Eigen::all, used.points), std::move(used.tetrahedra)},
+            std::move(used.points)};
 }
 
 SimplexMesh<4> cone_of(const TetSurface& surface, std::string_view name) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -96,6 +97,9 @@ std::uint32_t write_file(const std::filesystem::path& path,
 /// The columns of a field: its name alone, or with an axis behind it.
 [[nodiscard]] std::vector<Column> field_columns(const VertexField& field);
 
+/// Prefixes of the vectors of vertices that are no fields: positions, velocities, contact forces.
+inline const std::vector<std::string_view> kVertexVectors = {"", "v", "f"};
+
 /// Every property of doubles that is none of those known, with no values yet: a vector where all
 /// axes follow one another, else a number.
 ///
@@ -114,6 +118,20 @@ void check_fields(const std::vector<VertexField>& fields,
                   std::string_view of,
                   const std::filesystem::path& path,
                   std::uint64_t first = 0);
+
+/// Names of the components of vectors: each prefix with each axis behind it.
+[[nodiscard]] std::set<std::string> axis_names(int dimension,
+                                               const std::vector<std::string_view>& prefixes);
+
+/// Throws an Error unless fields are read back as what they are, by names of their own.
+///
+/// @param reserved  Names of properties with another meaning.
+/// @param of        What they are quantities of: "vertex".
+void check_names(const std::vector<VertexField>& fields,
+                 int dimension,
+                 const std::set<std::string>& reserved,
+                 std::string_view of,
+                 const std::filesystem::path& path);
 
 /// The element that these columns make.
 [[nodiscard]] PlyElement make_element(std::string_view name,

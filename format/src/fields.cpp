@@ -1,6 +1,7 @@
 #include "body.h"
 
 #include <pent/error.h>
+#include <pent/printable.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +12,13 @@ namespace pent {
 namespace {
 
 constexpr std::array<std::string_view, 4> kFieldAxes = {"_x", "_y", "_z", "_w"};
+
+// Whether a header can have it: one word of a line.
+bool is_word(const std::string& name) {
+    constexpr std::size_t kLongest = 4078;  // of a line of 4096
+    return !name.empty() && name.size() <= kLongest
+           && name.find_first_of(" \n") == std::string::npos && printable(name) == name;
+}
 
 }  // namespace
 
@@ -81,6 +89,53 @@ void check_fields(const std::vector<VertexField>& fields,
                             + std::to_string(first + static_cast<std::uint64_t>(i)) + ": "
                             + field.name + " is not finite, expected finite numbers");
             }
+        }
+    }
+}
+
+std::set<std::string> axis_names(int dimension, const std::vector<std::string_view>& prefixes) {
+    std::set<std::string> names;
+    for (const std::string_view prefix : prefixes) {
+        for (const char axis :
+             std::string_view("xyzw").substr(0, static_cast<std::size_t>(dimension))) {
+            names.insert(std::string(prefix) + axis);
+        }
+    }
+    return names;
+}
+
+void check_names(const std::vector<VertexField>& fields,
+                 int dimension,
+                 const std::set<std::string>& reserved,
+                 std::string_view of,
+                 const std::filesystem::path& path) {
+    const auto fail = [&](const std::string& name, const std::string& what) {
+        throw Error(path.string() + ": " + std::string(of) + " quantity '" + printable(name)
+                    + "': " + what);
+    };
+    std::set<std::string> seen;
+    std::vector<Column> columns;
+    for (const VertexField& field : fields) {
+        if (!is_word(field.name)) {
+            fail(field.name, "expected a name of letters, digits and '_'");
+        }
+        for (const Column& column : field_columns(field)) {
+            if (reserved.contains(column.name)) {
+                fail(field.name, "the property " + column.name
+                                     + " has a meaning of its own, expected another name");
+            }
+            if (!seen.insert(column.name).second) {
+                fail(field.name, "another quantity has the property " + column.name
+                                     + " already, expected another name");
+            }
+            columns.push_back(column);
+        }
+    }
+    const std::vector<VertexField> read = fields_of(make_element(of, 0, columns), dimension, {});
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        if (read[i].name != fields[i].name) {  // else there are as many
+            fail(fields[i].name, "it and those behind it would be read as the vector "
+                                     + read[i].name + ", expected other names");
         }
     }
 }

@@ -30,8 +30,6 @@ void check_finite(const Positions<Dim>& values,
     }
 }
 
-const std::vector<std::string_view> kVectors = {"", "v", "f"};
-
 // @param writers  Of which some may have no vertices; null for one alone.
 template <int Dim>
 std::vector<Column> frame_columns(const Frame<Dim>& frame, const SlabWriters* writers) {
@@ -71,6 +69,7 @@ void check(const Frame<Dim>& frame, const std::filesystem::path& path, std::uint
     check_count<Dim>(frame.velocities, frame.positions.cols(), "velocities", path);
     check_count<Dim>(frame.contact_forces, frame.positions.cols(), "contact forces", path);
     check_fields(frame.fields, Dim, frame.positions.cols(), "vertex", path, first);
+    check_names(frame.fields, Dim, axis_names(Dim, kVertexVectors), "vertex", path);
     if (frame.mesh_name.empty() || frame.mesh_name.find_first_of(" \n\r") != std::string::npos) {
         throw Error(path.string() + ": mesh name '" + frame.mesh_name
                     + "', expected a name without spaces");
@@ -129,7 +128,7 @@ Frame<Dim> read_frame(const std::filesystem::path& path) {
     if (has_vector(header.elements[0], Dim, "f", "contact force", path)) {
         frame.contact_forces.resize(Dim, count);
     }
-    frame.fields = fields_of(header.elements[0], Dim, kVectors);
+    frame.fields = fields_of(header.elements[0], Dim, kVertexVectors);
     frame.mesh_name = header.mesh_name;
     frame.mesh_crc = header.mesh_crc;
     frame.frame = header.frame;

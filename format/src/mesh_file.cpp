@@ -8,6 +8,7 @@
 #include <pent/pent_file.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace pent {
@@ -18,6 +19,7 @@ constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
 constexpr const char* kTag = "bisection_tag";
 constexpr const char* kBaseLabel = "base_label";
 constexpr const char* kBoundary = "boundary";
+const std::vector<std::string_view> kCellVectors = {"fiber_"};
 
 void append_fields(const std::vector<VertexField>& fields, std::vector<Column>& columns) {
     for (const VertexField& field : fields) {
@@ -87,6 +89,13 @@ void check_extras(const SimplexMesh<Dim>& mesh,
     }
 }
 
+// Names of quantities, which the header of a file has.
+template <int Dim>
+void check_names(const MeshExtras<Dim>& extras, const std::filesystem::path& path) {
+    check_names(extras.vertex_fields, Dim, reserved_vertex_names(Dim), "vertex", path);
+    check_names(extras.cell_fields, Dim, reserved_cell_names(Dim), cell_name(Dim), path);
+}
+
 // The labeled facets of a file, if it has an element with what they need.
 const PlyElement* boundary_of(const Header& header) {
     if (header.elements.size() < 3 || header.elements[2].name != kBoundary) {
@@ -102,8 +111,8 @@ const PlyElement* boundary_of(const Header& header) {
 template <int Dim>
 MeshExtras<Dim> sized_extras(const Header& header, const std::filesystem::path& path) {
     MeshExtras<Dim> extras;
-    extras.vertex_fields = fields_of(header.elements[0], Dim, {"", "v", "f"});
-    extras.cell_fields = fields_of(header.elements[1], Dim, {"fiber_"});
+    extras.vertex_fields = fields_of(header.elements[0], Dim, kVertexVectors);
+    extras.cell_fields = fields_of(header.elements[1], Dim, kCellVectors);
     if (has_property(header.elements[1], kTag, PlyType::Uchar, path)) {
         extras.bisection_tags.resize(header.elements[1].count);
     }
@@ -127,6 +136,21 @@ MeshExtras<Dim> sized_extras(const Header& header, const std::filesystem::path& 
 
 }  // namespace
 
+std::set<std::string> reserved_vertex_names(int dimension) {
+    std::set<std::string> names = axis_names(dimension, kVertexVectors);
+    names.insert({"column", "layer"});
+    return names;
+}
+
+std::set<std::string> reserved_cell_names(int dimension) {
+    std::set<std::string> names = axis_names(dimension, kCellVectors);
+    for (int corner = 0; corner <= dimension; ++corner) {
+        names.insert("v" + std::to_string(corner));
+    }
+    names.insert({"region", kParent, kTag});
+    return names;
+}
+
 FileInfo read_info(const std::filesystem::path& path) {
     const InputFile file = read_input(path, kLongestHeader);
     const Header header = parse_header(file.view(), path);
@@ -148,6 +172,7 @@ std::uint32_t write_mesh(const std::filesystem::path& path,
                          const MeshExtras<Dim>& extras) {
     validate(mesh, path.string());
     check_extras(mesh, extras, path);
+    check_names(extras, path);
     const std::vector<Column> vertices = vertex_columns(mesh, extras);
     const std::vector<Column> cells = cell_columns(mesh, extras);
     const auto vertex_count = static_cast<std::uint64_t>(mesh.vertex_count());

@@ -15,6 +15,9 @@ namespace pent {
 
 namespace {
 
+// What some editors put in front of a text in UTF-8.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 bool is_space(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
 }
@@ -53,8 +56,8 @@ TextReader::TextReader(const std::filesystem::path& path, char comment)
 void TextReader::take_line() {
     const std::size_t end = std::min(text_.find('\n', next_), text_.size());
     const std::string_view line = std::string_view(text_).substr(next_, end - next_);
-    at_ = next_;
-    end_ = at_ + (comment_ == '\0' ? line.size() : std::min(line.find(comment_), line.size()));
+    at_ = next_ + (next_ == 0 && line.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+    end_ = next_ + (comment_ == '\0' ? line.size() : std::min(line.find(comment_), line.size()));
     next_ = end + 1;
     ++line_number_;
     is_in_bytes_ = false;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -118,6 +120,8 @@ public:
                 read_format();
             } else if (version_ == 0) {
                 text_.fail("no $MeshFormat at the start; expected a Gmsh file");
+            } else if (section == "$Entities" && version_ == 4) {
+                read_entities();
             } else if (section == "$Nodes") {
                 version_ == 2 ? read_nodes_2() : read_nodes_4();
             } else if (section == "$Elements") {
@@ -125,6 +129,11 @@ public:
             } else if (section.starts_with("$") && !section.starts_with("$End")) {
                 skip_section("$End" + section.substr(1));
             }
+        }
+        // Without groups volumes are told apart by their own numbers.
+        if (std::all_of(soup_.labels.begin(), soup_.labels.end(),
+                        [](std::int64_t group) { return group == 0; })) {
+            soup_.labels = std::move(volumes_);
         }
         return std::move(soup_);
     }
@@ -176,6 +185,52 @@ private:
     std::int64_t long_number() { return numbers_.whole<std::uint64_t>("a whole number"); }
     std::int64_t long_count() { return numbers_.count<std::uint64_t>("a count"); }
 
+    // The physical groups of the volumes: in version 4 elements name their entity alone.
+    void read_entities() {
+        constexpr std::size_t kVolume = 3;
+        std::array<std::int64_t, kVolume + 1> counts{};  // by dimension
+        for (std::int64_t& entities : counts) {
+            entities = long_count();
+        }
+        for (std::size_t dimension = 0; dimension < counts.size(); ++dimension) {
+            for (std::int64_t i = 0; i < counts[dimension]; ++i) {
+                const std::int64_t entity = number();
+                for (int corner = 0; corner < (dimension == 0 ? 1 : 2); ++corner) {
+                    static_cast<void>(numbers_.point<double>());  // of the box around it
+                }
+                const std::int64_t group = read_tags();
+                if (dimension == kVolume && group != 0) {
+                    groups_[entity] = group;
+                }
+                if (dimension > 0) {
+                    static_cast<void>(read_tags());  // of what bounds it
+                }
+            }
+        }
+        if (text_.next_word("$EndEntities") != "$EndEntities") {
+            text_.fail(
+                "more or less than the numbers of points, curves, surfaces and volumes say;"
+                " expected $EndEntities");
+        }
+    }
+
+    // A count and so many tags: the first one, or 0. Their signs say which way they are turned.
+    std::int64_t read_tags() {
+        constexpr std::int64_t kLowest = -std::numeric_limits<std::int64_t>::max();
+        std::int64_t first = 0;
+        const std::int64_t tags = long_count();
+        for (std::int64_t i = 0; i < tags; ++i) {
+            const std::int64_t tag = number();
+            first = i == 0 ? std::abs(std::max(tag, kLowest)) : first;
+        }
+        return first;
+    }
+
+    [[nodiscard]] std::int64_t group_of(std::int64_t volume) const {
+        const auto found = groups_.find(volume);
+        return found == groups_.end() ? 0 : found->second;
+    }
+
     void read_nodes_2() {
         const std::int64_t count = text_.count(text_.next_word("a count"), "the number of nodes");
         for (std::int64_t i = 0; i < count; ++i) {
@@ -209,12 +264,13 @@ private:
     }
 
     void read_element_2(const ElementType& type, std::int64_t tags) {
-        std::int64_t label = 0;
+        Place place;
         for (std::int64_t tag = 0; tag < tags; ++tag) {
             const std::int64_t value = number();
-            label = tag == 0 ? value : label;
+            place.group = tag == 0 ? value : place.group;
+            place.entity = tag == 1 ? value : place.entity;
         }
-        read_cell(type, label, [this] { return number(); });
+        read_cell(type, place, [this] { return number(); });
     }
 
     void read_nodes_4() {
@@ -248,30 +304,42 @@ private:
         for (std::int64_t block = 0; block < blocks; ++block) {
             static_cast<void>(number());  // dimension
             const std::int64_t entity = number();
+            const Place place{.group = group_of(entity), .entity = entity};
             const ElementType& type = type_of(text_, number());
             const std::int64_t count = long_count();
             for (std::int64_t i = 0; i < count; ++i) {
                 static_cast<void>(long_number());  // of the element
-                read_cell(type, entity, [this] { return long_number(); });
+                read_cell(type, place, [this] { return long_number(); });
                 end_row();
             }
         }
     }
 
+    // What an element is part of: a physical group, or 0 for none, and an entity of the geometry.
+    struct Place {
+        std::int64_t group = 0;
+        std::int64_t entity = 0;
+    };
+
     template <typename Next>
-    void read_cell(const ElementType& type, std::int64_t label, Next next) {
+    void read_cell(const ElementType& type, const Place& place, Next next) {
         cell_.clear();
         for (std::int64_t i = 0; i < type.nodes; ++i) {
             const std::int64_t node = next();
             cell_.push_back(dimension_of(type.kind) == 3 ? nodes_.name(text_, node) : 0);
         }
-        soup_.add(type.kind, cell_, label);
+        soup_.add(type.kind, cell_, place.group);
+        if (dimension_of(type.kind) == 3) {
+            volumes_.push_back(place.entity);
+        }
     }
 
     TextReader text_;
     NumberReader numbers_;
     CellSoup soup_;
     Nodes nodes_;
+    std::map<std::int64_t, std::int64_t> groups_;  // of volumes that are in one
+    std::vector<std::int64_t> volumes_;            // one a cell of three dimensions
     std::vector<std::uint32_t> cell_;
     std::int64_t version_ = 0;  // 2 or 4
 };

@@ -41,6 +41,18 @@ std::int64_t read_nodes(TextReader& text, CellSoup& soup) {
     return first;
 }
 
+// Regions are numbers, and attributes may be anything.
+std::int64_t read_label(TextReader& text) {
+    const std::string word(text.word());
+    const double label = text.number(word, "an attribute");
+    if (label != std::floor(label)) {
+        text.fail("the attribute " + word
+                  + "; expected a whole number, the region of the tetrahedron, or, on the first"
+                    " line, that there are 0 attributes");
+    }
+    return static_cast<std::int64_t>(std::clamp(label, -1.0, 1e9));
+}
+
 void read_elements(TextReader& text, std::int64_t first, CellSoup& soup) {
     next_line(text, "the number of tetrahedra");
     const std::int64_t tets = text.count(text.word(), "the number of tetrahedra");
@@ -61,8 +73,7 @@ void read_elements(TextReader& text, std::int64_t first, CellSoup& soup) {
             const std::int64_t number = text.integer(text.word(), "a corner");
             node = text.index(number - first, points);
         }
-        const double label = attributes > 0 ? text.number(text.word(), "an attribute") : 0;
-        soup.add(CellKind::Tetrahedron, nodes, std::llround(std::clamp(label, -1.0, 1e9)));
+        soup.add(CellKind::Tetrahedron, nodes, attributes > 0 ? read_label(text) : 0);
     }
 }
 

@@ -2,10 +2,13 @@
 #include "tet_readers.h"
 #include "vtk_grid.h"
 
+#include <pent/real_text.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -38,6 +41,24 @@ std::optional<std::size_t> size_of(std::string_view type) {
     return std::nullopt;
 }
 
+// How many numbers a row has of an array with this keyword; 0 where more stands in front of a type.
+std::int64_t components_of(std::string_view keyword) {
+    constexpr std::array<std::pair<std::string_view, std::int64_t>, 7> kComponents = {
+        {{"VECTORS", 3},
+         {"NORMALS", 3},
+         {"TENSORS", 9},
+         {"TENSORS6", 6},
+         {"GLOBAL_IDS", 1},
+         {"PEDIGREE_IDS", 1},
+         {"EDGE_FLAGS", 1}}};
+    for (const auto& [known, components] : kComponents) {
+        if (keyword == known) {
+            return components;
+        }
+    }
+    return 0;
+}
+
 // The corners of all cells one after the other, and where each begins; one more for the end.
 struct Cells {
     std::vector<std::int64_t> corners;
@@ -51,8 +72,7 @@ public:
     explicit VtkReader(const std::filesystem::path& path)
         : text_(path, '\0'), numbers_(text_, Encoding::Text) {}
 
-    // Reads the mesh alone, or its arrays too.
-    VtkGrid read(bool with_arrays) {
+    VtkGrid read() {
         read_start();
         while (text_.next_line()) {
             const std::string_view keyword = text_.word();
@@ -70,10 +90,7 @@ public:
             } else if (keyword == "CELL_TYPES") {
                 read_types();
             } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
-                if (with_arrays) {
-                    read_arrays(keyword == "POINT_DATA");
-                }
-                break;
+                read_arrays(keyword == "POINT_DATA");
             }
         }
         return std::move(grid_);
@@ -84,8 +101,7 @@ private:
         if (!text_.next_line() || text_.word() != "#") {
             text_.fail("no \"# vtk DataFile\" at the start; expected a legacy VTK file");
         }
-        const std::size_t title = std::min(text_.rest().find('\n'), text_.rest().size());
-        static_cast<void>(text_.take_bytes(std::min(title + 1, text_.rest().size()), "a title"));
+        static_cast<void>(take_line());  // a title
         if (!text_.next_line()) {
             text_.fail("the file ends here; expected ASCII or BINARY");
         }
@@ -96,6 +112,12 @@ private:
             text_.fail("found \"" + std::string(encoding.substr(0, 40))
                        + "\", expected ASCII or BINARY");
         }
+    }
+
+    // The line behind the current one, which may have no word.
+    std::string_view take_line() {
+        const std::string_view rest = text_.rest();
+        return text_.take_bytes(std::min(rest.find('\n'), rest.size() - 1) + 1, "a line");
     }
 
     // Counts stand in lines of text in any case.
@@ -222,23 +244,28 @@ private:
                 expect_count(is_of_points);
             } else if (keyword == "SCALARS") {
                 arrays.push_back(read_scalars(rows));
-            } else if (keyword == "VECTORS" || keyword == "NORMALS") {
+            } else if (const std::int64_t components = components_of(keyword); components > 0) {
                 const std::string name(text_.next_word("the name of an array"));
                 arrays.push_back(
-                    read_values(name, 3, rows, std::string(text_.next_word("a type"))));
-            } else if (keyword == "TENSORS") {
+                    read_values(name, components, rows, std::string(text_.next_word("a type"))));
+            } else if (keyword == "TEXTURE_COORDINATES") {
                 const std::string name(text_.next_word("the name of an array"));
+                const std::int64_t dimension = line_count();
                 arrays.push_back(
-                    read_values(name, 9, rows, std::string(text_.next_word("a type"))));
+                    read_values(name, dimension, rows, std::string(text_.next_word("a type"))));
+            } else if (keyword == "COLOR_SCALARS") {
+                const std::string name(text_.next_word("the name of an array"));
+                arrays.push_back(read_values(name, line_count(), rows, "unsigned_char"));
             } else if (keyword == "FIELD") {
                 read_field(arrays, rows);
             } else if (keyword == "LOOKUP_TABLE") {
                 skip_lookup_table();
-            } else if (keyword != "METADATA" && keyword != "INFORMATION" && keyword != "NAME"
-                       && keyword != "DATA") {
+            } else if (keyword == "METADATA") {
+                skip_metadata();
+            } else {
                 text_.fail("found \"" + keyword.substr(0, 40)
                            + "\", expected SCALARS, VECTORS, NORMALS, TENSORS, FIELD, LOOKUP_TABLE,"
-                             " POINT_DATA or CELL_DATA");
+                             " POINT_DATA, CELL_DATA or another keyword of arrays");
             }
         }
     }
@@ -277,9 +304,8 @@ private:
         const std::int64_t count = line_count();
         for (std::int64_t i = 0; i < count; ++i) {
             std::string name(text_.next_word("the name of an array"));
-            while (name == "METADATA" || name == "INFORMATION" || name == "NAME"
-                   || name == "DATA") {  // of the array before
-                text_.skip_line();
+            while (name == "METADATA") {  // of the array before
+                skip_metadata();
                 name = text_.next_word("the name of an array");
             }
             const std::int64_t components = line_count();
@@ -288,8 +314,38 @@ private:
                 text_.fail("array " + name.substr(0, 40) + " has " + std::to_string(found)
                            + " rows, expected " + std::to_string(rows));
             }
-            arrays.push_back(
-                read_values(name, components, rows, std::string(text_.next_word("a type"))));
+            const std::string type(text_.next_word("a type"));
+            if (type == "string") {
+                skip_strings(components * rows);
+            } else {
+                arrays.push_back(read_values(name, components, rows, type));
+            }
+        }
+    }
+
+    // Names of components and the like, to an empty line.
+    void skip_metadata() {
+        while (!text_.rest().empty()
+               && take_line().find_first_not_of(" \t\r\n") != std::string_view::npos) {
+        }
+    }
+
+    // Lines of text; or bytes, of which the first two bits say in how many the length stands.
+    void skip_strings(std::int64_t count) {
+        for (std::int64_t i = 0; i < count; ++i) {
+            if (text_.rest().empty()) {
+                text_.fail("the file ends here; expected a string");
+            }
+            if (numbers_.is_text()) {
+                static_cast<void>(take_line());
+                continue;
+            }
+            const auto first = static_cast<std::uint8_t>(text_.take_bytes(1, "a string").front());
+            std::size_t length = first & 63U;
+            for (const char c : text_.take_bytes((8U >> (first >> 6U)) - 1U, "a string")) {
+                length = length << 8U | static_cast<std::uint8_t>(c);
+            }
+            static_cast<void>(text_.take_bytes(length, "a string"));
         }
     }
 
@@ -312,13 +368,27 @@ private:
         if (components > text_.size()) {
             text_.fail(std::to_string(components) + " components; the file has fewer bytes");
         }
-        for (std::int64_t i = 0; i < rows * components; ++i) {
+        const std::int64_t count = rows * components;
+        if (type == "bit" && !numbers_.is_text()) {
+            for (std::int64_t i = 0; i < count; i += 8) {
+                const auto byte = static_cast<std::uint8_t>(text_.take_bytes(1, "bits").front());
+                for (std::int64_t bit = 7; bit >= std::max<std::int64_t>(8 - (count - i), 0);
+                     --bit) {
+                    array.values.push_back(byte >> bit & 1);
+                }
+            }
+            return array;
+        }
+        for (std::int64_t i = 0; i < count; ++i) {
             array.values.push_back(value_of_type(type));
         }
         return array;
     }
 
     double value_of_type(const std::string& type) {
+        if (numbers_.is_text()) {
+            return any_number(text_.next_word("a number"));
+        }
         if (type == "float") {
             return numbers_.real<float>("a number");
         }
@@ -342,6 +412,14 @@ private:
         }
     }
 
+    // A quantity need not be finite, as the place of a point is.
+    double any_number(std::string_view word) {
+        double value = 0;
+        const auto [end, error] = real_from_chars(word.data(), word.data() + word.size(), value);
+        const bool is_number = error == std::errc() && end == word.data() + word.size();
+        return is_number ? value : text_.number(word, "a number");
+    }
+
     TextReader text_;
     NumberReader numbers_;
     VtkGrid grid_;
@@ -351,11 +429,11 @@ private:
 }  // namespace
 
 CellSoup read_vtk(const std::filesystem::path& path) {
-    return VtkReader(path).read(false).soup;
+    return labeled_soup(VtkReader(path).read());
 }
 
 VtkGrid read_vtk_grid(const std::filesystem::path& path) {
-    return VtkReader(path).read(true);
+    return VtkReader(path).read();
 }
 
 }  // namespace pent::mesher

@@ -24,16 +24,17 @@ public:
           file_(parse_xml(text_, name_)),
           encoding_(encoding_of(file_, name_, text_.size())) {}
 
-    VtkGrid read(bool with_arrays) {
+    // Reads all arrays, or those alone that may have the regions.
+    VtkGrid read(bool with_quantities) {
         const XmlElement& piece = find_piece();
         const std::int64_t points = count_of(piece, "NumberOfPoints");
         const std::int64_t cells = count_of(piece, "NumberOfCells");
         read_points(piece, points);
         read_cells(piece, cells);
-        if (with_arrays) {
-            read_arrays(piece.child("PointData"), points, grid_.point_arrays);
-            read_arrays(piece.child("CellData"), cells, grid_.cell_arrays);
+        if (with_quantities) {
+            read_arrays(piece.child("PointData"), points, true, grid_.point_arrays);
         }
+        read_arrays(piece.child("CellData"), cells, with_quantities, grid_.cell_arrays);
         return std::move(grid_);
     }
 
@@ -130,15 +131,19 @@ private:
         }
     }
 
-    void read_arrays(const XmlElement* data, std::int64_t count, std::vector<VtkArray>& arrays) {
+    void read_arrays(const XmlElement* data,
+                     std::int64_t count,
+                     bool with_quantities,
+                     std::vector<VtkArray>& arrays) {
         if (data == nullptr) {
             return;
         }
         for (const XmlElement& array : data->children) {
-            if (has_numbers(array)) {
+            const std::string name(array.attribute("Name"));
+            if (has_numbers(array) && (with_quantities || is_region_name(name))) {
                 const std::int64_t components = components_of(array, encoding_);
-                arrays.push_back({std::string(array.attribute("Name")), components,
-                                  reals_of(array, encoding_, components * count)});
+                arrays.push_back(
+                    {name, components, reals_of(array, encoding_, components * count)});
             }
         }
     }
@@ -153,7 +158,7 @@ private:
 }  // namespace
 
 CellSoup read_vtu(const std::filesystem::path& path) {
-    return VtuReader(path).read(false).soup;
+    return labeled_soup(VtuReader(path).read(false));
 }
 
 VtkGrid read_vtu_grid(const std::filesystem::path& path) {

@@ -1,5 +1,13 @@
 #include "vtk_grid.h"
 
+#include "xml_file.h"
+
+#include <pent/error.h>
+#include <pent/formatted.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace pent::mesher {
@@ -59,6 +67,9 @@ constexpr std::array<std::pair<std::int64_t, CellKind>, 50> kTypes = {{
     {81, CellKind::Pyramid},
     {0, CellKind::Point},  // empty
 }};
+constexpr std::array<std::string_view, 8> kRegionNames = {
+    "region",        "regions",   "material",      "attribute",
+    "gmsh:physical", "medit:ref", "CellEntityIds", "PhysicalIds"};
 constexpr std::int64_t kEmpty = 0;
 constexpr std::int64_t kVoxel = 11;
 
@@ -78,6 +89,29 @@ std::uint32_t checked_corner(std::int64_t corner, std::size_t points, const Fail
         fail("index " + std::to_string(corner) + " of " + std::to_string(points));
     }
     return static_cast<std::uint32_t>(corner);
+}
+
+const VtkArray& array_asked_for(const VtkGrid& grid,
+                                const std::string& name,
+                                const std::filesystem::path& path) {
+    const VtkArray* found = find_array(grid.cell_arrays, name);
+    if (found == nullptr || found->components != 1) {
+        std::string all;
+        for (const VtkArray& array : grid.cell_arrays) {
+            all += (all.empty() ? "" : ", ") + in_quotes(array.name);
+        }
+        throw Error(path.string() + ": no array \"" + name
+                    + "\" of one number a cell; its cells have " + (all.empty() ? "none" : all));
+    }
+    for (const std::int64_t cell : grid.solid_cells) {
+        if (!label_of(*found, cell)) {
+            throw Error(path.string() + ": array " + in_quotes(name) + ": cell "
+                        + std::to_string(cell)
+                        + formatted(" has %g; expected whole numbers from 0 to 65535",
+                                    found->values[static_cast<std::size_t>(cell)]));
+        }
+    }
+    return *found;
 }
 
 }  // namespace
@@ -122,6 +156,50 @@ const VtkArray* find_array(const std::vector<VtkArray>& arrays, std::string_view
         }
     }
     return nullptr;
+}
+
+bool is_region_name(std::string_view name) {
+    return std::find(kRegionNames.begin(), kRegionNames.end(), name) != kRegionNames.end();
+}
+
+std::optional<std::uint16_t> label_of(const VtkArray& array, std::int64_t cell) {
+    const double value = array.values[static_cast<std::size_t>(cell)];
+    if (!(value >= 0 && value <= std::numeric_limits<std::uint16_t>::max())
+        || value != std::floor(value)) {
+        return std::nullopt;
+    }
+    return static_cast<std::uint16_t>(value);
+}
+
+const VtkArray* region_array(const VtkGrid& grid,
+                             const std::string& asked,
+                             const std::filesystem::path& path) {
+    if (!asked.empty()) {
+        return &array_asked_for(grid, asked, path);
+    }
+    for (const std::string_view name : kRegionNames) {
+        const VtkArray* found = find_array(grid.cell_arrays, name);
+        if (found != nullptr && found->components == 1
+            && std::all_of(grid.solid_cells.begin(), grid.solid_cells.end(),
+                           [&](std::int64_t cell) { return label_of(*found, cell).has_value(); })) {
+            return found;
+        }
+    }
+    return nullptr;
+}
+
+void label_cells(VtkGrid& grid, const VtkArray& regions) {
+    grid.soup.has_labels = true;
+    for (std::size_t i = 0; i < grid.solid_cells.size(); ++i) {
+        grid.soup.labels[i] = *label_of(regions, grid.solid_cells[i]);
+    }
+}
+
+CellSoup labeled_soup(VtkGrid grid) {
+    if (const VtkArray* regions = region_array(grid, {}, {})) {
+        label_cells(grid, *regions);
+    }
+    return std::move(grid.soup);
 }
 
 }  // namespace pent::mesher

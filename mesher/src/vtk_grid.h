@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,6 +44,25 @@ void add_cell(VtkGrid& grid,
 /// The array with a name; null if there is none.
 [[nodiscard]] const VtkArray* find_array(const std::vector<VtkArray>& arrays,
                                          std::string_view name);
+
+/// Whether an array of cells with this name has their labels, usually.
+[[nodiscard]] bool is_region_name(std::string_view name);
+
+/// The label of a cell of the file: a whole number from 0 to 65535, else nothing.
+[[nodiscard]] std::optional<std::uint16_t> label_of(const VtkArray& array, std::int64_t cell);
+
+/// The array with the labels of the cells: the one asked for, else the first with a usual name and
+/// a label of every cell of three dimensions; null if there is none.
+/// Throws an Error if that asked for is not there or has other numbers than labels.
+[[nodiscard]] const VtkArray* region_array(const VtkGrid& grid,
+                                           const std::string& asked,
+                                           const std::filesystem::path& path);
+
+/// Gives the cells of the soup the labels that region_array() found.
+void label_cells(VtkGrid& grid, const VtkArray& regions);
+
+/// The cells with their labels, by an array with a usual name.
+[[nodiscard]] CellSoup labeled_soup(VtkGrid grid);
 
 /// Reads an unstructured grid with its arrays of numbers, of a legacy file (.vtk) or an XML file
 /// (.vtu).

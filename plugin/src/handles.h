@@ -65,6 +65,8 @@ struct Kept {
 /// indexed once.
 struct StoredMesh {
     std::variant<SimplexMesh<2>, SimplexMesh<3>, SimplexMesh<4>> mesh;
+    // What its file has beside it, of the same dimension.
+    std::variant<MeshExtras<2>, MeshExtras<3>, MeshExtras<4>> extras;
     std::string name;  // in messages
     std::string created_by;
     std::uint32_t crc32c = 0;

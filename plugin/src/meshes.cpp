@@ -95,7 +95,9 @@ pent_stored_mesh* pent_read_mesh(const char* path) {
         const FileInfo info = read_info(path);
         auto stored = std::make_shared<StoredMesh>();
         for_dimension(info.dimension, [&](auto dimension) {
-            stored->mesh = read_mesh<decltype(dimension)::value>(path).mesh;
+            auto file = read_mesh<decltype(dimension)::value>(path);
+            stored->mesh = std::move(file.mesh);
+            stored->extras = std::move(file.extras);
         });
         stored->name = path;
         stored->created_by = info.created_by;
@@ -114,6 +116,7 @@ pent_stored_mesh* pent_store_mesh(int dimension, const pent_mesh* mesh) {
             SimplexMesh<kDim> made = mesh_of<kDim>(*mesh, stored->name);
             validate(made, stored->name);
             stored->mesh = std::move(made);
+            stored->extras = MeshExtras<kDim>();
         });
         return meshes().add(std::move(stored));
     });
@@ -123,13 +126,14 @@ int pent_write_mesh(const pent_stored_mesh* mesh,
                     const char* path,
                     const char* created_by,
                     int is_ascii) {
-    return with_mesh(mesh, -1, [&](const auto& held, StoredMesh& /*stored*/) {
+    return with_mesh(mesh, -1, [&]<int Dim>(const SimplexMesh<Dim>& held, StoredMesh& stored) {
         require(path, "path");
         require(created_by, "created_by");
         static_cast<void>(
             write_mesh(path, held,
                        {.encoding = is_ascii != 0 ? Encoding::Ascii : Encoding::Binary,
-                        .created_by = created_by}));
+                        .created_by = created_by},
+                       std::get<MeshExtras<Dim>>(stored.extras)));
         return 0;
     });
 }

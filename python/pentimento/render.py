@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import csv
 import inspect
 import os
-import re
 import tempfile
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _programs
-from .errors import Error
 from .image import Image
 from .mesh import Mesh
 from .run import Run
@@ -75,26 +75,29 @@ def movie(
 
     output  Ends in .mp4, which needs ffmpeg; or the name of a folder, for a picture of each frame.
     fps     Pictures a second; by default as in the simulation.
+
+    Gives where it is: the output or, without ffmpeg, the folder of the pictures in its place.
     """
     unknown = look.keys() - (inspect.signature(render).parameters.keys() - {"what", "sheet"})
     if unknown:
         raise TypeError(f"{min(unknown)}: is no keyword of movie()")
-    _render(what, "--output", Path(output), {**look, "fps": fps})
-    return Path(output)
+    return _render(what, "--output", Path(output), {**look, "fps": fps})
 
 
-def _render(what: Any, kind: str, output: Path, look: dict[str, Any]) -> None:
+def _render(what: Any, kind: str, output: Path, look: dict[str, Any]) -> Path:
     if isinstance(look.get("size"), tuple):
         look = {**look, "size": "x".join(str(side) for side in look["size"])}
     with _programs.as_input(what) as path:
-        _programs.run("pent-render", path, [*_programs.options(**look), kind, str(output)])
+        words = [*_programs.options(**look), kind, str(output)]
+        (file,) = _programs.run("pent-render", path, words)["files"]
+    return Path(file)
 
 
 @dataclass(frozen=True, eq=False)
 class Slice:
     """What pent-slice made of one body at one frame."""
 
-    body: str  #: Its name; "obstacle.1" and so on for obstacles.
+    body: str  #: Its name; "obstacle.1" and so on for obstacles, BODY.outline for its outline.
     frame: int
     index: int  #: Of the hyperplane, in the order given; 0 where there is one.
     surface: Surface
@@ -129,15 +132,21 @@ def slice(
     with _programs.as_input(what) as path, tempfile.TemporaryDirectory() as folder:
         out = Path(folder, "slices")
         _programs.run("pent-slice", path, [*words, "--output", str(out)])
-        return [_slice_of(file) for file in sorted(out.glob("*.ply"))]
+        return sorted(_slices_in(out), key=lambda one: (one.body, one.index, one.frame))
 
 
-def _slice_of(path: Path) -> Slice:
-    found = re.fullmatch(r"(.+?)(?:_s(\d+))?_(\d{6,})", path.stem)
-    if found is None:
-        raise Error(f"{path.name}: expected a name as BODY_000123.ply")
-    body, index, frame = found.groups()
-    return Slice(body, int(frame), int(index or 0), _read_ply(path))
+def _slices_in(folder: Path) -> Iterator[Slice]:
+    """Those of slices.csv, hyperplanes in their order, and outlines, which it does not list."""
+    indices: Counter[tuple[str, int]] = Counter()
+    with open(folder / "slices.csv", encoding="utf-8", errors="surrogateescape", newline="") as file:
+        for row in csv.DictReader(file):
+            body, frame = row["body"], int(row["frame"])
+            yield Slice(body, frame, indices[body, frame], _read_ply(folder / row["file"]))
+            indices[body, frame] += 1
+    for body, frame in indices:
+        outline = folder / f"{body}.outline_{frame:06d}.ply"
+        if outline.exists():
+            yield Slice(f"{body}.outline", frame, 0, _read_ply(outline))
 
 
 def _read_ply(path: Path) -> Surface:

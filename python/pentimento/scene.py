@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import tempfile
 import tomllib
@@ -139,7 +140,8 @@ class Scene:
         progress: bool = False,
     ) -> Run:
         """Runs the whole scene by pent-sim into a folder, with all that a run has: frames, report,
-        resume. A mesh that is no file becomes one in FOLDER.meshes, for who runs it again.
+        resume. A mesh that is no file becomes one in FOLDER.meshes, for who runs it again; those
+        there that the run has no use for go once it is made.
 
         progress  Shows the frames as they come, by tqdm if it is there.
 
@@ -155,25 +157,40 @@ class Scene:
         with tempfile.TemporaryDirectory(prefix="pentimento-") as place:
             path = Path(place, "scene.toml")
             files = Path(os.path.abspath(folder) + ".meshes")
-            path.write_text(self._text_of_files(files), "utf-8", "surrogateescape")
+            tables = self._tables_of_files(files)
+            path.write_text(_toml.dumps(tables), "utf-8", "surrogateescape")
             with FrameCounter(Path(folder), self.frames + 1, progress) as counter:
                 _programs.run("pent-sim", path, words, allowed=(0, 3), tick=counter.look)
+        used = {body["mesh"] for body in tables["body"]}
+        for file in files.glob("*.pent"):
+            if str(file) not in used:
+                file.unlink()
         return Run(folder)
 
-    def _text_of_files(self, folder: Path) -> str:
-        """The text with a file for each mesh."""
+    def _tables_of_files(self, folder: Path) -> dict[str, Any]:
+        """The tables with a file for each mesh."""
         tables = self.tables
         for body in tables["body"]:
-            if body["name"] in self._given:
-                folder.mkdir(parents=True, exist_ok=True)
-                body["mesh"] = str(folder / f"{body['name']}.pent")
-                self._meshes[body["name"]].write(body["mesh"])
+            name = body["name"]
+            if name in self._given:
+                body["mesh"] = str(_write_beside(folder, name, self._meshes[name]))
             else:
                 body["mesh"] = os.path.abspath(body["mesh"])
-        return _toml.dumps(tables)
+        return tables
 
     def __repr__(self) -> str:
         return f"<pentimento.Scene: {self.dimension}D, {', '.join(self.bodies)}>"
+
+
+def _write_beside(folder: Path, name: str, mesh: Mesh) -> Path:
+    """Writes a mesh under a name that tells its content, too: a run that pent-sim then refuses has
+    not replaced the mesh of the run that is there."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=folder) as place:
+        new = Path(place, "mesh.pent")
+        mesh.write(new)
+        content = hashlib.sha256(new.read_bytes()).hexdigest()[:16]
+        return new.replace(folder / f"{name}-{content}.pent")
 
 
 def _without_meshes(value: Any, meshes: dict[str, Mesh]) -> Any:

@@ -97,7 +97,9 @@ class View:
         if not high > low:
             return middle
         digit = 10.0 ** (math.floor(math.log10(high - low)) - 2)
-        return round(middle / digit) * digit
+        part, whole = math.modf(middle / digit)
+        # Halves away from zero, as pent-slice rounds them; round() takes them to the even side.
+        return (whole + math.copysign(abs(part) >= 0.5, part)) * digit
 
     def slice(
         self,

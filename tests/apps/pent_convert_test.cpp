@@ -85,9 +85,35 @@ TEST_F(PentConvert, AddsFramesOfARunAsBlendShapes) {
     const Outcome other = convert("box.pent", "other.g4tf", "--frames " + at("other_000000.pent"));
     EXPECT_EQ(other.exit_code, 1);
     expect_contains(other.err, {"other_000000.pent: is a frame of another mesh"});
+    // Each once, and never written over.
+    EXPECT_EQ(convert("box.pent", "box.g4tf", frames + " " + at("box_000000.pent")).exit_code, 1);
+    const std::string before = text_of(at("box_000000.pent"));
+    for (const std::string& options : {frames + " --json " + at("box_000000.pent"), frames}) {
+        const Outcome over = convert("box.pent", "box_000000.pent", options);
+        EXPECT_EQ(over.exit_code, 1);
+        expect_contains(over.err, {"box_000000.pent", "is the same file as --frames"});
+        EXPECT_EQ(text_of(at("box_000000.pent")), before);
+    }
+    const Outcome report =
+        convert("box.pent", "box.g4b", frames + " --json " + at("box_000000.pent"));
+    expect_contains(report.err, {"box_000000.pent: --json is the same file as --frames"});
+    EXPECT_EQ(text_of(at("box_000000.pent")), before);
+    // By whatever name the mesh goes.
+    std::filesystem::copy(at("box.pent"), at("BOX.PENT"));
+    EXPECT_EQ(convert("BOX.PENT", "again.g4tf", frames).exit_code, 0);
     const Outcome none = convert("box.pent", "box.4do", frames);
     EXPECT_EQ(none.exit_code, 1);
     expect_contains(none.err, {"4DO has no frames; expected .g4tf or .g4b"});
+}
+
+TEST_F(PentConvert, MakesABodyOfABoundaryWithPointsThatNothingHas) {
+    EXPECT_EQ(convert("box.pent", "box.4do").exit_code, 0);
+    std::string text = text_of(at("box.4do"));
+    write_text(at("more.4do"), text.insert(text.find("tformat"), "v 9 9 9 9\n"));
+    const Outcome outcome = convert("more.4do", "more.pent");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    expect_contains(outcome.out, {"boundary   16 points, 48 tetrahedra, closed"});
+    EXPECT_EQ(read_info(at("more.pent")).vertices, 16U + 1);  // and the one that sees them all
 }
 
 TEST_F(PentConvert, RefusesInOneLineAndLeavesNothingBehind) {

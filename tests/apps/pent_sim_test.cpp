@@ -228,6 +228,27 @@ TEST_F(FallingCubes, AreNotReplacedByAReport) {
     EXPECT_EQ(test::text_of(folder_ / "broken.toml"), "[scene\n");
 }
 
+// Whether the run is there, and is refused, or not yet.
+TEST_F(FallingCubes, HaveNoReportInPlaceOfAPartOfTheRun) {
+    const std::string command = "pent-sim " + path("fall.toml") + " -o " + path("run") + " --json ";
+    const std::vector<std::string> parts = {
+        "report.json",     "journal.txt", "written.txt", "scene.toml", "frames/cube_000001.pent",
+        "meshes/cube.pent"};
+    const auto refuse_all = [&] {
+        for (const std::string& part : parts) {
+            const Outcome outcome = test::run_program(command + path("run/" + part));
+            EXPECT_EQ(outcome.exit_code, 1) << part;
+            expect_contains(outcome.err, {"a part of the run", "give it another name"});
+        }
+    };
+    refuse_all();
+    EXPECT_FALSE(std::filesystem::exists(path("run")));
+    ASSERT_EQ(test::run_program(command + path("all.json")).exit_code, 0);
+    const std::string report = test::text_of(path("run/report.json"));
+    refuse_all();
+    EXPECT_EQ(test::text_of(path("run/report.json")), report);
+}
+
 TEST_F(FallingCubes, AreAskedForInOurWordsWhateverIsGiven) {
     const auto error = [&](const std::string& arguments) {
         const Outcome outcome = test::run_program("pent-sim " + arguments);

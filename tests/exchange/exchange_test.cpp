@@ -3,6 +3,7 @@
 
 #include <pent/pent_file.h>
 
+#include <algorithm>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -13,7 +14,9 @@ namespace {
 using test::five_cell;
 using test::read_as;
 using test::sixteen_cell;
+using test::taken_apart;
 using test::text_as;
+using test::with_unused_points;
 
 // From every format into every other: the same boundary, or the same body around it.
 TEST(Exchange, KeepsTheHypervolumeFromEachFormatToEach) {
@@ -35,10 +38,10 @@ TEST(Exchange, KeepsTheHypervolumeFromEachFormatToEach) {
                     continue;
                 }
                 const Content content = read(second);
-                const auto* mesh = std::get_if<SimplexMesh<4>>(&content);
-                EXPECT_EQ(mesh != nullptr, to.has_cells);
-                const double found = mesh != nullptr
-                                         ? total_volume(*mesh)
+                const auto* body = std::get_if<Body>(&content);
+                EXPECT_EQ(body != nullptr, to.has_cells);
+                const double found = body != nullptr
+                                         ? total_volume(body->mesh)
                                          : enclosed_hypervolume(std::get<TetSurface>(content));
                 EXPECT_NEAR(found, 2.0 / 3, 1e-14) << from.name << " to " << to.name;
             }
@@ -48,10 +51,112 @@ TEST(Exchange, KeepsTheHypervolumeFromEachFormatToEach) {
 
 TEST(Exchange, WritesTheBoundaryOfABodyWithThePointsThatItHas) {
     const SimplexMesh<4> mesh = pent::test::kuhn_box<4>({2, 2, 2, 2}, {1, 1, 1, 1});
-    const auto surface = std::get<TetSurface>(read_as("a.4do", text_as("a.4do", mesh)));
+    const auto surface = std::get<TetSurface>(read_as("a.4do", text_as("a.4do", Body{mesh})));
     EXPECT_EQ(surface.points.cols(), 81 - 1);  // all but the one in the middle
     EXPECT_TRUE(check(surface).is_oriented());
     EXPECT_NEAR(enclosed_hypervolume(surface), 1, 1e-14);
+}
+
+// Calls back with the first ending of each format of boundaries that is read.
+template <typename Visit>
+void for_each_boundary_format(const Visit& visit) {
+    for (const Format& format : formats()) {
+        if (!format.has_cells && format.read != nullptr) {
+            visit("a" + std::string(format.endings[0]));
+        }
+    }
+}
+
+// A vertex without a cell would have no mass.
+TEST(Exchange, MakesBodiesOfThePointsThatABoundaryUses) {
+    for_each_boundary_format([](const std::string& name) {
+        const Content content = read_as(name, text_as(name, with_unused_points(sixteen_cell())));
+        const Positions<4>& points = std::get<TetSurface>(content).points;
+        ASSERT_EQ(points.cols(), 8) << name;
+        EXPECT_EQ(points, sixteen_cell().points) << name;
+        const auto body = std::get<Body>(read_as("b.pent", text_as("b.pent", content)));
+        std::vector<int> uses(static_cast<std::size_t>(body.mesh.vertex_count()), 0);
+        for (const std::uint32_t corner : body.mesh.cells.reshaped()) {
+            ++uses[corner];
+        }
+        EXPECT_EQ(std::count(uses.begin(), uses.end(), 0), 0) << name;
+        EXPECT_NEAR(total_volume(body.mesh), 2.0 / 3, 1e-14) << name;
+    });
+}
+
+TEST(Exchange, JoinsTetrahedraByThePlacesOfTheirPoints) {
+    for_each_boundary_format([](const std::string& name) {
+        TetSurface apart = taken_apart(sixteen_cell());
+        for (Eigen::Index t = 0; t < 16; t += 3) {  // that way neighbors do not agree, either
+            std::swap(apart.tetrahedra(0, t), apart.tetrahedra(1, t));
+        }
+        const pent::test::TempFolder folder;
+        write(folder / name, apart);
+        const auto joined = std::get<TetSurface>(read(folder / name));
+        EXPECT_EQ(joined.points.cols(), 8) << name;
+        EXPECT_TRUE(check(joined).is_oriented()) << name;
+        EXPECT_NEAR(enclosed_hypervolume(joined), 2.0 / 3, 1e-14) << name;
+        EXPECT_NE(text_as("b.pent", joined), "");
+        const auto as_it_is = std::get<TetSurface>(read(folder / name, {.is_welded = false}));
+        EXPECT_EQ(as_it_is.points, apart.points) << name;
+    });
+}
+
+// Two bodies on either side of a tetrahedron, which both have: as one they would not be closed.
+TEST(Exchange, LeavesPointsApartWhereBoundariesTouch) {
+    const TetSurface one = sixteen_cell();
+    TetSurface two{Positions<4>(4, 16), Simplices<4>(4, 32)};
+    const Eigen::Vector4d normal = Eigen::Vector4d::Constant(0.5);  // of the tetrahedron x..w = 1
+    two.points << one.points, one.points;
+    for (Eigen::Index p = 8; p < 16; ++p) {
+        two.points.col(p) -= 2 * (normal.dot(two.points.col(p)) - 0.5) * normal;
+    }
+    two.tetrahedra << one.tetrahedra, (one.tetrahedra.array() + 8).matrix();
+    for (Eigen::Index t = 16; t < 32; ++t) {
+        std::swap(two.tetrahedra(0, t), two.tetrahedra(1, t));
+    }
+    EXPECT_FALSE(check(weld(two).surface).is_closed());
+    const auto again = std::get<TetSurface>(read_as("a.4do", text_as("a.4do", two)));
+    EXPECT_EQ(again.points, two.points);
+    EXPECT_TRUE(check(again).is_oriented());
+    EXPECT_NEAR(enclosed_hypervolume(again), 4.0 / 3, 1e-14);
+}
+
+TEST(Exchange, KeepsAllThatAPentFileSays) {
+    Body body{pent::test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1})};
+    const Eigen::Index vertices = body.mesh.vertex_count();
+    const Eigen::Index cells = body.mesh.cell_count();
+    body.mesh.regions.assign(static_cast<std::size_t>(cells), 3);
+    body.mesh.fibers.setOnes(4, cells);
+    body.extras.vertex_fields = {{"heat", Eigen::MatrixXd::Random(1, vertices)},
+                                 {"drift", Eigen::MatrixXd::Random(4, vertices)}};
+    body.extras.cell_fields = {{"age", Eigen::MatrixXd::Random(1, cells)}};
+    body.extras.bisection_tags.assign(static_cast<std::size_t>(cells), 2);
+    body.extras.boundary = body.mesh.cells.topRows<4>().leftCols<2>();
+    body.extras.labels = {4, 5};
+    body.extras.base_labels = {0, 7};
+    const std::string text = text_as("a.pent", body);
+    const Content content = read_as("a.pent", text);
+    const MeshExtras<4>& found = std::get<Body>(content).extras;
+    EXPECT_EQ(found.vertex_fields, body.extras.vertex_fields);
+    EXPECT_EQ(found.cell_fields, body.extras.cell_fields);
+    EXPECT_EQ(found.bisection_tags, body.extras.bisection_tags);
+    ASSERT_EQ(found.boundary.cols(), 2);
+    EXPECT_EQ(found.boundary, body.extras.boundary);
+    EXPECT_EQ(found.labels, body.extras.labels);
+    EXPECT_EQ(found.base_labels, body.extras.base_labels);
+    EXPECT_EQ(text_as("a.pent", content), text);
+}
+
+// As some editors put it in front of a text.
+TEST(Exchange, PassesOverAByteOrderMark) {
+    for (const char* name : {"a.off", "a.4off", "a.4do", "a.obj", "a.g4tf"}) {
+        const std::string text = "\xEF\xBB\xBF" + text_as(name, sixteen_cell());
+        test::expect_same_surface(read_as(name, text), sixteen_cell(), 0);
+    }
+    std::string text = text_as("a.obj", sixteen_cell());
+    text = "\xEF\xBB\xBF" + text.substr(text.find('v'));  // the first line is a point
+    test::expect_same_surface(read_as("a.obj", text), sixteen_cell(), 0);
 }
 
 // The determinants of the corners of each tetrahedron, as the lines of a text have them.

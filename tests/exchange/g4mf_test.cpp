@@ -86,6 +86,11 @@ TEST(G4mf, AloneHasFrames) {
         return "";
     };
     pent::test::expect_contains(error_of("a.4off", surface.points), {"4OFF has no frames", ".g4b"});
+    const FramePoints frame{"moved", surface.points};
+    pent::test::expect_contains(pent::test::error_of([&] {
+                                    (void)text_as("a.g4b", surface, {.frames = {frame, frame}});
+                                }),
+                                {"a.g4b: two frames are called \"moved\"", "each frame once"});
     pent::test::expect_contains(error_of("a.g4b", surface.points.leftCols(3)),
                                 {"frame moved has 3 points; expected 5"});
 }
@@ -120,6 +125,12 @@ TEST(G4mf, InChunksHasTheLayoutOfTheFormat) {
     std::memcpy(&size, file.data() + blob + 8, 8);
     EXPECT_EQ(size, 5U * 16 + 5 * 16);
     EXPECT_EQ(file.size() % 16, 0U);
+}
+
+TEST(G4mf, IsInChunksOrTextAsTheEndingSaysInLettersOfAnySize) {
+    for (const auto& [large, small] : {std::pair("A.G4B", "A.g4b"), {"A.G4TF", "A.g4tf"}}) {
+        EXPECT_EQ(text_as(large, five_cell()), text_as(small, five_cell()));
+    }
 }
 
 // As others may write it: two meshes that nodes put in their places, the words of earlier drafts,

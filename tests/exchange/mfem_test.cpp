@@ -27,15 +27,26 @@ SimplexMesh<4> layered() {
 
 TEST(Mfem, IsReadAsItWasWritten) {
     const SimplexMesh<4> mesh = layered();
-    const auto again = std::get<SimplexMesh<4>>(read_as("a.mesh", text_as("a.mesh", mesh)));
+    const auto again = std::get<Body>(read_as("a.mesh", text_as("a.mesh", Body{mesh}))).mesh;
     EXPECT_EQ(again.positions, mesh.positions);
     EXPECT_EQ(again.cells, mesh.cells);
     EXPECT_EQ(again.regions, mesh.regions);
 }
 
+// Labels are regions + 1, and those of the boundary may lie behind them.
+TEST(Mfem, KeepsTheLargestRegion) {
+    Body body{layered()};
+    body.mesh.regions.back() = 65535;
+    for (const bool has_mfem_attributes : {false, true}) {
+        const std::string text =
+            text_as("a.mesh", body, {.has_mfem_attributes = has_mfem_attributes});
+        EXPECT_EQ(std::get<Body>(read_as("a.mesh", text)).mesh.regions, body.mesh.regions);
+    }
+}
+
 // MFEM wants det[v1 - v0, ..., v4 - v0] > 0, or it swaps corners and with them their order.
 TEST(Mfem, HasPositivePentatopesOfTheHypervolumeOfTheBody) {
-    std::istringstream text(text_as("a.mesh", layered()));
+    std::istringstream text(text_as("a.mesh", Body{layered()}));
     std::string word;
     while (text >> word && word != "elements") {
     }
@@ -90,17 +101,47 @@ std::map<int, int> labels_of(const std::string& text) {
 
 // 6 tetrahedra in each end, and the side of a cube of 6 squares over two layers.
 TEST(Mfem, LabelsBottomSidesAndTop) {
-    EXPECT_EQ(labels_of(text_as("a.mesh", layered())),
+    EXPECT_EQ(labels_of(text_as("a.mesh", Body{layered()})),
               (std::map<int, int>{{1, 6}, {2, 6 * 6 * 2}, {3, 6}}));
     std::map<int, int> labels =
-        labels_of(text_as("a.mesh", layered(), {.has_mfem_attributes = true}));
+        labels_of(text_as("a.mesh", Body{layered()}, {.has_mfem_attributes = true}));
     EXPECT_EQ(labels[1] + labels[5], 6);  // as the cells behind them
     EXPECT_EQ(labels[6], 6 * 6 * 2);
     EXPECT_EQ(labels[7], 6);
     SimplexMesh<4> flat = layered();
     flat.layers.clear();
     flat.columns.clear();
-    EXPECT_EQ(labels_of(text_as("a.mesh", flat)), (std::map<int, int>{{1, 84}}));
+    EXPECT_EQ(labels_of(text_as("a.mesh", Body{flat})), (std::map<int, int>{{1, 84}}));
+}
+
+// A cut between slabs of space-time is not the bottom or the top of all; what has no label, or 0,
+// has that of its place.
+TEST(Mfem, KeepsTheLabelsOfTheBoundary) {
+    Body body{layered()};
+    const TetSurface boundary = boundary_of(body.mesh);  // all vertices are on it
+    std::vector<Eigen::Index> labeled;
+    for (Eigen::Index f = 0; f < boundary.tetrahedra.cols(); ++f) {
+        const Eigen::RowVector4d w = boundary.points(3, boundary.tetrahedra.col(f));
+        if ((w.array() == 0).all() || (w.array() == 2).all()) {
+            labeled.push_back(f);
+            body.extras.labels.push_back(w[0] == 0 ? 4 : 5);
+        }
+    }
+    body.extras.boundary = boundary.tetrahedra(Eigen::all, labeled);
+    body.extras.boundary.row(1).swap(body.extras.boundary.row(3));  // in any order of corners
+    const std::map<int, int> kept = {{4, 6}, {2, 72}, {5, 6}};
+    EXPECT_EQ(labels_of(text_as("a.mesh", body)), kept);
+    // Behind the labels of the cells, 1 and 5.
+    EXPECT_EQ(labels_of(text_as("a.mesh", body, {.has_mfem_attributes = true})),
+              (std::map<int, int>{{8, 6}, {6, 72}, {9, 6}}));
+    body.extras.labels[0] = 0;
+    const int place = boundary.points(3, body.extras.boundary(0, 0)) == 0 ? 1 : 3;
+    EXPECT_EQ(labels_of(text_as("a.mesh", body))[place], 1);
+    // Without layers, too.
+    body.mesh.layers.clear();
+    body.mesh.columns.clear();
+    body.extras.labels[0] = 7;
+    EXPECT_EQ(labels_of(text_as("a.mesh", body))[7], 1);
 }
 
 // As others write it: comments between sections, a negative pentatope.
@@ -108,7 +149,7 @@ TEST(Mfem, TurnsCellsOverThatAreNegative) {
     const std::string text =
         "MFEM mesh v1.0\n\n#\n# PENTATOPE = 8\n#\n\ndimension\n4\n\nelements\n1\n3 8 0 1 2 4 3\n\n"
         "boundary\n0\n\nvertices\n5\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
-    const auto mesh = std::get<SimplexMesh<4>>(read_as("a.mfem", text));
+    const SimplexMesh<4> mesh = std::get<Body>(read_as("a.mfem", text)).mesh;
     EXPECT_NEAR(total_volume(mesh), 1.0 / 24, 1e-16);
     EXPECT_EQ(mesh.regions, std::vector<std::uint16_t>{2});
 }
@@ -118,7 +159,7 @@ TEST(Mfem, NamesTheLineOfWhatIsWrong) {
                                 {"line 1: ", "expected \"MFEM\""});
     pent::test::expect_contains(error_as("a.mesh", "MFEM mesh v1.0\ndimension\n3\n"),
                                 {"line 3: ", "3 dimensions"});
-    std::string text = text_as("a.mesh", layered());
+    std::string text = text_as("a.mesh", Body{layered()});
     const auto replaced = [&](const std::string& from, const std::string& to) {
         std::string bad = text;
         bad.replace(bad.find(from), from.size(), to);
@@ -126,6 +167,8 @@ TEST(Mfem, NamesTheLineOfWhatIsWrong) {
     };
     pent::test::expect_contains(replaced("1 8 0", "1 9 0"), {"line 10: ", "kind 9"});
     pent::test::expect_contains(replaced("1 8 0", "0 8 0"), {"line 10: ", "label of 0"});
+    pent::test::expect_contains(replaced("1 8 0", "65537 8 0"),
+                                {"line 10: ", "label of 65537", "expected 1 to 65536"});
     pent::test::expect_contains(replaced("1 8 0", "1 8 99"), {"index 99 of 24"});
     pent::test::expect_contains(replaced("\n4\n0 0 0 0", "\n3\n0 0 0 0"), {"4 coordinates"});
     EXPECT_NE(error_as("a.mesh", text.substr(0, text.size() / 2)), "");

@@ -43,6 +43,25 @@ inline TetSurface sixteen_cell() {
     return surface;
 }
 
+/// The same tetrahedra, each with points of its own.
+inline TetSurface taken_apart(const TetSurface& surface) {
+    TetSurface apart{Positions<4>(4, surface.tetrahedra.size()),
+                     Simplices<4>(4, surface.tetrahedra.cols())};
+    for (Eigen::Index i = 0; i < apart.points.cols(); ++i) {
+        apart.points.col(i) = surface.points.col(surface.tetrahedra(i % 4, i / 4));
+        apart.tetrahedra(i % 4, i / 4) = static_cast<std::uint32_t>(i);
+    }
+    return apart;
+}
+
+/// The same with a point before all others and one behind them that no tetrahedron has.
+inline TetSurface with_unused_points(const TetSurface& surface) {
+    TetSurface more{Positions<4>::Constant(4, surface.points.cols() + 2, 5),
+                    (surface.tetrahedra.array() + 1).matrix()};
+    more.points.middleCols(1, surface.points.cols()) = surface.points;
+    return more;
+}
+
 /// Reads a file with this text.
 inline Content read_as(const std::string& name, const std::string& text) {
     const pent::test::TempFolder folder;

@@ -11,6 +11,8 @@ namespace {
 
 using test::five_cell;
 using test::sixteen_cell;
+using test::taken_apart;
+using test::with_unused_points;
 
 TEST(TetSurface, OfAPolytopeIsClosedAndEnclosesItsHypervolume) {
     EXPECT_TRUE(check(five_cell()).is_oriented());
@@ -33,6 +35,35 @@ TEST(TetSurface, KnowsWhereItIsOpenOrHasTooMuch) {
     EXPECT_EQ(check(turned).one_sided, 4);
     EXPECT_TRUE(check(turned).is_closed());
     EXPECT_FALSE(check(turned).is_oriented());
+}
+
+TEST(Weld, GivesTetrahedraAtTheSamePlacesTheSamePoints) {
+    const TetSurface apart = taken_apart(sixteen_cell());
+    EXPECT_EQ(check(apart).open, 16 * 4);
+    const WeldedSurface welded = weld(apart);
+    EXPECT_EQ(welded.merged_points, 16 * 4 - 8);
+    EXPECT_EQ(welded.degenerate, 0);
+    EXPECT_EQ(welded.surface.points.cols(), 8);
+    EXPECT_TRUE(check(welded.surface).is_oriented());
+    EXPECT_NEAR(enclosed_hypervolume(welded.surface), 2.0 / 3, 1e-14);
+}
+
+TEST(Weld, LeavesOutTetrahedraWithACornerTwiceAndTheirPoints) {
+    TetSurface surface = with_unused_points(sixteen_cell());
+    surface.tetrahedra.conservativeResize(4, 17);
+    surface.tetrahedra.col(16) << 0, 9, 1, 2;  // two points at one place, which no other one has
+    const WeldedSurface welded = weld(surface);
+    EXPECT_EQ(welded.merged_points, 1);
+    EXPECT_EQ(welded.degenerate, 1);
+    EXPECT_EQ(welded.surface.points, sixteen_cell().points);
+    EXPECT_EQ(welded.surface.tetrahedra, sixteen_cell().tetrahedra);
+}
+
+TEST(Weld, LeavesWhatIsWeldedAsItIs) {
+    const WeldedSurface welded = weld(sixteen_cell());
+    EXPECT_EQ(welded.merged_points, 0);
+    EXPECT_EQ(welded.surface.points, sixteen_cell().points);
+    EXPECT_EQ(welded.surface.tetrahedra, sixteen_cell().tetrahedra);
 }
 
 // Whichever of its tetrahedra are turned over, and whether all of it is inside out.

@@ -120,6 +120,23 @@ TEST(FrameFile, RefusesFieldsThatAreNotOneOrOneAnAxisAVertexOrNotFinite) {
                     {"vertex 5: energy_density is not finite"});
 }
 
+TEST(FrameFile, RefusesNamesThatRepeatOrHaveAMeaning) {
+    const test::TempFolder folder;
+    for (const auto& [name, what] : std::vector<std::pair<std::string, std::string>>{
+             {"reaction_x", "another quantity has the property reaction_x"},
+             {"vx", "the property vx has a meaning of its own"},
+             {"energy density", "expected a name of letters"}}) {
+        Frame<4> frame = sample();
+        frame.fields.push_back({name, Eigen::MatrixXd::Zero(1, 9)});
+        expect_contains(error_of([&] { write_frame(folder / "f.pent", frame); }),
+                        {"f.pent: vertex quantity '" + name + "': " + what});
+    }
+    Frame<4> frame = sample();
+    frame.fields.push_back({"column", Eigen::MatrixXd::Zero(1, 9)});
+    write_frame(folder / "f.pent", frame);
+    EXPECT_EQ(read_frame<4>(folder / "f.pent").fields, frame.fields);
+}
+
 TEST(FrameFile, IsNeverWrittenWithANumberThatIsNotFinite) {
     const test::TempFolder folder;
     Frame<4> frame = sample();

@@ -156,6 +156,88 @@ TEST(PentFile, RefusesFieldsTagsAndLabelsThatDoNotFit) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.pent"));
 }
 
+VertexField quantity(const std::string& name, Eigen::Index rows, Eigen::Index count) {
+    return {name, Eigen::MatrixXd::Random(rows, count)};
+}
+
+TEST(PentFile, ReadsQuantitiesBackOrRefusesTheirNames) {
+    const test::TempFolder folder;
+    const SimplexMesh<4> mesh = test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1});
+    const std::vector<std::string> names = {
+        "u",      "u_x",   "fiber",  "fiber_x", "fiber_w", "x",     "w",
+        "v",      "vx",    "f",      "fw",      "v0",      "v4",    "v5",
+        "column", "layer", "region", "parent",  "order",   "label", "bisection_tag",
+        "a-b\t",  "a b",   ""};
+    std::vector<std::pair<std::string, Eigen::Index>> kinds;
+    for (const std::string& name : names) {
+        kinds.emplace_back(name, 1);
+        kinds.emplace_back(name, 4);
+    }
+    int refused = 0;
+    for (const auto& [first, first_rows] : kinds) {
+        for (const auto& [second, second_rows] : kinds) {
+            for (const bool is_of_cells : {false, true}) {
+                MeshExtras<4> extras;
+                std::vector<VertexField>& fields =
+                    is_of_cells ? extras.cell_fields : extras.vertex_fields;
+                const Eigen::Index count = is_of_cells ? mesh.cell_count() : mesh.vertex_count();
+                fields = {quantity(first, first_rows, count), quantity(second, second_rows, count)};
+                try {
+                    write_mesh(folder / "a.pent", mesh, {}, extras);
+                } catch (const Error& error) {
+                    test::expect_contains(error.what(), {"a.pent: ", " quantity '", "expected"});
+                    ++refused;
+                    continue;
+                }
+                const MeshFile<4> file = read_mesh<4>(folder / "a.pent");
+                EXPECT_EQ(file.extras.vertex_fields, extras.vertex_fields) << first << second;
+                EXPECT_EQ(file.extras.cell_fields, extras.cell_fields) << first << second;
+                expect_same_bits(file.mesh, mesh);
+            }
+        }
+    }
+    EXPECT_GT(refused, 0);
+}
+
+TEST(PentFile, SaysWhichNamesOfQuantitiesRepeatOrHaveAMeaning) {
+    const test::TempFolder folder;
+    const SimplexMesh<4> mesh = test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1});
+    const auto message = [&](const std::vector<std::pair<std::string, Eigen::Index>>& names) {
+        MeshExtras<4> extras;
+        for (const auto& [name, rows] : names) {
+            extras.cell_fields.push_back(quantity(name, rows, mesh.cell_count()));
+        }
+        return test::error_of([&] { write_mesh(folder / "a.pent", mesh, {}, extras); });
+    };
+    test::expect_contains(
+        message({{"u", 4}, {"u_x", 1}}),
+        {"a.pent: pentachoron quantity 'u_x': another quantity has the property u_x"});
+    test::expect_contains(message({{"fiber", 4}}),
+                          {"quantity 'fiber': the property fiber_x has a meaning of its own"});
+    test::expect_contains(message({{"region", 1}}),
+                          {"the property region has a meaning of its own"});
+    test::expect_contains(message({{"t", 1}, {"u_x", 1}, {"u_y", 1}, {"u_z", 1}, {"u_w", 1}}),
+                          {"'u_x': it and those behind it would be read as the vector u"});
+    test::expect_contains(message({{"a b", 1}}), {"'a b': expected a name of letters"});
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(PentFile, WritesNamesThatHaveAMeaningElsewhereAlone) {
+    const test::TempFolder folder;
+    const SimplexMesh<3> mesh = test::kuhn_box<3>({1, 1, 1}, {1, 1, 1});
+    MeshExtras<3> extras;
+    for (const char* name : {"region", "fiber_x", "w", "vw", "v0", "u_x", "u_z", "u_y", "u_w"}) {
+        extras.vertex_fields.push_back(quantity(name, 1, mesh.vertex_count()));
+    }
+    for (const char* name : {"column", "layer", "x", "vx", "v4", "fiber_w", "fiber"}) {
+        extras.cell_fields.push_back(quantity(name, 1, mesh.cell_count()));
+    }
+    write_mesh(folder / "a.pent", mesh, {}, extras);
+    const MeshFile<3> file = read_mesh<3>(folder / "a.pent");
+    EXPECT_EQ(file.extras.vertex_fields, extras.vertex_fields);
+    EXPECT_EQ(file.extras.cell_fields, extras.cell_fields);
+}
+
 TEST(PentFile, FibersHaveAllComponentsAndAreFinite) {
     const test::TempFolder folder;
     SimplexMesh<2> mesh = test::kuhn_box<2>({1, 1}, {1, 1});

@@ -311,8 +311,8 @@ void try_profile(const fs::path& path) {
 
 void try_exchange(const fs::path& path) {
     const exchange::Content found = exchange::read(path);
-    if (const auto* mesh = std::get_if<SimplexMesh<4>>(&found)) {
-        validate(*mesh, "accepted mesh");
+    if (const auto* body = std::get_if<exchange::Body>(&found)) {
+        validate(body->mesh, "accepted mesh");
         return;
     }
     const auto& surface = std::get<exchange::TetSurface>(found);

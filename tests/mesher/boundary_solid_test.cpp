@@ -345,7 +345,7 @@ TEST(BoundarySolid, ReadsTheFilesThatHoldBoundaries) {
     const double exact = total_volume(mesh);
     for (const char* name : {"a.pent", "a.4off", "a.off", "a.g4tf", "a.g4b", "a.4do", "a.obj"}) {
         const auto path = folder / name;
-        exchange::write(path, mesh, {.in_double = true});
+        exchange::write(path, exchange::Body{mesh}, {.in_double = true});
         EXPECT_TRUE(is_boundary_file(path)) << name;
         EXPECT_NEAR(exchange::enclosed_hypervolume(read_boundary(path)), exact, 1e-12) << name;
     }
@@ -354,6 +354,24 @@ TEST(BoundarySolid, ReadsTheFilesThatHoldBoundaries) {
     EXPECT_FALSE(is_boundary_file(folder / "plane.off"));
     EXPECT_FALSE(is_boundary_file(folder / "plane.obj"));
     EXPECT_FALSE(is_boundary_file(folder / "a.stl"));
+    std::ofstream(folder / "marked.off") << "\xEF\xBB\xBF"
+                                         << "4OFF\n";
+    EXPECT_TRUE(is_boundary_file(folder / "marked.off"));
+}
+
+// What was wrong with a file is said and decided here.
+TEST(BoundarySolid, CountsThePointsOfAFileThatItMakesOne) {
+    const test::TempFolder folder;
+    const TetSurface sound = tesseract(1);
+    TetSurface soup{Positions<4>(4, sound.tetrahedra.size()),
+                    Simplices<4>(4, sound.tetrahedra.cols())};
+    for (Eigen::Index i = 0; i < soup.points.cols(); ++i) {
+        soup.points.col(i) = sound.points.col(sound.tetrahedra(i % 4, i / 4));
+        soup.tetrahedra(i % 4, i / 4) = static_cast<std::uint32_t>(i);
+    }
+    exchange::write(folder / "soup.4do", soup);
+    EXPECT_EQ(boundary_solid(read_boundary(folder / "soup.4do"), "soup").report.merged_points,
+              soup.points.cols() - 16);
 }
 
 TEST(BoundarySolid, ReportsHolesInMetersWhereTheBodyIs) {

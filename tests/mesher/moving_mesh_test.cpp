@@ -4,7 +4,9 @@
 #include "support/temp_folder.h"
 
 #include <pent/mesher/moving_mesh.h>
+#include <pent/mesher/read_tetrahedra.h>
 #include <pent/mesher/shapes.h>
+#include <pent/mesher/space_time.h>
 
 #include <gtest/gtest.h>
 
@@ -90,6 +92,184 @@ TEST(ReadMovingMesh, ReadsARunFolderOfThreeDimensions) {
         {"a.pent: has dimension 4"});
 }
 
+// A run of a body with fibers along x, which turns around z, by the angle of the triangle of sides
+// 3, 4 and 5, as it grows to twice its size; its first frame alone has a density of energy.
+void write_turning_run(const test::TempFolder& folder) {
+    fs::create_directories(folder / "meshes");
+    fs::create_directories(folder / "frames");
+    SimplexMesh<3> mesh = ball(1);
+    mesh.fibers = Eigen::Vector3d::UnitX().replicate(1, mesh.cell_count());
+    mesh.fibers.col(4).setZero();
+    const std::uint32_t crc = write_mesh(folder / "meshes" / "a.pent", mesh);
+    Eigen::Matrix3d turn;
+    turn << 1.6, -1.2, 0, 1.2, 1.6, 0, 0, 0, 2;
+    for (int i = 0; i < 2; ++i) {
+        Frame<3> frame;
+        frame.positions = i == 0 ? mesh.positions : Positions<3>(turn * mesh.positions);
+        frame.mesh_name = "a.pent";
+        frame.mesh_crc = crc;
+        frame.time = i;
+        frame.fields.push_back({"w", Eigen::MatrixXd::Constant(1, mesh.vertex_count(), i)});
+        if (i == 0) {
+            frame.fields.push_back({"energy_density", frame.fields[0].values});
+        }
+        write_frame(folder / "frames" / frame_file_name("a", i), frame);
+    }
+}
+
+TEST(ReadMovingMesh, TurnsTheFibersOfARunWithItsBody) {
+    const test::TempFolder folder;
+    write_turning_run(folder);
+    const MovingMesh mesh = read_moving_mesh(folder.path());
+    ASSERT_EQ(mesh.cell_fields.size(), 1U);
+    EXPECT_EQ(mesh.cell_fields[0].name, "fiber");
+    for (Eigen::Index cell = 0; cell < mesh.base.cell_count(); ++cell) {
+        const double length = cell == 4 ? 0 : 1;
+        const Eigen::Vector3d before = mesh.cell_fields[0].values[0].col(cell);
+        const Eigen::Vector3d after = mesh.cell_fields[0].values[1].col(cell);
+        // Rounding of the inverse of a matrix of order 1 and of condition below 10.
+        EXPECT_LT((before - length * Eigen::Vector3d::UnitX()).norm(), 1e-14);
+        EXPECT_LT((after - length * Eigen::Vector3d(1.6, 1.2, 0)).norm(), 1e-14);
+    }
+    EXPECT_EQ(make_space_time(mesh).mesh.fibers.cols(), 4 * mesh.base.cell_count());
+}
+
+TEST(ReadMovingMesh, SaysWhatItLeavesOutOfARunAndRenamesWhatWouldBeAnAxis) {
+    const test::TempFolder folder;
+    write_turning_run(folder);
+    const MovingMesh mesh = read_moving_mesh(folder.path());
+    EXPECT_EQ(mesh.left_out,
+              "quantity energy_density, which some frames do not have in finite numbers");
+    ASSERT_EQ(mesh.vertex_fields.size(), 1U);
+    EXPECT_EQ(mesh.vertex_fields[0].name, "w_");
+}
+
+// Legacy text of arrays: "u" as vectors, "u:1" as numbers, all different.
+std::string arrays_text(const std::vector<std::string>& names, int rows) {
+    std::string text;
+    int number = 0;
+    for (const std::string& name : names) {
+        const bool is_scalar = name.ends_with(":1");
+        const std::string plain = is_scalar ? name.substr(0, name.size() - 2) : name;
+        text += is_scalar ? "SCALARS " + plain + " double\nLOOKUP_TABLE default\n"
+                          : "VECTORS " + plain + " double\n";
+        for (int i = 0; i < rows * (is_scalar ? 1 : 3); ++i) {
+            text += std::to_string(++number) + "\n";
+        }
+    }
+    return text;
+}
+
+// Reads two frames with these arrays of cells and points, and writes what they sweep.
+MeshFile<4> written_with(const test::TempFolder& folder,
+                         const std::vector<std::string>& of_cells,
+                         const std::vector<std::string>& of_points) {
+    const test::VtuParts parts = parts_of(test::kuhn_box<3>({1, 1, 1}, {1, 1, 1}));
+    for (const char* name : {"f0.vtk", "f1.vtk"}) {
+        test::write_file(folder / name, test::to_legacy_vtk(parts) + "CELL_DATA 6\n"
+                                            + arrays_text(of_cells, 6) + "POINT_DATA 8\n"
+                                            + arrays_text(of_points, 8));
+    }
+    const MovingMesh mesh = read_moving_mesh(folder / "f0.vtk", {.time_step = 1});
+    EXPECT_EQ(mesh.left_out, "");
+    SpaceTimeBody body = make_space_time(mesh);
+    write_mesh(folder / "a.pent", body.mesh, {}, body.extras);
+    MeshFile<4> file = read_mesh<4>(folder / "a.pent");
+    EXPECT_EQ(file.extras.vertex_fields, body.extras.vertex_fields);
+    EXPECT_EQ(file.extras.cell_fields, body.extras.cell_fields);
+    EXPECT_EQ(file.mesh.fibers, body.mesh.fibers);
+    return file;
+}
+
+TEST(ReadMovingMesh, GivesQuantitiesNamesByWhichAFileTellsThemApart) {
+    const test::TempFolder folder;
+    const std::vector<std::string> names = {
+        "u",   "u:1",  "u_x:1", "fiber",  "fiber:1",  "fibers",  "fibers:1", "fiber_x:1",
+        "x:1", "vx:1", "v0:1",  "region", "parent:1", "layer:1", "a.b:1",    "a_b:1"};
+    for (const std::string& first : names) {
+        for (const std::string& second : names) {
+            if (first.substr(0, first.find(':')) == second.substr(0, second.find(':'))) {
+                continue;  // of two with one name the first is carried
+            }
+            SCOPED_TRACE(first + " " + second);
+            const MeshFile<4> file = written_with(folder, {first, second}, {first, second});
+            const bool has_fibers = first.starts_with("fiber") || second.starts_with("fiber");
+            EXPECT_EQ(file.extras.vertex_fields.size(), 2U);
+            EXPECT_EQ(file.extras.cell_fields.size() + (file.mesh.fibers.cols() > 0 ? 1 : 0), 2U);
+            EXPECT_TRUE(has_fibers || file.mesh.fibers.cols() == 0);
+        }
+    }
+}
+
+TEST(ReadMovingMesh, KeepsFourNumbersThatAreNamedAsAVector) {
+    const test::TempFolder folder;
+    const std::vector<std::string> names = {"u_x:1", "u_y:1", "u_z:1", "u_w:1"};
+    const MeshFile<4> file = written_with(folder, names, names);
+    ASSERT_EQ(file.extras.vertex_fields.size(), 4U);
+    EXPECT_EQ(file.extras.vertex_fields[3].name, "u_w_");
+    EXPECT_EQ(file.extras.cell_fields.size(), 4U);
+}
+
+TEST(ReadMovingMesh, TakesAnArrayForRegionsOnlyIfItHasLabels) {
+    const test::TempFolder folder;
+    const auto write = [&](const std::string& arrays) {
+        for (const char* name : {"f0.vtk", "f1.vtk"}) {
+            test::write_file(folder / name,
+                             test::to_legacy_vtk(parts_of(test::kuhn_box<3>({1, 1, 1}, {1, 1, 1})))
+                                 + "CELL_DATA 6\n" + arrays);
+        }
+    };
+    const auto scalars = [](const std::string& name, const std::string& values) {
+        return "SCALARS " + name + " double\nLOOKUP_TABLE default\n" + values + "\n";
+    };
+    const std::string density = scalars("region", "1.5 2 3 4 5 6");
+    write(density + scalars("material", "6 5 4 3 2 1"));
+    MovingMesh mesh = read_moving_mesh(folder / "f0.vtk", {.time_step = 1});
+    EXPECT_EQ(mesh.base.regions, (std::vector<std::uint16_t>{6, 5, 4, 3, 2, 1}));
+    ASSERT_EQ(mesh.cell_fields.size(), 1U);
+    EXPECT_EQ(mesh.cell_fields[0].name, "region_");
+    EXPECT_EQ(read_tetrahedra(folder / "f0.vtk").mesh.regions, mesh.base.regions);
+    for (const char* values : {"1.5 2 3 4 5 6", "-1 2 3 4 5 6", "65536 2 3 4 5 6"}) {
+        write(scalars("material", values));
+        mesh = read_moving_mesh(folder / "f0.vtk", {.time_step = 1});
+        EXPECT_TRUE(mesh.base.regions.empty()) << values;
+        ASSERT_EQ(mesh.cell_fields.size(), 1U) << values;
+        EXPECT_EQ(mesh.cell_fields[0].name, "material");
+        EXPECT_TRUE(read_tetrahedra(folder / "f0.vtk").mesh.regions.empty()) << values;
+        test::expect_contains(
+            test::error_of([&] {
+                static_cast<void>(read_moving_mesh(folder / "f0.vtk",
+                                                   {.time_step = 1, .region_array = "material"}));
+            }),
+            {"f0.vtk: array \"material\": cell 0 has ", "from 0 to 65535"});
+    }
+}
+
+TEST(ReadMovingMesh, CountsTrianglesWithoutALabelAmongWhatIsLeftOut) {
+    const test::TempFolder folder;
+    test::VtuParts parts = rich_parts(0);
+    parts.regions.back() = -1;
+    test::write_file(folder / "0.vtu", test::to_vtu(parts, {}));
+    const MovingMesh mesh =
+        read_moving_mesh(write_pvd(folder.path(), {{0, "0.vtu"}, {1, "0.vtu"}}));
+    EXPECT_EQ(mesh.base.regions, (std::vector<std::uint16_t>{3, 4}));
+    EXPECT_EQ(mesh.triangles.cols(), 0);
+    EXPECT_EQ(mesh.left_out, "1 triangle");
+}
+
+TEST(ReadMovingMesh, CountsCellsOfHigherOrder) {
+    const test::TempFolder folder;
+    const std::string text =
+        "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 10 double\n"
+        "0 0 0 1 0 0 0 1 0 0 0 1 0.5 0 0 0.5 0.5 0 0 0.5 0 0 0 0.5 0.5 0 0.5 0 0.5 0.5\n"
+        "CELLS 1 11\n10 0 1 2 3 4 5 6 7 8 9\nCELL_TYPES 1\n24\n";
+    test::write_file(folder / "f0.vtk", text);
+    test::write_file(folder / "f1.vtk", text);
+    const MovingMesh mesh = read_moving_mesh(folder / "f0.vtk", {.time_step = 1});
+    EXPECT_EQ(mesh.curved_cells, 1);
+    EXPECT_EQ(read_tetrahedra(folder / "f0.vtk").curved_cells, 1);
+}
+
 TEST(ReadMovingMesh, SaysWhatIsWrongWithASeries) {
     const test::TempFolder folder;
     const SimplexMesh<3> mesh = ball(1);
@@ -153,6 +333,13 @@ TEST(ReadMovingMesh, SaysWhichArraysItLeavesOut) {
     const MovingMesh mesh = read_moving_mesh(pvd);
     EXPECT_TRUE(mesh.vertex_fields.empty());
     test::expect_contains(mesh.left_out, {"array temperature, which some frames"});
+    test::VtuParts none = rich_parts(0);
+    none.temperature.clear();
+    none.cell_vectors.clear();
+    test::write_file(folder / "0.vtu", test::to_vtu(none, {"appended"}));
+    test::expect_contains(read_moving_mesh(pvd).left_out,
+                          {"array temperature, which some", "array flow, which some"});
+    test::write_file(folder / "0.vtu", test::to_vtu(first, {"appended"}));
     second = rich_parts(1);
     second.regions[1] = 5;
     test::write_file(folder / "1.vtu", test::to_vtu(second, {"appended"}));
@@ -189,6 +376,59 @@ TEST(ReadVtk, ReadsArraysOfPointsAndCells) {
         test::error_of(
             [&] { static_cast<void>(read_moving_mesh(folder / "f0.vtk", {.time_step = 1})); }),
         {"f1.vtk: line ", "data of 4 points, of 5"});
+}
+
+// Every keyword of arrays that VTK has; the regions stand behind all others.
+TEST(ReadVtk, ReadsEveryKindOfArrayInFrontOfTheRegions) {
+    const test::TempFolder folder;
+    const std::string mesh =
+        test::to_legacy_vtk({rich_parts(0).points, rich_parts(0).tetrahedra, {}, {}, {}, {}});
+    test::write_file(folder / "a.vtk",
+                     mesh + "POINT_DATA 5\nSCALARS heat double\nLOOKUP_TABLE hot\n1 nan 3 -inf 5\n"
+                         + "LOOKUP_TABLE hot 1\n0 0 0 1\nMETADATA\nCOMPONENT_NAMES\nVECTORS\n"
+                         + "INFORMATION 0\n\nGLOBAL_IDS ids vtkIdType\n0 1 2 3 4\n"
+                         + "TEXTURE_COORDINATES uv 2 float\n0 0 0 0 0 0 0 0 0 0\n"
+                         + "CELL_DATA 2\nTENSORS6 stress float\n0 0 0 0 0 0 0 0 0 0 0 0\n"
+                         + "COLOR_SCALARS paint 3\n0 0 0 1 1 1\nPEDIGREE_IDS old int\n7 8\n"
+                         + "EDGE_FLAGS edge int\n0 1\nNORMALS n float\n0 0 1 0 0 1\n"
+                         + "FIELD FieldData 3\nname 1 2 string\nleft chamber\n\nflag 1 2 bit\n0 1\n"
+                         + "region 1 2 int\n3 4\n");
+    EXPECT_EQ(read_tetrahedra(folder / "a.vtk").mesh.regions, (std::vector<std::uint16_t>{3, 4}));
+}
+
+TEST(ReadVtk, ReadsBitsAndStringsAsBytesInFrontOfTheRegions) {
+    const test::TempFolder folder;
+    using namespace std::string_literals;
+    const std::string long_string(70, 's');
+    test::write_file(
+        folder / "a.vtk",
+        "# vtk DataFile Version 3.0\na\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
+            + "\0\0\0\0\0\0\0\0\0\0\0\0\x3f\x80\0\0\0\0\0\0\0\0\0\0"s
+            + "\0\0\0\0\x3f\x80\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x3f\x80\0\0\n"s
+            + "CELLS 1 5\n\0\0\0\4\0\0\0\0\0\0\0\1\0\0\0\2\0\0\0\3\nCELL_TYPES 1\n\0\0\0\n\n"s
+            + "POINT_DATA 4\nSCALARS flag bit\nLOOKUP_TABLE default\n\xa0\n"
+            + "FIELD f 1\nname 1 4 string\n\xc0\xc2no\x80\x46"s + long_string + "\xc1y\n"
+            + "CELL_DATA 1\nFIELD f 2\nflags 9 1 bit\n\xff\x80\nregion 1 1 unsigned_char\n\x07\n");
+    EXPECT_EQ(read_tetrahedra(folder / "a.vtk").mesh.regions, (std::vector<std::uint16_t>{7}));
+}
+
+TEST(ReadVtk, RefusesArraysCutOffAnywhere) {
+    const test::TempFolder folder;
+    const std::string mesh =
+        test::to_legacy_vtk({rich_parts(0).points, rich_parts(0).tetrahedra, {}, {}, {}, {}});
+    const std::string arrays =
+        "CELL_DATA 2\nFIELD FieldData 2\nname 1 2 string\nleft\nright\nregion 1 2 int\n3 4";
+    for (std::size_t length = 10; length + 2 < arrays.size(); ++length) {
+        test::write_file(folder / "a.vtk", mesh + arrays.substr(0, length));
+        const std::string error =
+            test::error_of([&] { static_cast<void>(read_tetrahedra(folder / "a.vtk")); });
+        EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+    }
+    test::write_file(folder / "a.vtk",
+                     mesh + "CELL_DATA 2\nFIELD FieldData 1\nname 300 2 string\n");
+    test::expect_contains(
+        test::error_of([&] { static_cast<void>(read_tetrahedra(folder / "a.vtk")); }),
+        {"a.vtk: ", "the file ends here; expected a string"});
 }
 
 }  // namespace

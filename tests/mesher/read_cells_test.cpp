@@ -70,7 +70,7 @@ struct Cell {
     int vtk;
     std::string medit;
     std::vector<int> corners;
-    int label;
+    int label;  // of Gmsh a physical group, 0 for none; each cell is an entity of its own
 };
 const std::vector<Cell> kCells = {{1, 3, "Edges", {0, 1}, 1},
                                   {2, 5, "Triangles", {0, 2, 1}, 1},
@@ -106,7 +106,9 @@ std::string gmsh_start(const std::string& version, bool is_binary, bool is_big_e
            + (is_binary ? " 1 8\n" + raw(1, is_big_endian) + "\n" : " 0 8\n") + "$EndMeshFormat\n";
 }
 
-std::string gmsh_2(bool is_binary, bool is_big_endian = false) {
+std::string gmsh_2(bool is_binary,
+                   bool is_big_endian = false,
+                   const std::vector<Cell>& cells = kCells) {
     std::string text = gmsh_start("2.2", is_binary, is_big_endian)
                        + "$PhysicalNames\n1\n3 7 \"cube\"\n$EndPhysicalNames\n$Nodes\n12\n";
     for (int i = 0; i < kPoints; ++i) {
@@ -117,9 +119,9 @@ std::string gmsh_2(bool is_binary, bool is_big_endian = false) {
     }
     text += std::string(is_binary ? "\n" : "") + "$EndNodes\n$Elements\n6\n";
     int number = 0;
-    for (const Cell& cell : kCells) {
+    for (const Cell& cell : cells) {
         ++number;
-        const std::vector<int> tags = {cell.label, 1};
+        const std::vector<int> tags = {cell.label, number};
         const std::vector<int> nodes = plus(cell.corners, 5);
         if (is_binary) {
             text += raw_all<int>(std::vector{cell.gmsh, 1, 2, number}, is_big_endian)
@@ -131,7 +133,13 @@ std::string gmsh_2(bool is_binary, bool is_big_endian = false) {
     return text + (is_binary ? "\n" : "") + "$EndElements\n";
 }
 
-std::string gmsh_4(bool is_binary, bool is_big_endian = false) {
+int dimension_of(const Cell& cell) {
+    return cell.gmsh == 1 ? 1 : cell.gmsh == 2 ? 2 : 3;
+}
+
+std::string gmsh_4(bool is_binary,
+                   bool is_big_endian = false,
+                   const std::vector<Cell>& cells = kCells) {
     const auto numbers = [&](const std::vector<int>& values) {
         return is_binary ? raw_all<int>(values, is_big_endian) : words(values) + "\n";
     };
@@ -146,17 +154,25 @@ std::string gmsh_4(bool is_binary, bool is_big_endian = false) {
     for (int i = 0; i < kPoints; ++i) {
         names.push_back(i + 5);
     }
+    // A point of a group, and each cell bounded by two of what has the numbers 1 and -2.
     std::string text = gmsh_start("4.1", is_binary, is_big_endian) + "$Entities\n"
-                       + longs({0, 0, 0, 0}) + end + "$EndEntities\n$Nodes\n"
-                       + longs({1, kPoints, 5, kPoints + 4}) + numbers({3, 1, 0}) + longs({kPoints})
-                       + longs(names) + reals(kCoordinates) + end + "$EndNodes\n$Elements\n"
-                       + longs({6, 6, 1, 6});
+                       + longs({1, 1, 1, 4}) + numbers({3}) + reals({0, 0, 0}) + longs({1})
+                       + numbers({77});
     int number = 0;
-    for (const Cell& cell : kCells) {
-        const int dimension = cell.gmsh == 1 ? 1 : cell.gmsh == 2 ? 2 : 3;
+    for (const Cell& cell : cells) {
+        text += numbers({++number}) + reals({0, 0, 0, 1, 1, 2});
+        // The first group counts, whichever way it is turned.
+        text += cell.label == 0 ? longs({0}) : longs({2}) + numbers({-cell.label, 99});
+        text += longs({2}) + numbers({1, -2});
+    }
+    text += end + "$EndEntities\n$Nodes\n" + longs({1, kPoints, 5, kPoints + 4})
+            + numbers({3, 1, 0}) + longs({kPoints}) + longs(names) + reals(kCoordinates) + end
+            + "$EndNodes\n$Elements\n" + longs({6, 6, 1, 6});
+    number = 0;
+    for (const Cell& cell : cells) {
         std::vector<int> row = plus(cell.corners, 5);
         row.insert(row.begin(), ++number);
-        text += numbers({dimension, cell.label, cell.gmsh}) + longs({1}) + longs(row);
+        text += numbers({dimension_of(cell), number, cell.gmsh}) + longs({1}) + longs(row);
     }
     return text + end + "$EndElements\n";
 }
@@ -243,6 +259,28 @@ TEST(ReadCells, ReadsBytesAsItReadsText) {
     }
 }
 
+// Groups are regions; where there is none the volumes are, by their own numbers.
+TEST(ReadCells, GivesTheSameRegionsInBothVersionsOfGmsh) {
+    std::vector<Cell> some = kCells;
+    some[3].label = 0;
+    std::vector<Cell> none = kCells;
+    for (Cell& cell : none) {
+        cell.label = 0;
+    }
+    using Regions = std::vector<std::uint16_t>;  // 6 of the cube, 2 of the pyramid, 1 and 3
+    const std::pair<std::vector<Cell>, Regions> expected[] = {
+        {kCells, {7, 7, 7, 7, 7, 7, 8, 8, 9, 10, 10, 10}},
+        {some, {7, 7, 7, 7, 7, 7, 0, 0, 9, 10, 10, 10}},
+        {none, {3, 3, 3, 3, 3, 3, 4, 4, 5, 6, 6, 6}}};
+    for (const auto& [cells, regions] : expected) {
+        for (const std::string& file :
+             {gmsh_2(false, false, cells), gmsh_2(true, false, cells), gmsh_2(true, true, cells),
+              gmsh_4(false, false, cells), gmsh_4(true, false, cells), gmsh_4(true, true, cells)}) {
+            EXPECT_EQ(read_text("a.msh", file).mesh.regions, regions);
+        }
+    }
+}
+
 TEST(ReadCells, RefusesBytesCutOffAnywhere) {
     for (const Sample& sample : binaries()) {
         // Behind the last corner or type only closing words follow.
@@ -295,11 +333,14 @@ TEST(ReadCells, RefusesCellsOfOtherKindsWithTheirNumber) {
                           {"a.vtk: line 13", "a cell of VTK's type 17"});
     test::expect_contains(message_for("a.vtk", start + "5\n9\n0\n"),
                           {"no tetrahedron in it nor another", "1 triangle, 1 quadrilateral"});
-    test::expect_contains(message_for("a.msh", replaced(gmsh_4(false), "3 7 5", "3 7 35")),
+    test::expect_contains(message_for("a.msh", replaced(gmsh_4(false), " 3 3 5\n", " 3 3 35\n")),
                           {"a.msh: line ", "elements of Gmsh's type 35", "up to order 5"});
     test::expect_contains(
         message_for("a.msh", replaced(gmsh_2(false), "6 7 8 9 10 11 12\n", "6 7\n")),
         {"a.msh: line "});
+    test::expect_contains(
+        message_for("a.msh", replaced(gmsh_4(false), " 1 1 1 4\n", " 1 1 1 3\n")),
+        {"a.msh: line ", "more or less than the numbers of points", "expected $EndEntities"});
 }
 
 TEST(ReadCells, TakesTheCornersOfCellsOfHigherOrderAndSaysSo) {

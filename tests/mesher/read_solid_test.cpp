@@ -140,6 +140,7 @@ TEST(ReadSolid, RefusesFilesThatAreNotThere) {
     EXPECT_THROW((void)read_solid("/no/such/shape.toml"), Error);
     EXPECT_THROW((void)read_solid("/tmp"), Error);
     EXPECT_TRUE(is_shape_file("a/b.toml"));
+    EXPECT_TRUE(is_shape_file("a/B.TOML"));
     EXPECT_FALSE(is_shape_file("a/b.obj"));
 }
 

@@ -83,6 +83,26 @@ TEST(ReadTetrahedra, ReadsNodeAndEleByEitherName) {
     EXPECT_EQ(read_tetrahedra(folder / "a.ele").mesh.regions, (std::vector<std::uint16_t>{5, 6}));
 }
 
+// Regions are whole numbers; others would become those of their neighbors.
+TEST(ReadTetrahedra, RefusesAttributesThatAreNotWhole) {
+    const test::TempFolder folder;
+    write_file(folder / "a.node", kNode);
+    const auto read = [&](const std::string& attribute) {
+        write_file(folder / "a.ele", "2 4 1\n1 1 2 3 4 5\n2 1 5 3 4 " + attribute + "\n");
+        return read_tetrahedra(folder / "a.node");
+    };
+    EXPECT_EQ(read("6.0").mesh.regions, (std::vector<std::uint16_t>{5, 6}));
+    const auto message = [&](const std::string& attribute) {
+        return test::error_of([&] { static_cast<void>(read(attribute)); });
+    };
+    for (const std::string attribute : {"1.5", "2.4", "-0.4", "1e-9"}) {
+        test::expect_contains(message(attribute), {"a.ele: line 3: the attribute " + attribute,
+                                                   "expected a whole number", "0 attributes"});
+    }
+    test::expect_contains(message("-1"), {"label -1", "0 to 65535"});
+    test::expect_contains(message("1e300"), {"expected 0 to 65535"});
+}
+
 TEST(ReadTetrahedra, ReadsCarriageReturnsAndCountsFromZero) {
     const test::TempFolder folder;
     write_file(folder / "a.node",

@@ -68,6 +68,17 @@ TEST(ReadVtu, GivesTheSameTetrahedraAsALegacyFile) {
     EXPECT_EQ(a.mesh.positions, mesh.positions);
 }
 
+TEST(ReadVtu, GivesTheRegionsOfAMovingMeshToTheMeshAlone) {
+    const test::TempFolder folder;
+    test::write_file(folder / "f0.vtu", test::to_vtu(rich_parts(0), {"appended"}));
+    const MovingMesh moving =
+        read_moving_mesh(write_pvd(folder.path(), {{0, "f0.vtu"}, {1, "f0.vtu"}}));
+    const TetrahedraFile plain = read_tetrahedra(folder / "f0.vtu");
+    EXPECT_EQ(plain.mesh.regions, (std::vector<std::uint16_t>{3, 4}));
+    EXPECT_EQ(plain.mesh.regions, moving.base.regions);
+    EXPECT_EQ(plain.mesh.cells, moving.base.cells);
+}
+
 TEST(ReadVtu, RefusesEveryCutOfAFileInOneLine) {
     const test::TempFolder folder;
     for (const VtuWay& way : {VtuWay{}, VtuWay{"binary", true, true}, VtuWay{"appended"},

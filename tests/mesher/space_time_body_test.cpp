@@ -54,6 +54,17 @@ TEST(PentMesh, MakesSpaceTimeMeshesWithTheSameBytesAtAnyNumberOfThreads) {
     test::expect_contains(test::text_of(folder / "r.json"), {"\"frames\": 3", "\"integral\""});
 }
 
+TEST(PentMesh, SaysWhereTimeZeroIsAlongW) {
+    const test::TempFolder folder;
+    const std::string pvd = write_swelling_ball(folder.path());
+    const Outcome outcome =
+        run_program("pent-mesh " + pvd + " --space-time --translate 0,0,0,-3 -o "
+                    + (folder / "a.pent").string());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    test::expect_contains(outcome.out,
+                          {"time       w = 1 m/s * t - 3 m; 2 layers", "w -3 to -1 m"});
+}
+
 TEST(PentMesh, WritesASpaceTimeMeshAsSlabs) {
     const test::TempFolder folder;
     const std::string pvd = write_swelling_ball(folder.path());

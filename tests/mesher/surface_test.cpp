@@ -54,6 +54,19 @@ TEST(ReadObj, SkipsCommentsOtherLinesAndCarriageReturns) {
     EXPECT_EQ(file.surface.points(1, 2), 1.0);
 }
 
+// As some editors put it in front of a text.
+TEST(ReadSurface, PassesOverAByteOrderMark) {
+    const std::string mark = "\xEF\xBB\xBF";
+    const Simplices<3> triangle = (Simplices<3>(3, 1) << 0, 1, 2).finished();
+    for (const auto& [name, text] :
+         {std::pair("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+          {"a.obj", "# made by hand\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+          {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"}}) {
+        EXPECT_EQ(read_text(name, mark + text).surface.triangles, triangle) << text;
+    }
+    test::expect_contains(message_for("a.obj", mark + "v 0 0 x\n"), {"a.obj: line 1", "\"x\""});
+}
+
 // What a surface has no use for is counted, whatever the format.
 TEST(ReadSurface, CountsTheLinesAndPointsThatItLeavesOut) {
     const SurfaceFile obj =

@@ -79,7 +79,7 @@ TEST_F(ViewerPrograms, ExportForcesOfContactWithTheBoundaryWhereFramesHaveThem) 
     const auto has_force = [&](const std::string& out) {
         const Outcome outcome = run_program(command + at(out));
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        return pent::test::text_of(folder_ / out / "a_boundary_000002.vtu").find("\"force\"")
+        return pent::test::text_of(folder_ / out / "a.boundary_000002.vtu").find("\"force\"")
                != std::string::npos;
     };
     EXPECT_FALSE(has_force("without"));
@@ -103,7 +103,7 @@ TEST_F(ViewerPrograms, TakeTheRangeOfColorsAndThePlaceOfTheEyeAsTold) {
     ASSERT_EQ(run_program(outline + at("near") + " --eye 5").exit_code, 0);
     ASSERT_EQ(run_program(outline + at("far") + " --eye 50").exit_code, 0);
     const auto outline_in = [&](const std::string& name) {
-        return pent::test::text_of(folder_ / (name + "/a_outline_000000.ply"));
+        return pent::test::text_of(folder_ / (name + "/a.outline_000000.ply"));
     };
     EXPECT_NE(outline_in("near"), "");
     EXPECT_NE(outline_in("near"), outline_in("far"));

@@ -274,6 +274,23 @@ TEST(RenderRun, SweepsTheHyperplaneAtEveryFrame) {
     EXPECT_THROW((void)render_run(run, {.folder = folder / "out"}, options, go_on), Error);
 }
 
+TEST(RenderRun, RefusesHyperplanesThatHaveNoRoomSideBySide) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0});
+    const RunFolder run = open_run(folder / "run");
+    RenderRunOptions options = small_pictures(run);
+    options.width = 64;
+    const auto render = [&](std::size_t hyperplanes) {
+        options.sections.offsets.assign(hyperplanes, 0.5);
+        (void)render_run(run, {.picture = folder / "a.png"}, options, go_on);
+    };
+    EXPECT_NO_THROW(render(4));
+    expect_contains(error_of([&] { render(5); }),
+                    {"5 hyperplanes side by side in 64 pixels", "take fewer"});
+    options.is_onion = true;
+    EXPECT_NO_THROW(render(100));
+}
+
 TEST(ThreeDimensions, AreShownWholeAndTakeNoHyperplane) {
     const TempFolder folder;
     const SimplexMesh<3> mesh = pent::test::kuhn_box<3>({2, 2, 2}, {1, 2, 3});

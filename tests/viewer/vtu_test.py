@@ -73,7 +73,7 @@ def main():
             assert own.GetNumberOfCells() == int(row["triangles"])
             assert own.GetPointData().HasArray("strain")
 
-            boundary = read(out / row["file"].replace("_0", "_boundary_0", 1))
+            boundary = read(out / row["file"].replace("_0", ".boundary_0", 1))
             for array in ("w", "speed", "strain"):
                 assert boundary.GetOutput().GetPointData().HasArray(array), array
             surface = contour(boundary, "w", OFFSET)

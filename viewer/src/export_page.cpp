@@ -90,11 +90,12 @@ public:
     }
 
     void check_size(const std::filesystem::path& output, std::int64_t page_bytes) const {
-        constexpr std::int64_t kObstacle = 250;  // as text
-        const auto obstacles = load_obstacles<Dim>(run_, options_.frames.front()).size();
-        // Of text around it.
-        std::int64_t a_frame = 100 + kObstacle * static_cast<std::int64_t>(obstacles);
-        std::int64_t once = page_bytes + 1000;
+        constexpr std::int64_t kAround = 100;  // of text
+        const bool do_move = std::filesystem::is_directory(run_.path / "obstacles");
+        const std::int64_t obstacles = std::max(obstacle_bytes(options_.frames.front()),
+                                                obstacle_bytes(options_.frames.back()));
+        std::int64_t a_frame = kAround + (do_move ? obstacles : 0);
+        std::int64_t once = page_bytes + 1000 + (do_move ? 0 : obstacles);
         for (const Shell& shell : shells_) {
             const auto vertices = static_cast<std::int64_t>(shell.vertices.size());
             const auto quantities = static_cast<std::int64_t>(quantities_.size());
@@ -184,6 +185,11 @@ public:
     [[nodiscard]] double largest_error() const { return box_.sizes().maxCoeff() / kSteps / 2; }
 
 private:
+    [[nodiscard]] std::int64_t obstacle_bytes(int frame) const {
+        const std::vector<ObstacleShape<Dim>> list = load_obstacles<Dim>(run_, frame);
+        return list.empty() ? 0 : static_cast<std::int64_t>(obstacles_text<Dim>(list).size());
+    }
+
     [[nodiscard]] std::string maximum(ColorBy by) const {
         const auto found = std::find(quantities_.begin(), quantities_.end(), by);
         return found == quantities_.end()

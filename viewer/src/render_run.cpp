@@ -18,14 +18,26 @@ namespace pent::viewer {
 
 namespace {
 
+constexpr int kLeastPixels = 16;
 constexpr int kSheetGap = 6;  // pixels
 const Color kSheetPaper(0.9F, 0.9F, 0.9F);
 
 void check(const RenderTargets& targets, const RenderRunOptions& options) {
     const std::string size = std::to_string(options.width) + "x" + std::to_string(options.height);
-    if (std::min(options.width, options.height) < 16
+    if (std::min(options.width, options.height) < kLeastPixels
         || std::max(options.width, options.height) > 8192) {
         throw Error("pictures: found size " + size + "; expected 16 to 8192 each way");
+    }
+    const SectionOptions& sections = options.sections;
+    const std::size_t tiles = options.is_onion || options.is_sweep
+                                  ? 1
+                                  : std::max<std::size_t>(sections.offsets.size(), 1)
+                                        * std::max<std::size_t>(sections.last_angles.size(), 1);
+    if (std::cmp_less(options.width, kLeastPixels * tiles)) {
+        throw Error("pictures: found " + std::to_string(tiles) + " hyperplanes side by side in "
+                    + std::to_string(options.width)
+                    + " pixels; expected 16 pixels each: take fewer, wider pictures, onion skin or"
+                      " a sweep");
     }
     if (!targets.movie.empty() && (options.width % 2 != 0 || options.height % 2 != 0)) {
         throw Error("pictures: found size " + size + "; a movie needs even numbers");

@@ -175,7 +175,7 @@ void write_outline(const Slicing<4>& slicing,
     const Surface surface =
         outline(slicing.bodies[body].boundary, snapshot.frames[body].positions, projection);
     folder.add_surface(
-        file_of(slicing.bodies[body].name + "_outline", snapshot), surface,
+        file_of(slicing.bodies[body].name + ".outline", snapshot), surface,
         extras_of(slicing, range, snapshot, body, surface, ", outline of the projection"));
 }
 
@@ -237,7 +237,7 @@ void write_frame(const Slicing<Dim>& slicing,
             }
             if (slicing.options.has_boundary) {
                 write_boundary(slicing.bodies[body], snapshot.frames[body],
-                               file_of(slicing.bodies[body].name + "_boundary", snapshot), folder);
+                               file_of(slicing.bodies[body].name + ".boundary", snapshot), folder);
             }
         }
     }

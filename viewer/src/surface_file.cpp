@@ -5,6 +5,7 @@
 #include <pent/formatted.h>
 #include <pent/output_file.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -25,11 +26,17 @@ bool has_colors(const SurfaceExtras& extras) {
     return extras.colors.cols() > 0;
 }
 
+// In one line, whatever is in the name of a body.
+std::string comment_line(const char* mark, const SurfaceExtras& extras) {
+    std::string comment = extras.comment;
+    std::ranges::replace_if(
+        comment, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return comment.empty() ? "" : mark + comment + "\n";
+}
+
 std::string ply_header(const TriangleMesh& surface, const SurfaceExtras& extras) {
     std::string header = "ply\nformat binary_little_endian 1.0\n";
-    if (!extras.comment.empty()) {
-        header += "comment " + extras.comment + "\n";
-    }
+    header += comment_line("comment ", extras);
     header += "element vertex " + std::to_string(surface.vertex_count())
               + "\nproperty double x\nproperty double y\nproperty double z\n";
     for (const VertexScalar& scalar : extras.scalars) {
@@ -67,7 +74,7 @@ std::string ply_bytes(const TriangleMesh& surface, const SurfaceExtras& extras) 
 }
 
 std::string obj_text(const TriangleMesh& surface, const SurfaceExtras& extras) {
-    std::string text = extras.comment.empty() ? "" : "# " + extras.comment + "\n";
+    std::string text = comment_line("# ", extras);
     for (Eigen::Index v = 0; v < surface.vertex_count(); ++v) {
         const auto p = surface.positions.col(v);
         text += formatted("v %.17g %.17g %.17g", p.x(), p.y(), p.z());

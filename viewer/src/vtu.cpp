@@ -37,6 +37,17 @@ private:
     std::string bytes_;
 };
 
+// As the value of an attribute.
+std::string escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        const bool is_special =
+            c == '&' || c == '<' || c == '"' || c == '\n' || c == '\t' || c == '\r';
+        result += is_special ? formatted("&#%d;", c) : std::string(1, c);
+    }
+    return result;
+}
+
 }  // namespace
 
 std::string to_vtu(const VtuGrid& grid) {
@@ -76,8 +87,8 @@ std::string to_pvd(const std::vector<PvdEntry>& entries) {
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
         "byte_order=\"LittleEndian\">\n<Collection>\n";
     for (const PvdEntry& entry : entries) {
-        xml += formatted("<DataSet timestep=\"%.17g\" part=\"0\" file=\"", entry.time) + entry.file
-               + "\"/>\n";
+        xml += formatted("<DataSet timestep=\"%.17g\" part=\"0\" file=\"", entry.time)
+               + escaped(entry.file) + "\"/>\n";
     }
     return xml + "</Collection>\n</VTKFile>\n";
 }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,7 +36,9 @@ struct FileInfo {
 };
 
 /// A further quantity of the vertices of a frame or a mesh, or of the cells of a mesh, by a name of
-/// letters, digits and '_'.
+/// letters, digits and '_', of which a file makes properties: by the name itself, or with _x, _y,
+/// _z and _w behind it. Within an element these differ from one another and from those reserved,
+/// and numbers one after the other are not named as a vector is.
 struct VertexField {
     std::string name;
     Eigen::MatrixXd values;  ///< A column each, of one number or of one an axis.
@@ -72,6 +75,11 @@ template <int Dim>
     return nullptr;
 }
 
+/// Names of properties with a meaning of their own, which no quantity of the vertices or cells of a
+/// mesh has; frames have those of vertices but for "column" and "layer".
+[[nodiscard]] std::set<std::string> reserved_vertex_names(int dimension);
+[[nodiscard]] std::set<std::string> reserved_cell_names(int dimension);
+
 /// What the boundary of a body that was extruded or swept along its last axis is made of.
 enum class BoundaryLabel : std::uint16_t {
     Bottom = 1,
@@ -106,7 +114,8 @@ struct MeshFile {
 /// Writes a mesh under a temporary name beside `path`, then renames it.
 ///
 /// The mesh must pass validate(), which is called first. Throws an Error that names the path when
-/// the file cannot be written (no folder, no right, disk full); nothing is left behind then.
+/// the file cannot be written (no folder, no right, disk full), and for quantities that would not
+/// be read as what they are (see VertexField); nothing is left behind then.
 /// @return  The checksum in the header.
 template <int Dim>
 std::uint32_t write_mesh(const std::filesystem::path& path,
@@ -120,7 +129,7 @@ std::uint32_t write_mesh(const std::filesystem::path& path,
 template <int Dim>
 [[nodiscard]] MeshFile<Dim> read_mesh(const std::filesystem::path& path);
 
-/// Writes a frame, as write_mesh does. Throws an Error if a coordinate is not finite.
+/// Writes a frame, as write_mesh does. Throws an Error if a coordinate is not finite, too.
 ///
 /// Where several processes write it each gives the vertices of its slab, in the order of the
 /// writers, and all else alike. The file is that which one of them alone would write of all.

@@ -12,6 +12,7 @@ namespace pent {
 /// A text file, handed out by lines and words; every error names the file and the line.
 ///
 /// Words are split at spaces and tabs. A backslash at the end of a line joins it with the next one.
+/// A byte-order mark in front of the first line is no part of it.
 /// Between lines there may be bytes that are no text; behind these, errors name the byte.
 class TextReader {
 public:

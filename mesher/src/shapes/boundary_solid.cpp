@@ -20,6 +20,17 @@ namespace {
 
 using Long = long long;  // NOLINT(google-runtime-int): printf's type
 
+// Passes over what some editors put in front of a text in UTF-8.
+void skip_byte_order_mark(std::istream& file) {
+    constexpr std::string_view kMark = "\xEF\xBB\xBF";
+    std::string start(kMark.size(), '\0');
+    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    if (start != kMark) {
+        file.clear();
+        file.seekg(0);
+    }
+}
+
 // The first word of a text file, or that of its first line that begins with one of some words.
 bool begins_with_4off(std::istream& file) {
     for (std::string line; std::getline(file, line);) {
@@ -96,6 +107,7 @@ bool is_boundary_file(const std::filesystem::path& path) {
     const std::string ending = format_of(path, "");
     if (ending == ".off" || ending == ".obj") {
         std::ifstream file(path, std::ios::binary);
+        skip_byte_order_mark(file);
         return ending == ".off" ? begins_with_4off(file) : has_tetrahedra_lines(file);
     }
     return ending == ".pent" || ending == ".4off" || ending == ".g4tf" || ending == ".g4b"
@@ -103,9 +115,10 @@ bool is_boundary_file(const std::filesystem::path& path) {
 }
 
 exchange::TetSurface read_boundary(const std::filesystem::path& path) {
-    exchange::Content content = exchange::read(path);
-    if (const auto* mesh = std::get_if<SimplexMesh<4>>(&content)) {
-        return exchange::boundary_of(*mesh);
+    // What is wrong with it is for boundary_solid() to say.
+    exchange::Content content = exchange::read(path, {.is_welded = false});
+    if (const auto* body = std::get_if<exchange::Body>(&content)) {
+        return exchange::boundary_of(body->mesh);
     }
     return std::get<exchange::TetSurface>(std::move(content));
 }

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 #include <vector>
 
 namespace pent::mesher {
@@ -94,27 +93,6 @@ std::vector<Side> rim_of(const std::vector<Tetrahedron>& tetrahedra) {
     return rim;
 }
 
-// Names of points by their place: the lowest of those at the same one.
-std::vector<std::uint32_t> names_by_place(const Positions<4>& points, std::int64_t& merged) {
-    std::vector<std::uint32_t> order(static_cast<std::size_t>(points.cols()));
-    std::iota(order.begin(), order.end(), 0U);
-    const auto is_before = [&](std::uint32_t a, std::uint32_t b) {
-        const auto p = points.col(a);
-        const auto q = points.col(b);
-        return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
-    };
-    std::stable_sort(order.begin(), order.end(), is_before);
-    std::vector<std::uint32_t> names(order.size());
-    std::uint32_t name = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool is_new = i == 0 || points.col(order[i]) != points.col(order[i - 1]);
-        name = is_new ? order[i] : name;
-        merged += is_new ? 0 : 1;
-        names[order[i]] = name;
-    }
-    return names;
-}
-
 // Tetrahedra on different corners: as they face in sum, each once, or as the first of them does.
 struct Distinct {
     std::vector<Tetrahedron> balanced;
@@ -131,7 +109,6 @@ void add_facing(Tetrahedron corners, int sign, std::vector<Tetrahedron>& tetrahe
 }
 
 Distinct distinct_tetrahedra(const exchange::TetSurface& surface, BoundaryReport& report) {
-    const std::vector<std::uint32_t> names = names_by_place(surface.points, report.merged_points);
     struct Copies {
         int sum = 0;
         int first = 0;
@@ -140,13 +117,9 @@ Distinct distinct_tetrahedra(const exchange::TetSurface& surface, BoundaryReport
     for (Eigen::Index t = 0; t < surface.tetrahedra.cols(); ++t) {
         Tetrahedron corners{};
         for (int i = 0; i < 4; ++i) {
-            corners[static_cast<std::size_t>(i)] = names[surface.tetrahedra(i, t)];
+            corners[static_cast<std::size_t>(i)] = surface.tetrahedra(i, t);
         }
         const int sign = sort_corners(corners) ? -1 : 1;
-        if (std::adjacent_find(corners.begin(), corners.end()) != corners.end()) {
-            ++report.degenerate;
-            continue;
-        }
         const auto [found, is_new] = all.try_emplace(corners, Copies{0, sign});
         found->second.sum += sign;
         report.repeated += is_new ? 0 : 1;
@@ -306,12 +279,15 @@ exchange::TetSurface closed_boundary(const exchange::TetSurface& surface,
                                      const std::string& name,
                                      BoundaryReport& report) {
     report.tetrahedra = surface.tetrahedra.cols();
-    Distinct distinct = distinct_tetrahedra(surface, report);
+    const exchange::WeldedSurface welded = exchange::weld(surface);
+    report.merged_points = welded.merged_points;
+    report.degenerate = welded.degenerate;
+    Distinct distinct = distinct_tetrahedra(welded.surface, report);
     if (distinct.first_of_each.empty()) {
         throw Error(name + ": no tetrahedron of four different points; expected a boundary");
     }
-    require_usual_size<4>(surface.points, name + ": the boundary");
-    exchange::TetSurface closed{surface.points, {}};
+    require_usual_size<4>(welded.surface.points, name + ": the boundary");
+    exchange::TetSurface closed{welded.surface.points, {}};
     std::vector<Tetrahedron>& tetrahedra = distinct.balanced;
     if (tetrahedra.empty() || !rim_of(tetrahedra).empty()) {
         tetrahedra = std::move(distinct.first_of_each);

@@ -1,5 +1,6 @@
 #include <pent/error.h>
 #include <pent/geometry.h>
+#include <pent/input_path.h>
 #include <pent/mesher/boundary_solid.h>
 #include <pent/mesher/image_solid.h>
 #include <pent/mesher/primitives.h>
@@ -307,7 +308,7 @@ void add_files(const toml::node& node,
 }  // namespace
 
 bool is_shape_file(const std::filesystem::path& path) {
-    return path.extension() == ".toml";
+    return format_of(path, "") == ".toml";
 }
 
 Solid parse_solid(std::string_view text, const std::string& name) {

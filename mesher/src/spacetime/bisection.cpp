@@ -324,6 +324,7 @@ MovingMesh barycentric_cut(const MovingMesh& moving) {
     cut.frames = moving.frames;
     cut.cut = moving.cut;
     cut.left_out = moving.left_out;
+    cut.curved_cells = moving.curved_cells;
     cut.cell_numbers = repeated(moving.cell_numbers, kPieces);
     cut.base.cells = pieces_of(moving.base, centers);
     cut.base.regions = repeated(moving.base.regions, kPieces);

@@ -2,6 +2,7 @@
 #include "../vtk_grid.h"
 #include "../xml_file.h"
 #include "frame_list.h"
+#include "moving_fields.h"
 #include "run_frames.h"
 
 #include <pent/error.h>
@@ -11,9 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
-#include <set>
 #include <utility>
 
 namespace pent::mesher {
@@ -21,10 +19,6 @@ namespace pent::mesher {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::array<std::string_view, 8> kRegionNames = {
-    "region",        "regions",   "material",      "attribute",
-    "gmsh:physical", "medit:ref", "CellEntityIds", "PhysicalIds"};
 
 VtkGrid read_grid(const fs::path& path) {
     require_file(path);
@@ -37,41 +31,6 @@ VtkGrid read_grid(const fs::path& path) {
     }
     throw Error(path.string() + ": expected an unstructured grid as .vtu or legacy .vtk"
                 + (ending == ".pvtu" ? ": merge the parts first" : ""));
-}
-
-// The array of cells with their labels; null if there is none.
-const VtkArray* region_array(const VtkGrid& grid, const std::string& asked, const fs::path& path) {
-    if (!asked.empty()) {
-        const VtkArray* found = find_array(grid.cell_arrays, asked);
-        if (found == nullptr || found->components != 1) {
-            std::string all;
-            for (const VtkArray& array : grid.cell_arrays) {
-                all += (all.empty() ? "" : ", ") + in_quotes(array.name);
-            }
-            throw Error(path.string() + ": no array \"" + asked
-                        + "\" of one number a cell; its cells have "
-                        + (all.empty() ? "none" : all));
-        }
-        return found;
-    }
-    for (const std::string_view name : kRegionNames) {
-        const VtkArray* found = find_array(grid.cell_arrays, name);
-        if (found != nullptr && found->components == 1) {
-            return found;
-        }
-    }
-    return nullptr;
-}
-
-std::int64_t label_of(const VtkArray& array, std::int64_t cell, const fs::path& path) {
-    const double value = array.values[static_cast<std::size_t>(cell)];
-    if (!(value >= 0 && value <= std::numeric_limits<std::uint16_t>::max())
-        || value != std::floor(value)) {
-        throw Error(path.string() + ": array " + in_quotes(array.name) + ": cell "
-                    + std::to_string(cell)
-                    + formatted(" has %g; expected whole numbers from 0 to 65535", value));
-    }
-    return static_cast<std::int64_t>(value);
 }
 
 std::string corners_text(const CellSoup& soup, std::size_t first, std::size_t count) {
@@ -119,21 +78,6 @@ void require_same_cells(const VtkGrid& first,
     }
 }
 
-// As a property of a .pent file may be called, and not one with a meaning there.
-std::string field_name(const std::string& name) {
-    static const std::set<std::string> kTaken = {"column", "layer", "region", "parent",
-                                                 "bisection_tag"};
-    std::string result;
-    for (const char c : name) {
-        const bool is_plain =
-            (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-        result += is_plain ? c : '_';
-    }
-    const bool is_axis = !result.empty() && result.size() <= 2
-                         && std::string_view("xyzw01234").find(result.back()) != std::string::npos;
-    return result.empty() || is_axis || kTaken.count(result) > 0 ? result + "_" : result;
-}
-
 // The values of an array for these of its tuples.
 Eigen::MatrixXd values_at(const VtkArray& array, const std::vector<std::int64_t>& tuples) {
     Eigen::MatrixXd values(array.components, static_cast<Eigen::Index>(tuples.size()));
@@ -156,19 +100,17 @@ public:
         const VtkArray* regions = region_array(grid, options_.region_array, path);
         if (regions != nullptr) {
             region_name_ = regions->name;
-            grid.soup.has_labels = true;
-            for (std::size_t i = 0; i < grid.solid_cells.size(); ++i) {
-                grid.soup.labels[i] = label_of(*regions, grid.solid_cells[i], path);
-            }
-        }
-        if (regions != nullptr) {  // which triangles have, too: their labels are carried
-            grid.soup.counts[static_cast<std::size_t>(CellKind::Triangle)] = 0;
+            label_cells(grid, *regions);
+            grid.soup.counts[static_cast<std::size_t>(CellKind::Triangle)] =
+                std::count_if(grid.triangle_cells.begin(), grid.triangle_cells.end(),
+                              [&](std::int64_t cell) { return !label_of(*regions, cell); });
         }
         NumberedTetrahedra numbered = number_tetrahedra(grid.soup, path.string());
         mesh_.base = std::move(numbered.file.mesh);
         mesh_.base.positions *= options_.scale;
         mesh_.cut = std::move(numbered.file.cut);
         mesh_.left_out = std::move(numbered.file.left_out);
+        mesh_.curved_cells = numbered.file.curved_cells;
         for (const std::uint32_t point : numbered.points) {
             points_.push_back(point);
         }
@@ -179,8 +121,8 @@ public:
         if (regions != nullptr) {
             add_triangles(grid, *regions);
         }
-        choose_fields(grid.point_arrays, vertex_arrays_, mesh_.vertex_fields);
-        choose_fields(grid.cell_arrays, cell_arrays_, mesh_.cell_fields);
+        choose_vertex_fields(grid.point_arrays);
+        choose_cell_fields(grid.cell_arrays);
         first_ = std::move(grid);
         add_frame(first_, path);
     }
@@ -190,13 +132,18 @@ public:
         if (!region_name_.empty()) {
             require_same_regions(grid, path);
         }
+        note_late(grid.point_arrays, first_.point_arrays, vertex_arrays_, mesh_.vertex_fields);
+        note_late(grid.cell_arrays, first_.cell_arrays, cell_arrays_, mesh_.cell_fields);
         add_frame(grid, path);
     }
 
     // Says what the files have and the mesh will not.
     void finish() {
-        drop_unfinished(mesh_.vertex_fields);
-        drop_unfinished(mesh_.cell_fields);
+        for (std::vector<MovingField>* fields : {&mesh_.vertex_fields, &mesh_.cell_fields}) {
+            for (std::string& name : remove_unfinished(*fields, mesh_.frame_count(), "array")) {
+                dropped_.push_back(std::move(name));
+            }
+        }
         for (const std::string& name : dropped_) {
             mesh_.left_out += (mesh_.left_out.empty() ? "" : ", ") + name;
         }
@@ -212,7 +159,8 @@ private:
         std::vector<std::array<std::uint32_t, 3>> kept;
         for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
             std::array<std::uint32_t, 3> corners{};
-            bool is_of_mesh = true;
+            const auto label = label_of(regions, grid.triangle_cells[t]);
+            bool is_of_mesh = label.has_value();
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::int64_t vertex = vertex_of[grid.triangles[t][k]];
                 is_of_mesh = is_of_mesh && vertex >= 0;
@@ -220,8 +168,7 @@ private:
             }
             if (is_of_mesh) {
                 kept.push_back(corners);
-                mesh_.triangle_labels.push_back(static_cast<std::uint16_t>(
-                    label_of(regions, grid.triangle_cells[t], first_path_)));
+                mesh_.triangle_labels.push_back(*label);
             }
         }
         mesh_.triangles.resize(3, static_cast<Eigen::Index>(kept.size()));
@@ -232,25 +179,56 @@ private:
         }
     }
 
-    void choose_fields(const std::vector<VtkArray>& arrays,
-                       std::vector<std::string>& names,
-                       std::vector<MovingField>& fields) {
-        std::set<std::string> taken;
+    void choose_vertex_fields(const std::vector<VtkArray>& arrays) {
+        FieldNames names(reserved_vertex_names(4));
         for (const VtkArray& array : arrays) {
-            if (array.name == region_name_ && &fields == &mesh_.cell_fields) {
+            if (can_carry(array, vertex_arrays_)) {
+                vertex_arrays_.push_back(array.name);
+                mesh_.vertex_fields.push_back({names.take(array.name, array.components == 3), {}});
+            }
+        }
+    }
+
+    void choose_cell_fields(const std::vector<VtkArray>& arrays) {
+        FieldNames names(reserved_cell_names(4));
+        bool has_fibers = false;
+        for (const VtkArray& array : arrays) {
+            if (array.name == region_name_ || !can_carry(array, cell_arrays_)) {
                 continue;
             }
-            const std::string name = field_name(array.name);
-            const bool has_room = array.components == 1 || array.components == 3;
-            if (!has_room || !taken.insert(name).second) {
-                dropped_.push_back("array " + array.name
-                                   + (has_room ? ""
-                                               : formatted(" of %d components",
-                                                           static_cast<int>(array.components))));
-                continue;
+            const bool is_vector = array.components == 3;
+            const bool is_fiber = !has_fibers && is_vector && is_fiber_name(array.name);
+            has_fibers = has_fibers || is_fiber;
+            cell_arrays_.push_back(array.name);
+            mesh_.cell_fields.push_back(
+                {is_fiber ? array.name : names.take(array.name, is_vector), {}});
+        }
+    }
+
+    // Notes why not, else.
+    bool can_carry(const VtkArray& array, const std::vector<std::string>& carried) {
+        const bool has_room = array.components == 1 || array.components == 3;
+        const bool is_new = std::find(carried.begin(), carried.end(), array.name) == carried.end();
+        if (!has_room || !is_new) {
+            dropped_.push_back(
+                "array " + array.name
+                + (has_room ? ", a second one"
+                            : formatted(" of %d components", static_cast<int>(array.components))));
+        }
+        return has_room && is_new;
+    }
+
+    // Arrays that the first frame lacks become fields without its values, which finish() tells of.
+    static void note_late(const std::vector<VtkArray>& arrays,
+                          const std::vector<VtkArray>& first,
+                          std::vector<std::string>& names,
+                          std::vector<MovingField>& fields) {
+        for (const VtkArray& array : arrays) {
+            if (find_array(first, array.name) == nullptr
+                && std::find(names.begin(), names.end(), array.name) == names.end()) {
+                names.push_back(array.name);
+                fields.push_back({array.name, {}});
             }
-            names.push_back(array.name);
-            fields.push_back({name, {}});
         }
     }
 
@@ -276,10 +254,8 @@ private:
                 continue;
             }
             Eigen::MatrixXd values = values_at(*found, tuples);
-            const bool fits =
-                fields[i].values.empty() || values.rows() == fields[i].values.front().rows();
-            if (fits && values.allFinite()) {
-                fields[i].values.push_back(std::move(values));
+            if (values.allFinite()) {
+                add_values(std::move(values), fields[i]);
             }
         }
     }
@@ -300,19 +276,6 @@ private:
                               " by --region-array");
             }
         }
-    }
-
-    void drop_unfinished(std::vector<MovingField>& fields) {
-        std::vector<MovingField> kept;
-        for (MovingField& field : fields) {
-            if (field.values.size() == mesh_.positions.size()) {
-                kept.push_back(std::move(field));
-            } else {
-                dropped_.push_back("array " + field.name
-                                   + ", which some frames do not have in finite numbers");
-            }
-        }
-        fields = std::move(kept);
     }
 
     MovingMesh& mesh_;

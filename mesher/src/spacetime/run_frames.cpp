@@ -1,7 +1,11 @@
 #include "run_frames.h"
 
+#include "moving_fields.h"
+
 #include <pent/error.h>
 #include <pent/formatted.h>
+
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <numeric>
@@ -78,7 +82,38 @@ void add_field(const std::string& name,
                                     [&](const MovingField& field) { return field.name == name; });
     MovingField& field =
         known == fields.end() ? fields.emplace_back(MovingField{name, {}}) : *known;
-    field.values.push_back(values);
+    add_values(values, field);
+}
+
+Eigen::Matrix3d edges_of(const Positions<3>& positions, const Simplices<4>& cells, Eigen::Index c) {
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k) {
+        edges.col(k) = positions.col(cells(k + 1, c)) - positions.col(cells(0, c));
+    }
+    return edges;
+}
+
+// Fibers go with the body: F times those at rest.
+Eigen::MatrixXd moved_fibers(const SimplexMesh<3>& rest, const Positions<3>& positions) {
+    Eigen::MatrixXd fibers = rest.fibers;
+    for (Eigen::Index cell = 0; cell < fibers.cols(); ++cell) {
+        const Eigen::Matrix3d Dm = edges_of(rest.positions, rest.cells, cell);
+        const Eigen::Matrix3d Ds = edges_of(positions, rest.cells, cell);
+        fibers.col(cell) = Ds * (Dm.inverse() * rest.fibers.col(cell));
+    }
+    return fibers;
+}
+
+// What fields are called in the file, and what is said of those that are not carried.
+void finish_fields(MovingMesh& mesh) {
+    for (const std::string& removed :
+         remove_unfinished(mesh.vertex_fields, mesh.frame_count(), "quantity")) {
+        mesh.left_out += (mesh.left_out.empty() ? "" : ", ") + removed;
+    }
+    FieldNames names(reserved_vertex_names(4));
+    for (MovingField& field : mesh.vertex_fields) {
+        field.name = names.take(field.name, field.values.front().rows() == 3);
+    }
 }
 
 void add_frame(const Frame<3>& frame, const fs::path& path, double scale, MovingMesh& mesh) {
@@ -118,6 +153,7 @@ MovingMesh read_run_frames(const fs::path& folder, const SeriesOptions& options)
     mesh.base = file.mesh;
     mesh.triangles = file.extras.boundary;
     mesh.triangle_labels = file.extras.labels;
+    mesh.left_out = file.mesh.parents.empty() ? "" : "parents of cells";
     mesh.cell_numbers.resize(static_cast<std::size_t>(mesh.base.cell_count()));
     std::iota(mesh.cell_numbers.begin(), mesh.cell_numbers.end(), 0U);
     const std::vector<fs::path> frames = frames_of(folder / "frames", body);
@@ -132,11 +168,10 @@ MovingMesh read_run_frames(const fs::path& folder, const SeriesOptions& options)
                         + mesh_path.string());
         }
         add_frame(frame, frames[i], options.scale, mesh);
+        add_field("fiber", moved_fibers(file.mesh, frame.positions), mesh.cell_fields);
     }
     mesh.base.positions = mesh.positions.front();
-    std::erase_if(mesh.vertex_fields, [&](const MovingField& field) {
-        return field.values.size() != mesh.frame_count();
-    });
+    finish_fields(mesh);
     return mesh;
 }
 

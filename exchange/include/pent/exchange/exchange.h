@@ -1,6 +1,7 @@
 #pragma once
 
 #include <pent/exchange/tet_surface.h>
+#include <pent/pent_file.h>
 #include <pent/simplex_mesh.h>
 
 #include <filesystem>
@@ -12,8 +13,15 @@
 
 namespace pent::exchange {
 
+/// A body with what a .pent file says of it beside the mesh. Of that, other formats hold nothing but
+/// MFEM the labels of the boundary.
+struct Body {
+    SimplexMesh<4> mesh;
+    MeshExtras<4> extras = {};
+};
+
 /// What a file of four dimensions holds: the boundary of a body, or a body.
-using Content = std::variant<TetSurface, SimplexMesh<4>>;
+using Content = std::variant<TetSurface, Body>;
 
 /// Where all points are at another time.
 struct FramePoints {
@@ -24,8 +32,9 @@ struct FramePoints {
 struct WriteOptions {
     std::string created_by = "pentimento";
     bool in_double = false;  ///< Coordinates of G4MF: many programs read float alone.
-    /// Labels of the boundary of MFEM meshes of extruded bodies: 1 bottom, 2 lateral, 3 top; or as
-    /// MFEM numbers those of its own, behind the labels of the cells.
+    /// Labels of the boundary of MFEM meshes: those of the body, or, where it has none and was
+    /// extruded, 1 bottom, 2 lateral, 3 top; or as MFEM numbers those of its own, behind the labels
+    /// of the cells.
     bool has_mfem_attributes = false;
     /// A blend shape each, of G4MF, the one format that has any: from the points that are written
     /// to where those of the content are in the frame.
@@ -50,16 +59,22 @@ struct Format {
 /// The format that the ending of a name stands for. Throws an Error that lists all for others.
 [[nodiscard]] const Format& format_of(const std::filesystem::path& path);
 
+struct ReadOptions {
+    /// The tetrahedra of a boundary that is not closed as it stands meet by the places of their
+    /// points, see weld(); else all points and tetrahedra are those of the file.
+    bool is_welded = true;
+};
+
 /// Reads a boundary, oriented outward if it is closed, or a body.
 ///
 /// Throws an Error that names the file and the place for what cannot be read, is not finite, has
 /// indices out of range or ends too soon; nothing is allocated from a count that the file does not
 /// bear out.
-[[nodiscard]] Content read(const std::filesystem::path& path);
+[[nodiscard]] Content read(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// Writes a boundary or a body, whole or not at all: what the format holds of it, the boundary of a
-/// body or the cone_of() a boundary. Throws an Error for frames of another number of points, and in
-/// formats that have none.
+/// body or the cone_of() a boundary. Throws an Error for frames of another number of points or of
+/// one name, and in formats that have none.
 void write(const std::filesystem::path& path,
            const Content& content,
            const WriteOptions& options = {});

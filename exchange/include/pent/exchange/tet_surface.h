@@ -15,6 +15,20 @@ struct TetSurface {
     Simplices<4> tetrahedra;  ///< 4 x tetrahedra, each outward as FacetMatch<4>::boundary has it.
 };
 
+/// A surface and what became of its points.
+struct WeldedSurface {
+    TetSurface surface;
+    std::int64_t merged_points = 0;  ///< At the same place as an earlier one.
+    std::int64_t degenerate = 0;     ///< Tetrahedra with a corner twice, left out.
+};
+
+/// Makes points at the same place one, the first of them; leaves out tetrahedra that have a corner
+/// twice then, and points that no tetrahedron has. The order stays.
+[[nodiscard]] WeldedSurface weld(const TetSurface& surface);
+
+/// Leaves out points that no tetrahedron has. The order stays.
+[[nodiscard]] TetSurface without_unused_points(const TetSurface& surface);
+
 /// How tetrahedra meet at their triangles.
 struct SurfaceCheck {
     std::int64_t open = 0;       ///< Triangles of one tetrahedron.
@@ -50,6 +64,7 @@ struct BodyBoundary {
 /// The body inside a closed surface that some point sees all of, as it sees that of anything
 /// convex: pentachora from that point to each tetrahedron. The boundary is the surface, exactly.
 ///
+/// @param surface  Without unused points, which the body would have, too.
 /// Throws an Error that begins with `name` if the surface is not closed or no such point is found.
 [[nodiscard]] SimplexMesh<4> cone_of(const TetSurface& surface, std::string_view name);
 

@@ -29,7 +29,8 @@ struct MovingMesh {
     std::vector<std::uint16_t> triangle_labels;
     std::vector<MovingField> vertex_fields;
     std::vector<MovingField> cell_fields;
-    std::string cut;  ///< Other cells and what they became, see TetrahedraFile.
+    std::string cut;                ///< Other cells and what they became, see TetrahedraFile.
+    std::int64_t curved_cells = 0;  ///< Of the files, see TetrahedraFile.
     std::string
         left_out;  ///< Of the files: cells of fewer dimensions, arrays that are not carried.
 
@@ -40,8 +41,8 @@ struct SeriesOptions {
     std::optional<double> time_step = {};  ///< s, between numbered files, which do not say it.
     std::string body = {};                 ///< Of a run folder; may be empty if it has one.
     std::string region_array =
-        {};            ///< Array of cells with their labels; empty: by one of the usual
-                       ///< names, as "region" or "material".
+        {};            ///< Array of cells with their labels; empty: one with labels and a
+                       ///< usual name, as "region" or "material".
     int every = 1;     ///< Only each so-many-th frame, from the first on.
     double scale = 1;  ///< Coordinates in the files times this are m.
 };

@@ -27,11 +27,12 @@ struct SliceRunOptions {
     SurfaceFormat format = SurfaceFormat::Ply;
     ColorBy color = ColorBy::Body;  ///< Written as vertex colors, and as a scalar but for Body.
     bool keep_degenerate = false;   ///< Keep triangles of zero area, as slice() makes them.
-    /// Write the outlines of the whole bodies as well: BODY_outline_000123.ply.
+    /// Write the outlines of the whole bodies as well: BODY.outline_000123.ply. A dot is in no
+    /// body's name.
     std::optional<ProjectionOptions> projection;
-    /// Write the obstacles as well: obstacle.1_000123.ply. A dot is in no body's name.
+    /// Write the obstacles as well: obstacle.1_000123.ply.
     bool has_obstacles = false;
-    /// Write the whole boundaries as well: BODY_boundary_000123.vtu.
+    /// Write the whole boundaries as well: BODY.boundary_000123.vtu.
     bool has_boundary = false;
     std::string created_by = "pent-slice";
 };

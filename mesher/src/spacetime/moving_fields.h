@@ -1,0 +1,44 @@
+#pragma once
+
+#include <pent/mesher/moving_mesh.h>
+
+#include <cstddef>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace pent::mesher {
+
+/// Gives quantities names by which a .pent file of four dimensions tells them apart.
+class FieldNames {
+public:
+    /// @param reserved  Names of properties with another meaning.
+    explicit FieldNames(std::set<std::string> reserved) : taken_(std::move(reserved)) {}
+
+    /// The name with '_' for all but letters, digits and '_', and with as many more behind it as it
+    /// takes until no property of another quantity has it, with an axis or without.
+    [[nodiscard]] std::string take(std::string_view name, bool is_vector);
+
+private:
+    [[nodiscard]] bool is_free(const std::string& name, bool is_vector) const;
+
+    std::set<std::string> taken_;
+};
+
+/// Whether a vector of cells with this name is the direction of fibers.
+[[nodiscard]] bool is_fiber_name(std::string_view name);
+
+/// Adds the values of one frame to a field; not where the first ones have other components.
+void add_values(Eigen::MatrixXd values, MovingField& field);
+
+/// Removes fields that lack the values of a frame.
+///
+/// @param kind  What messages call them: "array".
+/// @return      What the line "left out" says of each.
+[[nodiscard]] std::vector<std::string> remove_unfinished(std::vector<MovingField>& fields,
+                                                         std::size_t frames,
+                                                         const std::string& kind);
+
+}  // namespace pent::mesher
