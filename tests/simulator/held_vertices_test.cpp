@@ -220,7 +220,9 @@ TEST(HeldVertices, AreTakenUpBeforeTheirFirstKeyframe) {
     const Bodies<4> bodies = make_bodies<4>(scene, {bar(2)});
     const auto error = [&](double from, double keyframe) {
         Motion motion;
-        motion.keyframes = {{.time = keyframe, .translate = Eigen::Vector4d(0, 0.1, 0, 0)}};
+        motion.keyframes.resize(1);
+        motion.keyframes[0].time = keyframe;
+        motion.keyframes[0].translate = Eigen::Vector4d(0, 0.1, 0, 0);
         scene.constraints = {hold(left_end(), motion)};
         scene.constraints[0].from = from;
         return pent::test::error_of([&] { static_cast<void>(HeldVertices<4>(scene, bodies)); });
