@@ -39,8 +39,8 @@ void add_view_options(CLI::App& cli, ViewArguments& arguments);
 /// that.
 [[nodiscard]] std::vector<NamedFile> inputs_of(const std::string& input);
 
-/// `file` itself, for Program::require_apart() to refuse, if it is in `folder` and called as what the
-/// program writes there; an empty path if not.
+/// `file` itself, for Program::require_apart() to refuse, if it is in `folder` and called as what
+/// the program writes there; an empty path if not.
 /// @param names  A regular expression for the whole of such a name.
 [[nodiscard]] NamedFile taken_name(const std::filesystem::path& file,
                                    const std::filesystem::path& folder,

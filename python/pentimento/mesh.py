@@ -100,8 +100,9 @@ class Mesh:
     def write(self, path: Path, *, ascii: bool = False, created_by: str | None = None) -> None:
         """Writes a `.pent` file, by default in the name of the program that made the mesh.
 
-        The same mesh, name and kind give the same bytes. Raises an Error where the file cannot be
-        written; there is none then.
+        What the file of a mesh that was read has beside it goes along: quantities, labels of the
+        boundary, tags of bisection. The same mesh, name and kind give the same bytes. Raises an
+        Error where the file cannot be written; there is none then.
         """
         name = self.created_by or f"pentimento {__version__}" if created_by is None else created_by
         library().pent_write_mesh(

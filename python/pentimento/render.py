@@ -138,8 +138,9 @@ def slice(
 def _slices_in(folder: Path) -> Iterator[Slice]:
     """Those of slices.csv, hyperplanes in their order, and outlines, which it does not list."""
     indices: Counter[tuple[str, int]] = Counter()
-    with open(folder / "slices.csv", encoding="utf-8", errors="surrogateescape", newline="") as file:
-        for row in csv.DictReader(file):
+    table = folder / "slices.csv"
+    with open(table, encoding="utf-8", errors="surrogateescape", newline="") as rows:
+        for row in csv.DictReader(rows):
             body, frame = row["body"], int(row["frame"])
             yield Slice(body, frame, indices[body, frame], _read_ply(folder / row["file"]))
             indices[body, frame] += 1

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .simulation import Simulation
 
 _Path = str | os.PathLike[str]
+_WRITTEN = "*-" + 16 * "[0-9a-f]" + ".pent"  # what _write_beside() calls its files
 
 
 class Scene:
@@ -141,7 +142,7 @@ class Scene:
     ) -> Run:
         """Runs the whole scene by pent-sim into a folder, with all that a run has: frames, report,
         resume. A mesh that is no file becomes one in FOLDER.meshes, for who runs it again; those
-        there that the run has no use for go once it is made.
+        of earlier runs that it has no use for go once it is made.
 
         progress  Shows the frames as they come, by tqdm if it is there.
 
@@ -162,7 +163,7 @@ class Scene:
             with FrameCounter(Path(folder), self.frames + 1, progress) as counter:
                 _programs.run("pent-sim", path, words, allowed=(0, 3), tick=counter.look)
         used = {body["mesh"] for body in tables["body"]}
-        for file in files.glob("*.pent"):
+        for file in files.glob(_WRITTEN):
             if str(file) not in used:
                 file.unlink()
         return Run(folder)

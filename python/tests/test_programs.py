@@ -1,6 +1,7 @@
 """The programs: every option is a keyword, and errors are exceptions with their line."""
 
 import inspect
+import pathlib
 import re
 import subprocess
 
@@ -135,6 +136,38 @@ def test_slices_of_a_run_have_body_frame_and_number(tesseract, tmp_path):
         render(run, color="taste")
     with pytest.raises(TypeError, match="expected a Mesh, a Run or a path"):
         render(3)
+
+
+def test_slices_have_the_names_of_their_bodies_whatever_these_are(tesseract, tmp_path):
+    names = ["a", "a_s01", "a_outline", "a_000002"]
+    scene = pentimento.SceneBuilder(frames=1)
+    for name in names:
+        scene.body(name, tesseract)
+    run = scene.build().run(tmp_path / "run")
+    for count in (1, 2):
+        made = pentimento.slice(run, w=[0.25, 0.5][:count], project="orthographic", color="w")
+        bodies = {(b, f, i) for b in names for f in (0, 1) for i in range(count)}
+        outlines = {(f"{b}.outline", f, 0) for b in names for f in (0, 1)}
+        assert {(one.body, one.frame, one.index) for one in made} == bodies | outlines
+        assert len(made) == len(bodies | outlines)
+        for one in made:
+            if "." not in one.body:
+                assert one.surface.attributes["w"] == pytest.approx(0.25 * (one.index + 1))
+
+
+@pytest.mark.parametrize("name", ["ü, b", 'say "c"', "two\nlines", "a&b"])
+def test_a_mesh_of_any_name_is_sliced(tesseract, tmp_path, name):
+    tesseract.write(tmp_path / f"{name}.pent")
+    (made,) = pentimento.slice(tmp_path / f"{name}.pent", w=0.25)
+    assert made.body == name and made.surface.volume == pytest.approx(1, abs=1e-12)
+
+
+def test_a_movie_is_where_it_is_said_to_be_without_ffmpeg_too(tesseract, tmp_path, monkeypatch):
+    monkeypatch.setenv("PENTIMENTO_BIN", str(pathlib.Path(_programs.find("pent-render")).parent))
+    monkeypatch.setenv("PATH", "/nonexistent")
+    look = {"sweep": True, "w": [0.25, 0.5], "size": (64, 48)}
+    made = pentimento.movie(tesseract, tmp_path / "a.mp4", **look)
+    assert len(list(made.glob("*.png"))) == 2 and not (tmp_path / "a.mp4").exists()
 
 
 def test_a_mesh_shows_itself(tesseract):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from conftest import two_boxes
 
-from pentimento import Error, ProgramError, Scene, SceneBuilder, _programs, _toml
+from pentimento import Error, Mesh, ProgramError, Scene, SceneBuilder, _programs, _toml
 
 BODY = '[[body]]\nname = "a"\nmesh = "a.pent"\n'
 
@@ -98,6 +98,21 @@ def test_a_folder_that_is_taken_is_refused(tmp_path, tesseract):
         scene.run(tmp_path / "run")
     assert caught.value.program == "pent-sim" and caught.value.exit_code == 1
     scene.run(tmp_path / "run", force=True)
+
+
+@pytest.mark.parametrize("words", [{}, {"resume": True}, {"force": True, "isa": "none"}])
+def test_a_run_that_is_refused_leaves_the_meshes_of_the_one_there(tmp_path, tesseract, words):
+    run = two_boxes(tesseract).run(tmp_path / "run")
+    other = two_boxes(Mesh(tesseract.points * [2, 1, 1, 1], tesseract.cells))
+    with pytest.raises(ProgramError):
+        other.run(tmp_path / "run", **words)
+    again = run.scene.run(tmp_path / "again")
+    np.testing.assert_array_equal(run.array(), again.array())
+    mine = tmp_path / "run.meshes" / "mine.pent"
+    tesseract.write(mine)
+    replaced = other.run(tmp_path / "run", force=True)
+    files = {str(file) for file in (tmp_path / "run.meshes").iterdir()}
+    assert files == {str(mine), *(body["mesh"] for body in replaced.scene.tables["body"])}
 
 
 def test_any_value_goes_through_toml():

@@ -89,6 +89,17 @@ def test_the_middle_is_where_pent_slice_slices_by_itself(data, rotate):
     np.testing.assert_allclose(found.points, made.points, atol=1e-12)
 
 
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_middle_between_two_roundings_is_the_outer_one_as_of_pent_slice(tmp_path, side):
+    points, cells = box(4)
+    points = points * [1, 1, 1, 0.125] - [0, 0, 0, 0.125 if side < 0 else 0]
+    Mesh(points, cells).write(tmp_path / "thin.pent")
+    view = View(tmp_path / "thin.pent")
+    assert view.middle() == pytest.approx(side * 0.063)  # of 0.0625
+    made = program(tmp_path / "thin.pent", "thin", 0, color="w")
+    assert made.attributes["w"] == pytest.approx(view.middle())
+
+
 def test_time_and_frames_are_those_of_the_run(data):
     view = View(data / "run")
     assert view.frames == tuple(range(9))

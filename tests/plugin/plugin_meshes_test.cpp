@@ -64,6 +64,16 @@ pent_mesh full_c_mesh(const SimplexMesh<Dim>& mesh) {
 }
 
 template <int Dim>
+MeshExtras<Dim> full_extras(const SimplexMesh<Dim>& mesh) {
+    MeshExtras<Dim> extras;
+    extras.vertex_fields.push_back({"heat", Eigen::MatrixXd::Random(1, mesh.vertex_count())});
+    extras.cell_fields.push_back({"flow", Eigen::MatrixXd::Random(Dim, mesh.cell_count())});
+    extras.boundary = match_facets<Dim>(mesh.cells, mesh.vertex_count()).boundary;
+    extras.labels.assign(static_cast<std::size_t>(extras.boundary.cols()), 7);
+    return extras;
+}
+
+template <int Dim>
 void expect_round_trip(const TempFolder& folder, int is_ascii) {
     const SimplexMesh<Dim> mesh = full_mesh<Dim>();
     const std::string first = folder / "first.pent";
@@ -82,6 +92,10 @@ void expect_round_trip(const TempFolder& folder, int is_ascii) {
     const pent_mesh arrays = full_c_mesh(mesh);
     const Mesh stored(pent_store_mesh(Dim, &arrays));
     ASSERT_EQ(pent_write_mesh(stored, second.c_str(), "somebody 1.2", is_ascii), 0);
+    EXPECT_EQ(read_text(first, "a mesh"), read_text(second, "a mesh"));
+    write_mesh(first, mesh, {.encoding = encoding, .created_by = "us"}, full_extras(mesh));
+    const Mesh rich(pent_read_mesh(first.c_str()));
+    ASSERT_EQ(pent_write_mesh(rich, second.c_str(), "us", is_ascii), 0);
     EXPECT_EQ(read_text(first, "a mesh"), read_text(second, "a mesh"));
 }
 

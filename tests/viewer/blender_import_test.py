@@ -42,6 +42,12 @@ def main():
             raise AssertionError("an unknown series was taken")
         except SystemExit as error:
             assert "nobody" in str(error) and name in str(error)
+
+        mesh = pathlib.Path(folder, "ü, b.pent")
+        mesh.write_bytes(next(run.glob("meshes/*.pent")).read_bytes())
+        subprocess.run([pent_slice, mesh, "-o", out, "--quiet"], check=True)
+        (((_, _, path),),) = blender_import.read_series(out).values()
+        assert path.is_file() and path.stem == f"{mesh.stem}_000000"
     print("imported", len(paths), "slices")
 
 

@@ -1,6 +1,8 @@
 #include "runs.h"
 #include "web_pages.h"
 
+#include <pent/formatted.h>
+#include <pent/geometry.h>
 #include <pent/obstacles_file.h>
 #include <pent/viewer/attributes.h>
 #include <pent/viewer/export_page.h>
@@ -152,6 +154,26 @@ TEST_F(AnExportedPage, ThatWouldBeTooLargeIsRefusedWithWhatWouldFit) {
     expect_contains(error_of([&] { (void)make(folder_ / "twist", options); }),
                     {"out.html: would have ", " MB, expected at most 0.0; ", "raise --limit"});
     EXPECT_FALSE(fs::exists(folder_ / "out.html"));
+}
+
+// Of boxes that move there is more to tell than of a body.
+TEST_F(AnExportedPage, HasAtMostTheSizeAskedForWithManyObstaclesToo) {
+    const RunFolder run = open_run(folder_ / "twist");
+    make_folder(folder_ / "twist/obstacles");
+    const auto make_at_most = [&](std::int64_t bytes) {
+        ExportOptions options;
+        options.most_bytes = bytes;
+        return make(folder_ / "twist", options).bytes;
+    };
+    for (const int frame : run.frames) {
+        const Cuboid<4> box{Eigen::Vector4d::Constant(frame / 3.0), Eigen::Vector4d::Ones(),
+                            plane_rotation<4>(0, 3, 0.1 * (frame + 1))};
+        write_obstacles<4>(folder_ / "twist/obstacles" / formatted("%06d.json", frame),
+                           std::vector<ObstacleShape<4>>(50, box));
+    }
+    const std::int64_t bytes = make_at_most(64'000'000);
+    EXPECT_THROW((void)make_at_most(bytes - 1), Error);
+    EXPECT_EQ(make_at_most(bytes * 5 / 4), bytes);
 }
 
 TEST_F(AnExportedPage, ThatIsStoppedIsNotThere) {

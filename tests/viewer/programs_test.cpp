@@ -52,6 +52,15 @@ TEST_F(ViewerPrograms, SliceARunInTheWaysShownInTheHelp) {
     }
 }
 
+TEST_F(ViewerPrograms, TakeTheirInputBehindAnyOption) {
+    for (const std::string options :
+         {"--w 0.1", "--w 0.1 --w -0.2", "--rotate xw:30", "--normal 0,0,1,1 --offset -0.1"}) {
+        std::string command = "pent-slice -o " + at("out");
+        command.append(" ").append(options).append(" ").append(at("run"));
+        EXPECT_EQ(run_program(command).exit_code, 0) << options;
+    }
+}
+
 TEST_F(ViewerPrograms, WriteTheSameBytesForAnyNumberOfThreads) {
     const std::string rest = " --w 0.1,0.5 --color strain --project perspective -o ";
     for (const std::string threads : {"1", "3"}) {
@@ -186,6 +195,23 @@ TEST_F(ViewerPrograms, NeverWriteOverWhatTheyLookAt) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
     expect_refused("pent-render", run + " -o " + at("a.png") + " --frames 1 --sheet " + at("a.png"),
                    "--sheet is the same file");
+    // What they write themselves is looked at next.
+    for (const std::string name : {"slices.csv", "a_000001.ply", "a.pvd"}) {
+        expect_refused("pent-slice", run + " -o " + at("out") + " --json " + at("out/" + name),
+                       "--json is the same file as a file of --output");
+    }
+    for (const std::string option : {"--json ", "--sheet "}) {
+        expect_refused("pent-render",
+                       run + " -o " + at("pictures/") + " " + option + at("pictures/000001.png"),
+                       option + "is the same file as a file of --output");
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "pictures"));
+    EXPECT_EQ(run_program("pent-render " + run + " --size 64x48 --frames 1 -o " + at("pictures/")
+                          + " --sheet " + at("pictures/sheet.png") + " --json "
+                          + at("pictures/report.json"))
+                  .exit_code,
+              0);
     // Beside what the run is made of there is room.
     EXPECT_EQ(run_program("pent-slice " + run + " -o " + at("run/slices")).exit_code, 0);
 }

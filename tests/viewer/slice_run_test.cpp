@@ -77,6 +77,46 @@ TEST(SliceRun, WritesObstaclesIntoFilesOfTheirOwnWhereAsked) {
     EXPECT_TRUE(std::isnan(with.slices[2].volume));   // a plane has none
 }
 
+TEST(SliceRun, GivesEachSurfaceAFileOfItsOwnWhateverBodiesAreCalled) {
+    const TempFolder folder;
+    for (const char* body : {"a", "a_outline", "a_boundary", "a_s01", "a_000001"}) {
+        write_run(folder / "run", body, {0, 1});
+    }
+    const RunFolder run = open_run(folder / "run");
+    SliceRunOptions options;
+    options.frames = run.frames;
+    options.projection = ProjectionOptions();
+    options.has_boundary = true;
+    options.format = SurfaceFormat::Vtu;
+    for (const std::size_t sections : {1U, 2U}) {
+        options.sections.offsets.assign(sections, 0.5);
+        const std::filesystem::path out = folder / std::to_string(sections);
+        const SliceRunReport report = slice_run(run, out, options, go_on);
+        EXPECT_EQ(report.slices.size(), 5 * 2 * sections);
+        // Slices, outline and boundary of each body: a file a frame, and a collection; slices.csv.
+        EXPECT_EQ(count_files(out), 5 * (sections + 2) * (2 + 1) + 1);
+    }
+}
+
+// As tables and XML have it.
+TEST(SliceRun, WritesNamesWithMarksAsFilesOfTheirFormatDo) {
+    const TempFolder folder;
+    write_mesh<4>(folder / "a&\"b\",\nc.pent", test::jittered_box({1, 1, 1, 1}, 3));
+    const RunFolder run = open_run(folder / "a&\"b\",\nc.pent");
+    SliceRunOptions options;
+    options.frames = run.frames;
+    (void)slice_run(run, folder / "ply", options, go_on);
+    EXPECT_NE(text_in(folder / "ply/slices.csv").find("\n\"a&\"\"b\"\",\nc_000000.ply\",0,0,"),
+              std::string::npos);
+    const std::string ply = text_in(folder / "ply/a&\"b\",\nc_000000.ply");
+    EXPECT_NE(ply.find("body a&\"b\", c, w = "), std::string::npos) << ply.substr(0, 200);
+    options.format = SurfaceFormat::Vtu;
+    (void)slice_run(run, folder / "vtu", options, go_on);
+    EXPECT_NE(text_in(folder / "vtu/a&\"b\",\nc.pvd")
+                  .find("file=\"a&#38;&#34;b&#34;,&#10;c_000000.vtu\""),
+              std::string::npos);
+}
+
 TEST(SliceRun, StopsBetweenFramesAndListsWhatItWrote) {
     const TempFolder folder;
     write_run(folder / "run", "a", {0, 1, 2});
