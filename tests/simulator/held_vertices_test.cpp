@@ -218,20 +218,20 @@ TEST(HeldVertices, AreTakenUpBeforeTheirFirstKeyframe) {
     Scene scene = box_scene<4>();
     scene.frames_per_second = 60;
     const Bodies<4> bodies = make_bodies<4>(scene, {bar(2)});
-    const auto error = [&](double from, double keyframe) {
+    const auto hold_from = [&](double from, double keyframe) {
         Motion motion;
         motion.keyframes.resize(1);
         motion.keyframes[0].time = keyframe;
         motion.keyframes[0].translate = Eigen::Vector4d(0, 0.1, 0, 0);
         scene.constraints = {hold(left_end(), motion)};
         scene.constraints[0].from = from;
-        return pent::test::error_of([&] { static_cast<void>(HeldVertices<4>(scene, bodies)); });
+        static_cast<void>(HeldVertices<4>(scene, bodies));
     };
     for (const double time : {1.8, 1.85}) {
-        pent::test::expect_contains(error(time - 0.01, time),
+        pent::test::expect_contains(pent::test::error_of([&] { hold_from(time - 0.01, time); }),
                                     {"the first of \"keyframes\" is at 1.8", "expected it behind"});
-        EXPECT_EQ(error(time - 0.01, time + 0.001), "");
-        EXPECT_EQ(error(time, time + 0.001), "");
+        EXPECT_NO_THROW(hold_from(time - 0.01, time + 0.001));
+        EXPECT_NO_THROW(hold_from(time, time + 0.001));
     }
 }
 
