@@ -3,6 +3,7 @@
 #include "frontier.h"
 #include "json_count.h"
 
+#include <pent/csv_field.h>
 #include <pent/error.h>
 #include <pent/output_file.h>
 #include <pent/read_text.h>
@@ -21,18 +22,6 @@ using Json = nlohmann::ordered_json;
 // Paths may have bytes that are not UTF-8.
 std::string text_of(const Json& json) {
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-// Within quotes where it would not be one field, as a list is (RFC 4180).
-std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"\n") == std::string::npos) {
-        return text;
-    }
-    std::string quoted = "\"";
-    for (const char c : text) {
-        quoted += c == '"' ? "\"\"" : std::string(1, c);
-    }
-    return quoted + "\"";
 }
 
 Json to_json(const Errors& errors) {

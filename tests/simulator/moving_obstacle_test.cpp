@@ -99,6 +99,7 @@ TYPED_TEST(MovingObstacle, HasTheFrictionOfTheWeightHoweverFastItRises) {
                     const StepReport report = simulation.step();
                     ASSERT_TRUE(report.is_accepted) << report.failure;
                 }
+                // But for what is left of rocking when the belt starts to pull at its underside.
                 const double gained = kFriction * 9.8 * 0.3;
                 EXPECT_NEAR(mean_velocity<kDim>(simulation, 0)[0], gained, 0.03 * gained)
                     << int(model) << " " << int(integrator) << " " << rise;

@@ -1,5 +1,6 @@
 #include "slice_folder.h"
 
+#include <pent/csv_field.h>
 #include <pent/formatted.h>
 #include <pent/output_file.h>
 
@@ -10,23 +11,11 @@ namespace pent::viewer {
 
 namespace {
 
-// In quotes where commas, quotes or new lines in it would be taken for those of the table.
-std::string field_of(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) {
-        return text;
-    }
-    std::string field = "\"";
-    for (const char c : text) {
-        field += c == '"' ? "\"\"" : std::string(1, c);
-    }
-    return field + "\"";
-}
-
 std::string csv_of(const std::vector<SliceRecord>& records) {
     std::string csv = "file,frame,time,section,offset,body,vertices,triangles,volume,area\n";
     for (const SliceRecord& record : records) {
-        csv += field_of(record.file) + formatted(",%d,%.17g,\"", record.frame, record.time)
-               + record.section + formatted("\",%.17g,", record.offset) + field_of(record.body)
+        csv += csv_field(record.file) + formatted(",%d,%.17g,\"", record.frame, record.time)
+               + record.section + formatted("\",%.17g,", record.offset) + csv_field(record.body)
                + formatted(",%" PRId64 ",%" PRId64 ",%.17g,%.17g\n", record.vertices,
                            record.triangles, record.volume, record.area);
     }
