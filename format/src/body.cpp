@@ -400,6 +400,10 @@ std::uint32_t write_file(const std::filesystem::path& path,
                          Header header,
                          const std::string& body,
                          const SlabWriters* writers) {
+    constexpr std::size_t kMost = kLongestLine - std::string_view("comment created_by ").size();
+    if (header.info.created_by.size() > kMost) {
+        throw Error(path.string() + ": created_by is longer than a line of a header may be");
+    }
     header.info.crc32c = crc32c_of_slabs(writers, body);
     write_slabs(path, format_header(header), body, writers);
     return header.info.crc32c;

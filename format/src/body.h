@@ -85,7 +85,8 @@ private:
                               std::string_view what,
                               const std::filesystem::path& path);
 
-/// Puts header (with the body's checksum) and body into a file; returns the checksum.
+/// Puts header (with the body's checksum) and body into a file; returns the checksum. Throws an
+/// Error for a created_by that a line has no room for.
 ///
 /// @param body     Or a slab of it, of several writers.
 /// @param writers  Null for one alone.

@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 4> kFieldAxes = {"_x", "_y", "_z", "_w"};
 
 // Whether a header can have it: one word of a line.
 bool is_word(const std::string& name) {
-    constexpr std::size_t kLongest = 4078;  // of a line of 4096
+    constexpr std::size_t kLongest = kLongestLine - std::string_view("property double _x").size();
     return !name.empty() && name.size() <= kLongest
            && name.find_first_of(" \n") == std::string::npos && printable(name) == name;
 }

@@ -20,7 +20,7 @@ namespace {
 constexpr std::array<std::string_view, 9> kComments = {
     "pent", "dimension", "created_by", "crc32c", "header_crc32c", "mesh", "frame", "step", "time"};
 
-constexpr std::uint64_t kMaxVertices = 0xFFFFFFFFU;  // indices are 32 bits wide
+constexpr std::uint64_t kMaxRows = 0xFFFFFFFFU;  // of vertices and cells: indices are 32 bits wide
 
 std::vector<std::string_view> split(std::string_view line) {
     std::vector<std::string_view> words;
@@ -101,7 +101,6 @@ private:
     }
 
     std::string_view next_line() {
-        constexpr std::size_t kLongestLine = 4096;
         ++line_;
         if (at_ >= bytes_.size()) {
             throw Error(path_ + ": header line " + std::to_string(line_)
@@ -109,8 +108,9 @@ private:
         }
         const std::size_t end = bytes_.find('\n', at_);
         if (end == std::string_view::npos || end - at_ > kLongestLine) {
-            fail(bytes_.substr(at_, kLongestLine),
-                 line_ == 1 ? "'ply' (is this a .pent file?)" : "a line that ends with a newline");
+            fail(bytes_.substr(at_, kLongestLine), line_ == 1 && bytes_ != "ply"
+                                                       ? "'ply' (is this a .pent file?)"
+                                                       : "a line that ends with a newline");
         }
         const std::string_view line = bytes_.substr(at_, end - at_);
         at_ = end + 1;
@@ -308,6 +308,13 @@ void check_prefix(const PlyElement& element,
     }
 }
 
+void check_count(const PlyElement& element, const std::string& where) {
+    if (element.count > kMaxRows) {
+        throw Error(where + "element " + element.name + " has " + std::to_string(element.count)
+                    + " rows, expected at most " + std::to_string(kMaxRows));
+    }
+}
+
 void check_vertices(const Header& header, const std::string& where) {
     if (header.elements.empty() || header.elements[0].name != "vertex") {
         throw Error(where + "found " + name_of(header, 0)
@@ -315,10 +322,7 @@ void check_vertices(const Header& header, const std::string& where) {
                     + ", expected element vertex first");
     }
     const PlyElement& vertices = header.elements[0];
-    if (vertices.count > kMaxVertices) {
-        throw Error(where + "element vertex has " + std::to_string(vertices.count)
-                    + " vertices, expected at most " + std::to_string(kMaxVertices));
-    }
+    check_count(vertices, where);
     const std::array<std::string, 4> axes = {"x", "y", "z", "w"};
     check_prefix(vertices, {axes.begin(), axes.begin() + header.info.dimension}, PlyType::Double,
                  where);
@@ -335,6 +339,7 @@ void check_cells(const Header& header, const std::string& where) {
                     + " after element vertex, expected element " + cells + " (dimension "
                     + std::to_string(dim) + ")");
     }
+    check_count(header.elements[1], where);
     const std::array<std::string, 5> corners = {"v0", "v1", "v2", "v3", "v4"};
     check_prefix(header.elements[1], {corners.begin(), corners.begin() + dim + 1}, PlyType::Uint,
                  where);

@@ -15,6 +15,9 @@ namespace pent {
 [[nodiscard]] std::size_t size_of(PlyType type);  ///< In bytes.
 [[nodiscard]] std::string_view name_of(PlyType type);
 
+/// Bytes of a line of a header, at most, without its end.
+inline constexpr std::size_t kLongestLine = 4096;
+
 /// The header of a .pent file, as parsed; not yet compared with the body.
 struct Header {
     FileInfo info;

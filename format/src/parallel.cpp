@@ -18,6 +18,14 @@ thread_local const Workers* current_workers = nullptr;
 thread_local bool is_in_task = false;
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
+// Own task systems differ in what they make of others.
+TaskSystem own_checked(int threads) {
+    if (threads < 1) {
+        throw Error(std::to_string(threads) + " threads, expected at least 1");
+    }
+    return own_task_system(threads);
+}
+
 TaskSystem checked(TaskSystem tasks) {
     if (tasks.workers < 1) {
         throw Error("task system: " + std::to_string(tasks.workers)
@@ -64,7 +72,7 @@ private:
 
 }  // namespace
 
-Workers::Workers(int threads) : Workers(own_task_system(threads)) {}
+Workers::Workers(int threads) : Workers(own_checked(threads)) {}
 
 Workers::Workers(TaskSystem tasks) : tasks_(checked(std::move(tasks))) {}
 

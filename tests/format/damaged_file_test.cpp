@@ -128,6 +128,7 @@ TEST_F(DamagedFile, TruncatedAnywhereInTheHeader) {
     for (std::size_t bytes = 1; bytes < body_; ++bytes) {
         expect_contains(message(good_.substr(0, bytes)), {"header line", "expected"});
     }
+    expect_contains(message("ply"), {"found 'ply', expected a line that ends with a newline"});
 }
 
 TEST_F(DamagedFile, TruncatedAnywhereInTheBody) {
@@ -161,8 +162,14 @@ TEST_F(DamagedFile, WrongTypeOfProperty) {
 }
 
 TEST_F(DamagedFile, ImpossibleCounts) {
-    for (const std::string count :
-         {"9223372036854775808", "18446744073709551615", "4294967295", "1000"}) {
+    for (const std::string count : {"9223372036854775808", "18446744073709551615", "4294967296"}) {
+        for (const std::string of : {"vertex 16", "pentachoron 24"}) {
+            const std::string element = "element " + of.substr(0, of.find(' '));
+            expect_contains(message(header_with("element " + of, element + " " + count)),
+                            {element + " has " + count + " rows, expected at most 4294967295"});
+        }
+    }
+    for (const std::string count : {"4294967295", "1000"}) {
         expect_contains(message(header_with("element vertex 16", "element vertex " + count)),
                         {"element vertex", count});
         expect_contains(

@@ -264,7 +264,9 @@ TEST(Workers, KeepALoopWithinATaskOnItsThreadWhereTheHostDoesNotNest) {
     });
 }
 
-TEST(Workers, RefuseAHostWithoutWorkersOrWithoutAFunction) {
+TEST(Workers, RefuseAHostWithoutWorkersOrWithoutAFunctionAndNoThreads) {
+    EXPECT_EQ(test::error_of([] { Workers(0); }), "0 threads, expected at least 1");
+    EXPECT_EQ(test::error_of([] { Workers(-1); }), "-1 threads, expected at least 1");
     EXPECT_EQ(test::error_of([] { Workers(TaskSystem{.workers = 0}); }),
               "task system: 0 workers, expected at least 1");
     EXPECT_EQ(test::error_of([] { Workers(TaskSystem{.workers = 3}); }),

@@ -191,6 +191,28 @@ TEST(Explain, SaysThatContactBetweenBodiesFarApartCouldGo) {
     EXPECT_EQ(advice(explain(scene, 1)).find("could go"), std::string::npos);
 }
 
+// Who passes through whom on purpose is not too fast, nor too heavy for the other.
+TEST(Explain, SaysNothingOfBodiesThatDoNotSeeEachOther) {
+    const TempFolder folder;
+    Scene scene = two_boxes(folder, 3);
+    scene.bodies[0].velocity = Eigen::Vector4d(60, 0, 0, 0);
+    scene.contact = ContactSettings{.distance = 0.1, .stiffness = 1e-3};
+    expect_contains(advice(explain(scene, 1)),
+                    {"can pass through one another", "[contact] stiffness is 0.001"});
+    scene.contact->ignore = {{"box", "other"}};
+    std::string lines = advice(explain(scene, 1));
+    expect_contains(lines, {"[contact] has nothing to do: no body that moves sees another one"});
+    for (const char* wrong : {"pass through", "stiffness is"}) {
+        EXPECT_EQ(lines.find(wrong), std::string::npos) << lines;
+    }
+    // Of three, those that see each other count, and no nearer ones.
+    scene.bodies.push_back(scene.bodies[1]);
+    scene.bodies[2].name = "third";
+    scene.bodies[2].place.translate[0] = 9;
+    expect_contains(advice(explain(scene, 1)), {"box and third move 2 m a step"});
+    EXPECT_EQ(advice(explain(scene, 1)).find("box and other"), std::string::npos);
+}
+
 TEST(Explain, SaysThatContactIsMissingWhereBodiesOverlap) {
     const TempFolder folder;
     expect_contains(advice(explain(two_boxes(folder, 1), 1)), {"overlap", "no [contact]"});
@@ -205,6 +227,9 @@ TEST(Explain, WarnsOfLockingOfThinBodiesAndOfIdleTerms) {
     const std::string lines = advice(explain(scene, 1));
     expect_contains(lines, {"box is 1 cell thick", "lock", "[damping] is all zero",
                             "falls, 11.1 m"});  // 2/2 (100/30)^2
+    scene.loads = {{.body = "box", .select = {EverythingSelection{}}}};
+    scene.loads[0].force = Eigen::Vector4d(-4, 0, 0, 0);
+    EXPECT_EQ(advice(explain(scene, 1)).find("falls"), std::string::npos);  // who knows
 }
 
 // Smoothed elements lock where there is one cell, or poisson is near the limit of 1/3; not from
@@ -369,6 +394,35 @@ TEST(Explain, SaysWhatOverlapsAtTheStart) {
     scene = two_boxes(folder, 2);  // face to face
     scene.contact = ContactSettings{};
     EXPECT_EQ(advice(explain(scene, 1)).find("overlap"), std::string::npos);
+}
+
+// A stiff floor, which something comes to in steps of more than a tenth of its thickness: how deep
+// it is in at the end of one is chance, and no stiffness would do.
+TEST(Explain, SaysAfterARunWhichStepsWouldDo) {
+    const TempFolder folder;
+    int deep = 0;
+    for (int i = 0; i < 16; ++i) {
+        Scene scene = two_boxes(folder, 5);
+        scene.bodies.pop_back();
+        scene.bodies[0].place.translate[1] = 1 + 0.1 * i;
+        scene.gravity[1] = -9.8;
+        scene.frames = 30;
+        scene.obstacles = {
+            {.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d::UnitY()}, .stiffness = 1e7}};
+        const std::string said = run(scene, {.folder = folder / "run", .force = true}).penetration;
+        if (said.empty()) {
+            continue;
+        }
+        ++deep;
+        const std::string before = "most of it in one step; steps_per_frame = ";
+        const std::size_t at = said.find(before);
+        ASSERT_NE(at, std::string::npos) << i << ": " << said;
+        expect_contains(said, {"model = \"barrier\" with integrator = \"newton_euler\""});
+        scene.steps_per_frame = std::stoi(said.substr(at + before.size()));
+        EXPECT_LE(scene.steps_per_frame, 8);
+        EXPECT_EQ(run(scene, {.folder = folder / "run", .force = true}).penetration, "") << i;
+    }
+    EXPECT_GT(deep, 4);
 }
 
 // The recipe of docs/contact.md on three scenes: a box that lies on a floor, one that falls on it,

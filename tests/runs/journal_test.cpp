@@ -3,6 +3,8 @@
 #include "falling_bar.h"
 #include "support/messages.h"
 
+#include <pent/crc32c.h>
+#include <pent/formatted.h>
 #include <pent/runs/run.h>
 
 #include <gtest/gtest.h>
@@ -61,6 +63,16 @@ TEST_F(JournalFile, IsRefusedWithTheLineWhereAnyByteHasChanged) {
         pent::test::expect_contains(
             pent::test::error_of([&] { static_cast<void>(read_with(changed)); }),
             {"journal.txt:" + std::to_string(line) + ": "});
+    }
+}
+
+// Lines whose checksum is right.
+TEST_F(JournalFile, IsRefusedWhereALineIsNotOfAJournal) {
+    for (const std::string line : {"{}", "[1]", "7", "{\"end\":{},\"part\":{}}", "{\"stop\":{}}"}) {
+        const std::string text = formatted("%08x ", crc32c(line.data(), line.size())) + line + "\n";
+        pent::test::expect_contains(
+            pent::test::error_of([&] { static_cast<void>(read_with(text_ + text)); }),
+            {"journal.txt:15: is damaged", "found ", "; expected "});
     }
 }
 

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 
 namespace pent::runs {
 namespace {
@@ -111,6 +112,64 @@ TEST(Resume, RemovesWhatAKilledRunLeftHalfWritten) {
     static_cast<void>(run(scene, {.folder = folder / "run", .resume = true}));
     EXPECT_FALSE(fs::exists(half));
     EXPECT_TRUE(fs::exists(own));
+}
+
+// As on a full disk: a folder stands in the way of one of the files of frame 3.
+TEST(Resume, WritesAllFilesOfAFrameOfWhichOneCouldNotBeWritten) {
+    const TempFolder folder;
+    Scene scene = falling_bar(folder, 5);
+    scene.solver.integrator = Integrator::Bdf2;  // which has checkpoints
+    Motion rising = simulator::test::still(4);
+    rising.translate[1] = 0.1;
+    scene.obstacles = {
+        {.shape = HalfSpaceObstacle{.normal = Eigen::Vector4d::UnitY()}, .motion = {rising}}};
+    scene.output.contact_pairs = true;
+    static_cast<void>(run(scene, {.folder = folder / "whole"}));
+    const auto files_of = [&](const std::string& name) {
+        std::map<std::string, std::string> files;
+        for (const auto& entry : fs::recursive_directory_iterator(folder / name)) {
+            const std::string file = fs::relative(entry.path(), folder / name).string();
+            if (entry.is_regular_file() && entry.path().parent_path() != folder / name) {
+                files[file] = bytes_of(entry.path());
+            }
+        }
+        return files;
+    };
+    const auto whole = files_of("whole");
+    for (const std::string file : {"checkpoint/000003.state", "obstacles/000003.json",
+                                   "contacts/000003.csv", "frames/box_000003.pent"}) {
+        EXPECT_EQ(whole.contains(file), file[1] != 'h') << file;  // two checkpoints are kept
+        const fs::path in_the_way = folder / "cut" / file;
+        const auto stand_in_the_way = [&](const FrameReport& frame, const StepReport& /*step*/) {
+            if (frame.frame == 2) {
+                fs::create_directories(in_the_way / "something");
+            }
+        };
+        EXPECT_ANY_THROW(
+            static_cast<void>(run(scene, {.folder = folder / "cut", .force = true},
+                                  {.should_stop = nullptr, .on_frame = stand_in_the_way})));
+        fs::remove_all(in_the_way);
+        static_cast<void>(run(scene, {.folder = folder / "cut", .resume = true}));
+        EXPECT_EQ(files_of("cut"), whole) << file;
+    }
+}
+
+TEST(Resume, SaysWhatToDoWhereARunWasKilledBeforeItsStartWasWritten) {
+    const TempFolder folder;
+    const Scene scene = falling_bar(folder, 1);
+    static_cast<void>(run(scene, {.folder = folder / "run"}));
+    const fs::path journal = folder / "run/journal.txt";
+    std::string text = bytes_of(journal);
+    std::ofstream(journal) << text.substr(0, text.find('\n') + 1);  // the part alone
+    for (const char* file :
+         {"frames/box_000001.pent", "frames/box_000000.pent", "meshes/box.pent"}) {
+        fs::remove(folder / "run" / file);
+    }
+    EXPECT_EQ(pent::test::error_of([&] {
+                  static_cast<void>(run(scene, {.folder = folder / "run", .resume = true}));
+              }),
+              (folder / "run").string()
+                  + ": holds no whole frame to resume from; use --force to start again");
 }
 
 // BDF2 needs the step before, and that is kept for the last two frames only.

@@ -83,6 +83,8 @@ TEST_F(ReportFile, IsRefusedWithItsNameWhereItIsNotOne) {
         EXPECT_NE(error_with("\"substeps\": 1", std::string("\"substeps\": ") + wrong), "")
             << wrong;
     }
+    pent::test::expect_contains(error_with("\"substeps\": 1", "\"substeps\": 4294967303"),
+                                {"the number 4294967303 is too large"});
     pent::test::expect_contains(error_with("\"finished\"", "\"fine\""), {"\"fine\""});
     pent::test::expect_contains(error_with("{", "["), {"report.json: not the report of a run"});
 }

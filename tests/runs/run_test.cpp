@@ -96,6 +96,22 @@ TEST(Run, WritesASceneThatRunsAgainToTheSameBytes) {
               bytes_of(folder / "again/frames/box_000002.pent"));
 }
 
+// What pent-study makes meshes of stands beside the scene, not in the run.
+TEST(Run, WritesRecipesThatFindTheirFilesFromItsFolder) {
+    const TempFolder folder;
+    Scene scene = falling_bar(folder, 1);
+    std::ofstream(folder / "model.off") << "OFF\n";
+    scene.bodies[0].recipe = "model.off  --thickness 1 --profile none.csv";
+    static_cast<void>(
+        run(scene, {.folder = folder / "deep/run", .scene_file = folder / "scene.toml"}));
+    EXPECT_EQ(read_scene(folder / "deep/run/scene.toml").bodies[0].recipe,
+              "../../model.off --thickness 1 --profile none.csv");
+    const std::string absolute = (folder / "model.off").string() + " --layers 2";
+    scene.bodies[0].recipe = absolute;
+    static_cast<void>(run(scene, {.folder = folder / "run", .scene_file = folder / "scene.toml"}));
+    EXPECT_EQ(read_scene(folder / "run/scene.toml").bodies[0].recipe, absolute);
+}
+
 TEST(Run, RefusesAFolderInUseUnlessForced) {
     const TempFolder folder;
     const Scene scene = falling_bar(folder, 2);

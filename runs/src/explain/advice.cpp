@@ -21,8 +21,10 @@ struct Locking {
     double at_028;
     double at_032;
 };
-constexpr Locking kLinear[] = {{1, 0.27, 0.20, 0.12}, {2, 0.57, 0.43, 0.25}, {4, 0.84, 0.72, 0.52}};
-constexpr Locking kSmoothed[] = {{1, 0.64, 0.49, 0.30}, {2, 0.96, 0.83, 0.67}, {4, 1, 0.94, 0.88}};
+constexpr Locking kLinear[] = {
+    {1, 0.298, 0.247, 0.166}, {2, 0.582, 0.465, 0.291}, {4, 0.833, 0.730, 0.528}};
+constexpr Locking kSmoothed[] = {
+    {1, 0.655, 0.541, 0.353}, {2, 0.957, 0.848, 0.677}, {4, 1, 0.969, 0.898}};
 
 // More bend than this is right.
 constexpr double kBends = 0.9;
@@ -93,7 +95,8 @@ Lines on_falling(const Trial& trial) {
     const double g = scene.gravity.norm();
     const bool hangs = std::any_of(scene.attachments.begin(), scene.attachments.end(),
                                    [](const Attachment& one) { return one.target.empty(); });
-    if (g == 0 || !scene.constraints.empty() || !scene.obstacles.empty() || hangs) {
+    if (g == 0 || !scene.constraints.empty() || !scene.obstacles.empty() || !scene.loads.empty()
+        || hangs) {
         return {};
     }
     const double time = scene.frames / scene.frames_per_second;
@@ -129,16 +132,18 @@ struct Pair {
     double gap;  // between the boxes around them at the start, m
 };
 
-// Of bodies that are not both held.
+// Of bodies that are not both held and, where there is contact, see each other.
 std::vector<Pair> pairs_of(const Trial& trial) {
+    const Scene& scene = trial.scene;
     std::vector<Pair> pairs;
     for (std::size_t a = 0; a < trial.bodies.size(); ++a) {
         for (std::size_t b = a + 1; b < trial.bodies.size(); ++b) {
             const TrialBody& one = trial.bodies[a];
             const TrialBody& other = trial.bodies[b];
-            if (!one.is_kinematic() || !other.is_kinematic()) {
-                pairs.push_back({trial.scene.bodies[a], trial.scene.bodies[b],
-                                 one.box.exteriorDistance(other.box)});
+            const bool are_seen = !scene.contact || simulator::may_touch(scene, a, b);
+            if (are_seen && (!one.is_kinematic() || !other.is_kinematic())) {
+                pairs.push_back(
+                    {scene.bodies[a], scene.bodies[b], one.box.exteriorDistance(other.box)});
             }
         }
     }
@@ -182,7 +187,9 @@ Lines on_idle_contact(const Trial& trial) {
     }
     const std::vector<Pair> pairs = pairs_of(trial);
     if (pairs.empty()) {
-        return {"[contact] has nothing to do: all bodies are held everywhere"};
+        return {trial.size.free_vertices == 0
+                    ? "[contact] has nothing to do: all bodies are held everywhere"
+                    : "[contact] has nothing to do: no body that moves sees another one"};
     }
     const double nearest =
         std::min_element(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) {

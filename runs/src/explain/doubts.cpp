@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -29,8 +30,13 @@ Vector<Dim> sides(const Simulation<Dim>& simulation, int body) {
     return positions.rowwise().maxCoeff() - positions.rowwise().minCoeff();
 }
 
-// How far the body is from an obstacle, or from the nearest other body by their boxes, m; infinite
-// from nothing.
+// Whether there is contact of a body with another one.
+bool sees(const Scene& scene, std::size_t body, std::size_t other) {
+    return other != body && simulator::may_touch(scene, body, other);
+}
+
+// How far the body is from an obstacle, or from the nearest other body that it sees by their boxes,
+// m; infinite from nothing.
 template <int Dim>
 double gap(const Scene& scene,
            const Simulation<Dim>& simulation,
@@ -52,7 +58,9 @@ double gap(const Scene& scene,
         return Box(of.rowwise().minCoeff(), of.rowwise().maxCoeff());
     };
     for (int other = 0; other < static_cast<int>(scene.bodies.size()); ++other) {
-        least = other == body ? least : std::min(least, box(body).exteriorDistance(box(other)));
+        if (sees(scene, static_cast<std::size_t>(body), static_cast<std::size_t>(other))) {
+            least = std::min(least, box(body).exteriorDistance(box(other)));
+        }
     }
     return least;
 }
@@ -66,7 +74,9 @@ double start_speed(const Scene& scene, std::size_t body, bool meets_obstacle) {
     const Eigen::VectorXd& own = scene.bodies[body].velocity;
     double most = speed_of(own);
     for (std::size_t other = 0; !meets_obstacle && other < scene.bodies.size(); ++other) {
-        most = std::max(most, speed_of(own) + speed_of(scene.bodies[other].velocity));
+        if (sees(scene, body, other)) {
+            most = std::max(most, speed_of(own) + speed_of(scene.bodies[other].velocity));
+        }
     }
     return most;
 }
@@ -218,27 +228,42 @@ std::vector<std::string> soft_contacts(const Scene& scene,
 }
 
 std::string deep_penetration(const Scene& scene, const RunReport& report) {
-    double deepest = 0;
-    for (const StepReport& step : report.steps) {
-        deepest = std::max(deepest, step.contact.deepest);
-    }
+    const auto depth = [](const StepReport& step) { return step.contact.deepest; };
+    const auto at = std::max_element(
+        report.steps.begin(), report.steps.end(),
+        [&](const StepReport& a, const StepReport& b) { return depth(a) < depth(b); });
+    const double deepest = at == report.steps.end() ? 0 : depth(*at);
     const double part = deepest / report.thinnest;
     if (!(part > kDeep)) {
         return "";
     }
-    // Under weight depth goes with 1/k, after an impact with its root: enough for both.
-    const double factor = part / kDeep * part / kDeep;
-    std::string which;
-    if (scene.contact) {
-        which = formatted("[contact] stiffness = %.2g", factor * scene.contact->stiffness);
+    std::string result =
+        formatted("penetration reached %.3g m, %.0f%% of the thinnest extent (%.3g m): ", deepest,
+                  100 * part, report.thinnest);
+    const double before = at == report.steps.begin() ? 0 : depth(*std::prev(at));
+    if (before < 0.5 * deepest) {
+        // No force acts before something is in reach: as deep as a step is long, which may be more
+        // than chance has shown here.
+        result += formatted("most of it in one step; steps_per_frame = %.0f",
+                            std::ceil(2 * scene.steps_per_frame * part / kDeep));
+    } else {
+        // Under weight depth goes with 1/k, after an impact with its root: enough for both.
+        const double factor = part / kDeep * part / kDeep;
+        std::string which;
+        if (scene.contact) {
+            which = formatted("[contact] stiffness = %.2g", factor * scene.contact->stiffness);
+        }
+        for (std::size_t o = 0; o < scene.obstacles.size(); ++o) {
+            which += formatted("%s[[obstacle]] %d stiffness = %.2g", which.empty() ? "" : ", ",
+                               static_cast<int>(o + 1), factor * scene.obstacles[o].stiffness);
+        }
+        result += which + " at least";
     }
-    for (std::size_t o = 0; o < scene.obstacles.size(); ++o) {
-        which += formatted("%s[[obstacle]] %d stiffness = %.2g", which.empty() ? "" : ", ",
-                           static_cast<int>(o + 1), factor * scene.obstacles[o].stiffness);
+    result += " would keep it below a tenth, or model = \"barrier\"";
+    if (scene.solver.integrator == Integrator::LinearEuler) {
+        result += " with integrator = \"newton_euler\"";
     }
-    return formatted("penetration reached %.3g m, %.0f%% of the thinnest extent (%.3g m): ",
-                     deepest, 100 * part, report.thinnest)
-           + which + " at least would keep it below a tenth, or model = \"barrier\"";
+    return result;
 }
 
 std::string remedy(const Scene& scene,

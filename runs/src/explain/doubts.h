@@ -45,7 +45,8 @@ template <int Dim>
     const Simulation<Dim>& simulation,
     const std::vector<std::int64_t>& boundary_vertices);
 
-/// Of a run in which something went deep: how deep, and the stiffness that would do; else empty.
+/// Of a run in which something went deep: how deep, and what would do, more steps where it went
+/// there in one, else stiffness; else empty.
 [[nodiscard]] std::string deep_penetration(const Scene& scene, const RunReport& report);
 
 /// What to try after a step that failed for a reason.

@@ -26,6 +26,9 @@ std::string line(const char* key, Json json) {
 // Adds what a line says to the journal; the checksum of its text is right.
 void take(const std::string& text, Journal& journal) {
     const Json entry = Json::parse(text);
+    if (!entry.is_object() || entry.size() != 1) {
+        throw Error("found " + text + "; expected one key and its value");
+    }
     const Json& value = entry.front();
     const std::string key = entry.begin().key();
     if (key == "part") {
@@ -39,8 +42,10 @@ void take(const std::string& text, Journal& journal) {
         RunPart& part = journal.parts.at(journal.parts.size() - 1);
         part.last_frame = journal.frames.back().frame;
         value.at("seconds").get_to(part.seconds);
-    } else {
+    } else if (key == "end") {
         journal.parts.at(journal.parts.size() - 1) = read_record<RunPart>(value);
+    } else {
+        throw Error("found \"" + key + "\"; expected part, step, frame or end");
     }
 }
 

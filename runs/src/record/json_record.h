@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace pent::runs {
@@ -88,7 +89,11 @@ struct RecordReader {
     template <std::integral Value>
     static void from_json(const Json& entry, Value& count) {
         // get_to() would round any number to a whole one.
-        count = static_cast<Value>(entry.get_ref<const Json::number_unsigned_t&>());
+        const auto found = entry.get_ref<const Json::number_unsigned_t&>();
+        if (!std::in_range<Value>(found)) {
+            throw Error("the number " + std::to_string(found) + " is too large");
+        }
+        count = static_cast<Value>(found);
     }
     template <typename Value>
     requires std::is_enum_v<Value>

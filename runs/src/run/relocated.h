@@ -6,14 +6,12 @@
 
 namespace pent::runs {
 
-/// The scene as written in a run folder: mesh paths relative to that folder.
-[[nodiscard]] inline Scene relocated(const Scene& scene, const std::filesystem::path& folder) {
-    namespace fs = std::filesystem;
-    Scene moved = scene;
-    for (Body& body : moved.bodies) {
-        body.mesh = fs::proximate(fs::absolute(body.mesh), fs::absolute(folder)).string();
-    }
-    return moved;
-}
+/// The scene as written in a run folder: paths of meshes, and those of files in recipes, relative
+/// to that folder.
+///
+/// @param origin  The folder that recipes are relative to, that of the scene file.
+[[nodiscard]] Scene relocated(const Scene& scene,
+                              const std::filesystem::path& origin,
+                              const std::filesystem::path& folder);
 
 }  // namespace pent::runs

@@ -139,8 +139,7 @@ Resumption<Dim> Finder<Dim>::operator()() {
         frames = read_frames(--frame);
     }
     if (!frames) {
-        throw Error(run_.folder.string()
-                    + ": holds no whole frame to resume from; use --force to start again");
+        throw nothing_to_resume(run_.folder);
     }
     StateBlocks carried = carried_state_at(frame);
     Snapshot<Dim> snapshot = snapshot_of(*frames, carried);
@@ -152,6 +151,11 @@ Resumption<Dim> Finder<Dim>::operator()() {
 }
 
 }  // namespace
+
+Error nothing_to_resume(const fs::path& folder) {
+    return Error(folder.string()
+                 + ": holds no whole frame to resume from; use --force to start again");
+}
 
 template <int Dim>
 Resumption<Dim> find_resumption(const RunInFolder& run,

@@ -4,6 +4,8 @@
 #include "record/state_blocks.h"
 #include "simulator_names.h"
 
+#include <pent/error.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -32,6 +34,9 @@ struct Resumption {
     StateBlocks carried = {};  ///< What of it is in no frame file.
     Journal history = {};      ///< Up to there; frames that the journal lacked are measured.
 };
+
+/// Of a run that was killed before its start was written.
+[[nodiscard]] Error nothing_to_resume(const std::filesystem::path& folder);
 
 /// Reads nothing but the folder and changes nothing in it.
 ///

@@ -142,7 +142,8 @@ void Run<Dim>::write_scene() {
     const fs::path file = folder_.claim(kSceneFile);
     std::error_code ignored;
     if (!fs::equivalent(options_.scene_file, file, ignored)) {
-        write_text(file, scene_text(relocated(scene_, options_.folder)));
+        const fs::path origin = options_.scene_file.parent_path();
+        write_text(file, scene_text(relocated(scene_, origin, options_.folder)));
     }
     if (!scene_.obstacles.empty() && !do_obstacles_move()) {
         write_obstacles(folder_.claim(kObstaclesFile), simulation_.obstacles());
@@ -189,6 +190,14 @@ void Run<Dim>::tell_resume(const Resumption<Dim>& found) const {
 // Puts the simulation at the last whole frame of the folder, and gives its number.
 template <int Dim>
 int Run<Dim>::resume_folder() {
+    ranks_.agree([&] {
+        for (int body = 0; body < simulation_.body_count(); ++body) {
+            const bool has_died_early = folder_.has_list() && before_.frames.empty();
+            if (has_died_early && !fs::exists(path(mesh_file(name_of(body))))) {
+                throw nothing_to_resume(options_.folder);
+            }
+        }
+    });
     for (int body = 0; body < simulation_.body_count(); ++body) {
         mesh_crcs_.push_back(meshes_.compare(path(mesh_file(name_of(body))), simulation_, body));
     }
@@ -218,7 +227,8 @@ void Run<Dim>::take_over(Resumption<Dim> found) {
         }
     }
     folder_.remove_temporaries();
-    if (!found.carried.is_empty()) {  // that of an old run is in other files
+    folder_.remove(checkpoint_file(frame - 2));  // a run may have died before it did that
+    if (!found.carried.is_empty()) {             // that of an old run is in other files
         write_checkpoint(folder_.claim(checkpoint_file(frame)), static_cast<std::uint64_t>(frame),
                          step_of(scene_, frame), found.carried);
         found.history.has_checkpoint.back() = true;
@@ -238,7 +248,8 @@ void Run<Dim>::write_frame_files(int frame) {
     ranks_.write([&] { end_frame(frame); });
 }
 
-// A frame is in the journal before it has files.
+// A frame is in the journal before it has files, and has all others before those of bodies: where
+// these are, a run that is resumed finds the frame whole.
 template <int Dim>
 void Run<Dim>::begin_frame(int frame) {
     const StateBlocks carried = carried_state(simulation_, names_of_bodies(scene_));
@@ -249,6 +260,13 @@ void Run<Dim>::begin_frame(int frame) {
     if (!carried.is_empty()) {
         write_checkpoint(folder_.claim(checkpoint_file(frame)), static_cast<std::uint64_t>(frame),
                          simulation_.step_count(), carried);
+    }
+    if (do_obstacles_move()) {
+        write_obstacles(folder_.claim(moved_obstacles_file(frame)), simulation_.obstacles());
+    }
+    if (scene_.output.contact_pairs) {
+        write_text(folder_.claim(contacts_file(frame)),
+                   contact_table(simulation_, names_of_bodies(scene_)));
     }
     for (int body = 0; body < simulation_.body_count(); ++body) {
         static_cast<void>(folder_.claim(frame_file(name_of(body), frame)));
@@ -270,13 +288,6 @@ void Run<Dim>::write_frame_of(int body, int frame) {
 // Two checkpoints are kept: if the last frame is damaged, a run goes on from the one before.
 template <int Dim>
 void Run<Dim>::end_frame(int frame) {
-    if (do_obstacles_move()) {
-        write_obstacles(folder_.claim(moved_obstacles_file(frame)), simulation_.obstacles());
-    }
-    if (scene_.output.contact_pairs) {
-        write_text(folder_.claim(contacts_file(frame)),
-                   contact_table(simulation_, names_of_bodies(scene_)));
-    }
     folder_.remove(checkpoint_file(frame - 2));
     if (callbacks_.on_frame) {
         callbacks_.on_frame(report_.frames.back(),

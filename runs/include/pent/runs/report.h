@@ -51,7 +51,7 @@ struct BodyReport {
 struct RunReport {
     RunVerdict verdict = RunVerdict::Running;  ///< Of the last part.
     std::string message;  ///< Why a run diverged and what to try; empty otherwise.
-    /// How deep bodies went into something, and the stiffness that would do; empty where that stays
+    /// How deep bodies went into something, and what would do; empty where that stays
     /// below a tenth of the thinnest extent of a body.
     std::string penetration;
     /// Of meshes, settings, units, and of what overlaps at the start.

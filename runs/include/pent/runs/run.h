@@ -23,6 +23,7 @@ namespace pent::runs {
 ///     RUN/checkpoint/000123.state   what it takes beside the last frames to go on behind them
 ///     RUN/journal.txt               what was done, frame by frame: where report.json comes from
 ///     RUN/report.json               verdict and statistics of every step and frame
+///     RUN/balance.csv               momenta and energies of every step, if the scene asks for them
 ///     RUN/written.txt               the files of the run: see OutputFolder
 
 struct RunOptions {
