@@ -58,8 +58,9 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
 
 std::vector<NamedFile> parts_of_run(const fs::path& run, const std::string& what) {
     std::vector<NamedFile> parts;
-    for (const char* part : {"scene.toml", "report.json", "obstacles.json", "journal.txt",
-                             "written.txt", "meshes", "frames", "contacts", "checkpoint"}) {
+    for (const char* part :
+         {"scene.toml", "report.json", "obstacles.json", "balance.csv", "journal.txt",
+          "written.txt", "meshes", "frames", "obstacles", "contacts", "checkpoint"}) {
         parts.push_back({what, run / part, true});
     }
     return parts;

@@ -84,13 +84,20 @@ void say_surface(Program& program, const exchange::TetSurface& surface) {
     program.report()["overfull"] = check.overfull;
 }
 
-void say_body(Program& program, const SimplexMesh<4>& mesh) {
+void say_body(Program& program, const exchange::Body& body, const exchange::Format& format) {
+    const SimplexMesh<4>& mesh = body.mesh;
     program.say("body       " + std::to_string(mesh.vertex_count()) + " vertices, "
                 + std::to_string(mesh.cell_count()) + " pentachora, "
                 + formatted("%.6g m^4", total_volume(mesh)));
     program.report()["vertices"] = mesh.vertex_count();
     program.report()["cells"] = mesh.cell_count();
     program.report()["hypervolume"] = total_volume(mesh);
+    const std::string left_out = exchange::left_out(body, format);
+    if (!left_out.empty()) {
+        program.say("left out   " + left_out + ": " + std::string(format.name)
+                    + " has no place for them");
+    }
+    program.report()["left_out"] = left_out;
 }
 
 Verdict convert(Program& program, Arguments& arguments) {
@@ -99,13 +106,13 @@ Verdict convert(Program& program, Arguments& arguments) {
         inputs.push_back({"--frames", frame});
     }
     program.require_apart(inputs, {{"--output", arguments.output}});
-    static_cast<void>(exchange::format_of(arguments.output));  // before any work
+    const exchange::Format& format = exchange::format_of(arguments.output);  // before any work
     arguments.options.created_by = program.name_and_version();
     const exchange::Content content = exchange::read(arguments.input);
     if (const auto* surface = std::get_if<exchange::TetSurface>(&content)) {
         say_surface(program, *surface);
     } else {
-        say_body(program, std::get<exchange::Body>(content).mesh);
+        say_body(program, std::get<exchange::Body>(content), format);
     }
     arguments.options.frames = read_frames(arguments);
     exchange::write(arguments.output, content, arguments.options);

@@ -3,6 +3,7 @@
 #include "mesh_options.h"
 
 #include <pent/error.h>
+#include <pent/input_path.h>
 
 #include <algorithm>
 #include <cmath>
@@ -70,8 +71,15 @@ void add_placement(CLI::App& cli,
         cli.add_option("--scale", arguments.scale, "Multiply the file's coordinates by this")
             ->check(CLI::PositiveNumber)
             ->group(group);
+    CLI::Option* regions =
+        cli.add_option("--region-array", arguments.request.region_array,
+                       "Of VTK: the array of the cells with their labels; default: region, "
+                       "material, attribute or the like")
+            ->type_name("NAME")
+            ->group(group);
     for (CLI::Option* shape : shapes) {
         format->excludes(shape);
+        regions->excludes(shape);
         unit->excludes(shape);
         scale->excludes(shape);
     }
@@ -196,7 +204,7 @@ void add_extrusion(CLI::App& cli, MeshArguments& arguments) {
     CLI::Option* thickness =
         cli.add_option("--thickness", arguments.thickness,
                        "Along w (m), with --one-sided to -w where negative; default: 0.2 of the "
-                       "largest side")
+                       "largest side, with --round all of it")
             ->group(group);
     CLI::Option* direction =
         cli.add_option("--extrude", arguments.direction, "The whole extrusion as x,y,z,w (m)")
@@ -286,7 +294,7 @@ void require_pent_file(const std::filesystem::path& output) {
     const bool is_device = std::filesystem::exists(status)
                            && !std::filesystem::is_regular_file(status)
                            && !std::filesystem::is_directory(status);
-    if (!is_device && output.extension() != ".pent") {
+    if (!is_device && format_of(output, "") != ".pent") {
         std::filesystem::path wanted = output;
         throw Error(output.string()
                     + ": a mesh is a .pent file; expected a name that ends in it, as -o "

@@ -18,6 +18,8 @@
 
 #include <filesystem>
 #include <map>
+#include <string>
+#include <utility>
 
 namespace {
 
@@ -171,15 +173,21 @@ Checked<Dim> check(const std::filesystem::path& path, bool quiet) {
     return checked;
 }
 
-// What a file has beside its mesh.
+// What a file has beside its mesh, said and in the report.
 template <int Dim>
-void say_extras(const Program& program, const pent::MeshExtras<Dim>& extras) {
+void say_extras(Program& program, const pent::MeshExtras<Dim>& extras) {
+    nlohmann::ordered_json report = {{"vertex_fields", nlohmann::ordered_json::array()},
+                                     {"cell_fields", nlohmann::ordered_json::array()},
+                                     {"has_bisection_tags", !extras.bisection_tags.empty()},
+                                     {"labels", nlohmann::ordered_json::object()}};
     std::string fields;
-    for (const auto* all : {&extras.vertex_fields, &extras.cell_fields}) {
-        for (const pent::VertexField& field : *all) {
-            fields += (fields.empty() ? "" : ", ") + field.name
-                      + (all == &extras.cell_fields ? " of cells" : "");
-        }
+    for (const pent::VertexField& field : extras.vertex_fields) {
+        fields += (fields.empty() ? "" : ", ") + field.name;
+        report["vertex_fields"].push_back(field.name);
+    }
+    for (const pent::VertexField& field : extras.cell_fields) {
+        fields += (fields.empty() ? "" : ", ") + field.name + " of cells";
+        report["cell_fields"].push_back(field.name);
     }
     if (!fields.empty()) {
         program.say("fields     " + fields);
@@ -194,10 +202,12 @@ void say_extras(const Program& program, const pent::MeshExtras<Dim>& extras) {
     std::string labels;
     for (const auto& [label, count] : counts) {
         labels += formatted("%s%d: %lld", labels.empty() ? "" : ", ", label, count);
+        report["labels"][std::to_string(label)] = count;
     }
     if (!labels.empty()) {
         program.say("labels     " + labels + " facets");
     }
+    program.report()["extras"] = std::move(report);
 }
 
 template <int Dim>
@@ -219,6 +229,10 @@ void check_mesh(Program& program, const std::filesystem::path& path) {
                           static_cast<Long>(links.faulty)));
     program.say("quality    " + pent::apps::quality_line(quality));
     say_extras<Dim>(program, file.extras);
+    program.report()["file"] = {
+        {"encoding", file.info.encoding == pent::Encoding::Ascii ? "ascii" : "binary"},
+        {"created_by", file.info.created_by},
+        {"crc32c", formatted("%08x", file.info.crc32c)}};
     program.report()["mesh"] = {{"dimension", Dim},
                                 {"vertices", file.mesh.vertex_count()},
                                 {"cells", proof.cells},

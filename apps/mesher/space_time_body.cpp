@@ -9,12 +9,14 @@
 
 #include <pent/error.h>
 #include <pent/formatted.h>
+#include <pent/input_path.h>
 #include <pent/output_file.h>
 #include <pent/pent_file.h>
 
 #include <cmath>
 #include <filesystem>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -68,26 +70,61 @@ fs::path slab_path(const fs::path& output, std::size_t slab) {
     return path.replace_filename(frame_file_name(output.stem().string(), static_cast<int>(slab)));
 }
 
-// Files that are there all or none: those written before one that cannot be are removed.
-std::vector<fs::path> write_slabs(const SpaceTimeBody& body,
-                                  const fs::path& output,
-                                  const WriteOptions& options) {
-    std::vector<fs::path> written;
-    try {
-        for (std::size_t slab = 0; slab + 1 < body.frame_layers.size(); ++slab) {
-            const MeshFile<4> file = mesher::slab_of(body, slab);
-            const fs::path path = slab_path(output, slab);
-            write_mesh(path, file.mesh, options, file.extras);
-            written.push_back(path);
-        }
-    } catch (...) {
-        for (const fs::path& path : written) {
+// Files with hidden names beside those that they are to have, which they get all at once. What has
+// not got its name is removed in the end.
+class StagedFiles {
+public:
+    StagedFiles() = default;
+    ~StagedFiles() {
+        for (const Staged& file : files_) {
             std::error_code ignored;
-            fs::remove(path, ignored);
+            fs::remove(file.temporary, ignored);
         }
-        throw;
     }
-    return written;
+    StagedFiles(const StagedFiles&) = delete;
+    StagedFiles& operator=(const StagedFiles&) = delete;
+    StagedFiles(StagedFiles&&) = delete;
+    StagedFiles& operator=(StagedFiles&&) = delete;
+
+    // Where to write what is to be at a path; a link there stays, and gets new content.
+    [[nodiscard]] fs::path add(const fs::path& path) {
+        refuse_folder(path);
+        const fs::path target = fs::weakly_canonical(fs::absolute(path));
+        const std::string name = target.filename().string();
+        fs::path temporary = target;
+        temporary.replace_filename(formatted(".%s.%d.staged", name.c_str(), ::getpid()));
+        files_.push_back({temporary, target});
+        return temporary;
+    }
+
+    void commit() {
+        for (const Staged& file : files_) {
+            std::error_code error;
+            fs::rename(file.temporary, file.target, error);
+            if (error) {
+                // GCOVR_EXCL_START: rights that change meanwhile
+                throw Error(file.target.string() + ": cannot be written: " + error.message());
+                // GCOVR_EXCL_STOP
+            }
+        }
+    }
+
+private:
+    struct Staged {
+        fs::path temporary;
+        fs::path target;
+    };
+    std::vector<Staged> files_;
+};
+
+// All slabs or none: where one cannot be written those of before stay as they are.
+void write_slabs(const SpaceTimeBody& body, const fs::path& output, const WriteOptions& options) {
+    StagedFiles files;
+    for (std::size_t slab = 0; slab + 1 < body.frame_layers.size(); ++slab) {
+        const MeshFile<4> file = mesher::slab_of(body, slab);
+        write_mesh(files.add(slab_path(output, slab)), file.mesh, options, file.extras);
+    }
+    files.commit();
 }
 
 void write(const Program& program, const MeshArguments& arguments, const SpaceTimeBody& body) {
@@ -107,17 +144,22 @@ void write(const Program& program, const MeshArguments& arguments, const SpaceTi
     }
 }
 
-// From what else is written.
+// From what is read, and from what else is written.
 void require_slabs_apart(Program& program,
                          const MeshArguments& arguments,
                          const SpaceTimeBody& body) {
     if (!arguments.space_time.has_slabs) {
         return;
     }
+    std::vector<NamedFile> inputs;
+    for (const fs::path& path : mesher::frame_files(arguments.input, arguments.space_time.series)) {
+        inputs.push_back({"a file that the input names", path});
+    }
     std::vector<NamedFile> slabs;
     for (std::size_t slab = 0; slab + 1 < body.frame_layers.size(); ++slab) {
         slabs.push_back({"a slab", slab_path(arguments.output, slab)});
     }
+    program.require_apart(inputs, slabs);
     program.require_apart(slabs, {{"--histogram", arguments.histogram}});
 }
 

@@ -112,9 +112,6 @@ void add_space_time_options(CLI::App& cli, MeshArguments& arguments) {
         cli.add_option("--time-step", moving.time_step, "From one numbered file to the next (s)")
             ->check(CLI::PositiveNumber));
     goes_with(cli.add_option("--body", moving.series.body, "Of a run folder with several bodies"));
-    goes_with(cli.add_option("--region-array", moving.series.region_array,
-                             "Array of the cells with their labels; default: region, material, "
-                             "attribute or the like"));
     goes_with(cli.add_flag("--slabs", moving.has_slabs,
                            "A file for each step from frame to frame: NAME_000000.pent and so on"));
     goes_with(cli.add_flag("--bisection", moving.options.is_bisection_ready,
@@ -129,6 +126,7 @@ void complete_space_time(const CLI::App& cli, MeshArguments& arguments) {
     refuse_other_options(cli);
     refuse_options_of_the_other(cli, arguments.input);
     moving.series.scale = arguments.request.scale;
+    moving.series.region_array = arguments.request.region_array;
     if (cli.count("--time-step") > 0) {
         moving.series.time_step = moving.time_step;
     }

@@ -2,6 +2,7 @@
 #include "view_options.h"
 
 #include <pent/error.h>
+#include <pent/input_path.h>
 #include <pent/viewer/movie.h>
 #include <pent/viewer/render_run.h>
 #include <pent/viewer/run_folder.h>
@@ -100,7 +101,7 @@ viewer::ColorRange to_color_range(const std::string& text) {
 }
 
 bool has_extension(const std::string& path, const std::string& extension) {
-    return std::filesystem::path(path).extension() == extension;
+    return format_of(path, "") == extension;
 }
 
 // Where the pictures go; a movie falls back to a folder of pictures where there is no ffmpeg.

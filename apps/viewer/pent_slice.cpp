@@ -87,7 +87,8 @@ Verdict slice(Program& program, const Arguments& arguments) {
     program.report()["obstacles"] = arguments.has_obstacles ? report.obstacles : 0;
     program.report()["output"] = arguments.output;
     program.say(std::string(report.is_complete ? "finished" : "stopped") + ": "
-                + std::to_string(report.slices.size()) + " slices, " + std::to_string(triangles)
+                + std::to_string(report.slices.size())
+                + (report.slices.size() == 1 ? " slice, " : " slices, ") + std::to_string(triangles)
                 + " triangles in " + arguments.output
                 + (triangles == 0 ? " (the hyperplane misses the bodies)" : "")
                 + "; volumes in slices.csv" + obstacle_note(report.obstacles, arguments));

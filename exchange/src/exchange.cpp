@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace pent::exchange {
 
@@ -24,7 +25,7 @@ constexpr std::array<std::string_view, 1> kVtk = {".vtk"};
 constexpr std::array<std::string_view, 1> kGmsh = {".msh"};
 
 constexpr std::array kFormats = {
-    Format{".pent", kPent, true, false, read_pent, write_pent},
+    Format{".pent", kPent, true, false, read_pent, write_pent, true},
     Format{"4OFF", k4off, false, false, read_4off, write_4off},
     Format{"G4MF", kG4mf, false, true, read_g4mf, write_g4mf},
     Format{"4DO", k4do, false, false, read_4do, write_4do},
@@ -109,6 +110,30 @@ const Format& format_of(const std::filesystem::path& path) {
     throw Error(path.string() + ": "
                 + (ending.empty() ? "a name without an ending" : "a name that ends in " + ending)
                 + "; expected one of " + known);
+}
+
+std::string left_out(const Body& body, const Format& format) {
+    const auto& [mesh, extras] = body;
+    std::vector<std::pair<bool, std::string>> parts = {
+        {!format.has_cells && !mesh.regions.empty(), "regions"},
+        {!format.has_cells && !extras.labels.empty(), "labels of the boundary"},
+        {!extras.base_labels.empty(), "labels of the base"},
+        {mesh.fibers.cols() > 0, "fibers"},
+        {!mesh.parents.empty(), "quadratic cells"},
+        {!mesh.layers.empty(), "layers"},
+        {!extras.bisection_tags.empty(), "tags for bisection"}};
+    for (const auto* fields : {&extras.vertex_fields, &extras.cell_fields}) {
+        for (const VertexField& field : *fields) {
+            parts.emplace_back(true, field.name);
+        }
+    }
+    std::string names;
+    for (const auto& [is_there, name] : parts) {
+        if (is_there && !format.has_extras) {
+            names += (names.empty() ? "" : ", ") + name;
+        }
+    }
+    return names;
 }
 
 Content read(const std::filesystem::path& path, const ReadOptions& options) {

@@ -22,6 +22,11 @@ constexpr int kTetrahedron = 4;
 
 using Corners = Eigen::Vector<std::uint32_t, 4>;
 
+Corners sorted(Corners corners) {
+    std::sort(corners.begin(), corners.end());
+    return corners;
+}
+
 struct IsBefore {
     bool operator()(const Corners& a, const Corners& b) const {
         return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
@@ -63,11 +68,6 @@ public:
     }
 
 private:
-    static Corners sorted(Corners corners) {
-        std::sort(corners.begin(), corners.end());
-        return corners;
-    }
-
     [[nodiscard]] int own_label(const Corners& corners) const {
         const auto found = known_.find(sorted(corners));
         if (found != known_.end()) {
@@ -121,7 +121,7 @@ struct Elements {
 Elements read_elements(TextReader& text, std::string_view section, int kind) {
     expect_word(text, section);
     const std::int64_t count = text.count(text.next_word("a number of elements"), "elements");
-    // Those of cells become regions, from 0; those of the boundary are left out.
+    // Those of cells become regions, from 0.
     const std::int64_t most = kind == kPentatope ? std::numeric_limits<std::uint16_t>::max() + 1
                                                  : std::numeric_limits<std::int32_t>::max();
     Elements elements;
@@ -161,14 +161,45 @@ Positions<4> read_vertices(TextReader& text) {
     return positions;
 }
 
+// The facets of the boundary that have labels, outward. Where all have 1, as without any, there are
+// none; nor has one that a .pent file could not hold.
+void label_boundary(TextReader& text, const Elements& elements, Body& body) {
+    if (std::all_of(elements.labels.begin(), elements.labels.end(),
+                    [](std::int64_t label) { return label == 1; })) {
+        return;
+    }
+    std::map<Corners, std::uint16_t, IsBefore> known;
+    for (std::size_t e = 0; e < elements.corners.size(); ++e) {
+        Corners corners;
+        for (int k = 0; k < 4; ++k) {
+            corners[k] = text.index(elements.corners[e][static_cast<std::size_t>(k)],
+                                    body.mesh.positions.cols());
+        }
+        if (elements.labels[e] <= std::numeric_limits<std::uint16_t>::max()) {
+            known[sorted(corners)] = static_cast<std::uint16_t>(elements.labels[e]);
+        }
+    }
+    const FacetMatch<4> match = match_facets<4>(body.mesh.cells, body.mesh.vertex_count());
+    std::vector<Eigen::Index> labeled;
+    for (Eigen::Index f = 0; f < match.boundary.cols(); ++f) {
+        const auto found = known.find(sorted(match.boundary.col(f)));
+        if (found != known.end()) {
+            labeled.push_back(f);
+            body.extras.labels.push_back(found->second);
+        }
+    }
+    body.extras.boundary = match.boundary(Eigen::all, labeled);
+}
+
 }  // namespace
 
 Content read_mfem(const std::filesystem::path& path) {
     TextReader text(path);
     check_header(text);
     const Elements elements = read_elements(text, "elements", kPentatope);
-    static_cast<void>(read_elements(text, "boundary", kTetrahedron));
-    SimplexMesh<4> mesh;
+    const Elements boundary = read_elements(text, "boundary", kTetrahedron);
+    Body body;
+    SimplexMesh<4>& mesh = body.mesh;
     mesh.positions = read_vertices(text);
     mesh.cells.resize(5, static_cast<Eigen::Index>(elements.corners.size()));
     for (std::size_t e = 0; e < elements.corners.size(); ++e) {
@@ -188,7 +219,8 @@ Content read_mfem(const std::filesystem::path& path) {
         }
     }
     validate<4>(mesh, path.string());
-    return Body{std::move(mesh)};
+    label_boundary(text, boundary, body);
+    return body;
 }
 
 void write_mfem(const std::filesystem::path& path,

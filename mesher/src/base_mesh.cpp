@@ -72,7 +72,8 @@ SurfaceFile surface_of(const BodyRequest& request) {
         require_usual_size<3>(file.surface.points, name_of_input(request) + ": the surface");
         return file;
     }
-    file = read_surface(std::get<std::filesystem::path>(request.input), request.format);
+    file = read_surface(std::get<std::filesystem::path>(request.input), request.format,
+                        request.repair.limits);
     file.surface.points *= request.scale;
     return file;
 }
@@ -86,7 +87,8 @@ SimplexMesh<3> read_base(const BodyRequest& request, BodyReport& report, StageCl
         return mesh;
     }
     TetrahedraFile file = clock.time("read", [&] {
-        return read_tetrahedra(std::get<std::filesystem::path>(request.input), request.format);
+        return read_tetrahedra(std::get<std::filesystem::path>(request.input), request.format,
+                               request.region_array);
     });
     file.mesh.positions *= request.scale;
     require_usual_size<3>(file.mesh.positions, name_of_input(request) + ": the mesh");

@@ -4,6 +4,7 @@
 #include "solid_input.h"
 
 #include <pent/error.h>
+#include <pent/mesher/read_tetrahedra.h>
 
 #include <cmath>
 
@@ -27,6 +28,13 @@ void check_request(const BodyRequest& request, int dim) {
         throw Error(name_of_input(request)
                     + ": a size field is for four-dimensional shapes, boundaries and images; leave"
                       " it out");
+    }
+    const auto* path = std::get_if<std::filesystem::path>(&request.input);
+    if (!request.region_array.empty()
+        && (path == nullptr || !has_region_arrays(*path, request.format))) {
+        throw Error(name_of_input(request)
+                    + ": an array of cells with their labels is for tet meshes of VTK (.vtk, .vtu);"
+                      " leave it out");
     }
     const Eigen::Index axes = request.translation.size();
     if ((axes != 0 && axes != 3 && axes != dim) || !request.translation.allFinite()) {

@@ -83,10 +83,10 @@ TriangleSoup import_by_assimp(const std::filesystem::path& path) {
 
 }  // namespace
 
-TriangleSoup read_gltf(const std::filesystem::path& path) {
+TriangleSoup read_gltf(const std::filesystem::path& path, const StepLimits& limits) {
     // Debian's assimp has its asserts on, and a damaged scene ends the process.
     Pieces<3> pieces =
-        run_isolated<3>(path.string() + ": reading it by assimp", {}, [&]() -> Pieces<3> {
+        run_isolated<3>(path.string() + ": reading it by assimp", limits, [&]() -> Pieces<3> {
             TriangleSoup soup = import_by_assimp(path);
             return {std::move(soup.points), std::move(soup.triangles), soup.left_out};
         });

@@ -15,15 +15,23 @@ namespace pent::mesher {
 
 namespace {
 
-using Reader = CellSoup (*)(const std::filesystem::path&);
+// By the path, and the array of VTK's cells that has their labels.
+using Reader = CellSoup (*)(const std::filesystem::path&, const std::string&);
 
-constexpr std::array<std::pair<std::string_view, Reader>, 7> kReaders = {{{".node", read_tetgen},
-                                                                          {".ele", read_tetgen},
-                                                                          {".mesh", read_medit},
-                                                                          {".msh", read_gmsh},
-                                                                          {".vtk", read_vtk},
-                                                                          {".vtu", read_vtu},
-                                                                          {".tobj", read_tobj}}};
+// Other formats have one place for labels.
+template <CellSoup (*read)(const std::filesystem::path&)>
+CellSoup without_arrays(const std::filesystem::path& path, const std::string& /*region_array*/) {
+    return read(path);
+}
+
+constexpr std::array<std::pair<std::string_view, Reader>, 7> kReaders = {
+    {{".node", without_arrays<read_tetgen>},
+     {".ele", without_arrays<read_tetgen>},
+     {".mesh", without_arrays<read_medit>},
+     {".msh", without_arrays<read_gmsh>},
+     {".vtk", read_vtk},
+     {".vtu", read_vtu},
+     {".tobj", without_arrays<read_tobj>}}};
 
 Reader reader_for(const std::filesystem::path& path, const std::string& format) {
     const std::string ending = format_of(path, format);
@@ -44,6 +52,11 @@ std::uint16_t region_of(std::int64_t label, const std::string& name) {
 }
 
 }  // namespace
+
+bool has_region_arrays(const std::filesystem::path& path, const std::string& format) {
+    const std::string ending = format_of(path, format);
+    return ending == ".vtk" || ending == ".vtu";
+}
 
 bool is_tetrahedra_file(const std::filesystem::path& path, const std::string& format) {
     return reader_for(path, format) != nullptr;
@@ -93,7 +106,9 @@ NumberedTetrahedra number_tetrahedra(const CellSoup& soup, const std::string& na
     return numbered;
 }
 
-TetrahedraFile read_tetrahedra(const std::filesystem::path& path, const std::string& format) {
+TetrahedraFile read_tetrahedra(const std::filesystem::path& path,
+                               const std::string& format,
+                               const std::string& region_array) {
     const std::string name = input_name(path);
     require_file(path);
     const Reader reader = reader_for(path, format);
@@ -101,7 +116,7 @@ TetrahedraFile read_tetrahedra(const std::filesystem::path& path, const std::str
         throw Error(name
                     + ": tetrahedra are in .node and .ele, .mesh, .msh, .vtk, .vtu or .tobj files");
     }
-    return number_tetrahedra(reader(path), name).file;
+    return number_tetrahedra(reader(path, region_array), name).file;
 }
 
 }  // namespace pent::mesher

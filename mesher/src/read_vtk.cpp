@@ -428,8 +428,8 @@ private:
 
 }  // namespace
 
-CellSoup read_vtk(const std::filesystem::path& path) {
-    return labeled_soup(VtkReader(path).read());
+CellSoup read_vtk(const std::filesystem::path& path, const std::string& regions) {
+    return labeled_soup(VtkReader(path).read(), regions, path);
 }
 
 VtkGrid read_vtk_grid(const std::filesystem::path& path) {

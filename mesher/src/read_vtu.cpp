@@ -24,17 +24,19 @@ public:
           file_(parse_xml(text_, name_)),
           encoding_(encoding_of(file_, name_, text_.size())) {}
 
-    // Reads all arrays, or those alone that may have the regions.
-    VtkGrid read(bool with_quantities) {
+    // All arrays, those of the cells, or of these those alone that may have the regions.
+    enum class Arrays { All, OfCells, OfRegions };
+
+    VtkGrid read(Arrays arrays) {
         const XmlElement& piece = find_piece();
         const std::int64_t points = count_of(piece, "NumberOfPoints");
         const std::int64_t cells = count_of(piece, "NumberOfCells");
         read_points(piece, points);
         read_cells(piece, cells);
-        if (with_quantities) {
+        if (arrays == Arrays::All) {
             read_arrays(piece.child("PointData"), points, true, grid_.point_arrays);
         }
-        read_arrays(piece.child("CellData"), cells, with_quantities, grid_.cell_arrays);
+        read_arrays(piece.child("CellData"), cells, arrays != Arrays::OfRegions, grid_.cell_arrays);
         return std::move(grid_);
     }
 
@@ -157,12 +159,14 @@ private:
 
 }  // namespace
 
-CellSoup read_vtu(const std::filesystem::path& path) {
-    return labeled_soup(VtuReader(path).read(false));
+CellSoup read_vtu(const std::filesystem::path& path, const std::string& regions) {
+    using Arrays = VtuReader::Arrays;
+    const Arrays arrays = regions.empty() ? Arrays::OfRegions : Arrays::OfCells;
+    return labeled_soup(VtuReader(path).read(arrays), regions, path);
 }
 
 VtkGrid read_vtu_grid(const std::filesystem::path& path) {
-    return VtuReader(path).read(true);
+    return VtuReader(path).read(VtuReader::Arrays::All);
 }
 
 }  // namespace pent::mesher

@@ -45,17 +45,18 @@ std::vector<std::uint32_t> first_at_same_place(const Positions<3>& points) {
     return first;
 }
 
-TriangleSoup read_soup(const std::filesystem::path& path, const std::string& given) {
+TriangleSoup read_soup(const std::filesystem::path& path,
+                       const std::string& given,
+                       const StepLimits& limits) {
     require_file(path);
     const std::string format = format_of(path, given);
     constexpr std::array<
-        std::pair<std::string_view, TriangleSoup (*)(const std::filesystem::path&)>, 6>
-        kReaders = {{{".obj", read_obj},
-                     {".off", read_off},
-                     {".ply", read_ply},
-                     {".stl", read_stl},
-                     {".gltf", read_gltf},
-                     {".glb", read_gltf}}};
+        std::pair<std::string_view, TriangleSoup (*)(const std::filesystem::path&)>, 4>
+        kReaders = {
+            {{".obj", read_obj}, {".off", read_off}, {".ply", read_ply}, {".stl", read_stl}}};
+    if (format == ".gltf" || format == ".glb") {
+        return read_gltf(path, limits);
+    }
     for (const auto& [known, read] : kReaders) {
         if (format == known) {
             return read(path);
@@ -100,8 +101,10 @@ SurfaceFile weld(const Positions<3>& points, const Simplices<3>& triangles) {
     return file;
 }
 
-SurfaceFile read_surface(const std::filesystem::path& path, const std::string& format) {
-    const TriangleSoup soup = read_soup(path, format);
+SurfaceFile read_surface(const std::filesystem::path& path,
+                         const std::string& format,
+                         const StepLimits& limits) {
+    const TriangleSoup soup = read_soup(path, format, limits);
     if (soup.triangles.cols() == 0) {
         throw Error(input_name(path) + ": no triangle in it; expected a surface");
     }
@@ -111,7 +114,7 @@ SurfaceFile read_surface(const std::filesystem::path& path, const std::string& f
 }
 
 SurfaceFile read_surface(const std::filesystem::path& path) {
-    return read_surface(path, {});
+    return read_surface(path, {}, {});
 }
 
 double area(const Surface& surface) {

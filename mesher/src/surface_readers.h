@@ -2,6 +2,8 @@
 
 #include "soup.h"
 
+#include <pent/mesher/step_limits.h>
+
 #include <filesystem>
 
 namespace pent::mesher {
@@ -22,7 +24,8 @@ namespace pent::mesher {
 /// PLY, as text or binary: x, y, z of `vertex`, vertex_indices (or vertex_index) of `face`.
 [[nodiscard]] TriangleSoup read_ply(const std::filesystem::path& path);
 
-/// glTF, as text or binary, in float, with the placements of its scene, through assimp.
-[[nodiscard]] TriangleSoup read_gltf(const std::filesystem::path& path);
+/// glTF, as text or binary, in float, with the placements of its scene, through assimp, in a
+/// process of its own with these limits.
+[[nodiscard]] TriangleSoup read_gltf(const std::filesystem::path& path, const StepLimits& limits);
 
 }  // namespace pent::mesher

@@ -4,6 +4,7 @@
 
 #include <pent/error.h>
 #include <pent/formatted.h>
+#include <pent/input_path.h>
 
 #include <algorithm>
 #include <cmath>
@@ -100,12 +101,12 @@ const VtkArray& array_asked_for(const VtkGrid& grid,
         for (const VtkArray& array : grid.cell_arrays) {
             all += (all.empty() ? "" : ", ") + in_quotes(array.name);
         }
-        throw Error(path.string() + ": no array \"" + name
+        throw Error(input_name(path) + ": no array \"" + name
                     + "\" of one number a cell; its cells have " + (all.empty() ? "none" : all));
     }
     for (const std::int64_t cell : grid.solid_cells) {
         if (!label_of(*found, cell)) {
-            throw Error(path.string() + ": array " + in_quotes(name) + ": cell "
+            throw Error(input_name(path) + ": array " + in_quotes(name) + ": cell "
                         + std::to_string(cell)
                         + formatted(" has %g; expected whole numbers from 0 to 65535",
                                     found->values[static_cast<std::size_t>(cell)]));
@@ -195,8 +196,8 @@ void label_cells(VtkGrid& grid, const VtkArray& regions) {
     }
 }
 
-CellSoup labeled_soup(VtkGrid grid) {
-    if (const VtkArray* regions = region_array(grid, {}, {})) {
+CellSoup labeled_soup(VtkGrid grid, const std::string& asked, const std::filesystem::path& path) {
+    if (const VtkArray* regions = region_array(grid, asked, path)) {
         label_cells(grid, *regions);
     }
     return std::move(grid.soup);

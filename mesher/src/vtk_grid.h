@@ -61,8 +61,10 @@ void add_cell(VtkGrid& grid,
 /// Gives the cells of the soup the labels that region_array() found.
 void label_cells(VtkGrid& grid, const VtkArray& regions);
 
-/// The cells with their labels, by an array with a usual name.
-[[nodiscard]] CellSoup labeled_soup(VtkGrid grid);
+/// The cells with the labels that region_array() found, if any.
+[[nodiscard]] CellSoup labeled_soup(VtkGrid grid,
+                                    const std::string& asked,
+                                    const std::filesystem::path& path);
 
 /// Reads an unstructured grid with its arrays of numbers, of a legacy file (.vtk) or an XML file
 /// (.vtu).

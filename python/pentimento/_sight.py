@@ -102,10 +102,12 @@ class Sight:
             return int(library().pent_obstacle_count(self._number))
 
     def vertex_count(self, body: BodyLike = 0) -> int:
+        """How many vertices a body has."""
         with self._turn:
             return int(library().pent_vertex_count(self._number, self._body(body)))
 
     def cell_count(self, body: BodyLike = 0) -> int:
+        """How many cells a body has, pentachora or tetrahedra."""
         with self._turn:
             return int(library().pent_cell_count(self._number, self._body(body)))
 
@@ -150,6 +152,7 @@ class Sight:
             return view(address, (count.value, self._dimension), np.uint32, self._keep())
 
     def is_asleep(self, body: BodyLike = 0) -> bool:
+        """Whether a body sleeps now; none does without `[sleep]`."""
         with self._turn:
             return bool(library().pent_is_asleep(self._number, self._body(body)))
 

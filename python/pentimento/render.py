@@ -37,7 +37,7 @@ def render(
     project: str | None = None,
     eye: float | None = None,
     color: str | None = None,
-    size: tuple[int, int] | None = None,
+    size: Sequence[int] | None = None,
     azimuth: float | None = None,
     elevation: float | None = None,
     fov: float | None = None,
@@ -85,8 +85,9 @@ def movie(
 
 
 def _render(what: Any, kind: str, output: Path, look: dict[str, Any]) -> Path:
-    if isinstance(look.get("size"), tuple):
-        look = {**look, "size": "x".join(str(side) for side in look["size"])}
+    size = look.get("size")
+    if size is not None and not isinstance(size, str):
+        look = {**look, "size": "x".join(str(side) for side in size)}
     with _programs.as_input(what) as path:
         words = [*_programs.options(**look), kind, str(output)]
         (file,) = _programs.run("pent-render", path, words)["files"]

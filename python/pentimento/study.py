@@ -68,7 +68,8 @@ def study(
 ) -> Frontier:
     """Runs a scene file over settings and compares, by pent-study; its options are the keywords.
 
-    vary  Values by what is varied, as in {"dt": ["1/30", "1/60"], "integrator": ["bdf2"]}.
+    vary  Values by what is varied, as in {"dt": ["1/30", "1/60"], "integrator": "bdf2"}; a text is
+          one of them, or several with commas.
 
     A study that was interrupted goes on where it stopped. Raises a ProgramError with the line of
     pent-study.
@@ -85,7 +86,8 @@ def study(
 def _axes(vary: Mapping[str, Sequence[Any]]) -> list[str]:
     words = []
     for name, values in vary.items():
-        words += ["--vary", f"{name}=" + ",".join(str(value) for value in values)]
+        text = values if isinstance(values, str) else ",".join(str(value) for value in values)
+        words += ["--vary", f"{name}={text}"]
     return words
 
 

@@ -114,7 +114,8 @@ class View:
 
         body  Its number, from 0.
         w, speed, strain, force  As `pent-slice --color` has them; force where frames have contact
-            forces, and what else frames have, vectors by their length.
+            forces, and what else frames have, as reaction and energy_density, vectors by their
+            length.
 
         Raises an Error if the frame is not there, or damaged.
         """

@@ -170,6 +170,11 @@ def test_a_movie_is_where_it_is_said_to_be_without_ffmpeg_too(tesseract, tmp_pat
     assert len(list(made.glob("*.png"))) == 2 and not (tmp_path / "a.mp4").exists()
 
 
+def test_a_size_is_any_two_numbers(tesseract):
+    for size in ((64, 48), [64, 48], np.array([64, 48])):
+        assert np.asarray(render(tesseract, size=size)).shape == (48, 64, 3), size
+
+
 def test_a_mesh_shows_itself(tesseract):
     page = tesseract._repr_html_()
     assert "pentachora</th><td>24" in page and "data:image/png;base64," in page
@@ -206,6 +211,7 @@ def test_a_frontier_shows_itself(tmp_path, tesseract):
     with pytest.raises(Error, match="expected the folder of a finished study"):
         pentimento.Frontier(tmp_path)
     # The same in parts, in another order.
+    vary = {"dt": "1/30,1/60"}  # as pent-study has it
     parts = pentimento.Study.prepare(tmp_path / "s.toml", tmp_path / "parts", vary, repeat=1)
     assert [unit.number for unit in parts.units] == [1, 2, 3, 4, 5]
     assert parts.units[3] == pentimento.Unit(4, "combination", "runs/dt-1_30", False)

@@ -48,6 +48,26 @@ protected:
     test::TempFolder folder_;
 };
 
+TEST_F(PentConvert, SaysWhatAFormatHasNoPlaceFor) {
+    MeshFile<4> file = read_mesh<4>(folder_ / "box.pent");
+    const Eigen::Index cells = file.mesh.cell_count();
+    file.mesh.regions.assign(static_cast<std::size_t>(cells), 3);
+    file.mesh.fibers = Positions<4>::Ones(4, cells);
+    file.extras.vertex_fields = {{"heat", Eigen::MatrixXd::Zero(1, file.mesh.vertex_count())}};
+    file.extras.cell_fields = {{"age", Eigen::MatrixXd::Zero(1, cells)}};
+    file.extras.boundary = file.mesh.cells.topLeftCorner<4, 1>();
+    file.extras.labels = {7};
+    write_mesh<4>(folder_ / "rich.pent", file.mesh, {}, file.extras);
+    EXPECT_EQ(convert("rich.pent", "a.pent").out.find("left out"), std::string::npos);
+    EXPECT_EQ(convert("box.pent", "a.g4b").out.find("left out"), std::string::npos);
+    expect_contains(convert("rich.pent", "a.g4b", "--json " + at("report.json")).out,
+                    {"left out   regions, labels of the boundary, fibers, heat, age: G4MF has no"});
+    EXPECT_EQ(nlohmann::json::parse(text_of(at("report.json"))).at("left_out"),
+              "regions, labels of the boundary, fibers, heat, age");
+    expect_contains(convert("rich.pent", "a.mesh").out,
+                    {"left out   fibers, heat, age: MFEM mesh has no place"});
+}
+
 TEST_F(PentConvert, GoesFromABodyToItsBoundaryAndBack) {
     const Outcome there = convert("box.pent", "box.g4b", "--json " + at("report.json"));
     EXPECT_EQ(there.exit_code, 0) << there.err;

@@ -2,6 +2,7 @@
 #include "support/kuhn_box.h"
 
 #include <map>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -142,6 +143,47 @@ TEST(Mfem, KeepsTheLabelsOfTheBoundary) {
     body.mesh.columns.clear();
     body.extras.labels[0] = 7;
     EXPECT_EQ(labels_of(text_as("a.mesh", body))[7], 1);
+}
+
+// Facets and their labels, whatever the order of both.
+std::map<std::set<std::uint32_t>, int> labels_of(const Body& body) {
+    std::map<std::set<std::uint32_t>, int> labels;
+    for (std::size_t f = 0; f < body.extras.labels.size(); ++f) {
+        const auto corners = body.extras.boundary.col(static_cast<Eigen::Index>(f));
+        labels[{corners.begin(), corners.end()}] = body.extras.labels[f];
+    }
+    return labels;
+}
+
+TEST(Mfem, ReadsTheLabelsOfTheBoundary) {
+    const Body plain{layered()};
+    const auto again = std::get<Body>(read_as("a.mesh", text_as("a.mesh", plain)));
+    std::map<int, int> counts;
+    for (const auto& [corners, label] : labels_of(again)) {
+        ++counts[label];
+    }
+    EXPECT_EQ(counts, (std::map<int, int>{{1, 6}, {2, 72}, {3, 6}}));
+    // Outward, so that a .pent file may have them: their volumes with a point inside are positive.
+    const Eigen::Vector4d inside(0.5, 0.5, 0.5, 1);
+    for (const auto& corners : again.extras.boundary.colwise()) {
+        Eigen::Matrix4d edges;
+        for (int k = 0; k < 4; ++k) {
+            edges.col(k) = again.mesh.positions.col(corners[k]) - inside;
+        }
+        EXPECT_GT(edges.determinant(), 0);
+    }
+    // Labels of one's own are those that were written, and stay so.
+    Body own = again;
+    for (std::size_t f = 0; f < own.extras.labels.size(); ++f) {
+        own.extras.labels[f] = static_cast<std::uint16_t>(60000 + f);
+    }
+    const auto copy = std::get<Body>(read_as("a.mesh", text_as("a.mesh", own)));
+    EXPECT_EQ(labels_of(copy), labels_of(own));
+    // Where all are 1, as without any, there are none.
+    Body flat{layered()};
+    flat.mesh.layers.clear();
+    flat.mesh.columns.clear();
+    EXPECT_TRUE(std::get<Body>(read_as("a.mesh", text_as("a.mesh", flat))).extras.labels.empty());
 }
 
 // As others write it: comments between sections, a negative pentatope.

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 namespace pent {
@@ -65,6 +66,33 @@ TEST(PentCheck, TellsFramesAndDimensions) {
     write_frame(out, frame);
     test::expect_contains(run_program("pent-check " + out).out,
                           {"7 of body.pent, step 70, 0.5 s, 5 vertices", "is sound"});
+}
+
+TEST(PentCheck, ReportsWhatItSays) {
+    const test::TempFolder folder;
+    const std::string out = (folder / "a.pent").string();
+    const SimplexMesh<2> mesh = test::kuhn_box<2>({1, 1}, {1, 1});
+    MeshExtras<2> extras;
+    extras.vertex_fields = {{"heat", Eigen::MatrixXd::Zero(1, mesh.vertex_count())}};
+    extras.cell_fields = {{"age", Eigen::MatrixXd::Zero(1, mesh.cell_count())}};
+    extras.boundary.resize(2, 3);
+    extras.boundary << 0, 1, 3, 1, 3, 2;
+    extras.labels = {7, 2, 7};
+    extras.bisection_tags = {0, 1};
+    write_mesh(out, mesh, {.created_by = "a test"}, extras);
+    const std::string json = (folder / "a.json").string();
+    const Outcome outcome = run_program("pent-check " + out + " --json " + json);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    test::expect_contains(outcome.out,
+                          {"binary, by a test, crc32c ", "fields     heat, age of cells", "tags ",
+                           "labels     2: 1, 7: 2 facets"});
+    const auto report = nlohmann::json::parse(test::text_of(json));
+    EXPECT_EQ(report["file"]["encoding"], "binary");
+    EXPECT_EQ(report["file"]["created_by"], "a test");
+    test::expect_contains(outcome.out, {report["file"]["crc32c"].get<std::string>()});
+    EXPECT_EQ(report["extras"], nlohmann::json::parse(
+                                    R"({"vertex_fields": ["heat"], "cell_fields": ["age"],
+                                        "has_bisection_tags": true, "labels": {"2": 1, "7": 2}})"));
 }
 
 TEST(PentCheck, NamesCellsThatDoNotFitAndPartsThatTouch) {

@@ -167,6 +167,27 @@ TEST(PentMesh, TakesUnitsScaleAndPlaceAndSaysTheBoxAround) {
     EXPECT_EQ(run_program(cube + " --translate 1,2").exit_code, 2);
 }
 
+TEST(PentMesh, KnowsEndingsInCapitalsAndArraysOfRegions) {
+    const test::TempFolder folder;
+    const std::string out = (folder / "A.PENT").string();
+    test::write_file(
+        folder / "a.vtk",
+        "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+        "POINTS 4 double\n0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\n"
+        "CELL_TYPES 1\n10\nCELL_DATA 1\nSCALARS tissue int\nLOOKUP_TABLE default\n9\n");
+    const std::string command =
+        "pent-mesh " + (folder / "a.vtk").string() + " --dim 3 -o " + out + " --region-array ";
+    const Outcome outcome = run_program(command + "tissue");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(read_mesh<3>(out).mesh.regions, std::vector<std::uint16_t>{9});
+    test::expect_contains(run_program(command + "bone").err, {"no array \"bone\"", "tissue"});
+    test::expect_contains(
+        run_program("pent-mesh " + kModels + "/dirty/d_cube.off --region-array a" + " -o " + out)
+            .err,
+        {"d_cube.off: ", "tet meshes of VTK", "leave it out"});
+    EXPECT_EQ(run_program("pent-mesh --ball 2 --region-array a -o " + out).exit_code, 2);
+}
+
 TEST(PentMesh, ReadsStandardInput) {
     const test::TempFolder folder;
     const std::string to_a = " -o " + (folder / "a.pent").string();

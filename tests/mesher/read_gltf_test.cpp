@@ -2,7 +2,7 @@
 #include "support/messages.h"
 #include "support/temp_folder.h"
 
-#include <pent/mesher/surface.h>
+#include <pent/mesher/read_surface.h>
 
 #include <gtest/gtest.h>
 
@@ -141,6 +141,20 @@ TEST(ReadGltf, NamesTheFileOfWhatIsDamaged) {
     // assimp leaves such a triangle out; what is missing is then found as a hole.
     EXPECT_EQ(read_text(gltf(indices, R"("indices": 1)")).surface.triangle_count(), 3);
 }
+
+// Of memory, which a test need not wait for as for time.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(ReadGltf, KeepsTheLimitsOfSteps) {
+    const test::TempFolder folder;
+    const std::string spaces(64 << 20, ' ');
+    test::write_file(folder / "a.gltf", gltf(kTetrahedron, R"("indices": 1)") + spaces);
+    const auto read = [&](std::int64_t memory_mib) {
+        return read_surface(folder / "a.gltf", {}, {.memory_mib = memory_mib});
+    };
+    EXPECT_EQ(read(4096).surface.triangle_count(), 4);
+    test::expect_contains(test::error_of([&] { static_cast<void>(read(1)); }), {"a.gltf: "});
+}
+#endif
 
 }  // namespace
 }  // namespace pent::mesher

@@ -9,6 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+#include <string>
+#include <vector>
+
 namespace pent::mesher {
 namespace {
 
@@ -77,6 +81,32 @@ TEST(ReadVtu, GivesTheRegionsOfAMovingMeshToTheMeshAlone) {
     EXPECT_EQ(plain.mesh.regions, (std::vector<std::uint16_t>{3, 4}));
     EXPECT_EQ(plain.mesh.regions, moving.base.regions);
     EXPECT_EQ(plain.mesh.cells, moving.base.cells);
+}
+
+TEST(ReadVtu, TakesTheRegionsFromTheArrayAskedFor) {
+    const test::TempFolder folder;
+    test::VtuParts parts = parts_of(ball(1));
+    const auto cells = static_cast<std::size_t>(parts.tetrahedra.cols());
+    parts.regions.resize(cells);
+    std::iota(parts.regions.begin(), parts.regions.end(), 1);
+    std::string vtu = test::to_vtu(parts, {});
+    vtu.replace(vtu.find("\"region\""), 8, "\"tissue\"");
+    test::write_file(folder / "a.vtu", vtu);
+    std::string text = test::to_legacy_vtk(parts_of(ball(1)));
+    text +=
+        "CELL_DATA " + std::to_string(cells) + "\nSCALARS tissue double\nLOOKUP_TABLE default\n";
+    for (const int label : parts.regions) {
+        text += std::to_string(label) + "\n";
+    }
+    test::write_file(folder / "a.vtk", text);
+    const std::vector<std::uint16_t> labels(parts.regions.begin(), parts.regions.end());
+    for (const char* name : {"a.vtu", "a.vtk"}) {
+        EXPECT_TRUE(read_tetrahedra(folder / name).mesh.regions.empty());
+        EXPECT_EQ(read_tetrahedra(folder / name, {}, "tissue").mesh.regions, labels);
+        test::expect_contains(
+            test::error_of([&] { static_cast<void>(read_tetrahedra(folder / name, {}, "bone")); }),
+            {std::string(name) + ": no array \"bone\" of one number a cell", "tissue"});
+    }
 }
 
 TEST(ReadVtu, RefusesEveryCutOfAFileInOneLine) {

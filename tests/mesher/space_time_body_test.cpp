@@ -77,6 +77,34 @@ TEST(PentMesh, WritesASpaceTimeMeshAsSlabs) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out" / "b.pent"));
 }
 
+// The second slab cannot be written where a folder is.
+TEST(PentMesh, LeavesSlabsOfBeforeWhereOneCannotBeWritten) {
+    const test::TempFolder folder;
+    const std::string pvd = write_swelling_ball(folder.path());
+    const std::filesystem::path out = folder / "out";
+    std::filesystem::create_directories(out / "b_000001.pent");
+    test::write_file(out / "elsewhere.pent", "of before");
+    std::filesystem::create_symlink("elsewhere.pent", out / "b_000000.pent");
+    const std::string command = "pent-mesh " + pvd + " --space-time --slabs -o ";
+    const Outcome refused = run_program(command + (out / "b.pent").string());
+    EXPECT_EQ(refused.exit_code, 1);
+    test::expect_one_error_line(refused, "pent-mesh");
+    test::expect_contains(refused.err, {"b_000001.pent", "folder"});
+    EXPECT_EQ(test::text_of(out / "b_000000.pent"), "of before");
+    std::filesystem::remove(out / "b_000001.pent");
+    ASSERT_EQ(run_program(command + (out / "b.pent").string()).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(out / "b_000000.pent"));
+    EXPECT_EQ(run_program("pent-check " + (out / "elsewhere.pent").string()).exit_code, 0);
+    // The slabs, what one of them leads to, and nothing else.
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(out), {}), 3);
+    const std::string frame = (folder / "ball_1.vtu").string();
+    const std::string before = test::text_of(frame);
+    std::filesystem::create_symlink(frame, out / "c_000001.pent");
+    test::expect_contains(run_program(command + (out / "c.pent").string()).err,
+                          {"a slab is the same file as a file that the input names"});
+    EXPECT_EQ(test::text_of(frame), before);
+}
+
 TEST(PentMesh, NeverWritesWhereAMovingMeshIsRead) {
     const test::TempFolder folder;
     const std::string pvd = write_swelling_ball(folder.path());

@@ -74,6 +74,23 @@ TEST(CameraFit, WorksForNoPointAndForOne) {
     EXPECT_GT((fit.camera().position - fit.camera().target).norm(), 0.1);
     fit.add(Eigen::Vector3d(5, 6, 7));
     EXPECT_NEAR((fit.camera().position - Eigen::Vector3d(5, 6, 7)).norm(), 1, 1e-12);
+    CameraFit far(1, {});
+    far.add(Eigen::Vector3d(5e19, 6e19, 7e19));
+    const Eigen::Vector3d away = far.camera().position - far.camera().target;
+    EXPECT_GT(away.dot(camera_frame(far.camera()).col(2)), 0);
+}
+
+// Of what is far from the origin, rounding is all that remains of differences: 1e-16 of the place.
+TEST(CameraFit, ScalesWithThePoints) {
+    const Positions<3> points = Positions<3>::Identity(3, 3);
+    CameraFit fit(1.5, {});
+    fit.add(points);
+    const Eigen::Vector3d position = fit.camera().position;
+    for (const double scale : {1e-200, 1e-12, 1e19, 1e200}) {
+        CameraFit other(1.5, {});
+        other.add(scale * points);
+        EXPECT_NEAR((other.camera().position / scale - position).norm(), 0, 1e-12) << scale;
+    }
 }
 
 }  // namespace

@@ -324,19 +324,20 @@ TEST(Ground, IsMetWhereARayGoesFromTheFreeIntoTheSolid) {
     for (int repeat = 0; repeat < 1200; ++repeat) {
         const std::vector<ObstacleShape<4>> shapes = random.one_of_each<4>();
         const ObstacleSlice cut = slice(shapes[repeat % 4], random.hyperplane());
-        const Eigen::Vector3d origin = random.point<3>();
+        const RaySpace space{random.point<3>(), std::ldexp(1.0, repeat % 3 - 1)};
         const Eigen::Vector3d from = 2 * random.point<3>();
         const Eigen::Vector3d direction = random.point<3>().normalized();
         const GroundHit hit =
-            Ground(cut, origin).first_hit((from - origin).cast<float>(), direction.cast<float>());
+            Ground(cut, space).first_hit(space.point(from), direction.cast<float>());
+        const double distance = space.unit * double{hit.distance};
         const double expected = entry_by_steps(cut, from, direction);
         if (expected < 0) {
-            EXPECT_FALSE(hit.distance < 5.99F) << repeat;
+            EXPECT_FALSE(distance < 5.99) << repeat;
             continue;
         }
         // A step, and what single precision makes of rays that graze.
-        EXPECT_NEAR(hit.distance, expected, 2e-3) << repeat;
-        const Eigen::Vector3d point = from + double{hit.distance} * direction;
+        EXPECT_NEAR(distance, expected, 2e-3) << repeat;
+        const Eigen::Vector3d point = from + distance * direction;
         const Eigen::Vector3d normal = hit.normal.cast<double>();
         EXPECT_NEAR(normal.norm(), 1, 1e-6);
         EXPECT_LT(normal.dot(direction), 0);  // faces the eye
@@ -348,7 +349,7 @@ TEST(Ground, IsMetWhereARayGoesFromTheFreeIntoTheSolid) {
 }
 
 TEST(Ground, SpreadsAlongAPlaneFromWhereItIsNearest) {
-    const Ground floor({.plane = Plane{Eigen::Vector3d::UnitY(), -2}}, Eigen::Vector3d(1, 0, 1));
+    const Ground floor({.plane = Plane{Eigen::Vector3d::UnitY(), -2}}, {Eigen::Vector3d(1, 0, 1)});
     EXPECT_NEAR(floor.spread(Vec(3, -2, 4)), 5, 1e-6);
     EXPECT_EQ(floor.spread(Vec(0, -2, 0)), 0);
 }

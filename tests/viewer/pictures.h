@@ -49,9 +49,9 @@ inline RenderRunOptions small_pictures(const RunFolder& run) {
 }
 
 // Ground under the run's body, and a ball that reaches past both hyperplanes.
-inline std::vector<ObstacleShape<4>> floor_and_ball() {
-    return {HalfSpace<4>{Eigen::Vector4d::UnitY(), -0.1},
-            Ball<4>{Eigen::Vector4d(2, 0.5, 0.5, 0.5), 0.4}};
+inline std::vector<ObstacleShape<4>> floor_and_ball(double scale = 1) {
+    return {HalfSpace<4>{Eigen::Vector4d::UnitY(), -0.1 * scale},
+            Ball<4>{scale * Eigen::Vector4d(2, 0.5, 0.5, 0.5), 0.4 * scale}};
 }
 
 }  // namespace pent::viewer::test

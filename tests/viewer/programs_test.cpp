@@ -182,7 +182,8 @@ TEST_F(ViewerPrograms, NeverWriteOverWhatTheyLookAt) {
     }
     for (const std::string json :
          {"run/scene.toml", "run/report.json", "run/obstacles.json", "run/journal.txt",
-          "run/meshes/a.pent", "run/frames/a_000001.pent", "link.json"}) {
+          "run/meshes/a.pent", "run/frames/a_000001.pent", "run/obstacles/000001.json",
+          "run/balance.csv", "link.json"}) {
         const std::string rest = " --json " + at(json);
         expect_refused("pent-slice", run + " -o " + at("out") + rest, "--json");
         expect_refused("pent-render", run + " -o " + at("a.png") + rest, "--json");

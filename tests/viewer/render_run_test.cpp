@@ -64,6 +64,54 @@ RenderRunOptions bare_picture(const RunFolder& run) {
     return options;
 }
 
+// A turned slice of body and obstacles as ghosts, with a projection or without.
+Image picture_at_scale(const std::filesystem::path& folder,
+                       double scale,
+                       const std::optional<ProjectionOptions>& projection,
+                       const std::vector<double>& offsets) {
+    write_run(folder / "run", "a", {1}, scale);
+    write_obstacles<4>(folder / "run/obstacles.json", floor_and_ball(scale));
+    const RunFolder run = open_run(folder / "run");
+    RenderRunOptions options = small_pictures(run);
+    options.has_caption = false;
+    options.is_onion = true;
+    options.projection = projection;
+    options.sections.rotations = {{0, 3, 0.3}};
+    for (const double offset : offsets) {
+        options.sections.offsets.push_back(offset * scale);
+    }
+    (void)render_run(run, {.picture = folder / "a.png"}, options, go_on);
+    return read_png(folder / "a.png");
+}
+
+TEST(RenderRun, KnowsNoLengthButThoseOfTheBodies) {
+    const TempFolder folder;
+    const std::vector<std::optional<ProjectionOptions>> projections = {
+        std::nullopt, ProjectionOptions{.is_perspective = false},
+        ProjectionOptions{.is_perspective = true}};
+    for (const auto& projection : projections) {
+        const Image image = picture_at_scale(folder.path(), 1, projection, {0.4, 0.5, 0.6});
+        for (const int power : {-40, -33, 20, 60, 64}) {  // 9e-13 to 2e19 m: nothing is rounded
+            EXPECT_EQ(
+                picture_at_scale(folder.path(), std::ldexp(1.0, power), projection, {0.4, 0.5, 0.6})
+                    .rgb,
+                image.rgb)
+                << power;
+        }
+    }
+    // Where coordinates are rounded some samples of edges fall on the other side: an eighth of a
+    // pixel each.
+    const Image image = picture_at_scale(folder.path(), 1, std::nullopt, {});
+    for (const double scale : {1e-12, 1e19}) {
+        const Image other = picture_at_scale(folder.path(), scale, std::nullopt, {});
+        int different = 0;
+        for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+            different += std::abs(image.rgb[i] - other.rgb[i]) > 8 ? 1 : 0;
+        }
+        EXPECT_LE(different, 30) << scale;
+    }
+}
+
 class RenderObstacles : public testing::Test {
 protected:
     RenderObstacles() {
@@ -219,6 +267,21 @@ TEST(RenderRun, MakesAMovieWhereFfmpegIs) {
     EXPECT_NEAR(report.frames_per_second, 10, 1e-12);  // frames are 0.1 s apart
     EXPECT_GT(std::filesystem::file_size(folder / "a.mp4"), 500U);
     EXPECT_EQ(count_files(folder.path()), 2U);
+}
+
+TEST(RenderRun, RefusesATrueSpeedThatNoMovieHas) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0, 1000});  // 100 s apart
+    const RunFolder run = open_run(folder / "run");
+    RenderRunOptions options = small_pictures(run);
+    expect_contains(
+        error_of([&] { (void)render_run(run, {.movie = folder / "a.mp4"}, options, go_on); }),
+        {"a.mp4: true speed is 0.01 pictures a second", "0.1 to 1000", "--fps"});
+    EXPECT_TRUE(render_run(run, {.folder = folder / "out"}, options, go_on).is_complete);
+    if (Movie::is_possible()) {
+        options.frames_per_second = 1;
+        EXPECT_TRUE(render_run(run, {.movie = folder / "a.mp4"}, options, go_on).is_complete);
+    }
 }
 
 TEST(RenderRun, LeavesNoMovieWhenStopped) {

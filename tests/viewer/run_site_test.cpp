@@ -41,7 +41,7 @@ protected:
 };
 
 TEST_F(RunSiteOf, ARunGivesThePageItsFilesAndAList) {
-    EXPECT_EQ(site().start(), "/?run=my%20run/");
+    EXPECT_EQ(site().start(), "/?run=my%2520run/");  // the address my%20run/, encoded
     EXPECT_NE(get("/").body.find("viewer"), std::string::npos);
     EXPECT_NE(get("/").headers.find("default-src 'none'"), std::string::npos);
     EXPECT_EQ(get("/my run/run.json").body,
@@ -132,24 +132,48 @@ TEST_F(RunSiteOf, ARunAnswersOnlyWhoeverNamesThisMachineAndAsksWithGet) {
 TEST_F(RunSiteOf, AMeshGivesThatFile) {
     const fs::path mesh = folder_ / "my run" / "meshes" / "a.pent";
     const RunSite site(page_, mesh);
-    EXPECT_EQ(site.start(), "/?run=a.pent");
+    EXPECT_EQ(site.start(), "/?run=a.pent/");
     const auto get = [&](const std::string& path) {
-        return site.answer({"GET", path, "localhost:8080"}, kPort).status;
+        return site.answer({"GET", path, "localhost:8080"}, kPort);
     };
-    EXPECT_EQ(get("/a.pent"), 200);
-    EXPECT_EQ(get("/b.pent"), 404);
-    EXPECT_EQ(get("/a.pent/run.json"), 404);
+    EXPECT_EQ(get("/a.pent/run.json").body, R"({"mesh":"a.pent"})");
+    EXPECT_EQ(get("/a.pent/a.pent").body.substr(0, 4), "ply\n");
+    for (const char* path : {"/a.pent", "/b.pent/b.pent", "/a.pent/b.pent", "/a.pent/scene.toml"}) {
+        EXPECT_EQ(get(path).status, 404) << path;
+    }
+}
+
+// What a browser does with start(): it takes the address behind run=, and asks for what is there.
+TEST_F(RunSiteOf, ARunOrMeshOfAnyNameIsAtTheAddressThatIsSaid) {
+    for (const std::string name :
+         {"a", "50%", "a%23", "#1", "why?", "a b+c", "ü 4D", "a:b\\c&d=e"}) {
+        fs::copy_file(folder_ / "my run/meshes/a.pent", folder_ / name);
+        fs::copy(folder_ / "my run", folder_ / (name + " run"), fs::copy_options::recursive);
+        const auto asked = [&](const std::string& of, const std::string& file) {
+            const RunSite site(page_, folder_ / of);
+            const std::string query = site.start().substr(std::string("/?run=").size());
+            // Decoded by the reader of parameters, then as the target of a request.
+            const std::string address = parse_request("GET /" + query + " HTTP/1.1\r\n\r\n")->path;
+            EXPECT_EQ(address.find_first_of("#? +&\\:"), std::string::npos) << address;
+            const auto request =
+                parse_request("GET " + address + percent_encoded(file) + " HTTP/1.1\r\n\r\n");
+            return site.answer({"GET", request->path, "localhost:8080"}, kPort);
+        };
+        EXPECT_EQ(asked(name, name).body.substr(0, 4), "ply\n") << name;
+        EXPECT_EQ(asked(name, "run.json").body, "{\"mesh\":" + json_string(name) + "}");
+        EXPECT_EQ(asked(name + " run", "run.json").status, 200) << name;
+    }
 }
 
 TEST_F(RunSiteOf, AModelOfOtherProgramsGivesThatFileAsItIs) {
-    for (const char* name : {"tiger.g4b", "tiger.g4tf"}) {
+    for (const char* name : {"tiger.g4b", "tiger.g4tf", "TIGER.G4B"}) {
         const fs::path model = folder_ / name;
         EXPECT_THROW(RunSite(page_, model), Error);
         write_text(model, "of this it is the page that knows");
         const RunSite site(page_, model);
-        EXPECT_EQ(site.start(), "/?run=" + std::string(name));
-        const HttpResponse answer =
-            site.answer({"GET", "/" + std::string(name), "localhost:80"}, 80);
+        const std::string folder = "/" + std::string(name) + "/";
+        EXPECT_EQ(site.start(), "/?run=" + folder.substr(1));
+        const HttpResponse answer = site.answer({"GET", folder + name, "localhost:80"}, 80);
         EXPECT_EQ(answer.body, "of this it is the page that knows");
     }
 }

@@ -72,9 +72,10 @@ Camera CameraFit::camera() const {
     eye.x() = (s[0] - s[1] + (slopes_[1] - slopes_[0]) * eye.z()) / 2;
     eye.y() = (s[2] - s[3] + (slopes_[3] - slopes_[2]) * eye.z()) / 2;
     const double middle = (depth_[0] + depth_[1]) / 2;
-    const double nearest = 1e-9 * std::max(1.0, std::abs(middle));
-    if (eye.z() - middle < nearest) {  // a single point
-        eye.z() = middle + 1;
+    // The points are one if nothing but the rounding of their coordinates is between them.
+    const double farthest = std::max(eye.cwiseAbs().maxCoeff(), std::abs(middle));
+    if (eye.z() - middle <= 64 * std::numeric_limits<double>::epsilon() * farthest) {
+        eye.z() = middle + std::max(1.0, 1e-6 * farthest);
     }
     camera.position = frame_ * eye;
     camera.target = frame_ * Eigen::Vector3d(eye.x(), eye.y(), middle);

@@ -7,7 +7,7 @@ namespace pent::viewer {
 
 namespace {
 
-// Where a ray enters (side -1) or leaves (side 1) a ball, m; negative if it misses it.
+// Where a ray enters (side -1) or leaves (side 1) a ball; negative if it misses it.
 double crossing(const Sphere& ball,
                 const Eigen::Vector3d& from,
                 const Eigen::Vector3d& direction,
@@ -20,15 +20,17 @@ double crossing(const Sphere& ball,
 
 }  // namespace
 
-Ground::Ground(const ObstacleSlice& slice, const Eigen::Vector3d& origin) : slice_(slice) {
+Ground::Ground(const ObstacleSlice& slice, const RaySpace& space) : slice_(slice) {
     nearest_ = std::numeric_limits<double>::infinity();
     if (slice_.plane) {
-        slice_.plane->offset -= slice_.plane->normal.dot(origin);
+        double& offset = slice_.plane->offset;
+        offset = (offset - slice_.plane->normal.dot(space.origin)) / space.unit;
         nearest_ = std::abs(slice_.plane->offset);
     }
     for (std::optional<Sphere>* round : {&slice_.ball, &slice_.hollow}) {
         if (*round) {
-            (*round)->center -= origin;
+            (*round)->center = ((*round)->center - space.origin) / space.unit;
+            (*round)->radius /= space.unit;
             nearest_ = std::min(nearest_, std::abs((*round)->radius - (*round)->center.norm()));
         }
     }

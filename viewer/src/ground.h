@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ray_scene.h"
+#include "ray_space.h"
 
 #include <pent/viewer/obstacle_slice.h>
 
@@ -22,8 +22,7 @@ struct GroundHit {
 /// that one looks into hollows and through walls from behind.
 class Ground {
 public:
-    /// @param origin  What points are about.
-    Ground(const ObstacleSlice& slice, const Eigen::Vector3d& origin);
+    Ground(const ObstacleSlice& slice, const RaySpace& space);
 
     [[nodiscard]] GroundHit first_hit(const Vec& from, const Vec& direction) const;
 
@@ -34,8 +33,8 @@ public:
     [[nodiscard]] float spread(const Vec& point) const;
 
 private:
-    ObstacleSlice slice_;  // about the origin
-    double nearest_ = 0;   // distance to the origin, m
+    ObstacleSlice slice_;  // in the coordinates of rays
+    double nearest_ = 0;   // distance to the origin
 };
 
 }  // namespace pent::viewer

@@ -66,7 +66,7 @@ Across across(const Vec& n) {
 
 }  // namespace
 
-Lighting make_lighting(const Eigen::Matrix3d& camera_frame, double scene_size) {
+Lighting make_lighting(const Eigen::Matrix3d& camera_frame, float scene_size) {
     const Vec right = camera_frame.col(0).cast<float>();
     const Vec toward_eye = Vec(camera_frame.col(2).cast<float>().cwiseProduct(Vec(1, 0, 1)));
     const Vec back = toward_eye.squaredNorm() > 1e-12F ? Vec(toward_eye.normalized())
@@ -74,8 +74,8 @@ Lighting make_lighting(const Eigen::Matrix3d& camera_frame, double scene_size) {
     Lighting lighting;
     lighting.to_key = (-0.65F * right + 1.0F * lighting.up + 0.55F * back).normalized();
     lighting.to_fill = (0.8F * right + 0.1F * lighting.up + 0.6F * back).normalized();
-    lighting.occlusion_distance = 0.2F * static_cast<float>(scene_size);
-    lighting.skin = 1e-4F * static_cast<float>(scene_size);
+    lighting.occlusion_distance = 0.2F * scene_size;
+    lighting.skin = 1e-4F * scene_size;
     return lighting;
 }
 

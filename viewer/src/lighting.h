@@ -16,17 +16,17 @@ struct Visibility {
     float key = 1;
 };
 
-/// The lamps of a picture, set up for a camera.
+/// The lamps of a picture, set up for a camera; lengths are those of its RaySpace.
 struct Lighting {
     Vec up = Vec::UnitY();
     Vec to_key = Vec::UnitY();     ///< Unit, to the middle of the key light.
     Vec to_fill = Vec::UnitX();    ///< Unit, to a weak light from the other side.
-    float occlusion_distance = 1;  ///< How far things darken each other under the sky, m.
-    float skin = 1e-4F;            ///< How far off a surface its rays start, m.
+    float occlusion_distance = 1;  ///< How far things darken each other under the sky.
+    float skin = 1e-4F;            ///< How far off a surface its rays start.
 };
 
 /// @param camera_frame  Right, up and back as columns.
-[[nodiscard]] Lighting make_lighting(const Eigen::Matrix3d& camera_frame, double scene_size);
+[[nodiscard]] Lighting make_lighting(const Eigen::Matrix3d& camera_frame, float scene_size);
 
 /// Rays spent on visibility at one point, and how many sets of them there are, one for
 /// each of 8 x 8 pixels.

@@ -101,6 +101,7 @@ struct Movie::Encoder {
         while (std::fgets(line.data(), static_cast<int>(line.size()), messages.get()) != nullptr) {
             last = line.data();
         }
+        last.erase(last.find_last_not_of('\n') + 1);
         throw Error(name + ": ffmpeg gave up: " + last);
     }
 

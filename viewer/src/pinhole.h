@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ray_scene.h"
+#include "ray_space.h"
 
 #include <pent/viewer/camera.h>
 #include <pent/viewer/render.h>
@@ -9,11 +9,11 @@
 
 namespace pent::viewer {
 
-/// The rays of a camera through its picture, about the picture's origin.
+/// The rays of a camera through its picture.
 class Pinhole {
 public:
-    Pinhole(const Camera& camera, const RenderOptions& options)
-        : eye_((camera.position - options.scene_center).cast<float>()),
+    Pinhole(const Camera& camera, const RaySpace& space, const RenderOptions& options)
+        : eye_(space.point(camera.position)),
           frame_(camera_frame(camera).cast<float>()),
           slope_(static_cast<float>(std::tan(camera.field_of_view / 2))),
           width_(static_cast<float>(options.width)),
@@ -28,7 +28,7 @@ public:
         return (frame_ * Vec(across, upward, -1)).normalized();
     }
 
-    /// The size of a pixel at a distance, m.
+    /// The size of a pixel at a distance.
     [[nodiscard]] float footprint(float distance) const { return 2 * slope_ * distance / height_; }
 
 private:

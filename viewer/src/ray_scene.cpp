@@ -7,7 +7,7 @@ namespace pent::viewer {
 RayScene::RayScene(RTCDevice device,
                    std::span<const RenderObject> objects,
                    bool ghosts,
-                   const Eigen::Vector3d& origin)
+                   const RaySpace& space)
     : objects_(objects), vertices_(objects.size()), scene_(rtcNewScene(device)) {
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
     for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -17,7 +17,8 @@ RayScene::RayScene(RTCDevice device,
         }
         is_empty_ = false;
         vertices_[i].resize(4, object.positions.cols());
-        vertices_[i].topRows<3>() = (object.positions.colwise() - origin).cast<float>();
+        vertices_[i].topRows<3>() =
+            ((object.positions.colwise() - space.origin) / space.unit).cast<float>();
         vertices_[i].row(3).setZero();
         const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,

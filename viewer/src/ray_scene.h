@@ -1,5 +1,7 @@
 #pragma once
 
+#include "ray_space.h"
+
 #include <pent/viewer/render.h>
 
 #include <Eigen/Core>
@@ -14,8 +16,6 @@
 #include <vector>
 
 namespace pent::viewer {
-
-using Vec = Eigen::Vector3f;
 
 /// Handles of Embree, released at the end of their scope.
 struct ReleaseDevice {
@@ -39,15 +39,14 @@ struct RayHit {
     [[nodiscard]] bool is_hit() const { return distance < std::numeric_limits<float>::infinity(); }
 };
 
-/// Objects ready to be met by rays. Coordinates are single precision about an origin chosen near
-/// by, so that scenes far from zero lose nothing.
+/// Objects ready to be met by rays, in the coordinates of a RaySpace.
 class RayScene {
 public:
     /// Keeps a view of the objects; takes those that are opaque, or those that are ghosts.
     RayScene(RTCDevice device,
              std::span<const RenderObject> objects,
              bool ghosts,
-             const Eigen::Vector3d& origin);
+             const RaySpace& space);
 
     [[nodiscard]] bool is_empty() const { return is_empty_; }
 
@@ -58,7 +57,7 @@ public:
         static constexpr int kRays = 8;
         Vec from = Vec::Zero();
         std::array<Vec, kRays> directions{};
-        std::array<float, kRays> farthest{};  ///< m.
+        std::array<float, kRays> farthest{};  ///< Of each ray.
         int count = 0;                        ///< How many of them there are.
 
         void add(const Vec& direction, float max_distance) {
@@ -71,7 +70,7 @@ public:
     /// Whether each ray of a bundle meets anything: bit k for ray k.
     [[nodiscard]] unsigned blocked(const Bundle& bundle) const;
 
-    /// Corner k of the triangle that was hit, about the origin.
+    /// Corner k of the triangle that was hit.
     [[nodiscard]] Vec corner(const RayHit& hit, int k) const;
 
     /// Smooth normal at the hit, unit.

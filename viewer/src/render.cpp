@@ -38,7 +38,7 @@ public:
           height_(options.height),
           ground_color_(options.ground_color),
           sight_(device, objects, camera, options),
-          lighting_(make_lighting(camera_frame(camera), options.scene_size)),
+          lighting_(make_lighting(camera_frame(camera), sight_.scene_size())),
           samples_(look_everywhere()),
           light_(sight_, lighting_, samples_) {}
 

@@ -181,6 +181,21 @@ bool render_sheet(const RunRenderer<Dim>& renderer,
     return true;
 }
 
+// Of the movie, if there is to be one.
+template <int Dim>
+double rate_of(const RunRenderer<Dim>& renderer,
+               const RenderTargets& targets,
+               const RenderRunOptions& options) {
+    const double rate = options.frames_per_second.value_or(renderer.true_rate());
+    if (!targets.movie.empty() && !(rate >= 0.1 && rate <= 1000)) {
+        throw Error(targets.movie.string()
+                    + formatted(": true speed is %.4g pictures a second; expected 0.1 to 1000: "
+                                "choose a rate (--fps), or other frames",
+                                rate));
+    }
+    return rate;
+}
+
 template <int Dim>
 RenderRunReport render_run_in(const RunFolder& run,
                               const RenderTargets& targets,
@@ -197,12 +212,12 @@ RenderRunReport render_run_in(const RunFolder& run,
         !targets.movie.empty() || !targets.picture.empty() || !targets.folder.empty();
     const bool has_sheet = !targets.sheet.empty();
     RenderRunReport report;
+    report.frames_per_second = rate_of(renderer, targets, options);
     if (!look_at_frames(renderer, options, on_progress)) {
         return report;
     }
     report.is_empty = renderer.is_empty();
     report.range = renderer.range();
-    report.frames_per_second = options.frames_per_second.value_or(renderer.true_rate());
     report.is_complete =
         (!has_sheet || render_sheet(renderer, targets, options, on_progress, report))
         && (!has_frames || render_frames(renderer, targets, options, on_progress, report));

@@ -222,14 +222,13 @@ Frame<Dim> load_frame(const RunFolder& run, const Body<Dim>& body, int frame) {
 template <int Dim>
 std::vector<ObstacleShape<Dim>> load_obstacles(const RunFolder& run, int frame) {
     std::error_code error;
-    fs::path path = run.path / "obstacles.json";
-    if (!fs::exists(path, error)) {  // unless they move
-        path = run.path / formatted("obstacles/%06d.json", frame);
-    }
-    if (run.is_mesh || !fs::exists(path, error)) {
+    const fs::path at_rest = run.path / "obstacles.json";
+    const fs::path moving = run.path / "obstacles";
+    if (run.is_mesh || (!fs::exists(at_rest, error) && !fs::exists(moving, error))) {
         return {};
     }
-    return read_obstacles<Dim>(path);
+    return read_obstacles<Dim>(fs::exists(at_rest, error) ? at_rest
+                                                          : moving / formatted("%06d.json", frame));
 }
 
 std::vector<int> select_frames(const std::vector<int>& frames, const std::string& text) {

@@ -142,7 +142,7 @@ double RunRenderer<Dim>::true_rate() const {
     const double first = load_frame<Dim>(run_, bodies_.front(), frames.front()).time;
     const double last = load_frame<Dim>(run_, bodies_.front(), frames.back()).time;
     const double rate = static_cast<double>(frames.size() - 1) / (last - first);
-    return last > first && !options_.is_sweep ? std::clamp(rate, 0.1, 1000.0) : kUsual;
+    return last > first && !options_.is_sweep ? rate : kUsual;
 }
 
 template <int Dim>
@@ -322,7 +322,9 @@ Image RunRenderer<Dim>::paint(const Snapshot<Dim>& snapshot,
         line += ", all solid";
     }
     if (!framing_.box().isEmpty()) {
-        render.scene_size = std::max(framing_.box().diagonal().norm(), 1e-12);
+        // At the least a millionth of how far away it is: what is smaller is a point in any case.
+        render.scene_size = std::max(framing_.box().diagonal().norm(),
+                                     1e-6 * (camera.position - camera.target).norm());
         render.scene_center = framing_.box().center();
         if (options_.has_floor && !has_ground_below(obstacles)) {
             render.floor = framing_.box().min().y() - 2e-3 * render.scene_size;

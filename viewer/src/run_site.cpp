@@ -4,6 +4,7 @@
 
 #include <pent/error.h>
 #include <pent/formatted.h>
+#include <pent/input_path.h>
 #include <pent/read_text.h>
 #include <pent/viewer/run_folder.h>
 
@@ -96,8 +97,8 @@ std::vector<int> whole_frames(const RunFolder& run) {
 // A model of other programs, G4MF, which the page reads and this library does not know.
 bool is_model(const fs::path& path) {
     std::error_code error;
-    return (path.extension() == ".g4b" || path.extension() == ".g4tf")
-           && fs::is_regular_file(path, error);
+    const std::string ending = format_of(path, "");
+    return (ending == ".g4b" || ending == ".g4tf") && fs::is_regular_file(path, error);
 }
 
 HttpResponse binary(std::optional<std::string> bytes, const std::string& type) {
@@ -119,8 +120,10 @@ RunSite::RunSite(const fs::path& page, const fs::path& run)
     name_ = run_.filename().string();
 }
 
+// The page takes what is behind run= for an address, in which a name is encoded; as a part of this
+// address that is encoded once more.
 std::string RunSite::start() const {
-    return "/?run=" + percent_encoded(name_) + (is_single_file_ ? "" : "/");
+    return "/?run=" + percent_encoded(percent_encoded(name_)) + "/";
 }
 
 HttpResponse RunSite::answer(const HttpRequest& request, int port) const {
@@ -141,15 +144,14 @@ HttpResponse RunSite::answer(const HttpRequest& request, int port) const {
     if (request.path == std::string("/") + kPlayground) {
         return binary(read_file(playground_), "text/javascript; charset=utf-8");
     }
-    if (is_single_file_) {
-        return binary(request.path == "/" + name_ ? read_file(run_) : std::nullopt,
-                      "application/octet-stream");
-    }
     const std::string folder = "/" + name_ + "/";
     if (!request.path.starts_with(folder)) {
         return refusal(404, "there is " + folder + " and the page / alone");
     }
     const std::string name = request.path.substr(folder.size());
+    if (is_single_file_ && name != "run.json") {
+        return binary(name == name_ ? read_file(run_) : std::nullopt, "application/octet-stream");
+    }
     return name == "run.json" ? listing() : file_of_run(name);
 }
 
@@ -170,6 +172,9 @@ HttpResponse RunSite::file_of_run(const std::string& name) const {
 }
 
 HttpResponse RunSite::listing() const {
+    if (is_single_file_) {  // whatever its name, the page need not tell from it what it is
+        return binary("{\"mesh\":" + json_string(name_) + "}", "application/json");
+    }
     try {
         const bool may_grow = is_growing(run_);  // before the frames, or the last might be missed
         RunFolder run = open_run(run_);

@@ -16,7 +16,8 @@ namespace pent::viewer {
 ///                                whether obstacles are "none", "still" or "moving"
 ///     /NAME/meshes/BODY.pent     files of the run NAME; also frames/, scene.toml, report.json,
 ///                                obstacles.json, obstacles/
-///     /NAME.pent                 in place of a run: a mesh, or a model (.g4b, .g4tf)
+///     /NAME/NAME                 in place of a run: a mesh, or a model (.g4b, .g4tf), which
+///                                run.json names
 class RunSite {
 public:
     /// @param page  index.html as scripts/web.sh builds it.
@@ -29,7 +30,8 @@ public:
     ///              that pages of others cannot read the run by a name that leads here.
     [[nodiscard]] HttpResponse answer(const HttpRequest& request, int port) const;
 
-    /// What stands behind the host in the address that shows the run: "/?run=octopus/".
+    /// What stands behind the host in the address that shows the run: "/?run=octopus/"; of a file
+    /// "/?run=octopus.pent/".
     [[nodiscard]] std::string start() const;
 
 private:

@@ -29,11 +29,12 @@ Sight::Sight(RTCDevice device,
              const Camera& camera,
              const RenderOptions& options)
     : options_(options),
-      pinhole_(camera, options),
-      solids_(device, objects, false, options.scene_center),
-      ghosts_(device, objects, true, options.scene_center) {
+      space_(ray_space(options)),
+      pinhole_(camera, space_, options),
+      solids_(device, objects, false, space_),
+      ghosts_(device, objects, true, space_) {
     for (const ObstacleSlice& slice : options.grounds) {
-        grounds_.emplace_back(slice, options.scene_center);
+        grounds_.emplace_back(slice, space_);
     }
 }
 
@@ -66,7 +67,7 @@ void Sight::look_at_floor(const Vec& ray, Sample& sample) const {
         return;
     }
     const Vec& eye = pinhole_.eye();
-    const float height = static_cast<float>(*options_.floor - options_.scene_center.y());
+    const float height = space_.length(*options_.floor - options_.scene_center.y());
     const float distance = (height - eye.y()) / ray.y();
     const Vec point = eye + distance * ray;
     const float presence = presence_at(Eigen::Vector2f(point.x(), point.z()).norm());
@@ -111,7 +112,7 @@ void Sight::look_at_grounds(const Vec& ray, Sample& sample) const {
 
 // 1 near the scene, falling to 0 where nothing throws a shadow any more.
 float Sight::presence_at(float spread) const {
-    const float t = spread / (1.6F * static_cast<float>(options_.scene_size));
+    const float t = spread / (1.6F * scene_size());
     const float rest = std::clamp(2 - 2 * t, 0.0F, 1.0F);
     return rest * rest * (3 - 2 * rest);
 }

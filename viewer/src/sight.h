@@ -31,7 +31,7 @@ struct Sample {
     Vec veil = Vec::UnitY();  ///< Its normal.
 };
 
-/// All that rays of a picture can meet. Coordinates are about the middle of the scene.
+/// All that rays of a picture can meet, in the coordinates of its RaySpace.
 class Sight {
 public:
     /// Keeps views of the objects and of the options.
@@ -45,6 +45,8 @@ public:
     /// Whether two samples see the same smooth piece of surface.
     [[nodiscard]] bool is_alike(const Sample& a, const Sample& b) const;
 
+    /// Diagonal of what is looked at.
+    [[nodiscard]] float scene_size() const { return space_.length(options_.scene_size); }
     [[nodiscard]] const Pinhole& pinhole() const { return pinhole_; }
     [[nodiscard]] const RayScene& solids() const { return solids_; }
     [[nodiscard]] const RayScene& ghosts() const { return ghosts_; }
@@ -55,6 +57,7 @@ private:
     [[nodiscard]] float presence_at(float spread) const;
 
     const RenderOptions& options_;
+    RaySpace space_;
     Pinhole pinhole_;
     RayScene solids_;
     RayScene ghosts_;

@@ -92,9 +92,12 @@ std::optional<Overview> overview_of(const Slicing<Dim>& slicing, const OnProgres
         return std::nullopt;
     }
     const Eigen::AlignedBox3d& box = survey.box();
-    return Overview{survey.range(),
-                    box.isEmpty() ? Sphere{Eigen::Vector3d::Zero(), 1}
-                                  : Sphere{box.center(), std::max(box.diagonal().norm(), 1e-12)}};
+    Sphere around{Eigen::Vector3d::Zero(), 1};
+    if (!box.isEmpty()) {
+        const double size = box.diagonal().norm();
+        around = {box.center(), size > 0 ? size : 1};
+    }
+    return Overview{survey.range(), around};
 }
 
 template <int Dim>

@@ -116,27 +116,34 @@ export function parseListing(text: string, where: string): Listing {
     }
 }
 
+/** The last part of an address, as the file or folder is called. */
+function nameIn(address: string): string {
+    const part = address
+        .replace(/[?#].*$/, "")
+        .replace(/\/+$/, "")
+        .split("/")
+        .at(-1)!;
+    try {
+        return decodeURIComponent(part);
+    } catch {
+        return part; // a % that stands for itself, or bytes that are no text
+    }
+}
+
 /** A run folder or a single file on a server. Without a server that lists it, a folder is known by
  * its report.json. */
 export class WebFiles implements FileSource {
     readonly title: string;
 
-    /** @param address  Of a folder or of a single file, relative to the page or absolute. */
+    /** @param address  Of a folder or of a single file, relative to the page or absolute; encoded, as a part of an
+     *                  address is. */
     constructor(private address: string) {
-        this.title =
-            decodeURIComponent(
-                address
-                    .replace(/[?#].*$/, "")
-                    .replace(/\/+$/, "")
-                    .split("/")
-                    .at(-1)!
-                    .replace(kSingleFile, ""),
-            ) || "run";
+        this.title = nameIn(address).replace(kSingleFile, "") || "run";
     }
 
     async list(): Promise<Listing> {
         if (kSingleFile.test(this.address)) {
-            return listMesh(this.address.split("/").at(-1)!);
+            return listMesh(nameIn(this.address));
         }
         for (const name of ["run.json", "report.json"]) {
             const response = await this.fetch(name);

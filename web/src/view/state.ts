@@ -58,7 +58,7 @@ export function defaultState(): ViewState {
 const kSwitches = ["loop", "smooth", "shade", "floor", "obstacles", "box", "axes"] as const;
 
 /** Shortest text of a number that is right to so many digits. */
-export function short(value: number, digits = 5): string {
+export function short(value: number, digits: number): string {
     return String(Number(value.toPrecision(digits)));
 }
 
@@ -68,7 +68,7 @@ export function formatState(state: ViewState): string {
     const parts: [string, string][] = [];
     const put = (key: string, value: string) => parts.push([key, value]);
     if (state.w !== null) {
-        put("w", short(state.w));
+        put("w", String(state.w)); // all its digits: bodies may be small, or far from 0
     }
     const turns = formatTurns(toTurns(state.rotation));
     if (turns !== "") {
@@ -87,10 +87,10 @@ export function formatState(state: ViewState): string {
         put("frame", String(state.frame));
     }
     if (state.spacing !== null) {
-        put("spacing", short(state.spacing));
+        put("spacing", String(state.spacing));
     }
     if (state.range) {
-        put("range", state.range.map((end) => short(end)).join(","));
+        put("range", state.range.join(","));
     }
     for (const key of ["speed", "layout", "slices", "ghost", "color", "theme"] as const) {
         if (state[key] !== initial[key]) {
@@ -110,8 +110,8 @@ function number(text: string, low: number, high: number): number | null {
     return value >= low && value <= high ? value : null;
 }
 
-function numbers(text: string, count: number): number[] | null {
-    const values = text.split(",").map((word) => number(word, -1e9, 1e9));
+function numbers(text: string, count: number, most: number): number[] | null {
+    const values = text.split(",").map((word) => number(word, -most, most));
     return values.length === count && values.every((value) => value !== null)
         ? (values as number[])
         : null;
@@ -119,14 +119,14 @@ function numbers(text: string, count: number): number[] | null {
 
 // Each gives whether it understood the value.
 const kReaders: Record<string, (state: ViewState, text: string) => boolean> = {
-    w: (state, text) => (state.w = number(text, -1e9, 1e9)) !== null,
+    w: (state, text) => (state.w = number(text, -Number.MAX_VALUE, Number.MAX_VALUE)) !== null,
     rotate(state, text) {
         const turns = parseTurns(text);
         state.rotation = turns ? fromTurns(turns) : state.rotation;
         return turns !== null;
     },
     camera(state, text) {
-        const [azimuth, elevation, zoom, panX, panY] = numbers(text, 5) ?? [];
+        const [azimuth, elevation, zoom, panX, panY] = numbers(text, 5, 1e9) ?? [];
         if (zoom === undefined || zoom < 0.05 || zoom > 100 || Math.abs(elevation!) > 89) {
             return false;
         }
@@ -143,9 +143,10 @@ const kReaders: Record<string, (state: ViewState, text: string) => boolean> = {
         state.slices = count !== null && Number.isInteger(count) ? count : state.slices;
         return state.slices === count;
     },
-    spacing: (state, text) => (state.spacing = number(text, 1e-9, 1e9)) !== null,
+    spacing: (state, text) =>
+        (state.spacing = number(text, Number.MIN_VALUE, Number.MAX_VALUE)) !== null,
     range(state, text) {
-        const ends = numbers(text, 2);
+        const ends = numbers(text, 2, Number.MAX_VALUE);
         state.range = ends && ends[0]! < ends[1]! ? [ends[0]!, ends[1]!] : null;
         return state.range !== null;
     },

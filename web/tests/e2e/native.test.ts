@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -74,6 +74,30 @@ test("pent-view shows its run, and ends by Ctrl-C", async (t) => {
         await close();
         program.kill("SIGINT");
         assert.equal(await ended, 0);
+    });
+    if (!isThere) {
+        t.skip("pent-view is not built");
+    }
+});
+
+test("pent-view shows runs and meshes of any name", async (t) => {
+    const isThere = await withRun(async (folder, view) => {
+        for (const [from, name] of [
+            ["run", "50% of #1, \u00fc?"],
+            ["run/meshes/body.pent", "mesh 100% #2?"],
+        ] as const) {
+            cpSync(join(folder, from), join(folder, name), { recursive: true });
+            const program = spawn(view, [join(folder, name), "--no-open", "--page", kPage]);
+            const address = await new Promise<string>((resolve) =>
+                program.stdout.once("data", (text) => resolve(/http:\S+/.exec(String(text))![0])),
+            );
+            const { page, close } = await openPage(browser.get(), `${address}#shade=off`);
+            await page.waitForFunction(() => document.title.includes("Pentimento"));
+            assert.equal(await page.title(), `${name} \u2013 Pentimento`);
+            assert.equal(await page.locator(".message.error").count(), 0);
+            await close();
+            program.kill("SIGINT");
+        }
     });
     if (!isThere) {
         t.skip("pent-view is not built");

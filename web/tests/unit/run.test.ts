@@ -6,7 +6,7 @@ import { Decoder } from "../../src/run/decode.ts";
 import { commonFrames, framePath, listPaths } from "../../src/run/listing.ts";
 import type { Moment, Run } from "../../src/run/run.ts";
 import { FrameStream } from "../../src/run/stream.ts";
-import { parseListing } from "../../src/run/sources.ts";
+import { parseListing, WebFiles } from "../../src/run/sources.ts";
 import { writeFrame, writeMesh } from "../support/write_pent.ts";
 
 test("a dropped run is found in whatever folder it is", () => {
@@ -65,6 +65,48 @@ test("a run without frames of a body, or without a common one, is refused", () =
         /no frame that all bodies have/,
     );
 });
+
+test("addresses of runs and files are asked for as they are, and called by their names", async () => {
+    const kName = "50% #1 \u00fc?";
+    const files = new Map([
+        [`runs/${kName}/run.json`, '{"meshes":["a#b"],"frames":{"a#b":[[0,0]]}}'],
+        [`runs/${kName}/meshes/a#b.pent`, "mesh"],
+        [`runs/${kName}/a.pent`, "single"],
+        [`runs/${kName}.pent`, "named so"],
+        ["100%/run.json", '{"mesh":"of any name"}'],
+        ["100%/of any name", "whatever"],
+    ]);
+    const asked = globalThis.fetch;
+    globalThis.fetch = (address) => {
+        const path = new URL(String(address), "http://a/").pathname.slice(1);
+        const text = files.get(path.split("/").map(decodeAsServersDo).join("/"));
+        return Promise.resolve(
+            new Response(text ?? null, { status: text === undefined ? 404 : 200 }),
+        );
+    };
+    const textOf = async (source: WebFiles, path: string) =>
+        new TextDecoder().decode(await source.read(path));
+    try {
+        const encoded = encodeURIComponent(kName);
+        const run = new WebFiles(`runs/${encoded}/`);
+        assert.equal(run.title, kName);
+        assert.deepEqual((await run.list()).meshes, ["a#b"]);
+        assert.equal(await textOf(run, "meshes/a#b.pent"), "mesh");
+        const single = new WebFiles(`runs/${encoded}.pent`);
+        assert.equal(single.title, kName);
+        assert.equal(await textOf(single, (await single.list()).mesh!), "named so");
+        // A % that stands for itself, and a file that a list names.
+        const other = new WebFiles("100%/");
+        assert.equal(other.title, "100%");
+        assert.equal(await textOf(other, (await other.list()).mesh!), "whatever");
+    } finally {
+        globalThis.fetch = asked;
+    }
+});
+
+function decodeAsServersDo(part: string): string {
+    return /%(?![0-9a-f]{2})/i.test(part) ? part : decodeURIComponent(part);
+}
 
 test("lists of pent-view and reports of pent-sim are understood, and nothing else", () => {
     const ours = parseListing(

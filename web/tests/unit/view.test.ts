@@ -92,12 +92,15 @@ test("a state survives the address, whatever it is", () => {
     for (let i = 0; i < 100; ++i) {
         const state = defaultState();
         state.rotation = randomRotation(random);
-        state.w = Number((random() - 0.5).toPrecision(4));
+        // All digits: of bodies of 10^-12 m, of those far from 0, and of all between.
+        const size = 10 ** (-12 + 31 * random());
+        state.w = size * (random() - 0.5) + (random() < 0.5 ? 1e6 : 0);
+        state.spacing = size;
         state.frame = Math.floor(1000 * random());
         state.layout = (["single", "side", "onion"] as const)[Math.floor(3 * random())]!;
         state.slices = 2 + Math.floor(8 * random());
         state.color = (["body", "w", "strain"] as const)[Math.floor(3 * random())]!;
-        state.range = [0, Number((1 + random()).toPrecision(4))];
+        state.range = [size * random(), size * (1 + random())];
         state.smooth = random() < 0.5;
         state.orbit = { azimuth: -12.5, elevation: 40, zoom: 2, panX: 0.25, panY: 0 };
         const text = formatState(state);

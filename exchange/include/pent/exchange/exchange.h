@@ -13,8 +13,8 @@
 
 namespace pent::exchange {
 
-/// A body with what a .pent file says of it beside the mesh. Of that, other formats hold nothing but
-/// MFEM the labels of the boundary.
+/// A body with what a .pent file says of it beside the mesh. Of that, other formats hold nothing
+/// but MFEM the labels of the boundary, of 1 to 65535 and not all 1.
 struct Body {
     SimplexMesh<4> mesh;
     MeshExtras<4> extras = {};
@@ -51,6 +51,7 @@ struct Format {
     void (*write)(const std::filesystem::path& path,
                   const Content& content,
                   const WriteOptions& options);
+    bool has_extras = false;  ///< Holds all that a .pent file says of a body.
 };
 
 /// All formats: .pent, 4OFF, G4MF, 4DO, tesserxel's OBJ, MFEM, and views as legacy VTK and Gmsh.
@@ -58,6 +59,10 @@ struct Format {
 
 /// The format that the ending of a name stands for. Throws an Error that lists all for others.
 [[nodiscard]] const Format& format_of(const std::filesystem::path& path);
+
+/// What a body has that a file of a format does not hold, as in "regions, fibers, heat": of its
+/// cells, of its boundary, and quantities by their names. Empty if nothing.
+[[nodiscard]] std::string left_out(const Body& body, const Format& format);
 
 struct ReadOptions {
     /// The tetrahedra of a boundary that is not closed as it stands meet by the places of their

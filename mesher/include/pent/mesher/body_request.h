@@ -81,6 +81,7 @@ struct BodyRequest {
     /// no file. The path "-" is standard input.
     std::variant<std::filesystem::path, SphereShape, BallShape, BoxShape> input;
     std::string format;           ///< Of the file, as in "obj"; empty: by the ending of its name.
+    std::string region_array;     ///< Of VTK's tet meshes, see read_tetrahedra(); else empty.
     double scale = 1;             ///< Coordinates in the file times this are m; above 0.
     Eigen::VectorXd translation;  ///< Of the body at the end, m; 3 or all components, or none.
     RepairOptions repair;

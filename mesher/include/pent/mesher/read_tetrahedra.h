@@ -13,6 +13,10 @@ namespace pent::mesher {
 [[nodiscard]] bool is_tetrahedra_file(const std::filesystem::path& path,
                                       const std::string& format = {});
 
+/// Whether it is one of VTK, whose cells have arrays by name, of which one has their labels.
+[[nodiscard]] bool has_region_arrays(const std::filesystem::path& path,
+                                     const std::string& format = {});
+
 /// A tet mesh as a file has it, and what was done to read it.
 struct TetrahedraFile {
     SimplexMesh<3> mesh;             ///< Positively oriented; regions where the file has labels.
@@ -31,7 +35,12 @@ struct TetrahedraFile {
 /// three dimensions are refused. Throws an Error that names file and line for what is damaged, and
 /// one for a mesh that does not pass validate(). Allocates no more than the size of the file bears
 /// out.
+///
+/// @param region_array  Of a file of VTK, the array of the cells that has their labels, and an
+///                      Error if there is none of whole numbers from 0 to 65535; empty: the first
+///                      with a usual name, as "region" or "material". Without meaning for others.
 [[nodiscard]] TetrahedraFile read_tetrahedra(const std::filesystem::path& path,
-                                             const std::string& format = {});
+                                             const std::string& format = {},
+                                             const std::string& region_array = {});
 
 }  // namespace pent::mesher

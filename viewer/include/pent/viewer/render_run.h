@@ -30,7 +30,7 @@ struct RenderRunOptions {
     /// A floor under the lowest point, for the shadows, where no obstacle is one.
     bool has_floor = true;
     bool has_caption = true;  ///< Time, hyperplane and color bar.
-    /// Of the movie, over 0; none: as in the simulation, so that it plays at its true speed.
+    /// Of the movie, 0.1..1000; none: as in the simulation, so that it plays at its true speed.
     std::optional<double> frames_per_second;
     int sheet_frames = 6;  ///< On a contact sheet, evenly spread, at most; at least 1.
 };
