@@ -1,5 +1,6 @@
 """What a user does: import a run, look at it again, fit its colors, slice through its middle."""
 
+import math
 import os
 
 import bpy
@@ -33,6 +34,7 @@ class PENTIMENTO_OT_import(bpy.types.Operator, ImportHelper):
         try:
             forget(path)
             view = view_of(path)
+            str(view.path).encode()  # as Blender keeps it
             middle = view.middle()
             rate = view.frames_per_second
         except FAILURES as error:
@@ -111,6 +113,31 @@ def _key_frames(run, view, start):
     for curve in run.animation_data.action.fcurves:
         for key in curve.keyframe_points:
             key.interpolation = "LINEAR"
+    run.pentimento.last = last
+
+
+def _extend_keys(run, view, scene):
+    """The key at the end of a run that has grown goes to its new end, as fast as before, and the
+    end of the scene with it; but for keys that say something else by now."""
+    before, last = run.pentimento.last, view.frames[-1]
+    action = run.animation_data.action if run.animation_data else None
+    curve = action.fcurves.find("pentimento.frame") if action else None
+    keys = list(curve.keyframe_points) if curve else []
+    if last <= before or not keys or keys[-1].co.y != before:
+        return
+    end = keys[-1].co.x
+    if len(keys) == 1:
+        _key_frames(run, view, round(end))
+    else:
+        steps, frames = keys[-1].co - keys[-2].co
+        if frames <= 0:
+            return
+        keys[-1].co = (end + (last - before) * steps / frames, last)
+        curve.update()
+        run.pentimento.last = last
+    if scene.frame_end == end:
+        scene.frame_end = math.ceil(curve.keyframe_points[-1].co.x)
+    scene.frame_set(scene.frame_current)
 
 
 class _OfRun:
@@ -145,6 +172,7 @@ class PENTIMENTO_OT_reload(_OfRun, bpy.types.Operator):
         forget(run.pentimento.path)
         for thing in slicing.bodies_of(run):
             thing.data.pop(slicing.KEY, None)
+        _extend_keys(run, view_of(run.pentimento.path), context.scene)
         slicing.refresh(run)
 
 

@@ -56,8 +56,8 @@ def look_of(settings, view):
     """The look that these settings mean, animated or not."""
     return Look(
         path=settings.path,
-        # Interpolated frames may be a rounding below the whole number.
-        frame=view.frame_at(settings.frame + 1e-3),
+        # Interpolated frames may be a rounding of single precision below the whole number.
+        frame=view.frame_at(settings.frame * (1 + 2**-22) + 1e-3),
         offset=decimal(settings.offset),
         angles=tuple(decimal(getattr(settings, plane)) for plane in View.PLANES),
         shading=settings.shading,
@@ -115,6 +115,7 @@ class PentimentoRun(bpy.types.PropertyGroup):
         name="To", description="The value of the last color", default=1, precision=4,
         update=_changed,
     )  # fmt: skip
+    last: IntProperty(description="The last frame of the run that the keys of the import go to")
     message: StringProperty(description="Why the slice is not that of the settings; empty if it is")
 
 

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 
 from .settings import look_of
-from .views import FAILURES, one_line, view_of
+from .views import FAILURES, Error, one_line, view_of
 
 KEY = "pentimento_slice"  # of a mesh: the look that it was cut for
 COLOR = "Color"  # the attribute; by "color" Cycles understands that of smoke
@@ -54,6 +54,8 @@ def _cut(thing, view, look):
     key = f"{name} {look}"
     if thing.data.get(KEY) == key:
         return
+    if thing.data.is_editmode:
+        raise Error(f"{thing.name}: is in Edit Mode; the slice is cut when it is left")
     shading = look.shading == "SMOOTH"
     surfaces = [
         view.slice(body, look.frame, look.rotate, look.offset, shading=shading)
@@ -61,6 +63,8 @@ def _cut(thing, view, look):
     ]
     # All that can fail comes before the mesh is changed.
     colors = np.concatenate([s.colors(look.color, look.low, look.high) for s in surfaces])
+    if thing.data.users > 1:  # a linked copy, which may be of a run with another slice
+        thing.data = thing.data.copy()
     fill(thing.data, surfaces, colors)
     thing.data[KEY] = key
 
@@ -97,13 +101,19 @@ def _upright(vectors):
 
 
 def _add_attributes(mesh, surfaces, colors):
-    for name in surfaces[0].attributes:
-        if any(name not in surface.attributes for surface in surfaces):
-            continue
-        values = np.concatenate([surface.attributes[name] for surface in surfaces])
-        attribute = mesh.attributes.new(name, "FLOAT", "POINT")
-        attribute.data.foreach_set("value", values.astype(np.float32))
+    """The colors first: a quantity of that name gets a number behind it, by Blender."""
     attribute = mesh.attributes.new(COLOR, "FLOAT_COLOR", "POINT")
     opaque = np.column_stack([colors, np.ones(len(colors), np.float32)])
     attribute.data.foreach_set("color", opaque.astype(np.float32).ravel())
     mesh.color_attributes.active_color_index = mesh.color_attributes.find(COLOR)
+    for name in surfaces[0].attributes:
+        if any(name not in surface.attributes for surface in surfaces):
+            continue
+        values = np.concatenate([surface.attributes[name] for surface in surfaces])
+        _new_attribute(mesh, name).data.foreach_set("value", values.astype(np.float32))
+
+
+def _new_attribute(mesh, name):
+    """A number for each vertex; with a "_" behind names that Blender keeps for itself."""
+    attribute = mesh.attributes.new(name, "FLOAT", "POINT")
+    return attribute or mesh.attributes.new(f"{name}_", "FLOAT", "POINT")

@@ -9,8 +9,9 @@ try:
 except ModuleNotFoundError:  # used from where it is written, without the zip
     from pentimento import Error, View
 
-#: What reading and slicing raise for what is wrong outside.
-FAILURES = (Error, OSError, IndexError)
+#: What reading and slicing raise for what is wrong outside; Blender's texts are UTF-8, paths may
+#: have any bytes.
+FAILURES = (Error, OSError, IndexError, UnicodeError)
 
 _open = {}
 

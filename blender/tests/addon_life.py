@@ -1,12 +1,49 @@
 """What happens to a run: undo, saved files, damage, many frames."""
 
+import math
 import os
 import pathlib
 import shutil
+import sys
+import types
 
 import bpy
 import numpy as np
 from addon_case import DATA, FIRST, AddOnCase, bodies, errors_caught, imported, points_of, sliced
+from addon_case import values_of
+from boxes import box
+
+import pentimento
+
+QUANTITIES = ("Color", "position", "material_index", "crease", "temperature")
+
+
+def write_run(folder, frames, quantities=()):
+    """A run of a unit tesseract that moves along x by 0.1 m a frame, with these quantities: the
+    first is 1 everywhere, the second 2, and so on."""
+    (folder / "meshes").mkdir(parents=True, exist_ok=True)
+    (folder / "frames").mkdir(exist_ok=True)
+    path = folder / "meshes" / "a.pent"
+    if not path.exists():
+        pentimento.Mesh(*box(4)).write(path)
+    mesh = pentimento.Mesh.read(path)
+    properties = "".join(f"property double {name}\n" for name in (*"xyzw", *quantities))
+    numbers = [*range(1, 1 + len(quantities))]
+    for frame in frames:
+        rows = [[x + 0.1 * frame, *others, *numbers] for x, *others in mesh.points.tolist()]
+        (folder / "frames" / f"a_{frame:06d}.pent").write_text(
+            "ply\nformat ascii 1.0\ncomment pent 1.0\ncomment dimension 4\n"
+            f"comment mesh a.pent {mesh.crc32c:08x}\ncomment frame {frame}\n"
+            f"comment step {frame}\ncomment time {frame / 25}\n"
+            f"element vertex {mesh.vertex_count}\n{properties}end_header\n"
+            + "".join(" ".join(map(str, row)) + "\n" for row in rows)
+        )
+    return folder
+
+
+def keys_of(run):
+    curve = run.animation_data.action.fcurves.find("pentimento.frame")
+    return [tuple(key.co) for key in curve.keyframe_points]
 
 
 class Life(AddOnCase):
@@ -160,6 +197,99 @@ class Life(AddOnCase):
         self.assertEqual(said.getvalue(), "")
         self.assertGreater(len(alone.data.polygons), 0)
         self.assertEqual(other.pentimento.message, "")
+
+    def test_quantities_called_as_something_of_blenders_are_there_too(self):
+        run = imported(write_run(DATA / "named", range(2), QUANTITIES))
+        self.at(FIRST + 1)
+        self.assertEqual(run.pentimento.message, "")
+        mesh = bodies(run)["a"].data
+        for number, name in enumerate(
+            ("Color.001", "position_", "material_index_", "crease_", "temperature"), 1
+        ):
+            np.testing.assert_array_equal(values_of(mesh, name), number)
+        self.assertEqual(values_of(mesh, "Color").shape, (len(mesh.vertices), 4))
+        self.assertEqual(mesh.color_attributes.active_color.name, "Color")
+
+    def test_read_again_goes_on_to_the_new_end_of_a_run_that_grew(self):
+        scene = bpy.context.scene
+        run = imported(write_run(DATA / "grown", range(4)))
+        write_run(DATA / "grown", range(4, 9))
+        self.assertEqual(bpy.ops.pentimento.reload(), {"FINISHED"})
+        self.assertEqual((keys_of(run), scene.frame_end), ([(1, 0), (9, 8)], 9))
+        self.at(FIRST + 8)
+        self.assertAlmostEqual(points_of(bodies(run)["a"].data)[:, 0].max(), 1.8, places=6)
+        curve = run.animation_data.action.fcurves.find("pentimento.frame")
+        curve.keyframe_points[1].co = (17, 8)  # half as fast
+        scene.frame_end = 12
+        write_run(DATA / "grown", range(9, 11))
+        bpy.ops.pentimento.reload()
+        self.assertEqual((keys_of(run), scene.frame_end), ([(1, 0), (21, 10)], 12))
+        curve.keyframe_points[1].co = (5, 4)  # the beginning alone
+        write_run(DATA / "grown", range(11, 12))
+        bpy.ops.pentimento.reload()
+        self.assertEqual(keys_of(run), [(1, 0), (5, 4)])
+        run.animation_data_clear()
+        write_run(DATA / "grown", range(12, 13))
+        self.assertEqual(bpy.ops.pentimento.reload(), {"FINISHED"})
+
+    def test_a_run_that_was_imported_at_its_start_gets_its_keys_when_it_is_read_again(self):
+        run = imported(write_run(DATA / "begun", range(1)))
+        self.assertEqual(keys_of(run), [(1, 0)])
+        write_run(DATA / "begun", range(1, 4))
+        bpy.ops.pentimento.reload()
+        self.assertEqual(keys_of(run), [(1, 0), (4, 3)])
+        self.assertEqual(run.pentimento.frame, 0)
+        self.at(FIRST + 2)
+        self.assertEqual(run.pentimento.frame, 2)
+
+    def test_a_body_in_edit_mode_stays_as_it_is_until_it_is_left(self):
+        run = imported(write_run(DATA / "edited", range(4)))
+        body = bodies(run)["a"]
+        bpy.context.view_layer.objects.active = body
+        bpy.ops.object.mode_set(mode="EDIT")
+        with errors_caught():
+            self.at(FIRST + 2)
+        self.assertIn("a: is in Edit Mode", run.pentimento.message)
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.at(FIRST + 2)
+        self.assertEqual(run.pentimento.message, "")
+        self.assertAlmostEqual(points_of(body.data)[:, 0].max(), 1.2, places=6)
+
+    def test_linked_copies_of_a_run_have_a_slice_each(self):
+        run = imported(write_run(DATA / "copied", range(4)))
+        for thing in bpy.data.objects:
+            thing.select_set(True)
+        bpy.ops.object.duplicate(linked=True)
+        copy = bpy.data.objects["copied.001"]
+        copy.pentimento.offset = 5
+        self.at(FIRST + 1)
+        self.assertEqual(len(bodies(copy)["a"].data.vertices), 0)
+        self.assertGreater(len(bodies(run)["a"].data.vertices), 0)
+
+    def test_every_frame_of_a_long_run_is_the_one_of_its_number(self):
+        run = imported(write_run(DATA / "lengthy", range(2)))
+        count = 60000
+        curve = run.animation_data.action.fcurves.find("pentimento.frame")
+        first, last = curve.keyframe_points
+        first.co, last.co = (0, 0), (count - 1, count - 1)
+        curve.update()
+        below = [at for at in range(count) if curve.evaluate(at) < at - 1e-3]
+        self.assertGreater(len(below), 100)  # in single precision
+        look_of = sys.modules["pentimento_slices.settings"].look_of
+        long = types.SimpleNamespace(frame_at=math.floor)
+        for at in below[::100]:
+            self.at(at)
+            self.assertEqual(look_of(run.pentimento, long).frame, at)
+
+    def test_a_path_that_blender_has_no_text_for_is_told(self):
+        name = os.fsdecode(bytes(write_run(DATA / "named", range(2))) + b"\xff")
+        shutil.copytree(DATA / "named", name)
+        with self.assertRaises(RuntimeError) as caught:
+            bpy.ops.pentimento.import_run(filepath=name)
+        line = str(caught.exception).strip()
+        self.assertIn("utf-8", line)
+        self.assertEqual(line.count("\n"), 0, line)
+        self.assertEqual(len(bpy.data.objects), 0)
 
     def test_scrubbing_ends_where_it_ends_in_constant_memory(self):
         long = DATA / "long"

@@ -163,7 +163,7 @@ class PentimentoReader(VTKPythonAlgorithmBase):
             return 1
         for index, (body, surface) in enumerate(zip(view.bodies, surfaces)):
             output.SetBlock(index, _poly_data(surface))
-            output.GetMetaData(index).Set(vtkMultiBlockDataSet.NAME(), body)
+            output.GetMetaData(index).Set(vtkMultiBlockDataSet.NAME(), _printable(body))
         return 1
 
     def _opened(self):
@@ -198,7 +198,13 @@ _FAILURES = (Error, OSError, IndexError)
 
 
 def _tell(error):
-    print_error("pentimento: " + " ".join(str(error).split()))
+    print_error("pentimento: " + _printable(" ".join(str(error).split())))
+
+
+def _printable(text):
+    """With a "?" for what is not UTF-8, as names of files may have it: VTK would end the program
+    for it."""
+    return text.encode("utf-8", "replace").decode("utf-8")
 
 
 def _poly_data(surface):

@@ -185,6 +185,22 @@ class Reader(unittest.TestCase):
         simple.ReloadFiles(reader)
         self.assert_is(blocks(reader, 4 / 30)["high"], sliced(DATA / "run", "high", 4))
 
+    def test_names_that_are_not_utf_8_do_not_end_paraview(self):
+        shutil.copytree(DATA / "run", DATA / "latin")
+        latin = os.fsdecode(b"l\xf6w")
+        for file in [*(DATA / "latin").glob("meshes/low*"), *(DATA / "latin").glob("frames/low*")]:
+            file.rename(file.with_name(file.name.replace("low", latin)))
+        reader = opened(DATA / "latin")
+        found = blocks(reader, 3 / 30)
+        self.assertEqual(set(found), {"high", "l?w"})
+        self.assert_is(found["l?w"], sliced(DATA / "run", "low", 3))
+        frames = DATA / "latin" / "frames"
+        shutil.copy(frames / "high_000004.pent", frames / f"{latin}_000004.pent")
+        found, lines = self.told(lambda: blocks(reader, 4 / 30))
+        self.assertEqual(found, {})
+        self.assertTrue(lines)
+        self.assertTrue(all("l?w_000004.pent: is a frame of another" in x for x in lines), lines)
+
     def test_what_cannot_be_read_gives_nothing_and_a_line(self):
         (DATA / "cut.pent").write_bytes((DATA / "tesseract.pent").read_bytes()[:-40])
         (DATA / "noise.pent").write_bytes(os.urandom(999))

@@ -81,8 +81,9 @@ PENT_PLUGIN_API const uint32_t* pent_boundary(pent_simulation* simulation,
                                               int body,
                                               int64_t* count);
 
-/** The slice of a body by the hyperplane normal . x = offset. In three dimensions its whole
- * surface; `normal` may be NULL then. */
+/** The slice of a body by the hyperplane normal . x = offset: `normal` has four numbers and any
+ * length but 0, `offset` is in m times that length. In three dimensions its whole surface; `normal`
+ * may be NULL then. */
 PENT_PLUGIN_API int pent_slice(pent_simulation* simulation,
                                int body,
                                const double* normal,
@@ -90,7 +91,8 @@ PENT_PLUGIN_API int pent_slice(pent_simulation* simulation,
                                pent_surface* surface);
 
 /** The point of the bodies that a ray comes to first, by its shadow on the hyperplane of a slice;
- * NULL as `normal` for the ray as it is. 1: it is in `hit`; 0: there is none. */
+ * NULL as `normal` for the ray as it is. Normal, origin (m) and direction (of any length but 0)
+ * have `dimension` numbers each. 1: it is in `hit`; 0: there is none, and `hit` is as it was. */
 PENT_PLUGIN_API int pent_pick(const pent_simulation* simulation,
                               const double* normal,
                               double offset,
@@ -141,8 +143,8 @@ PENT_PLUGIN_API pent_state* pent_save(const pent_simulation* simulation);
 PENT_PLUGIN_API int pent_restore(pent_simulation* simulation, const pent_state* state);
 PENT_PLUGIN_API int pent_free_state(pent_state* state);
 
-/** A body as the one [[body]] of a text, and an obstacle as the one [[obstacle]]. They come last.
- * */
+/** A body as the one [[body]] of a text, and an obstacle as the one [[obstacle]]; a text with
+ * anything else, as [solver], is refused. They come last. */
 PENT_PLUGIN_API int pent_add_body(pent_simulation* simulation,
                                   const char* text,
                                   const pent_mesh* mesh);

@@ -65,7 +65,8 @@ PENT_PLUGIN_API pent_stored_mesh* pent_read_mesh(const char* path);
  * oriented and not degenerate, numbers finite. */
 PENT_PLUGIN_API pent_stored_mesh* pent_store_mesh(int dimension, const pent_mesh* mesh);
 
-/** Writes a .pent file. `created_by` is one line; `is_ascii` 0 for binary. */
+/** Writes a .pent file, with what the file of a mesh that was read has beside it. `created_by` is
+ * one line of at most 4077 bytes; `is_ascii` 0 for binary. */
 PENT_PLUGIN_API int pent_write_mesh(const pent_stored_mesh* mesh,
                                     const char* path,
                                     const char* created_by,
@@ -101,8 +102,8 @@ PENT_PLUGIN_API const double* pent_mesh_strain(const pent_stored_mesh* mesh,
 
 /** The colors in which pent-render shows a quantity ("body", "w", "speed", "strain", "force",
  * "reaction", "energy_density"): red, green, blue a value, 0..1, linear light. `low` and `high` get
- * the first and the last color; of "body" values are numbers of bodies, from 0. They hold until
- * this thread asks again. */
+ * the first and the last color; of "body" values are numbers of bodies, from 0. All numbers, and
+ * high - low, are finite. They hold until this thread asks again. */
 PENT_PLUGIN_API const float* pent_colors(
     const char* quantity, const double* values, int64_t count, double low, double high);
 PENT_PLUGIN_API int pent_free_mesh(pent_stored_mesh* mesh);

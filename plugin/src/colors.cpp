@@ -52,8 +52,8 @@ const float* pent_colors(
         }
         const viewer::ColorBy by = coloring_of(quantity);
         const Eigen::VectorXd given = array<1>(values, count, "values").transpose();
-        if (!given.allFinite() || !std::isfinite(low) || !std::isfinite(high)) {
-            throw Error("values, low and high must be finite");
+        if (!given.allFinite() || !std::isfinite(high - low)) {
+            throw Error("values, low, high and what lies between must be finite");
         }
         colors = by == viewer::ColorBy::Body
                      ? body_colors(given)

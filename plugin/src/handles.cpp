@@ -1,5 +1,6 @@
 #include "handles.h"
 
+#include <algorithm>
 #include <atomic>
 #include <limits>
 #include <utility>
@@ -83,6 +84,12 @@ Handles<pent_stored_frame, StoredFrame>& frames() {
 
 std::string& last_error() {
     static thread_local std::string text;
+    return text;
+}
+
+std::string one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
     return text;
 }
 

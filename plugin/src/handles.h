@@ -103,6 +103,9 @@ private:
 /// What pent_last_error() says in this thread.
 [[nodiscard]] std::string& last_error();
 
+/// What went wrong on one line: names of files may have line breaks.
+[[nodiscard]] std::string one_line(std::string text);
+
 /// Calls work(); what it throws becomes last_error() and the value for failure.
 template <typename Value, typename Work>
 Value guarded(Value failure, const Work& work) noexcept {
@@ -110,7 +113,7 @@ Value guarded(Value failure, const Work& work) noexcept {
         last_error().clear();
         return work();
     } catch (const std::exception& error) {
-        last_error() = error.what();
+        last_error() = one_line(error.what());
     } catch (...) {  // GCOVR_EXCL_START: C cannot catch, so nothing may get out, whatever it is
         last_error() = "unknown failure";
     }  // GCOVR_EXCL_STOP

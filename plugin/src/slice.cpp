@@ -41,7 +41,7 @@ viewer::FramedHyperplane hyperplane(const double* normal, double offset) {
     if (!std::isfinite(offset)) {
         throw Error("the offset of a slice must be finite");
     }
-    return viewer::hyperplane_across(n, offset / n.norm());
+    return viewer::hyperplane_across(n, offset / n.stableNorm());
 }
 
 // Keeps a surface in `seen`, and gives what a host sees of it.

@@ -249,6 +249,7 @@ TEST(PluginMeshesMisuse, GivesASentence) {
     const pent_mesh arrays2 = closed_c_mesh(test::box<2>());
     const Mesh mesh2(pent_store_mesh(2, &arrays2));
     const std::array<double, 1> minus = {-1};
+    const std::string long_name(5000, 'a');
     const std::array<pent_turn, 3> wrong_turns = {{{0, 4, 9}, {2, 2, 9}, {0, 3, kNan}}};
     const auto turned = [&](const pent_hyperplane& plane) {
         return pent_slice_turned(mesh, nullptr, &plane, &surface, nullptr);
@@ -279,6 +280,8 @@ TEST(PluginMeshesMisuse, GivesASentence) {
         {[&] { return pent_write_mesh(mesh, nullptr, "", 0); }, "path is NULL"},
         {[&] { return pent_write_mesh(mesh, nowhere.c_str(), nullptr, 0); }, "created_by is NULL"},
         {[&] { return pent_write_mesh(mesh, nowhere.c_str(), "", 0); }, nowhere},
+        {[&] { return pent_write_mesh(mesh, nowhere.c_str(), long_name.c_str(), 0); },
+         "created_by is longer than a line of a header may be"},
         {[&] { return pent_mesh_info_of(mesh, nullptr); }, "info is NULL"},
         {[&] { return pent_mesh_info_of(nullptr, nullptr); }, "there is no such mesh"},
         {[&] { return found(pent_mesh_boundary(mesh, nullptr)); }, "count is NULL"},
@@ -320,6 +323,7 @@ TEST(PluginMeshesMisuse, GivesASentence) {
         {[&] { return found(pent_colors("w", nullptr, 4, 0, 1)); }, "values is NULL"},
         {[&] { return found(pent_colors("w", w.data(), -1, 0, 1)); }, "count is -1"},
         {[&] { return found(pent_colors("w", w.data(), 4, 0, kNan)); }, "finite"},
+        {[&] { return found(pent_colors("w", w.data(), 4, -1e308, 1e308)); }, "finite"},
         {[&] { return found(pent_colors("body", nans.data(), 1, 0, 1)); }, "finite"},
         {[&] { return found(pent_colors("body", minus.data(), 1, 0, 1)); }, "number of a body"},
         {[&] { return pent_free_mesh(nullptr); }, "there is no such mesh"},

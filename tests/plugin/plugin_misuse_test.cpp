@@ -191,6 +191,20 @@ TEST(PluginMisuse, IsSaidAndChangesNothing) {
              return pent_add_body(host, "[sleep]\n[[body]]\nname = \"c\"\nmesh = \"-\"\n", &mesh);
          },
          "one [[body]] and nothing else"},
+        {[&] {
+             return pent_add_body(host,
+                                  "[[body]]\nname = \"c\"\nmesh = \"-\"\n"
+                                  "[solver]\nintegrator = \"newton_euler\"\n",
+                                  &mesh);
+         },
+         "one [[body]] and nothing else"},
+        {[&] {
+             return pent_add_obstacle(host,
+                                      "[[obstacle]]\nhalf_space = { normal = [0, 1, 0, 0] }\n"
+                                      "[output]\nbalance = true\n");
+         },
+         "one [[obstacle]] and nothing else"},
+        {[&] { return pent_open_file("a\r\nb.toml", 1) != nullptr ? 0 : -1; }, "a  b.toml: "},
         {[&] { return pent_add_body(host, "[[body]]\nname = \"low\"\nmesh = \"-\"\n", &mesh); },
          "low"},
         {[&] {

@@ -79,6 +79,25 @@ TEST(PluginSlices, TurnBodiesFirst) {
     EXPECT_EQ(slice.triangle_count, 12);
 }
 
+// A normal has any length, also where its square is no number of doubles.
+TEST(PluginSlices, DoNotDependOnTheLengthOfTheNormal) {
+    const pent_mesh arrays = closed_c_mesh(test::box<4>());
+    const Mesh stored(pent_store_mesh(4, &arrays));
+    for (const double length : {1e-300, 1e-200, 1.0, 1e200, 1e300}) {
+        const std::array<double, 4> normal = {0, 0, 0, length};
+        pent_surface slice = {};
+        ASSERT_EQ(pent_slice_mesh(stored, nullptr, normal.data(), 0.25 * length, &slice), 0);
+        ASSERT_GT(slice.triangle_count, 0) << length;
+        for (std::int64_t vertex = 0; vertex < slice.vertices; ++vertex) {
+            const double* ends = arrays.positions;
+            const double below = ends[4 * slice.ends[2 * vertex] + 3];
+            const double above = ends[4 * slice.ends[2 * vertex + 1] + 3];
+            const double w = below + slice.weights[vertex] * (above - below);
+            EXPECT_NEAR(w, 0.25, 1e-15) << length;
+        }
+    }
+}
+
 // x stretched by s: E = (s^2 - 1) / 2 in xx, and nothing else.
 TEST(PluginSlices, HaveTheStrainOfAStretch) {
     const pent_mesh arrays = closed_c_mesh(test::box<4>());

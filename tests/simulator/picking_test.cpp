@@ -72,6 +72,30 @@ TYPED_TEST(Picking, FindsWhatARayComesToFirst) {
     EXPECT_GT(hits, 100);
 }
 
+TYPED_TEST(Picking, IsTheSameForDirectionsAndNormalsOfAnyLength) {
+    constexpr int kDim = TypeParam::value;
+    const Simulation<kDim> simulation = two_cubes<kDim>();
+    Ray<kDim> ray;
+    ray.origin = Vector<kDim>::Constant(0.2);
+    ray.origin[0] = -1;
+    ray.direction = Vector<kDim>::Unit(0) + 0.01 * Vector<kDim>::Ones();
+    const Vector<kDim> normal = Vector<kDim>::Unit(kDim - 1);
+    const auto wanted = pick(simulation, ray);
+    const auto in_slice = pick(simulation, Hyperplane<kDim>{.normal = normal, .offset = 0.2}, ray);
+    ASSERT_TRUE(wanted && in_slice);
+    for (const double length : {1e-200, 1e-170, 1e200}) {
+        Ray<kDim> scaled = ray;
+        scaled.direction *= length;
+        const auto found = pick(simulation, scaled);
+        ASSERT_TRUE(found);
+        EXPECT_NEAR(found->distance, wanted->distance, kRounding);
+        const Hyperplane<kDim> slice{.normal = length * normal, .offset = 0.2 * length};
+        const auto again = pick(simulation, slice, scaled);
+        ASSERT_TRUE(again);
+        EXPECT_NEAR(again->distance, in_slice->distance, kRounding);
+    }
+}
+
 // A pointer at a slice: rays of the hyperplane of w = 0.1, from its shadow too.
 TEST(PickingInASlice, IsPickingByTheShadowOfTheRay) {
     const Simulation<4> simulation = two_cubes<4>();

@@ -87,18 +87,26 @@ bool enters(const Corners<Dim>& corners, const Ray<Dim>& ray, double& t, Weights
     return !span.is_empty();
 }
 
+// Of unit length, whatever length it had but 0.
 template <int Dim>
-void check_ray(const Ray<Dim>& ray) {
+Vector<Dim> unit(const Vector<Dim>& vector) {
+    return (vector / vector.cwiseAbs().maxCoeff()).normalized();
+}
+
+// With a direction of unit length. Throws an Error if there is none.
+template <int Dim>
+Ray<Dim> checked(const Ray<Dim>& ray) {
     if (!ray.origin.allFinite() || !ray.direction.allFinite() || ray.direction.isZero(0)) {
         throw Error("a ray needs a finite origin and a finite direction that is not 0");
     }
+    return {.origin = ray.origin, .direction = unit<Dim>(ray.direction)};
 }
 
 }  // namespace
 
 template <int Dim>
-std::optional<Pick<Dim>> pick(const Simulation<Dim>& simulation, const Ray<Dim>& ray) {
-    check_ray(ray);
+std::optional<Pick<Dim>> pick(const Simulation<Dim>& simulation, const Ray<Dim>& any_ray) {
+    const Ray<Dim> ray = checked(any_ray);
     Pick<Dim> first;
     double nearest = std::numeric_limits<double>::infinity();
     for (int body = 0; body < simulation.body_count(); ++body) {
@@ -117,25 +125,25 @@ std::optional<Pick<Dim>> pick(const Simulation<Dim>& simulation, const Ray<Dim>&
     if (std::isinf(nearest)) {
         return std::nullopt;
     }
-    first.distance = nearest * ray.direction.norm();
+    first.distance = nearest;
     return first;
 }
 
 template <int Dim>
 std::optional<Pick<Dim>> pick(const Simulation<Dim>& simulation,
                               const Hyperplane<Dim>& slice,
-                              const Ray<Dim>& ray) {
-    check_ray(ray);
+                              const Ray<Dim>& any_ray) {
+    const Ray<Dim> ray = checked(any_ray);
     if (!slice.normal.allFinite() || slice.normal.isZero(0) || !std::isfinite(slice.offset)) {
         throw Error("a hyperplane needs a finite offset and a finite normal that is not 0");
     }
-    const double size = slice.normal.norm();
-    const Vector<Dim> normal = slice.normal / size;
+    const Vector<Dim> normal = unit<Dim>(slice.normal);
+    const double size = normal.dot(slice.normal);
     Ray<Dim> in_slice = ray;
     in_slice.origin -= (normal.dot(ray.origin) - slice.offset / size) * normal;
     in_slice.direction -= normal.dot(ray.direction) * normal;
     constexpr double kParallel = 1e-9;  // what rounding may leave of a direction along the normal
-    if (in_slice.direction.norm() <= kParallel * ray.direction.norm()) {
+    if (in_slice.direction.norm() <= kParallel) {
         throw Error(
             "the ray is along the normal of the slice and meets it in one point; expected"
             " one that lies in it");
