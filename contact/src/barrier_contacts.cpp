@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <functional>
 #include <tuple>
@@ -156,17 +155,32 @@ struct Side {
     unsigned face = 0;  // Bit i: corner i spans the nearest face
 };
 
+// Corners of faces by increasing vertex, since simplices have theirs in any order.
 template <int Dim>
 void add_corners(const Side& side, bool is_whole, double sign, Contact<Dim>& contact) {
+    const int begin = contact.corner_count;
     for (int i = 0; i < side.count; ++i) {
         const bool is_active = (side.face >> i & 1U) != 0;
-        if (is_whole || is_active) {
-            contact.active |=
-                static_cast<std::uint8_t>((is_active ? 1U : 0U) << contact.corner_count);
-            contact.weights[contact.corner_count] = sign * side.weights[i];
-            contact.vertices[contact.corner_count++] = side.vertices[i];
+        if (!is_whole && !is_active) {
+            continue;
         }
+        int at = contact.corner_count++;
+        contact.active |= static_cast<std::uint8_t>((is_active ? 1U : 0U) << at);
+        for (; !is_whole && at > begin && contact.vertices[at - 1] > side.vertices[i]; --at) {
+            contact.vertices[at] = contact.vertices[at - 1];
+            contact.weights[at] = contact.weights[at - 1];
+        }
+        contact.vertices[at] = side.vertices[i];
+        contact.weights[at] = sign * side.weights[i];
     }
+}
+
+std::uint32_t lowest_vertex(const Side& side) {
+    std::uint32_t lowest = kNoVertex;
+    for (int i = 0; i < side.count; ++i) {
+        lowest = (side.face >> i & 1U) != 0 ? std::min(lowest, side.vertices[i]) : lowest;
+    }
+    return lowest;
 }
 
 // The contact of nearest faces, or of whole simplices where they are nearly parallel. Of a core
@@ -180,8 +194,7 @@ Contact<Dim> make_contact(const Colliders<Dim>& colliders,
                           double threshold) {
     const bool is_whole = threshold > 0;
     const bool is_swapped =
-        is_whole ? colliders.is_core(a.collider)
-                 : b.vertices[std::countr_zero(b.face)] < a.vertices[std::countr_zero(a.face)];
+        is_whole ? colliders.is_core(a.collider) : lowest_vertex(b) < lowest_vertex(a);
     const Side& first = is_swapped ? b : a;
     const Side& second = is_swapped ? a : b;
     Contact<Dim> contact;

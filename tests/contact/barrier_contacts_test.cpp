@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -237,6 +239,49 @@ TYPED_TEST(BarrierContactsTest, WithObstaclesHaveTheseSecondAndTheirVerticesLast
     EXPECT_GT(*std::min_element(counts.begin(), counts.end()), 0);
     EXPECT_EQ(contacts.report.obstacle, counts[0] + counts[1] + counts[2]);
     EXPECT_GT(contacts.report.point_facet, 0);
+}
+
+// Simplices may have their corners in any order that leaves facets outward: the same nearest faces
+// are one contact.
+TYPED_TEST(BarrierContactsTest, AreTheSameWhateverTheOrderOfCorners) {
+    constexpr int kDim = TypeParam::value;
+    std::mt19937 random(3);
+    const auto shuffle = [&](auto& simplices) {
+        for (auto simplex : simplices.colwise()) {
+            std::shuffle(simplex.begin(), simplex.end(), random);
+        }
+    };
+    ContactFinder<kDim> finder(this->cubes_.model());
+    test::TwoCubes<kDim> shuffled = this->cubes_;
+    for (Surface<kDim>& surface : shuffled.scene.surfaces) {
+        for (auto facet : surface.facets.colwise()) {
+            std::rotate(facet.begin(), facet.begin() + random() % 3, facet.begin() + 3);
+        }
+        shuffle(surface.edges);
+        shuffle(surface.ridges);
+    }
+    ContactFinder<kDim> other(shuffled.model());
+    for (const double push : {0.0, 0.03, 0.05}) {
+        const auto x = this->cubes_.pushed(push);
+        const Contacts<kDim> contacts = finder.find(x, test::kBarrierStiffness);
+        const Contacts<kDim> again = other.find(x, test::kBarrierStiffness);
+        EXPECT_GT(contacts.list.size(), 20U);
+        ASSERT_EQ(contacts.list.size(), again.list.size());
+        std::set<std::vector<std::uint32_t>> faces;
+        for (std::size_t i = 0; i < contacts.list.size(); ++i) {
+            const Contact<kDim>& one = contacts.list[i];
+            std::vector<std::uint32_t> vertices(one.vertices.begin(),
+                                                one.vertices.begin() + one.corner_count);
+            if (!one.mollifier.is_on()) {
+                EXPECT_EQ(one.vertices, again.list[i].vertices);
+                EXPECT_EQ(one.multiplicity, again.list[i].multiplicity);
+                EXPECT_NEAR(one.distance, again.list[i].distance, 1e-12);
+                std::sort(vertices.begin(), vertices.end());
+                EXPECT_TRUE(faces.insert(vertices).second);
+            }
+        }
+        EXPECT_NEAR(contacts.body_energy, again.body_energy, 1e-12 * contacts.body_energy);
+    }
 }
 
 TYPED_TEST(BarrierContactsTest, LeaveFixedVerticesAlone) {

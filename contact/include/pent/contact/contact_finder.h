@@ -25,8 +25,7 @@ struct StepLimit {
 /// - A vertex and another body make one contact, with the nearest facet: at the signed distance of
 ///   the vertex to that body's surface, at any depth. Inside is where the surface goes round.
 /// - An edge and a ridge make a contact where their closest points are inside both. A crossed pair
-/// is
-///   known by the outward normals: the force goes on while the crossing is shallower than
+///   is known by the outward normals: the force goes on while the crossing is shallower than
 ///   `distance`. Pairs that see each other's back make no contact.
 /// - Within a body both kinds are as the second. Pairs that share a vertex, that are nearer than
 ///   `distance` at rest, or look crossed but are nearer than three times that at rest (the two
