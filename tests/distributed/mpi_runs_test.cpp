@@ -284,6 +284,40 @@ TEST_F(MpiRuns, OfQuadraticElementsGoWherePentSimGoes) {
     }
 }
 
+// All is held, by grips that part: strained elements, of which each rank has some and shares some.
+TEST_F(MpiRuns, OfHeldElementsHaveTheForcesOfPentSim) {
+    const std::string half = R"(
+[[constraint]]
+body = "bar"
+select = { half_space = { normal = [)";
+    for (const std::string kind : {"linear", "smoothed"}) {
+        std::string scene = kBar;
+        scene.erase(scene.find("[[constraint]]"));
+        write(kind,
+              scene + half + "1, 0, 0, 0], offset = 0.8 } }\n" + half
+                  + "-1, 0, 0, 0], offset = -0.9 } }\nmotion = { translate = [0.5, 0, 0, 1] }\n"
+                  + "[solver]\nelements = \"" + kind + "\"\n");
+        ASSERT_EQ(simulate(0, kind, kind + "0").exit_code, 0);
+        const runs::RunReport alone = report(kind + "0");
+        const double force = alone.steps.back().constraints[1].force[0];
+        EXPECT_GT(force, 0);
+        for (const int ranks : {1, 2, 3, 4}) {
+            const std::string run = kind + std::to_string(ranks);
+            const Outcome outcome = simulate(ranks, kind, run);
+            ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+            const runs::RunReport own = report(run);
+            ASSERT_EQ(own.steps.size(), alone.steps.size());
+            for (std::size_t i = 0; i < own.steps.size(); ++i) {
+                const double energy = alone.steps[i].energies.of("elastic");
+                EXPECT_GT(energy, 0);
+                EXPECT_NEAR(own.steps[i].energies.of("elastic"), energy, 1e-12 * energy);
+                EXPECT_NEAR(own.steps[i].constraints[1].force[0],
+                            alone.steps[i].constraints[1].force[0], 1e-12 * force);
+            }
+        }
+    }
+}
+
 // By checksums, of which each rank finds a part.
 TEST_F(MpiRuns, GoOnWithTheSameMeshesAlone) {
     const std::string mesh = "run/meshes/bar.pent";

@@ -101,10 +101,9 @@ std::size_t reached(const BlockPattern& pattern, std::span<const std::uint32_t> 
         for (auto other = left.begin(); other != left.end();) {
             const std::uint32_t a = std::min(queue[next], *other);
             const std::uint32_t b = std::max(queue[next], *other);
-            const std::int64_t k = pattern.find(a, b);
-            const bool is_linked =
-                k < pattern.row_start[a + 1] && pattern.columns[static_cast<std::size_t>(k)] == b;
-            if (is_linked) {
+            const auto columns = pattern.columns.begin();
+            if (std::binary_search(columns + pattern.row_start[a],
+                                   columns + pattern.row_start[a + 1], b)) {
                 queue.push_back(*other);
                 other = left.erase(other);
             } else {

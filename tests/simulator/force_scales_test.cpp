@@ -127,6 +127,49 @@ TYPED_TEST(ForceScalesTest, SmallBodiesMoveAsTheyDoWithoutALargeOne) {
     }
 }
 
+// A body of two pieces, one of them small, moves as two bodies do.
+TYPED_TEST(ForceScalesTest, SmallPiecesOfABodyMoveAsBodiesDo) {
+    constexpr int kDim = TypeParam::value;
+    constexpr double kSmall = 0.02;
+    Scene scene = two_materials<kDim>(1, 1);
+    scene.gravity[1] = -9.8;
+    for (Body& body : scene.bodies) {
+        body.place.translate.setZero();
+        Constraint hold =
+            test::hold(HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(kDim, 0), .offset = 1e-6},
+                       test::still(kDim));
+        hold.body = body.name;
+        scene.constraints.push_back(hold);
+    }
+    const SimplexMesh<kDim> large = cube_for<kDim>(scene, 2);
+    SimplexMesh<kDim> small = large;
+    small.positions *= kSmall;
+    small.positions.row(0) *= 10;  // a bar
+    small.positions.row(1).array() += 2;
+    SimplexMesh<kDim> both = large;
+    both.positions.conservativeResize(kDim, 2 * large.vertex_count());
+    both.positions.rightCols(large.vertex_count()) = small.positions;
+    both.cells.conservativeResize(kDim + 1, 2 * large.cell_count());
+    both.cells.rightCols(large.cell_count()) =
+        large.cells.array() + static_cast<std::uint32_t>(large.vertex_count());
+    for (const Integrator integrator :
+         {Integrator::LinearEuler, Integrator::NewtonEuler, Integrator::Bdf2}) {
+        scene.solver.integrator = integrator;
+        Scene of_one = scene;
+        of_one.bodies.resize(1);
+        of_one.constraints.resize(1);
+        Simulation<kDim> one(of_one, {both});
+        Simulation<kDim> two(scene, {large, small});
+        for (int k = 0; k < 6; ++k) {
+            EXPECT_TRUE(one.step().is_accepted);
+            EXPECT_TRUE(two.step().is_accepted);
+        }
+        const Positions<kDim> moved = two.positions(1) - small.positions;
+        EXPECT_LT((one.positions(0).rightCols(large.vertex_count()) - two.positions(1)).norm(),
+                  1e-3 * moved.norm());
+    }
+}
+
 // Densities count beside stiffness, the larger as it is, and in steps with inertia alone.
 TYPED_TEST(ForceScalesTest, LetBodiesThatMoveAlikeCountAlike) {
     constexpr int kDim = TypeParam::value;

@@ -306,6 +306,17 @@ TEST(SetState, RefusesWhatIsNotFinite) {
     EXPECT_THROW(simulation.set_state(0, positions, velocities), Error);
 }
 
+TEST(SetState, RefusesBodiesThatAreNotThere) {
+    Simulation<4> simulation(box_scene<4>(), {bar(2)});
+    const Positions<4> positions = simulation.positions(0);
+    const Positions<4> velocities = simulation.velocities(0);
+    for (const int body : {-1, 1, 1000000}) {
+        pent::test::expect_contains(
+            pent::test::error_of([&] { simulation.set_state(body, positions, velocities); }),
+            {"body " + std::to_string(body) + " of 1; count from 0"});
+    }
+}
+
 TEST(Simulation, GoesOnWhereItIsMovedTo) {
     const Scene scene = swinging_bar();
     Simulation<4> stays(scene, {bar()});

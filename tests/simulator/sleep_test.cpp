@@ -2,9 +2,12 @@
 #include "potential_laws.h"
 #include "support/messages.h"
 
+#include <pent/contact/contact.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 // Bodies that sleep are not solved for, and nothing else changes.
 
@@ -146,6 +149,100 @@ TEST(SleepingBody, KeepsElasticForcesAndEnergiesAsIfItWereAwake) {
     EXPECT_NEAR(simulation.energies().of("elastic") / awake.energies().of("elastic"), 1, 1e-12);
     const double scale = awake.forces(0).cwiseAbs().maxCoeff();
     EXPECT_LT((simulation.forces(0) - awake.forces(0)).cwiseAbs().maxCoeff(), 1e-12 * scale);
+}
+
+// What is reported of a body that sleeps on a held one.
+template <int Dim>
+struct Rest {
+    Positions<Dim> push;   // of contact on the sleeper, N
+    Positions<Dim> carry;  // of contact on what carries it, N
+    double reaction;       // what holds that up, N
+    double energy;         // of its contacts, J
+    double stiffness;      // of the barrier, N/m
+};
+
+template <int Dim>
+Rest<Dim> rest_of(const Simulation<Dim>& simulation, const StepReport& report) {
+    double all = 0;
+    double own = 0;
+    for (const contact::Contact<Dim>& contact : simulation.contacts()) {
+        all += contact.energy;
+        own += contact.first.index == 1 || contact.second.index == 1 ? contact.energy : 0;
+    }
+    EXPECT_NEAR(report.energies.of("contact"), all, 1e-12 * all);
+    return {simulation.contact_forces(1), simulation.contact_forces(0),
+            report.constraints[0].force[1], own, report.contact.stiffness};
+}
+
+// b lies between a block and a press that comes down, so that the one stiffness that all contacts
+// have rises, while a sleeps on a plate somewhere else.
+template <int Dim>
+void expect_rest_beside_a_press() {
+    Scene scene = test::box_scene<Dim>();
+    scene.gravity[1] = -9.8;
+    scene.frames_per_second = 100;
+    scene.solver.integrator = Integrator::NewtonEuler;
+    scene.contact = ContactSettings{
+        .model = ContactModel::Barrier, .distance = 0.02, .stiffness = Dim == 3 ? 100.0 : 10.0};
+    scene.damping = Damping{.mass = 20, .stiffness = 0};
+    scene.sleep = Sleep{.speed = 0.01, .time = 0.1};
+    const Body one = scene.bodies[0];
+    scene.bodies.clear();
+    const auto add = [&](const char* name, double x, double y) {
+        Body body = one;
+        body.name = name;
+        body.place.translate.setConstant(x);
+        body.place.translate[1] = y;
+        scene.bodies.push_back(body);
+    };
+    add("plate", 0, 0);
+    add("a", 0.04, 0.265);
+    add("block", 3, 0);
+    add("b", 3.04, 0.265);
+    add("press", 3.08, 0.56);
+    Motion down = test::still(Dim);
+    down.translate[1] = -0.5;
+    down.from = 0.6;
+    down.to = 0.9;
+    for (const char* name : {"plate", "block", "press"}) {
+        scene.constraints.push_back(
+            {.body = name,
+             .select = {EverythingSelection{}},
+             .motion = {std::string(name) == "press" ? down : test::still(Dim)}});
+    }
+    Simulation<Dim> simulation(scene, std::vector<SimplexMesh<Dim>>(5, cube<Dim>(1)));
+    const auto rest_at = [&](double time) {
+        StepReport report;
+        while (simulation.time() < time - 1e-9) {
+            report = simulation.step();
+            EXPECT_TRUE(report.is_accepted) << report.failure;
+        }
+        EXPECT_TRUE(simulation.sleep()[1].is_asleep) << time;
+        return rest_of(simulation, report);
+    };
+    const Rest<Dim> before = rest_at(0.6);
+    const Rest<Dim> after = rest_at(0.9);
+    EXPECT_GT(after.stiffness, 2 * before.stiffness);
+    // The same to rounding: a barrier's energy is proportional to its stiffness.
+    const double weight = 9.8 * simulation.masses(1).sum();
+    EXPECT_LT((after.push - before.push).norm(), 1e-12 * weight);
+    EXPECT_LT((after.carry - before.carry).norm(), 1e-12 * weight);
+    EXPECT_NEAR(after.energy, before.energy, 1e-12 * before.energy);
+    EXPECT_NEAR(after.reaction, before.reaction, 1e-12 * weight);
+    // Each pushes the other, and the plate carries both, but for the speed that is rest.
+    EXPECT_LT((after.push + after.carry).rowwise().sum().norm(), 1e-12 * weight);
+    EXPECT_NEAR(after.push.row(1).sum(), weight, 2e-2 * weight);
+    EXPECT_NEAR(after.reaction, 2 * weight, 2e-2 * weight);
+    // Put back into a simulation that has another stiffness, all is as it was.
+    Simulation<Dim> other(scene, std::vector<SimplexMesh<Dim>>(5, cube<Dim>(1)));
+    other.restore(simulation.save());
+    EXPECT_EQ(other.contact_forces(0), simulation.contact_forces(0));
+    EXPECT_EQ(other.energies().total(), simulation.energies().total());
+}
+
+TEST(SleepingBody, KeepsItsForcesWhereABarrierStiffensElsewhere) {
+    expect_rest_beside_a_press<3>();
+    expect_rest_beside_a_press<4>();
 }
 
 struct Hit {
@@ -343,6 +440,32 @@ TEST(Restore, RefusesSleepThatDoesNotFitTheScene) {
     EXPECT_ANY_THROW(without.restore(snapshot));
     snapshot.sleep.clear();
     EXPECT_ANY_THROW(simulation.restore(snapshot));
+}
+
+// Stiffness of a barrier alone: without one there is none to put back.
+TEST(Restore, RefusesStiffnessThatNoBarrierHas) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    for (const ContactModel model : {ContactModel::Penalty, ContactModel::Barrier}) {
+        Scene scene = two_cubes<3>(0.1);
+        scene.solver.integrator = Integrator::NewtonEuler;
+        scene.sleep = Sleep{};
+        scene.contact->model = model;
+        Simulation<3> simulation(scene, {cube<3>(1), cube<3>(1)});
+        const Snapshot<3> good = simulation.save();
+        EXPECT_EQ(good.contact_stiffness > 0, model == ContactModel::Barrier);
+        EXPECT_NO_THROW(simulation.restore(good));
+        std::vector<Snapshot<3>> bad(4, good);
+        bad[0].contact_stiffness = kNone;
+        bad[1].contact_stiffness = -5;
+        bad[2].sleep[1].contact_stiffness = kNone;
+        bad[3].contact_stiffness = model == ContactModel::Barrier ? 0 : -1;
+        for (const Snapshot<3>& snapshot : bad) {
+            pent::test::expect_contains(
+                pent::test::error_of([&] { simulation.restore(snapshot); }),
+                {"a contact stiffness of ", " N/m was given; expected a finite one "});
+        }
+        EXPECT_EQ(simulation.save().contact_stiffness, good.contact_stiffness);
+    }
 }
 
 TEST(Sleep, IsRefusedWhereNothingMoves) {

@@ -3,6 +3,7 @@
 #include <pent/dimensions.h>
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <numeric>
 
@@ -11,7 +12,9 @@ namespace pent::simulator {
 std::int64_t BlockPattern::find(std::uint32_t row, std::uint32_t column) const {
     const auto first = columns.begin() + row_start[row];
     const auto last = columns.begin() + row_start[row + 1];
-    return std::lower_bound(first, last, column) - columns.begin();
+    const auto at = std::lower_bound(first, last, column);
+    assert(at != last && *at == column);
+    return at - columns.begin();
 }
 
 void color_rows(BlockPattern& pattern, std::int64_t columns) {
@@ -46,7 +49,7 @@ std::vector<std::uint32_t> ghost_columns(const BlockPattern& pattern,
 namespace {
 
 // @param for_each_pair  Calls its argument with each pair of vertices that share an element, both
-// ways
+//                       ways
 //                       round, as often as it likes.
 template <typename ForEachPair>
 BlockPattern make_pattern_of(const DofMap& dofs, const ForEachPair& for_each_pair) {

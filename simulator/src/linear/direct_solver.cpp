@@ -12,7 +12,7 @@ namespace pent::simulator {
 
 namespace {
 
-// |b - A x|, both parts of the matrix taken in double.
+// residual -= A x, in double, of a matrix of which one triangle is stored.
 template <int Dim, typename Scalar>
 void subtract_product(const BlockMatrix<Dim, Scalar>& A,
                       const BlockVector<Dim>& x,

@@ -46,7 +46,7 @@ public:
 /// Thin layers couple the vertices of a column far more strongly than its neighbors, which is what
 /// makes point-wise Jacobi slow there. Columns of single vertices are plain block Jacobi.
 ///
-/// @param numbering  With column_start; pass single-vertex columns for block Jacobi.
+/// @param column_start  As DofMap::column_start(); single dofs for block Jacobi.
 template <int Dim, typename Scalar>
 [[nodiscard]] std::unique_ptr<Preconditioner<Dim>> column_jacobi(
     const Workers& workers,

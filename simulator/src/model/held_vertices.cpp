@@ -159,6 +159,23 @@ HeldVertices<Dim>::HeldVertices(const Scene& scene, const Bodies<Dim>& bodies)
 
 // Marks what is held in the step.
 template <int Dim>
+Grips HeldVertices<Dim>::grips() const {
+    Grips grips(is_held_.size(), kNoGrip);
+    for (std::size_t set = 0; set < sets_.size(); ++set) {
+        if (is_held(sets_[set])) {
+            const bool is_rigid = !sets_[set].begins_later();
+            for (const std::uint32_t vertex : sets_[set].vertices) {
+                grips[vertex] = is_rigid ? static_cast<std::int32_t>(set) : kOtherGrip;
+            }
+        }
+    }
+    for (const std::uint32_t vertex : of_host_.vertices) {
+        grips[vertex] = kOtherGrip;
+    }
+    return grips;
+}
+
+template <int Dim>
 void HeldVertices<Dim>::mark() {
     is_held_.assign(is_held_.size(), false);
     for (const DirichletSet<Dim>& set : sets_) {

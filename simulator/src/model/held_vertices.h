@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/bodies.h"
+#include "model/grips.h"
 #include "model/motion_chain.h"
 
 #include <pent/simulator/scene.h>
@@ -56,6 +57,9 @@ public:
     /// One a vertex: whether it is held now, and whether it is in every step.
     [[nodiscard]] const std::vector<bool>& now() const { return is_held_; }
     [[nodiscard]] const std::vector<bool>& always() const { return is_always_held_; }
+
+    /// One a vertex, as it is now.
+    [[nodiscard]] Grips grips() const;
 
     /// Whether every vertex of a body is held all the time: it then moves from outside alone.
     [[nodiscard]] bool is_kinematic(std::size_t body) const { return is_kinematic_[body]; }

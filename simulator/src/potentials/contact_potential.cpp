@@ -136,6 +136,7 @@ ContactPotential<Dim>::ContactPotential(const Workers& workers,
     : workers_(&workers),
       sharing_(&bodies.sharing),
       settings_(scene.contact.value_or(ContactSettings{})),
+      stiffness_of_sleepers_(bodies.count()),
       motions_(scene),
       obstacles_(motions_.at(0)) {
     is_barrier_ = scene.contact && settings_.model == ContactModel::Barrier;
@@ -159,13 +160,19 @@ void ContactPotential<Dim>::set_held(const Scene& scene,
 
 template <int Dim>
 bool ContactPotential<Dim>::set_time(const TimeSpan& step) {
-    const bool has_changed = motions_.is_any() && step != step_;
+    const bool has_changed = motions_.is_any() && (are_at_begin_ || step != step_);
     step_ = step;
     if (has_changed) {
-        obstacles_ = motions_.at(step.end);
-        finder_->move_obstacles(obstacles_);
+        are_at_begin_ = false;
+        put_obstacles(step.end);
     }
     return has_changed;
+}
+
+template <int Dim>
+void ContactPotential<Dim>::put_obstacles(double time) {
+    obstacles_ = motions_.at(time);
+    finder_->move_obstacles(obstacles_);
 }
 
 template <int Dim>
@@ -182,7 +189,7 @@ template <int Dim>
 contact::Contacts<Dim> ContactPotential<Dim>::contacts_at_begin(const Positions<Dim>& x) const {
     return workers_->run([&] {
         finder_->move_obstacles(motions_.at(step_.begin));
-        contact::Contacts<Dim> contacts = finder_->find(x, stiffness_);
+        contact::Contacts<Dim> contacts = find(x);
         finder_->move_obstacles(obstacles_);
         return contacts;
     });
@@ -240,6 +247,51 @@ std::string ContactPotential<Dim>::obstacle_passed(const Positions<Dim>& from,
 }
 
 template <int Dim>
+bool ContactPotential<Dim>::set_sleepers(std::vector<double> stiffness) {
+    if (!is_barrier_) {
+        return false;  // penalties have one stiffness for good
+    }
+    const bool has_changed = stiffness != stiffness_of_sleepers_;
+    stiffness_of_sleepers_ = std::move(stiffness);
+    return has_changed;
+}
+
+// Where nothing is awake: that of a body that sleeps, and of both if both do, who fell asleep
+// together.
+template <int Dim>
+double ContactPotential<Dim>::stiffness_over_current(const contact::Contact<Dim>& contact) const {
+    double factor = 1;
+    for (const contact::Collider& side : {contact.first, contact.second}) {
+        if (!side.is_obstacle() && !finder_->scene().bodies[side.index].is_kinematic) {
+            const double stiffness = stiffness_of_sleepers_[side.index];
+            if (stiffness == 0) {
+                return 1;
+            }
+            factor = stiffness / stiffness_;
+        }
+    }
+    return factor;
+}
+
+template <int Dim>
+contact::Contacts<Dim> ContactPotential<Dim>::find(const Positions<Dim>& x) const {
+    contact::Contacts<Dim> contacts = finder_->find(x, stiffness_);
+    for (contact::MollifierGradient<Dim>& part : contacts.mollified) {
+        part.vector *= stiffness_over_current(contacts.list[part.contact]);
+    }
+    for (contact::Contact<Dim>& contact : contacts.list) {
+        const double factor = stiffness_over_current(contact);
+        if (factor != 1) {  // that of what is about to touch may be infinite
+            (contact.second.is_obstacle() ? contacts.obstacle_energy : contacts.body_energy) +=
+                (factor - 1) * contact.energy;
+            contact.energy *= factor;
+            contact.slope *= factor;
+        }
+    }
+    return contacts;
+}
+
+template <int Dim>
 double ContactPotential<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
     if (is_empty()) {
         return 0;
@@ -247,8 +299,11 @@ double ContactPotential<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& 
     const Stopwatch watch;
     gradient_.setZero(Dim, x.cols());
     workers_->run([&] {
-        contacts_ = finder_->find(x, stiffness_);
+        contacts_ = find(x);
         contact::add_gradient<Dim>(contacts_, gradient_);
+        if (are_at_begin_) {
+            add_obstacle_displacements(x);
+        }
     });
     gradient += gradient_;
     const contact::ContactReport& report = contacts_.report;
@@ -259,6 +314,23 @@ double ContactPotential<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& 
     work_.trees_refit += report.trees_refit;
     work_.seconds += watch.seconds();
     return contacts_.body_energy + contacts_.obstacle_energy;
+}
+
+// What contacts push at the end of the step with vertices where they are, to first order. That is
+// what the displacement of held vertices does in the matrix, where obstacles have no columns.
+template <int Dim>
+void ContactPotential<Dim>::add_obstacle_displacements(const Positions<Dim>& x) {
+    contact::Contacts<Dim> at_obstacles;
+    at_obstacles.list.assign(
+        contacts_.list.begin() + static_cast<std::ptrdiff_t>(contacts_.pair_count),
+        contacts_.list.end());
+    const contact::StencilHessians<Dim> hessians =
+        finder_->hessians(at_obstacles, x, stiffness_, settings_.filter);
+    for (std::size_t k = 0; k < at_obstacles.list.size(); ++k) {
+        const contact::Contact<Dim>& contact = at_obstacles.list[k];
+        gradient_.col(contact.vertices[0]) -=
+            hessians.weighted[k].block * obstacle_displacement(contact, x);
+    }
 }
 
 template <int Dim>
@@ -352,9 +424,15 @@ void ContactPotential<Dim>::add_couplings(Couplings& couplings) const {
 }
 
 template <int Dim>
-bool ContactPotential<Dim>::begin_step(const StepStart<Dim>& /*start*/) {
+bool ContactPotential<Dim>::begin_step(const StepStart<Dim>& start) {
     last_gap_ = gap();
-    return false;
+    // A linear solve finds contacts once, of all things where they are at one time: vertices at the
+    // begin of the step would have lost an obstacle that sinks, and be deep in one that rises.
+    are_at_begin_ = start.is_linear && has_moving_obstacles();
+    if (are_at_begin_) {
+        put_obstacles(step_.begin);
+    }
+    return are_at_begin_;
 }
 
 template <int Dim>

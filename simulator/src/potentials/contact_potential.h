@@ -103,6 +103,12 @@ public:
     void set_stiffness(double stiffness) { stiffness_ = is_barrier_ ? stiffness : stiffness_; }
     [[nodiscard]] const ContactSettings& settings() const { return settings_; }
 
+    /// What touches a body that sleeps pushes with the stiffness with which that fell asleep: it
+    /// sleeps, too, or moves from outside. Returns whether the value has changed.
+    ///
+    /// @param stiffness  Of a barrier, one a body, N/m; 0 of those that are awake.
+    [[nodiscard]] bool set_sleepers(std::vector<double> stiffness);
+
     /// After what is held has changed.
     void set_held(const Scene& scene, const Bodies<Dim>& bodies, const HeldVertices<Dim>& held);
 
@@ -120,7 +126,11 @@ private:
     }
     [[nodiscard]] bool is_close() const;  // so that stiffness has to balance other forces
 
+    [[nodiscard]] contact::Contacts<Dim> find(const Positions<Dim>& x) const;
+    [[nodiscard]] double stiffness_over_current(const contact::Contact<Dim>& contact) const;
     [[nodiscard]] contact::Contacts<Dim> own_contacts() const;
+    void put_obstacles(double time);
+    void add_obstacle_displacements(const Positions<Dim>& x);
 
     const Workers* workers_;
     const Sharing* sharing_;
@@ -128,11 +138,13 @@ private:
     bool is_barrier_ = false;
     bool do_bodies_meet_ = false;
     bool has_obstacles_ = false;
-    double stiffness_ = 0;  // of bodies, N/m
-    double last_gap_ = 0;   // m, of the last accepted iterate
+    double stiffness_ = 0;                       // of bodies, N/m
+    std::vector<double> stiffness_of_sleepers_;  // one a body, of a barrier, N/m; 0 of others
+    double last_gap_ = 0;                        // m, of the last accepted iterate
     ObstacleMotions<Dim> motions_;
     TimeSpan step_;
-    std::vector<pent::ObstacleShape<Dim>> obstacles_;      // at its end
+    bool are_at_begin_ = false;  // obstacles, with their displacement in the gradient
+    std::vector<pent::ObstacleShape<Dim>> obstacles_;      // else at its end
     std::unique_ptr<contact::ContactFinder<Dim>> finder_;  // null where nothing can touch
     contact::Contacts<Dim> contacts_;                      // there
     Positions<Dim> gradient_;                              // there

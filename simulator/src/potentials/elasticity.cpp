@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -29,6 +30,7 @@ Elasticity<Dim>::Elasticity(const Workers& workers,
       kind_(scene.solver.elements),
       strain_(workers, scene, bodies) {
     take(lay_out(number_dofs(bodies, held, std::vector<bool>(bodies.count(), true))));
+    lay_out_held(held);
 }
 
 template <int Dim>
@@ -43,15 +45,39 @@ void Elasticity<Dim>::take(ElementLayout<Dim> layout) {
 }
 
 template <int Dim>
-ElementLayout<Dim> Elasticity<Dim>::lay_out(const DofMap& dofs) const {
+ElementLayout<Dim> Elasticity<Dim>::lay_out(const DofMap& dofs, const Grips* grips) const {
     const ActiveStrain<Dim>* strain = strain_.is_empty() ? nullptr : &strain_;
     ElementLayout<Dim> layout =
         kind_ == ElementKind::Quadratic
-            ? lay_out_elements<Dim>(bodies_->rest(), bodies_->quadratic, dofs, strain)
+            ? lay_out_elements<Dim>(bodies_->rest(), bodies_->quadratic, dofs, strain, grips)
             : lay_out_elements<Dim>(bodies_->rest(), bodies_->cells(), bodies_->ranges, dofs, kind_,
-                                    strain);
+                                    strain, grips);
     layout.elements.activate(*workers_, strain_);
     return layout;
+}
+
+// Rigid grips strain nothing, but activations do.
+template <int Dim>
+void Elasticity<Dim>::lay_out_held(const HeldVertices<Dim>& held) {
+    Grips grips = held.grips();
+    if (!strain_.is_empty()) {
+        std::replace_if(
+            grips.begin(), grips.end(), [](std::int32_t grip) { return grip >= 0; }, kOtherGrip);
+    }
+    if (grips == held_.grips) {
+        return;
+    }
+    held_ = {};
+    held_.grips = std::move(grips);
+    bool is_here = false;  // a cell of such elements
+    for (const auto cell : bodies_->cells().colwise()) {
+        is_here = is_here || is_held_and_strained(std::span(cell.data(), Dim + 1), held_.grips);
+    }
+    if (bodies_->sharing.any(is_here)) {
+        const std::vector<bool> none(bodies_->count(), false);
+        held_.elements = lay_out(number_dofs(*bodies_, held, none), &held_.grips).elements;
+        held_.bytes = bodies_->sharing.sum(held_.elements->bytes());
+    }
 }
 
 template <int Dim>
@@ -67,19 +93,15 @@ void Elasticity<Dim>::set_dofs(const DofMap& dofs,
         frozen_ = elements_->add_gradient(*workers_, *kernels_, positions, frozen_gradient_);
     }
     take(lay_out(dofs));
+    lay_out_held(held);
 }
 
 // Elements that other ranks have as well count once; gradients are those of the ranks that own the
 // vertices.
 template <int Dim>
-ElasticEnergy Elasticity<Dim>::add_shared_gradient(const Positions<Dim>& x,
-                                                   Positions<Dim>& gradient) const {
-    Positions<Dim> own = Positions<Dim>::Zero(Dim, x.cols());
-    ElasticEnergy energy = elements_->add_gradient(*workers_, *kernels_, x, own);
-    energy.add(frozen_);
-    if (frozen_gradient_.cols() > 0) {
-        own += frozen_gradient_;
-    }
+ElasticEnergy Elasticity<Dim>::add_shared(ElasticEnergy energy,
+                                          Positions<Dim>& own,
+                                          Positions<Dim>& gradient) const {
     bodies_->sharing.gather(own);
     gradient += own;
     std::vector<double> sums = energy.of_ranges;
@@ -99,7 +121,13 @@ ElasticEnergy Elasticity<Dim>::add_shared_gradient(const Positions<Dim>& x,
 template <int Dim>
 double Elasticity<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) {
     if (bodies_->sharing.is_shared()) {
-        energy_ = add_shared_gradient(x, gradient);
+        Positions<Dim> own = Positions<Dim>::Zero(Dim, x.cols());
+        ElasticEnergy energy = elements_->add_gradient(*workers_, *kernels_, x, own);
+        energy.add(frozen_);
+        if (frozen_gradient_.cols() > 0) {
+            own += frozen_gradient_;
+        }
+        energy_ = add_shared(std::move(energy), own, gradient);
         return energy_.energy;
     }
     energy_ = elements_->add_gradient(*workers_, *kernels_, x, gradient);
@@ -108,6 +136,29 @@ double Elasticity<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gradie
         gradient += frozen_gradient_;
     }
     return energy_.energy;
+}
+
+template <int Dim>
+void Elasticity<Dim>::evaluate_held(const Positions<Dim>& x) {
+    if (!held_.elements) {
+        return;
+    }
+    held_.gradient.setZero(Dim, x.cols());
+    held_.energy = held_.elements->add_gradient(*workers_, *kernels_, x, held_.gradient);
+    if (bodies_->sharing.is_shared()) {
+        Positions<Dim> own = std::move(held_.gradient);
+        held_.gradient.setZero(Dim, x.cols());
+        held_.energy = add_shared(std::move(held_.energy), own, held_.gradient);
+    }
+}
+
+template <int Dim>
+std::vector<double> Elasticity<Dim>::energy_of_ranges() const {
+    std::vector<double> all = energy_.of_ranges;
+    for (std::size_t range = 0; range < held_.energy.of_ranges.size(); ++range) {
+        all[range] += held_.energy.of_ranges[range];
+    }
+    return all;
 }
 
 template <int Dim>
@@ -138,12 +189,20 @@ void Elasticity<Dim>::add_tangent(const Positions<Dim>& x,
 }
 
 template <int Dim>
+void Elasticity<Dim>::activate() {
+    elements_->activate(*workers_, strain_);
+    if (held_.elements) {
+        held_.elements->activate(*workers_, strain_);
+    }
+}
+
+template <int Dim>
 bool Elasticity<Dim>::set_time(const TimeSpan& step) {
     step_ = step;
     if (strain_.is_empty() || !strain_.set_time(*workers_, step.end)) {
         return false;
     }
-    elements_->activate(*workers_, strain_);
+    activate();
     return true;
 }
 
@@ -156,10 +215,14 @@ void Elasticity<Dim>::add_couplings(Couplings& couplings) const {
 template <int Dim>
 double Elasticity<Dim>::energy_at(const Positions<Dim>& x, double time) {
     if (strain_.set_time(*workers_, time)) {
-        elements_->activate(*workers_, strain_);
+        activate();
     }
     Positions<Dim> gradient = Positions<Dim>::Zero(Dim, x.cols());
-    return bodies_->sharing.sum(elements_->add_gradient(*workers_, *kernels_, x, gradient).energy);
+    double energy = elements_->add_gradient(*workers_, *kernels_, x, gradient).energy;
+    if (held_.elements) {
+        energy += held_.elements->add_gradient(*workers_, *kernels_, x, gradient).energy;
+    }
+    return bodies_->sharing.sum(energy);
 }
 
 template <int Dim>
@@ -183,7 +246,7 @@ double Elasticity<Dim>::rounding() const {
 template <int Dim>
 std::int64_t Elasticity<Dim>::inverted_cells(const Positions<Dim>& x) const {
     if (kind_ == ElementKind::Linear) {
-        return energy_.inverted;
+        return energy_.inverted + held_.energy.inverted;
     }
     const Simplices<Dim + 1>& cells = bodies_->cells();
     const Sharing& sharing = bodies_->sharing;

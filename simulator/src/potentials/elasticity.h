@@ -18,8 +18,10 @@ namespace pent::simulator {
 
 /// The elastic energy of all bodies.
 ///
-/// Elements without a dof at any corner are left out: they do not change while a body is moved from
-/// outside. Those of bodies that sleep keep the energy and the forces with which these fell asleep.
+/// Elements without a free corner have no part in what a step minimizes: the solve does not change
+/// them. They are evaluated between steps, for reports, and only where something may strain them,
+/// see is_held_and_strained(). Those of bodies that sleep keep the energy and the forces with which
+/// these fell asleep.
 template <int Dim>
 class Elasticity final : public Potential<Dim> {
 public:
@@ -51,7 +53,7 @@ public:
                      Filter filter,
                      NewtonSystem<Dim>& system) override;
     [[nodiscard]] std::vector<TermEnergy> energies() const override {
-        return {{"elastic", energy_.energy}};
+        return {{"elastic", energy_.energy + held_.energy.energy}};
     }
     [[nodiscard]] bool set_time(const TimeSpan& step) override;
     void add_couplings(Couplings& couplings) const override;
@@ -64,6 +66,12 @@ public:
                                          const TimeSpan& step);
     [[nodiscard]] const ActiveStrain<Dim>& strain() const { return strain_; }
 
+    /// Evaluates the elements without a free corner.
+    void evaluate_held(const Positions<Dim>& x);
+
+    /// Their gradient, Dim x vertices, N; empty if there are none.
+    [[nodiscard]] const Positions<Dim>& held_gradient() const { return held_.gradient; }
+
     /// Adds the Hessian at positions x to a matrix on pattern(), and takes that of vertices that
     /// have no dof and move by `displacement` (Dim x vertices, m) off `right` (Dim x dofs).
     void add_tangent(const Positions<Dim>& x,
@@ -74,15 +82,19 @@ public:
 
     /// Of the elements now: never rewritten, but replaced by set_dofs().
     [[nodiscard]] const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
+    /// J: of elements that a step may change.
     [[nodiscard]] double energy() const { return energy_.energy; }
-    [[nodiscard]] std::int64_t collapsed() const { return energy_.collapsed; }  ///< Elements.
-    [[nodiscard]] const std::vector<double>& energy_of_ranges() const { return energy_.of_ranges; }
+    /// Of all elements: what is collapsed, and J.
+    [[nodiscard]] std::int64_t collapsed() const {
+        return energy_.collapsed + held_.energy.collapsed;
+    }
+    [[nodiscard]] std::vector<double> energy_of_ranges() const;
     [[nodiscard]] std::int64_t inverted_cells(const Positions<Dim>& x) const;
 
     // Of all ranks together.
     [[nodiscard]] std::int64_t element_count() const { return size_.elements; }
     [[nodiscard]] std::int64_t block_count() const { return size_.blocks; }
-    [[nodiscard]] std::int64_t bytes() const { return size_.bytes; }
+    [[nodiscard]] std::int64_t bytes() const { return size_.bytes + held_.bytes; }
 
     /// Vertices of other ranks that the matrix has columns of.
     [[nodiscard]] std::int64_t ghost_count() const { return ghost_count_; }
@@ -91,10 +103,14 @@ public:
     [[nodiscard]] std::int64_t filtered() const { return filtered_; }
 
 private:
-    [[nodiscard]] ElementLayout<Dim> lay_out(const DofMap& dofs) const;
+    [[nodiscard]] ElementLayout<Dim> lay_out(const DofMap& dofs,
+                                             const Grips* grips = nullptr) const;
     void take(ElementLayout<Dim> layout);
-    [[nodiscard]] ElasticEnergy add_shared_gradient(const Positions<Dim>& x,
-                                                    Positions<Dim>& gradient) const;
+    void lay_out_held(const HeldVertices<Dim>& held);
+    void activate();
+    [[nodiscard]] ElasticEnergy add_shared(ElasticEnergy energy,
+                                           Positions<Dim>& own,
+                                           Positions<Dim>& gradient) const;
     [[nodiscard]] double energy_at(const Positions<Dim>& x, double time);
 
     const Workers* workers_;
@@ -115,6 +131,14 @@ private:
     Positions<Dim> frozen_gradient_;  // Dim x vertices, N; empty if none sleeps
     ElasticEnergy frozen_;
     ElasticEnergy energy_;
+    // Elements without a free corner: those that something may strain, none on most scenes.
+    struct {
+        Grips grips;
+        std::optional<Elements<Dim>> elements;
+        Positions<Dim> gradient;  // as held_gradient()
+        ElasticEnergy energy;
+        std::int64_t bytes = 0;  // of all ranks together
+    } held_;
     double hessian_factor_ = 1;
     std::int64_t filtered_ = 0;
 };

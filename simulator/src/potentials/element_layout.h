@@ -24,13 +24,15 @@ template <int Dim>
                                                   const std::vector<CellRange>& ranges,
                                                   const DofMap& dofs,
                                                   ElementKind kind,
-                                                  const ActiveStrain<Dim>* strain = nullptr);
+                                                  const ActiveStrain<Dim>* strain = nullptr,
+                                                  const Grips* grips = nullptr);
 
 /// Lays out quadratic elements.
 template <int Dim>
 [[nodiscard]] ElementLayout<Dim> lay_out_elements(const Positions<Dim>& rest,
                                                   const QuadraticCells<Dim>& quadratic,
                                                   const DofMap& dofs,
-                                                  const ActiveStrain<Dim>* strain = nullptr);
+                                                  const ActiveStrain<Dim>* strain = nullptr,
+                                                  const Grips* grips = nullptr);
 
 }  // namespace pent::simulator

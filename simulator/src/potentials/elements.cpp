@@ -69,7 +69,8 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
                         const std::vector<CellRange>& ranges,
                         const DofMap& dofs,
                         const BlockPattern& pattern,
-                        const ActiveStrain<Dim>* strain)
+                        const ActiveStrain<Dim>* strain,
+                        const Grips* grips)
     : Elements(ranges.size(), dofs, pattern) {
     const auto make = [&](std::size_t /*range*/, Eigen::Index cell, Element& element) {
         element.corners.assign(cells.col(cell).begin(), cells.col(cell).end());
@@ -88,9 +89,8 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
     std::vector<OwnAndShared> chosen;
     for (const CellRange& range : ranges) {
         chosen.push_back(elastic_elements(
-            range.begin, range.end, dofs, [&](Eigen::Index cell, const auto& visit) {
-                std::for_each(cells.col(cell).begin(), cells.col(cell).end(), visit);
-            }));
+            range.begin, range.end, dofs, grips,
+            [&](Eigen::Index cell) { return std::span(cells.col(cell).data(), Dim + 1); }));
     }
     const auto like_of = [&](std::size_t range, const auto& /*elements*/) {
         return Chunk{.corners = Dim + 1, .material = ranges[range].material};
@@ -103,7 +103,8 @@ template <int Dim>
 Elements<Dim>::Elements(const std::vector<SmoothingDomains<Dim>>& domains,
                         const std::vector<CellRange>& ranges,
                         const DofMap& dofs,
-                        const BlockPattern& pattern)
+                        const BlockPattern& pattern,
+                        const Grips* grips)
     : Elements(ranges.size(), dofs, pattern) {
     const auto corner_count = [&](std::size_t range, Eigen::Index domain) {
         const auto d = static_cast<std::size_t>(domain);
@@ -132,11 +133,11 @@ Elements<Dim>::Elements(const std::vector<SmoothingDomains<Dim>>& domains,
     std::vector<OwnAndShared> chosen;
     for (std::size_t range = 0; range < domains.size(); ++range) {
         const SmoothingDomains<Dim>& of_range = domains[range];
-        chosen.push_back(elastic_elements(
-            0, of_range.count(), dofs, [&](Eigen::Index domain, const auto& visit) {
-                const auto first =
-                    of_range.corners.begin() + of_range.start[static_cast<std::size_t>(domain)];
-                std::for_each(first, first + corner_count(range, domain), visit);
+        chosen.push_back(
+            elastic_elements(0, of_range.count(), dofs, grips, [&](Eigen::Index domain) {
+                const auto first = of_range.start[static_cast<std::size_t>(domain)];
+                return std::span(of_range.corners.data() + first,
+                                 static_cast<std::size_t>(corner_count(range, domain)));
             }));
         sort_near(chosen.back(), kNearElements,
                   [&](Eigen::Index domain) { return corner_count(range, domain); });
@@ -155,7 +156,8 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
                         const QuadraticCells<Dim>& quadratic,
                         const DofMap& dofs,
                         const BlockPattern& pattern,
-                        const ActiveStrain<Dim>* strain)
+                        const ActiveStrain<Dim>* strain,
+                        const Grips* grips)
     : Elements(quadratic.ranges.size(), dofs, pattern) {
     const QuadraticSimplices<Dim>& nodes = quadratic.nodes;
     const auto make = [&](std::size_t /*range*/, Eigen::Index simplex, Element& element) {
@@ -167,9 +169,9 @@ Elements<Dim>::Elements(const Positions<Dim>& rest,
     };
     std::vector<OwnAndShared> chosen;
     for (const CellRange& range : quadratic.ranges) {
-        chosen.push_back(elastic_elements(
-            range.begin, range.end, dofs, [&](Eigen::Index simplex, const auto& visit) {
-                std::for_each(nodes.col(simplex).begin(), nodes.col(simplex).end(), visit);
+        chosen.push_back(
+            elastic_elements(range.begin, range.end, dofs, grips, [&](Eigen::Index simplex) {
+                return std::span(nodes.col(simplex).data(), kQuadraticNodes<Dim>);
             }));
     }
     const auto like_of = [&](std::size_t range, const auto& /*elements*/) {

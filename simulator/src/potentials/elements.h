@@ -46,27 +46,32 @@ public:
     /// @param rest     Rest positions of all vertices, Dim x n.
     /// @param cells    All cells, positively oriented.
     /// @param ranges   They cover all cells.
-    /// @param pattern  Of the matrix that hessian() fills.
+    /// @param pattern  Of the matrix that add_hessian() fills.
     /// @param strain   Of what activate() will be called with; null if it will not be.
+    /// @param grips    If not null: those that are held and strained in place of those with a dof,
+    ///                 see is_held_and_strained().
     Elements(const Positions<Dim>& rest,
              const Simplices<Dim + 1>& cells,
              const std::vector<CellRange>& ranges,
              const DofMap& dofs,
              const BlockPattern& pattern,
-             const ActiveStrain<Dim>* strain = nullptr);
+             const ActiveStrain<Dim>* strain = nullptr,
+             const Grips* grips = nullptr);
 
     /// @param domains  Of each range.
     Elements(const std::vector<SmoothingDomains<Dim>>& domains,
              const std::vector<CellRange>& ranges,
              const DofMap& dofs,
-             const BlockPattern& pattern);
+             const BlockPattern& pattern,
+             const Grips* grips = nullptr);
 
     /// @param quadratic  With mean dilatation.
     Elements(const Positions<Dim>& rest,
              const QuadraticCells<Dim>& quadratic,
              const DofMap& dofs,
              const BlockPattern& pattern,
-             const ActiveStrain<Dim>* strain = nullptr);
+             const ActiveStrain<Dim>* strain = nullptr,
+             const Grips* grips = nullptr);
 
     /// Gives elements the rest shapes that activations make of them now.
     void activate(const Workers& workers, const ActiveStrain<Dim>& strain);

@@ -1,15 +1,15 @@
 #pragma once
 
 #include "linear/dof_map.h"
+#include "model/grips.h"
 
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <functional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace pent::simulator {
@@ -17,39 +17,22 @@ namespace pent::simulator {
 /// Elements of this rank: those that count here, and those that another rank has, too, and counts.
 using OwnAndShared = std::array<std::vector<Eigen::Index>, 2>;
 
-/// Elements with a free corner and one of this rank, by their lowest dof, so that neighbors are
-/// close. An element counts where its first vertex is at home.
+/// Whether something may strain an element that is held at all corners: not what one grip has
+/// together.
+[[nodiscard]] bool is_held_and_strained(std::span<const std::uint32_t> corners, const Grips& grips);
+
+/// The corners of an element.
+using CornersOf = std::function<std::span<const std::uint32_t>(Eigen::Index element)>;
+
+/// Elements with a dof and a corner of this rank, by their lowest dof, so that neighbors are close.
+/// An element counts where its first vertex is at home.
 ///
-/// @param corners_of  Calls its second argument with the corners of an element.
-template <typename CornersOf>
-OwnAndShared elastic_elements(Eigen::Index begin,
-                              Eigen::Index end,
-                              const DofMap& dofs,
-                              const CornersOf& corners_of) {
-    std::array<std::vector<std::pair<std::uint32_t, Eigen::Index>>, 2> keyed;
-    for (Eigen::Index element = begin; element < end; ++element) {
-        std::uint32_t lowest = std::numeric_limits<std::uint32_t>::max();
-        std::uint32_t first = lowest;
-        bool is_near = false;
-        corners_of(element, [&](std::uint32_t corner) {
-            lowest = std::min(lowest, dofs.index_of(corner));
-            first = std::min(first, corner);
-            is_near = is_near || dofs.is_own(corner);
-        });
-        if (is_near && lowest < dofs.count()) {
-            keyed[dofs.is_own(first) ? 0 : 1].emplace_back(lowest, element);
-        }
-    }
-    OwnAndShared chosen;
-    for (std::size_t kind = 0; kind < 2; ++kind) {
-        std::sort(keyed[kind].begin(), keyed[kind].end());
-        chosen[kind].reserve(keyed[kind].size());
-        for (const auto& [lowest, element] : keyed[kind]) {
-            chosen[kind].push_back(element);
-        }
-    }
-    return chosen;
-}
+/// @param grips  If not null, those that are held and strained in place of those with a dof.
+[[nodiscard]] OwnAndShared elastic_elements(Eigen::Index begin,
+                                            Eigen::Index end,
+                                            const DofMap& dofs,
+                                            const Grips* grips,
+                                            const CornersOf& corners_of);
 
 /// Sorts elements of each kind by a key within every so many, which leaves neighbors close.
 template <typename KeyOf>

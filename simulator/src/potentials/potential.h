@@ -43,7 +43,7 @@ struct Couplings {
 
 /// One term of what a step minimizes: a function of the positions of all vertices.
 ///
-/// Terms know nothing of unknowns and of time, and only friction of another: of contact. Arrays
+/// Terms know nothing of how a step is solved, and only friction of another: of contact. Arrays
 /// are Dim x vertices; what a term says of vertices without a dof is left out by those who sum up.
 /// Derivatives are tested against differences, each in a test of its own.
 template <int Dim>

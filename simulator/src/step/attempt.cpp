@@ -273,6 +273,9 @@ typename Simulation<Dim>::Stepper::Attempts Simulation<Dim>::Stepper::attempt(do
         return now.refuse(solved.failure_reason, is_astray ? Outcome::Astray : Outcome::Refused);
     }
     set_velocities(*problem, time + h);
+    if (method == Method::Linear) {
+        energy_.sum.set_time({time, time + h});  // it saw obstacles at the begin
+    }
     energy_.sum.update(next_.positions);
     if (std::string reason = excess(before, method); !reason.empty()) {
         return now.refuse(std::move(reason),

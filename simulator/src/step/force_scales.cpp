@@ -5,71 +5,138 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace pent::simulator {
 
 namespace {
 
-// Vertices of one material count as all alike if their volumes are within this factor, which spares
-// a norm.
+// Pieces of one material count as all alike if volumes of their vertices are, in the mean, within
+// this factor, which spares a norm.
 constexpr double kAlike = 10;
 
-// The volume that belongs to a vertex of each body, in the mean, m^Dim: of its densest material.
-template <int Dim>
-std::vector<double> vertex_volumes(const Bodies<Dim>& bodies) {
-    std::vector<double> densities(bodies.count(), 0);
-    for (const CellRange& range : bodies.ranges) {
-        densities[range.body] = std::max(densities[range.body], range.material.density);
+using AnyCells = Eigen::Ref<const Eigen::Matrix<std::uint32_t, Eigen::Dynamic, Eigen::Dynamic>>;
+
+// The lowest vertex of the piece of a mesh that each vertex is in: what hangs together by cells, of
+// which ranks have some each.
+std::vector<std::uint32_t> find_pieces(const AnyCells& cells,
+                                       Eigen::Index vertices,
+                                       const Sharing& sharing) {
+    std::vector<std::uint32_t> lowest(static_cast<std::size_t>(vertices));
+    std::iota(lowest.begin(), lowest.end(), 0U);
+    const auto root = [&](std::uint32_t vertex) {
+        while (lowest[vertex] != vertex) {
+            vertex = lowest[vertex] = lowest[lowest[vertex]];
+        }
+        return vertex;
+    };
+    const auto join = [&](std::uint32_t a, std::uint32_t b) {
+        a = root(a);
+        b = root(b);
+        lowest[std::max(a, b)] = std::min(a, b);
+        return a != b;
+    };
+    for (Eigen::Index cell = 0; cell < cells.cols(); ++cell) {
+        for (Eigen::Index corner = 1; corner < cells.rows(); ++corner) {
+            join(cells(0, cell), cells(corner, cell));
+        }
     }
-    std::vector<double> volumes;
-    for (std::size_t body = 0; body < bodies.count(); ++body) {
-        const auto [begin, size] = bodies.vertices(body);
-        volumes.push_back(bodies.masses.segment(begin, size).mean() / densities[body]);
+    // Until no rank learns more of what others have joined.
+    for (bool is_new = sharing.is_shared(); is_new;) {
+        Eigen::Matrix<double, 1, Eigen::Dynamic> told(lowest.size());
+        for (std::uint32_t vertex = 0; vertex < lowest.size(); ++vertex) {
+            told[vertex] = root(vertex);
+        }
+        sharing.gather(told);
+        is_new = false;
+        for (std::uint32_t vertex = 0; vertex < lowest.size(); ++vertex) {
+            is_new = join(vertex, static_cast<std::uint32_t>(told[vertex])) || is_new;
+        }
+        is_new = sharing.any(is_new);
     }
-    return volumes;
+    for (std::uint32_t vertex = 0; vertex < lowest.size(); ++vertex) {
+        lowest[vertex] = root(vertex);
+    }
+    return lowest;
 }
 
-// The largest of a number of materials, times a power of the volume of a vertex, over the largest
-// of those that each vertex has; empty if all are alike.
-template <int Dim, typename Number>
-Eigen::VectorXd scales_by(const Bodies<Dim>& bodies, double power, const Number& number) {
-    const std::vector<double> volumes = vertex_volumes(bodies);
-    const auto [least, most] = std::minmax_element(volumes.begin(), volumes.end());
-    const bool is_one_size = *most < kAlike * *least;
-    std::vector<double> of_ranges;
-    bool is_one_material = true;
-    for (const CellRange& range : bodies.ranges) {
-        const double own = number(range.material);
-        is_one_material = is_one_material && own == number(bodies.ranges.front().material);
-        of_ranges.push_back(is_one_size ? own : own * std::pow(volumes[range.body], power));
-    }
-    if (is_one_size && is_one_material) {
-        return {};
-    }
+// The largest number of the materials that a vertex has, one a vertex.
+template <int Dim>
+Eigen::VectorXd largest_at(const Bodies<Dim>& bodies, double (*number)(const Material&)) {
     Eigen::Matrix<double, 1, Eigen::Dynamic> of_vertices =
         Eigen::RowVectorXd::Zero(bodies.vertex_count());
-    for (std::size_t r = 0; r < bodies.ranges.size(); ++r) {
-        const CellRange& range = bodies.ranges[r];
+    for (const CellRange& range : bodies.ranges) {
+        const double own = number(range.material);
         for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
             for (const std::uint32_t vertex : bodies.cells().col(cell)) {
-                of_vertices[vertex] = std::max(of_vertices[vertex], of_ranges[r]);
+                of_vertices[vertex] = std::max(of_vertices[vertex], own);
             }
         }
     }
     bodies.sharing.gather(of_vertices);
-    const double largest = *std::max_element(of_ranges.begin(), of_ranges.end());
-    return largest * of_vertices.cwiseInverse().transpose();
+    return of_vertices.transpose();
+}
+
+// The volume that belongs to a vertex of the piece that each vertex is in, in the mean, m^Dim: of
+// its densest material. Empty if all are about alike.
+template <int Dim>
+Eigen::VectorXd volumes_by_piece(const Bodies<Dim>& bodies) {
+    const std::vector<std::uint32_t> pieces =
+        find_pieces(bodies.cells(), bodies.vertex_count(), bodies.sharing);
+    const Eigen::VectorXd densities =
+        largest_at(bodies, [](const Material& own) { return own.density; });
+    const Eigen::Index count = bodies.vertex_count();
+    Eigen::VectorXd masses = Eigen::VectorXd::Zero(count);  // here and below at lowest vertices
+    Eigen::VectorXd vertices = Eigen::VectorXd::Zero(count);
+    Eigen::VectorXd densest = Eigen::VectorXd::Zero(count);
+    for (Eigen::Index vertex = 0; vertex < count; ++vertex) {
+        const std::uint32_t piece = pieces[static_cast<std::size_t>(vertex)];
+        masses[piece] += bodies.masses[vertex];
+        vertices[piece] += 1;
+        densest[piece] = std::max(densest[piece], densities[vertex]);
+    }
+    Eigen::VectorXd volumes(count);
+    for (Eigen::Index vertex = 0; vertex < count; ++vertex) {
+        const std::uint32_t piece = pieces[static_cast<std::size_t>(vertex)];
+        volumes[vertex] = masses[piece] / vertices[piece] / densest[piece];
+    }
+    return volumes.maxCoeff() < kAlike * volumes.minCoeff() ? Eigen::VectorXd() : volumes;
+}
+
+// The largest of a number of materials, times a power of the volume of a vertex, over the largest
+// of those that each vertex has; empty if all are alike.
+//
+// @param volumes  One a vertex; empty if they are alike.
+template <int Dim>
+Eigen::VectorXd scales_by(const Bodies<Dim>& bodies,
+                          const Eigen::VectorXd& volumes,
+                          double power,
+                          double (*number)(const Material&)) {
+    const double first = number(bodies.ranges.front().material);
+    const bool is_one_material =
+        std::all_of(bodies.ranges.begin(), bodies.ranges.end(),
+                    [&](const CellRange& range) { return number(range.material) == first; });
+    if (volumes.size() == 0 && is_one_material) {
+        return {};
+    }
+    Eigen::VectorXd of_vertices = largest_at(bodies, number);
+    for (Eigen::Index vertex = 0; vertex < volumes.size(); ++vertex) {
+        of_vertices[vertex] *= std::pow(volumes[vertex], power);
+    }
+    return of_vertices.maxCoeff() * of_vertices.cwiseInverse();
 }
 
 }  // namespace
 
 template <int Dim>
-ForceScales<Dim>::ForceScales(const Bodies<Dim>& bodies)
+ForceScales<Dim>::ForceScales(const Bodies<Dim>& bodies) {
+    const Eigen::VectorXd volumes = volumes_by_piece(bodies);
     // Of equal strains, and of equal accelerations.
-    : by_stiffness_(
-        scales_by(bodies, (Dim - 1.0) / Dim, [](const Material& own) { return own.lame.mu; })),
-      by_density_(scales_by(bodies, 1, [](const Material& own) { return own.density; })) {}
+    by_stiffness_ = scales_by(bodies, volumes, (Dim - 1.0) / Dim,
+                              [](const Material& own) { return own.lame.mu; });
+    by_density_ = scales_by(bodies, volumes, 1, [](const Material& own) { return own.density; });
+}
 
 template <int Dim>
 std::vector<const Eigen::VectorXd*> ForceScales<Dim>::scales() const {

@@ -21,8 +21,9 @@ public:
     void set_inertia(bool has_inertia) { has_inertia_ = has_inertia; }
 
     /// The norm of a gradient; that with every part over the stiffness there times the surface of
-    /// what belongs to a vertex of the body, if that is not about the same everywhere; and that
-    /// over the mass of such a vertex, likewise. What is largest counts as it is.
+    /// what belongs to a vertex of the piece, if that is not about the same everywhere; and that
+    /// over the mass of such a vertex, likewise. What is largest counts as it is. A piece is what
+    /// hangs together of a body.
     ///
     /// @param gradient  Dim x vertices.
     [[nodiscard]] GradientNorms norms(const Positions<Dim>& gradient) const;

@@ -4,9 +4,11 @@
 
 #include <pent/dimensions.h>
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/simulator/simulation.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pent::simulator {
@@ -72,8 +74,18 @@ void check_state(const std::string& what,
                  Eigen::Index count) {
     if (positions.cols() != count || velocities.cols() != count || !positions.allFinite()
         || !velocities.allFinite()) {
-        throw Error("the state of " + what + " must be finite positions and velocities of its "
-                    + std::to_string(count) + " vertices");
+        throw Error("the state of " + what + ", of " + std::to_string(positions.cols())
+                    + " positions and " + std::to_string(velocities.cols())
+                    + " velocities, was given; expected finite ones of its " + std::to_string(count)
+                    + " vertices");
+    }
+}
+
+// Of a barrier.
+void check_stiffness(double stiffness, bool may_be_zero) {
+    if (!std::isfinite(stiffness) || stiffness < 0 || (stiffness == 0 && !may_be_zero)) {
+        throw Error(formatted("a contact stiffness of %g N/m was given; expected a finite one %s 0",
+                              stiffness, may_be_zero ? "not below" : "above"));
     }
 }
 
@@ -87,6 +99,9 @@ void check_sleep(const std::vector<SleepState>& sleep, std::size_t bodies, bool 
         throw Error("the sleep of " + std::to_string(sleep.size()) + " bodies was given; expected "
                     + std::to_string(bodies)
                     + (can_sleep ? "" : ", all of them awake, as the scene has no [sleep]"));
+    }
+    for (const SleepState& body : sleep) {
+        check_stiffness(body.contact_stiffness, true);
     }
 }
 
@@ -184,8 +199,9 @@ template <int Dim>
 void Simulation<Dim>::set_state(int body,
                                 const Positions<Dim>& positions,
                                 const Positions<Dim>& velocities) {
+    check_body(body, stepper_->bodies());
     const Eigen::Index count = stepper_->bodies().vertices(static_cast<std::size_t>(body)).size;
-    check_state("a body", positions, velocities, count);
+    check_state("body " + std::to_string(body), positions, velocities, count);
     stepper_->set_body(body, positions, velocities);
 }
 
@@ -217,6 +233,7 @@ void Simulation<Dim>::restore(const Snapshot<Dim>& snapshot) {
                     + std::to_string(now.hold_places.cols()));
     }
     check_host(snapshot.host, stepper_->bodies());
+    check_stiffness(snapshot.contact_stiffness, now.contact_stiffness == 0);
     check_sleep(snapshot.sleep, stepper_->sleep().size(), stepper_->scene().sleep.has_value());
     stepper_->restore(snapshot);
 }

@@ -150,6 +150,15 @@ bool Islands<Dim>::put_to_sleep(const Couplings& couplings,
     return has_slept;
 }
 
+template <int Dim>
+std::vector<double> Islands<Dim>::stiffness_of_sleepers() const {
+    std::vector<double> stiffness;
+    for (const SleepState& state : states_) {
+        stiffness.push_back(state.is_asleep ? state.contact_stiffness : 0);
+    }
+    return stiffness;
+}
+
 #define PENT_INSTANTIATE(Dim) template class Islands<Dim>;
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE

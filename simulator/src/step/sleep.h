@@ -27,6 +27,9 @@ public:
     /// One entry a body: whether it sleeps.
     [[nodiscard]] std::vector<bool> asleep() const;
 
+    /// Of a barrier, one a body, N/m: with which it fell asleep; 0 of those that are awake.
+    [[nodiscard]] std::vector<double> stiffness_of_sleepers() const;
+
     [[nodiscard]] bool is_on() const { return is_on_; }
 
     /// Wakes bodies whose Dirichlet vertices move or that are driven, bodies coupled to what moves

@@ -72,7 +72,11 @@ template <int Dim>
 void Simulation<Dim>::Stepper::evaluate_current() {
     energy_.sum.set_time({std::max(0.0, time() - scene_.dt()), time()});
     energy_.sum.update(current_.positions);
+    energy_.elasticity->evaluate_held(current_.positions);
     forces_ = -energy_.sum.gradient();
+    if (energy_.elasticity->held_gradient().cols() > 0) {
+        forces_ -= energy_.elasticity->held_gradient();
+    }
 }
 
 template <int Dim>
@@ -171,13 +175,16 @@ void Simulation<Dim>::Stepper::refuse_crossings(const Positions<Dim>& positions)
     }
 }
 
-// Gives dofs to the bodies that are awake, and to no other.
+// Gives dofs to the bodies that are awake, and to no other; what sleeps keeps its forces.
 template <int Dim>
 void Simulation<Dim>::Stepper::number_dofs_of_the_awake() {
     std::vector<bool> asleep = islands_.asleep();
     if (asleep != asleep_) {
         asleep_ = std::move(asleep);
         potential_.renumber(held_, asleep_, current_.positions);
+    }
+    if (energy_.contact->set_sleepers(islands_.stiffness_of_sleepers())) {
+        energy_.sum.invalidate();
     }
 }
 
@@ -187,6 +194,7 @@ void Simulation<Dim>::Stepper::number_dofs_of_the_free() {
     asleep_ = islands_.asleep();
     potential_.renumber(held_, asleep_, current_.positions);
     energy_.contact->set_held(scene_, bodies_, held_);
+    static_cast<void>(energy_.contact->set_sleepers(islands_.stiffness_of_sleepers()));
 }
 
 // Holds and lets go what constraints ask for in the step that begins.
@@ -359,16 +367,15 @@ StepReport Simulation<Dim>::Stepper::step() {
 template <int Dim>
 std::vector<RegionSummary> Simulation<Dim>::Stepper::regions() const {
     std::vector<RegionSummary> all;
+    const std::vector<double> elastic = energy_.elasticity->energy_of_ranges();
     for (std::size_t range = 0; range < bodies_.ranges.size(); ++range) {
         if (bodies_.ranges[range].region > 0) {
-            all.push_back({energy_.elasticity->energy_of_ranges()[range]});
+            all.push_back({elastic[range]});
         }
     }
     return all;
 }
 
-// A body that sleeps keeps the forces with which it fell asleep: what touches it sleeps, too, or
-// moves from outside, and those forces were made by the stiffness of that time.
 template <int Dim>
 Positions<Dim> Simulation<Dim>::Stepper::contact_forces() const {
     Positions<Dim> all = Positions<Dim>::Zero(Dim, bodies_.vertex_count());
@@ -376,14 +383,6 @@ Positions<Dim> Simulation<Dim>::Stepper::contact_forces() const {
         return all;
     }
     all = -energy_.contact->gradient();
-    for (std::size_t body = 0; body < bodies_.count(); ++body) {
-        const SleepState& state = islands_.states()[body];
-        if (state.is_asleep && energy_.contact->stiffness() > 0) {
-            const auto range = bodies_.vertices(body);
-            all.middleCols(range.begin, range.size) *=
-                state.contact_stiffness / energy_.contact->stiffness();
-        }
-    }
     if (energy_.friction != nullptr && energy_.friction->gradient().cols() > 0) {
         all -= energy_.friction->gradient();
     }

@@ -68,7 +68,7 @@ void fields(Part& motion, const Visit& visit) {
           motion.keyframes);
     visit(key("about", "m", "what it turns about; is carried along by `translate`")
               .may_be_missing()
-              .default_is("mean of the selected vertices, where it is at `from`"),
+              .default_is("mean of the selected vertices, or center of the obstacle, at `from`"),
           motion.about);
     visit(key("from", "s", "at rest before", kNotNegative), motion.from);
     visit(

@@ -50,9 +50,11 @@ public:
 
     /// One time step of Scene::dt().
     ///
-    /// An attempt fails when the linear solver does not reach its tolerance or the state is not
-    /// finite; the step is then cut in two, up to SolverOptions::max_halvings times. If that does
-    /// not help, the report says so and the state stays as it was.
+    /// An attempt fails when a solver does not reach its tolerance, the state is not finite or far
+    /// beyond that before, something may have passed through something else, or an obstacle comes
+    /// over a body that it may not touch; the step is then cut in two, up to
+    /// SolverOptions::max_halvings times. If that does not help, the report says so, and positions,
+    /// velocities and time stay as they were; bodies that it woke are awake.
     [[nodiscard]] StepReport step();
 
     /// As it is now; bodies have nothing left to be placed by once one was added or removed.
@@ -95,8 +97,11 @@ public:
 
     /// Puts a body somewhere, awake, and wakes what it touched: a host's own start. Dirichlet
     /// vertices follow their motion from the next step on, whatever is said here. Throws an Error
-    /// unless both arrays are finite and Dim x vertices, and a CrossingError where a barrier does
-    /// not allow it; nothing has changed then. To move several bodies at once, change a snapshot.
+    /// unless there is such a body and both arrays are finite and Dim x its vertices, and a
+    /// CrossingError where a barrier does not allow it; nothing has changed then. To move several
+    /// bodies at once, change a snapshot.
+    ///
+    /// @param body  Below body_count().
     void set_state(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
 
     // What a host does, see HostState; it counts from the next step on, and forces() and energies()

@@ -72,7 +72,7 @@ struct RegionSummary {
 struct StepReport {
     std::uint64_t step = 0;    ///< Steps taken so far, this one included.
     double time = 0;           ///< At its end, s.
-    bool is_accepted = false;  ///< If not, the state is that before the step.
+    bool is_accepted = false;  ///< If not, all is where it was before the step.
     std::string failure;       ///< Why the last attempt was thrown away; empty if none was.
     int substeps = 0;          ///< 1, or more where the step had to be cut.
     int refused = 0;           ///< Attempts that were thrown away.

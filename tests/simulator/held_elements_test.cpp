@@ -1,0 +1,154 @@
+#include "contact_scenes.h"
+#include "potential_laws.h"
+
+#include <pent/simulator/energy.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+// Elements whose corners are all held: nothing is solved for, but they are strained, and what holds
+// them feels it.
+
+namespace pent::simulator {
+namespace {
+
+template <typename T>
+class HeldElements : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+TYPED_TEST_SUITE(HeldElements, Dimensions);
+
+constexpr double kSide = 0.5;  // of a cube with vertices at x = 0, half and all of it, m
+
+// What is near one x, carried along x.
+template <int Dim>
+Constraint plane_at(double x, double speed) {
+    Eigen::VectorXd low = Eigen::VectorXd::Constant(Dim, -1);
+    Eigen::VectorXd high = Eigen::VectorXd::Constant(Dim, 1);
+    low[0] = x - 1e-6;
+    high[0] = x + 1e-6;
+    Constraint constraint = test::hold(BoxSelection{.low = low, .high = high}, test::still(Dim));
+    constraint.motion[0].translate[0] = speed;
+    return constraint;
+}
+
+// Energy and forces are those of the material, by hand: all is stretched alike along x.
+TYPED_TEST(HeldElements, HoldBackByTheStressOfTheirStretch) {
+    constexpr int kDim = TypeParam::value;
+    constexpr double kSpeed = 0.6;
+    for (const ElementKind kind :
+         {ElementKind::Linear, ElementKind::Smoothed, ElementKind::Quadratic}) {
+        Scene scene = test::box_scene<kDim>();
+        scene.solver.elements = kind;
+        scene.constraints = {plane_at<kDim>(0, 0), plane_at<kDim>(kSide / 2, kSpeed / 2),
+                             plane_at<kDim>(kSide, kSpeed)};
+        Simulation<kDim> simulation(scene, {test::cube_for<kDim>(scene, 2)}, {.threads = 2});
+        EXPECT_EQ(simulation.size().free_vertices, 0);
+        for (int step = 0; step < 3; ++step) {
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.is_accepted) << report.failure;
+            Eigen::MatrixXd F = Eigen::MatrixXd::Identity(kDim, kDim);
+            F(0, 0) += kSpeed * report.time / kSide;
+            const Material& material = scene.bodies[0].material;
+            const double energy = std::pow(kSide, kDim) * energy_density(material, F);
+            const double force = std::pow(kSide, kDim - 1) * stress(material, F)(0, 0);
+            EXPECT_NEAR(report.energies.of("elastic"), energy, 1e-10 * energy);
+            EXPECT_NEAR(report.constraints[0].force[0], -force, 1e-10 * force);
+            EXPECT_NEAR(report.constraints[1].force[0], 0, 1e-10 * force);
+            EXPECT_NEAR(report.constraints[2].force[0], force, 1e-10 * force);
+            EXPECT_EQ(report.inverted, 0);
+        }
+    }
+}
+
+// Of a body that is grabbed as a whole while it swings, and let go.
+TYPED_TEST(HeldElements, KeepEnergyAndForcesWhenAGripBeginsAndEnds) {
+    constexpr int kDim = TypeParam::value;
+    for (const ElementKind kind :
+         {ElementKind::Linear, ElementKind::Smoothed, ElementKind::Quadratic}) {
+        Scene scene = test::box_scene<kDim>();
+        scene.solver.elements = kind;
+        scene.solver.integrator = Integrator::NewtonEuler;
+        scene.frames_per_second = 100;
+        Constraint grab = test::hold(EverythingSelection{}, test::still(kDim));
+        grab.from = 0.03;
+        grab.to = 0.06;
+        scene.constraints = {grab};
+        Simulation<kDim> simulation(scene, {test::cube_for<kDim>(scene, 2)});
+        Positions<kDim> x = simulation.positions(0);
+        x.row(0) *= 1.2;
+        simulation.set_state(0, x, Positions<kDim>::Zero(kDim, x.cols()));
+        double energy = 0;
+        Positions<kDim> forces;
+        for (int step = 0; step < 6; ++step) {
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.is_accepted) << report.failure;
+            if (step < 3) {
+                energy = report.energies.of("elastic");
+                forces = simulation.forces(0);
+                EXPECT_GT(energy, 0);
+                continue;
+            }
+            EXPECT_NEAR(report.energies.of("elastic"), energy, 1e-12 * energy);
+            EXPECT_LT((simulation.forces(0) - forces).norm(), 1e-12 * forces.norm());
+            EXPECT_LT((simulation.vertex_values(VertexQuantity::Reaction, 0) + forces).norm(),
+                      1e-12 * forces.norm());
+        }
+        const StepReport free = simulation.step();
+        ASSERT_TRUE(free.is_accepted) << free.failure;
+        EXPECT_LT(free.energies.of("elastic"), energy);
+        EXPECT_LT(free.energies.of("elastic") + free.energies.kinetic, energy);  // Euler's loss
+    }
+}
+
+// A muscle in the middle of what one constraint holds: det Fa V Psi(Fa^-1), all of it its work.
+TYPED_TEST(HeldElements, HaveTheWorkOfTheirActivations) {
+    constexpr int kDim = TypeParam::value;
+    constexpr double kStretch = 0.7;
+    for (const ElementKind kind : {ElementKind::Linear, ElementKind::Quadratic}) {
+        Scene scene = test::box_scene<kDim>();
+        scene.solver.elements = kind;
+        scene.frames_per_second = 10;
+        Activation activation;
+        activation.body = "box";
+        activation.select = {EverythingSelection{}};
+        activation.stretch = kStretch;
+        activation.fibers = Fibers::Constant;
+        activation.direction = Eigen::VectorXd::Unit(kDim, 0);
+        activation.keyframes = {{0, 0}, {0.3, 1}};
+        scene.activations = {activation};
+        scene.constraints = {test::hold(EverythingSelection{}, test::still(kDim))};
+        Simulation<kDim> simulation(scene, {test::cube_for<kDim>(scene, 2)});
+        double before = simulation.energies().of("elastic");
+        EXPECT_LT(before, 1e-20);
+        for (int step = 0; step < 4; ++step) {
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.is_accepted) << report.failure;
+            const double energy = report.energies.of("elastic");
+            EXPECT_NEAR(report.activation_work, energy - before, 1e-10 * energy) << step;
+            before = energy;
+        }
+        Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(kDim, kDim);
+        inverse(0, 0) = 1 / kStretch;
+        const double energy =
+            kStretch * std::pow(kSide, kDim) * energy_density(scene.bodies[0].material, inverse);
+        EXPECT_NEAR(before, energy, 1e-10 * energy);
+    }
+}
+
+// They are not even looked at: not the least energy by rounding.
+TYPED_TEST(HeldElements, CostNothingWhereOneGripHasAll) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = test::box_scene<kDim>();
+    Motion turning = test::still(kDim);
+    turning.rotate = {{.plane = {0, kDim - 1}, .degrees_per_s = 100}};
+    scene.constraints = {test::hold(EverythingSelection{}, turning)};
+    Simulation<kDim> simulation(scene, {test::cube<kDim>()});
+    const StepReport report = simulation.step();
+    ASSERT_TRUE(report.is_accepted) << report.failure;
+    EXPECT_EQ(report.energies.of("elastic"), 0);
+    EXPECT_EQ(simulation.forces(0).norm(), 0);
+}
+
+}  // namespace
+}  // namespace pent::simulator
