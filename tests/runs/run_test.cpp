@@ -101,11 +101,11 @@ TEST(Run, WritesRecipesThatFindTheirFilesFromItsFolder) {
     const TempFolder folder;
     Scene scene = falling_bar(folder, 1);
     std::ofstream(folder / "model.off") << "OFF\n";
-    scene.bodies[0].recipe = "model.off  --thickness 1 --profile none.csv";
+    scene.bodies[0].recipe = "model.off  --thickness 1\t--profile none.csv ";
     static_cast<void>(
         run(scene, {.folder = folder / "deep/run", .scene_file = folder / "scene.toml"}));
     EXPECT_EQ(read_scene(folder / "deep/run/scene.toml").bodies[0].recipe,
-              "../../model.off --thickness 1 --profile none.csv");
+              "../../model.off  --thickness 1\t--profile none.csv ");
     const std::string absolute = (folder / "model.off").string() + " --layers 2";
     scene.bodies[0].recipe = absolute;
     static_cast<void>(run(scene, {.folder = folder / "run", .scene_file = folder / "scene.toml"}));
