@@ -6,8 +6,6 @@
 
 #include <pent/dimensions.h>
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -214,14 +212,6 @@ Contact<Dim> make_contact(const Colliders<Dim>& colliders,
         contact.first_count == 1 || contact.corner_count - contact.first_count == 1;
     contact.kind = has_point ? ContactKind::PointFacet : ContactKind::Mixed;
     return contact;
-}
-
-// Squared volume of the box that the edges of a simplex span.
-template <int Dim, int Count>
-double spanned_squared(const Corners<Dim, Count>& corners) {
-    const Eigen::Matrix<double, Dim, Count - 1> edges =
-        corners.template rightCols<Count - 1>().colwise() - corners.col(0);
-    return (edges.transpose() * edges).determinant();
 }
 
 // c0 of a mixed pair, or 0 where it is not nearly parallel.

@@ -66,6 +66,7 @@ public:
           trees_(make_trees<Dim>(colliders, positions, least_)) {}
 
     void add_between(int a, int b) {
+        is_entered_ = false;
         add_through<2, Dim>({a, b});
         if constexpr (Dim > 3) {
             add_through<3, 3>({a, b});
@@ -133,6 +134,7 @@ private:
         const bool may_be = has_core
                                 ? all(first, second, may_enter)
                                 : kind == CrossingKind::Touching && all(first, second, is_fixed);
+        is_entered_ = is_entered_ || (has_core && may_be);
         if (may_be || found_.size() >= most_) {
             return;
         }
@@ -222,7 +224,7 @@ private:
         const bool is_known = std::any_of(found_.begin(), found_.end(), [&](const Crossing& c) {
             return c.first == body && c.second == obstacle;
         });
-        if (!is_known && found_.size() < most_) {
+        if (!is_known && !is_entered_ && found_.size() < most_) {
             found_.push_back({CrossingKind::Inside, body, obstacle, {}, {}, 0});
         }
     }
@@ -232,6 +234,7 @@ private:
     double least_;
     std::size_t most_;
     std::vector<SurfaceTrees<Dim>> trees_;
+    bool is_entered_ = false;  // an obstacle by what may be there, of the two that are looked at
     std::vector<Crossing> found_;
 };
 

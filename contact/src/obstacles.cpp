@@ -35,15 +35,21 @@ SignedDistance<Dim> distance_to(const Cavity<Dim>& cavity, const Vector<Dim>& po
     return ball;
 }
 
+// So near the axis of a bowl, in parts of how far away it is, there is no way out but rounding.
+constexpr double kOnAxis = 1e-12;
+
 // Above the bowl: the nearest point of the ground is on the rim.
 template <int Dim>
 SignedDistance<Dim> distance_to_rim(const Bowl<Dim>& bowl,
                                     const Vector<Dim>& level,
                                     double height) {
-    const double rho = level.norm();
+    // What rounding has left along `up` would count where little else is left.
+    const Vector<Dim> across = level - bowl.up.dot(level) * bowl.up;
+    const double rho = across.norm();
+    const bool is_on_axis = rho <= kOnAxis * (height + bowl.radius);
     Vector<Dim> outward = Vector<Dim>::Zero();  // in the plane of the rim
-    if (rho > 0) {
-        outward = level / rho;
+    if (!is_on_axis) {
+        outward = across / rho;
     } else {
         int axis = 0;
         bowl.up.cwiseAbs().minCoeff(&axis);
@@ -53,7 +59,7 @@ SignedDistance<Dim> distance_to_rim(const Bowl<Dim>& bowl,
     const Vector<Dim> from_rim = height * bowl.up + (rho - bowl.radius) * outward;
     const double distance = from_rim.stableNorm();  // above 0: the point is over the opening
     SignedDistance<Dim> result{.value = distance, .gradient = from_rim / distance};
-    if (rho > 0) {
+    if (!is_on_axis) {
         result.tangent = (height * outward - (rho - bowl.radius) * bowl.up) / distance;
         result.along_tangent = 1 / distance;
         result.sideways = (rho - bowl.radius) / (distance * rho);

@@ -3,6 +3,7 @@
 #include "closest_point_search.h"
 #include "gather.h"
 #include "normals.h"
+#include "spanned_volume.h"
 
 #include <pent/dimensions.h>
 
@@ -26,6 +27,11 @@ constexpr double kMinView = 0.2;
 // there a neighboring pair, or a vertex and a facet, takes over. Wide, so that its forces along the
 // surfaces are small.
 constexpr double kBorder = 0.25;
+
+// It fades, too, below this sine of the angle between its edge and the plane of its ridge: where
+// that is 0 the closest points jump, and near it they run along both as the pair turns. The faces
+// beside them hold each other by their vertices there.
+constexpr double kParallel = 0.2;
 
 // What looks crossed within one body, but is this many distances of contact apart at rest or
 // nearer, is taken for the two sides of something thin.
@@ -90,6 +96,17 @@ double fade_of(const ClosestPoints<Dim, K, L>& points) {
     const double least = std::min(points.beta.minCoeff(), points.alpha.minCoeff());
     const double t = std::clamp(least / kBorder, 0.0, 1.0);
     return t * t * (3 - 2 * t);
+}
+
+// How it fades where it is nearly parallel: with the square of the sine at first, since the closest
+// points move by one over it. 0 where one of the two has collapsed.
+template <int Dim>
+double fade_of_parallel(const Corners<Dim, 2>& edge, const Corners<Dim, Dim - 1>& ridge) {
+    Stencil<Dim> points;
+    points << edge, ridge;
+    const Mollifier mollifier{kParallel * kParallel * spanned_squared<Dim, 2>(edge)
+                              * spanned_squared<Dim, Dim - 1>(ridge)};
+    return mollifier.is_on() ? mollifier.value(spanned_volume_squared<Dim>(points)) : 0;
 }
 
 template <int Dim, int K, int L>
@@ -159,7 +176,10 @@ std::optional<Contact<Dim>> local_contact(const PairSetting<Dim>& setting,
     const View<Dim> seen = view<Dim, K, L>(
         points, normal_at<Dim, K>(setting.normals, first, i, points.beta),
         normal_at<Dim, L>(setting.normals, second, j, points.alpha), kTouching * eps);
-    const double weight = seen.weight * (K == 1 ? 1 : fade_of<Dim, K, L>(points));
+    double weight = seen.weight;
+    if constexpr (K == 2) {
+        weight *= fade_of<Dim, K, L>(points) * fade_of_parallel<Dim>(a, b);
+    }
     if (weight == 0
         || (setting.first == setting.second
             && is_culled<Dim, K, L>(setting, first, i, second, j, seen.side))) {

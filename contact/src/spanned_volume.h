@@ -2,7 +2,18 @@
 
 #include <pent/contact/stencil.h>
 
+#include <Eigen/LU>
+
 namespace pent::contact {
+
+/// Squared volume of the box that the edges of a simplex span from its first corner, m^(2 (Count -
+/// 1)).
+template <int Dim, int Count>
+[[nodiscard]] double spanned_squared(const Corners<Dim, Count>& corners) {
+    const Eigen::Matrix<double, Dim, Count - 1> edges =
+        corners.template rightCols<Count - 1>().colwise() - corners.col(0);
+    return (edges.transpose() * edges).determinant();
+}
 
 /// How far a mixed pair (edge and ridge: Dim + 1 corners) is from parallel: the squared volume |e ^
 /// t1 ^ ...|^2 of the box spanned by the edge and the edges of the ridge, m^(2 (Dim - 1)). In R^3

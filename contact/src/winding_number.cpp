@@ -89,7 +89,13 @@ private:
             edges.col(j - 1) = project(positions.col(ridge[j])) - origin;
         }
         const Shadow normal = normal_to(edges);
-        double side = normal.dot(project(start_) - origin);
+        const Shadow start = project(start_);
+        // Of two copies of a mesh, one behind the other, corners see corners. All ridges there have
+        // to agree, more of them than two, which they do where the side is exactly 0.
+        const bool is_at_corner = std::any_of(
+            ridge.begin(), ridge.end(),
+            [&](std::uint32_t corner) { return project(positions.col(corner)) == start; });
+        double side = is_at_corner ? 0 : normal.dot(start - origin);
         for (int j = 0; side == 0 && j < Dim - 1; ++j) {
             side = normal[j];
         }

@@ -1,6 +1,7 @@
 #include "penalty_scenes.h"
 #include "support/host_tasks.h"
 #include "support/messages.h"
+#include "two_cubes.h"
 
 #include <gtest/gtest.h>
 
@@ -106,6 +107,98 @@ TYPED_TEST(ContactFinderTest, OfACornerOverAFaceIsTheHandWorkedOne) {
         EXPECT_LT((deepest->force(0) - expected).norm(), 1e-10);
         EXPECT_NEAR(deepest->weights.sum(), 0, 1e-15);
         EXPECT_NEAR(contacts.report.deepest, std::max(0.0, -gap), 1e-14);
+    }
+}
+
+TYPED_TEST(ContactFinderTest, ReportsWhatItsListHas) {
+    constexpr int kDim = TypeParam::value;
+    for (const ContactModel kind : {ContactModel::Penalty, ContactModel::Barrier}) {
+        test::TwoCubes<kDim> cubes;
+        cubes.options.model = kind;
+        ContactFinder<kDim> finder(cubes.model({HalfSpace<kDim>{Vector<kDim>::Unit(1), -0.05}}));
+        const Contacts<kDim> contacts = finder.find(cubes.scene.positions, kStiffness);
+        ContactReport expected;
+        for (const Contact<kDim>& contact : contacts.list) {
+            if (contact.second.is_obstacle()) {
+                ++expected.obstacle;
+            } else {
+                const bool is_point =
+                    contact.first_count == 1 || contact.corner_count == contact.first_count + 1;
+                if (kind == ContactModel::Barrier) {
+                    EXPECT_EQ(contact.kind,
+                              is_point ? ContactKind::PointFacet : ContactKind::Mixed);
+                }
+                ++(contact.kind == ContactKind::PointFacet ? expected.point_facet : expected.mixed);
+            }
+            expected.smallest_distance = std::min(expected.smallest_distance, contact.distance);
+        }
+        EXPECT_EQ(contacts.report.obstacle, expected.obstacle);
+        EXPECT_EQ(contacts.report.point_facet, expected.point_facet);
+        EXPECT_EQ(contacts.report.mixed, expected.mixed);
+        EXPECT_EQ(contacts.report.smallest_distance, expected.smallest_distance);
+        EXPECT_GT(expected.obstacle, 0);
+        EXPECT_GT(expected.point_facet, 0);
+        EXPECT_GT(expected.mixed, 0);
+    }
+}
+
+// Powers of two change no digit: whatever is compared has the same units on both sides.
+TYPED_TEST(ContactFinderTest, FindsTheSameInASceneOfAnySize) {
+    constexpr int kDim = TypeParam::value;
+    for (const ContactModel kind : {ContactModel::Penalty, ContactModel::Barrier}) {
+        const auto at = [&](double scale) {
+            test::TwoCubes<kDim> cubes;
+            cubes.options.model = kind;
+            cubes.options.distance *= scale;
+            cubes.options.separation *= scale;
+            cubes.rest *= scale;
+            cubes.scene.positions *= scale;
+            ContactFinder<kDim> finder(
+                cubes.model({HalfSpace<kDim>{Vector<kDim>::Unit(1), -0.05 * scale},
+                             Ball<kDim>{cubes.below(0.3) * scale, 0.2 * scale}}));
+            return finder.find(cubes.scene.positions, kStiffness);
+        };
+        const Contacts<kDim> one = at(1);
+        EXPECT_GT(one.list.size(), 10U);
+        for (const double scale : {0x1p-7, 0x1p7}) {
+            const Contacts<kDim> other = at(scale);
+            ASSERT_EQ(other.list.size(), one.list.size());
+            for (std::size_t i = 0; i < one.list.size(); ++i) {
+                const Contact<kDim>& a = one.list[i];
+                const Contact<kDim>& b = other.list[i];
+                EXPECT_EQ(b.vertices, a.vertices);
+                EXPECT_EQ(b.weights, a.weights);
+                EXPECT_EQ(b.direction, a.direction);
+                EXPECT_EQ(b.kind, a.kind);
+                EXPECT_EQ(b.distance, scale * a.distance);
+                EXPECT_EQ(b.slope, scale * a.slope);
+                EXPECT_EQ(b.energy, scale * scale * a.energy);
+            }
+        }
+    }
+}
+
+// A plane has no facets that are met on the way: where it is then is what counts.
+TYPED_TEST(ContactFinderTest, OfABarrierHoldsAPlaneThatWouldReachAVertex) {
+    constexpr int kDim = TypeParam::value;
+    test::TwoCubes<kDim> cubes;
+    const Vector<kDim> up = Vector<kDim>::Unit(1);
+    const std::vector<ObstacleShape<kDim>> start = {HalfSpace<kDim>{up, -0.5}};
+    const Positions<kDim>& x = cubes.scene.positions;
+    const double low = x.row(1).minCoeff();
+    for (const ContactModel kind : {ContactModel::Penalty, ContactModel::Barrier}) {
+        cubes.options.model = kind;
+        ContactFinder<kDim> finder(cubes.model(start));
+        for (const double gap : {0.011, 0.009, -0.1}) {  // the separation is 0.01
+            finder.move_obstacles({HalfSpace<kDim>{up, low - gap}});
+            const StepLimit limit = finder.limit_obstacles(start, x);
+            const bool is_held = kind == ContactModel::Barrier && gap < 0.01;
+            EXPECT_EQ(limit.fraction, is_held ? 0 : 1);
+            if (is_held) {
+                EXPECT_EQ(limit.limiting.second, (Collider{Collider::Kind::Obstacle, 0}));
+                EXPECT_EQ(limit.limiting.kind, CrossingKind::Inside);
+            }
+        }
     }
 }
 

@@ -94,6 +94,34 @@ TYPED_TEST(CrossingsTest, TouchingCubesAreReported) {
     EXPECT_TRUE(crossings_of<kDim>(scene).empty());
 }
 
+// A corner on the middle of a side, whichever body comes first.
+TYPED_TEST(CrossingsTest, TouchesOfAVertexAreReportedWhoseverItIs) {
+    constexpr int kDim = TypeParam::value;
+    SimplexMesh<kDim> turned = test::cube<kDim>(1);
+    turned.positions = test::tilt<kDim>() * turned.positions;
+    Eigen::Index lowest = 0;
+    turned.positions.row(0).minCoeff(&lowest);
+    Vector<kDim> touch = Vector<kDim>::LinSpaced(1.1, 1.4);  // on no edge of a side
+    touch[0] = 3;
+    const Vector<kDim> corner = turned.positions.col(lowest);
+    turned.positions.colwise() -= corner;
+    for (const bool is_first : {false, true}) {
+        test::Scene<kDim> scene;
+        for (const bool is_corner : {is_first, !is_first}) {
+            scene.add(is_corner ? turned : test::cube<kDim>(3),
+                      is_corner ? touch : Vector<kDim>::Zero());
+        }
+        const std::vector<Crossing> touching = crossings_of<kDim>(scene);
+        ASSERT_GT(touching.size(), 0U);
+        EXPECT_EQ(touching[0].kind, CrossingKind::Touching);
+        EXPECT_TRUE(std::any_of(touching.begin(), touching.end(), [](const Crossing& c) {
+            return c.first_corners.size() == 1 || c.second_corners.size() == 1;
+        }));
+        scene.body(is_first ? 0 : 1).row(0).array() += 1e-6;
+        EXPECT_TRUE(crossings_of<kDim>(scene).empty());
+    }
+}
+
 TYPED_TEST(CrossingsTest, WithinABodyAreFoundIfAsked) {
     constexpr int kDim = TypeParam::value;
     test::Scene<kDim> scene;
@@ -194,8 +222,79 @@ TYPED_TEST(CrossingsTest, WithABoxAreWhereFacesMeetOrVerticesAreInside) {
     EXPECT_TRUE(at(-0.3, 0.4).empty());
     const std::vector<Crossing> cut = at(-0.1, 0.4);  // between the vertices of the cube
     EXPECT_GT(count(cut, CrossingKind::Through), 0);
-    EXPECT_TRUE(cut[0].second.is_obstacle());
+    for (const Crossing& crossing : cut) {  // the body first, whichever's edge it is
+        EXPECT_FALSE(crossing.first.is_obstacle());
+        EXPECT_FALSE(crossing.first_corners.empty());
+        for (const std::uint32_t corner : crossing.first_corners) {
+            EXPECT_LT(corner, scene.positions.cols());
+        }
+        EXPECT_TRUE(crossing.second.is_obstacle());
+        EXPECT_TRUE(crossing.second_corners.empty());
+    }
     EXPECT_EQ(count(at(0.5, 3), CrossingKind::Inside), 1 << kDim);
+}
+
+// They may lie where the scene has put them, with a corner of a box among their cells; what goes
+// through another body is reported all the same, as is what one vertex that is free does.
+TYPED_TEST(CrossingsTest, OfFixedVerticesAreTouchesOfNothingAndMayBeInObstacles) {
+    constexpr int kDim = TypeParam::value;
+    const auto is_free_of_crossings = [](const ContactScene<kDim>& model,
+                                         const Positions<kDim>& positions) {
+        return ContactFinder<kDim>(model).find_crossings(positions).empty();
+    };
+    test::Scene<kDim> scene;
+    scene.add(test::cube<kDim>(1), Vector<kDim>::Zero());
+    scene.add(test::cube<kDim>(1), Vector<kDim>::Unit(0));
+    ContactScene<kDim> model = scene_of<kDim>(scene);
+    EXPECT_FALSE(is_free_of_crossings(model, scene.positions));
+    model.is_fixed.assign(model.is_fixed.size(), true);
+    EXPECT_TRUE(is_free_of_crossings(model, scene.positions));
+    model.is_fixed[model.is_fixed.size() / 2] = false;  // the first of the second, at the first
+    EXPECT_FALSE(is_free_of_crossings(model, scene.positions));
+    model.is_fixed.assign(model.is_fixed.size(), true);
+    scene.body(1).row(0).array() -= 0.1;
+    test::shake<kDim>(scene.positions, 0.05, 2);
+    EXPECT_FALSE(is_free_of_crossings(model, scene.positions));
+    test::Scene<kDim> one;
+    one.add(test::cube<kDim>(1), Vector<kDim>::Zero());
+    Vector<kDim> center = Vector<kDim>::Constant(0.53);
+    center[0] = -0.1;
+    for (const ObstacleShape<kDim>& obstacle :
+         {ObstacleShape<kDim>(Cuboid<kDim>{center, Vector<kDim>::Constant(0.4)}),
+          ObstacleShape<kDim>(Ball<kDim>{Vector<kDim>::Zero(), 0.2})}) {
+        ContactScene<kDim> with = scene_of<kDim>(one, false, {obstacle});
+        EXPECT_FALSE(is_free_of_crossings(with, one.positions));
+        with.is_fixed.assign(with.is_fixed.size(), true);
+        EXPECT_TRUE(is_free_of_crossings(with, one.positions));
+    }
+}
+
+// Of all kinds: through another body and an obstacle, inside an obstacle, and around one.
+TYPED_TEST(CrossingsTest, AreTheFirstOfAllIfNotAllAreAskedFor) {
+    constexpr int kDim = TypeParam::value;
+    test::Scene<kDim> scene;
+    scene.add(test::cube<kDim>(1), Vector<kDim>::Zero());
+    scene.add(test::cube<kDim>(1), Vector<kDim>::Constant(0.3));
+    scene.add(test::cube<kDim>(3), Vector<kDim>::Constant(9));
+    test::shake<kDim>(scene.positions, 0.05, 2);
+    const ContactScene<kDim> model =
+        scene_of<kDim>(scene, false,
+                       {HalfSpace<kDim>{Vector<kDim>::Unit(1), 0.5},
+                        Ball<kDim>{Vector<kDim>::Constant(10.4), 0.5}});
+    const ContactFinder<kDim> finder(model);
+    const std::vector<Crossing> all = finder.find_crossings(scene.positions, 100000);
+    ASSERT_GT(count(all, CrossingKind::Through), 0);
+    EXPECT_GT(count(all, CrossingKind::Inside), (1 << kDim) / 2);
+    EXPECT_EQ(std::count_if(all.begin(), all.end(),
+                            [](const Crossing& c) { return c.first_corners.empty(); }),
+              1);
+    for (std::size_t most = 0; most <= all.size(); most += most < all.size() - 30 ? 29 : 1) {
+        const std::vector<Crossing> some = finder.find_crossings(scene.positions, most);
+        ASSERT_EQ(some.size(), most);
+        for (std::size_t i = 0; i < most; ++i) {
+            EXPECT_EQ(describe<kDim>(some[i], model), describe<kDim>(all[i], model));
+        }
+    }
 }
 
 TYPED_TEST(CrossingsTest, SweepOfTheCheckerSeesWhatPassesWithinAStep) {

@@ -76,8 +76,11 @@ TEST(Barrier, IsNothingFromFarAndGrowsWithoutBound) {
         EXPECT_GT(barrier.curvature(0.02 + gap), 0);
         last = energy;
     }
-    EXPECT_EQ(barrier.value(0.02), kHuge);
-    EXPECT_EQ(barrier.value(0.01), kHuge);
+    for (const double d : {0.02, 0.01, -0.3}) {
+        EXPECT_EQ(barrier.value(d), kHuge);
+        EXPECT_EQ(barrier.slope(d), -kHuge);
+        EXPECT_EQ(barrier.curvature(d), kHuge);
+    }
 }
 
 TEST(Barrier, HasTheValueWorkedByHandAtHalfItsDistance) {

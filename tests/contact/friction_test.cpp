@@ -251,6 +251,53 @@ TYPED_TEST(LaggedFrictionTest, IsNothingWhereTheStepStarts) {
     EXPECT_EQ(this->gradient(friction, this->positions_).norm(), 0);
 }
 
+// What slips is the body on the obstacle: where both have gone the same way nothing does, and where
+// the obstacle alone has, as where the body has gone back.
+TYPED_TEST(LaggedFrictionTest, IsThatOfTheWayRelativeToAnObstacleThatMoves) {
+    constexpr int kDim = TypeParam::value;
+    std::uint32_t vertex = 0;
+    for (Contact<kDim>& contact : this->contacts_) {
+        contact.count = 1;
+        contact.vertices[0] = vertex++;  // the first has no force
+        contact.weights[0] = 1;
+        contact.second = {Collider::Kind::Obstacle, 0};
+    }
+    const Positions<kDim> velocities = this->near(1) - this->positions_;
+    for (const double size : {2e-4, 0.1}) {  // sticks, slips
+        const Vector<kDim> carried = this->vector(size);
+        const auto start = [&](const Positions<kDim>* v, const Vector<kDim>& way) {
+            LaggedFriction<kDim> friction(this->kFriction);
+            friction.begin_step(this->contacts_, this->positions_, v, this->kStep,
+                                [&](const Contact<kDim>&) { return way; });
+            return friction;
+        };
+        const Positions<kDim> along = this->positions_.colwise() + carried;
+        const Positions<kDim> x = this->near(size);
+        EXPECT_LT(this->gradient(start(nullptr, carried), along).norm(), 1e-9);
+        const Positions<kDim> moved = this->gradient(start(nullptr, carried), x);
+        const Positions<kDim> still =
+            this->gradient(start(nullptr, Vector<kDim>::Zero()), x.colwise() - carried);
+        EXPECT_LT((moved - still).norm(), 1e-9 * still.norm());
+        for (Eigen::Index v = 0; v < moved.cols(); ++v) {
+            EXPECT_EQ(moved.col(v).norm() > 0, v >= 1 && v <= 5) << v;
+        }
+        // In a linear step the resistance is that of the relative velocities, too.
+        const Positions<kDim> relative = velocities.colwise() - carried / this->kStep;
+        const Positions<kDim> linear = this->gradient(start(&velocities, carried), x);
+        const Positions<kDim> linear_still =
+            this->gradient(start(&relative, Vector<kDim>::Zero()), x.colwise() - carried);
+        EXPECT_LT((linear - linear_still).norm(), 1e-9 * linear_still.norm());
+        // Bodies among themselves are carried by nothing.
+        for (Contact<kDim>& contact : this->contacts_) {
+            contact.second = {Collider::Kind::Body, 1};
+        }
+        EXPECT_EQ(this->gradient(start(nullptr, carried), this->positions_).norm(), 0);
+        for (Contact<kDim>& contact : this->contacts_) {
+            contact.second = {Collider::Kind::Obstacle, 0};
+        }
+    }
+}
+
 // For a single linear solve: the resistance is that of the slip at the velocities of the start,
 // held.
 TYPED_TEST(LaggedFrictionTest, OfALinearStepIsLinearAndRightAtTheVelocitiesOfTheStart) {

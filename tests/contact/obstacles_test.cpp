@@ -188,6 +188,18 @@ TYPED_TEST(ObstaclesTest, AreFiniteAtTheirCenters) {
     }
 }
 
+// There all of its rim is as near; which point of it is taken does not matter.
+TYPED_TEST(ObstaclesTest, ThatAreBowlsAreAsFarAsTheirRimsFromWhatIsAboveTheirMiddle) {
+    constexpr int kDim = TypeParam::value;
+    for (int trial = 0; trial < 20; ++trial) {
+        const Bowl<kDim> bowl{this->random_point(1), 1.2, this->random_point(1).normalized()};
+        const auto above = signed_distance<kDim>(bowl, bowl.center + Vector<kDim>(0.5 * bowl.up));
+        EXPECT_NEAR(above.value, 1.3, 1e-14);  // 0.5, 1.2, 1.3
+        EXPECT_NEAR(above.gradient.norm(), 1, 1e-14);
+        EXPECT_NEAR(above.gradient.dot(bowl.up), 0.5 / 1.3, 1e-14);
+    }
+}
+
 TYPED_TEST(ObstaclesTest, ThatMakeNoSenseAreRefused) {
     constexpr int kDim = TypeParam::value;
     const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 namespace pent::contact {
@@ -49,6 +51,83 @@ TYPED_TEST(SolidContact, OnAFacetPushesAlongItsNormal) {
 
 TYPED_TEST(SolidContact, OnAFacetThatHasCollapsedHasNoDirectionAndIsNone) {
     EXPECT_FALSE(contact_at<TypeParam::value>(0, 0));
+}
+
+// Share of an edge over the middle of a ridge, each seen by the other from the front: 0 where they
+// are no contact. The ridge is regular, in the plane of the first axes, and the edge as long as its
+// sides, turned by an angle out of that plane.
+//
+// @param aside  How far the middle of the edge is beside that of the ridge, in sides.
+template <int Dim>
+double share_at(double angle, double aside = 0, double side = 1) {
+    constexpr int kLast = Dim - 1;
+    Positions<Dim> positions = Positions<Dim>::Zero(Dim, Dim + 1);
+    Positions<Dim> normals = Positions<Dim>::Zero(Dim, Dim + 1);
+    normals.row(kLast) << -1, -1, Eigen::RowVectorXd::Ones(Dim - 1);
+    if constexpr (Dim == 3) {
+        positions.rightCols(2).row(0) << -0.5, 0.5;
+    } else {
+        positions.rightCols(3).row(0) << -0.5, 0.5, 0;
+        positions.rightCols(3).row(1) << -std::sqrt(3) / 6, -std::sqrt(3) / 6, std::sqrt(3) / 3;
+    }
+    const Vector<Dim> half = std::cos(angle) / 2 * Vector<Dim>::Unit(0)
+                             + std::sin(angle) / 2 * Vector<Dim>::Unit(Dim - 2);
+    positions.col(0) = -half;
+    positions.col(1) = half;
+    positions.leftCols(2).row(Dim - 2).array() += aside;
+    positions.leftCols(2).row(kLast).setConstant(0.05);
+    positions *= side;
+    const auto simplex = [](auto count, std::uint32_t first) {
+        return Simplices<count.value>(Simplices<count.value>::NullaryExpr(
+            count.value, 1,
+            [=](Eigen::Index i, Eigen::Index) { return first + static_cast<std::uint32_t>(i); }));
+    };
+    const PositionsView<Dim> view = positions;
+    const PairSetting<Dim> setting{view,       positions, normals,
+                                   0.1 * side, {},        {Collider::Kind::Body, 1}};
+    const auto contact =
+        local_contact<Dim, 2, Dim - 1>(setting, simplex(std::integral_constant<int, 2>(), 0), 0,
+                                       simplex(std::integral_constant<int, Dim - 1>(), 2), 0);
+    return contact ? contact->share : 0;
+}
+
+template <typename T>
+class MixedContact : public testing::Test {};
+TYPED_TEST_SUITE(MixedContact, Dimensions);
+
+TYPED_TEST(MixedContact, FadesWithTheSquareOfTheSineAndIsNoneWhereParallel) {
+    constexpr int kDim = TypeParam::value;
+    for (const double side : {1e-4, 1.0, 1e4}) {
+        for (const double angle : {0.25, 0.5, 1.0, 1.57}) {
+            EXPECT_EQ(share_at<kDim>(angle, 0, side), 1);
+        }
+        for (const double sine : {-0.15, 0.1, 0.02, 1e-4}) {
+            const double part = 25 * sine * sine;
+            EXPECT_NEAR(share_at<kDim>(std::asin(sine), 0, side), part * (2 - part), 1e-12 * part)
+                << sine;
+        }
+        EXPECT_EQ(share_at<kDim>(0, 0, side), 0);
+    }
+}
+
+// Nearly parallel ones that are a little beside each other are nearest far from their middles, and
+// a slight turn leads that point along both.
+TYPED_TEST(MixedContact, ChangesLittleInASlightTurnThroughParallel) {
+    constexpr int kDim = TypeParam::value;
+    constexpr double kAside = 0.005;
+    constexpr double kTurn = 1e-4;
+    // By the sine the share changes by 7.7 at most. The point moves by aside / sine^2 sides, which
+    // changes a weight by not much more, and the share by 6 times that and 50 sine^2.
+    constexpr double kMost = 7.7 + 1.2 * 6 * 50 * kAside;
+    double last = share_at<kDim>(-0.3, kAside);
+    double most = last;
+    for (int k = 1; k <= 6000; ++k) {
+        const double share = share_at<kDim>(-0.3 + k * kTurn, kAside);
+        ASSERT_LE(std::abs(share - last), kMost * kTurn) << k;
+        last = share;
+        most = std::max(most, share);
+    }
+    EXPECT_GT(most, 0.9);
 }
 
 }  // namespace

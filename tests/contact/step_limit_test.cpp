@@ -41,6 +41,23 @@ protected:
 using Dimensions = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
 TYPED_TEST_SUITE(StepLimitTest, Dimensions);
 
+// Nothing crosses, and a tenth of the gap is left all the same.
+TYPED_TEST(StepLimitTest, KeepsATenthOfTheGapFromMotionsThatEndBeforeTheyTouch) {
+    constexpr int kDim = TypeParam::value;
+    // 0.1 between flat sides, of which 0.01 is the separation.
+    ContactFinder<kDim> finder(this->cubes_.model());
+    const Positions<kDim>& x = this->cubes_.rest;
+    for (const double end : {0.008, 0.004, 0.0001}) {
+        Positions<kDim> to = x;
+        to.leftCols(this->cubes_.scene.begin[1]).row(0).array() += 0.09 - end;
+        const double fraction = finder.limit_step(x, to).fraction;
+        const double left = 0.09 - fraction * (0.09 - end);
+        EXPECT_LT(fraction, 1) << end;
+        EXPECT_GE(left, 0.009 - 1e-12) << end;
+        EXPECT_LT(left, 0.02) << end;
+    }
+}
+
 TYPED_TEST(StepLimitTest, IsTheLeastOfAllPairsForAnyNumberOfThreads) {
     constexpr int kDim = TypeParam::value;
     ContactFinder<kDim> finder(this->cubes_.model());

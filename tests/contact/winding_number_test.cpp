@@ -5,6 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <vector>
+
 namespace pent::contact {
 namespace {
 
@@ -55,6 +60,53 @@ TYPED_TEST(WindingNumberTest, GoesRoundEveryPointInsideOnce) {
                 << local.transpose();
         }
         EXPECT_GT(compared, count / 2);
+    }
+}
+
+// Rays through corners pass by all facets there, within rounding: whatever the order in which these
+// have the corners that they share, one of them is met, or both sides of a corner outside.
+TYPED_TEST(WindingNumberTest, IsRightBehindEveryCornerInAnyOrderOfVertices) {
+    constexpr int kDim = TypeParam::value;
+    std::mt19937 random(3);
+    const Eigen::Matrix<double, kDim, kDim> rotation = test::tilt<kDim>();
+    const SimplexMesh<kDim> mesh = test::cube<kDim>(2);
+    for (int trial = 0; trial < 6; ++trial) {
+        std::vector<std::uint32_t> name(static_cast<std::size_t>(mesh.vertex_count()));
+        std::iota(name.begin(), name.end(), 0U);
+        std::shuffle(name.begin(), name.end(), random);
+        Positions<kDim> positions(kDim, mesh.vertex_count());
+        for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+            positions.col(name[static_cast<std::size_t>(v)]) = rotation * mesh.positions.col(v);
+        }
+        Simplices<kDim + 1> cells = mesh.cells;
+        for (auto cell : cells.colwise()) {
+            for (std::uint32_t& corner : cell) {
+                corner = name[corner];
+            }
+            for (int i = 0; i < 4; ++i) {  // two exchanges each: the orientation stays
+                const auto turned = static_cast<Eigen::Index>(random() % (kDim - 1));
+                const std::uint32_t first = cell[turned];
+                cell[turned] = cell[turned + 1];
+                cell[turned + 1] = cell[turned + 2];
+                cell[turned + 2] = first;
+            }
+        }
+        const Surface<kDim> surface = make_surface<kDim>(cells, mesh.vertex_count());
+        const BoxTree tree = TestFixture::facet_tree(surface, positions);
+        int inside = 0;
+        for (Eigen::Index k = 0; k < 4 * kDim * positions.cols(); ++k) {
+            Vector<kDim> point = positions.col(k / (4 * kDim));
+            point[k / 4 % kDim] += (k % 2 == 0 ? 1 : -1) * (k % 4 < 2 ? 0.3 : 0.7);
+            const Vector<kDim> local = rotation.transpose() * point;
+            if ((local.array().abs().min((local.array() - 2).abs()) < 1e-6).any()) {
+                continue;  // on the surface, or beside it
+            }
+            const bool is_inside = local.minCoeff() > 0 && local.maxCoeff() < 2;
+            inside += is_inside ? 1 : 0;
+            EXPECT_EQ(winding_number<kDim>(surface, tree, positions, point), is_inside ? 1 : 0)
+                << local.transpose();
+        }
+        EXPECT_GT(inside, 50);
     }
 }
 

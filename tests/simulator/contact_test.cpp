@@ -242,6 +242,50 @@ TYPED_TEST(ContactLaws, LetAHeldMeshPushAFreeBody) {
     }
 }
 
+// A coarse cube that falls askew on a finer one: edges of both are nearly parallel where they meet,
+// turn past each other as it comes to rest, and are most of what bears it.
+TYPED_TEST(ContactLaws, BearACubeOnNearlyParallelEdgesInFewIterations) {
+    constexpr int kDim = TypeParam::value;
+    for (const double degrees : {1e-4, 0.6}) {
+        Scene scene = test::box_scene<kDim>();
+        scene.gravity[1] = -9.8;
+        scene.solver.integrator = Integrator::NewtonEuler;
+        scene.damping = Damping{.mass = 5};
+        scene.contact = ContactSettings{};
+        scene.bodies.push_back(scene.bodies[0]);
+        scene.bodies[0].name = "a";
+        scene.bodies[0].place.translate.setConstant(-0.1);
+        scene.bodies[1].name = "b";
+        scene.bodies[1].place.translate.setConstant(-0.1);
+        scene.bodies[1].place.translate.head(3) += Eigen::Vector3d(0.02, 0.23, 0.01);
+        scene.bodies[1].place.rotate = {{.plane = {1, 0}, .degrees = degrees},
+                                        {.plane = {1, kDim - 1}, .degrees = degrees / 2}};
+        scene.constraints = {
+            {.body = "a", .select = {EverythingSelection{}}, .motion = {still(kDim)}}};
+        std::array<double, kDim> size{};
+        size.fill(0.2);
+        std::array<int, kDim> one{};
+        one.fill(1);
+        std::array<int, kDim> two{};
+        two.fill(2);
+        Simulation<kDim> simulation(
+            scene, {pent::test::kuhn_box<kDim>(two, size), pent::test::kuhn_box<kDim>(one, size)});
+        int iterations = 0;
+        std::int64_t mixed = 0;
+        constexpr int kSteps = 60;
+        for (int step = 0; step < kSteps; ++step) {
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.is_accepted) << step << ": " << report.failure;
+            EXPECT_EQ(report.refused, 0) << step;
+            ASSERT_LT(report.contact.deepest, 0.02) << step;
+            iterations += report.newton_iterations;
+            mixed += report.contact.mixed;
+        }
+        EXPECT_LT(iterations, 10 * kSteps);  // eight of them to see that it goes in circles
+        EXPECT_GT(mixed, 5 * kSteps);
+    }
+}
+
 // One body of two cubes: it meets itself only where the scene says so.
 TYPED_TEST(ContactLaws, KeepABodyOutOfItselfWhereAsked) {
     constexpr int kDim = TypeParam::value;

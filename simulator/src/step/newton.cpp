@@ -28,9 +28,10 @@ constexpr double kKinkGradient = 0.1;
 constexpr double kKinkGain = 1e-4;
 constexpr int kKinkIterations = 8;
 
-// Near kinks the gradient is not quite the derivative of the value. Where it becomes less, the
-// value may therefore rise, by this part of what it has fallen so far.
-constexpr double kMaxRise = 1e-2;
+// Near kinks, where the gradient is not quite the derivative of the value, a step is also taken for
+// a gradient that becomes less by this part of what a gradient that changes evenly loses in it. Of
+// less a step that leads to and fro over a kink would be made.
+constexpr double kKinkFall = 0.25;
 
 // Filtered Hessians are too stiff where bodies slide along each other, so that energy still falls
 // behind a whole step. One at whose end the slope is above this part of that at its start goes on,
@@ -46,9 +47,13 @@ constexpr double kMinStretch = 1.3;  // anything less is not worth an evaluation
 constexpr double kBlocked = 1e-3;
 constexpr int kMaxBlockedSteps = 10;
 
+// @param part  Of what a gradient that changes evenly loses in a step, the least that is enough.
 template <int Dim>
-bool has_less_gradient(const Evaluation<Dim>& at, const Evaluation<Dim>& next, double factor) {
-    return next.gradient.norm() <= (1 - kArmijo * factor) * at.gradient.norm();
+bool has_less_gradient(const Evaluation<Dim>& at,
+                       const Evaluation<Dim>& next,
+                       double factor,
+                       double part) {
+    return next.gradient.norm() <= (1 - part * factor) * at.gradient.norm();
 }
 
 template <int Dim>
@@ -149,7 +154,7 @@ private:
         for (int k = 0; k < kMaxBacktracks; ++k, factor /= 2) {
             trial = x_ + factor * step;
             Evaluation<Dim> next = function_.evaluate(trial);
-            if (is_pending_ ? std::isfinite(next.value) : has_improved(next, factor, slope)) {
+            if (is_pending_ ? std::isfinite(next.value) : has_improved(next, step, factor, slope)) {
                 take(trial, std::move(next));
                 if (factor == 1 && !is_pending_ && options_.extends_steps) {
                     factor = extend(trial, step, slope);
@@ -197,16 +202,18 @@ private:
         is_current_ = true;
     }
 
-    // Sufficient decrease of the value; where that drowns in rounding, or near kinks, of the
-    // gradient.
+    // Sufficient decrease of the value; where that drowns in rounding, of the gradient. So too near
+    // kinks, if the work of the gradient on the way tells that it leads down.
     [[nodiscard]] bool has_improved(const Evaluation<Dim>& next,
+                                    const Positions<Dim>& step,
                                     double factor,
                                     double slope) const {
         const double change = next.value - at_.value;
+        const bool is_lost = change <= at_.rounding;
         return change <= kArmijo * factor * slope + kRounding * std::abs(at_.value)
-               || (change <= at_.rounding && has_less_gradient(at_, next, factor))
-               || (next.has_kink && change <= kMaxRise * (first_.value - at_.value)
-                   && has_less_gradient(at_, next, factor));
+               || ((is_lost
+                    || (next.has_kink && slope + next.gradient.cwiseProduct(step).sum() <= 0))
+                   && has_less_gradient(at_, next, factor, is_lost ? kArmijo : kKinkFall));
     }
 
     // After a step of prescribed points: whether they can go on, or have arrived.
