@@ -96,7 +96,6 @@ void check_header(TextReader& text) {
     if (version != 1 && version != 2) {
         text.fail("version " + std::to_string(version) + "; expected 1 or 2");
     }
-    text.skip_line();
 }
 
 }  // namespace

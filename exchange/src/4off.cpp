@@ -29,7 +29,6 @@ Polygon read_list(TextReader& text, std::size_t least, std::int64_t end, const c
     for (std::int64_t i = 0; i < count; ++i) {
         list.push_back(text.index(text.word(), end));
     }
-    text.skip_line();
     return list;
 }
 

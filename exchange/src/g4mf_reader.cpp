@@ -119,7 +119,7 @@ private:
             chunks_.push_back(std::string_view(bytes_).substr(at + kHeader, size));
             at += kHeader + (size + kHeader - 1) / kHeader * kHeader;
         }
-        if (chunks_.empty() || std::string_view(bytes_).substr(kHeader, 4) != "JSON") {
+        if (std::string_view(bytes_).substr(kHeader, 4) != "JSON") {
             fail("no JSON in its first chunk");
         }
     }

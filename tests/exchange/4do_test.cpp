@@ -11,8 +11,19 @@ using test::text_as;
 
 TEST(FourDo, IsReadAsItWasWritten) {
     for (const TetSurface& surface : {five_cell(), sixteen_cell()}) {
-        test::expect_same_surface(read_as("a.4do", text_as("a.4do", surface)), surface, 0);
+        std::string text = text_as("a.4do", surface);
+        test::expect_same_surface(read_as("a.4do", text), surface, 0);
+        text[4] = '2';  // the version
+        test::expect_same_surface(read_as("a.4do", text), surface, 0);
     }
+}
+
+// Readers are told which way the axes go and what the words of tetrahedra are.
+TEST(FourDo, SaysWhatItsWordsMean) {
+    const std::string text = text_as("a.4do", five_cell());
+    pent::test::expect_contains(text, {"4DO 1\n", "\norient X Y -Z W\n", "\ntformat v\n"});
+    EXPECT_LT(text.find("\norient"), text.find("\nv "));
+    EXPECT_LT(text.find("\ntformat"), text.find("\nt "));
 }
 
 // In its own axes z is forward, away from the viewer, unless a line says otherwise.
@@ -46,8 +57,13 @@ TEST(FourDo, TakesPointsFromCornersOfSeveralParts) {
 
 TEST(FourDo, NamesTheLineOfWhatIsWrong) {
     pent::test::expect_contains(error_as("a.4do", "4DO 7\n"), {"line 1: ", "version 7"});
-    pent::test::expect_contains(error_as("a.4do", "4DO 1\norient X X Y W\n"),
-                                {"line 2: ", "each of X, Y, Z and W once"});
+    pent::test::expect_contains(error_as("a.4do", "5DO 1\n"), {"line 1: ", "expected 4DO"});
+    for (const char* axes : {"X X Y W", "X Y Q W", "XY Z W Y", "X Y Z", "X Y Z -"}) {
+        pent::test::expect_contains(error_as("a.4do", std::string("4DO 1\norient ") + axes + "\n"),
+                                    {"line 2: ", "each of X, Y, Z and W once"});
+    }
+    pent::test::expect_contains(
+        error_as("a.4do", "4DO 1\ntformat vn/v\nv 1 2 3 4\nt 0/0 0 0/0 0/0\n"), {"line 4: "});
     pent::test::expect_contains(error_as("a.4do", "4DO 1\nv 1 2 3\n"), {"line 2: "});
     pent::test::expect_contains(error_as("a.4do", "4DO 1\nv 1 2 3 4\nt 0 0 0 1\n"),
                                 {"line 3: ", "index 1 of 1"});

@@ -25,6 +25,16 @@ TEST(FourObj, TakesShortPointsAndCornersOfSeveralParts) {
     EXPECT_NEAR(enclosed_hypervolume(surface), 1.0 / 24, 1e-15);
 }
 
+// As with the colors that others add to points, and triangles beside tetrahedra.
+TEST(FourObj, LeavesOutWhatFollowsFourCoordinatesAndFaces) {
+    std::string text = text_as("a.obj", five_cell());
+    for (std::size_t at = text.find("\nv"); at != std::string::npos;
+         at = text.find("\nv", at + 1)) {
+        text.insert(text.find('\n', at + 1), " 0.5 7");
+    }
+    test::expect_same_surface(read_as("a.obj", text + "f 1 2 3\n"), five_cell(), 0);
+}
+
 TEST(FourObj, NamesTheLineOfWhatIsWrong) {
     pent::test::expect_contains(error_as("a.obj", "v 1 2 3\nv 2 3 4\nv 3 4 9\nf 1 2 3\n"),
                                 {"a.obj", "three dimensions", "pent-mesh"});
@@ -32,6 +42,7 @@ TEST(FourObj, NamesTheLineOfWhatIsWrong) {
                                 {"line 2: ", "index 1 of 1"});
     pent::test::expect_contains(error_as("a.obj", "v 1\nt 1 1 1\n"), {"line 2: "});
     pent::test::expect_contains(error_as("a.obj", "v\n"), {"line 1: ", "without a coordinate"});
+    pent::test::expect_contains(error_as("a.obj", "v 1\n"), {"a.obj: no tetrahedron in it"});
 }
 
 }  // namespace

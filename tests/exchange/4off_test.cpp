@@ -15,7 +15,7 @@ using test::text_as;
 
 // A tesseract as others write it: comments, colors, blank lines, polygons of four corners, cells of
 // six faces.
-std::string tesseract() {
+std::string tesseract(bool has_last_faces_first = false) {
     std::ostringstream text;
     text << "4OFF\n# points faces edges cells\n16 24 32 8\n\n";
     for (unsigned v = 0; v < 16; ++v) {
@@ -41,7 +41,8 @@ std::string tesseract() {
     for (unsigned axis = 0; axis < 4; ++axis) {
         for (unsigned side = 0; side < 2; ++side) {
             text << "6";
-            for (std::size_t f = 0; f < faces.size(); ++f) {
+            for (std::size_t i = 0; i < faces.size(); ++i) {
+                const std::size_t f = has_last_faces_first ? faces.size() - 1 - i : i;
                 bool is_in = true;
                 for (const unsigned v : faces[f]) {
                     is_in = is_in && (v >> axis & 1U) == side;
@@ -60,6 +61,27 @@ TEST(FourOff, OfATesseractIsItsBoundary) {
     EXPECT_EQ(surface.tetrahedra.cols(), 8 * 6);  // each cube, by its corner of lowest index
     EXPECT_NEAR(enclosed_hypervolume(surface), 1, 1e-14);
     EXPECT_NEAR(total_volume(cone_of(surface, "t")), 1, 1e-14);
+}
+
+// A cube is cut from its corner of lowest index, whichever of its faces comes first, and into
+// nothing flat that welding would have to take out.
+TEST(FourOff, CutsCellsAlikeInAnyOrderOfTheirFaces) {
+    const pent::test::TempFolder folder;
+    for (const bool has_last_faces_first : {false, true}) {
+        std::ofstream(folder / "t.off") << tesseract(has_last_faces_first);
+        const auto surface = std::get<TetSurface>(read(folder / "t.off", {.is_welded = false}));
+        EXPECT_TRUE(check(surface).is_oriented());
+        ASSERT_EQ(surface.tetrahedra.cols(), 8 * 6);
+        for (Eigen::Index t = 0; t < surface.tetrahedra.cols(); ++t) {
+            // The lowest corner of each cube: 0 or 1 along one axis and 0 along all others.
+            EXPECT_EQ(surface.tetrahedra.col(t).minCoeff(), t / 6 % 2 << t / 12);
+            const auto edge = [&](int k) -> Eigen::Vector4d {
+                return surface.points.col(surface.tetrahedra(k, t))
+                       - surface.points.col(surface.tetrahedra(0, t));
+            };
+            EXPECT_EQ(test::perpendicular(edge(1), edge(2), edge(3)).norm(), 1);  // 1/6 m^3
+        }
+    }
 }
 
 TEST(FourOff, IsReadAsItWasWritten) {
@@ -116,6 +138,11 @@ TEST(FourOff, FacesOutwardForReadersThatLookAtTheFirstTwoFaces) {
 TEST(FourOff, NamesTheLineOfWhatIsWrong) {
     pent::test::expect_contains(error_as("a.off", "OFF\n3 1 3\n"),
                                 {"a.off: line 1: ", "three dimensions"});
+    pent::test::expect_contains(error_as("a.off", "3OFF\n3 1 3\n"),
+                                {"a.off: line 1: ", "three dimensions"});
+    pent::test::expect_contains(
+        error_as("a.off", "4OFF\n3 1 0 0\n0 0 0 0\n1 0 0 0\n0 1 0 0\n2 0 1\n"),
+        {"line 6: ", "found 2 of them", "corners of a face, at least 3"});
     pent::test::expect_contains(error_as("a.off", "ply\n"), {"line 1: ", "expected 4OFF"});
     pent::test::expect_contains(error_as("a.off", "4OFF\n5 0 0 0\n0 0 0 0\n1 x 0 0\n"),
                                 {"line 4: ", "\"x\""});

@@ -228,10 +228,34 @@ TEST(Exchange, ReadsTetrahedraThatFaceAnyWay) {
     }
 }
 
+// All that a body may have besides points and cells, each with a name; G4MF has none of it, MFEM
+// meshes regions and labels, and a .pent file everything.
+TEST(Exchange, NamesWhatAFormatHasNoPlaceFor) {
+    const Body plain{pent::test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1})};
+    Body rich = plain;
+    rich.mesh.regions = {1};
+    rich.mesh.fibers.resize(4, 1);
+    rich.mesh.parents = {0};
+    rich.mesh.layers = {0};
+    rich.extras.labels = {1};
+    rich.extras.base_labels = {1};
+    rich.extras.bisection_tags = {1};
+    rich.extras.vertex_fields = {{"heat", {}}};
+    rich.extras.cell_fields = {{"age", {}}};
+    const std::string more =
+        "labels of the base, fibers, quadratic cells, layers, tags for bisection,"
+        " heat, age";
+    EXPECT_EQ(left_out(rich, format_of("a.g4b")), "regions, labels of the boundary, " + more);
+    EXPECT_EQ(left_out(rich, format_of("a.mesh")), more);
+    EXPECT_EQ(left_out(rich, format_of("a.pent")), "");
+    EXPECT_EQ(left_out(plain, format_of("a.g4b")), "");
+}
+
 TEST(Exchange, ListsTheEndingsForOneThatItDoesNotKnow) {
     pent::test::expect_contains(
         pent::test::error_of([] { static_cast<void>(format_of("a.fbx")); }),
-        {"a.fbx: a name that ends in .fbx", ".pent", ".4off", ".g4b", ".4do", ".obj", ".mesh"});
+        {"a.fbx: a name that ends in .fbx; expected one of .pent, .off, .4off, ", ".g4b", ".4do",
+         ".obj", ".mesh"});
     pent::test::expect_contains(pent::test::error_of([] { static_cast<void>(format_of("none")); }),
                                 {"without an ending"});
     EXPECT_EQ(format_of("A.G4B").name, "G4MF");

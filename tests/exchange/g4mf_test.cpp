@@ -1,10 +1,14 @@
 #include "polytopes.h"
+#include "support/kuhn_box.h"
 
 #include <pent/base64.h>
 #include <pent/error.h>
 
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace pent::exchange {
 namespace {
@@ -34,10 +38,12 @@ TEST(G4mf, IsReadAsItWasWritten) {
 // Offsets from the points to those of the frame, of all points by their indices; without amounts
 // all are 0, so that a reader without shapes sees the mesh as it is.
 TEST(G4mf, HasFramesAsBlendShapes) {
-    const TetSurface surface = sixteen_cell();
-    const Positions<4> turned = surface.points.colwise().reverse();
-    const Positions<4> larger = 3 * surface.points;
     for (const bool in_double : {false, true}) {
+        // An odd number of points, too: what follows their indices starts at a multiple of 8.
+        const TetSurface surface = in_double ? five_cell() : sixteen_cell();
+        const auto count = static_cast<std::size_t>(surface.points.cols());
+        const Positions<4> turned = surface.points.colwise().reverse();
+        const Positions<4> larger = 3 * surface.points;
         const std::string text =
             text_as("a.g4tf", surface,
                     {.in_double = in_double, .frames = {{"turned", turned}, {"larger", larger}}});
@@ -49,6 +55,7 @@ TEST(G4mf, HasFramesAsBlendShapes) {
         EXPECT_EQ(shapes[0]["name"], "turned");
         const auto values_of = [&]<typename Number>(const Json& number, Number) {
             const Json& accessor = json["accessors"][number.get<std::size_t>()];
+            EXPECT_EQ(accessor.value("vectorSize", 1), std::is_integral_v<Number> ? 1 : 4);
             const Json& view = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
             std::vector<Number> values(view["byteLength"].get<std::size_t>() / sizeof(Number));
             EXPECT_EQ(view["byteOffset"].get<std::size_t>() % sizeof(Number), 0U);
@@ -58,7 +65,7 @@ TEST(G4mf, HasFramesAsBlendShapes) {
         };
         const Json& target = shapes[1]["position"];
         const auto indices = values_of(target["indices"], std::uint32_t{});
-        ASSERT_EQ(indices.size(), 8U);
+        ASSERT_EQ(indices.size(), count);
         std::vector<double> offsets;
         if (in_double) {
             offsets = values_of(target["offsets"], double{});
@@ -66,12 +73,53 @@ TEST(G4mf, HasFramesAsBlendShapes) {
             const auto floats = values_of(target["offsets"], float{});
             offsets.assign(floats.begin(), floats.end());
         }
-        ASSERT_EQ(offsets.size(), 32U);
+        ASSERT_EQ(offsets.size(), 4 * count);
         for (std::size_t i = 0; i < indices.size(); ++i) {
             const Eigen::Vector4d offset(&offsets[4 * i]);
             EXPECT_EQ(surface.points.col(indices[i]) + offset, larger.col(indices[i]));
         }
         test::expect_same_surface(read_as("a.g4tf", text), surface, 0);
+    }
+}
+
+// Of a body frames have all vertices; the shapes move those of the boundary.
+TEST(G4mf, HasOfTheFramesOfABodyWhatItsBoundaryHas) {
+    const SimplexMesh<4> box = pent::test::kuhn_box<4>({2, 2, 2, 2}, {1, 1, 1, 1});
+    Positions<4> moved = box.positions;
+    moved.row(0) += Eigen::RowVectorXd::LinSpaced(81, 1, 81);  // each vertex its own way
+    const TetSurface boundary = boundary_of(box);
+    ASSERT_LT(boundary.points.cols(), box.vertex_count());
+    Positions<4> expected = boundary.points;
+    for (Eigen::Index p = 0; p < expected.cols(); ++p) {
+        for (Eigen::Index v = 0; v < box.vertex_count(); ++v) {
+            if (box.positions.col(v) == boundary.points.col(p)) {
+                expected.col(p) = moved.col(v);
+            }
+        }
+    }
+    for (const char* name : {"a.g4tf", "a.g4b"}) {
+        EXPECT_EQ(text_as(name, Body{box}, {.frames = {{"moved", moved}}}),
+                  text_as(name, boundary, {.frames = {{"moved", expected}}}));
+    }
+}
+
+TEST(G4mf, HasDoublesWhereFloatsAreTooSmall) {
+    TetSurface far = five_cell();
+    far.points *= 1e39;
+    const TetSurface near = five_cell();
+    TetSurface left = near;
+    TetSurface right = near;
+    left.points *= -3e38;  // floats hold both, and not the way from one to the other
+    right.points *= 3e38;
+    for (const auto& [surface, frame] :
+         {std::pair(far, far), std::pair(near, far), std::pair(left, right)}) {
+        const std::vector<FramePoints> frames = {{"moved", frame.points}};
+        pent::test::expect_contains(
+            pent::test::error_of([&] { (void)text_as("a.g4b", surface, {.frames = frames}); }),
+            {"a.g4b: coordinates beyond what float holds; write doubles"});
+        const auto again = std::get<TetSurface>(
+            read_as("a.g4b", text_as("a.g4b", surface, {.in_double = true, .frames = frames})));
+        EXPECT_EQ(again.points, surface.points);
     }
 }
 
@@ -125,6 +173,9 @@ TEST(G4mf, InChunksHasTheLayoutOfTheFormat) {
     std::memcpy(&size, file.data() + blob + 8, 8);
     EXPECT_EQ(size, 5U * 16 + 5 * 16);
     EXPECT_EQ(file.size() % 16, 0U);
+    std::memcpy(&size, file.data() + 24, 8);
+    const Json json = Json::parse(file.substr(32, size));
+    EXPECT_EQ(json["buffers"], Json::parse(R"([{"byteLength": 160, "chunk": 1}])"));
 }
 
 TEST(G4mf, IsInChunksOrTextAsTheEndingSaysInLettersOfAnySize) {
@@ -172,6 +223,57 @@ TEST(G4mf, PutsItsMeshesWhereItsNodesHaveThem) {
     EXPECT_EQ(surface.points.row(3).minCoeff(), -2);
 }
 
+// What a file leaves out has the values of the format; what drafts have called otherwise is read.
+TEST(G4mf, IsReadWithoutWhatMayBeLeftOut) {
+    const Json full = Json::parse(text_as("a.g4tf", five_cell()));
+    const auto expect_the_same = [](const Json& json) {
+        test::expect_same_surface(read_as("a.g4tf", json.dump()), five_cell(), 0);
+    };
+    Json json = full;
+    json["nodes"] = Json::array();
+    expect_the_same(json);
+    json.erase("nodes");
+    expect_the_same(json);
+    json.erase("meshes");
+    pent::test::expect_contains(error_as("a.g4tf", json.dump()), {"a.g4tf: no tetrahedron in it"});
+    json = full;
+    for (Json& view : json["bufferViews"]) {
+        view.erase("buffer");
+    }
+    expect_the_same(json);
+    json["accessors"][1]["componentType"] = "int32";
+    expect_the_same(json);
+    const TetSurface cell = five_cell();
+    std::string corners;
+    for (const std::uint32_t corner : cell.tetrahedra.reshaped()) {
+        corners += static_cast<char>(corner);
+    }
+    json["buffers"].push_back(
+        {{"byteLength", corners.size()},
+         {"uri", "data:application/octet-stream;base64," + to_base64(corners)}});
+    json["bufferViews"][1] = {{"buffer", 1}, {"byteLength", corners.size()}};
+    json["accessors"][1]["componentType"] = "uint8";
+    expect_the_same(json);
+    const std::string binary = text_as("a.g4b", five_cell());
+    const std::string key = R"(,"chunk":1)";  // the first buffer is the first chunk behind the JSON
+    std::string without = binary;
+    without.replace(without.find(key), key.size(), key.size(), ' ');
+    test::expect_same_surface(read_as("a.g4b", without), five_cell(), 0);
+}
+
+// The columns of a basis are where the axes go.
+TEST(G4mf, PutsItsMeshesByTheColumnsOfABasis) {
+    Json json = Json::parse(text_as("a.g4tf", five_cell()));
+    json["nodes"][1]["basis"] = {1, 2, 3, 4, 0, 1, 5, 6, 0, 0, 1, 7, 0, 0, 0, 1};
+    json["nodes"][1]["position"] = {10, 20, 30, 40};
+    Positions<4> expected(4, 5);
+    expected << 10, 11, 10, 10, 10,  //
+        20, 22, 21, 20, 20,          //
+        30, 33, 35, 31, 30,          //
+        40, 44, 46, 47, 41;
+    EXPECT_EQ(std::get<TetSurface>(read_as("a.g4tf", json.dump())).points, expected);
+}
+
 TEST(G4mf, IsRefusedWithWhatIsWrong) {
     Json good = Json::parse(text_as("a.g4tf", five_cell()));
     const auto error_with = [&](const Json::json_pointer& at, const Json& value) {
@@ -189,13 +291,80 @@ TEST(G4mf, IsRefusedWithWhatIsWrong) {
     pent::test::expect_contains(error_with(Pointer("/bufferViews/1/byteLength"), 15),
                                 {"accessor 1", "no whole number"});
     pent::test::expect_contains(error_with(Pointer("/accessors/1/componentType"), "int128"),
-                                {"accessor 1", "int128"});
+                                {"accessor 1", "int128", "expected uint8, uint16 or uint32"});
+    pent::test::expect_contains(error_with(Pointer("/accessors/0/componentType"), "int128"),
+                                {"accessor 0", "int128", "expected float32 or float64"});
+    pent::test::expect_contains(error_with(Pointer("/accessors/0/vectorSize"), 3),
+                                {"accessor 0: elements of 3 numbers; expected 4"});
+    Json scalars = good;
+    scalars["accessors"][0].erase("vectorSize");
+    pent::test::expect_contains(error_as("a.g4tf", scalars.dump()),
+                                {"accessor 0: elements of 1 numbers; expected 4"});
+    Json second = good;  // a second mesh has the indices of the first one and a point less
+    second["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 64}});
+    second["accessors"].push_back(
+        {{"bufferView", 2}, {"componentType", "float32"}, {"vectorSize", 4}});
+    second["meshes"].push_back({{"vertices", 2}, {"surfaces", good["meshes"][0]["surfaces"]}});
+    second.erase("nodes");
+    pent::test::expect_contains(error_as("a.g4tf", second.dump()), {"accessor 1: index 4 of 4"});
+    pent::test::expect_contains(error_with(Pointer("/bufferViews/0/byteLength"), 64),
+                                {"accessor 1: index 4 of 4"});
+    for (const int offset : {81, 9999}) {  // 80 is where it was
+        pent::test::expect_contains(error_with(Pointer("/bufferViews/1/byteOffset"), offset),
+                                    {"bufferView 1: reaches beyond"});
+    }
+    for (const char* key : {"/buffers/0/encoding", "/buffers/0/compression"}) {
+        pent::test::expect_contains(error_with(Pointer(key), "lz4"),
+                                    {"buffer 0: is compressed; expected one that is not"});
+    }
+    pent::test::expect_contains(
+        error_with(Pointer("/buffers/0/uri"), "data:application/octet-stream;base64,!!!!"),
+        {"buffer 0: ", "is no base64"});
+    Json chunk = good;
+    chunk["buffers"][0].erase("uri");
+    pent::test::expect_contains(error_as("a.g4tf", chunk.dump()), {"buffer 0: chunk 1 of 0"});
+    pent::test::expect_contains(error_with(Pointer("/nodes/1/position"), {1, 2, 3}),
+                                {"node 1: position has 3 numbers; expected 4"});
+    pent::test::expect_contains(error_with(Pointer("/nodes/1/basis"), {1, 2, 3}),
+                                {"node 1: basis has 3 numbers; expected 16"});
+    Json far = good;
+    far["nodes"][1]["scale"] = {1e308};
+    far["nodes"][1]["position"] = {1e308, 0, 0, 0};
+    pent::test::expect_contains(error_as("a.g4tf", far.dump()), {"mesh 0: point 1 is not finite"});
     pent::test::expect_contains(error_with(Pointer("/nodes/1/children"), {0}), {"node 0"});
     pent::test::expect_contains(error_with(Pointer("/nodes/1/rotor"), {1, 0, 0, 0, 0, 0, 0}),
                                 {"node 1", "rotor"});
     pent::test::expect_contains(error_with(Pointer("/meshes/0/vertices"), 7), {"is no G4MF file"});
     pent::test::expect_contains(error_as("a.g4tf", "{"), {"is no G4MF file"});
+}
+
+// A header of 16 bytes: four letters, a version or how it is compressed, and a size; of the file,
+// then of each chunk.
+TEST(G4mf, IsRefusedWithWhatIsWrongInItsChunks) {
     const std::string binary = text_as("a.g4b", five_cell());
+    const auto error_with = [&](std::size_t at, char byte) {
+        std::string bad = binary;
+        bad[at] = byte;
+        return error_as("a.g4b", bad);
+    };
+    const std::size_t blob = binary.find("BLOB");
+    pent::test::expect_contains(error_with(4, 1), {"a.g4b: a damaged header"});
+    pent::test::expect_contains(error_with(8, static_cast<char>(binary[8] + 16)),
+                                {"a damaged header", std::to_string(binary.size()) + " bytes"});
+    pent::test::expect_contains(error_as("a.g4b", binary + "more"), {"a damaged header"});
+    pent::test::expect_contains(error_with(16, 'X'), {"no JSON in its first chunk"});
+    pent::test::expect_contains(error_with(20, 1), {"chunk 0 is compressed"});
+    pent::test::expect_contains(error_with(blob + 4, 1), {"chunk 1 is compressed"});
+    pent::test::expect_contains(error_with(blob + 8, static_cast<char>(binary[blob + 8] + 1)),
+                                {"chunk 1 has 161 bytes; the file ends before"});
+    std::string none = binary.substr(0, 16);
+    for (const std::size_t size : {none.size(), none.size() + 8}) {
+        none.resize(size, ' ');
+        const auto bytes = static_cast<std::uint64_t>(size);
+        std::memcpy(none.data() + 8, &bytes, sizeof bytes);
+        pent::test::expect_contains(error_as("a.g4b", none),
+                                    {size < 32 ? "a damaged header" : "no JSON"});
+    }
     for (std::size_t size = 4; size < binary.size(); size += 7) {
         EXPECT_NE(error_as("a.g4b", binary.substr(0, size)), "") << size;
     }

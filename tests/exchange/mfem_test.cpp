@@ -32,6 +32,14 @@ TEST(Mfem, IsReadAsItWasWritten) {
     EXPECT_EQ(again.positions, mesh.positions);
     EXPECT_EQ(again.cells, mesh.cells);
     EXPECT_EQ(again.regions, mesh.regions);
+    // Where all labels are 1 there are no regions; where all are another one, that is theirs.
+    SimplexMesh<4> plain = mesh;
+    plain.regions.clear();
+    EXPECT_TRUE(
+        std::get<Body>(read_as("a.mesh", text_as("a.mesh", Body{plain}))).mesh.regions.empty());
+    plain.regions.assign(mesh.regions.size(), 1);
+    EXPECT_EQ(std::get<Body>(read_as("a.mesh", text_as("a.mesh", Body{plain}))).mesh.regions,
+              plain.regions);
 }
 
 // Labels are regions + 1, and those of the boundary may lie behind them.
@@ -109,10 +117,22 @@ TEST(Mfem, LabelsBottomSidesAndTop) {
     EXPECT_EQ(labels[1] + labels[5], 6);  // as the cells behind them
     EXPECT_EQ(labels[6], 6 * 6 * 2);
     EXPECT_EQ(labels[7], 6);
+    SimplexMesh<4> plain = layered();
+    plain.regions.clear();
+    EXPECT_EQ(labels_of(text_as("a.mesh", Body{plain}, {.has_mfem_attributes = true})),
+              (std::map<int, int>{{1, 6}, {2, 6 * 6 * 2}, {3, 6}}));
     SimplexMesh<4> flat = layered();
     flat.layers.clear();
     flat.columns.clear();
     EXPECT_EQ(labels_of(text_as("a.mesh", Body{flat})), (std::map<int, int>{{1, 84}}));
+    EXPECT_EQ(labels_of(text_as("a.mesh", Body{flat}, {.has_mfem_attributes = true})),
+              (std::map<int, int>{{1, 84}}));
+    SimplexMesh<4> later = layered();  // a slab that does not begin at the first layer of all
+    for (std::uint32_t& layer : later.layers) {
+        layer += 3;
+    }
+    EXPECT_EQ(labels_of(text_as("a.mesh", Body{later})),
+              labels_of(text_as("a.mesh", Body{layered()})));
 }
 
 // A cut between slabs of space-time is not the bottom or the top of all; what has no label, or 0,
@@ -143,6 +163,7 @@ TEST(Mfem, KeepsTheLabelsOfTheBoundary) {
     body.mesh.columns.clear();
     body.extras.labels[0] = 7;
     EXPECT_EQ(labels_of(text_as("a.mesh", body))[7], 1);
+    EXPECT_EQ(labels_of(text_as("a.mesh", body, {.has_mfem_attributes = true}))[11], 1);
 }
 
 // Facets and their labels, whatever the order of both.
@@ -175,7 +196,7 @@ TEST(Mfem, ReadsTheLabelsOfTheBoundary) {
     // Labels of one's own are those that were written, and stay so.
     Body own = again;
     for (std::size_t f = 0; f < own.extras.labels.size(); ++f) {
-        own.extras.labels[f] = static_cast<std::uint16_t>(60000 + f);
+        own.extras.labels[f] = static_cast<std::uint16_t>(65535 - f);
     }
     const auto copy = std::get<Body>(read_as("a.mesh", text_as("a.mesh", own)));
     EXPECT_EQ(labels_of(copy), labels_of(own));
@@ -198,7 +219,7 @@ TEST(Mfem, TurnsCellsOverThatAreNegative) {
 
 TEST(Mfem, NamesTheLineOfWhatIsWrong) {
     pent::test::expect_contains(error_as("a.mesh", "MeshVersionFormatted 2\n"),
-                                {"line 1: ", "expected \"MFEM\""});
+                                {"line 1: ", "found \"MeshVersionFormatted\", expected \"MFEM\""});
     pent::test::expect_contains(error_as("a.mesh", "MFEM mesh v1.0\ndimension\n3\n"),
                                 {"line 3: ", "3 dimensions"});
     std::string text = text_as("a.mesh", Body{layered()});
@@ -207,12 +228,14 @@ TEST(Mfem, NamesTheLineOfWhatIsWrong) {
         bad.replace(bad.find(from), from.size(), to);
         return error_as("a.mesh", bad);
     };
-    pent::test::expect_contains(replaced("1 8 0", "1 9 0"), {"line 10: ", "kind 9"});
+    pent::test::expect_contains(replaced("1 8 0", "1 9 0"),
+                                {"line 10: ", "kind 9; expected 8, a pentatope"});
     pent::test::expect_contains(replaced("1 8 0", "0 8 0"), {"line 10: ", "label of 0"});
     pent::test::expect_contains(replaced("1 8 0", "65537 8 0"),
                                 {"line 10: ", "label of 65537", "expected 1 to 65536"});
     pent::test::expect_contains(replaced("1 8 0", "1 8 99"), {"index 99 of 24"});
-    pent::test::expect_contains(replaced("\n4\n0 0 0 0", "\n3\n0 0 0 0"), {"4 coordinates"});
+    pent::test::expect_contains(replaced("\n4\n0 0 0 0", "\n3\n0 0 0 0"),
+                                {"found \"3\", expected 4 coordinates"});
     EXPECT_NE(error_as("a.mesh", text.substr(0, text.size() / 2)), "");
 }
 

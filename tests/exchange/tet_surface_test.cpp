@@ -1,8 +1,9 @@
 #include "polytopes.h"
 
+#include <pent/error.h>
 #include <pent/facets.h>
 
-#include <cmath>
+#include <array>
 #include <random>
 #include <utility>
 
@@ -103,6 +104,42 @@ TEST(Orient, LeavesACavityWhereNeighborsAgree) {
     EXPECT_NEAR(enclosed_hypervolume(hollow), expected, 1e-14);
 }
 
+// It has no inside to turn it by.
+TEST(Orient, LeavesWhatIsOpenAsItIs) {
+    TetSurface open = sixteen_cell();
+    open.tetrahedra.conservativeResize(4, 15);
+    open.tetrahedra.row(0).swap(open.tetrahedra.row(1));  // inside out
+    TetSurface one_turned = open;
+    std::swap(one_turned.tetrahedra(0, 3), one_turned.tetrahedra(1, 3));
+    for (const TetSurface& surface : {open, one_turned}) {
+        TetSurface after = surface;
+        orient(after, "open");
+        EXPECT_EQ(after.tetrahedra, surface.tetrahedra);
+    }
+}
+
+// Two tips over the projective plane of six points: closed, and its two sides are one.
+TEST(Orient, RefusesASurfaceWithOneSide) {
+    constexpr std::array<std::array<std::uint32_t, 3>, 10> kPlane = {{{0, 1, 2},
+                                                                      {0, 2, 3},
+                                                                      {0, 3, 4},
+                                                                      {0, 4, 5},
+                                                                      {0, 1, 5},
+                                                                      {1, 2, 4},
+                                                                      {2, 3, 5},
+                                                                      {1, 3, 4},
+                                                                      {2, 4, 5},
+                                                                      {1, 3, 5}}};
+    TetSurface surface{Positions<4>::Random(4, 8), Simplices<4>(4, 20)};
+    for (Eigen::Index t = 0; t < 20; ++t) {
+        const auto& [a, b, c] = kPlane[static_cast<std::size_t>(t / 2)];
+        surface.tetrahedra.col(t) << a, b, c, static_cast<std::uint32_t>(6 + t % 2);
+    }
+    ASSERT_TRUE(check(surface).is_closed());
+    pent::test::expect_contains(pent::test::error_of([&] { orient(surface, "bottle"); }),
+                                {"bottle: ", "one side only"});
+}
+
 TEST(ConeOf, IsTheBodyWithThatBoundary) {
     for (const TetSurface& surface : {five_cell(), sixteen_cell()}) {
         const SimplexMesh<4> mesh = cone_of(surface, "body");
@@ -115,15 +152,25 @@ TEST(ConeOf, IsTheBodyWithThatBoundary) {
     }
 }
 
-// A star: corners pushed in until the mean of all of them lies outside of what sees everything.
+// A dart: one corner of the 16-cell is pushed in beyond the middle, so that only points behind it
+// see everything, and the mean of all corners is not one of them. In any place and at any size:
+// powers of two change no digit.
 TEST(ConeOf, FindsThePointThatSeesAllOfAStar) {
-    TetSurface star = sixteen_cell();
-    star.points.col(0) *= 0.05;
-    star.points.col(1) *= 40;
-    star.points.colwise() += Eigen::Vector4d(100, -3, 2, 50);
-    const SimplexMesh<4> mesh = cone_of(star, "star");
-    EXPECT_NO_THROW(validate<4>(mesh, "star"));
-    EXPECT_NEAR(total_volume(mesh), enclosed_hypervolume(star), 1e-9 * total_volume(mesh));
+    TetSurface dart = sixteen_cell();
+    dart.points.col(0) *= -0.5;
+    SimplexMesh<4> around_mean = cone_of(sixteen_cell(), "16-cell");
+    around_mean.positions << dart.points, dart.points.rowwise().mean();
+    ASSERT_THROW(validate<4>(around_mean, "mean"), Error);
+    const SimplexMesh<4> mesh = cone_of(dart, "dart");
+    for (const double scale : {0x1p-20, 0x1p20}) {
+        EXPECT_EQ(cone_of({scale * dart.points, dart.tetrahedra}, "dart").positions,
+                  scale * mesh.positions);
+    }
+    dart.points.colwise() += Eigen::Vector4d(100, -3, 2, 50);
+    for (const SimplexMesh<4>& one : {mesh, cone_of(dart, "dart")}) {
+        EXPECT_NO_THROW(validate<4>(one, "dart"));
+        EXPECT_NEAR(total_volume(one), enclosed_hypervolume(dart), 1e-9 * total_volume(one));
+    }
 }
 
 TEST(ConeOf, RefusesWhatNoPointSeesAllOfOrIsOpen) {
@@ -141,6 +188,16 @@ TEST(ConeOf, RefusesWhatNoPointSeesAllOfOrIsOpen) {
     pent::test::expect_contains(
         pent::test::error_of([&] { static_cast<void>(cone_of(open, "open")); }),
         {"open: is no closed surface: 4 triangles"});
+    TetSurface twice = sixteen_cell();
+    twice.tetrahedra.conservativeResize(4, 17);
+    twice.tetrahedra.col(16) = twice.tetrahedra.col(0);
+    TetSurface turned = sixteen_cell();
+    std::swap(turned.tetrahedra(0, 3), turned.tetrahedra(1, 3));
+    for (const TetSurface& surface : {twice, turned}) {
+        pent::test::expect_contains(
+            pent::test::error_of([&] { static_cast<void>(cone_of(surface, "it")); }),
+            {"it: is no closed surface: 4 triangles"});
+    }
 }
 
 }  // namespace

@@ -70,6 +70,7 @@ TEST(LegacyVtk, HasTheBoundaryWithWAsAScalar) {
     for (Eigen::Vector4d& point : view.points) {
         text >> point[3];
     }
+    EXPECT_TRUE(text);
     expect_all_of(view, with_digits());
 }
 
@@ -98,8 +99,9 @@ TEST(Gmsh, HasTheBoundaryWithWAsAView) {
         }
     }
     expect_words(text, {"$EndElements", "$NodeData", "1", "\"w\"", "1", "0", "3", "0", "1", "8"});
-    for (Eigen::Vector4d& point : view.points) {
-        text >> number >> point[3];
+    for (std::size_t p = 0; p < view.points.size(); ++p) {
+        text >> number >> view.points[p][3];
+        EXPECT_EQ(number, static_cast<int>(p) + 1);
     }
     expect_words(text, {"$EndNodeData"});
     expect_all_of(view, with_digits());

@@ -23,8 +23,9 @@ TEST(AngularMomentum, OfASpinInOnePlaneIsInThatPlaneAlone) {
         for (int i = 0; i < dim; ++i) {
             for (int j = i + 1; j < dim; ++j, ++plane) {
                 Moment moment;
-                moment.positions = Eigen::MatrixXd::Constant(dim, 2, 5.0);   // far from the origin
-                moment.velocities = Eigen::MatrixXd::Constant(dim, 2, 7.0);  // and in motion
+                // Far from the origin, and in motion some other way.
+                moment.positions = Eigen::VectorXd::LinSpaced(dim, 5, 9).replicate(1, 2);
+                moment.velocities = Eigen::VectorXd::LinSpaced(dim, 7, -1).replicate(1, 2);
                 moment.positions(i, 0) += 2;
                 moment.positions(i, 1) -= 2;
                 moment.velocities(j, 0) += 3;
@@ -35,6 +36,23 @@ TEST(AngularMomentum, OfASpinInOnePlaneIsInThatPlaneAlone) {
                           1e-12);
             }
         }
+    }
+}
+
+// Whatever the axes: with v = S x, S symmetric, all r_i v_j = r_j v_i where masses are alike in all
+// directions.
+TEST(AngularMomentum, OfAStretchIsNone) {
+    for (int dim = 3; dim <= 4; ++dim) {
+        Moment moment;
+        moment.positions.resize(dim, 2 * dim);
+        moment.positions << Eigen::MatrixXd::Identity(dim, dim),
+            -Eigen::MatrixXd::Identity(dim, dim);
+        const Eigen::MatrixXd any = Eigen::MatrixXd::Random(dim, dim);
+        const Eigen::VectorXd masses = Eigen::VectorXd::Constant(2 * dim, 3.0);
+        moment.velocities = (any + any.transpose()) * moment.positions;
+        EXPECT_LT(angular_momentum(moment, masses).norm(), 1e-14);
+        moment.velocities = (any - any.transpose()) * moment.positions;
+        EXPECT_GT(angular_momentum(moment, masses).norm(), 1);
     }
 }
 
@@ -66,11 +84,14 @@ TEST(Convergence, IsDeniedWhereDifferencesDoNotFall) {
     EXPECT_FALSE(convergence_of(0.1, 0.3).is_converged);
     EXPECT_EQ(convergence_of(0.1, 0.3).error_bar, 0.3);
     EXPECT_FALSE(convergence_of(0.1, 0.1 * std::exp2(-0.4)).is_converged);
+    EXPECT_TRUE(convergence_of(0.1, 0.1 * std::exp2(-0.6)).is_converged);
 }
 
 TEST(Convergence, IsGrantedWhereEveryStepIsExact) {
     EXPECT_TRUE(convergence_of(0, 0).is_converged);
     EXPECT_EQ(convergence_of(0, 0).error_bar, 0);
+    EXPECT_TRUE(convergence_of(0.5, 1e-13).is_converged);
+    EXPECT_FALSE(convergence_of(2, 1e-13).is_converged);  // more than all motion: by accident
 }
 
 }  // namespace
